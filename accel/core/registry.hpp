@@ -28,7 +28,7 @@ enum class Conformance {
 struct Workload {
   scenes::Camera camera;  ///< of the primary rays, or of those that secondary rays start from
   std::size_t rays;       ///< their approximate number
-  int threads = 1;        ///< for tracing an image; 0: one for each core
+  int threads = 1;        ///< for tracing an image; 0: see `thread_count`
 };
 
 /// Where none is known: 640x480 rays from the scene's first camera.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <optional>
 
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
@@ -9,23 +10,39 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "scenes/core/cpu_quota.hpp"
+
 namespace beambench::accel {
 
 int thread_count(int requested) {
-  return requested == 0 ? tbb::info::default_concurrency() : requested;
+  static const std::optional<double> quota = cpu_quota();
+  return requested == 0 ? threads_within(tbb::info::default_concurrency(), quota) : requested;
 }
 
-void trace_on(int threads, const Accelerator& structure, const PrimaryRays& rays, HitBuffer& buffer,
-              WorkCounters* counters) {
+void on_threads(int threads, const std::function<void()>& work) {
   const int count = thread_count(threads);
-  if (count == 1) return structure.trace(rays, buffer, counters);
   const auto allowed =
       tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
                                   std::max(allowed, static_cast<std::size_t>(count)));
   // A new arena takes over the floating-point mode of the thread that creates it.
   tbb::task_arena arena(count);
-  arena.execute([&] { structure.trace_shared(rays, buffer, counters); });
+  arena.execute(work);
+}
+
+void on_default_threads(const std::function<void()>& work) {
+  const int count = thread_count(0);
+  if (count >= tbb::info::default_concurrency()) return work();
+  // Not a global_control: of several the least counts, so that no work could request more.
+  tbb::task_arena arena(count);
+  arena.execute(work);
+}
+
+void trace_on(int threads, const Accelerator& structure, const PrimaryRays& rays, HitBuffer& buffer,
+              WorkCounters* counters) {
+  const int count = thread_count(threads);
+  if (count == 1) return structure.trace(rays, buffer, counters);
+  on_threads(count, [&] { structure.trace_shared(rays, buffer, counters); });
 }
 
 void share_rows(int rows, const std::function<void(int begin, int end)>& work) {

@@ -1,5 +1,5 @@
 #pragma once
-// An image traced on several threads.
+// How many threads there are by default, and images traced on several.
 
 #include <functional>
 
@@ -7,14 +7,22 @@
 
 namespace beambench::accel {
 
-/// The number of threads that `requested` stands for: one for each core where it is 0.
+/// Returns the number of threads that `requested` stands for. 0 is the default: one for each core
+/// that the process may use, but no more than its CPU quota keeps busy (`threads_within`).
 int thread_count(int requested);
 
-/// Traces an image on a number of threads (`thread_count`), which may exceed the number of cores;
-/// but while an Embree device exists, TBB allows no more than that device's threads
-/// (`Workload::threads`) and no more than there are cores. Hits and counters do not depend on the
-/// number, except for counters of time. The threads compute in the calling thread's floating-point
-/// mode. `counters` may be null.
+/// Runs `work` in a TBB arena of that many threads (`thread_count`), which may exceed the number of
+/// cores; but while an Embree device exists, TBB allows no more than that device's threads
+/// (`Workload::threads`) and no more than there are cores. The threads compute in the calling
+/// thread's floating-point mode.
+void on_threads(int threads, const std::function<void()>& work);
+
+/// Runs `work`, whose TBB tasks are shared among the default number of threads unless it requests
+/// another. Without a CPU quota that is what TBB does anyway.
+void on_default_threads(const std::function<void()>& work);
+
+/// Traces an image `on_threads`. Hits and counters do not depend on their number, except for
+/// counters of time. `counters` may be null.
 void trace_on(int threads, const Accelerator& structure, const PrimaryRays& rays, HitBuffer& buffer,
               WorkCounters* counters);
 

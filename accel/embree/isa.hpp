@@ -10,7 +10,7 @@ namespace beambench::accel::embree {
 /// The version of the Embree library that is loaded: "3.13.5".
 std::string embree_version();
 
-/// The configuration of a device on so many threads (0: one for each core), restricted to
+/// The configuration of a device on so many threads (at least 1), restricted to
 /// `isa` (accel/core/instruction_set.hpp): "threads=1,isa=avx2".
 std::string device_config(const std::string& isa, int threads = 1);
 

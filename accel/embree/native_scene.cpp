@@ -9,6 +9,7 @@
 #include <glm/vec4.hpp>
 #include <tbb/global_control.h>
 
+#include "accel/core/trace_on.hpp"
 #include "accel/embree/isa.hpp"
 
 namespace beambench::accel::embree {
@@ -44,7 +45,7 @@ float make_unit(RTCRay& ray) {
 
 NativeScene::NativeScene(const scenes::Scene& scene, RTCBuildQuality quality, bool robust,
                          const std::string& isa, ConeGeometry cones, int threads)
-    : device_(device_config(isa, threads).c_str()),
+    : device_(device_config(isa, thread_count(threads)).c_str()),
       user_(scene, cones),
       scene_(rtcNewScene(device_.get())) {
   // Embree uses the largest thread count of all its living devices; this limits it to one.

@@ -34,7 +34,7 @@ struct OwnerTable {
 class NativeScene {
  public:
   /// `isa` is a value of `isa_parameter`; `cones` chooses what is tested by Embree's curves. While
-  /// the scene lives, TBB has no more than `threads` threads (0: one for each core).
+  /// the scene lives, TBB has no more than `threads` threads (`thread_count`).
   NativeScene(const scenes::Scene& scene, RTCBuildQuality quality, bool robust,
               const std::string& isa, ConeGeometry cones, int threads = 1);
 

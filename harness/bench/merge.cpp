@@ -164,8 +164,7 @@ void require_finished(const ShardFolder& shard) {
 void require_intact(const ShardFolder& shard) {
   read_as_written((shard.folder.path() / "manifest.json").string(), "measure the shard anew", [&] {
     const Json joined = joined_manifest(std::span(&shard.manifest, 1));
-    noise_of(joined);
-    load_of(joined);
+    conditions_of(joined);
     static_cast<void>(joined.at("machine").at("id").get<std::string>());
   });
 }
@@ -289,8 +288,7 @@ SweepOutcome write_run(const InOrder& shards, const SweepConfig& config, const f
   manifest["harness_overhead"] = to_json(largest_overheads(cells));
   write_benchmark_file(run, manifest);
   run.write_json("manifest.json", manifest);
-  return conclude(run, cells, doubts_about_times(noise_of(manifest), load_of(manifest), cells),
-                  config.exclude);
+  return conclude(run, cells, doubts_about_times(conditions_of(manifest), cells), config.exclude);
 }
 
 SweepOutcome merge_into(const fs::path& target, std::span<const fs::path> folders,

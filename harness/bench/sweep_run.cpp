@@ -21,6 +21,7 @@
 #include "harness/bench/measurement.hpp"
 #include "harness/bench/outcome.hpp"
 #include "harness/bench/plan.hpp"
+#include "harness/bench/record/conditions.hpp"
 #include "harness/bench/record/manifest.hpp"
 #include "harness/bench/record/run_folder.hpp"
 #include "harness/bench/task.hpp"
@@ -119,10 +120,11 @@ class SweepRun {
         options_(options),
         messages_(messages),
         core_(config.threads == 1 ? pinnable_core() : -1),
-        manifest_(begin_manifest(config.name,
-                                 options.shard ? options.shard->scenes : scene_facts(plan), core_,
-                                 config.threads, config.warm_up, facts_of(options.shard))),
+        manifest_(begin_manifest(
+            config.name, options.shard ? options.shard->scenes : scene_facts(plan), core_,
+            config.threads, config.warm_up, facts_of(options.shard), options.root)),
         folder_(open_folder()),
+        throttling_(options.root, manifest_.measurement.throttling),
         plan_(unfinished(std::move(plan))),
         progress_(plan_.cell_count(), messages) {}
 
@@ -336,6 +338,7 @@ class SweepRun {
   void finish(const CellRecord& cell) {
     const Json json = to_json(manifest_.run, cell);
     folder_.add_cell(json);
+    record_throttling();
     if (!cell.keeps_times()) {
       progress_.say(fmt::format("{}: {}: {}", verify::to_string(cell.verdict), shown_name(cell.id),
                                 cell.message));
@@ -343,6 +346,13 @@ class SweepRun {
     }
     progress_.start(shown_name(cell.id));
     progress_.finish(result_line(cell, json.at("row")));
+  }
+
+  /// Keeps in the manifest how the kernel throttled the run so far, for a run that is cut off.
+  void record_throttling() {
+    const std::optional<Throttling> total = throttling_.total();
+    if (std::exchange(manifest_.measurement.throttling, total) == total) return;
+    folder_.write_json("manifest.json", to_json(manifest_));
   }
 
   SweepOutcome close() {
@@ -353,6 +363,10 @@ class SweepRun {
 
   SweepOutcome summarize(const std::vector<Json>& cells) {
     manifest_.finished_utc = utc_now();
+    manifest_.measurement.throttling = throttling_.total();
+    if (const auto throttled = describe(manifest_.measurement.throttling)) {
+      manifest_.uncontrolled.push_back(fmt::format("During the run, {}.", *throttled));
+    }
     const std::vector<Overhead> overheads = largest_overheads(cells);
     manifest_.overhead = to_json(overheads);
     if (!overheads.empty()) {
@@ -364,10 +378,8 @@ class SweepRun {
     const Json manifest = to_json(manifest_);
     write_benchmark_file(folder_, manifest);
     folder_.write_json("manifest.json", manifest);
-    SweepOutcome outcome =
-        conclude(folder_, cells,
-                 doubts_about_times(manifest_.measurement.noise, manifest_.machine.load, cells),
-                 config_.exclude);
+    SweepOutcome outcome = conclude(
+        folder_, cells, doubts_about_times(conditions_of(manifest), cells), config_.exclude);
     outcome.is_part = manifest_.shard.has_value();
     return outcome;
   }
@@ -380,6 +392,7 @@ class SweepRun {
   HardwareCounters counters_;
   Manifest manifest_;
   RunFolder folder_;
+  ThrottlingWatch throttling_;
   Plan plan_;
   base::Progress progress_;
 };

@@ -27,6 +27,8 @@ struct SweepOptions {
   /// Gets the key of the cell that is being measured, for the process that cleans up after a crash.
   /// Cells that crashed an earlier process are recorded and not measured again.
   plugin::Activity* activity = nullptr;
+  /// The folder that holds /proc and the control groups, from which CPU quotas are read.
+  std::filesystem::path root = "/";
   /// Called before each group's rays are made, each counting pass and each repetition. What it
   /// throws ends the run; the finished cells are kept.
   std::function<void()> before_each_piece = [] {};

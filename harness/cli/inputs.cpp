@@ -175,7 +175,7 @@ void add_light_options(CLI::App& command, WhittedRequest& request) {
 
 void add_whitted_options(CLI::App& command, WhittedRequest& request) {
   add_light_options(command, request);
-  command.add_option("--threads", request.threads, "0: one for each core")
+  command.add_option("--threads", request.threads, "0: one for each core, within the CPU quota")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
 }

@@ -82,7 +82,7 @@ struct WhittedRequest {
   std::string shadows = "rays";
   int max_depth = render::WhittedOptions{}.max_depth;
   double min_weight = 0.0;
-  int threads = 0;  ///< 0: one for each core
+  int threads = 0;  ///< see `accel::thread_count`
 };
 /// Adds --shadows, --depth and --min-weight.
 void add_light_options(CLI::App& command, WhittedRequest& request);

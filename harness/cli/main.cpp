@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "accel/core/trace_on.hpp"
 #include "harness/base/messages.hpp"
 #include "harness/base/process_start.hpp"
 #include "harness/bench/record/machine.hpp"
@@ -158,7 +159,8 @@ int begin(int argc, char** argv) {
     const bool guarded = activity != nullptr;
     if (!plugins.empty() && !guarded && !wants_no_guard()) return plugin::run_guarded(argv);
     if (!guarded) activity = std::make_unique<plugin::Activity>();
-    const int code = run_command_line(arguments, plugins, *activity);
+    int code = base::kInternalError;
+    accel::on_default_threads([&] { code = run_command_line(arguments, plugins, *activity); });
     activity->clear(plugin::Activity::Line::kForeign);
     activity->clear(plugin::Activity::Line::kCell);
     return code;

@@ -24,7 +24,7 @@ struct CensusOptions {
   /// mirror ray from all glass.
   bool spd_rules = false;
   render::ShadingOrder order = render::ShadingOrder::kRows;
-  int threads = 0;  ///< 0: one for each core
+  int threads = 0;  ///< see `accel::thread_count`
   /// Count the structure's work, which times then include.
   bool count_work = false;
 };

@@ -12,6 +12,8 @@
 #include <nanobind/nanobind.h>
 #include <unistd.h>
 
+#include "accel/core/trace_on.hpp"
+
 namespace beambench::python {
 namespace {
 
@@ -50,7 +52,7 @@ void work_on_thread(const std::shared_ptr<Run>& run, std::function<void(const St
                     const StopRequest& stop) {
   std::exception_ptr error;
   try {
-    work(stop);
+    accel::on_default_threads([&] { work(stop); });
   } catch (...) {
     error = std::current_exception();
   }

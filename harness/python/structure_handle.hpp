@@ -15,7 +15,7 @@ struct BuiltStructure {
   std::shared_ptr<const scenes::Scene> scene;
   accel::StructureChoice choice;
   std::unique_ptr<const accel::Accelerator> accelerator;
-  int threads;  ///< that it was built for, to trace images; 0: one for each core
+  int threads;  ///< that it was built for, to trace images; see `accel::thread_count`
 };
 
 struct StructureHandle {

@@ -93,8 +93,9 @@ void trace_with_progress(const accel::Accelerator& structure, const TraceInput& 
                               : 0.0;
   if (expected < kWorthWatching) return trace(structure, input, results, nullptr, threads);
   const base::Stopwatch stopwatch;
-  auto tracing =
-      std::async(std::launch::async, [&] { trace(structure, input, results, nullptr, threads); });
+  auto tracing = std::async(std::launch::async, [&] {
+    accel::on_default_threads([&] { trace(structure, input, results, nullptr, threads); });
+  });
   while (tracing.wait_for(std::chrono::milliseconds(100)) == std::future_status::timeout) {
     progress.advance(std::min(stopwatch.seconds() / expected, 0.99));
   }

@@ -28,7 +28,7 @@ void poison(accel::HitBuffer& hits);
 bool is_hit_at(const TraceResults& results, std::size_t index);
 
 /// Traces the rays through a structure. `results` has the shape that `make_results` gives.
-/// `counters` may be null. An image is traced on that many threads (0: one for each core), a list
+/// `counters` may be null. An image is traced on that many threads (`accel::thread_count`), a list
 /// on the calling one.
 void trace(const accel::Accelerator& structure, const TraceInput& input, TraceResults& results,
            accel::WorkCounters* counters = nullptr, int threads = 1);

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include <glm/vec3.hpp>
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
 #include "accel/beam/beam_tracer.hpp"
+#include "accel/core/trace_on.hpp"
 #include "harness/base/messages.hpp"
 #include "harness/rays/picture_order.hpp"
 #include "harness/rays/trace_input.hpp"
@@ -133,19 +133,17 @@ class PaintedPlaces : public accel::beam::NoBeamWatch {
 WhittedPicture whitted_picture(const Whitted& tracer, const accel::PrimaryRays& rays,
                                const accel::HitBuffer& hits, const PictureWatch& watch,
                                int threads) {
-  std::optional<tbb::global_control> limit;
-  if (threads > 0) {
-    limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  }
   WhittedPicture picture{Image(rays.width(), rays.height()), {}};
   const Parts parts(rays, tracer);
   const std::vector<PixelRange>& ranges = parts.ranges();
   std::vector<RayCensus> counts(ranges.size());
   std::atomic<std::size_t> done = 0;
   const auto draw_all = [&] {
-    tbb::parallel_for(std::size_t{0}, ranges.size(), [&](std::size_t i) {
-      counts[i] = draw(parts, ranges[i], tracer, rays, hits, picture.image);
-      ++done;
+    accel::on_threads(threads, [&] {
+      tbb::parallel_for(std::size_t{0}, ranges.size(), [&](std::size_t i) {
+        counts[i] = draw(parts, ranges[i], tracer, rays, hits, picture.image);
+        ++done;
+      });
     });
   };
   if (watch) {

@@ -33,8 +33,8 @@ using PictureWatch = std::function<void(double part)>;
 
 /// Each pixel is the mean of its samples. `hits` are the structure's answers to `rays`, found
 /// beforehand by its own query for whole images (beams). Parts of the picture are shared among
-/// TBB's threads, at most `threads` of them unless it is 0; picture and census do not depend on how
-/// many there are. A part is a square of pixels in the order of `rays::for_each_sample`, so that
+/// `threads` threads (`accel::thread_count`); picture and census do not depend on how many there
+/// are. A part is a square of pixels in the order of `rays::for_each_sample`, so that
 /// neighbors in a batch of rays are neighbors in the picture; with the shadow cache it is a row,
 /// from left to right, in which the cache begins anew.
 WhittedPicture whitted_picture(const Whitted& tracer, const accel::PrimaryRays& rays,

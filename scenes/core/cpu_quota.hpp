@@ -10,15 +10,15 @@
 namespace beambench {
 
 /// Returns how many processors' time the process may use: the least quota of its control group and
-/// those above it, over the period (usually 100 ms) in which it is granted. Nothing where there is
-/// no quota. `root` as for `control_groups`.
+/// those above it, over the period (usually 100 ms) in which it is granted. Nothing where time is
+/// not limited. `root` as for `control_groups`.
 std::optional<double> cpu_quota(const std::filesystem::path& root = "/");
 
 /// Returns how many threads to use by default on so many cores: no more than the quota, rounded up,
 /// keeps busy, and at least one.
 int threads_within(int cores, const std::optional<double>& quota);
 
-/// How often and for how long a control group waited for its next period, its quota being spent.
+/// A control group's periods under a quota, and its waits for the next period.
 struct Throttling {
   std::uint64_t periods = 0;    ///< in which the group ran
   std::uint64_t throttled = 0;  ///< of these, periods whose quota did not suffice
@@ -32,7 +32,7 @@ struct Throttling {
 std::optional<Throttling> added_up(const std::optional<Throttling>& first,
                                    const std::optional<Throttling>& second);
 
-/// What the kernel counted in each control group of the process so far, by the group's folder.
+/// The kernel's counts for each control group of the process so far, by the group's folder.
 using ThrottlingByGroup = std::map<std::filesystem::path, Throttling>;
 
 /// Reads the counts; there are none without control groups. `root` as for `control_groups`.

@@ -35,6 +35,8 @@ class Setting:
     noise: float
     """How much longer than usual the slowest twentieth of equal work took just now."""
     load: float
+    cpu_quota: float | None = None
+    """How many processors' time the program may use; None: there is no quota."""
 
     @property
     def warnings(self) -> list[str]:
@@ -44,6 +46,8 @@ class Setting:
             found.append(f"equal work takes up to {self.noise:.0%} longer than usual")
         if self.load > 1:
             found.append(f"other work is running (load {self.load:.2f})")
+        if self.cpu_quota is not None and self.cpu_quota < self.cores:
+            found.append(f"a CPU quota of {self.cpu_quota:.3g} CPUs is set")
         return found
 
     def is_of(self, other: dict[str, object]) -> bool:
@@ -78,6 +82,7 @@ def preflight(beambench: Path) -> Setting:
             program["libraries"]["embree"],
             float(measured["noise"]),
             float(machine["load_average"]),
+            machine["cpu_quota"],
         )
     except (TypeError, KeyError) as error:
         raise Problem(f"{beambench}: its manifest lacks {error}; run scripts/setup") from None

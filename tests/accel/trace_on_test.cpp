@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
+#include <tbb/task_arena.h>
 #include <xmmintrin.h>
 
 #include "accel/core/registry.hpp"
@@ -144,6 +145,15 @@ TEST(TraceOn, UsesAsManyThreadsAsRequested) {
   }
   EXPECT_EQ(thread_count(3), 3);
   EXPECT_GE(thread_count(0), 1);
+}
+
+TEST(TraceOn, DefaultThreadsAreThoseThatTheQuotaKeepsBusy) {
+  EXPECT_EQ(thread_count(0), threads_within(tbb::info::default_concurrency(), cpu_quota()));
+  int allowed = 0;
+  on_default_threads([&] { allowed = tbb::this_task_arena::max_concurrency(); });
+  EXPECT_EQ(allowed, thread_count(0));
+  on_threads(3, [&] { allowed = tbb::this_task_arena::max_concurrency(); });
+  EXPECT_EQ(allowed, 3);
 }
 
 // Embree limits TBB to the threads of its devices, and so would limit other structures, too.

@@ -224,6 +224,17 @@ def test_times_that_are_worth_little_say_why(run_folder: Path) -> None:
     assert "Other work was running (load 3.50)" in text
 
 
+def test_times_of_a_throttled_run_say_so(run_folder: Path) -> None:
+    counts = {"periods": 14, "throttled_periods": 12, "throttled_seconds": 0.96}
+    write_manifest(run_folder, measurement={"noise": 0.01, "throttling": counts})
+    text = text_of(run_folder)
+    assert "The times are to be taken with care" in text
+    assert "The kernel throttled the process in 12 of 14 periods of its CPU quota" in text
+    for harmless in (counts | {"throttled_periods": 0}, None):
+        write_manifest(run_folder, measurement={"noise": 0.01, "throttling": harmless})
+        assert "throttled the process" not in text_of(run_folder)
+
+
 def test_times_less_precise_than_wanted_say_so(run_folder: Path) -> None:
     write_run(run_folder, [{**row, "stop_reason": "budget"} for row in synthetic_rows()])
     assert re.search(r"\d+ of \d+ timed cells less precise than wanted", text_of(run_folder))

@@ -1,12 +1,15 @@
 #include "harness/bench/record/joined_manifest.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include "harness/bench/record/conditions.hpp"
 
 namespace beambench::bench {
 namespace {
@@ -94,6 +97,12 @@ std::vector<std::string> uncontrolled(std::span<const Json> shards) {
   return sentences;
 }
 
+std::optional<Throttling> throttling(std::span<const Json> shards) {
+  std::optional<Throttling> total;
+  for (const Json& shard : shards) total = added_up(total, conditions_of(shard).throttling);
+  return total;
+}
+
 Json conditions(const Json& shard) {
   Json own{{"number", shard.at("shard").at("number")},
            {"cells", shard.at("shard").at("cells")},
@@ -117,6 +126,7 @@ Json joined_manifest(std::span<const Json> shards) {
       time_of(shards, "finished_utc", [](auto& times) { return std::ranges::max_element(times); });
   joined["machine"] = joined_object(shards, "machine");
   joined["measurement"] = joined_object(shards, "measurement");
+  joined["measurement"]["throttling"] = to_json(throttling(shards));
   joined["harness_overhead"] = Json();
   joined["uncontrolled"] = uncontrolled(shards);
   joined["part_begun_utc"] = joined["time_utc"];
@@ -124,15 +134,6 @@ Json joined_manifest(std::span<const Json> shards) {
   Json& all = joined["shards"] = Json::array();
   for (const Json& shard : shards) all.push_back(conditions(shard));
   return joined;
-}
-
-std::optional<double> noise_of(const Json& manifest) {
-  const Json& noise = manifest.at("measurement").at("noise");
-  return noise.is_null() ? std::nullopt : std::optional(noise.get<double>());
-}
-
-double load_of(const Json& manifest) {
-  return manifest.at("machine").at("load_average").get<double>();
 }
 
 }  // namespace beambench::bench

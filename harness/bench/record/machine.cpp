@@ -17,6 +17,7 @@
 #include <unistd.h>
 
 #include "harness/rays/fingerprint.hpp"
+#include "scenes/core/cpu_quota.hpp"
 
 namespace beambench::bench {
 namespace {
@@ -107,13 +108,14 @@ double load_average() {
 
 }  // namespace
 
-Machine inspect_machine() {
+Machine inspect_machine(const fs::path& root) {
   struct utsname system {};
   ::uname(&system);
   const std::string model = cpu_info("model name");
   return {machine_id(processor_identity(whole_file("/proc/cpuinfo")), installation()),
           model.empty() ? "unknown" : model,
           usable_cores(),
+          cpu_quota(root),
           memory_size(),
           fmt::format("{} {} {}", system.sysname, system.release, system.machine),
           widest_instructions(),

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -30,6 +32,8 @@ struct Machine {
   std::string id;  ///< see machine_id
   std::string cpu;
   unsigned cores;  ///< that this process may use
+  /// The processors' time that this process may use (`beambench::cpu_quota`); nothing: unlimited.
+  std::optional<double> cpu_quota;
   std::uint64_t memory_bytes;
   std::string kernel;
   std::string instructions;  ///< the widest vector instructions it has, "AVX2"
@@ -42,7 +46,8 @@ struct Machine {
   std::uint64_t executable_hash;  ///< of this program's file
 };
 
-Machine inspect_machine();
+/// Inspects this machine; the quota is read below `root`, as by `cpu_quota`.
+Machine inspect_machine(const std::filesystem::path& root = "/");
 
 /// Sixteen hexadecimal digits that differ between machines, without naming them: a fingerprint of
 /// the processor (maker, family, model and stepping, not its name alone, which virtual machines

@@ -11,7 +11,6 @@
 
 #include "accel/core/instruction_set.hpp"
 #include "accel/embree/isa.hpp"
-#include "harness/base/messages.hpp"
 #include "harness/bench/measurement.hpp"
 #include "harness/bench/record/cell_record.hpp"
 #include "harness/bench/record/machine.hpp"
@@ -54,6 +53,7 @@ Json machine_json(const Machine& machine) {
   return {{"id", machine.id},
           {"cpu", machine.cpu},
           {"cores", machine.cores},
+          {"cpu_quota", machine.cpu_quota ? Json(*machine.cpu_quota) : Json()},
           {"memory_bytes", machine.memory_bytes},
           {"kernel", machine.kernel},
           {"instructions", machine.instructions},
@@ -77,6 +77,7 @@ Json measurement_json(const Manifest& manifest) {
           {"mxcsr", fmt::format("0x{:04x}", facts.control_word)},
           {"warm_up_seconds", facts.warm_up_seconds},
           {"noise", facts.noise ? Json(*facts.noise) : Json()},
+          {"throttling", to_json(facts.throttling)},
           {"hardware_counters",
            facts.hardware_problem.empty() ? Json(kHardwareEvents) : Json(facts.hardware_problem)},
           {"wall_clock", "steady_clock"},
@@ -110,18 +111,18 @@ Json scenes_json(const std::vector<SceneFacts>& scenes) {
   return list;
 }
 
-constexpr double kNoisy = 0.05;  // of the slowest twentieth of equal work: others are running
-
 std::string or_unknown(const std::string& text) { return text.empty() ? "unknown" : text; }
 
 std::string hardware_line(const Manifest& manifest) {
   const Machine& machine = manifest.machine;
   const int core = manifest.measurement.pinned_core;
   return fmt::format(
-      "machine: {}, {} cores, {}, Embree {}, MXCSR 0x{:04x}, {}, pages of {} KiB (huge: {})",
-      machine.cpu, machine.cores, machine.instructions, manifest.run.isa,
-      manifest.measurement.control_word, core < 0 ? "not pinned" : fmt::format("core {}", core),
-      machine.page_bytes / 1024, or_unknown(machine.huge_pages));
+      "machine: {}, {} cores{}, {}, Embree {}, MXCSR 0x{:04x}, {}, pages of {} KiB (huge: {})",
+      machine.cpu, machine.cores,
+      machine.cpu_quota ? fmt::format(" (quota: {:.3g} CPUs)", *machine.cpu_quota) : "",
+      machine.instructions, manifest.run.isa, manifest.measurement.control_word,
+      core < 0 ? "not pinned" : fmt::format("core {}", core), machine.page_bytes / 1024,
+      or_unknown(machine.huge_pages));
 }
 
 std::string state_line(const Manifest& manifest) {
@@ -175,6 +176,7 @@ std::string_view subject_of(const std::string& path) {
 void continue_with(Manifest& now, const Json& before) {
   now.run.run_id = before.at("run_id").get<std::string>();
   now.begun_utc = before.at("time_utc").get<std::string>();
+  now.measurement.throttling = conditions_of(before).throttling;
   now.earlier_parts = before.value("earlier_parts", Json::array());
   Json part = Json::object();
   for (const char* member : {"part_begun_utc", "machine", "measurement", "uncontrolled"}) {
@@ -205,44 +207,6 @@ Json to_json(const Manifest& manifest) {
   return json;
 }
 
-std::optional<std::string> noise_warning(const std::optional<double>& noise) {
-  if (!noise || *noise <= kNoisy) return std::nullopt;
-  return fmt::format(
-      "The machine is disturbed: one slice in twenty of equal work took at least {:.0f}% longer "
-      "than usual.",
-      100.0 * *noise);
-}
-
-std::vector<std::string> doubts_about_times(const std::optional<double>& noise, double load,
-                                            std::span<const Json> cells) {
-  constexpr double kMostArePrecise = 0.8;
-  constexpr std::size_t kLeastForInterval = 6;
-  std::size_t timed = 0, imprecise = 0, without_interval = 0;
-  for (const Json& cell : cells) {
-    if (cell.at("repetitions").empty()) continue;
-    ++timed;
-    if (cell.at("row").at("stop_reason") != to_string(StopReason::kPrecision)) ++imprecise;
-    if (cell.at("repetitions").size() < kLeastForInterval) ++without_interval;
-  }
-  std::vector<std::string> doubts;
-  if (noise && *noise > kNoisy) {
-    doubts.push_back(fmt::format("equal work took up to {:.0f}% longer than usual", 100 * *noise));
-  }
-  if (load > kIdleLoad) {
-    doubts.push_back(fmt::format("other work was running (load {:.2f})", load));
-  }
-  if (static_cast<double>(timed - imprecise) < kMostArePrecise * static_cast<double>(timed)) {
-    doubts.push_back(fmt::format("{} of {} less precise than wanted", imprecise,
-                                 base::counted(timed, "timed cell")));
-  }
-  if (without_interval > 0) {
-    doubts.push_back(fmt::format("{} of {} repeated fewer than {} times, so without intervals",
-                                 without_interval, base::counted(timed, "timed cell"),
-                                 kLeastForInterval));
-  }
-  return doubts;
-}
-
 std::vector<std::string> preflight(const Manifest& manifest) {
   std::vector<std::string> lines{hardware_line(manifest), state_line(manifest)};
   for (const std::string& sentence : manifest.uncontrolled) {
@@ -253,10 +217,10 @@ std::vector<std::string> preflight(const Manifest& manifest) {
 
 Manifest begin_manifest(const std::string& sweep, std::vector<SceneFacts> scenes, int core,
                         int threads, std::chrono::duration<double> warm_up,
-                        std::optional<ShardFacts> shard) {
+                        std::optional<ShardFacts> shard, const std::filesystem::path& root) {
   const BuildInfo& build = build_info();
   Manifest manifest;
-  manifest.machine = inspect_machine();
+  manifest.machine = inspect_machine(root);
   manifest.sweep = sweep;
   manifest.begun_utc = manifest.part_begun_utc = utc_now();
   manifest.shard = shard;
@@ -274,7 +238,8 @@ Manifest begin_manifest(const std::string& sweep, std::vector<SceneFacts> scenes
                           warm_up.count(),
                           accel::best_simd_target(),
                           std::nullopt,
-                          ""};
+                          "",
+                          std::nullopt};
   manifest.plugins.assign(plugin::loaded_plugins().begin(), plugin::loaded_plugins().end());
   manifest.scenes = std::move(scenes);
   manifest.uncontrolled = disturbances(manifest.machine);
@@ -287,6 +252,9 @@ Manifest begin_manifest(const std::string& sweep, std::vector<SceneFacts> scenes
     }
   } else if (core < 0) {
     manifest.uncontrolled.emplace_back("The measuring thread could not be pinned.");
+  }
+  if (const auto warning = quota_warning(manifest.machine.cpu_quota, threads)) {
+    manifest.uncontrolled.push_back(*warning);
   }
   if (build.build_type != "Release") {
     manifest.uncontrolled.push_back(

@@ -2,6 +2,7 @@
 // The manifest of a run: what was measured, by what, where, and what could not be controlled.
 
 #include <chrono>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/bench/record/cell_record.hpp"
+#include "harness/bench/record/conditions.hpp"
 #include "harness/bench/record/machine.hpp"
 #include "harness/bench/record/shard.hpp"
 #include "harness/plugin/load_plugin.hpp"
@@ -32,6 +34,8 @@ struct MeasurementFacts {
   std::string simd_target;       ///< Highway's best on this machine, what our own SIMD runs on
   std::optional<double> noise;   ///< of equal work in the warm-up (`noise`)
   std::string hardware_problem;  ///< why the processor's counters are not read; empty: they are
+  /// The throttling of the whole run, with the parts before it was resumed; nothing: no quota.
+  std::optional<Throttling> throttling{};
 };
 
 struct Manifest {
@@ -51,19 +55,11 @@ struct Manifest {
   nlohmann::ordered_json earlier_parts = nlohmann::ordered_json::array();
 };
 
-/// Makes `now` the manifest of the run that was begun under `before` (its file) and is resumed.
+/// Makes `now` the manifest of the run that was begun under `before` (its file) and is resumed. How
+/// the earlier parts were throttled counts from then on.
 void continue_with(Manifest& now, const nlohmann::ordered_json& before);
 
 nlohmann::ordered_json to_json(const Manifest& manifest);
-
-/// A sentence where equal work took too unequal times before the run (`noise`).
-std::optional<std::string> noise_warning(const std::optional<double>& noise);
-
-/// Why the times of finished cells (their JSON files) are worth little: noise of equal work, other
-/// work (a load average), missed precision, too few repetitions for an interval. Clauses; none
-/// where nothing speaks against them.
-std::vector<std::string> doubts_about_times(const std::optional<double>& noise, double load,
-                                            std::span<const nlohmann::ordered_json> cells);
 
 /// Two lines on the machine, and a warning in plain words for each thing that could not be
 /// controlled.
@@ -71,10 +67,12 @@ std::vector<std::string> preflight(const Manifest& manifest);
 
 /// The manifest of a new run of the sweep of that name, whose timed code is pinned to `core` (-1:
 /// to none) and runs on that many threads, after a warm-up; `shard` is the part of the sweep that
-/// the run is. The rest is read from this program, the machine and Embree.
+/// the run is. The rest is read from this program, the machine (its quota below `root`, as by
+/// `cpu_quota`) and Embree.
 Manifest begin_manifest(const std::string& sweep, std::vector<SceneFacts> scenes, int core,
                         int threads, std::chrono::duration<double> warm_up,
-                        std::optional<ShardFacts> shard = std::nullopt);
+                        std::optional<ShardFacts> shard = std::nullopt,
+                        const std::filesystem::path& root = "/");
 
 /// The harness's own share of a trace (`harness_ms`) in the cell where it is the largest part of
 /// the contender's time, among those of one query path.

@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "accel/core/trace_on.hpp"
 #include "harness/base/messages.hpp"
 #include "harness/base/process_start.hpp"
 #include "harness/bench/record/machine.hpp"
@@ -292,5 +293,7 @@ int main(int argc, char** argv) {
   base::prepare_process();
   cluster::MpiSession session(argc, argv, cli::timeout_of(argc, argv));
   cluster::MpiTransport transport(cluster::MpiTransport::Waiting::kSleeping);
-  return cli::run_process(argc, argv, session, transport);
+  int code = base::kInternalError;
+  accel::on_default_threads([&] { code = cli::run_process(argc, argv, session, transport); });
+  return code;
 }

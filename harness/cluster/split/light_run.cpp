@@ -10,9 +10,6 @@
 #include <type_traits>
 #include <utility>
 
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-
 #include "harness/base/stopwatch.hpp"
 #include "harness/cluster/split/part_member.hpp"
 
@@ -56,9 +53,7 @@ DrawnLight LightLeader::draw(const scenes::Scene& whole, const render::WhittedOp
   std::vector<LightReport> reports = answer([&](const accel::Accelerator& divided) {
     const render::Whitted tracer(whole, divided, options, check);
     // More threads than cores: they wait.
-    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, kDrawn);
-    tbb::task_arena arena(kDrawn);
-    picture = arena.execute([&] { return render::whitted_picture(tracer, rays, hits); });
+    picture = render::whitted_picture(tracer, rays, hits, {}, kDrawn);
   });
   return {std::move(picture->image), picture->census, std::move(reports),
           transport_->seconds() - begin};

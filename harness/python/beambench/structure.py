@@ -54,7 +54,8 @@ class Structure:
             scene: what it is built over; it lives as long as the structure.
             spec: a name, with or without parameters: `"sah-bvh"`, `"samet:max_level=6"`; see
                 `structures`.
-            threads: that trace images, unless `trace_image` says otherwise; 0: one for each core.
+            threads: that trace images, unless `trace_image` says otherwise; 0: one for each core,
+                within the CPU quota.
             parameters: more of them: `max_level=6`.
 
         Raises:
@@ -142,7 +143,8 @@ class Structure:
             resolution: width and height; None: the camera's own.
             camera: None: the scene's first.
             samples: rays per pixel: 1, 4, 5, 9, 16, ...
-            threads: None: as the structure was built for; 0: one for each core.
+            threads: None: as the structure was built for; 0: one for each core,
+                within the CPU quota.
             counters: count the work, which takes longer.
 
         Returns:

@@ -94,6 +94,11 @@ def doubts_about_times(run: Run, manifest: Manifest) -> list[str]:
         doubts.append(f"equal work took up to {manifest.noise:.0%} longer than usual")
     if manifest.load is not None and manifest.load > _IDLE:
         doubts.append(f"other work was running (load {manifest.load:.2f})")
+    if manifest.throttling is not None and manifest.throttling.throttled > 0:
+        doubts.append(
+            f"the kernel throttled the process in {manifest.throttling.throttled} of "
+            f"{manifest.throttling.periods} periods of its CPU quota"
+        )
     if "stop_reason" in timed and len(timed):
         precise = timed["stop_reason"] == "precision"
         if precise.mean() < _MOST_ARE_PRECISE:
