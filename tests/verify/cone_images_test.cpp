@@ -28,8 +28,7 @@ namespace beambench::verify {
 namespace {
 
 using glm::dvec3;
-
-dvec3 random_direction(Random& random) { return glm::normalize(point_in_cube(random)); }
+using tests::random_direction;
 
 /// 10 to a random power.
 double magnitude(Random& random, double lowest, double highest) {

@@ -31,6 +31,7 @@ namespace {
 
 using accel::tile_beam::TileBeam;
 using glm::dvec3;
+using tests::random_direction;
 
 struct Outcome {
   DiffReport report;
@@ -110,8 +111,6 @@ scenes::Light light_at(const dvec3& place) {
 double size_of(const scenes::Scene& scene) {
   return glm::length(dvec3(scene.bounds.upper) - dvec3(scene.bounds.lower)) + 1e-3;
 }
-
-dvec3 random_direction(Random& random) { return glm::normalize(point_in_cube(random)); }
 
 /// Anywhere about a scene, on and near its surfaces, in the planes of its faces, close to it and
 /// far away.
