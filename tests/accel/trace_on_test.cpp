@@ -21,6 +21,7 @@
 #include "accel/core/registry.hpp"
 #include "accel/core/traversal_accelerator.hpp"
 #include "scenes/catalogue.hpp"
+#include "scenes/core/cpu_quota.hpp"
 #include "tests/random_scene.hpp"
 
 namespace beambench::accel {
