@@ -21,6 +21,7 @@
 #include <unistd.h>
 
 #include "scenes/core/error.hpp"
+#include "scenes/core/plain_text.hpp"
 
 namespace beambench {
 namespace {
@@ -363,7 +364,11 @@ std::string read_input(const fs::path& path, std::uint64_t max_bytes) {
 
 std::string read_text_input(const fs::path& path, std::uint64_t max_bytes) {
   std::string text = read_input(path, max_bytes);
-  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
+  try {
+    text.erase(0, text.size() - plain_text(text).size());
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", path.string(), error.what()));
+  }
   return text;
 }
 

@@ -35,7 +35,7 @@ std::string read_input(const std::filesystem::path& path, std::uint64_t max_byte
 std::string read_input(int descriptor, const std::string& name, std::uint64_t max_bytes);
 
 /// Reads a text as `read_input` does. A byte order mark of UTF-8 at its beginning, which some
-/// editors write, is skipped.
+/// editors write, is skipped, and UTF-16 is refused (`plain_text`).
 std::string read_text_input(const std::filesystem::path& path, std::uint64_t max_bytes);
 
 /// An input that is read part by part, for what may be larger than memory. Opened, read and refused

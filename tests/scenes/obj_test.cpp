@@ -31,10 +31,6 @@ constexpr const char* kThreeVertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 class Obj : public testing::Test {
  protected:
-  void SetUp() override {
-    if (mesh::importer_of("obj").empty()) GTEST_SKIP() << "built without tinyobjloader";
-  }
-
   ImportedMesh read(const std::string& text) const {
     return mesh::import_mesh(text, "obj", folder_.write("a.obj", text));
   }
@@ -138,6 +134,11 @@ TEST_F(Obj, FacesNameVerticesInEveryWay) {
       << "a vertex may come later";
   EXPECT_EQ(read("v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3\r\n").mesh.triangles.size(), 1U);
   EXPECT_EQ(corner(read("v 1e-999 0 0\nv +1 0 0\nv 0 1. 0\nf 1 2 3"), 0, 0), glm::vec3(0.0F));
+  EXPECT_EQ(corner(read("v 1e-40 0 0\nv +1 0 0\nv 0 1. 0\nf 1 2 3"), 0, 0).x, 1e-40F);
+  EXPECT_EQ(
+      read("v 0 0 0 1\nv 1 0 0 .5 .5 .5\nv 0 1 0 1 0 0 nan\nf 1/ 2// 3//0\n").mesh.triangles.size(),
+      1U)
+      << "weights and colors";
   EXPECT_EQ(read("v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3").mesh.triangles.size(), 1U);
 }
 
@@ -147,10 +148,11 @@ TEST_F(Obj, ARefusedOneSaysWhere) {
     EXPECT_TRUE(says(message(kThreeVertices + lines), words)) << lines;
     EXPECT_TRUE(says(message(kThreeVertices + lines), {"a.obj: "}));
   };
-  refused("f 1 2 4\n", {"face 1 has the vertex 4", "3 vertices"});
-  refused("f 1 2 3\nf 1 2 -4\n", {"face 2", "before the first"});
-  refused("f 1 2 2147483647\n", {"face 1 has the vertex 2147483647"});
-  refused("f 1 2 3 9\n", {"face 1 has the vertex 9"});
+  refused("f 1 2 4\n", {"line 4", "the vertex 4", "3 vertices"});
+  refused("f 1 2 3\n\nf 1 2 -4\n", {"line 6", "the vertex -4", "3 vertices"});
+  refused("f 1 2 -2147483648\n", {"line 4", "the vertex -2147483648"});
+  refused("f 1 2 2147483647\n", {"line 4", "the vertex 2147483647"});
+  refused("f 1 2 3\nf\nf 1 \\\n2 3 9\n", {"line 6", "the vertex 9"});
   refused("f 0 1 2\n", {"line 4", "'0'", "count from 1"});
   refused("f 1 2 x\n", {"line 4", "the corner 'x'"});
   refused("f 1 2 4294967299\n", {"line 4", "'4294967299'"});
@@ -158,7 +160,110 @@ TEST_F(Obj, ARefusedOneSaysWhere) {
   refused("v 1 2 three\n", {"line 4", "'three'", "must have numbers"});
   refused("v 1 2 1e999\nf 1 2 3\n", {"line 4", "'1e999'"});
   refused("v 1 2 1,5\n", {"line 4", "'1,5'"});
+  refused("v 1 2 3 v 4 5 6\n", {"line 4", "'v'"});
+  refused("v 1 2 3 4 5 6 7 8\n", {"line 4", "8 numbers"});
+  refused("f 1/2/3/4 2 3\n", {"line 4", "'1/2/3/4'"});
+  refused("f 1/x 2 3\n", {"line 4", "'1/x'"});
   refused("f 1 \\\n2 3\nv nan 0 0\n", {"line 6", "'nan'"});
+}
+
+// Lines that are not understood
+
+TEST_F(Obj, LinesThatAreNotUnderstoodAreCountedWithTheirNumbers) {
+  const std::string text = std::string(kThreeVertices) + "f 1 2 3\n";
+  const auto warning_for = [&](const std::string& line) {
+    const ImportedMesh mesh = read(text + line + "\nf 3 2 1\n");
+    EXPECT_EQ(mesh.mesh.triangles.size(), 2U) << line;
+    return mesh.warnings.size() == 1 ? mesh.warnings[0] : std::string("(not one warning)");
+  };
+  EXPECT_EQ(warning_for("V 0 0 1"), "1 line is not understood and was left out: line 5 ('V')");
+  EXPECT_TRUE(says(warning_for("F 1 2 3"), {"line 5 ('F')"}));
+  EXPECT_TRUE(says(warning_for("v\xC2\xA0"
+                               "0 0 1"),
+                   {"line 5 ('v\xC2\xA0"
+                    "0')"}));
+  EXPECT_TRUE(says(warning_for(std::string(4096, '\0') + "v 0 0 1"), {"line 5 ('\\x00\\x00"}));
+  EXPECT_TRUE(says(warning_for("f"), {"line 5 ('f')"})) << "a face without corners";
+  EXPECT_TRUE(says(warning_for("call other.obj"), {"line 5 ('call')"}));
+  EXPECT_TRUE(says(warning_for("\xEF\xBB\xBFv 0 0 1"), {"line 5 ('"})) << "in the middle";
+  EXPECT_EQ(warning_for("a\nb\nc\nd \\\ne"),
+            "5 lines are not understood and were left out: line 5 ('a'), line 6 ('b'), "
+            "line 7 ('c') and 2 more");
+}
+
+TEST_F(Obj, AFileOfWhichNothingIsUnderstoodIsRefusedWithItsLines) {
+  EXPECT_TRUE(
+      says(message("hello\nworld\n"), {"a.obj: ", "no face", "2 lines", "line 1 ('hello')"}));
+}
+
+TEST_F(Obj, StatementsOfTheFormatThatRaysDoNotMeetAreUnderstood) {
+  const std::string text =
+      std::string("# a comment\n\n \t\no name\ng one two\ng\ns off\ns 1\nmg 1 0.5\nbevel on\n") +
+      "c_interp off\nd_interp off\nlod 3\nmaplib a.map\nusemap off\nshadow_obj a.obj\n"
+      "trace_obj a.obj\nvn 0 0 nan\nvt 0 0\nvp 0 0\n" +
+      kThreeVertices + "f 1 2 3\n";
+  EXPECT_TRUE(read(text).warnings.empty());
+  const std::string free_forms =
+      "cstype rat bspline\ndeg 2 2\nbmat u 1 0 \\\n0 1\nstep 1 1\nsurf 0 1 0 1 1 2 3\n"
+      "parm u 0 1\nparm v 0 1\ntrim 0 1 1\nhole 0 1 1\nscrv 0 1 1\nsp 1\nctech cparm 1\n"
+      "stech cparma 1 1\nend\ncon 1 0 1 1 2 0 1 1\nres 2 2\nbzp 1 2 3\n";
+  EXPECT_EQ(read(text + free_forms).warnings,
+            std::vector<std::string>{"2 free-form curves and surfaces were left out"});
+}
+
+TEST_F(Obj, AByteOrderMarkIsSkipped) {
+  const ImportedMesh mesh = read("\xEF\xBB\xBF" + std::string(kThreeVertices) + "f 1 2 3\n");
+  EXPECT_TRUE(mesh.warnings.empty());
+  EXPECT_EQ(corner(mesh, 0, 0), glm::vec3(0.0F)) << "the first vertex";
+  EXPECT_EQ(corner(mesh, 0, 1), glm::vec3(1.0F, 0.0F, 0.0F));
+  folder_.write("a.mtl", "\xEF\xBB\xBFnewmtl red\nKd 1 0 0\n");
+  EXPECT_EQ(read("mtllib a.mtl\n" + std::string(kThreeVertices) + "usemtl red\nf 1 2 3\n")
+                .mesh.parts.at(0)
+                .surface.color,
+            glm::vec3(1.0F, 0.0F, 0.0F));
+}
+
+TEST_F(Obj, Utf16IsNamedAsSuch) {
+  const std::string text = std::string(kThreeVertices) + "f 1 2 3\n";
+  const auto wide = [&](bool low_first) {
+    std::string bytes;
+    for (const char c : text) bytes += low_first ? std::string{c, '\0'} : std::string{'\0', c};
+    return bytes;
+  };
+  for (const std::string& bytes :
+       {"\xFF\xFE" + wide(true), "\xFE\xFF" + wide(false), wide(true), wide(false)}) {
+    EXPECT_TRUE(says(message(bytes), {"a.obj: ", "UTF-16", "save it as UTF-8"}));
+  }
+  folder_.write("a.mtl", "\xFF\xFEn");
+  const ImportedMesh mesh = read("mtllib a.mtl\n" + text);
+  ASSERT_EQ(mesh.warnings.size(), 1U);
+  EXPECT_TRUE(says(mesh.warnings[0], {"its materials were left out", "a.mtl", "UTF-16"}));
+}
+
+TEST_F(Obj, CommentsMayFollowNumbers) {
+  const ImportedMesh mesh = read(
+      "v 0 0 0 # origin\nv 1 0 0#x\nv 0 1 0 #\nv 0 0 1 # 5 6 7\n"
+      "f 1 2 3 # 4 \\\nf 2 3 4 # comment\nf 1 3 4\n");
+  EXPECT_EQ(mesh.mesh.triangles.size(), 3U);
+  EXPECT_TRUE(mesh.warnings.empty());
+}
+
+TEST_F(Obj, OnlyStatementsOfNumbersContinueOnTheNextLine) {
+  for (const char* line : {"# a comment \\", "g C:\\", "o name\\", "usemtl a\\", "mtllib \\",
+                           "f 1 2 3 # C:\\", "unknown \\"}) {
+    const std::string text = fmt::format("{}{}\nf 1 2 3\r\n", kThreeVertices, line);
+    EXPECT_EQ(read(text).mesh.triangles.size(), line[0] == 'f' ? 2U : 1U) << line;
+  }
+  for (const char* face :
+       {"f 1 \\\r\n2 \\\r\n3", "f\\\n 1 2 3", "f \\\r1 2 3", "f 1 2 3 \\", "f 1 2\\\n3"}) {
+    const ImportedMesh mesh = read(fmt::format("{}{}", kThreeVertices, face));
+    EXPECT_EQ(mesh.mesh.triangles.size(), 1U) << face;
+    EXPECT_TRUE(mesh.warnings.empty()) << face;
+  }
+}
+
+TEST_F(Obj, FaceOutlinesOfOldFilesAreFaces) {
+  EXPECT_EQ(read(std::string(kThreeVertices) + "fo 1 2 3\n").mesh.triangles.size(), 1U);
 }
 
 TEST_F(Obj, WhatIsNoFaceIsCounted) {
@@ -191,12 +296,40 @@ TEST_F(Obj, MaterialsAreThoseOfItsLibraries) {
   EXPECT_TRUE(mesh.warnings.empty());
 }
 
-TEST_F(Obj, ExponentsThatOverflowAreRefused) {
-  for (const std::string line :
-       {"v 1e-2147483648 0 0", "vn 0 0 .5E+2147483649", "vt 1.e9999999999"}) {
-    EXPECT_TRUE(says(message(kThreeVertices + line + "\nf 1 2 3\n"), {"line 4", "exponent"}))
-        << line;
+TEST_F(Obj, MaterialsMayHaveCommentsAndFewerNumbers) {
+  folder_.write("a.mtl",
+                "newmtl red # the first\nKd 1 0 0 # red\nd -halo 0.75\rnewmtl gray\nKd 0.5\n"
+                "newmtl with#number\nKd 0 1 0\n");
+  std::string text = std::string("mtllib a.mtl # colors\n") + kThreeVertices;
+  for (const char* name : {"red", "gray # not red", "with#number"}) {
+    text += fmt::format("usemtl {}\nf 1 2 3\n", name);
   }
+  const ImportedMesh mesh = read(text);
+  EXPECT_TRUE(mesh.warnings.empty());
+  ASSERT_EQ(mesh.mesh.parts.size(), 3U);
+  EXPECT_EQ(mesh.mesh.parts[0].surface.color, glm::vec3(1.0F, 0.0F, 0.0F));
+  EXPECT_EQ(mesh.mesh.parts[0].surface.transmittance, 0.25F);
+  EXPECT_EQ(mesh.mesh.parts[1].surface.color, glm::vec3(0.5F));
+  EXPECT_EQ(mesh.mesh.parts[2].surface.color, glm::vec3(0.0F, 1.0F, 0.0F));
+}
+
+TEST_F(Obj, LinesOfMaterialsThatAreNotUnderstoodAreCounted) {
+  folder_.write("a.mtl", "newmtl m\nKd 1 zero 0\nKd spectral a.rfl\nd\nTr x\nKs x\nnewmtl\n");
+  const ImportedMesh mesh =
+      read("mtllib a.mtl\n" + std::string(kThreeVertices) + "usemtl m\nf 1 2 3\n");
+  EXPECT_EQ(mesh.mesh.parts.at(0).surface.color, glm::vec3(0.6F));
+  ASSERT_EQ(mesh.warnings.size(), 1U);
+  EXPECT_EQ(mesh.warnings[0],
+            "a.mtl: 5 lines are not understood and were left out: line 2 ('Kd'), line 3 ('Kd'), "
+            "line 4 ('d') and 2 more");
+}
+
+TEST_F(Obj, ExponentsMayBeLong) {
+  const ImportedMesh tiny = read(
+      "v 1e-2147483648 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 .5E+2147483649\nvt 1.e9999999999\nf 1 2 3\n");
+  EXPECT_EQ(corner(tiny, 0, 0), glm::vec3(0.0F));
+  EXPECT_TRUE(says(message(kThreeVertices + std::string("v 1e2147483649 0 0\nf 1 2 3\n")),
+                   {"line 4", "'1e2147483649'"}));
   EXPECT_EQ(
       read("o a1e2147483649\n" + std::string(kThreeVertices) + "f 1 2 3\n").mesh.triangles.size(),
       1U);

@@ -24,7 +24,7 @@ struct Importer {
 
 /// glTF 2.0 (`.gltf`, `.glb`), by tinygltf.
 Importer gltf_importer();
-/// OBJ with its material libraries, by tinyobjloader.
+/// OBJ with its material libraries, by a reader of our own.
 Importer obj_importer();
 /// All other formats, by Assimp.
 Importer assimp_importer();

@@ -45,10 +45,13 @@ MeshCompanions::MeshCompanions(const fs::path& mesh, std::uint64_t mesh_bytes)
     : folder_(companion_folder(mesh)),
       bytes_left_(kLargestMeshFile - std::min(mesh_bytes, kLargestMeshFile)) {}
 
-bool MeshCompanions::has(const fs::path& name) const {
+bool MeshCompanions::has(const fs::path& name) {
   const auto place = place_of(name, folder_);
+  if (!place) return false;
   std::error_code ignored;
-  return place && fs::is_regular_file(*place, ignored);
+  if (fs::is_regular_file(*place, ignored)) return true;
+  companions_.try_emplace(name.lexically_normal().string());
+  return false;
 }
 
 std::string_view MeshCompanions::read(const fs::path& name) {

@@ -23,8 +23,9 @@ class MeshCompanions {
   /// Where they lie.
   const std::filesystem::path& folder() const { return folder_; }
 
-  /// Whether a companion is there and may be read.
-  bool has(const std::filesystem::path& name) const;
+  /// Whether a companion is there and may be read. `list` has a missing one, too: the mesh may
+  /// change when that file appears.
+  bool has(const std::filesystem::path& name);
 
   /// The bytes of a companion, `name` being relative to the folder; they stay as long as this
   /// object. Throws InputError naming it when it is absolute or leads out of the folder (by `..`

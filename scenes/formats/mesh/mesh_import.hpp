@@ -13,7 +13,7 @@ namespace beambench::scenes::mesh {
 
 /// The importer that reads files of an ending, with what distinguishes its versions that might read
 /// one file differently (`tinygltf-1`); part of the key of the cache. Empty in a build without the
-/// library that it needs: tinygltf for glTF, tinyobjloader for OBJ, Assimp for the others.
+/// library that it needs: tinygltf for glTF, Assimp for others than OBJ.
 std::string importer_of(std::string_view ending);
 
 /// Reads a mesh from the bytes of a file; `ending` says its format. Its polygons become triangles,

@@ -1,109 +1,41 @@
-// Mesh import by tinyobjloader, which is compiled here.
-#define TINYOBJLOADER_IMPLEMENTATION
-
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <istream>
-#include <limits>
 #include <map>
 #include <span>
-#include <streambuf>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
-#include <glm/vec3.hpp>
-#include <tiny_obj_loader.h>
 
 #include "scenes/core/error.hpp"
+#include "scenes/core/plain_text.hpp"
 #include "scenes/formats/mesh/importers.hpp"
 #include "scenes/formats/mesh/mesh.hpp"
 #include "scenes/formats/mesh/mesh_cleaning.hpp"
 #include "scenes/formats/mesh/mesh_companions.hpp"
+#include "scenes/formats/mesh/obj_file.hpp"
 #include "scenes/formats/mesh/obj_lines.hpp"
 #include "scenes/formats/mesh/obj_materials.hpp"
 
 namespace beambench::scenes::mesh {
 namespace {
 
-/// Incremented whenever this file, or what it calls, reads a mesh differently.
-constexpr int kOwnVersion = 2;
+/// Incremented whenever OBJ files are read differently.
+constexpr int kOwnVersion = 3;
 
-/// A stream's view of bytes that are elsewhere.
-class ByteBuffer : public std::streambuf {
- public:
-  explicit ByteBuffer(std::string_view bytes) {
-    char* start = const_cast<char*>(bytes.data());  // only read
-    setg(start, start, start + bytes.size());
-  }
-};
-
-/// What tinyobjloader calls back with: the file, but for the numbers of faces as it has them.
-struct ObjFile {
-  std::vector<glm::vec3> vertices;
-  std::vector<std::uint32_t> corners;     ///< of all faces; out of range where the file's are
-  std::vector<std::uint32_t> face_sizes;  ///< how many of them each face has
-  std::vector<std::pair<std::size_t, std::string>> materials;  ///< from which face on
-};
-
-/// A vertex of a face from 0; one that is not there is left for later, when all are known.
-std::uint32_t vertex_index(int index, std::size_t vertices_before) {
-  constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-  if (index > 0) return static_cast<std::uint32_t>(index) - 1;
-  const std::int64_t place = static_cast<std::int64_t>(vertices_before) + index;
-  return place >= 0 && index < 0 ? static_cast<std::uint32_t>(place) : kNone;
+/// Returns the surface of a material. `usemtl` may be followed by a comment, but a material's name
+/// may hold a '#', too.
+Surface surface_named(const std::string& name, const std::map<std::string, Surface>& surfaces) {
+  auto found = surfaces.find(name);
+  if (found == surfaces.end()) found = surfaces.find(std::string(without_comment(name)));
+  return found == surfaces.end() ? clay() : found->second;
 }
 
-tinyobj::callback_t callbacks() {
-  tinyobj::callback_t calls;
-  calls.vertex_cb = [](void* user, float x, float y, float z, float) {
-    static_cast<ObjFile*>(user)->vertices.emplace_back(x, y, z);
-  };
-  calls.index_cb = [](void* user, tinyobj::index_t* indices, int count) {
-    ObjFile& file = *static_cast<ObjFile*>(user);
-    for (const tinyobj::index_t& corner : std::span(indices, static_cast<std::size_t>(count))) {
-      file.corners.push_back(vertex_index(corner.vertex_index, file.vertices.size()));
-    }
-    file.face_sizes.push_back(static_cast<std::uint32_t>(count));
-  };
-  calls.usemtl_cb = [](void* user, const char* name, int) {
-    ObjFile& file = *static_cast<ObjFile*>(user);
-    file.materials.emplace_back(file.face_sizes.size(), material_name(name));
-  };
-  return calls;
-}
-
-ObjFile read_file(std::string_view text, const ObjLines& lines) {
-  ObjFile file;
-  file.vertices.reserve(lines.vertices);
-  file.face_sizes.reserve(lines.faces);
-  file.corners.reserve(3 * lines.faces);
-  ByteBuffer buffer(text);
-  std::istream stream(&buffer);
-  tinyobj::LoadObjWithCallback(stream, callbacks(), &file);
-  return file;
-}
-
-void require_vertices(std::span<const std::uint32_t> corners, std::size_t vertices,
-                      std::size_t face) {
-  const auto wrong = std::find_if(corners.begin(), corners.end(),
-                                  [&](std::uint32_t corner) { return corner >= vertices; });
-  if (wrong == corners.end()) return;
-  const std::string name = *wrong == std::numeric_limits<std::uint32_t>::max()
-                               ? "a vertex before the first"
-                               : fmt::format("the vertex {}", std::uint64_t{*wrong} + 1);
-  throw InputError(
-      fmt::format("it cannot be read as a mesh (face {} has {}, but there are {} vertices); export "
-                  "it again",
-                  face + 1, name, vertices));
-}
-
-/// Adds all faces; how many of them are points and lines.
+/// Adds all faces. Returns how many of them are points and lines.
 std::size_t add_faces(ObjFile file, const std::map<std::string, Surface>& surfaces,
                       MeshCollector& collector) {
   std::size_t others = 0;
@@ -113,12 +45,10 @@ std::size_t add_faces(ObjFile file, const std::map<std::string, Surface>& surfac
   std::span<const std::uint32_t> rest(file.corners);
   for (std::size_t face = 0; face < file.face_sizes.size(); ++face) {
     for (; material != file.materials.end() && material->first == face; ++material) {
-      const auto surface = surfaces.find(material->second);
-      collector.set_surface(surface == surfaces.end() ? clay() : surface->second);
+      collector.set_surface(surface_named(material->second, surfaces));
     }
     const auto corners = rest.first(file.face_sizes[face]);
     rest = rest.subspan(corners.size());
-    require_vertices(corners, vertices.places().size(), face);
     if (corners.size() == 3) {
       collector.add(vertices, {corners[0], corners[1], corners[2]});
     } else if (corners.size() > 3) {
@@ -130,31 +60,39 @@ std::size_t add_faces(ObjFile file, const std::map<std::string, Surface>& surfac
   return others;
 }
 
-ImportedMesh import_text(std::string_view text, MeshCompanions& companions) {
-  const std::string joined = joined_lines(text);
-  if (!joined.empty()) text = joined;
-  const ObjLines lines = obj_lines(text);
+/// Returns what of the file is not in the mesh.
+std::vector<std::string> left_out(const ObjFile& file) {
   std::vector<std::string> warnings;
-  const auto surfaces = obj_surfaces(lines.libraries, companions, warnings);
-  ObjFile file = read_file(text, lines);
+  if (!file.unknown.empty()) warnings.push_back(file.unknown.message());
+  if (file.free_forms > 0) {
+    warnings.push_back(
+        fmt::format("{} free-form curves and surfaces were left out", file.free_forms));
+  }
+  return warnings;
+}
+
+ImportedMesh import_text(std::string_view text, MeshCompanions& companions) {
+  ObjFile file = read_obj(text);
+  std::vector<std::string> warnings = left_out(file);
+  if (file.face_sizes.empty() && !file.unknown.empty()) {
+    throw InputError(fmt::format("no face is in it ({}); export it again", warnings.front()));
+  }
+  const auto surfaces = obj_surfaces(file.libraries, companions, warnings);
   MeshCollector collector;
   collector.reserve(file.vertices.size(), file.face_sizes.size());
+  const std::size_t points_and_lines = file.points_and_lines;
   const std::size_t others = add_faces(std::move(file), surfaces, collector);
-  ImportedMesh result = collected_mesh(std::move(collector), others + lines.points_and_lines);
-  if (lines.free_forms > 0) {
-    result.warnings.push_back(
-        fmt::format("{} free-form curves and surfaces were left out", lines.free_forms));
-  }
+  ImportedMesh result = collected_mesh(std::move(collector), others + points_and_lines);
   result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
   result.companions = companions.list();
   return result;
 }
 
-ImportedMesh import_by_tinyobj(std::string_view bytes, const std::string&,
-                               const std::filesystem::path& path) {
+ImportedMesh import_obj(std::string_view bytes, const std::string&,
+                        const std::filesystem::path& path) {
   MeshCompanions companions(path, bytes.size());
   try {
-    return import_text(bytes, companions);
+    return import_text(plain_text(bytes), companions);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", path.string(), error.what()));
   }
@@ -162,6 +100,6 @@ ImportedMesh import_by_tinyobj(std::string_view bytes, const std::string&,
 
 }  // namespace
 
-Importer obj_importer() { return {fmt::format("tinyobj-{}", kOwnVersion), import_by_tinyobj}; }
+Importer obj_importer() { return {fmt::format("obj-{}", kOwnVersion), import_obj}; }
 
 }  // namespace beambench::scenes::mesh

@@ -1,5 +1,5 @@
 #pragma once
-// A look at the lines of an OBJ file, before it is read.
+// Lines and words of OBJ files and their material libraries.
 
 #include <cstddef>
 #include <string>
@@ -8,26 +8,31 @@
 
 namespace beambench::scenes::mesh {
 
-/// What tinyobjloader skips, or does not say.
-struct ObjLines {
-  std::size_t vertices = 0;
-  std::size_t faces = 0;
-  std::size_t points_and_lines = 0;
-  std::size_t free_forms = 0;          ///< curves and surfaces
-  std::vector<std::string> libraries;  ///< what follows each `mtllib`
+/// Returns the next line, which the text loses, without its end: "\n", "\r\n" or "\r".
+std::string_view take_line(std::string_view& text);
+
+/// Returns the next word of a line, which loses it. Empty at the end.
+std::string_view take_word(std::string_view& line);
+
+/// Returns the text without blanks at its ends.
+std::string_view trimmed(std::string_view text);
+
+/// Returns a name without the comment after it. Names may hold a '#', so that only one after a
+/// blank begins a comment.
+std::string_view without_comment(std::string_view name);
+
+/// Counts the lines of a file that are not understood.
+class UnknownLines {
+ public:
+  /// Notes a line by its number, from 1, and its first word.
+  void add(std::size_t line, std::string_view word);
+  bool empty() const { return count_ == 0; }
+  /// Returns how many they are, and the numbers and first words of the first ones.
+  std::string message() const;
+
+ private:
+  std::size_t count_ = 0;
+  std::vector<std::string> first_;
 };
-
-/// Looks at the lines of a file. Throws InputError naming the line when a vertex has fewer than
-/// three coordinates or one that is no number, or a face has a corner that is no index: such a word
-/// would be read as 0. So it does for a line of numbers that `has_long_exponent`.
-ObjLines obj_lines(std::string_view text);
-
-/// Whether a number of the line has an exponent of ten digits or more, for which tinyobjloader's
-/// integers are too small.
-bool has_long_exponent(std::string_view line);
-
-/// The text with lines that continue (after a backslash at their end) joined, and empty lines after
-/// them, so that all others keep their numbers. Empty when no line continues.
-std::string joined_lines(std::string_view text);
 
 }  // namespace beambench::scenes::mesh

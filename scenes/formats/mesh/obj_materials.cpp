@@ -1,95 +1,125 @@
 #include "scenes/formats/mesh/obj_materials.hpp"
 
 #include <algorithm>
-#include <sstream>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/vec3.hpp>
-#include <tiny_obj_loader.h>
 
+#include "scenes/core/decimal.hpp"
 #include "scenes/core/error.hpp"
+#include "scenes/core/plain_text.hpp"
 #include "scenes/formats/mesh/importers.hpp"
 #include "scenes/formats/mesh/obj_lines.hpp"
 
 namespace beambench::scenes::mesh {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r";
-constexpr std::string_view kName = "newmtl";
-
-/// The text of a library as tinyobjloader can read it, and the names of its materials.
-struct MaterialLibrary {
-  std::string text;  ///< each material is called by its index in `names`
-  std::vector<std::string> names;
+struct Material {
+  std::string name;
+  glm::vec3 color{0.6F};  ///< where it has none of its own, as Assimp and tinyobjloader have it
+  bool has_texture = false;
+  std::optional<float> dissolve{};      ///< `d`: 1 is opaque
+  std::optional<float> transparency{};  ///< `Tr`, of some exporters: 0 is opaque
 };
-
-/// Leaves out lines whose numbers overflow in tinyobjloader. A material without a color of its own
-/// is as gray as Assimp and tinyobjloader make it; the latter only where it has a texture. Of a
-/// name with blanks its release candidate 13 reads the first word alone.
-MaterialLibrary readable(std::string_view text) {
-  MaterialLibrary library;
-  while (!text.empty()) {
-    const std::string_view line = text.substr(0, text.find('\n'));
-    text.remove_prefix(std::min(line.size() + 1, text.size()));
-    const std::string_view words =
-        line.substr(std::min(line.find_first_not_of(kBlanks), line.size()));
-    const bool is_name = words.size() > kName.size() && words.starts_with(kName) &&
-                         kBlanks.find(words[kName.size()]) != std::string_view::npos;
-    if (is_name) {
-      library.text += fmt::format("newmtl {}\nKd 0.6 0.6 0.6\n", library.names.size());
-      library.names.emplace_back(material_name(words.substr(kName.size())));
-    } else if (!has_long_exponent(line)) {
-      library.text += line;
-      library.text += '\n';
-    }
-  }
-  return library;
-}
 
 float in_range(float part) { return part >= 0.0F ? std::min(part, 1.0F) : 0.0F; }
 
-Surface surface_of(const tinyobj::material_t& material) {
+Surface surface_of(const Material& material) {
   Surface surface = clay();
-  for (int i = 0; i < 3; ++i) surface.color[i] = in_range(material.diffuse[i]);
+  for (int i = 0; i < 3; ++i) surface.color[i] = in_range(material.color[i]);
   const bool black = surface.color == glm::vec3(0.0F);
-  if (black && !material.diffuse_texname.empty()) surface.color = glm::vec3(0.5F);
-  surface.transmittance = 1.0F - in_range(material.dissolve);
+  if (black && material.has_texture) surface.color = glm::vec3(0.5F);
+  const float opacity =
+      material.dissolve ? *material.dissolve : 1.0F - material.transparency.value_or(0.0F);
+  surface.transmittance = 1.0F - in_range(opacity);
   return surface;
 }
 
-void add_library(std::string_view text, std::map<std::string, Surface>& surfaces) {
-  const MaterialLibrary library = readable(text);
-  std::istringstream stream(library.text);
-  std::map<std::string, int> indices;
-  std::vector<tinyobj::material_t> materials;
-  std::string warning;
-  std::string error;
-  tinyobj::LoadMtl(&indices, &materials, &stream, &warning, &error);
-  for (std::size_t i = 0; i < library.names.size(); ++i) {
-    const auto found = indices.find(fmt::to_string(i));
-    if (found == indices.end() || library.names[i].empty()) continue;
-    surfaces.emplace(library.names[i],
-                     surface_of(materials[static_cast<std::size_t>(found->second)]));
+/// Returns the numbers of a line; nothing when a word is not a finite number, or there is none.
+std::optional<std::vector<float>> numbers_of(std::string_view rest) {
+  rest = rest.substr(0, rest.find('#'));
+  std::vector<float> numbers;
+  for (auto word = take_word(rest); !word.empty(); word = take_word(rest)) {
+    numbers.push_back(decimal_number<float>(word));
+    if (!std::isfinite(numbers.back())) return std::nullopt;
   }
+  if (numbers.empty()) return std::nullopt;
+  return numbers;
 }
 
-/// The files that a line names: one whose name may have blanks, or else several.
-std::vector<std::string> files_of(const std::string& line, const MeshCompanions& companions) {
-  const std::string whole(material_name(line));
-  if (whole.find_first_of(kBlanks) == std::string::npos || companions.has(whole)) return {whole};
-  std::istringstream words(whole);
+/// Reads `Kd r g b`, or `Kd r` for a gray. Returns false when it is not understood.
+bool read_color(std::string_view rest, glm::vec3& color) {
+  const auto numbers = numbers_of(rest);
+  if (!numbers || numbers->size() == 2) return false;
+  const std::size_t step = numbers->size() == 1 ? 0 : 1;
+  color = {numbers->at(0), numbers->at(step), numbers->at(2 * step)};
+  return true;
+}
+
+/// Reads one number, after `-halo` or not. Returns false when it is not understood.
+bool read_factor(std::string_view rest, std::optional<float>& factor) {
+  std::string_view after = rest;
+  const auto numbers = numbers_of(take_word(after) == "-halo" ? after : rest);
+  if (!numbers) return false;
+  factor = numbers->front();
+  return true;
+}
+
+/// Reads a line of the material. Returns false when it is not understood.
+bool read_property(std::string_view word, std::string_view rest, Material& material) {
+  if (word == "Kd") return read_color(rest, material.color);
+  if (word == "d") return read_factor(rest, material.dissolve);
+  if (word == "Tr") return read_factor(rest, material.transparency);
+  if (word == "map_Kd") material.has_texture = !trimmed(rest).empty();
+  return true;
+}
+
+/// Adds the surface, unless an earlier material has the name.
+void add_material(const Material& material, std::map<std::string, Surface>& surfaces) {
+  const Surface surface = surface_of(material);
+  surfaces.emplace(material.name, surface);
+  surfaces.emplace(without_comment(material.name), surface);
+}
+
+UnknownLines add_library(std::string_view text, std::map<std::string, Surface>& surfaces) {
+  UnknownLines unknown;
+  std::optional<Material> material;  // what precedes the first has no name
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    std::string_view line = take_line(text);
+    const std::string_view word = take_word(line);
+    if (word == "newmtl") {
+      if (material) add_material(*material, surfaces);
+      material.reset();
+      const std::string_view name = trimmed(line);
+      if (!name.empty()) material = Material{.name = std::string(name)};
+      if (name.empty()) unknown.add(number, word);
+    } else if (material && !read_property(word, line, *material)) {
+      unknown.add(number, word);
+    }
+  }
+  if (material) add_material(*material, surfaces);
+  return unknown;
+}
+
+bool has_blank(std::string_view name) {
+  return name.find_first_of(" \t") != std::string_view::npos;
+}
+
+/// Returns the files that a line names: one whose name may have blanks, or else several.
+std::vector<std::string> files_of(std::string_view line, MeshCompanions& companions) {
+  if (!has_blank(line) || companions.has(line)) return {std::string(line)};
+  line = without_comment(line);
+  if (companions.has(line)) return {std::string(line)};
   std::vector<std::string> files;
-  for (std::string word; words >> word;) files.push_back(word);
+  for (auto word = take_word(line); !word.empty(); word = take_word(line)) files.emplace_back(word);
   return files;
 }
 
 }  // namespace
-
-std::string_view material_name(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
 
 std::map<std::string, Surface> obj_surfaces(const std::vector<std::string>& libraries,
                                             MeshCompanions& companions,
@@ -98,7 +128,8 @@ std::map<std::string, Surface> obj_surfaces(const std::vector<std::string>& libr
   for (const std::string& line : libraries) {
     for (const std::string& file : files_of(line, companions)) {
       try {
-        add_library(companions.read(file), surfaces);
+        const UnknownLines unknown = add_library(plain_text(companions.read(file)), surfaces);
+        if (!unknown.empty()) warnings.push_back(fmt::format("{}: {}", file, unknown.message()));
       } catch (const InputError& error) {
         warnings.push_back(fmt::format("its materials were left out: {}", error.what()));
       }

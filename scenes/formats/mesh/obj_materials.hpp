@@ -3,7 +3,6 @@
 
 #include <map>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "scenes/formats/mesh/mesh_companions.hpp"
@@ -11,14 +10,13 @@
 
 namespace beambench::scenes::mesh {
 
-/// Surfaces by the names of their materials. Reads the libraries that `mtllib` lines name, each
-/// one file or several; one that cannot be read, or is not in the mesh's folder, is a warning.
-/// Colors are the diffuse ones, textures are not read: a black material with one is a mean gray.
+/// Returns surfaces by the names of their materials, and by what precedes a comment in a name.
+/// Reads the libraries that `mtllib` lines name, each one file or several. A library that cannot be
+/// read, or is not in the mesh's folder, is a warning, and so are lines of `newmtl`, `Kd`, `d` and
+/// `Tr` that are not understood; all others have no part in a surface. Colors are the diffuse ones.
+/// Textures are not read: a black material with one is a mean gray.
 std::map<std::string, Surface> obj_surfaces(const std::vector<std::string>& libraries,
                                             MeshCompanions& companions,
                                             std::vector<std::string>& warnings);
-
-/// A name of a material without blanks at its ends, as it is a key of `obj_surfaces`.
-std::string_view material_name(std::string_view text);
 
 }  // namespace beambench::scenes::mesh

@@ -1,11 +1,10 @@
 #include "scenes/formats/nff/nff_tokens.hpp"
 
-#include <charconv>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
+#include "scenes/core/decimal.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/printable.hpp"
 #include "scenes/scene_builder.hpp"
@@ -14,31 +13,10 @@ namespace beambench::scenes::nff {
 namespace {
 
 bool is_blank(char c) {
-  return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\f' || c == '\v' || c == '\0';
+  return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
 }
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-/// Whether a decimal number that no float or double can hold is too small for them, not too large.
-bool too_small(std::string_view word) {
-  const std::size_t exponent = word.find_first_of("eE");
-  if (exponent != std::string_view::npos) return word.substr(exponent + 1).starts_with('-');
-  const std::size_t first = word.find_first_not_of("-0");
-  return first != std::string_view::npos && word[first] == '.';
-}
-
-/// The number that the whole word is, rounded once, or NaN.
-template <typename Number>
-Number parse(std::string_view word) {
-  constexpr Number kNone = std::numeric_limits<Number>::quiet_NaN();
-  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
-  const char* end = word.data() + word.size();
-  Number number = kNone;
-  const auto [rest, error] = std::from_chars(word.data(), end, number);
-  if (rest != end) return kNone;
-  if (error == std::errc::result_out_of_range) return too_small(word) ? Number{0} : kNone;
-  return error == std::errc() ? number : kNone;
-}
 
 }  // namespace
 
@@ -53,11 +31,11 @@ void NffTokens::advance() {
   for (; position_ != end_; ++position_) {
     if (starts_line && at_own_comment()) position_ += kOwnComment.size();
     if (*position_ == '#') {
-      while (position_ != end_ && *position_ != '\n') ++position_;
+      while (position_ != end_ && !at_line_end()) ++position_;
       if (position_ == end_) break;
     }
     if (!is_blank(*position_)) break;
-    if (*position_ == '\n') {
+    if (at_line_end()) {
       ++token_.line;
       starts_line = true;
     }
@@ -66,6 +44,11 @@ void NffTokens::advance() {
   while (position_ != end_ && !is_blank(*position_) && *position_ != '#') ++position_;
   token_.text = std::string_view(start, static_cast<std::size_t>(position_ - start));
   token_.starts_line = starts_line;
+}
+
+bool NffTokens::at_line_end() const {
+  if (*position_ == '\n') return true;
+  return *position_ == '\r' && (position_ + 1 == end_ || position_[1] != '\n');
 }
 
 bool NffTokens::at_own_comment() const {
@@ -96,7 +79,7 @@ std::size_t NffTokens::max_numbers_left() const {
 template <typename Number>
 Number NffTokens::take_number(std::string_view what) {
   if (at_end()) refuse(token_.line, fmt::format("the file ends where {} should stand", what));
-  const auto number = parse<Number>(token_.text);
+  const auto number = decimal_number<Number>(token_.text);
   if (!(std::abs(number) <= static_cast<Number>(kLargestNumber))) {
     refuse(token_.line, fmt::format("'{}' stands where {} should be a number from -1e9 to 1e9",
                                     excerpt(token_.text), what));
@@ -129,7 +112,7 @@ std::string_view NffTokens::rest_of_line(const NffToken& word, std::string_view 
     refuse(word.line, fmt::format("{} should stand after '{}' on its line", what, word.text));
   }
   const char* start = token_.text.data();
-  while (position_ != end_ && *position_ != '\n' && *position_ != '#') ++position_;
+  while (position_ != end_ && !at_line_end() && *position_ != '#') ++position_;
   std::string_view rest(start, static_cast<std::size_t>(position_ - start));
   while (is_blank(rest.back())) rest.remove_suffix(1);
   advance();

@@ -21,7 +21,7 @@ struct NffToken {
 };
 
 /// Iterates over the tokens of an NFF text: whatever stands between blanks, comments (`#` to the
-/// end of the line) left out, but for `kOwnComment`.
+/// end of the line) left out, but for `kOwnComment`. Lines end with "\n", "\r\n" or "\r".
 class NffTokens {
  public:
   /// The text must outlive this object; `file` is used in messages.
@@ -36,8 +36,8 @@ class NffTokens {
   std::size_t max_numbers_left() const;
 
   NffToken take();
-  /// Takes a number, rounded once (by way of double, 7.038531e-26 would become another float);
-  /// `what` names it in messages. Refuses what is not a number from -1e9 to 1e9.
+  /// Takes a number, rounded once; `what` names it in messages. Refuses what is not a number from
+  /// -1e9 to 1e9.
   float number(std::string_view what);
   glm::vec3 triple(std::string_view what);
   /// Takes a number that must be an integer.
@@ -53,6 +53,7 @@ class NffTokens {
 
  private:
   void advance();
+  bool at_line_end() const;  // the last character of one
   bool at_own_comment() const;
   template <typename Number>
   Number take_number(std::string_view what);

@@ -1,0 +1,52 @@
+#pragma once
+// The statements of an OBJ file: appendix B1, "Object Files (.obj)", of the manual of Wavefront's
+// Advanced Visualizer (paulbourke.net/dataformats/obj).
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace beambench::scenes::mesh {
+
+/// What a statement is about.
+enum class ObjKind {
+  kNothing,  ///< an empty line or a comment
+  kVertex,
+  kFace,
+  kPointOrLine,
+  kFreeForm,   ///< a curve or surface
+  kLibrary,    ///< names a material library
+  kMaterial,   ///< names the material of the faces that follow
+  kName,       ///< something else that has a name
+  kAttribute,  ///< numbers or switches that change no face
+  kUnknown,
+};
+
+struct ObjStatement {
+  ObjKind kind = ObjKind::kNothing;
+  std::size_t line = 0;   ///< where it begins, from 1
+  std::string_view word;  ///< its first one
+  std::string_view rest;  ///< what follows it, until the next call of `next`
+};
+
+/// Iterates over the statements of an OBJ text, one a line. Where numbers follow, a backslash at
+/// the end of a line continues the statement on the next one, as in all examples of the manual, and
+/// a '#' begins a comment. Names and comments have any characters.
+class ObjStatements {
+ public:
+  /// The text must outlive this object.
+  explicit ObjStatements(std::string_view text) : text_(text) {}
+
+  /// Returns the next statement; nothing at the end of the text.
+  std::optional<ObjStatement> next();
+
+ private:
+  std::string_view numbers_from(std::string_view line);
+
+  std::string_view text_;
+  std::size_t line_ = 0;  // how many were taken
+  std::string joined_;    // the last statement of several lines
+};
+
+}  // namespace beambench::scenes::mesh
