@@ -83,6 +83,9 @@ std::string glb(const GltfFile& file) {
   pad(content, '\0');
   Json json = file.json;
   json["buffers"] = Json::array({{{"byteLength", content.size()}}});
+  for (const Json& more : file.json.value("buffers", Json::array())) {
+    json["buffers"].push_back(more);
+  }
   std::string text = json.dump();
   pad(text, ' ');
   const std::string chunks = chunk("JSON", text) + chunk("BIN\0", content);

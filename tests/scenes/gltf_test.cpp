@@ -509,6 +509,58 @@ TEST_F(Gltf, BuffersAreReadFromItsFolderAlone) {
   EXPECT_TRUE(says(thrown_message([&] { load("short.bin"); }), {"a.gltf", "size mismatch"}));
 }
 
+TEST_F(Gltf, NamesOfBuffersAreDecodedOrLiteral) {
+  const GltfFile file = gltf_triangle();
+  struct Case {
+    const char* uri;
+    const char* name;
+  };
+  for (const Case& named :
+       {Case{"a+b.bin", "a+b.bin"}, Case{"example 10%.bin", "example 10%.bin"},
+        Case{"50%25.bin", "50%.bin"}, Case{"50%2b.bin", "50+.bin"}, Case{"a%20b.bin", "a b.bin"},
+        Case{"a%zz.bin", "a%zz.bin"}, Case{"a%2", "a%2"}, Case{"%2-%+4.bin", "%2-%+4.bin"},
+        Case{"lit%20eral.bin", "lit%20eral.bin"}, Case{"\xC3\xA9.bin", "\xC3\xA9.bin"},
+        Case{"%C3%A8.bin", "\xC3\xA8.bin"}}) {
+    folder_.write(named.name, file.buffer);
+    EXPECT_EQ(read(gltf(file, named.uri)).mesh.triangles.size(), 1U) << named.uri;
+  }
+  GltfFile other = file;
+  other.buffer.back() = '\x01';
+  folder_.write("lit eral.bin", other.buffer);
+  EXPECT_NE(read(gltf(file, "lit%20eral.bin")).mesh.vertices,
+            read(gltf(file, "a%20b.bin")).mesh.vertices)
+      << "the decoded name comes first";
+}
+
+TEST_F(Gltf, EachOfSeveralBuffersHasItsOwnName) {
+  GltfFile file = gltf_triangle();
+  const std::string unused(8, '\0');
+  const Json parsed = Json::parse(gltf(file, "the + one.bin"));
+  Json json = parsed;
+  json["buffers"].push_back(
+      {{"byteLength", 8}, {"uri", "data:application/octet-stream;base64,AAAAAAAAAAA="}});
+  json["buffers"].push_back({{"byteLength", 8}, {"uri", "other%.bin"}});
+  folder_.write("the + one.bin", file.buffer);
+  folder_.write("other%.bin", unused);
+  EXPECT_EQ(read(json.dump()).mesh.triangles.size(), 1U);
+  json["buffers"][2]["uri"] = "none%.bin";
+  EXPECT_TRUE(says(thrown_message([&] { read(json.dump()); }), {"none%.bin", "No such file"}));
+  GltfFile binary = gltf_triangle();
+  binary.json["buffers"].push_back({{"byteLength", 8}, {"uri", "other%.bin"}});
+  EXPECT_EQ(read(binary).mesh.triangles.size(), 1U) << "in a .glb file, too";
+}
+
+TEST_F(Gltf, IsReadAgainWhenTheDecodedNameOfABufferAppears) {
+  GltfFile file = gltf_triangle();
+  const std::string path = folder_.write("a.gltf", gltf(file, "b%20c.bin")).string();
+  folder_.write("b%20c.bin", file.buffer);
+  const std::uint64_t first = scene_hash(load_scene(path));
+  EXPECT_EQ(scene_hash(load_scene(path)), first);
+  file.buffer.back() = '\x01';
+  folder_.write("b c.bin", file.buffer);
+  EXPECT_NE(scene_hash(load_scene(path)), first);
+}
+
 TEST_F(Gltf, IsReadAgainWhenABufferChanges) {
   GltfFile file = gltf_triangle();
   const std::string path = folder_.write("a.gltf", gltf(file, "b.bin")).string();

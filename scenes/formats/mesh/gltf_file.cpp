@@ -8,13 +8,16 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstdint>
+#include <cstring>
 #include <exception>
 #include <limits>
 #include <new>
 #include <optional>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "scenes/core/error.hpp"
 #include "scenes/formats/mesh/mesh_file.hpp"
@@ -52,16 +55,73 @@ std::string one_line(std::string text) {
   return text.empty() ? "no reason is known" : text;
 }
 
-/// What tinygltf reads files with: the companions, and why one of them was refused.
+/// Returns the JSON text of a .gltf or .glb file whose header tinygltf has accepted.
+std::string_view json_text_of(std::string_view bytes) {
+  constexpr std::size_t kLengthAt = 12;  // glTF 2.0, 4.4: after magic, version and length
+  constexpr std::size_t kTextAt = 20;    // after the chunk's type
+  if (!bytes.starts_with("glTF")) return bytes;
+  std::uint32_t length = 0;
+  std::memcpy(&length, bytes.data() + kLengthAt, sizeof(length));
+  return bytes.substr(kTextAt, length);
+}
+
+/// Returns the URIs of the buffers that are files, in the order in which tinygltf reads them.
+std::vector<std::string> uris_of_buffer_files(std::string_view bytes) {
+  using Json = nlohmann::json;
+  const auto keep = [](int depth, Json::parse_event_t event, const Json& parsed) {
+    return depth != 1 || event != Json::parse_event_t::key || parsed == "buffers";
+  };
+  const Json json = Json::parse(json_text_of(bytes), keep);
+  std::vector<std::string> uris;
+  for (const Json& buffer : json.value("buffers", Json::array())) {
+    if (!buffer.is_object() || !buffer.contains("uri") || !buffer["uri"].is_string()) continue;
+    auto uri = buffer["uri"].get<std::string>();
+    if (!uri.empty() && !tinygltf::IsDataURI(uri)) uris.push_back(std::move(uri));
+  }
+  return uris;
+}
+
+/// Returns the text with each `%HH` as the byte that it stands for (RFC 3986, 2.1).
+std::string percent_decoded(std::string_view text) {
+  std::string decoded;
+  for (; !text.empty(); text.remove_prefix(1)) {
+    std::uint8_t byte = 0;
+    const char* const digits = text.data() + 1;
+    if (text[0] == '%' && text.size() > 2 &&
+        std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2) {
+      decoded += static_cast<char>(byte);
+      text.remove_prefix(2);
+    } else {
+      decoded += text[0];
+    }
+  }
+  return decoded;
+}
+
+/// The state of the callbacks with which tinygltf reads files: the file itself, its companions, how
+/// many buffers it has read, and why one of them was refused.
 struct Buffers {
+  std::string_view file;
   MeshCompanions* companions;
-  std::optional<std::string> refusal;
+  std::vector<std::string> uris{};
+  std::size_t read = 0;
+  std::optional<std::string> refusal{};
+
+  /// Returns the name of the next buffer's file. tinygltf says it, too, but with blanks for '+' and
+  /// bytes for what follows any '%'. Some exporters write a name as it is: Blender its '%'.
+  std::string next_name() {
+    if (read == 0) uris = uris_of_buffer_files(file);
+    const std::string& uri = uris.at(read++);
+    std::string decoded = percent_decoded(uri);
+    return !companions->has(decoded) && companions->has(uri) ? uri : decoded;
+  }
 };
 
-bool read_buffer(std::vector<unsigned char>* bytes, std::string* error, const std::string& name,
+bool read_buffer(std::vector<unsigned char>* bytes, std::string* error, const std::string&,
                  void* user) {
   Buffers& buffers = *static_cast<Buffers*>(user);
   try {
+    const std::string name = buffers.next_name();
     const std::string_view read = buffers.companions->read(name);
     bytes->assign(read.begin(), read.end());
     buffers.companions->release(name);
@@ -120,7 +180,7 @@ tinygltf::Model read_gltf(std::string_view bytes, MeshCompanions& companions) {
   constexpr std::uint64_t kLargest = std::numeric_limits<std::uint32_t>::max();
   if (bytes.size() > kLargest)
     throw InputError("it holds more than 4 GiB, which glTF cannot; split it");
-  Buffers buffers{&companions, {}};
+  Buffers buffers{bytes, &companions};
   tinygltf::FsCallbacks files = callbacks(buffers);
   add_size_callback(files);
   tinygltf::TinyGLTF reader;
