@@ -52,6 +52,15 @@ const SceneFormat* find_format(std::string_view spec) {
   return found == formats.end() ? nullptr : &*found;
 }
 
+/// Every structure agrees on a scene without primitives, so that a comparison says nothing: of a
+/// file, the first remark says what became of those that were meant.
+void require_primitives(const Scene& scene, const std::vector<std::string>& noticed) {
+  if (!scene.primitives.empty()) return;
+  throw InputError(
+      fmt::format("{}: the scene has no primitives{}; give it at least one sphere, cone or polygon",
+                  scene.name, noticed.empty() ? "" : fmt::format(" ({})", noticed.front())));
+}
+
 [[noreturn]] void refuse_name(const std::string& name) {
   std::vector<std::string> names;
   for (const SceneInfo& info : scene_catalogue()) names.push_back(info.name);
@@ -99,6 +108,7 @@ Scene load_scene(std::string_view spec, std::vector<std::string>* warnings, Read
     std::vector<std::string> noticed;
     Scene scene = format->read(spec, options, noticed);
     scene.name = name_of_path(spec);
+    require_primitives(scene, noticed);
     if (warnings != nullptr)
       std::ranges::transform(noticed, std::back_inserter(*warnings), message_line);
     return scene;
@@ -109,6 +119,7 @@ Scene load_scene(std::string_view spec, std::vector<std::string>* warnings, Read
   Scene scene = info.generate(parameters);
   parameters.require_given_were_read();
   if (!info.origin.empty()) scene.name = parameters.label();  // records and replays rely on it
+  require_primitives(scene, {});
   return scene;
 }
 

@@ -88,8 +88,8 @@ bool is_scene_file(std::string_view spec);
 /// scene_readers()) or an NFF file (anything else with a slash, or the ending .nff). `Scene::name`
 /// is the canonical label of a catalogue's scene, the text as `name_of_path` shows it of all
 /// others. Throws InputError: unknown name (with the nearest and all valid ones), parameter out of
-/// range, file missing or malformed. What a file's reader skipped or repaired is appended to
-/// `warnings` when given, a printable line each; the options are for files.
+/// range, file missing or malformed, a scene without primitives. What a file's reader skipped or
+/// repaired is appended to `warnings` when given, a printable line each; the options are for files.
 Scene load_scene(std::string_view spec, std::vector<std::string>* warnings = nullptr,
                  ReadOptions options = {});
 

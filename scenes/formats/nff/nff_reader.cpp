@@ -128,7 +128,7 @@ class NffReader {
     std::string_view word;
     void (NffReader::*read)();
   };
-  static const std::array<Command, 8> kCommands;
+  static const std::array<Command, 9> kCommands;
   std::optional<Command> next_command() const;
   std::optional<Command> dialect_command() const;
   void skip_unknown();
@@ -137,6 +137,8 @@ class NffReader {
   void read_view();
   void read_background();
   void read_light();
+  void read_light_of_a_dialect();
+  void read_animated_light();
   void read_area_light();
   void read_surface();
   void read_finish();
@@ -169,7 +171,6 @@ class NffReader {
     });
   }
   void skip_degenerate(const std::string& why);
-  void require_remains() const;
 
   NffTokens tokens_;
   SceneBuilder builder_;
@@ -178,18 +179,16 @@ class NffReader {
   NffToken command_;          // the one being read
   bool any_command_ = false;  // what precedes the first command may be the header of an e-mail
   std::size_t view_count_ = 0;
-  std::size_t degenerate_count_ = 0;
-  std::size_t first_degenerate_line_ = 0;
-  std::string first_degenerate_;
 };
 
-const std::array<NffReader::Command, 8> NffReader::kCommands = {{
+const std::array<NffReader::Command, 9> NffReader::kCommands = {{
     {"p", &NffReader::read_polygon},
     {"pp", &NffReader::read_smooth_polygon},
     {"s", &NffReader::read_sphere},
     {"c", &NffReader::read_cone},
     {"f", &NffReader::read_surface},
     {"l", &NffReader::read_light},
+    {"la", &NffReader::read_light_of_a_dialect},
     {"b", &NffReader::read_background},
     {"v", &NffReader::read_view},
 }};
@@ -214,7 +213,6 @@ NffResult NffReader::read() && {
   if (!any_command_) {
     tokens_.refuse(1, "there is no NFF command (v, b, l, f, s, c, p or pp) in the file");
   }
-  require_remains();
   return {std::move(builder_).build(), notes_.messages()};
 }
 
@@ -228,25 +226,19 @@ std::optional<NffReader::Command> NffReader::next_command() const {
   return dialect_command();
 }
 
-/// Words of other programs whose meaning is known, where they have as many numbers as there; cut
-/// off by the end of the file, they have fewer.
-/// - `fp`: the fields of `f`, of surfaces that are shaded by Phong where those of `f` are flat
-///   (github.com/mfandre/raytracer, Scene.cc);
-/// - `la`: a rectangular light's corner, two edges and, if any, color (of a path tracer,
-///   `do_area_light` in its nff2scene, and its exporter from Blender, `WriteAreaLamp`).
+/// `fp` has the fields of `f`, of surfaces that are shaded by Phong where those of `f` are flat
+/// (github.com/mfandre/raytracer, Scene.cc). It is read where it has as many numbers as there; cut
+/// off by the end of the file, it has fewer.
 std::optional<NffReader::Command> NffReader::dialect_command() const {
+  constexpr std::size_t kFields = 8;
   const std::string_view word = tokens_.peek().text;
-  if (word != "fp" && word != "la") return std::nullopt;
+  if (word != "fp") return std::nullopt;
   NffTokens ahead = tokens_;
   ahead.take();
   std::size_t numbers = 0;
   for (; ahead.at_number(); ++numbers) ahead.take();
-  const auto has = [&](std::size_t all) {
-    return numbers == all || (numbers < all && ahead.at_end());
-  };
-  if (word == "fp" && has(8)) return Command{word, &NffReader::read_surface};
-  if (word == "la" && (numbers == 9 || has(12))) return Command{word, &NffReader::read_area_light};
-  return std::nullopt;
+  if (numbers != kFields && !(numbers < kFields && ahead.at_end())) return std::nullopt;
+  return Command{word, &NffReader::read_surface};
 }
 
 void NffReader::skip_unknown() {
@@ -275,20 +267,8 @@ void NffReader::skip_degenerate(const std::string& why) {
   if (options_.strict) {
     throw InputError(why + "; correct the file, or read it without --strict");
   }
-  if (degenerate_count_++ == 0) {
-    first_degenerate_line_ = command_.line;
-    first_degenerate_ = why;
-  }
   notes_.add("degenerate",
              tokens_.located(command_.line, "a degenerate primitive is skipped: " + why));
-}
-
-/// A file from which everything was skipped is no scene.
-void NffReader::require_remains() const {
-  if (degenerate_count_ == 0 || builder_.primitive_count() > 0) return;
-  tokens_.refuse(first_degenerate_line_,
-                 fmt::format("{}; no primitive remains of the file, {} degenerate ones are skipped",
-                             first_degenerate_, degenerate_count_));
 }
 
 void NffReader::read_view() {
@@ -310,6 +290,35 @@ void NffReader::read_light() {
   glm::dvec3 color(1.0);
   if (tokens_.at_number()) color = tokens_.triple("the light's color");
   add([&] { builder_.add_light(position, color); });
+}
+
+/// `la` is a word of two dialects:
+/// - before a name, which is not a number here, the position and, if any, the color of a light that
+///   moves (AFF, the format of Lext, Assarsson and Moeller, "BART: A Benchmark for Animated Ray
+///   Tracing", 2001; `parseLight` in its parse.c);
+/// - before numbers, the corner, two edges and, if any, the color of a rectangular light (of a path
+///   tracer, `do_area_light` in its nff2scene, and its exporter from Blender, `WriteAreaLamp`).
+void NffReader::read_light_of_a_dialect() {
+  NffTokens ahead = tokens_;
+  std::size_t numbers = 0;
+  for (; ahead.at_number(); ++numbers) ahead.take();
+  if (numbers == 0 && tokens_.peek().line == command_.line) return read_animated_light();
+  if (numbers != 9 && numbers != 12) {
+    tokens_.refuse(
+        command_.line,
+        fmt::format("'la' has {} numbers, but a rectangular light has a corner, two edges and, if "
+                    "any, a color (9 or 12 numbers), and a light that moves has a name, then a "
+                    "position and, if any, a color; make it 'l' and a position, or remove it",
+                    numbers));
+  }
+  read_area_light();
+}
+
+/// Nothing moves here, so it stays where it begins.
+void NffReader::read_animated_light() {
+  tokens_.take();  // its name
+  note(command_.line, "an animated light is read as one that does not move");
+  read_light();
 }
 
 /// Our lights are points. The rectangle of an area light shines to the side of the normal

@@ -21,9 +21,9 @@ struct NffResult {
 /// Parses NFF text (Haines, "A Proposal for Standard Graphics Environments", 1987, with the words
 /// that the thesis adds; quirks of files in the wild are listed in scenes/README.md). `file` is
 /// used in messages and as the scene's name. Throws InputError with file, line and word when the
-/// text is malformed or truncated, when a number is not finite or beyond 1e9, when only degenerate
-/// primitives are in it, for Sense8 WTK files (first word `nff`), and for what the options do not
-/// allow.
+/// text is malformed or truncated, when a number is not finite or beyond 1e9, when no command is in
+/// it, for Sense8 WTK files (first word `nff`), and for what the options do not allow. A text
+/// without primitives gives a scene without them, which `load_scene` refuses.
 NffResult parse_nff(std::string_view text, const std::string& file, ReadOptions options = {});
 
 /// Reads and parses a file; throws InputError also when it cannot be read whole (`read_input`),
