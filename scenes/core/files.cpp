@@ -364,11 +364,7 @@ std::string read_input(const fs::path& path, std::uint64_t max_bytes) {
 
 std::string read_text_input(const fs::path& path, std::uint64_t max_bytes) {
   std::string text = read_input(path, max_bytes);
-  try {
-    text.erase(0, text.size() - plain_text(text).size());
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", path.string(), error.what()));
-  }
+  text.erase(0, text.size() - plain_text(text, path.string()).size());
   return text;
 }
 

@@ -6,8 +6,8 @@
 namespace beambench {
 
 /// Returns the text without the byte order mark of UTF-8 that some editors write before it. Throws
-/// InputError, without the file's name, when it is UTF-16: it begins with that byte order mark, or
-/// one of its first two bytes is 0.
-std::string_view plain_text(std::string_view bytes);
+/// InputError naming the file when it is UTF-16: it begins with that byte order mark, or one of its
+/// first two bytes is 0.
+std::string_view plain_text(std::string_view bytes, std::string_view file);
 
 }  // namespace beambench

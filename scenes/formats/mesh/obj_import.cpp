@@ -91,8 +91,9 @@ ImportedMesh import_text(std::string_view text, MeshCompanions& companions) {
 ImportedMesh import_obj(std::string_view bytes, const std::string&,
                         const std::filesystem::path& path) {
   MeshCompanions companions(path, bytes.size());
+  const std::string_view text = plain_text(bytes, path.string());
   try {
-    return import_text(plain_text(bytes), companions);
+    return import_text(text, companions);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", path.string(), error.what()));
   }

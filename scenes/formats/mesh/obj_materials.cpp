@@ -128,7 +128,8 @@ std::map<std::string, Surface> obj_surfaces(const std::vector<std::string>& libr
   for (const std::string& line : libraries) {
     for (const std::string& file : files_of(line, companions)) {
       try {
-        const UnknownLines unknown = add_library(plain_text(companions.read(file)), surfaces);
+        const std::string_view text = plain_text(companions.read(file), file);
+        const UnknownLines unknown = add_library(text, surfaces);
         if (!unknown.empty()) warnings.push_back(fmt::format("{}: {}", file, unknown.message()));
       } catch (const InputError& error) {
         warnings.push_back(fmt::format("its materials were left out: {}", error.what()));
