@@ -154,7 +154,6 @@ const aiScene& read_scene(Assimp::Importer& importer, const std::string& name,
 ImportedMesh import_by_assimp(std::string_view bytes, const std::string& ending,
                               const std::filesystem::path& path) {
   // Assimp learns the format from the name; a packed file's would say .gz.
-  if (ending == "ply") require_complete_ply(bytes, path);
   MeshCompanions companions(path, bytes.size());
   const std::string name = (companions.folder() / ("mesh." + ending)).string();
   Assimp::Importer importer;

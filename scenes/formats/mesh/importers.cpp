@@ -13,6 +13,9 @@ namespace {
 Importer importer_for(std::string_view ending) {
   if (ending == "glb" || ending == "gltf") return gltf_importer();
   if (ending == "obj") return obj_importer();
+  if (ending == "ply") return ply_importer();
+  if (ending == "off") return off_importer();
+  if (ending == "stl") return stl_importer();
   return assimp_importer();
 }
 
@@ -36,6 +39,15 @@ void refuse_missing_library(const std::filesystem::path& path, std::string_view 
       "{}: this build of beambench reads no meshes of this format, because {} was missing when it "
       "was built; install {}, configure afresh and build again (scripts/setup does both)",
       path.string(), library, package));
+}
+
+ImportedMesh with_file_name(const std::filesystem::path& path, std::string_view bytes,
+                            ImportedMesh (*read)(std::string_view)) {
+  try {
+    return read(bytes);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", path.string(), error.what()));
+  }
 }
 
 Surface clay() {

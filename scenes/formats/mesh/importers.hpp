@@ -1,5 +1,5 @@
 #pragma once
-// The three ways in which mesh files are read, and what they share.
+// The ways in which mesh files are read, and what they share.
 
 #include <cstddef>
 #include <filesystem>
@@ -14,8 +14,8 @@ namespace beambench::scenes::mesh {
 
 /// Reads files of some formats.
 struct Importer {
-  /// `library-version`; another one for whatever might read a file differently. Empty in a build
-  /// without the library.
+  /// `library-version`, or `format-version` of our own readers; another one for whatever might read
+  /// a file differently. Empty in a build without the library.
   std::string name;
   /// As `import_mesh`.
   ImportedMesh (*import)(std::string_view bytes, const std::string& ending,
@@ -26,6 +26,10 @@ struct Importer {
 Importer gltf_importer();
 /// OBJ with its material libraries, by a reader of our own.
 Importer obj_importer();
+/// PLY, OFF and STL, by readers of our own, which are in every build.
+Importer ply_importer();
+Importer off_importer();
+Importer stl_importer();
 /// All other formats, by Assimp.
 Importer assimp_importer();
 
@@ -33,6 +37,11 @@ Importer assimp_importer();
 /// Debian's.
 [[noreturn]] void refuse_missing_library(const std::filesystem::path& path,
                                          std::string_view library, std::string_view package);
+
+/// Returns what a reader of our own makes of the bytes of a file. Puts the file's name before its
+/// errors.
+ImportedMesh with_file_name(const std::filesystem::path& path, std::string_view bytes,
+                            ImportedMesh (*read)(std::string_view));
 
 /// Of a mesh without materials: unpainted clay.
 Surface clay();

@@ -13,7 +13,7 @@ namespace beambench::scenes::mesh {
 
 /// The importer that reads files of an ending, with what distinguishes its versions that might read
 /// one file differently (`tinygltf-1`); part of the key of the cache. Empty in a build without the
-/// library that it needs: tinygltf for glTF, Assimp for others than OBJ.
+/// library that it needs: tinygltf for glTF, none for OBJ, PLY, OFF and STL, Assimp for the others.
 std::string importer_of(std::string_view ending);
 
 /// Reads a mesh from the bytes of a file; `ending` says its format. Its polygons become triangles,
@@ -42,11 +42,5 @@ ImportLimits import_limits(std::string_view bytes, std::string_view ending);
 /// is exceeded.
 ImportedMesh guarded_import(std::string_view bytes, const std::string& ending,
                             const std::filesystem::path& path, const ImportLimits& limits);
-
-/// Throws InputError naming the file when its header declares more than follows: Assimp fills up
-/// what is missing with what it read last. So it does when a binary file has elements without
-/// properties, of which there could be any number. A header that is no PLY header is left to
-/// Assimp.
-void require_complete_ply(std::string_view bytes, const std::filesystem::path& path);
 
 }  // namespace beambench::scenes::mesh

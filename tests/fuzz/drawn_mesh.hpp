@@ -1,0 +1,199 @@
+#pragma once
+// Meshes that are drawn from the bytes of an input, their numbers as text, and the scene that each
+// must become. Nothing here calls a reader or what readers share.
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <glm/vec3.hpp>
+
+#include "scenes/scene.hpp"
+#include "scenes/scene_builder.hpp"
+#include "scenes/triangulate.hpp"
+#include "tests/fuzz/target.hpp"
+
+namespace beambench::fuzz {
+
+/// Draws numbers: from the bytes of an input, then at random, seeded with all of them, so that
+/// every input, however short, is a file of its own.
+class Draw {
+ public:
+  explicit Draw(std::string_view bytes) : bytes_(bytes), state_(0xcbf29ce484222325U) {
+    for (const char byte : bytes) {  // FNV-1a
+      state_ = (state_ ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
+    }
+  }
+
+  std::uint32_t bits() {
+    std::uint32_t result = 0;
+    for (int i = 0; i < 4; ++i) result = result << 8U | byte();
+    return result;
+  }
+  /// Less than `count`, which is at most 256.
+  std::size_t below(std::size_t count) { return byte() % count; }
+  bool once_in(std::size_t count) { return below(count) == 0; }
+  template <typename List>
+  const auto& of(const List& list) {
+    return list[below(std::size(list))];
+  }
+
+ private:
+  std::uint32_t byte() {
+    if (!bytes_.empty()) {
+      const auto first = static_cast<unsigned char>(bytes_.front());
+      bytes_.remove_prefix(1);
+      return first;
+    }
+    state_ += 0x9e3779b97f4a7c15U;  // splitmix64 (Steele, Lea and Flood 2014)
+    std::uint64_t mixed = (state_ ^ (state_ >> 30U)) * 0xbf58476d1ce4e5b9U;
+    mixed = (mixed ^ (mixed >> 27U)) * 0x94d049bb133111ebU;
+    return static_cast<std::uint32_t>((mixed ^ (mixed >> 31U)) & 0xffU);
+  }
+
+  std::string_view bytes_;
+  std::uint64_t state_;
+};
+
+/// A coordinate: the number that a file has, its text, and the float that it must become.
+struct DrawnNumber {
+  double value = 0.0;
+  std::string text;
+  float expected = 0.0F;
+};
+
+/// Returns a number as text, with all of its digits, of which a double has at most 767.
+inline std::string exact_text(double value) {
+  std::array<char, 1200> text{};
+  const int size = std::snprintf(text.data(), text.size(), "%.780e", value);
+  const std::string_view all(text.data(), static_cast<std::size_t>(size));
+  const std::string_view exponent = all.substr(all.find('e'));
+  const std::string_view digits = all.substr(0, all.find('e'));
+  return fmt::format("{}{}", digits.substr(0, digits.find_last_not_of('0') + 1), exponent);
+}
+
+/// A float from -1e9 to 1e9, often a small whole number.
+inline float drawn_float(Draw& draw) {
+  if (draw.once_in(2)) return static_cast<float>(draw.below(9)) - 4.0F;
+  constexpr std::uint32_t kLimit = 0x4e6e6b28;  // 1e9
+  const float size = std::bit_cast<float>(draw.bits() % kLimit);
+  return draw.once_in(2) ? size : -size;
+}
+
+/// A double around a float: it, another one near it, or the middle between it and the next.
+inline double drawn_double(Draw& draw) {
+  const float base = drawn_float(draw);
+  const double value = base;
+  const float toward = std::abs(base) < 1e8F ? base + std::abs(base) : 0.0F;
+  const double next = std::nextafterf(base, toward);
+  switch (draw.below(4)) {
+    case 0:
+      return value;
+    case 1:
+      return 0.5 * (value + next);
+    case 2:
+      return value + (next - value) * (draw.bits() * 0x1p-32);
+    default:
+      return std::nextafter(0.5 * (value + next), draw.once_in(2) ? -1e300 : 1e300);
+  }
+}
+
+/// Returns what a number becomes that lies beyond `value`, as seen from 0, by less than a double
+/// tells apart: where `value` is the middle between two floats, the one that is farther away.
+inline float rounded_beyond(double value) {
+  const auto nearest = static_cast<float>(value);
+  const double rest = value - static_cast<double>(nearest);
+  if (rest == 0.0 || std::signbit(rest) != std::signbit(value)) return nearest;
+  const float farther = std::nextafterf(nearest, std::copysign(INFINITY, nearest));
+  const bool is_middle = static_cast<double>(nearest) + static_cast<double>(farther) == 2.0 * value;
+  return is_middle ? farther : nearest;
+}
+
+/// A coordinate of a text that is read as a float.
+inline DrawnNumber drawn_decimal(Draw& draw) {
+  const double value = drawn_double(draw);
+  const auto nearest = static_cast<float>(value);
+  switch (draw.below(6)) {
+    case 0:
+      return {nearest, fmt::format("{}", nearest), nearest};
+    case 1:
+      return {nearest, fmt::format("{:.8e}", nearest), nearest};
+    case 2:
+      return {nearest, fmt::format("{:.17G}", nearest), nearest};
+    case 3:
+      return {value, exact_text(value), nearest};
+    case 4: {
+      std::string text = exact_text(value);
+      if (value == 0.0) return {value, text, nearest};  // what is beyond 0 has no sign
+      text.insert(text.find('e'), "00001");
+      return {value, text, rounded_beyond(value)};
+    }
+    default:
+      return {nearest, fmt::format("{}{}", std::signbit(nearest) ? "" : "+", exact_text(nearest)),
+              nearest};
+  }
+}
+
+using Corners = std::array<glm::vec3, 3>;
+
+/// Adds the triangles of a face, as the scene must have them.
+inline void expect_face(std::vector<Corners>& triangles, const std::vector<glm::vec3>& vertices,
+                        const std::vector<std::uint32_t>& face) {
+  std::vector<glm::vec3> places;
+  for (const std::uint32_t corner : face) places.push_back(vertices[corner] + 0.0F);
+  if (face.size() < 3) return;
+  for (const auto& [a, b, c] : scenes::triangulate(places)) {
+    if (scenes::has_area(places[a], places[b], places[c])) {
+      triangles.push_back({places[a], places[b], places[c]});
+    }
+  }
+}
+
+/// Faces of 0 to 5 corners of `vertices` vertices.
+inline std::vector<std::vector<std::uint32_t>> drawn_faces(Draw& draw, std::size_t vertices) {
+  std::vector<std::vector<std::uint32_t>> faces(draw.below(6));
+  for (auto& face : faces) {
+    face.resize(draw.once_in(3) ? draw.below(6) : 3);
+    for (std::uint32_t& corner : face) corner = static_cast<std::uint32_t>(draw.below(vertices));
+  }
+  return faces;
+}
+
+/// Throws std::logic_error, with the file, unless reading gives the scene of these triangles, or is
+/// refused where there are none. `read` returns a scene.
+template <class Read>
+void check_scene(const std::vector<Corners>& triangles, std::string_view file, Read&& read) {
+  const auto fail = [&](std::string_view how) {
+    throw std::logic_error(fmt::format("{}, of the file:\n{}", how, file));
+  };
+  std::optional<std::uint64_t> expected;
+  try {
+    scenes::SceneBuilder builder("expected");
+    for (const Corners& corners : triangles) {
+      const std::array<glm::dvec3, 3> places = {corners[0], corners[1], corners[2]};
+      builder.add_polygon(places);
+    }
+    if (!triangles.empty()) expected = scene_hash(std::move(builder).build());
+  } catch (const InputError&) {
+    return;  // too small for a scene
+  }
+  try {
+    const std::uint64_t hash = scene_hash(read());
+    if (!expected) fail("a scene of no triangle was read");
+    if (hash != *expected) fail("another scene was read");
+  } catch (const InputError& error) {
+    const bool is_empty = std::string_view(error.what()).find(" no ") != std::string_view::npos;
+    if (expected || !is_empty) fail(error.what());
+  }
+}
+
+}  // namespace beambench::fuzz
