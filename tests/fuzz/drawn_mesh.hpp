@@ -2,21 +2,24 @@
 // Meshes that are drawn from the bytes of an input, their numbers as text, and the scene that each
 // must become. Nothing here calls a reader or what readers share.
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <glm/vec3.hpp>
 
+#include "scenes/formats/mesh/mesh.hpp"
 #include "scenes/scene.hpp"
 #include "scenes/scene_builder.hpp"
 #include "scenes/triangulate.hpp"
@@ -73,12 +76,22 @@ struct DrawnNumber {
 
 /// Returns a number as text, with all of its digits, of which a double has at most 767.
 inline std::string exact_text(double value) {
-  std::array<char, 1200> text{};
-  const int size = std::snprintf(text.data(), text.size(), "%.780e", value);
-  const std::string_view all(text.data(), static_cast<std::size_t>(size));
-  const std::string_view exponent = all.substr(all.find('e'));
+  int exponent = 0;
+  const double mantissa = std::frexp(value, &exponent);
+  const auto whole = static_cast<std::int64_t>(std::ldexp(mantissa, 53));
+  // The number is a multiple of two to the power of `lowest`: as many digits are behind its point.
+  const int lowest =
+      exponent - 53 + (whole == 0 ? 53 : std::countr_zero(static_cast<std::uint64_t>(whole)));
+  constexpr int kBeforePoint = 10;
+  const int precision = std::clamp(-lowest, 0, 767) + kBeforePoint;
+  std::array<char, 800> text{};
+  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value,
+                                          std::chars_format::scientific, precision);
+  require(error == std::errc(), "a number has more digits than a double can have");
+  const std::string_view all(text.data(), static_cast<std::size_t>(end - text.data()));
   const std::string_view digits = all.substr(0, all.find('e'));
-  return fmt::format("{}{}", digits.substr(0, digits.find_last_not_of('0') + 1), exponent);
+  return fmt::format("{}{}", digits.substr(0, digits.find_last_not_of('0') + 1),
+                     all.substr(digits.size()));
 }
 
 /// A float from -1e9 to 1e9, often a small whole number.
@@ -134,7 +147,7 @@ inline DrawnNumber drawn_decimal(Draw& draw) {
     case 4: {
       std::string text = exact_text(value);
       if (value == 0.0) return {value, text, nearest};  // what is beyond 0 has no sign
-      text.insert(text.find('e'), "00001");
+      text.insert(text.find('e'), "00000000000000000000000000000000000000001");
       return {value, text, rounded_beyond(value)};
     }
     default:
@@ -168,31 +181,38 @@ inline std::vector<std::vector<std::uint32_t>> drawn_faces(Draw& draw, std::size
   return faces;
 }
 
-/// Throws std::logic_error, with the file, unless reading gives the scene of these triangles, or is
-/// refused where there are none. `read` returns a scene.
-template <class Read>
-void check_scene(const std::vector<Corners>& triangles, std::string_view file, Read&& read) {
-  const auto fail = [&](std::string_view how) {
-    throw std::logic_error(fmt::format("{}, of the file:\n{}", how, file));
-  };
-  std::optional<std::uint64_t> expected;
-  try {
-    scenes::SceneBuilder builder("expected");
+/// Returns the hash of a scene of these triangles; nothing where there is none, or where it is too
+/// small for a scene.
+inline std::optional<std::uint64_t> hash_of(const std::vector<Corners>& triangles) {
+  if (triangles.empty()) return std::nullopt;
+  return accepted([&] {
+    scenes::SceneBuilder builder("triangles");
     for (const Corners& corners : triangles) {
       const std::array<glm::dvec3, 3> places = {corners[0], corners[1], corners[2]};
       builder.add_polygon(places);
     }
-    if (!triangles.empty()) expected = scene_hash(std::move(builder).build());
-  } catch (const InputError&) {
-    return;  // too small for a scene
-  }
+    return scene_hash(std::move(builder).build());
+  });
+}
+
+/// Throws std::logic_error, with the file, unless reading gives the scene of these triangles, or is
+/// refused where there are none. `read` returns an imported mesh.
+template <class Read>
+void check_scene(const std::vector<Corners>& expected, std::string_view file, Read&& read) {
+  const auto fail = [&](std::string_view how) {
+    throw std::logic_error(fmt::format("{}, of the file:\n{}", how, file));
+  };
   try {
-    const std::uint64_t hash = scene_hash(read());
-    if (!expected) fail("a scene of no triangle was read");
-    if (hash != *expected) fail("another scene was read");
+    const scenes::mesh::TriangleMesh mesh = read().mesh;
+    std::vector<Corners> triangles;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      triangles.push_back({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
+    }
+    if (triangles.size() != expected.size()) fail("another number of triangles was read");
+    if (hash_of(triangles) != hash_of(expected)) fail("another scene was read");
   } catch (const InputError& error) {
     const bool is_empty = std::string_view(error.what()).find(" no ") != std::string_view::npos;
-    if (expected || !is_empty) fail(error.what());
+    if (!expected.empty() || !is_empty) fail(error.what());
   }
 }
 

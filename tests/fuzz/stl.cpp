@@ -127,6 +127,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   }
   Draw draw(bytes);
   const auto [file, triangles] = draw.once_in(2) ? drawn_binary(draw) : drawn_text(draw);
-  fuzz::check_scene(triangles, file, [&] { return mesh_scene(read(file).mesh, "input", {}); });
+  fuzz::check_scene(triangles, file, [&] { return read(file); });
   return 0;
 }
