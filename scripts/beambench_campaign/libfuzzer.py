@@ -16,10 +16,9 @@ from beambench_campaign.record import Record
 from beambench_report.base.files import ROOT, Problem
 
 SOURCES = ROOT / "tests/fuzz"
-_DICTIONARIES = {
-    **dict.fromkeys(("sweep", "cell", "manifest", "rays", "hits", "gltf", "mesh_entry"), "json"),
-    "assimp": "ply",
-}
+_DICTIONARIES = dict.fromkeys(
+    ("sweep", "cell", "manifest", "rays", "hits", "gltf", "mesh_entry"), "json"
+)
 """Of the targets whose dictionary has another name than they."""
 _LIMITS = ("-max_len=4096", "-timeout=20", "-rss_limit_mb=3000")
 _GO_ON = ("-fork=1", "-ignore_crashes=1", "-ignore_timeouts=1", "-ignore_ooms=1")

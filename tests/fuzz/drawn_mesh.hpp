@@ -120,8 +120,9 @@ inline double drawn_double(Draw& draw) {
   }
 }
 
-/// Returns what a number becomes that lies beyond `value`, as seen from 0, by less than a double
-/// tells apart: where `value` is the middle between two floats, the one that is farther away.
+/// Returns the float nearest to a number whose magnitude is greater than that of `value`, by far
+/// less than the distance between two doubles. Where `value` is the middle between two floats, that
+/// is the one of the greater magnitude.
 inline float rounded_beyond(double value) {
   const auto nearest = static_cast<float>(value);
   const double rest = value - static_cast<double>(nearest);

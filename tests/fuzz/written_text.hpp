@@ -11,7 +11,7 @@ namespace beambench::fuzz {
 
 inline constexpr std::array<std::string_view, 3> kLineEnds = {"\n", "\r\n", "\r"};
 
-/// What may stand between two words of a line.
+/// Draws the blanks between two words of a line.
 inline std::string_view drawn_blank(Draw& draw) {
   constexpr std::array<std::string_view, 4> kBlanks = {" ", "  ", "\t", " \t "};
   return draw.once_in(8) ? draw.of(kBlanks) : " ";

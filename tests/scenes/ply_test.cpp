@@ -442,7 +442,7 @@ TEST(Ply, CoordinatesAreTheNearestFloats) {
   }
 }
 
-/// By way of double, the decimal would become the even neighbor.
+/// A decimal that is rounded to double first becomes the even one of two floats.
 TEST(Ply, AFloatIsRoundedOnce) {
   const auto x = [](const std::string& text) {
     return triangles_of(imported(triangle_ply(text + " 0 0"), "ply"))[0][0].x;

@@ -46,10 +46,10 @@ struct PlyHeader {
   std::vector<PlyElement> elements;
 };
 
-/// Takes the header off the lines, of which the last one taken is `end_header`. Its names are parts
-/// of the text. Throws InputError, with the line, for what the rules above do not allow; so for an
-/// element or a property that is declared twice, and for rows without a property, of which a short
-/// file could declare any number.
+/// Takes the lines of the header, up to `end_header`. Its names are parts of the text. Throws
+/// InputError, with the line, for what the rules above do not allow; so for an element or a
+/// property that is declared twice, and for rows without a property, of which a short file could
+/// declare any number.
 PlyHeader take_ply_header(TextLines& lines);
 
 }  // namespace beambench::scenes::mesh
