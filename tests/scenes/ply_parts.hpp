@@ -1,0 +1,66 @@
+#pragma once
+// Parts of PLY files, with a tetrahedron in them.
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "tests/ply_file.hpp"
+
+namespace beambench::scenes::ply_parts {
+
+using tests::ply_file;
+using tests::PlyRow;
+
+/// The lines of the header for vertices.
+inline std::string vertices(std::size_t count, std::string_view type = "float") {
+  return fmt::format("element vertex {}\nproperty {} x\nproperty {} y\nproperty {} z\n", count,
+                     type, type, type);
+}
+
+/// The lines of the header for faces.
+inline std::string faces(std::size_t count, std::string_view types = "uchar int") {
+  return fmt::format("element face {}\nproperty list {} vertex_indices\n", count, types);
+}
+
+/// The corners of a tetrahedron (0,0,0), (1,0,0), (0,2,0), (0,0,3).
+inline std::vector<PlyRow> corners(std::string_view type = "float") {
+  return {{{type, 0}, {type, 0}, {type, 0}},
+          {{type, 1}, {type, 0}, {type, 0}},
+          {{type, 0}, {type, 2}, {type, 0}},
+          {{type, 0}, {type, 0}, {type, 3}}};
+}
+
+/// A row that is one list.
+inline PlyRow list(std::string_view length_type, std::string_view type,
+                   const std::vector<int>& numbers) {
+  PlyRow row = {{length_type, static_cast<double>(numbers.size())}};
+  for (const int number : numbers) row.push_back({type, static_cast<double>(number)});
+  return row;
+}
+
+inline const std::vector<std::vector<int>> kTetrahedronFaces = {
+    {0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+
+inline std::vector<PlyRow> tetrahedron_faces(std::string_view length_type = "uchar",
+                                             std::string_view type = "int") {
+  std::vector<PlyRow> rows;
+  for (const auto& face : kTetrahedronFaces) rows.push_back(list(length_type, type, face));
+  return rows;
+}
+
+/// Rows after each other.
+inline std::vector<PlyRow> operator+(std::vector<PlyRow> rows, const std::vector<PlyRow>& more) {
+  rows.insert(rows.end(), more.begin(), more.end());
+  return rows;
+}
+
+/// A text file of three vertices, the first of which is given, and a triangle.
+inline std::string triangle_ply(const std::string& first, const std::string& face = "3 0 1 2") {
+  return ply_file("ascii", vertices(3) + faces(1), {}) + first + "\n1 0 0\n0 1 0\n" + face + "\n";
+}
+
+}  // namespace beambench::scenes::ply_parts
