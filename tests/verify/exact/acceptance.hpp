@@ -98,12 +98,18 @@ class Acceptance {
     return within(solid_of(crossing), crossing.at.rounded());
   }
 
+  /// As `Crossing::is_across`. Within e of a cone's apex the cosine may be anything.
+  bool is_across(const Crossing& crossing, const Number& s, double e) const {
+    if (crossing.radius > e) return crossing.is_across(s, e);
+    return favors() || crossing.is_along(s, e / traced_.ray.speed);
+  }
+
   /// Whether the parameter and the crossing are at one place across the crossing's surface.
   bool is_one_place(const Crossing& crossing, const Number& s) const {
     const double there = within(crossing);
     const double here = within(solid_of(crossing), s.rounded());
     const double e = favors() ? std::max(there, here) : std::min(there, here);
-    return crossing.is_across(s, e) && crossing.is_along(s, 1024.0 * e / traced_.ray.speed);
+    return is_across(crossing, s, e) && crossing.is_along(s, 1024.0 * e / traced_.ray.speed);
   }
 
   bool touches_an_end(const Crossing& crossing) const {
@@ -124,7 +130,7 @@ class Acceptance {
     if (crossing.primitive != claim.primitive) return false;
     const double there = within(crossing);
     const double here = within(solid_of(crossing), s.rounded());
-    if (!crossing.is_across(s, favors() ? std::max(there, here) : std::min(there, here))) {
+    if (!is_across(crossing, s, favors() ? std::max(there, here) : std::min(there, here))) {
       return false;
     }
     return favors() || !crossing.curved || leaves(solid_of(crossing), s) == crossing.leaves;

@@ -2,6 +2,8 @@
 // Where the line of a ray crosses primitives.
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include "scenes/primitive.hpp"
@@ -18,6 +20,8 @@ struct Crossing {
   bool leaves;                  ///< the sphere or cone: the ray leaves it here
   Number slack, slack_of_root;  ///< of a curved surface, see `is_across`
   double stretch;               ///< of a polygon: the length of the normal
+  /// Of a cone at the crossing: at its apex, where it is 0, there is no normal.
+  double radius = std::numeric_limits<double>::infinity();
   scenes::PrimitiveId primitive = scenes::kNoPrimitive;
 
   /// Whether |s - at| |direction| |cos| <= within, the cosine being that of the angle between the
@@ -114,12 +118,15 @@ inline void add_cone_crossing(const Cone& cone, const ConeEquation& e, Root at, 
   if (sign_with_root(height - cone.length_2 * at.w, height_of_root, at.d) > 0) return;
   const Number slack = (e.radius * at.w + e.widening * at.p) * cone.length_2;
   const Number slack_of_root = e.widening * at.q * cone.length_2;
+  const double radius = (slack.rounded() + slack_of_root.rounded() * std::sqrt(at.d.rounded())) /
+                        (at.w * cone.length_2.squared()).rounded();
   all.push_back({.at = std::move(at),
                  .curved = true,
                  .leaves = leaves,
                  .slack = slack,
                  .slack_of_root = slack_of_root,
-                 .stretch = cone.stretch});
+                 .stretch = cone.stretch,
+                 .radius = radius});
 }
 
 inline void add_crossings(const Cone& cone, const ExactRay& ray, std::vector<Crossing>& all) {
