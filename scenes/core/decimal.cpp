@@ -1,35 +1,43 @@
 #include "scenes/core/decimal.hpp"
 
 #include <charconv>
-#include <limits>
 #include <system_error>
+
+#include <fast_float/fast_float.h>
 
 namespace beambench {
 namespace {
 
-/// Whether a number that no float or double can hold is too small for them, not too large.
-bool too_small(std::string_view word) {
-  const std::size_t exponent = word.find_first_of("eE");
-  if (exponent != std::string_view::npos) return word.substr(exponent + 1).starts_with('-');
-  const std::size_t first = word.find_first_not_of("-0");
-  return first != std::string_view::npos && word[first] == '.';
+/// Removes a plus sign, which neither fast_float nor std::from_chars takes; "+-1" stays no number.
+std::string_view without_plus(std::string_view word) {
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
+  return word;
 }
 
 }  // namespace
 
 template <typename Number>
-Number decimal_number(std::string_view word) {
-  constexpr Number kNone = std::numeric_limits<Number>::quiet_NaN();
-  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
-  const char* end = word.data() + word.size();
-  Number number = kNone;
-  const auto [rest, error] = std::from_chars(word.data(), end, number);
-  if (rest != end) return kNone;
-  if (error == std::errc::result_out_of_range) return too_small(word) ? Number{0} : kNone;
-  return error == std::errc() ? number : kNone;
+std::optional<Number> number_of(std::string_view word) {
+  word = without_plus(word);
+  Number number = 0;
+  const char* const end = word.data() + word.size();
+  const auto [stop, error] = fast_float::from_chars(word.data(), end, number);
+  // Newer versions report what is beyond the range, with the same value.
+  if (error != std::errc() && error != std::errc::result_out_of_range) return std::nullopt;
+  if (stop != end || word.empty()) return std::nullopt;
+  return number;
 }
 
-template float decimal_number<float>(std::string_view word);
-template double decimal_number<double>(std::string_view word);
+template std::optional<float> number_of<float>(std::string_view word);
+template std::optional<double> number_of<double>(std::string_view word);
+
+std::optional<std::int64_t> integer_of(std::string_view word) {
+  word = without_plus(word);
+  std::int64_t number = 0;
+  const char* const end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, number);
+  if (error != std::errc() || stop != end || word.empty()) return std::nullopt;
+  return number;
+}
 
 }  // namespace beambench

@@ -1,11 +1,12 @@
 #include "scenes/formats/mesh/obj_file.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
 #include <optional>
 #include <span>
-#include <system_error>
 
 #include <fmt/format.h>
 
@@ -28,11 +29,9 @@ void read_vertex(const ObjStatement& statement, ObjFile& file) {
   std::string_view rest = statement.rest;
   int count = 0;
   for (auto word = take_word(rest); !word.empty(); word = take_word(rest), ++count) {
-    const auto number = decimal_number<float>(word);
-    if (count < 3) place[count] = number;
-    if (std::isfinite(number) || (count >= 3 && word.find("nan") != std::string_view::npos)) {
-      continue;
-    }
+    const auto number = number_of<float>(word);
+    if (number && count < 3) place[count] = *number;
+    if (number && (count < 3 ? std::isfinite(*number) : !std::isinf(*number))) continue;
     refuse_line(statement.line, fmt::format("a vertex has the coordinate '{}', but must have "
                                             "numbers from -1e9 to 1e9",
                                             excerpt(word)));
@@ -45,15 +44,6 @@ void read_vertex(const ObjStatement& statement, ObjFile& file) {
                             count));
   }
   file.vertices.push_back(place);
-}
-
-/// Returns the integer that the whole text is.
-std::optional<std::int32_t> integer_of(std::string_view text) {
-  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-  std::int32_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return number;
 }
 
 /// Whether nothing or an integer follows each slash, of at most two.
@@ -71,8 +61,10 @@ bool are_attributes(std::string_view text) {
 std::uint32_t corner_of(std::string_view word, const ObjStatement& statement,
                         std::size_t vertices_before) {
   const std::string_view first = word.substr(0, word.find('/'));
-  const std::optional<std::int32_t> index = integer_of(first);
-  if (!index || *index == 0 || !are_attributes(word.substr(first.size()))) {
+  const std::optional<std::int64_t> index = integer_of(first);
+  constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
+  if (!index || *index == 0 || std::abs(*index) > kMost ||
+      !are_attributes(word.substr(first.size()))) {
     refuse_line(statement.line,
                 fmt::format("a face has the corner '{}', but must have numbers of vertices, "
                             "which count from 1",

@@ -44,8 +44,9 @@ std::optional<std::vector<float>> numbers_of(std::string_view rest) {
   rest = rest.substr(0, rest.find('#'));
   std::vector<float> numbers;
   for (auto word = take_word(rest); !word.empty(); word = take_word(rest)) {
-    numbers.push_back(decimal_number<float>(word));
-    if (!std::isfinite(numbers.back())) return std::nullopt;
+    const auto number = number_of<float>(word);
+    if (!number || !std::isfinite(*number)) return std::nullopt;
+    numbers.push_back(*number);
   }
   if (numbers.empty()) return std::nullopt;
   return numbers;

@@ -28,11 +28,11 @@
 
 #include <fmt/format.h>
 
+#include "scenes/core/decimal.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/printable.hpp"
 #include "scenes/formats/mesh/importers.hpp"
 #include "scenes/formats/mesh/indexed_faces.hpp"
-#include "scenes/formats/mesh/number_text.hpp"
 #include "scenes/formats/mesh/text_lines.hpp"
 
 namespace beambench::scenes::mesh {
@@ -130,7 +130,7 @@ void next_row(TextLines& lines, std::string_view what, std::uint64_t row, std::u
 std::size_t skip_numbers(TextLines& lines, std::string_view what, std::uint64_t row) {
   std::size_t count = 0;
   for (auto word = lines.word(); !word.empty(); word = lines.word()) {
-    if (!float_of(word)) {
+    if (!number_of<float>(word)) {
       lines.refuse(fmt::format("{} {}: '{}' is no number", what, row, excerpt(word)));
     }
     ++count;
@@ -142,7 +142,7 @@ glm::vec3 take_off_vertex(TextLines& lines, const OffHeader& header, std::uint64
   glm::vec3 place{};
   for (glm::length_t axis = 0; axis < 3; ++axis) {
     const std::string_view word = lines.word();
-    const auto number = float_of(word);
+    const auto number = number_of<float>(word);
     if (word.empty()) lines.refuse(fmt::format("vertex {} has fewer than three numbers", row));
     if (!number) lines.refuse(fmt::format("vertex {}: '{}' is no number", row, excerpt(word)));
     place[axis] = *number;

@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
+#include "scenes/core/decimal.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/printable.hpp"
-#include "scenes/formats/mesh/number_text.hpp"
 
 namespace beambench::scenes::mesh {
 namespace {
@@ -43,9 +43,9 @@ std::optional<double> ply_number(std::string_view word, PlyType type) {
     case PlyType::kUint32:
       return integer_within<std::uint32_t>(word);
     case PlyType::kFloat32:
-      return float_of(word);
+      return number_of<float>(word);
     case PlyType::kFloat64:
-      return double_of(word);
+      return number_of<double>(word);
   }
   return std::nullopt;
 }

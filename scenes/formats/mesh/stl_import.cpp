@@ -27,11 +27,11 @@
 
 #include <fmt/format.h>
 
+#include "scenes/core/decimal.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/printable.hpp"
 #include "scenes/formats/mesh/importers.hpp"
 #include "scenes/formats/mesh/mesh_cleaning.hpp"
-#include "scenes/formats/mesh/number_text.hpp"
 #include "scenes/formats/mesh/text_lines.hpp"
 
 namespace beambench::scenes::mesh {
@@ -93,7 +93,7 @@ glm::vec3 take_corner(TextLines& lines) {
   glm::vec3 place{};
   for (glm::length_t axis = 0; axis < 3; ++axis) {
     const std::string_view word = lines.word_anywhere();
-    const auto number = float_of(word);
+    const auto number = number_of<float>(word);
     if (!number) {
       lines.refuse(fmt::format("{} where a vertex must have a number", quoted_word(word)));
     }

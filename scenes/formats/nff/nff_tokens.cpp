@@ -79,13 +79,13 @@ std::size_t NffTokens::max_numbers_left() const {
 template <typename Number>
 Number NffTokens::take_number(std::string_view what) {
   if (at_end()) refuse(token_.line, fmt::format("the file ends where {} should stand", what));
-  const auto number = decimal_number<Number>(token_.text);
-  if (!(std::abs(number) <= static_cast<Number>(kLargestNumber))) {
+  const auto number = number_of<Number>(token_.text);
+  if (!number || !(std::abs(*number) <= static_cast<Number>(kLargestNumber))) {
     refuse(token_.line, fmt::format("'{}' stands where {} should be a number from -1e9 to 1e9",
                                     excerpt(token_.text), what));
   }
   advance();
-  return number;
+  return *number;
 }
 
 float NffTokens::number(std::string_view what) { return take_number<float>(what); }
