@@ -10,6 +10,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "harness/verify/tolerance.hpp"
+
 namespace beambench::verify {
 namespace {
 
@@ -78,7 +80,10 @@ Real lateral_distance(const RayLine& line, const Corners& corners) {
   const auto [least, greatest] = std::minmax({glm::dot(glm::cross(a, b), line.direction),
                                               glm::dot(glm::cross(b, c), line.direction),
                                               glm::dot(glm::cross(c, a), line.direction)});
-  if (least >= 0.0L || greatest <= 0.0L) return 0.0L;
+  // A line in the triangle's plane passes between its edges nowhere.
+  const Real none = 0x1p-58L * std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(c, c)});
+  const bool is_in_plane = least >= -none && greatest <= none;
+  if (!is_in_plane && (least >= 0.0L || greatest <= 0.0L)) return 0.0L;
   return least_distance(edge_approaches(line, corners));
 }
 
@@ -241,6 +246,21 @@ std::vector<Approach> cone_approaches(const RayLine& line, const scenes::Cone& c
   return found;
 }
 
+/// How far the line passes beside a rim near a point: of the rim's point next to that, or where the
+/// line is closer to the rim and no farther from the point than two at one place may be.
+Real rim_distance(const RayLine& line, const Profile& profile, const Vector& point, Real rim,
+                  Real grazing) {
+  Real nearest = line.distance_to(profile.rim_point(point, rim));
+  std::vector<Approach> found;
+  add_rim_approaches(line, profile, rim, found);
+  const Real t = line.approach(point).t;
+  for (const Approach& each : found) {
+    if (std::abs(each.t - t) * line.length > kAlong * grazing) continue;
+    nearest = std::min<Real>(nearest, each.distance);
+  }
+  return nearest;
+}
+
 Contact cone_contact(const RayLine& line, const Vector& point, const scenes::Cone& cone,
                      Real grazing) {
   const Profile profile(cone);
@@ -248,7 +268,7 @@ Contact cone_contact(const RayLine& line, const Vector& point, const scenes::Con
   const Real within = std::clamp(place, 0.0L, profile.length);
   Real offset = std::abs(profile.signed_distance(point));
   if (place != within) {
-    offset = std::max(offset, line.distance_to(profile.rim_point(point, within)));
+    offset = std::max(offset, rim_distance(line, profile, point, within, grazing));
   }
   const Vector normal =
       profile.outward(point) * profile.along_axis - profile.along_radius * profile.axis;

@@ -23,7 +23,8 @@ struct Contact {
   bool leaving;
 };
 
-/// `grazing` is the distance from a silhouette within which entry and exit cannot be distinguished.
+/// `grazing` is K u there: the distance from a silhouette within which entry and exit cannot be
+/// distinguished.
 Contact contact(const scenes::Scene& scene, const accel::Ray& ray,
                 const accel::embree::ExactHit& hit, double grazing);
 

@@ -40,8 +40,15 @@ struct Measure {
     return verify::at_one_place(ray, hit.t, t, contact_of(hit).cosine, tolerance_of(hit));
   }
 
+  /// Within K u of the primitive's surface, and not far from the primitive along it.
   bool is_on_primitive(const ExactHit& hit) const {
-    return contact_of(hit).offset <= tolerance_of(hit);
+    const double near = tolerance_of(hit);
+    if (!(contact(scene, ray, hit, near).offset <= near)) return false;
+    const scenes::Bounds box = scenes::primitive_bounds(scene, hit.primitive);
+    const glm::dvec3 point = glm::dvec3(ray.origin) + hit.t * glm::dvec3(ray.direction);
+    const glm::dvec3 outside =
+        glm::max(glm::dvec3(box.lower) - point, point - glm::dvec3(box.upper));
+    return std::max({outside.x, outside.y, outside.z}) <= kAlong * near;
   }
 
   /// Does the ray begin or end on the surface that is hit?
