@@ -1,6 +1,7 @@
 #pragma once
 // A ray as the canonical ray-primitive tests use it.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -45,20 +46,27 @@ void set_shear(ShearedRay& ray, const glm::vec3& direction) {
   ray.shear = {components[kCycle[main + 1]] / along, components[kCycle[main + 2]] / along};
 }
 
-/// A ray widened to double. `t_max` shrinks while a traversal finds nearer hits.
+/// Returns t rounded once to float if it lies in the closed interval [t_min, t_max], otherwise
+/// kMiss. A zero is +0, so that equal hits have equal bits, whichever primitive or triangle is
+/// tested first.
+inline float accept(double t, float t_min, float t_max) {
+  const float rounded = static_cast<float>(t) + 0.0F;
+  return rounded >= t_min && rounded <= t_max ? rounded : kMiss;
+}
+
+/// The end of an interval for `accept`: a t that rounds to infinity is not a hit.
+inline float finite(float t_max) { return std::min(t_max, std::numeric_limits<float>::max()); }
+
+/// A ray widened to double. `t_max` is finite and shrinks while a traversal finds nearer hits.
 struct CanonicalRay {
   explicit CanonicalRay(const Ray& ray)
-      : origin(ray.origin), direction(ray.direction), t_min(ray.t_min), t_max(ray.t_max) {
+      : origin(ray.origin), direction(ray.direction), t_min(ray.t_min), t_max(finite(ray.t_max)) {
     set_shear(*this, ray.direction);
   }
 
   glm::dvec3 at(double t) const { return origin + direction * t; }
 
-  /// t rounded once to float, if it lies in the closed interval; otherwise kMiss.
-  float accept(double t) const {
-    const auto rounded = static_cast<float>(t);
-    return rounded >= t_min && rounded <= t_max ? rounded : kMiss;
-  }
+  float accept(double t) const { return accel::accept(t, t_min, t_max); }
 
   /// A point's place beside the ray: relative to the origin and sheared along the main axis so that
   /// the ray becomes that axis (Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection",

@@ -1,6 +1,7 @@
 #pragma once
 // The references of a tree that is not made yet, from a few of its nodes.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -17,75 +18,136 @@ struct ExpectedReferences {
   double lists = 0.0;   ///< of all nodes but the root
 };
 
-/// Estimates them from a random sample of the tree's nodes, level by level: of more than 128 nodes
-/// of a level, about 128 are sampled with a probability proportional to their references, and are
-/// weighted accordingly. The estimate is unbiased (Knuth, "Estimating the efficiency of backtrack
-/// programs", Mathematics of Computation 29(129), 1975, who samples one node of each level; more of
-/// them have less variance).
+/// Estimates the references of a tree from a random sample of its nodes, level by level: of more
+/// than 128 nodes of a level, about 128 are sampled with a probability proportional to their
+/// references, and are weighted accordingly; fewer, but not fewer than 4, where these have more
+/// than 16384 references, so that nodes that nothing divides take no more time than others. The
+/// estimate is unbiased (Knuth, "Estimating the efficiency of backtrack programs", Mathematics of
+/// Computation 29(129), 1975, who samples one node of each level; more of them have less variance).
+/// The levels above the first that is sampled are the same in all estimates, and are divided once.
 /// `Node` has `size()`, its references; `divide(node)` returns those children of a node that refer
 /// to something, or nullopt where it is a leaf.
 template <class Node, class Divide>
-ExpectedReferences expected_references(Node root, Divide divide, Random& random) {
-  constexpr std::size_t kNodes = 128;
+class ReferenceEstimate {
+ public:
+  ReferenceEstimate(Node root, Divide divide) : divide_(std::move(divide)) {
+    if (root.size() > 0) first_.add({std::move(root), 1.0});
+    while (!first_.nodes.empty() && !first_.is_to_be_sampled()) first_ = below(first_, above_);
+  }
+
+  ExpectedReferences operator()(Random& random) {
+    ExpectedReferences expected = above_;
+    if (first_.nodes.empty()) return expected;
+    Level level = sample(first_, random);
+    while (!level.nodes.empty()) {
+      level = below(level, expected);
+      if (level.is_to_be_sampled()) level = sample(level, random);
+    }
+    return expected;
+  }
+
+ private:
   struct Kept {
     Node node;
     double weight;  ///< what each of its references stands for
     double references() const { return weight * static_cast<double>(node.size()); }
   };
-  ExpectedReferences expected;
-  std::vector<Kept> level;
-  if (root.size() > 0) level.push_back({std::move(root), 1.0});
-  while (!level.empty()) {
-    std::vector<Kept> below;
-    double references = 0.0;
-    for (const Kept& kept : level) {
-      std::optional<std::vector<Node>> children = divide(kept.node);
+  struct Level {
+    std::vector<Kept> nodes;
+    double references = 0.0;  ///< weighted
+    std::size_t listed = 0;   ///< not weighted
+
+    void add(Kept kept) {
+      references += kept.references();
+      listed += kept.node.size();
+      nodes.push_back(std::move(kept));
+    }
+    /// How many nodes are enough.
+    std::size_t sampled_nodes() const {
+      constexpr std::size_t kReferences = std::size_t{1} << 14U;
+      return std::clamp<std::size_t>(kReferences * nodes.size() / std::max<std::size_t>(listed, 1),
+                                     4, 128);
+    }
+    bool is_to_be_sampled() const { return nodes.size() > sampled_nodes(); }
+  };
+
+  /// The level below; adds what the nodes refer to.
+  Level below(const Level& level, ExpectedReferences& expected) {
+    Level next;
+    for (const Kept& kept : level.nodes) {
+      std::optional<std::vector<Node>> children = divide_(kept.node);
       if (!children) {
         expected.leaves += kept.references();
         continue;
       }
-      for (Node& child : *children) {
-        below.push_back({std::move(child), kept.weight});
-        references += below.back().references();
-      }
+      for (Node& child : *children) next.add({std::move(child), kept.weight});
     }
-    expected.lists += references;
-    if (below.size() > kNodes) {
-      // Each of as many references at equal distances chooses its node, one of them at random.
-      const double distance = references / static_cast<double>(kNodes);
-      double next = random.unit() * distance;
-      double passed = 0.0;
-      std::size_t end = 0;
-      for (Kept& kept : below) {
-        passed += kept.references();
-        double chosen = 0.0;
-        for (; next < passed; next += distance) ++chosen;
-        if (chosen == 0.0) continue;
-        kept.weight = chosen * distance / static_cast<double>(kept.node.size());
-        if (&kept != &below[end]) below[end] = std::move(kept);
-        ++end;
-      }
-      below.erase(below.begin() + static_cast<std::ptrdiff_t>(end), below.end());
-    }
-    level = std::move(below);
+    expected.lists += next.references;
+    return next;
   }
-  return expected;
-}
 
-/// Does the expected value of an unbiased, nonnegative estimate exceed `most`? A false positive has
-/// a probability below 4^-16 (one in four billion), whatever the distribution: each of 16 estimates
-/// must exceed four times the limit, which by Markov's inequality has a probability below 1/4. An
-/// excess below that factor is not detected. The random numbers are the same each time; where the
-/// limit is kept, one estimate is made or few.
+  /// Each of as many references at equal distances chooses its node, one of them at random.
+  static Level sample(const Level& level, Random& random) {
+    Level sampled;
+    const double distance = level.references / static_cast<double>(level.sampled_nodes());
+    double next = random.unit() * distance;
+    double passed = 0.0;
+    for (const Kept& kept : level.nodes) {
+      passed += kept.references();
+      double chosen = 0.0;
+      for (; next < passed; next += distance) ++chosen;
+      if (chosen == 0.0) continue;
+      sampled.add({kept.node, chosen * distance / static_cast<double>(kept.node.size())});
+    }
+    return sampled;
+  }
+
+  Divide divide_;
+  ExpectedReferences above_;  ///< of the levels above `first_`
+  Level first_;               ///< the first that is sampled; none where that is not needed
+};
+
+/// Does the expected value of a nonnegative estimate exceed `most`? A false positive has a
+/// probability below one in a million, whatever the distribution: where the expected value is
+/// `most` or less, so is that of the product of estimates / most 1 or less after each of them, and
+/// that the product ever exceeds 2^20 has a probability below 2^-20 (Ville's inequality; Shafer,
+/// "Testing by betting", Journal of the Royal Statistical Society A 184(2), 2021). Estimates of
+/// twice the limit decide after 20 of them, and less than 1.42 times the limit is not detected. The
+/// random numbers are the same each time; where the limit is kept, one estimate is made or few.
 template <class Estimate>
 bool surely_more_than(std::uint64_t most, Estimate estimate) {
-  constexpr int kEstimates = 16;
-  constexpr double kMargin = 4.0;
+  constexpr int kMostEstimates = 40;
+  constexpr double kEnough = 0x1p20;
   Random random(1);
-  for (int i = 0; i < kEstimates; ++i) {
-    if (estimate(random) <= kMargin * static_cast<double>(most)) return false;
+  double product = 1.0;
+  for (int i = 0; i < kMostEstimates && product >= 1.0; ++i) {
+    product *= estimate(random) / static_cast<double>(most);
+    if (product > kEnough) return true;
   }
-  return true;
+  return false;
 }
+
+/// A random part of a list: one of each `stride` neighbors, so that each member of the list is in
+/// it with a probability of 1 / stride at most.
+///
+/// Where nodes are divided at fixed planes as long as they refer to more than so many, the tree
+/// over a part is that over all, but for branches that end earlier: each member of the part has at
+/// most as many references as in the whole tree. The references of the part's tree times `stride`
+/// are then an estimate whose expected value does not exceed the references of the whole tree.
+template <class T>
+struct RandomPart {
+  /// How many members are enough for an estimate.
+  static constexpr std::size_t kSize = 256;
+
+  RandomPart(const std::vector<T>& list, Random& random)
+      : stride(std::max<std::size_t>(list.size() / kSize, 1)) {
+    for (std::size_t first = 0; first + stride <= list.size(); first += stride) {
+      members.push_back(list[first + random.below(stride)]);
+    }
+  }
+
+  std::size_t stride;
+  std::vector<T> members;
+};
 
 }  // namespace beambench::accel

@@ -25,6 +25,45 @@ bool surface_overlaps(const scenes::Scene& scene, scenes::PrimitiveId id, const 
   return true;
 }
 
+namespace {
+
+bool same_triangles(const scenes::Scene& scene, const scenes::Polygon& a,
+                    const scenes::Polygon& b) {
+  if (a.triangle_count != b.triangle_count) return false;
+  for (std::uint32_t i = 0; i < a.triangle_count; ++i) {
+    const auto& of_a = scene.triangles[a.first_triangle + i].vertex;
+    const auto& of_b = scene.triangles[b.first_triangle + i].vertex;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (scene.vertices[of_a[k]] != scene.vertices[of_b[k]]) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+bool same_surface(const scenes::Scene& scene, scenes::PrimitiveId a, scenes::PrimitiveId b) {
+  const scenes::Primitive& one = scene.primitives[a];
+  const scenes::Primitive& other = scene.primitives[b];
+  if (one.kind != other.kind) return false;
+  switch (one.kind) {
+    case scenes::PrimitiveKind::kSphere: {
+      const scenes::Sphere& s = scene.spheres[one.index];
+      const scenes::Sphere& t = scene.spheres[other.index];
+      return s.center == t.center && s.radius == t.radius;
+    }
+    case scenes::PrimitiveKind::kCone: {
+      const scenes::Cone& c = scene.cones[one.index];
+      const scenes::Cone& d = scene.cones[other.index];
+      return c.base == d.base && c.apex == d.apex && c.base_radius == d.base_radius &&
+             c.apex_radius == d.apex_radius;
+    }
+    case scenes::PrimitiveKind::kPolygon:
+      return same_triangles(scene, scene.polygons[one.index], scene.polygons[other.index]);
+  }
+  return false;
+}
+
 bool sphere_overlaps(const scenes::Sphere& sphere, const Box& box, double tolerance) {
   double nearest = 0.0;   // squared distance from the center to the box
   double farthest = 0.0;  // and to its farthest corner

@@ -21,6 +21,10 @@ struct Box {
 bool surface_overlaps(const scenes::Scene& scene, scenes::PrimitiveId id, const Box& box,
                       double tolerance);
 
+/// Do two primitives have the same surface, number by number? They overlap the same boxes then. Not
+/// true of the same surface in other words, such as a polygon that begins at another corner.
+bool same_surface(const scenes::Scene& scene, scenes::PrimitiveId a, scenes::PrimitiveId b);
+
 /// Exact, by interval evaluation of |x - c|^2 - r^2 over the box (Ratschek and Rokne, "Test for
 /// intersection between box and sphere", 1994; Arvo, Graphics Gems, 1990).
 bool sphere_overlaps(const scenes::Sphere& sphere, const Box& box, double tolerance);

@@ -1,8 +1,11 @@
 #include "accel/core/ray.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 
 #include "scenes/core/error.hpp"
 
@@ -27,8 +30,15 @@ void require_valid(const Ray& ray) {
     require_component("origin", name, ray.origin[axis], kLargestCoordinate);
     require_component("direction", name, ray.direction[axis], kLargestCoordinate);
   }
-  if (ray.direction == glm::vec3(0.0F)) {
-    throw InputError("ray direction is zero; expected at least one component other than 0");
+  const glm::vec3 size = glm::abs(ray.direction);
+  if (std::max({size.x, size.y, size.z}) < kShortestDirection) {
+    const std::string found =
+        ray.direction == glm::vec3(0.0F)
+            ? "zero"
+            : fmt::format("({}, {}, {})", ray.direction.x, ray.direction.y, ray.direction.z);
+    throw InputError(fmt::format(
+        "ray direction is {}; expected a component of size {:g} or more: give a longer direction",
+        found, kShortestDirection));
   }
   if (!(ray.t_min >= 0.0F) || std::isnan(ray.t_max)) {
     throw InputError(fmt::format("ray interval is [{}, {}]; expected t_min >= 0 and a number t_max",

@@ -12,8 +12,13 @@ namespace beambench::accel {
 
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// The points origin + t * direction with t in the interval of `in_interval`. The direction is not
-/// zero and need not have unit length; t counts in its units (for primary rays: view depth).
+/// The length that the longest component of a direction has at least. With smaller ones, the other
+/// components are soon too small for a normal float and lose digits, or count as 0 where denormals
+/// do.
+inline constexpr float kShortestDirection = 1e-30F;
+
+/// The points origin + t * direction with t in the interval of `in_interval`. The direction need
+/// not have unit length; t counts in its units (for primary rays: view depth).
 struct Ray {
   glm::vec3 origin{0.0F};
   float t_min = 0.0F;
@@ -32,7 +37,8 @@ inline bool in_interval(const Ray& ray, double t) {
   return in_interval(ray, static_cast<float>(t));
 }
 
-/// Where a ray meets a primitive first. `t` was computed in double and rounded once.
+/// Where a ray meets a primitive first. `t` was computed in double and rounded once; it is finite,
+/// and a zero is +0.
 struct Hit {
   float t;
   scenes::PrimitiveId primitive;
@@ -47,8 +53,8 @@ constexpr bool precedes(const Hit& a, const Hit& b) {
 }
 
 /// Throws InputError when a number is NaN, an origin or direction is not finite, a coordinate is
-/// beyond 1e9, the direction is zero, or t_min < 0. Called wherever rays come from outside; kernels
-/// rely on it.
+/// beyond 1e9, all components of the direction are smaller than kShortestDirection, or t_min < 0.
+/// Called wherever rays come from outside; kernels rely on it.
 void require_valid(const Ray& ray);
 
 }  // namespace beambench::accel

@@ -197,45 +197,69 @@ class Builder {
     end_ = above.first_event;
   }
 
-  /// Will there be too many references? A builder of its own divides nodes that are kept apart.
-  bool will_exceed() const {
+  /// For estimates: of some of the items of another builder, with its root and depth.
+  Builder(const Builder& whole, std::vector<bvh::Piece> pieces)
+      : scene_(whole.scene_),
+        options_(whole.options_),
+        tolerance_(whole.tolerance_),
+        pieces_(std::move(pieces)),
+        sides_(pieces_.size()),
+        most_splits_(whole.most_splits_),
+        limit_(options_.max_references) {
+    tree_.root = whole.tree_.root;
+  }
+
+  /// An estimate of the references, which uses this builder: nodes that are kept apart are divided.
+  auto estimate() {
     struct Node {
       Pending place;
       EventLists events;
       std::size_t size() const { return place.count; }
     };
-    Builder builder(scene_, options_);
-    builder.tree_.root = tree_.root;
-    builder.begin();
-    const auto taken = [&builder](const Pending& pending) {
+    begin();
+    const auto taken = [this](const Pending& pending) {
       Node node{pending, {}};
       for (int axis = 0; axis < 3; ++axis) {
-        const std::span<SplitEvent> events = builder.list(axis, pending);
+        const std::span<SplitEvent> events = list(axis, pending);
         node.events[static_cast<std::size_t>(axis)].assign(events.begin(), events.end());
       }
       return node;
     };
-    const auto divide = [&](const Node& node) -> std::optional<std::vector<Node>> {
+    const auto divide = [this, taken](const Node& node) -> std::optional<std::vector<Node>> {
       Pending pending = node.place;
       pending.first_event = 0;
-      builder.end_ = pending.events();
+      end_ = pending.events();
       for (int axis = 0; axis < 3; ++axis) {
         const auto& events = node.events[static_cast<std::size_t>(axis)];
-        std::copy(events.begin(), events.end(), builder.list(axis, 0));
+        std::copy(events.begin(), events.end(), list(axis, 0));
       }
-      const Split split = builder.best_split(pending);
+      const Split split = best_split(pending);
       if (split.axis < 0) return std::nullopt;
       std::vector<Node> children;
       const KdNode planes = KdNode::interior(static_cast<std::size_t>(split.axis), split.plane, 0);
-      for (const Pending& child : builder.distribute(pending, split, planes)) {
+      for (const Pending& child : distribute(pending, split, planes)) {
         if (child.count > 0) children.push_back(taken(child));
       }
       return children;
     };
-    const Node root = taken(builder.root());
-    return surely_more_than(options_.max_references, [&](Random& random) {
-      return expected_references(root, divide, random).leaves;
-    });
+    return ReferenceEstimate(taken(root()), divide);
+  }
+
+  /// Will there be too many references? In the middle of cells, the estimates from a part of the
+  /// items come first: they take less time, and do not exceed those from all.
+  bool will_exceed() const {
+    const std::uint64_t most = options_.max_references;
+    if (options_.builder == KdTreeOptions::Builder::kMedian) {
+      const auto of_part = [this](Random& random) {
+        RandomPart part(pieces_, random);
+        Builder builder(*this, std::move(part.members));
+        return static_cast<double>(part.stride) * builder.estimate()(random).leaves;
+      };
+      if (surely_more_than(most, of_part)) return true;
+    }
+    Builder builder(*this, pieces_);
+    auto estimate = builder.estimate();
+    return surely_more_than(most, [&](Random& random) { return estimate(random).leaves; });
   }
 
   Split best_split(const Pending& pending) {

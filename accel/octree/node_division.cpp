@@ -45,8 +45,10 @@ NodeDivision::NodeDivision(const scenes::Scene& scene, const OctreeOptions& opti
       grid_(octree_grid(scene, options)) {
   const auto count = static_cast<scenes::PrimitiveId>(scene.primitives.size());
   ranges_.reserve(count);
+  repeats_.reserve(count);
   for (scenes::PrimitiveId id = 0; id < count; ++id) {
     ranges_.push_back(cell_range(grid_, scenes::primitive_bounds(scene, id), tolerance_));
+    repeats_.push_back(id > 0 && same_surface(scene, id - 1, id));
   }
 }
 
@@ -66,7 +68,8 @@ std::array<std::size_t, 8> NodeDivision::distribute(const OctreeCell& cell, cons
   octants.resize(primitives.size());
   std::array<std::size_t, 8> ends{};
   for (std::size_t i = 0; i < primitives.size(); ++i) {
-    octants[i] = overlapped_octants(cell, split, primitives[i]);
+    const bool repeats = i > 0 && repeats_[primitives[i]] && primitives[i - 1] + 1 == primitives[i];
+    octants[i] = repeats ? octants[i - 1] : overlapped_octants(cell, split, primitives[i]);
     for (std::uint32_t rest = octants[i]; rest != 0; rest &= rest - 1) {
       ++ends[static_cast<std::size_t>(std::countr_zero(rest))];
     }
@@ -85,17 +88,21 @@ std::array<std::size_t, 8> NodeDivision::distribute(const OctreeCell& cell, cons
   return ends;
 }
 
-ExpectedReferences NodeDivision::expected_references(int level, Random& random) const {
+std::vector<scenes::PrimitiveId> NodeDivision::all() const {
+  std::vector<scenes::PrimitiveId> primitives(scene_->primitives.size());
+  std::iota(primitives.begin(), primitives.end(), scenes::PrimitiveId{0});
+  return primitives;
+}
+
+auto NodeDivision::estimate_of(std::vector<scenes::PrimitiveId> primitives, int level) const {
   struct Node {
     OctreeCell cell;
     std::vector<scenes::PrimitiveId> primitives;
     std::size_t size() const { return primitives.size(); }
   };
-  Node top{root(), std::vector<scenes::PrimitiveId>(scene_->primitives.size())};
-  std::iota(top.primitives.begin(), top.primitives.end(), scenes::PrimitiveId{0});
-  std::vector<scenes::PrimitiveId> lists;
-  std::vector<std::uint8_t> octants;
-  const auto divide = [&](const Node& node) -> std::optional<std::vector<Node>> {
+  auto divide = [this, level, lists = std::vector<scenes::PrimitiveId>(),
+                 octants = std::vector<std::uint8_t>()](
+                    const Node& node) mutable -> std::optional<std::vector<Node>> {
     if (node.cell.level >= level || !divides(node.cell, node.size())) return std::nullopt;
     const glm::ivec3 planes = split(node.cell, node.primitives);
     const auto ends = distribute(node.cell, planes, node.primitives, octants, lists);
@@ -111,7 +118,29 @@ ExpectedReferences NodeDivision::expected_references(int level, Random& random) 
     }
     return children;
   };
-  return accel::expected_references(std::move(top), divide, random);
+  return ReferenceEstimate(Node{root(), std::move(primitives)}, std::move(divide));
+}
+
+ExpectedReferences NodeDivision::expected_references(int level, Random& random) const {
+  return estimate_of(all(), level)(random);
+}
+
+bool NodeDivision::will_exceed(int level, bool of_lists) const {
+  const auto chosen = [of_lists](const ExpectedReferences& expected) {
+    return of_lists ? expected.lists : expected.leaves;
+  };
+  const std::uint64_t most = options_->max_references;
+  if (options_->planes == OctreeOptions::Planes::kMedian) {
+    const std::vector<scenes::PrimitiveId> primitives = all();
+    const auto of_part = [&](Random& random) {
+      RandomPart part(primitives, random);
+      auto estimate = estimate_of(std::move(part.members), level);
+      return static_cast<double>(part.stride) * chosen(estimate(random));
+    };
+    if (surely_more_than(most, of_part)) return true;
+  }
+  auto estimate = estimate_of(all(), level);
+  return surely_more_than(most, [&](Random& random) { return chosen(estimate(random)); });
 }
 
 /// The children that a primitive of the node belongs to, as a bit mask.

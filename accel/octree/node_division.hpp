@@ -67,6 +67,9 @@ class NodeDivision {
 
   /// An estimate for the octree that is divided no deeper than `level`.
   ExpectedReferences expected_references(int level, Random& random) const;
+  /// Will the octree that is divided no deeper than `level` refer to more than `max_references`
+  /// primitives, in its leaves or, if `of_lists`, in all nodes but the root?
+  bool will_exceed(int level, bool of_lists) const;
 
   /// Throws the InputError that names `max_references`.
   [[noreturn]] void fail_too_many_references() const;
@@ -74,12 +77,15 @@ class NodeDivision {
  private:
   std::uint8_t overlapped_octants(const OctreeCell& cell, const glm::ivec3& split,
                                   scenes::PrimitiveId id) const;
+  std::vector<scenes::PrimitiveId> all() const;
+  auto estimate_of(std::vector<scenes::PrimitiveId> primitives, int level) const;
 
   const scenes::Scene* scene_;
   const OctreeOptions* options_;
   double tolerance_;
   CellGrid grid_;
   std::vector<CellRange> ranges_;  ///< in finest cells, by primitive
+  std::vector<bool> repeats_;      ///< has the surface of the primitive before it
 };
 
 }  // namespace beambench::accel::octree

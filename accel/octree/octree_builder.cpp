@@ -8,7 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "accel/core/expected_references.hpp"
 #include "accel/core/least_references.hpp"
 #include "accel/octree/node_division.hpp"
 #include "accel/octree/octree.hpp"
@@ -71,11 +70,7 @@ class OctreeBuilder {
     if (options_.max_objects == 0 && options_.planes == OctreeOptions::Planes::kMedian) {
       return {most, scene_, division_.grid()};
     }
-    return {most, scene_, [this, most] {
-              return surely_more_than(most, [this](Random& random) {
-                return division_.expected_references(options_.max_level, random).leaves;
-              });
-            }};
+    return {most, scene_, [this] { return division_.will_exceed(options_.max_level, false); }};
   }
   void begin() {
     octree_.grid_ = division_.grid();

@@ -4,15 +4,11 @@
 #include <numeric>
 #include <utility>
 
-#include "accel/core/expected_references.hpp"
-
 namespace beambench::accel::octree {
 
 OnDemandOctree::OnDemandOctree(const scenes::Scene& scene, const OctreeOptions& options)
     : options_(options), division_(scene, options_), limit_(options_.max_references, scene, [this] {
-        return surely_more_than(options_.max_references, [this](Random& random) {
-          return division_.expected_references(options_.built_level, random).lists;
-        });
+        return division_.will_exceed(options_.built_level, true);
       }) {
   root_.references.resize(scene.primitives.size());
   std::iota(root_.references.begin(), root_.references.end(), scenes::PrimitiveId{0});

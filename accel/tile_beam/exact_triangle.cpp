@@ -152,7 +152,7 @@ std::optional<ExactApexTriangle> exact_apex_triangle(const glm::vec3& apex, cons
   }
   switch (place_of_eye(from_apex)) {
     case Eye::kOnTriangle:
-      return ExactApexTriangle{{}, {}, {}, {}, {}, 0.0, true};
+      return ExactApexTriangle{{}, {}, {}, {}, {}, 0.0, 0.0, true};
     case Eye::kInPlane:  // rays in its plane miss
       return std::nullopt;
     case Eye::kOff:
@@ -184,16 +184,19 @@ std::optional<ExactApexTriangle> exact_apex_triangle(const glm::vec3& apex, cons
   const double largest = std::max({std::abs(plane.x), std::abs(plane.y), std::abs(plane.z)});
   triangle.plane = plane / largest;
   triangle.distance = std::abs(volume) / largest;
+  triangle.distance_to_plane = std::abs(volume) / glm::length(plane);
   return triangle;
 }
 
-bool crosses_plane(const Ray& ray, const std::array<glm::vec3, 3>& corners) {
-  const glm::dvec3 first(corners[0]);
-  const glm::dvec3 normal =
-      glm::cross(glm::dvec3(corners[1]) - first, glm::dvec3(corners[2]) - first);
-  const double t = glm::dot(normal, first - glm::dvec3(ray.origin)) /
-                   glm::dot(normal, glm::dvec3(ray.direction));
-  return t > ray.t_min && t < ray.t_max;
+TrianglePlane::TrianglePlane(const std::array<glm::vec3, 3>& corners)
+    : first_(corners[0]),
+      normal_(glm::cross(glm::dvec3(corners[1]) - first_, glm::dvec3(corners[2]) - first_)) {}
+
+float TrianglePlane::hit(const Ray& ray) const {
+  const double along = glm::dot(normal_, glm::dvec3(ray.direction));
+  if (along == 0.0) return kMiss;
+  const double t = glm::dot(normal_, first_ - glm::dvec3(ray.origin)) / along;
+  return accept(t, ray.t_min, finite(ray.t_max));
 }
 
 }  // namespace beambench::accel::tile_beam

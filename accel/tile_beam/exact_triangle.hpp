@@ -7,7 +7,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "accel/core/ray.hpp"
+#include "accel/core/canonical_ray.hpp"
 #include "accel/tile_beam/pencil_unit.hpp"
 #include "accel/tile_beam/tile_image.hpp"
 #include "accel/tile_beam/tile_view.hpp"
@@ -41,14 +41,26 @@ struct ExactApexTriangle {
   std::array<double, 3> clear;  ///< from this value of an edge on, a place is surely inside
   glm::dvec3 plane;
   double distance;
-  bool at_apex;  ///< nothing else is set, rays decide
+  double distance_to_plane;  ///< from the apex
+  bool at_apex;              ///< nothing else is set, rays decide
 };
 
 /// As `exact_triangle`; edges are moved outward by more than those in float may be wrong.
 std::optional<ExactApexTriangle> exact_apex_triangle(const glm::vec3& apex, const CubeSide& side,
                                                      const std::array<glm::vec3, 3>& corners);
 
-/// Does a ray cross the plane of a triangle between its ends?
-bool crosses_plane(const Ray& ray, const std::array<glm::vec3, 3>& corners);
+/// The plane of a triangle, in the numbers of the canonical test.
+class TrianglePlane {
+ public:
+  explicit TrianglePlane(const std::array<glm::vec3, 3>& corners);
+
+  /// Returns the canonical t at which the ray meets the plane, wherever that is beside the
+  /// triangle, or kMiss.
+  float hit(const Ray& ray) const;
+
+ private:
+  glm::dvec3 first_;
+  glm::dvec3 normal_;
+};
 
 }  // namespace beambench::accel::tile_beam

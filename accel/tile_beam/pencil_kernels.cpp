@@ -14,10 +14,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// The largest distance from the apex at which float can distinguish a ray's origin from the
-/// surface that it begins beside. Any hits that are unsure are confirmed (`PencilWalk`), so that
-/// they may be farther; but over a scene that is small beside its coordinates all places are
-/// rounded alike.
+/// The largest distance from the apex at which a part is traced together. From a few scene sizes
+/// on, float distinguishes few origins of rays from the surfaces that they begin beside; any hits
+/// are still worth deciding one by one, but over a scene that is small beside its coordinates all
+/// places are rounded alike.
 template <bool kToward>
 float farthest(const scenes::Bounds& scene) {
   const float size = scene.largest_coordinate();
@@ -89,14 +89,10 @@ bool are_dense(const PencilUnit& unit) {
 template <class Counting>
 void walk_toward(const PencilRays& pencil, const PencilPart& part, CubeSide side, PencilUnit& unit,
                  Counting& counting) {
-  // From two scene sizes on, roundings of depths come near to how far rays begin from surfaces.
-  const float close = 2.0F * pencil.hierarchy.bounds.largest_coordinate();
   if (are_dense(unit)) {
     walk_part<DenseAnyHitPolicy>(pencil, part, side, unit, counting);
-  } else if (unit.least_w * close >= 1.0F) {
-    walk_part<AnyHitPolicy>(pencil, part, side, unit, counting);
   } else {
-    walk_part<FarAnyHitPolicy>(pencil, part, side, unit, counting);
+    walk_part<AnyHitPolicy>(pencil, part, side, unit, counting);
   }
 }
 
@@ -133,9 +129,14 @@ AnsweredRays closest_hits(const PencilRays& pencil, PencilUnit& unit, HitBuffer&
         counting.add("beams");
         walk_part<ClosestHitPolicy>(pencil, part, side, unit, counting);
         const auto z = static_cast<int>(side.z_axis());
-        // The place of a hit errs by some roundings of its distance from the apex; from here on
-        // that is too much for a t that counts from elsewhere, and the canonical test decides.
-        const float far = 2.0F * pencil.hierarchy.bounds.largest_coordinate();
+        // The place of a hit errs by some roundings of its distance from the apex. Where that is
+        // more than ray and hit allow for (float_unit), the canonical test finds t.
+        const auto is_far = [](const Ray& ray, float t, float depth) {
+          const glm::vec3 origin = glm::abs(ray.origin);
+          const glm::vec3 point = glm::abs(ray.origin + t * ray.direction);
+          const auto largest = [](const glm::vec3& v) { return std::max({v.x, v.y, v.z}); };
+          return depth > 1.5F * (largest(origin) + largest(point));
+        };
         for (std::size_t place = 0; place < unit.places; ++place) {
           const std::size_t block = unit.slot[place];
           for (LaneBits left = unit.lanes[block]; left != 0; left &= left - 1) {
@@ -146,9 +147,10 @@ AnsweredRays closest_hits(const PencilRays& pencil, PencilUnit& unit, HitBuffer&
             const bool hit = unit.w[at] > 0.0F;
             const Ray& ray = pencil.rays[i];
             primitive[i] = hit ? unit.primitive[at] : scenes::kNoPrimitive;
-            t[i] =
-                hit ? (depth - 1.0F / unit.origin_w[at]) / std::abs(ray.direction[z]) : kInfinity;
-            if (hit && depth > far) [[unlikely]] {
+            // Of a hit at the ray's origin the depths may differ by a rounding.
+            const float from_origin = std::max(depth - 1.0F / unit.origin_w[at], 0.0F);
+            t[i] = hit ? from_origin / std::abs(ray.direction[z]) : kInfinity;
+            if (hit && is_far(ray, t[i], depth)) [[unlikely]] {
               const float exact = intersect(CanonicalRay(ray), pencil.scene, primitive[i]);
               t[i] = is_hit(exact) ? exact : kNaN;
               some_missed = some_missed || !is_hit(exact);

@@ -126,6 +126,7 @@ class PencilProjection {
 
   LaneBits operator()() {
     const std::size_t count = part_->rays.size();
+    unit_->end_depth = 0.0F;
     for (std::size_t block = 0; block < unit_->listed; ++block) {
       const std::size_t first = unit_->first[block];
       const LaneBits present = (LaneBits{1} << (unit_->first[block + 1] - first)) - 1;
@@ -149,7 +150,7 @@ class PencilProjection {
     const Floats minus_infinity = all(-kInfinity);
     Floats low_u = infinity, high_u = minus_infinity;
     Floats low_v = infinity, high_v = minus_infinity;
-    Floats least_w = infinity, most_origin_w = minus_infinity;
+    Floats least_w = infinity, most_origin_w = minus_infinity, end_depth = hn::Zero(Tag());
     const LaneBits inside = for_each_register([&](std::size_t lane) {
       const RayLanes ray = load_rays(rays + lane);
       const Points from_apex{hn::Sub(ray.origin.x, all(part_->apex.x)),
@@ -166,11 +167,13 @@ class PencilProjection {
       if (!hn::AllFalse(Tag(), hn::AndNot(through, wanted))) [[unlikely]] {
         find_others(seen, size, largest, wanted);
       }
-      const Mask whole = hn::And(hn::Eq(ray.t_min, hn::Zero(Tag())),
-                                 hn::Eq(ray.t_max, all(kToward ? 1.0F : kInfinity)));
-      const Mask in =
-          hn::And(hn::And(through, whole),
-                  hn::And(hn::Gt(depth, all(kNearest)), hn::Le(depth, all(part_->farthest))));
+      const Mask to_end =
+          kToward ? hn::And(hn::Ge(ray.t_max, all(kLeastEnd)), hn::Le(ray.t_max, all(1.0F)))
+                  : hn::Eq(ray.t_max, infinity);
+      const Mask whole = hn::And(hn::Eq(ray.t_min, hn::Zero(Tag())), to_end);
+      const Mask in = hn::And(
+          hn::And(through, whole),
+          hn::And(hn::Gt(hn::Min(depth, z), all(kNearest)), hn::Le(depth, all(part_->farthest))));
       const Floats inverse = hn::Div(all(1.0F), z);
       const Floats u =
           hn::IfThenElse(in, hn::Mul(coordinate(seen, side_.x_axis()), inverse), all(kNaN));
@@ -185,6 +188,8 @@ class PencilProjection {
       high_v = hn::Max(high_v, hn::IfThenElse(in, v, minus_infinity));
       if constexpr (kToward) {
         store(inverse, &unit_->w[at]);
+        const Floats left = hn::Mul(hn::Sub(all(1.0F), ray.t_max), z);
+        end_depth = hn::Max(end_depth, hn::IfThenElse(in, left, hn::Zero(Tag())));
         least_w = hn::Min(least_w, hn::IfThenElse(in, inverse, infinity));
       } else {
         const Floats origin_w = hn::Div(all(1.0F), depth);
@@ -201,6 +206,7 @@ class PencilProjection {
     bounds.low_v[block] = least_of(low_v);
     bounds.high_v[block] = most_of(high_v);
     if constexpr (kToward) {
+      unit_->end_depth = std::max(unit_->end_depth, most_of(end_depth));
       bounds.least_w[block] = least_of(least_w);
     } else {
       bounds.least_w[block] = 0.0F;
@@ -217,8 +223,12 @@ class PencilProjection {
     }
   }
 
-  /// 1 / depth remains of ordinary size, and single rays can be probed (ProbeRay::can_probe).
+  /// Of depths and directions: reciprocals remain of ordinary size, and single rays can be probed
+  /// (ProbeRay::can_probe).
   static constexpr float kNearest = 0x1p-59F;
+  /// Rays that end farther before the apex, as those of points close to a light, are traced one by
+  /// one.
+  static constexpr float kLeastEnd = 1.0F - 0x1p-8F;
 
   const PencilPart* part_;
   CubeSide side_;
@@ -262,7 +272,6 @@ class PencilGrouping {
     const PencilUnit::Bounds& bounds = unit_->block;
     std::int64_t bits = 0;
     std::int64_t extended = 0;
-    unit_->least_w = kInfinity;
     for (std::size_t block = 0; block < unit_->listed; ++block) {
       if (unit_->lanes[block] == 0) continue;
       ++occupied_;
@@ -270,7 +279,6 @@ class PencilGrouping {
       high_u_ = std::max(high_u_, bounds.high_u[block]);
       low_v_ = std::min(low_v_, bounds.low_v[block]);
       high_v_ = std::max(high_v_, bounds.high_v[block]);
-      unit_->least_w = std::min(unit_->least_w, bounds.least_w[block]);
       const float size = extent(block);
       if (size <= 0.0F) continue;
       bits += std::bit_cast<std::int32_t>(size);

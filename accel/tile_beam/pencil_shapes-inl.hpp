@@ -22,6 +22,8 @@ struct ApexView {
   glm::vec3 apex;
   CubeSide side;
   float scene_size;  ///< the largest |coordinate|
+  /// What is closer to the apex is left to the canonical test, ray by ray: some ray ends before it.
+  float end;
 
   /// The world's coordinates in the order of the side's.
   HWY_INLINE Points turned(Floats x, Floats y, Floats z) const {
@@ -68,6 +70,16 @@ HWY_INLINE SeenBounds bounds_of(const TileBoxes& boxes, std::size_t lane, const 
   return {low(plane(0, x)), high(plane(3, x)), low(plane(0, y)), high(plane(3, y)), low_w, high_w};
 }
 
+/// The roundings that float is allowed for where a ray begins, in units of 2^-24 (see
+/// TriangleShapes): of places, which are to be multiplied by 1, of origins beside their line by the
+/// scene's size and w, and of the depths of origins.
+template <class Policy>
+inline constexpr float kSlackOfPlaces = Policy::kClosest ? 36.0F : 8.0F;
+template <class Policy>
+inline constexpr float kSlackOfOrigins = Policy::kClosest ? 16.0F : 0.0F;
+template <class Policy>
+inline constexpr float kSlackOfDepths = Policy::kClosest ? 48.0F : 16.0F;
+
 /// Up to 32 shapes of a leaf, row by row of numbers.
 struct SeenShapes {
   enum Row : std::size_t {
@@ -78,12 +90,17 @@ struct SeenShapes {
     kLowW,
     kHighW,
     /// Triangles: three edges a u + b v + c, inside not negative; the plane, and its distance: w of
-    /// the triangle is (x u + y v + z) / distance. And the magnitudes of a, b, x and y.
+    /// the triangle is (x u + y v + z) / distance. And the magnitudes of a, b, x and y. For any
+    /// hits the plane and the distance are moved toward the rays by the slack.
     kEdge0,
     kPlane = kEdge0 + 9,
     kDistance = kPlane + 3,
     kMagnitudes,
-    kRows = kMagnitudes + 8,
+    /// Triangles: by how much plane - distance w may be wrong, slack + slack per w * w; twice as
+    /// much where that was moved by it.
+    kSlack = kMagnitudes + 8,
+    kSlackPerW,
+    kRows,
     /// Spheres: center and radius in the coordinates of the side.
     kCenter = kEdge0,
     kRadius = kCenter + 3
@@ -123,6 +140,23 @@ struct PencilBounds {
 };
 
 /// Triangles of a meshlet.
+///
+/// How far a ray's origin o lies before a triangle's plane is n.(u, v, 1) - w n.p, of the normal n
+/// and a corner p, seen from the apex. In units of e = 2^-24, and with |x| for the sum of the sizes
+/// of x's components, float makes it wrong by at most
+/// - 4 (|n.x| + |n.y|) of the places u and v, whose four roundings each have an error of e, and
+///   3 |n| of the sums: 7 |n|;
+/// - 4 of the distance n.p, 2 of w and 3 of the sums: 9 w (|n.x p.x| + |n.y p.y| + |n.z p.z|);
+/// - 4 L^2 of each component of n, L being the longest side at the corner p, times o - p, which
+///   where the triangle is hit is within sqrt(3) L: 7 w L^3.
+/// Within this slack, rounded up, the canonical test decides (`PencilTests`). Beyond it, the sign
+/// is that of the canonical test, and so is that of t: the apex lies on the other side of the
+/// plane.
+///
+/// Of rays away from the apex, u and v are those of the direction. Their origin lies beside the
+/// line through the apex by up to 16 e (scene size + distance) (`RayBatch`): the sum of the sizes
+/// of n's components times that, of which distance * w is sqrt(3) at most, is added.
+template <class Policy>
 class TriangleShapes {
  public:
   TriangleShapes(const Meshlet& meshlet, const ApexView& view, SeenShapes& shapes)
@@ -199,12 +233,21 @@ class TriangleShapes {
     const Points normal{hn::MulSub(side1.y, side2.z, hn::Mul(side1.z, side2.y)),
                         hn::MulSub(side1.z, side2.x, hn::Mul(side1.x, side2.z)),
                         hn::MulSub(side1.x, side2.y, hn::Mul(side1.y, side2.x))};
+    const Points size{hn::Abs(normal.x), hn::Abs(normal.y), hn::Abs(normal.z)};
     const Floats distance = dot(normal, p0);
     // A needle's normal is too inaccurate in float, unless the needle is small.
     const Floats longest = hn::Max(dot(side1, side1), dot(side2, side2));
     const float reach = 4.0F * view_->scene_size;
     const Mask needle = hn::Not(hn::Lt(hn::Mul(longest, hn::Mul(longest, longest)),
                                        hn::Mul(all(reach * reach), dot(normal, normal))));
+    const Points p0_size{hn::Abs(p0.x), hn::Abs(p0.y), hn::Abs(p0.z)};
+    const Floats sum_of_sizes = hn::Add(size.x, hn::Add(size.y, size.z));
+    const Floats slack = hn::Mul(all(kRounding * kSlackOfPlaces<Policy>), sum_of_sizes);
+    Floats slack_per_w =
+        hn::MulAdd(all(10.0F * kRounding), dot(size, p0_size),
+                   hn::Mul(all(8.0F * kRounding), hn::Mul(longest, hn::Sqrt(longest))));
+    slack_per_w = hn::MulAdd(all(kRounding * kSlackOfOrigins<Policy> * view_->scene_size),
+                             sum_of_sizes, slack_per_w);
 
     // Places of corners are those of all their triangles. So edges moved outward by what their
     // values may be rounded by leave no gap between triangles that share an edge or a corner.
@@ -238,14 +281,21 @@ class TriangleShapes {
       shapes_->set(SeenShapes::kMagnitudes + 2 * k + 1, lane, size_b);
     }
     const Floats toward = hn::And(distance, all(-0.0F));
+    const auto with = [](Floats value, Floats change) {
+      return Policy::kClosest ? value : hn::Add(value, change);
+    };
     shapes_->set(SeenShapes::kPlane, lane, hn::Xor(normal.x, toward));
     shapes_->set(SeenShapes::kPlane + 1, lane, hn::Xor(normal.y, toward));
-    shapes_->set(SeenShapes::kPlane + 2, lane, hn::Xor(normal.z, toward));
-    shapes_->set(SeenShapes::kMagnitudes + 6, lane, hn::Abs(normal.x));
-    shapes_->set(SeenShapes::kMagnitudes + 7, lane, hn::Abs(normal.y));
-    shapes_->set(SeenShapes::kDistance, lane, hn::Abs(distance));
+    shapes_->set(SeenShapes::kPlane + 2, lane, with(hn::Xor(normal.z, toward), slack));
+    shapes_->set(SeenShapes::kMagnitudes + 6, lane, size.x);
+    shapes_->set(SeenShapes::kMagnitudes + 7, lane, size.y);
+    shapes_->set(SeenShapes::kDistance, lane, with(hn::Abs(distance), hn::Neg(slack_per_w)));
+    shapes_->set(SeenShapes::kSlack, lane, with(slack, slack));
+    shapes_->set(SeenShapes::kSlackPerW, lane, with(slack_per_w, slack_per_w));
     shapes_->present |= bits_of(present) << lane;
-    shapes_->exact |= bits_of(hn::Or(hn::Not(before), hn::Or(needle, sliver))) << lane;
+    const Mask at_end = hn::Gt(hn::Mul(bounds.high_w, all(view_->end)), all(1.0F));
+    shapes_->exact |= bits_of(hn::Or(hn::Or(hn::Not(before), at_end), hn::Or(needle, sliver)))
+                      << lane;
   }
 
   void set_up_exactly(std::size_t triangle) {
@@ -261,7 +311,7 @@ class TriangleShapes {
       return;
     }
     shapes.set_seen_everywhere(triangle);
-    if (exact->at_apex) {
+    if (exact->at_apex || exact->distance_to_plane <= double{view_->end}) {
       shapes.exact &= ~bit;
       shapes.by_rays |= bit;
       for (std::size_t row = SeenShapes::kEdge0; row < SeenShapes::kRows; ++row) {
@@ -296,8 +346,9 @@ class TriangleShapes {
         static_cast<float>(exact->distance * (1.0 - 1e-6));
   }
 
+  static constexpr float kRounding = 0x1p-24F;
   /// How far edges are moved, on the side of the cube: a rounding of places |u| <= 1.
-  static constexpr float kOutward = 0x1p-24F;
+  static constexpr float kOutward = kRounding;
   /// Beyond this tangent a corner's place is less accurate than blocks' bounds allow for.
   static constexpr float kFarAside = 4.0F;
   /// The area of a triangle, over its extent, below which its sign is uncertain: eight roundings of
@@ -341,9 +392,12 @@ HWY_INLINE void set_up_spheres(const SphereBlock& block, const ApexView& view, f
     const Floats squared = dot(center, center);
     const Floats radius_squared = hn::Mul(radius, radius);
     shapes.around |= bits_of(hn::Lt(squared, radius_squared)) << lane;
-    // Float cannot decide on which side of a surface so near the apex is.
-    const Mask at_apex = hn::Le(hn::Abs(hn::Sub(squared, radius_squared)),
-                                hn::Mul(all(0x1p-19F), hn::Add(squared, radius_squared)));
+    // Float cannot decide on which side of a surface so near the apex is, nor which ray ends before
+    // the surface.
+    const Floats near =
+        hn::MulAdd(all(0x1p-19F), hn::Add(squared, radius_squared),
+                   hn::Mul(all(view.end), hn::MulAdd(all(2.0F), radius, all(view.end))));
+    const Mask at_apex = hn::Le(hn::Abs(hn::Sub(squared, radius_squared)), near);
     shapes.by_rays |= bits_of(at_apex) << lane;
   }
   shapes.present &= (LaneBits{1} << block.count) - 1;

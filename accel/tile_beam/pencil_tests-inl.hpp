@@ -30,13 +30,14 @@ class PencilTests {
  public:
   PencilTests(const scenes::Scene& scene, const PencilPart& part, PencilUnit& unit,
               PencilGroups<Policy>& groups, PencilSingleRays<Policy, Counting>& single_rays,
-              const SeenShapes& shapes)
+              const SeenShapes& shapes, float scene_size)
       : scene_(&scene),
         part_(&part),
         unit_(&unit),
         groups_(&groups),
         single_rays_(&single_rays),
-        shapes_(&shapes) {}
+        shapes_(&shapes),
+        scene_size_(scene_size) {}
 
   HWY_INLINE std::uint32_t test_triangles(std::span<const std::uint32_t> pairs,
                                           const Meshlet& meshlet) {
@@ -50,8 +51,8 @@ class PencilTests {
       } else {
         Unsure unsure;
         LaneBits hits = test_triangle(place, shape, meshlet.primitives[shape], unsure);
-        if (Policy::kFar && unsure.depth != 0) [[unlikely]] {
-          hits = confirmed(place, hits, unsure.depth, crosses_plane_of(meshlet, shape));
+        if (unsure.depth != 0) [[unlikely]] {
+          hits = decided_by_plane(place, hits, unsure.depth, meshlet, shape);
         }
         if (Policy::kDense && (unsure.edge & hits) != 0) [[unlikely]] {
           hits = decided_by_rays(place, hits, unsure.edge);
@@ -69,18 +70,19 @@ class PencilTests {
       const std::size_t place = pair / SeenShapes::kMost;
       const std::size_t shape = pair % SeenShapes::kMost;
       const scenes::PrimitiveId id = block.primitives[shape];
-      const auto intersect = [&](const CanonicalRay& ray) {
-        return intersect_sphere(ray, scene_->spheres[scene_->primitives[id].index]);
+      const scenes::Sphere& sphere = scene_->spheres[scene_->primitives[id].index];
+      const auto t_of = [&](const Ray& ray) {
+        return leaves(sphere, ray) ? kMiss : intersect_sphere(CanonicalRay(ray), sphere);
       };
       if ((shapes_->by_rays >> shape & 1U) != 0) {
-        changed |= test_by_rays(place, id, intersect);
+        changed |= test_by_rays(place, id, t_of);
       } else {
         const bool around = (shapes_->around >> shape & 1U) != 0;
         const bool inside_only = (block.inside_only >> shape & 1U) != 0;
-        LaneBits hits = test_sphere(place, shape, around, inside_only, id);
-        if (Policy::kFar && hits != 0) {
-          hits = confirmed(place, hits, unsure_of_sphere(place, shape),
-                           [&](const Ray& ray) { return is_hit(intersect(CanonicalRay(ray))); });
+        Unsure unsure;
+        LaneBits hits = test_sphere(place, shape, around, inside_only, id, unsure);
+        if (unsure.depth != 0) [[unlikely]] {
+          hits = decided(place, hits, unsure.depth, id, t_of);
         }
         changed |= groups_->note(place, hits);
       }
@@ -94,8 +96,9 @@ class PencilTests {
     for (const std::uint32_t pair : pairs) {
       const scenes::PrimitiveId id = block.primitives[pair % SeenShapes::kMost];
       const scenes::Cone& cone = scene_->cones[scene_->primitives[id].index];
-      changed |= test_by_rays(pair / SeenShapes::kMost, id,
-                              [&](const CanonicalRay& ray) { return intersect_cone(ray, cone); });
+      changed |= test_by_rays(pair / SeenShapes::kMost, id, [&](const Ray& ray) {
+        return intersect_cone(CanonicalRay(ray), cone);
+      });
     }
     return changed;
   }
@@ -103,10 +106,10 @@ class PencilTests {
  private:
   static constexpr bool kClosest = Policy::kClosest;
 
-  /// Hits of a triangle that float is not sure of.
+  /// The rays of a block of which float is not sure whether they hit a shape.
   struct Unsure {
-    LaneBits depth = 0;  ///< close to a ray's origin
-    LaneBits edge = 0;   ///< close to an edge, which was moved outward
+    LaneBits depth = 0;  ///< they begin too close to it: at its surface or at one of its sides
+    LaneBits edge = 0;   ///< hits close to an edge, which was moved outward
   };
 
   /// The rays of a block that hit a triangle, and which of these hits are uncertain.
@@ -126,12 +129,24 @@ class PencilTests {
       };
       const Floats outside = either(edge(0), edge(1), edge(2));
       const Floats distance = of(SeenShapes::kDistance);
+      const auto slack = [&](Floats at_w) {
+        return hn::MulAdd(of(SeenShapes::kSlackPerW), at_w, of(SeenShapes::kSlack));
+      };
+      const auto note_close = [&](Mask close) {
+        unsure.depth |= (bits_of(close) << lane) & unit_->alive[place];
+      };
       if constexpr (kClosest) {
+        const Floats origin_w = load(&unit_->origin_w[block + lane]);
         const Floats plane = line(SeenShapes::kPlane, of(SeenShapes::kPlane + 2));
         const Floats before = hn::NegMulAdd(distance, w, plane);
-        const Floats after = hn::MulSub(distance, load(&unit_->origin_w[block + lane]), plane);
-        const Mask hit = hn::AndNot(is_negative(either(outside, before, after)),
-                                    lanes_of(unit_->alive[place], lane));
+        const Floats after = hn::MulSub(distance, origin_w, plane);
+        const Floats may_err = slack(origin_w);
+        const Mask possible =
+            hn::AndNot(is_negative(either(outside, before, hn::Add(after, may_err))),
+                       lanes_of(unit_->alive[place], lane));
+        const Mask close = hn::And(possible, is_negative(hn::Sub(after, may_err)));
+        note_close(close);
+        const Mask hit = hn::AndNot(close, possible);
         if (!hn::AllFalse(Tag(), hit)) {
           keep(block + lane, hit, hn::Div(plane, distance), w, primitive);
         }
@@ -140,11 +155,7 @@ class PencilTests {
         const Floats beyond =
             line(SeenShapes::kPlane, hn::NegMulAdd(distance, w, of(SeenShapes::kPlane + 2)));
         const Mask hit = hn::Not(is_negative(hn::Or(outside, beyond)));
-        if constexpr (Policy::kFar) {
-          const Floats clearly = hn::NegMulAdd(hn::Mul(distance, w), all(kDepthRounding), beyond);
-          const Mask close = hn::And(hit, is_negative(clearly));
-          unsure.depth |= (bits_of(close) << lane) & unit_->alive[place];
-        }
+        note_close(hn::And(hit, is_negative(hn::Sub(beyond, slack(w)))));
         if constexpr (Policy::kDense) {
           const auto inside = [&](std::size_t k) {
             const std::size_t row = SeenShapes::kMagnitudes + 2 * k;
@@ -173,53 +184,61 @@ class PencilTests {
   std::uint32_t test_specially(std::size_t place, std::size_t shape, const Meshlet& meshlet) {
     const scenes::PrimitiveId primitive = meshlet.primitives[shape];
     if ((shapes_->exact >> shape & 1U) == 0) {
-      return test_by_rays(place, primitive, [&](const CanonicalRay& ray) {
-        return intersect_triangle(ray, meshlet.corner(0, shape), meshlet.corner(1, shape),
-                                  meshlet.corner(2, shape));
+      return test_by_rays(place, primitive, [&](const Ray& ray) {
+        return intersect_triangle(CanonicalRay(ray), meshlet.corner(0, shape),
+                                  meshlet.corner(1, shape), meshlet.corner(2, shape));
       });
     }
     Unsure unsure;
     LaneBits hits = test_exact_triangle(place, shapes_->exact_triangle[shape], primitive, unsure);
-    if (Policy::kFar) hits = confirmed(place, hits, hits, crosses_plane_of(meshlet, shape));
+    if (unsure.depth != 0) hits = decided_by_plane(place, hits, unsure.depth, meshlet, shape);
     // Seen edge-on, a sliver is not wider than its edges were moved.
     if (!kClosest) hits = decided_by_rays(place, hits, unsure.edge);
     return groups_->note(place, hits);
   }
 
-  /// Of depth alone: where triangles share an edge, one must not be tested in float and the other
-  /// in double for which of them a ray passes.
-  static auto crosses_plane_of(const Meshlet& meshlet, std::size_t shape) {
-    return [&meshlet, shape](const Ray& ray) {
-      return crosses_plane(
-          ray, {meshlet.corner(0, shape), meshlet.corner(1, shape), meshlet.corner(2, shape)});
-    };
+  /// The hits of a block, of which the plane of a triangle decides some. The plane alone: where
+  /// triangles share an edge, one must not be tested in float and the other in double for which of
+  /// them a ray passes.
+  LaneBits decided_by_plane(std::size_t place, LaneBits hits, LaneBits unsure,
+                            const Meshlet& meshlet, std::size_t shape) {
+    const TrianglePlane plane(
+        {meshlet.corner(0, shape), meshlet.corner(1, shape), meshlet.corner(2, shape)});
+    return decided(place, hits, unsure, meshlet.primitives[shape],
+                   [&](const Ray& ray) { return plane.hit(ray); });
   }
 
-  /// The hits to be confirmed: where the ray begins within the roundings of its depth of the
-  /// surface.
-  LaneBits unsure_of_sphere(std::size_t place, std::size_t shape) const {
-    const OneShape of{*shapes_, shape};
-    const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
-    return for_each_register([&](std::size_t lane) {
-      const Floats depth = hn::Div(all(1.0F), load(&unit_->w[block + lane]));
-      const Points begin{
-          hn::MulSub(load(&unit_->u[block + lane]), depth, of(SeenShapes::kCenter)),
-          hn::MulSub(load(&unit_->v[block + lane]), depth, of(SeenShapes::kCenter + 1)),
-          hn::Sub(depth, of(SeenShapes::kCenter + 2))};
-      const Floats reach = hn::MulAdd(depth, all(kDepthRounding), of(SeenShapes::kRadius));
-      return hn::Lt(dot(begin, begin), hn::Mul(reach, reach));
-    });
+  /// Does the ray begin outside of the sphere, clearly in double, and run away from it? Far from
+  /// the apex most rays that begin beside a sphere are unsure, and do so.
+  static bool leaves(const scenes::Sphere& sphere, const Ray& ray) {
+    const glm::dvec3 from_center = glm::dvec3(ray.origin) - glm::dvec3(sphere.center);
+    const double square = double{sphere.radius} * sphere.radius;
+    return glm::dot(from_center, from_center) > square * (1.0 + 0x1p-30) &&
+           glm::dot(from_center, glm::dvec3(ray.direction)) > 0.0;
   }
 
-  /// Any hits, of which `is_hit_by(ray)` decides some.
-  template <class IsHit>
-  LaneBits confirmed(std::size_t place, LaneBits hits, LaneBits unsure, IsHit is_hit_by) const {
+  /// The hits of a block, of which the canonical test decides some: `t_of(ray)` returns t or kMiss.
+  template <class TOf>
+  LaneBits decided(std::size_t place, LaneBits hits, LaneBits unsure, scenes::PrimitiveId primitive,
+                   TOf t_of) {
     const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
-    for (LaneBits left = hits & unsure & unit_->alive[place]; left != 0; left &= left - 1) {
+    hits &= ~unsure;
+    for (LaneBits left = unsure; left != 0; left &= left - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-      if (!is_hit_by(part_->rays[unit_->ray_at(block + lane)])) hits &= ~(LaneBits{1} << lane);
+      const Ray& ray = part_->rays[unit_->ray_at(block + lane)];
+      const float t = t_of(ray);
+      if (!is_hit(t)) continue;
+      if constexpr (kClosest) {
+        if (!single_rays_->keeps(block + lane, ray, {t, primitive})) continue;
+      }
+      hits |= LaneBits{1} << lane;
     }
     return hits;
+  }
+
+  template <class TOf>
+  std::uint32_t test_by_rays(std::size_t place, scenes::PrimitiveId primitive, TOf t_of) {
+    return groups_->note(place, decided(place, 0, unit_->alive[place], primitive, t_of));
   }
 
   LaneBits test_exact_triangle(std::size_t place, const ExactApexTriangle& triangle,
@@ -227,6 +246,11 @@ class PencilTests {
     const hn::CappedTag<double, 8> d;
     const hn::Rebind<float, decltype(d)> half;
     const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
+    // In float are only the rays: see TriangleShapes.
+    const double size =
+        std::abs(triangle.plane.x) + std::abs(triangle.plane.y) + std::abs(triangle.plane.z);
+    const double slack_at_apex = 0x1p-24 * kSlackOfPlaces<Policy> * size;
+    const double slack_per_w = 0x1p-24 * kSlackOfOrigins<Policy> * size * scene_size_;
     LaneBits hits = 0;
     alignas(64) std::array<float, PencilUnit::kBlock> found_w;
     for (std::size_t lane = 0; lane < PencilUnit::kBlock; lane += hn::Lanes(d)) {
@@ -242,30 +266,38 @@ class PencilTests {
       const auto distance = hn::Set(d, triangle.distance);
       const std::array edges{line(triangle.edges[0]), line(triangle.edges[1]),
                              line(triangle.edges[2])};
-      auto hit = hn::And(hn::And(hn::Ge(edges[0], none), hn::Ge(edges[1], none)),
-                         hn::And(hn::Ge(edges[2], none), hn::Gt(plane, hn::Mul(distance, w))));
+      auto hit =
+          hn::And(hn::And(hn::Ge(edges[0], none), hn::Ge(edges[1], none)), hn::Ge(edges[2], none));
       const auto within = [&](auto place, double low, double high) {
         return hn::And(hn::Ge(place, hn::Set(d, low)), hn::Le(place, hn::Set(d, high)));
       };
       hit = hn::And(hit, hn::And(within(u, triangle.low.x, triangle.high.x),
                                  within(v, triangle.low.y, triangle.high.y)));
+      auto from_origin = hn::Sub(plane, hn::Mul(distance, w));
+      auto slack = hn::Set(d, slack_at_apex);
       if constexpr (kClosest) {
         const auto origin_w = hn::PromoteTo(d, hn::Load(half, &unit_->origin_w[block + lane]));
-        hit = hn::And(hit, hn::Lt(plane, hn::Mul(distance, origin_w)));
+        hit = hn::And(hit, hn::Gt(from_origin, none));  // nearer than the nearest so far
+        from_origin = hn::Sub(hn::Mul(distance, origin_w), plane);
+        slack = hn::MulAdd(hn::Set(d, slack_per_w), origin_w, slack);
         hn::Store(hn::DemoteTo(half, hn::Div(plane, distance)), half, &found_w[lane]);
       }
+      hit = hn::And(hit, hn::Ge(from_origin, hn::Neg(slack)));
       const auto bits = [&](auto mask) {
         std::array<std::uint8_t, 8> stored{};
         hn::StoreMaskBits(d, mask, stored.data());
         return static_cast<LaneBits>(stored[0]) << lane;
       };
       hits |= bits(hit);
+      unsure.depth |= bits(hn::And(hit, hn::Lt(from_origin, slack)));
       for (std::size_t k = 0; k < 3; ++k) {
         unsure.edge |= bits(hn::Lt(edges[k], hn::Set(d, triangle.clear[k])));
       }
     }
     hits &= unit_->alive[place];
+    unsure.depth &= hits;
     if constexpr (kClosest) {
+      hits &= ~unsure.depth;
       for (std::size_t lane = 0; lane < PencilUnit::kBlock; lane += kLanes) {
         const Floats w = load(&unit_->w[block + lane]);
         keep(block + lane, lanes_of(hits >> lane, 0), load(&found_w[lane]), w, primitive);
@@ -275,17 +307,18 @@ class PencilTests {
   }
 
   /// In units of z: a ray's line is s (u, v, 1). Which side of the surface a ray begins on decides
-  /// which of the two roots are within the ray, and is known better than the roots: rays begin at
-  /// some distance from surfaces. As the canonical test does, the discriminant is taken from the
-  /// line's point nearest the center (Haines et al., Ray Tracing Gems, 2019).
+  /// which of the two roots are within the ray, and is known better than the roots; of rays that
+  /// begin too close to the surface it is not known. As the canonical test does, the discriminant
+  /// is taken from the line's point nearest the center (Haines et al., Ray Tracing Gems, 2019).
   HWY_INLINE LaneBits test_sphere(std::size_t place, std::size_t shape, bool around,
-                                  bool inside_only, scenes::PrimitiveId primitive) {
+                                  bool inside_only, scenes::PrimitiveId primitive, Unsure& unsure) {
     const OneShape of{*shapes_, shape};
     const Points center{of(SeenShapes::kCenter), of(SeenShapes::kCenter + 1),
                         of(SeenShapes::kCenter + 2)};
     const Floats radius = of(SeenShapes::kRadius);
     const Floats square = hn::Mul(radius, radius);
     const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
+    const float slack_of_origins = 0x1p-24F * kSlackOfOrigins<Policy> * scene_size_;
     const auto only = [](bool condition) {
       return hn::Gt(all(condition ? 1.0F : 0.0F), hn::Zero(Tag()));
     };
@@ -304,7 +337,15 @@ class PencilTests {
       const Floats origin_w = load(kClosest ? &unit_->origin_w[at] : &unit_->w[at]);
       const Floats origin = hn::Div(all(1.0F), origin_w);
       const Points begin = from_center(origin);
-      const Mask inside = hn::Lt(dot(begin, begin), square);
+      const Floats from_middle = dot(begin, begin);
+      const Mask inside = hn::Lt(from_middle, square);
+      const Floats slack = hn::MulAdd(origin, all(0x1p-24F * kSlackOfDepths<Policy>),
+                                      hn::MulAdd(radius, all(0x1p-20F), all(slack_of_origins)));
+      const Floats outer = hn::Add(radius, slack);
+      const Floats inner = hn::Max(hn::Sub(radius, slack), hn::Zero(Tag()));
+      const Mask close = hn::And(hn::Le(from_middle, hn::Mul(outer, outer)),
+                                 hn::Ge(from_middle, hn::Mul(inner, inner)));
+      unsure.depth |= (bits_of(close) << lane) & unit_->alive[place];
       if constexpr (kClosest) {
         const Mask ahead = hn::Or(inside, hn::And(meets, hn::Gt(middle, origin)));
         const Floats half = hn::Sqrt(hn::Mul(hn::Max(left_over, hn::Zero(Tag())), per_square));
@@ -313,8 +354,8 @@ class PencilTests {
             hn::Max(hn::Add(middle, hn::IfThenElse(leaves, half, hn::Neg(half))), origin);
         const Floats found = hn::Div(all(1.0F), root);
         const Floats w = load(&unit_->w[at]);
-        const Mask hit =
-            hn::And(hn::And(ahead, hn::Gt(found, w)), lanes_of(unit_->alive[place], lane));
+        const Mask hit = hn::AndNot(
+            close, hn::And(hn::And(ahead, hn::Gt(found, w)), lanes_of(unit_->alive[place], lane)));
         if (!hn::AllFalse(Tag(), hit)) keep(at, hit, found, w, primitive);
         return hit;
       } else {
@@ -327,25 +368,6 @@ class PencilTests {
     });
   }
 
-  /// `intersect(ray)` returns t or kMiss for a CanonicalRay.
-  template <class Intersect>
-  std::uint32_t test_by_rays(std::size_t place, scenes::PrimitiveId primitive,
-                             Intersect intersect) {
-    const std::size_t block = unit_->slot[place];
-    LaneBits hits = 0;
-    for (LaneBits left = unit_->alive[place]; left != 0; left &= left - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-      const Ray& ray = part_->rays[unit_->ray_at(block * PencilUnit::kBlock + lane)];
-      const float t = intersect(CanonicalRay(ray));
-      if (!is_hit(t)) continue;
-      if constexpr (kClosest) {
-        if (!single_rays_->keeps(block * PencilUnit::kBlock + lane, ray, {t, primitive})) continue;
-      }
-      hits |= LaneBits{1} << lane;
-    }
-    return groups_->note(place, hits);
-  }
-
   /// Closest hits.
   HWY_INLINE void keep(std::size_t at, Mask hit, Floats found, Floats w,
                        scenes::PrimitiveId primitive) {
@@ -356,8 +378,6 @@ class PencilTests {
               ids, &unit_->primitive[at]);
   }
 
-  /// Sixteen roundings of a depth.
-  static constexpr float kDepthRounding = 0x1p-20F;
   /// By how much an edge was moved outward, and as much again on the inside.
   static constexpr float kEdgeRounding = 0x1p-22F;
 
@@ -367,6 +387,7 @@ class PencilTests {
   PencilGroups<Policy>* groups_;
   PencilSingleRays<Policy, Counting>* single_rays_;
   const SeenShapes* shapes_;
+  float scene_size_;  ///< the largest |coordinate|
 };
 
 }  // namespace beambench::accel::tile_beam::HWY_NAMESPACE

@@ -40,7 +40,6 @@ struct PencilUnit {
 
   Array<std::uint16_t, kListed + 1> first;  ///< ray of each listed block, and behind the last
   std::size_t listed;
-  float least_w;  ///< of all blocks
 
   /// The ray of a place in the arrays below.
   std::size_t ray_at(std::size_t at) const {
@@ -73,6 +72,8 @@ struct PencilUnit {
   alignas(64) Array<float, kPlaces> middle_u, middle_v, half_u, half_v;
   std::size_t places;
   CubeSide side;  ///< that saw the last rays
+  /// Rays toward the apex: how far from it along the side's axis the first of them ends.
+  float end_depth;
 
   /// The groups' bounds; a group without a ray alive has none.
   alignas(64) Array<float, kGroups> group_low_u, group_high_u, group_low_v, group_high_v, group_w,

@@ -34,13 +34,14 @@ class PencilWalk {
   PencilWalk(const TileHierarchy& hierarchy, const scenes::Scene& scene, const PencilPart& part,
              CubeSide side, PencilUnit& unit, Counting& counting)
       : hierarchy_(&hierarchy),
-        view_{part.apex, side, hierarchy.bounds.largest_coordinate()},
+        view_{part.apex, side, hierarchy.bounds.largest_coordinate(),
+              kClosest ? 0.0F : kDiagonal * unit.end_depth},
         unit_(&unit),
         counting_(&counting),
         groups_(unit),
         single_rays_(hierarchy, scene, part, view_, unit, groups_, counting),
         pairs_(unit, groups_, shapes_),
-        tests_(scene, part, unit, groups_, single_rays_, shapes_) {}
+        tests_(scene, part, unit, groups_, single_rays_, shapes_, view_.scene_size) {}
   PencilWalk(const PencilWalk&) = delete;
   PencilWalk& operator=(const PencilWalk&) = delete;
 
@@ -72,6 +73,8 @@ class PencilWalk {
 
  private:
   static constexpr bool kClosest = Policy::kClosest;
+  /// No place on a side of the cube is farther from the apex, per unit of depth.
+  static constexpr float kDiagonal = 1.75F;
 
   static constexpr SideBounds kEverywhere{-kAtApex, kAtApex, -kAtApex, kAtApex, -kAtApex, kAtApex};
   struct Entry {
@@ -156,7 +159,7 @@ class PencilWalk {
     switch (entry.child.kind()) {
       case TileChild::Kind::kMeshlet: {
         const Meshlet& meshlet = hierarchy_->meshlets[entry.child.index()];
-        TriangleShapes(meshlet, view_, shapes_)(groups_.all_bounds());
+        TriangleShapes<Policy>(meshlet, view_, shapes_)(groups_.all_bounds());
         if (shapes_.present == 0) return;
         pairs_.template find<true>(entry.bounds, groups, meshlet.triangle_count);
         count_tests(scenes::PrimitiveKind::kPolygon);

@@ -74,6 +74,10 @@ TEST(RequireValid, RefusesBadNumbers) {
   ray = good;
   ray.direction = glm::vec3(0.0F);
   refused(ray);
+  ray.direction = glm::vec3(0.0F, 0.9e-30F, -0.9e-30F);
+  refused(ray);
+  ray.direction.x = -1e-30F;
+  EXPECT_NO_THROW(require_valid(ray));
   ray = good;
   ray.t_min = -1.0F;
   refused(ray);

@@ -32,8 +32,8 @@ def rays(
 
     Args:
         origins: shape (N, 3), or (3,) for all rays.
-        directions: shape (N, 3), or (3,) for all rays; not zero, of any length, in whose units t
-            counts.
+        directions: shape (N, 3), or (3,) for all rays, in whose units t counts; the largest
+            component must have a size of 1e-30 or more, and none a size above 1e9.
         t_min: shape (N,) or one number; not negative.
         t_max: shape (N,) or one number; may be infinite.
 
