@@ -45,20 +45,20 @@ inline double float_unit(const glm::dvec3& origin, const glm::dvec3& point) {
   return 0x1p-24 * (std::max({size.x, size.y, size.z}) + glm::length(origin));
 }
 
-/// How many u two points may be apart that count as one (K): about four times the worst residual
+/// The number of u within which two points count as one (K): about four times the worst residual
 /// that Embree's float kernels showed.
 inline constexpr double kUnits = 16.0;
 
-/// How far from a surface, along its unit normal, rays begin that start where a ray from `origin`
-/// met it at `point`; also how far before a light at `point` its shadow rays end. Four times the
-/// length within which the differ cannot distinguish points.
+/// The distance from a surface, along its normal, at which rays begin where a ray from `origin` met
+/// it at `point`; also that before a light at `point` at which its shadow rays end. It is four
+/// times the length within which the differ cannot distinguish points.
 inline double surface_lift(const glm::dvec3& origin, const glm::dvec3& point) {
   return 4.0 * kUnits * float_unit(origin, point);
 }
 
-/// How far beside a planar mirror the rays begin that it reflects, whatever they met it at: rays
-/// from one point then still come from one point, the virtual eye moved by this length. `polygons`
-/// are the bounds of the mirror's polygons.
+/// The distance from a planar mirror at which the rays begin that it reflects. Rays from one point
+/// then still come from one point, the virtual eye moved by this length. `polygons` are the bounds
+/// of the mirror's polygons.
 inline double mirror_lift(const scenes::Bounds& polygons) {
   if (polygons.empty()) return 0.0;
   const glm::dvec3 farthest(glm::max(glm::abs(polygons.lower), glm::abs(polygons.upper)));

@@ -22,7 +22,7 @@ struct ApexView {
   glm::vec3 apex;
   CubeSide side;
   float scene_size;  ///< the largest |coordinate|
-  /// What is closer to the apex is left to the canonical test, ray by ray: some ray ends before it.
+  /// Shapes closer to the apex are left to the canonical test: some ray ends before them.
   float end;
 
   /// The world's coordinates in the order of the side's.

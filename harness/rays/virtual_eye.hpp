@@ -27,8 +27,8 @@ class MirrorTable {
     return mirrors_.empty() ? kNone : mirror_of_[primitive];
   }
   const std::vector<scenes::PlanarMirror>& mirrors() const { return mirrors_; }
-  /// How far beside a primitive, which a ray from `origin` met at `point`, rays begin: one length
-  /// for all of a planar mirror.
+  /// Returns the distance at which rays begin beside a primitive that a ray from `origin` met at
+  /// `point`: the same for all points of a planar mirror.
   double lift_at(scenes::PrimitiveId primitive, const glm::dvec3& origin,
                  const glm::dvec3& point) const {
     const std::uint32_t mirror = mirror_of(primitive);

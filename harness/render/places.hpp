@@ -74,8 +74,8 @@ struct LightAngles {
 
 /// The computations for one instruction set.
 struct PlaceKernels {
-  /// From points, lifts, directions of any length and normals of any length on either side to all
-  /// that `Places` describes; a normal without a direction is turned against the ray.
+  /// Computes all that `Places` describes from points, lifts, directions of any length and normals
+  /// of any length on either side; a normal without a direction is turned against the ray.
   void (*complete)(Places& places);
   void (*find_angles)(const Places& places, const glm::dvec3& light, LightAngles& angles);
 };

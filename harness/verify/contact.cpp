@@ -246,8 +246,8 @@ std::vector<Approach> cone_approaches(const RayLine& line, const scenes::Cone& c
   return found;
 }
 
-/// How far the line passes beside a rim near a point: of the rim's point next to that, or where the
-/// line is closer to the rim and no farther from the point than two at one place may be.
+/// The distance of the line from a rim near a point: from the rim's point next to that, or less
+/// where the line comes closer to the rim at one place with the point.
 Real rim_distance(const RayLine& line, const Profile& profile, const Vector& point, Real rim,
                   Real grazing) {
   Real nearest = line.distance_to(profile.rim_point(point, rim));

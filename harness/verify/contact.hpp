@@ -12,7 +12,7 @@ namespace beambench::verify {
 
 /// A claimed hit measured against its primitive.
 struct Contact {
-  /// How far the claim is from a true hit: the larger of the distance of the point at t from the
+  /// The distance of the claim from a true hit: the larger of the distance of the point at t from the
   /// primitive's surface (continued beyond its boundary) and the distance by which the ray passes
   /// beside the primitive. Infinite where the ray may not hit at all: at the entry into a primitive
   /// that is seen from the inside only.
@@ -28,7 +28,7 @@ struct Contact {
 Contact contact(const scenes::Scene& scene, const accel::Ray& ray,
                 const accel::embree::ExactHit& hit, double grazing);
 
-/// Where the line of a ray comes closest to a part of a primitive's boundary.
+/// The place where the line of a ray comes closest to a part of a primitive's boundary.
 struct Approach {
   double distance;
   double t;

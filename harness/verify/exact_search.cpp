@@ -41,7 +41,7 @@ WholeVector cross(const WholeVector& a, const WholeVector& b) {
           Integer(a.x * b.y - a.y * b.x)};
 }
 
-/// To the nearest: the first conversion only cuts off.
+/// Rounds to the nearest double: the first conversion only cuts off.
 double to_double(const mpf_class& number) {
   const double cut = number.get_d();
   return cut + mpf_class(number - cut, kBits).get_d();
@@ -92,7 +92,7 @@ class Finder {
         sphere.inside_only, [](int) { return true; });
   }
 
-  /// With m = x + t d from the base, H = m . axis and L = |axis|^2, the surface is
+  /// Solves for the lateral surface. With m = x + t d from the base, H = m . axis and L = |axis|^2, the surface is
   /// L^2 |m|^2 - L H^2 = (radius L + taper H)^2 with 0 <= H <= L.
   void add(const scenes::Cone& cone) {
     const WholeVector axis = WholeVector(cone.apex) - WholeVector(cone.base);

@@ -24,7 +24,7 @@ inline double tolerance(const accel::Ray& ray, double t) {
   return tolerance(ray, glm::dvec3(ray.origin) + t * glm::dvec3(ray.direction));
 }
 
-/// How many tolerances two places on a ray may be apart along the ray. At a grazing incidence
+/// The number of tolerances that two places may be apart along the ray. At a grazing incidence
 /// places that are close across a surface are far apart along it; where they are farther than this,
 /// the sine of the incidence is below 1/1024, and they are two places.
 inline constexpr double kAlong = 1024.0;

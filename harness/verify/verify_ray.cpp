@@ -91,7 +91,7 @@ std::optional<ExactHit> as_exact(const std::optional<accel::Hit>& hit) {
   return hit ? std::optional(ExactHit{hit->t, hit->primitive}) : std::nullopt;
 }
 
-/// As `class_of`, of crossings in their order.
+/// Returns what `class_of` returns, for crossings in their order.
 std::optional<DiffClass> class_among(const Measure& measure, const std::vector<Crossing>& crossings,
                                      const std::optional<ExactHit>& claim) {
   if (!claim) {

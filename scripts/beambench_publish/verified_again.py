@@ -23,7 +23,7 @@ _OTHER_LIBRARIES = ("embree-4", "libraries")
 
 @dataclass(frozen=True, order=True)
 class View:
-    """What the rays of some rows see."""
+    """The scene, camera and rays that some rows share."""
 
     scene: str
     camera: str
@@ -165,7 +165,7 @@ def _verified(view: View, rows: Committed, beambench: Path) -> list[dict[str, An
 
 
 def _compared(rows: Committed, cells: list[dict[str, Any]]) -> dict[str, Any]:
-    """What differs. Counts of classes are compared only where the rays are the same."""
+    """Returns what differs. Counts of classes are compared only where the rays are the same."""
     now_hash = next((cell["rays_hash"] for cell in cells if "rays_hash" in cell), rows.rays_hash)
     same_rays = now_hash == rows.rays_hash
     changed = []
