@@ -169,12 +169,14 @@ def _compared(rows: Committed, cells: list[dict[str, Any]]) -> dict[str, Any]:
     now_hash = next((cell["rays_hash"] for cell in cells if "rays_hash" in cell), rows.rays_hash)
     same_rays = now_hash == rows.rays_hash
     changed = []
-    for cell in cells:
-        before = rows.contenders[_contender(cell)]
+    # The program verifies the exhaustive search first, the others in their order.
+    order = sorted(rows.contenders, key=lambda each: not each.startswith("exhaustive"))
+    for contender, cell in zip(order, cells, strict=True):
+        before = rows.contenders[contender]
         now = {name: cell[name] for name in ("verdict", *CLASSES) if name in cell}
         keys = ("verdict", *CLASSES) if same_rays else ("verdict",)
         if any(before[key] != now.get(key) for key in keys):
-            changed.append({"contender": _contender(cell), "before": before, "now": now})
+            changed.append({"contender": contender, "before": before, "now": now})
     line: dict[str, Any] = {"verified": len(cells), "cells": changed}
     if not same_rays:
         line["hash"] = {"before": rows.rays_hash, "now": now_hash}
