@@ -135,7 +135,7 @@ AnsweredRays closest_hits(const PencilRays& pencil, PencilUnit& unit, HitBuffer&
           const glm::vec3 origin = glm::abs(ray.origin);
           const glm::vec3 point = glm::abs(ray.origin + t * ray.direction);
           const auto largest = [](const glm::vec3& v) { return std::max({v.x, v.y, v.z}); };
-          return depth > 1.5F * (largest(origin) + largest(point));
+          return depth > 2.0F * (largest(origin) + largest(point));
         };
         for (std::size_t place = 0; place < unit.places; ++place) {
           const std::size_t block = unit.slot[place];

@@ -228,7 +228,7 @@ class PencilProjection {
   static constexpr float kNearest = 0x1p-59F;
   /// Rays that end farther before the apex, as those of points close to a light, are traced one by
   /// one.
-  static constexpr float kLeastEnd = 1.0F - 0x1p-8F;
+  static constexpr float kLeastEnd = 0.5F;
 
   const PencilPart* part_;
   CubeSide side_;

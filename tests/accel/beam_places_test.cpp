@@ -217,7 +217,7 @@ TEST(PencilPlaces, RaysThatNoPencilTakesAreSingle) {
     return count(structure->beam_places(shadows.list.batch()), Way::kSingle);
   };
   EXPECT_EQ(singles(), 0U);
-  for (std::size_t i = 0; i < 5; ++i) shadows.list.rays[100 + i].t_max = 0.5F;
+  for (std::size_t i = 0; i < 5; ++i) shadows.list.rays[100 + i].t_max = 0.25F;
   EXPECT_EQ(singles(), 5U) << "shorter intervals";
   shadows.list.pencils.resize(1);
   const std::size_t others = shadows.list.rays.size() - shadows.list.pencils[0].count;

@@ -66,7 +66,9 @@ TEST_P(DirectionLengths, ChangeNoHit) {
         ASSERT_EQ(hit.has_value(), unscaled.has_value()) << "ray " << i << " at 2^" << exponent;
         if (!hit) continue;
         EXPECT_EQ(hit->primitive, unscaled->primitive);
-        if (is_normal_or_zero(hit->t)) EXPECT_EQ(hit->t * factor, unscaled->t);
+        if (is_normal_or_zero(hit->t)) {
+          EXPECT_EQ(hit->t * factor, unscaled->t);
+        }
       }
     }
   }

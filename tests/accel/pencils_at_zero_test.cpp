@@ -182,7 +182,7 @@ Counts expect_reflections_of_exhaustive(const scenes::Scene& scene, const TileBe
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const auto expected = exhaustive.closest_hit(rays[i], nullptr);
     const auto found = buffer.get(i);
-    if (found) EXPECT_GE(found->t, 0.0F);
+    EXPECT_GE(found ? found->t : 0.0F, 0.0F);
     if (!is_at_origin(expected)) continue;
     ++counts.at_origin;
     if (found && found->t < 1e-5F) continue;

@@ -286,8 +286,8 @@ TEST(ShortAndLongDirections, HitsBeyondTheLargestFloatAreMisses) {
   scenes::SceneBuilder builder("far");
   add_rectangle(builder, {-1e9, -1e9, -1e9}, {2e9, 0.0, 0.0}, {0.0, 2e9, 0.0});
   const scenes::Scene scene = std::move(builder).build();
-  const Ray near{{0.0F, 0.0F, 0.0F}, 0.0F, {0.0F, 0.0F, -4e-30F}};
-  const Ray far{{0.0F, 0.0F, 0.0F}, 0.0F, {0.0F, 0.0F, -2e-30F}};
+  const Ray near{{2e8F, 1e8F, 0.0F}, 0.0F, {0.0F, 0.0F, -4e-30F}};
+  const Ray far{{2e8F, 1e8F, 0.0F}, 0.0F, {0.0F, 0.0F, -2e-30F}};
   EXPECT_TRUE(accepts(scene, near, Hit{2.5e38F, 0}));
   EXPECT_FALSE(accepts(scene, near, std::nullopt));
   EXPECT_TRUE(accepts(scene, far, std::nullopt));

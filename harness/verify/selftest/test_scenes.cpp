@@ -282,7 +282,7 @@ void add_lights(scenes::Scene& scene, Random& random) {
 }
 
 bool is_edge_on(const scenes::Scene& scene, const accel::Ray& ray) {
-  constexpr double kMinSine = 1e-5;
+  constexpr double kMinSine = 1.0 / kAlong;  // below, float does not tell places on the ray apart
   const glm::dvec3 direction(ray.direction);
   return std::ranges::any_of(scene.triangles, [&](const scenes::Triangle& triangle) {
     const glm::dvec3 first(scene.vertices[triangle.vertex[0]]);
