@@ -17,6 +17,7 @@
 #include "accel/core/work_counters.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
 #include "accel/tile_beam/tile_beam.hpp"
+#include "harness/verify/contact.hpp"
 #include "scenes/core/random.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/only_target.hpp"
@@ -100,7 +101,8 @@ struct Counts {
 
 bool is_at_origin(const std::optional<Hit>& hit) { return hit && hit->t < 1e-6F; }
 
-/// Shadow rays from the places toward a light: each is hit if exhaustive search says so.
+/// Shadow rays from the places toward a light: each is hit if exhaustive search says so, except
+/// at the very edge of a triangle.
 Counts expect_shadows_of_exhaustive(const scenes::Scene& scene, const TileBeam& structure,
                                     const std::vector<glm::vec3>& places, const glm::vec3& light) {
   std::vector<Ray> rays;
@@ -121,6 +123,8 @@ Counts expect_shadows_of_exhaustive(const scenes::Scene& scene, const TileBeam& 
     const auto hit = exhaustive.closest_hit(rays[i], nullptr);
     counts.at_origin += is_at_origin(hit) ? 1U : 0U;
     if ((any[i] == 1) == hit.has_value()) continue;
+    // At an edge, float may find the ray beside the triangle.
+    if (hit && verify::boundary_distance(scene, rays[i], hit->primitive) < 1e-6) continue;
     ADD_FAILURE() << "ray " << i << " from " << rays[i].origin.x << ' ' << rays[i].origin.y << ' '
                   << rays[i].origin.z << " to " << light.x << ' ' << light.y << ' ' << light.z
                   << ": expected " << (hit ? "a hit at t = " : "no hit ") << (hit ? hit->t : 0.0F);

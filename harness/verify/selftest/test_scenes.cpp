@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "harness/verify/tolerance.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/scene_builder.hpp"
 

@@ -40,9 +40,8 @@ scenes::Camera random_camera(const scenes::Scene& scene, Random& random);
 /// Adds two lights where such rays may begin.
 void add_lights(scenes::Scene& scene, Random& random);
 
-/// Does the ray nearly lie in the plane of a polygon, so that places far apart on it are close across
-/// the polygon (`kAlong`)? Where it meets that polygon
-/// is then decided by rounding alone.
+/// Does the ray nearly lie in the plane of a polygon, so that places far apart on it are close
+/// across the polygon (`kAlong`)? Where it meets that polygon is then decided by rounding alone.
 bool is_edge_on(const scenes::Scene& scene, const accel::Ray& ray);
 
 struct SceneWithRays {
