@@ -50,7 +50,8 @@ class Text:
     @property
     def is_number(self) -> bool:
         """Is it nothing but a number, which means nothing without the label of its axis?"""
-        return re.fullmatch(r"[-\N{MINUS SIGN}]?[\d,.]+(e[-+]?\d+)?%?", self.words) is not None
+        number = r"[-\N{MINUS SIGN}]?[\d,.]+(\N{MINUS SIGN}\d+|e[-+]?\d+)?%?"
+        return re.fullmatch(number, self.words) is not None
 
     @property
     def is_size(self) -> bool:
@@ -225,10 +226,12 @@ def _up(texts: Sequence[Text], row: Sequence[Panel]) -> tuple[list[Text], list[T
     ticks, labels = [], []
     for panel in row:
         for text in texts:
-            if not panel.top - _BESIDE < text.y < panel.bottom + _BESIDE or text.x > panel.left:
+            is_at_height = panel.top - _BESIDE < text.y < panel.bottom + _BESIDE
+            is_inside = any(other.holds(text.x, text.y) for other in row)
+            if not is_at_height or is_inside or text.x > panel.left:
                 continue
             if text.is_upright:
                 labels.append(text)
-            elif text.anchor == "end":
+            elif text.anchor == "end" or text.is_size:
                 ticks.append(text)
     return ticks, labels

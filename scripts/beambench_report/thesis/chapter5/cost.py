@@ -13,6 +13,7 @@ from scipy.optimize import nnls
 
 from beambench_report.base.figure import Plot, new_figure, variant_look
 from beambench_report.base.quantities import DASH, number
+from beambench_report.run.panels import scale_axis
 from beambench_report.thesis.paper.cells import Cell
 from beambench_report.thesis.paper.evidence import Measured
 from beambench_report.thesis.paper.section import (
@@ -294,9 +295,9 @@ def draw_fits(stem: str, fits: Sequence[Fit]) -> Plot:
         band = (ends * (1 - _BAND), ends * (1 + _BAND))
         panel.plot(ends, ends, color="#333333", linewidth=0.8)
         panel.fill_between(ends, *band, color="#999999", alpha=0.25, linewidth=0)
-        panel.set(xscale="log", yscale="log", xlim=ends, ylim=ends, aspect="equal")
-        for axis in (panel.xaxis, panel.yaxis):
-            axis.set_major_formatter("{x:,g}")
+        for axis in "xy":
+            scale_axis(panel, axis, ends, ticks=6)
+        panel.set(xlim=ends, ylim=ends, aspect="equal")
         panel.set_title(one.formula.title, fontsize=8.5)
         panel.set_ylabel(f"predicted / {one.formula.unit}", labelpad=1)
         panel.set_xlabel(f"measured / {one.formula.unit}")
