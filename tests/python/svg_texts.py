@@ -190,7 +190,7 @@ def _empty(root: Element) -> list[Element]:
 
 
 def _panels(root: Element) -> list[Panel]:
-    """The white rectangles, but for the first, which is the paper."""
+    """The white rectangles after the first one, which is the paper."""
     shapes = [
         _RECTANGLE.fullmatch(path.get("d", ""))
         for path in root.iter(f"{_SVG}path")

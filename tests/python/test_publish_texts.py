@@ -6,6 +6,7 @@ import re
 import shutil
 from pathlib import Path
 
+import pandas as pd
 import pytest
 
 from beambench_publish.bare_figures import bare_figures
@@ -138,6 +139,13 @@ def test_a_wrong_digit_in_the_rows_is_found(copied: Path) -> None:
     fields[place] = f"{10 * float(fields[place])}"
     rows[row] = ",".join(fields)
     table.write_text("\n".join([head, *rows]) + "\n", "utf-8")
+    with pytest.raises(Problem, match="the repetitions of kd-tree are not those of its row"):
+        differences(copied)
+    # Wrong in the repetitions, too, it is in the texts.
+    repetitions = copied / "structures/repetitions.csv"
+    times = pd.read_csv(repetitions)
+    times.loc[times["line"] == row + 2, "trace_ms"] *= 10
+    times.to_csv(repetitions, index=False)
     assert {one.file.name for one in differences(copied)} == {"README.md", "winners.md"}
 
 

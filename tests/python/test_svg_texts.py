@@ -29,7 +29,7 @@ def drawn(change: Callable[[Axes], object]) -> str:
 
 
 def words(svg: str) -> str:
-    """All characters, but for spaces and what is about the file."""
+    """Returns all characters except spaces and those of metadata."""
     root = ElementTree.fromstring(svg)
     parts = [child for child in root if not child.tag.endswith(("metadata", "style"))]
     return "".join("".join(text for part in parts for text in part.itertext()).split())
