@@ -2,6 +2,7 @@
 // Parts of PLY files, with a tetrahedron in them.
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "tests/ply_file.hpp"
+#include "tests/scenes/imported.hpp"
 
 namespace beambench::scenes::ply_parts {
 
@@ -62,5 +64,9 @@ inline std::vector<PlyRow> operator+(std::vector<PlyRow> rows, const std::vector
 inline std::string triangle_ply(const std::string& first, const std::string& face = "3 0 1 2") {
   return ply_file("ascii", vertices(3) + faces(1), {}) + first + "\n1 0 0\n0 1 0\n" + face + "\n";
 }
+
+inline std::uint64_t ply_hash(const std::string& bytes) { return imported_hash(bytes, "ply"); }
+
+inline std::string ply_refusal(const std::string& bytes) { return refusal(bytes, "ply"); }
 
 }  // namespace beambench::scenes::ply_parts

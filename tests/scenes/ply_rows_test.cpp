@@ -21,10 +21,6 @@ namespace {
 using namespace ply_parts;
 using tests::kPlyEncodings;
 
-std::uint64_t ply_hash(const std::string& bytes) { return imported_hash(bytes, "ply"); }
-
-std::string ply_refusal(const std::string& bytes) { return refusal(bytes, "ply"); }
-
 TEST(PlyRows, WhatIsNoNumberIsRefusedWithItsLine) {
   for (const char* word : {"1.#QNAN", "-1.#IND", "1,5", "0x10", "1e", "1.2.3", "--1", "+-1", "x",
                            "1d5", "1_000", "1f"}) {

@@ -19,10 +19,6 @@ using tests::kPlyEncodings;
 
 std::uint64_t tetrahedron_hash() { return imported_hash(tetrahedron_ply(), "ply"); }
 
-std::uint64_t ply_hash(const std::string& bytes) { return imported_hash(bytes, "ply"); }
-
-std::string ply_refusal(const std::string& bytes) { return refusal(bytes, "ply"); }
-
 // Encodings and types
 
 TEST(Ply, IsTheSameMeshInEachEncodingAndOfEachType) {

@@ -120,7 +120,8 @@ CheckOutcome check_random_scenes(const Subject& subject, const SelftestEffort& e
       ++refused;
       continue;
     }
-    const std::vector<accel::Ray> rays = random_rays(scene, effort.rays, random);
+    std::vector<accel::Ray> rays = random_rays(scene, effort.rays, random);
+    leave_out_edge_on(subject, scene, rays);
     const HitComparison comparison(scene, subject.conformance());
     hits += comparison.count_hits(rays);
     add(outcome, rays.size(), scene, choice,

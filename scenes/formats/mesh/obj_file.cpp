@@ -62,8 +62,8 @@ std::uint32_t corner_of(std::string_view word, const ObjStatement& statement,
                         std::size_t vertices_before) {
   const std::string_view first = word.substr(0, word.find('/'));
   const std::optional<std::int64_t> index = integer_of(first);
-  constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
-  if (!index || *index == 0 || std::abs(*index) > kMost ||
+  using Limits = std::numeric_limits<std::int32_t>;
+  if (!index || *index == 0 || *index < Limits::min() || *index > Limits::max() ||
       !are_attributes(word.substr(first.size()))) {
     refuse_line(statement.line,
                 fmt::format("a face has the corner '{}', but must have numbers of vertices, "
