@@ -129,18 +129,12 @@ bool surely_more_than(std::uint64_t most, Estimate estimate) {
 
 /// A random part of a list: one of each `stride` neighbors, so that each member of the list is in
 /// it with a probability of 1 / stride at most.
-///
-/// Where nodes are divided at fixed planes as long as they refer to more than so many, the tree
-/// over a part is that over all, but for branches that end earlier: each member of the part has at
-/// most as many references as in the whole tree. The references of the part's tree times `stride`
-/// are then an estimate whose expected value does not exceed the references of the whole tree.
 template <class T>
 struct RandomPart {
-  /// How many members are enough for an estimate.
-  static constexpr std::size_t kSize = 256;
+  static constexpr std::size_t kMembers = 16;
 
   RandomPart(const std::vector<T>& list, Random& random)
-      : stride(std::max<std::size_t>(list.size() / kSize, 1)) {
+      : stride(std::max<std::size_t>(list.size() / kMembers, 1)) {
     for (std::size_t first = 0; first + stride <= list.size(); first += stride) {
       members.push_back(list[first + random.below(stride)]);
     }
@@ -149,5 +143,23 @@ struct RandomPart {
   std::size_t stride;
   std::vector<T> members;
 };
+
+/// Will a tree over a list, whose nodes are divided at fixed planes as long as they refer to more
+/// than so many members, have more than `most` references? Asked before it is built, for the answer
+/// takes no longer with more members: `references(members, random)` estimates the references of a
+/// tree over a random part of the list. That is the whole tree, but for branches that end earlier,
+/// so each member has as many references in the whole tree at least (or nearly: a leaf may refer to
+/// it where smaller cells are found not to hold it), and those of the part times `stride` are not
+/// expected to exceed those of all. Where few members have most of the references
+/// a part may not show it; short lists are not worth it.
+template <class T, class References>
+bool part_surely_exceeds(std::uint64_t most, const std::vector<T>& list, References references) {
+  constexpr std::size_t kShort = 4096;
+  if (list.size() < kShort) return false;
+  return surely_more_than(most, [&](Random& random) {
+    RandomPart<T> part(list, random);
+    return static_cast<double>(part.stride) * references(std::move(part.members), random);
+  });
+}
 
 }  // namespace beambench::accel

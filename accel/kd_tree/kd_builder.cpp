@@ -119,6 +119,7 @@ class Builder {
     }
     // Hits lie within the tolerance of the bounds: the root must hold them.
     tree_.root = bvh::padded(scene_.bounds, 2.0 * tolerance_);
+    require_few_references();
     begin();
     subdivide(root());
     tree_.cost /= bvh::half_area(tree_.root);
@@ -245,21 +246,23 @@ class Builder {
     return ReferenceEstimate(taken(root()), divide);
   }
 
-  /// Will there be too many references? In the middle of cells, the estimates from a part of the
-  /// items come first: they take less time, and do not exceed those from all.
+  /// In the middle of cells a small part of the items may show that there will be too many.
+  void require_few_references() const {
+    if (options_.builder != KdTreeOptions::Builder::kMedian) return;
+    const bool exceeds = part_surely_exceeds(
+        options_.max_references, pieces_, [this](std::vector<bvh::Piece> pieces, Random& random) {
+          Builder builder(*this, std::move(pieces));
+          return builder.estimate()(random).leaves;
+        });
+    if (exceeds) fail_too_many("references", options_.max_references);
+  }
+
+  /// Will there be too many references?
   bool will_exceed() const {
-    const std::uint64_t most = options_.max_references;
-    if (options_.builder == KdTreeOptions::Builder::kMedian) {
-      const auto of_part = [this](Random& random) {
-        RandomPart part(pieces_, random);
-        Builder builder(*this, std::move(part.members));
-        return static_cast<double>(part.stride) * builder.estimate()(random).leaves;
-      };
-      if (surely_more_than(most, of_part)) return true;
-    }
     Builder builder(*this, pieces_);
     auto estimate = builder.estimate();
-    return surely_more_than(most, [&](Random& random) { return estimate(random).leaves; });
+    return surely_more_than(options_.max_references,
+                            [&](Random& random) { return estimate(random).leaves; });
   }
 
   Split best_split(const Pending& pending) {

@@ -125,22 +125,29 @@ ExpectedReferences NodeDivision::expected_references(int level, Random& random) 
   return estimate_of(all(), level)(random);
 }
 
+namespace {
+
+double chosen(const ExpectedReferences& expected, bool of_lists) {
+  return of_lists ? expected.lists : expected.leaves;
+}
+
+}  // namespace
+
+void NodeDivision::require_few_references(int level, bool of_lists) const {
+  if (options_->planes != OctreeOptions::Planes::kMedian) return;
+  const bool exceeds =
+      part_surely_exceeds(options_->max_references, all(),
+                          [&](std::vector<scenes::PrimitiveId> primitives, Random& random) {
+                            auto estimate = estimate_of(std::move(primitives), level);
+                            return chosen(estimate(random), of_lists);
+                          });
+  if (exceeds) fail_too_many_references();
+}
+
 bool NodeDivision::will_exceed(int level, bool of_lists) const {
-  const auto chosen = [of_lists](const ExpectedReferences& expected) {
-    return of_lists ? expected.lists : expected.leaves;
-  };
-  const std::uint64_t most = options_->max_references;
-  if (options_->planes == OctreeOptions::Planes::kMedian) {
-    const std::vector<scenes::PrimitiveId> primitives = all();
-    const auto of_part = [&](Random& random) {
-      RandomPart part(primitives, random);
-      auto estimate = estimate_of(std::move(part.members), level);
-      return static_cast<double>(part.stride) * chosen(estimate(random));
-    };
-    if (surely_more_than(most, of_part)) return true;
-  }
   auto estimate = estimate_of(all(), level);
-  return surely_more_than(most, [&](Random& random) { return chosen(estimate(random)); });
+  return surely_more_than(options_->max_references,
+                          [&](Random& random) { return chosen(estimate(random), of_lists); });
 }
 
 /// The children that a primitive of the node belongs to, as a bit mask.

@@ -70,6 +70,9 @@ class NodeDivision {
   /// Will the octree that is divided no deeper than `level` refer to more than `max_references`
   /// primitives, in its leaves or, if `of_lists`, in all nodes but the root?
   bool will_exceed(int level, bool of_lists) const;
+  /// The same before it is built, from a small part of many primitives where planes are fixed.
+  /// Throws what `fail_too_many_references` throws.
+  void require_few_references(int level, bool of_lists) const;
 
   /// Throws the InputError that names `max_references`.
   [[noreturn]] void fail_too_many_references() const;

@@ -47,6 +47,7 @@ class OctreeBuilder {
   }
 
   void build() {
+    if (part_ == nullptr) division_.require_few_references(options_.max_level, false);
     begin();
     auto& all = lists_[1];
     all.resize(scene_.primitives.size());

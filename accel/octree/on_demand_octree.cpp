@@ -10,6 +10,7 @@ OnDemandOctree::OnDemandOctree(const scenes::Scene& scene, const OctreeOptions& 
     : options_(options), division_(scene, options_), limit_(options_.max_references, scene, [this] {
         return division_.will_exceed(options_.built_level, true);
       }) {
+  division_.require_few_references(options_.built_level, true);
   root_.references.resize(scene.primitives.size());
   std::iota(root_.references.begin(), root_.references.end(), scenes::PrimitiveId{0});
   divide_to(root_, root_cell(), options_.built_level);

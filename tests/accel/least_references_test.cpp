@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <ctime>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
+#include "accel/core/expected_references.hpp"
 #include "accel/grid/eager_voxels.hpp"
 #include "accel/grid/grid_layout.hpp"
 #include "accel/octree/node_division.hpp"
@@ -212,6 +214,79 @@ TEST(ReferenceLimit, IsKnownToBeExceededEarly) {
     const auto [seconds, message] = seconds_to_build(exceeds, scene);
     EXPECT_NE(message.find("000000 references"), std::string::npos) << message;
     EXPECT_LT(seconds, 10.0 * enough) << "as long as ten builds of a hundredth of the references";
+  }
+}
+
+/// As many triangles or cones in one place, which no plane parts.
+scenes::Scene alike(int count, bool cones) {
+  scenes::SceneBuilder builder("alike");
+  const glm::dvec3 corners[] = {{0.0, 0.0, 0.0}, {1.0, 0.1, 0.2}, {0.3, 1.0, 0.7}};
+  for (int i = 0; i < count; ++i) {
+    if (cones) {
+      builder.add_cone({0.0, 0.0, 0.0}, 0.5, {1.0, 1.0, 1.0}, 0.2);
+    } else {
+      builder.add_polygon(corners);
+    }
+  }
+  return std::move(builder).build();
+}
+
+/// Seventy thousand primitives that no plane parts have a hundred times the references of seven
+/// hundred, which fit, and are refused in a fifth of the time that these would take.
+TEST(ReferenceLimit, IsKnownToBeExceededEarlyByPrimitivesInOnePlace) {
+  for (const auto& [spec, cones] : std::vector<std::pair<std::string, bool>>{
+           {"kd-tree:builder=median", false},
+           {"glassner:max_objects=1", true},
+           {"glassner:planes=cost", true},
+           {"gargantini:planes=cost,build=on-demand,built_level=6", true}}) {
+    SCOPED_TRACE(spec);
+    const auto [enough, accepted] = seconds_to_build(spec, alike(700, cones));
+    EXPECT_EQ(accepted, "it was accepted");
+    const auto [seconds, message] = seconds_to_build(spec, alike(70'000, cones));
+    EXPECT_NE(message.find("000000 references"), std::string::npos) << message;
+    EXPECT_LT(seconds, 20.0 * enough);
+  }
+}
+
+/// Many primitives, of which a part is looked at before the tree is built: as many references as
+/// there are may be there.
+TEST(ReferenceLimit, RefusesNothingThatFitsByParts) {
+  for (const scenes::Scene& scene :
+       {alike(5000, false), scenes::load_scene("bumpy:triangles=20000")}) {
+    for (const std::string tree :
+         {"gargantini:max_level=6,max_objects=1", "kd-tree:builder=median,max_depth=12"}) {
+      SCOPED_TRACE(scene.name + " " + tree);
+      const auto with_limit = [&](std::uint64_t most) {
+        const std::string spec = fmt::format("{},max_references={}", tree, most);
+        return tests::build(spec, scene)->statistics().references;
+      };
+      const std::uint64_t references = with_limit(50'000'000);
+      EXPECT_EQ(with_limit(references), references);
+      EXPECT_THROW(with_limit(references / 4), InputError);
+    }
+  }
+}
+
+TEST(RandomPart, HasEachMemberWithAProbabilityOfOneInStride) {
+  std::vector<int> list(100);
+  std::iota(list.begin(), list.end(), 0);
+  std::vector<int> times(list.size());
+  Random random(1);
+  constexpr int kParts = 6000;
+  std::size_t stride = 0;
+  for (int i = 0; i < kParts; ++i) {
+    const RandomPart part(list, random);
+    stride = part.stride;
+    for (const int member : part.members) ++times[static_cast<std::size_t>(member)];
+  }
+  ASSERT_EQ(stride, 100 / RandomPart<int>::kMembers);
+  const double expected = static_cast<double>(kParts) / static_cast<double>(stride);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (i < stride * (list.size() / stride)) {
+      EXPECT_NEAR(times[i], expected, 0.2 * expected) << i;
+    } else {
+      EXPECT_EQ(times[i], 0) << i;
+    }
   }
 }
 
