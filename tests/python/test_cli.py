@@ -853,7 +853,7 @@ def test_rays_are_saved_and_asked_again(tmp_path: Path) -> None:
         floats = array.array("f", lines.read())
     assert header["hash"] == made["hash"]
     assert len(floats) == 8 * made["rays"] == 8 * header["rays"]
-    assert set(floats[7::8]) == {1.0}  # the light is at t = 1
+    assert all(0.999 < t_max < 1.0 for t_max in floats[7::8])  # the light is at t = 1
 
     read = json.loads(output_of("rays", "escena1:spheres=40", "--rays", file, "--json"))
     assert {**read, "ray_kind": "", "resolution": ""} == {**made, "ray_kind": "", "resolution": ""}

@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
 from beambench_report.base.figure import DASHES, LINE_COLORS, MARKERS, PAGE_WIDTH, Plot, new_figure
+from beambench_report.run.panels import scale_axis
 from beambench_report.thesis.chapter6.results import EQUAL_MACHINES, THESIS_OPTIONS
 from beambench_report.thesis.chapter6.simulate import OLD, OPTIONS, STATIONS, TODAY
 from beambench_report.thesis.paper.evidence import published_evidence
@@ -152,8 +153,7 @@ def _scaling(rows: pd.DataFrame, era: str) -> Plot | None:
             busy.plot(group["consumers"] + 1, 100 * group["producer_busy"], **look)
         ends = [of_scene["consumers"].min() + 1, of_scene["consumers"].max() + 1]
         speed_up.plot(ends, ends, **IDEAL)
-        speed_up.set_yscale("log")
-        speed_up.yaxis.set_major_formatter("{x:,g}")
+        scale_axis(speed_up, "y", [*of_scene["speed_up"], *ends])
         for panel in (speed_up, busy):
             panel.set_xscale("log", base=2)
             panel.xaxis.set_major_formatter("{x:.0f}")
