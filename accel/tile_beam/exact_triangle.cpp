@@ -84,8 +84,8 @@ Eye place_of_eye(const std::array<glm::dvec3, 3>& from_eye) {
   return on ? Eye::kOnTriangle : Eye::kInPlane;
 }
 
-/// The size of a plane's numbers, by the largest t of its triangle, from which on rounding may place
-/// a hit farther from the triangle than two hits at one place are apart along a ray.
+/// The size of a plane's numbers, by the largest t of its triangle, from which on rounding may
+/// place a hit farther from the triangle than two hits at one place are apart along a ray.
 constexpr double kLeastAngle = 0x1p11;
 
 /// Of edges seen from an apex, relative to their numbers: those in float err by less.
@@ -141,8 +141,8 @@ std::optional<ExactTriangle> exact_triangle(const TileView& view,
   if (largest(plane, view) <= 0.0) return std::nullopt;
   if (!(glm::length(plane) < kNearestOfAll)) return left_to_rays(*box);
   // Seen nearly edge-on, a place in float says little of how far away the triangle is there.
-  const double size = std::abs(plane.x) * view.width + std::abs(plane.y) * view.height +
-                      std::abs(plane.z);
+  const double size =
+      std::abs(plane.x) * view.width + std::abs(plane.y) * view.height + std::abs(plane.z);
   const double farthest = std::max({projected[0].z, projected[1].z, projected[2].z});
   if (size * farthest > kLeastAngle) return left_to_rays(*box);
   triangle.plane = rounded(plane);

@@ -223,8 +223,8 @@ class PencilProjection {
     }
   }
 
-  /// The least depth and direction: reciprocals remain of ordinary size, and single rays can be probed
-  /// (ProbeRay::can_probe).
+  /// The least depth and direction: reciprocals remain of ordinary size, and single rays can be
+  /// probed (ProbeRay::can_probe).
   static constexpr float kNearest = 0x1p-59F;
   /// Rays that end farther before the apex, as those of points close to a light, are traced one by
   /// one.

@@ -12,10 +12,10 @@ namespace beambench::verify {
 
 /// A claimed hit measured against its primitive.
 struct Contact {
-  /// The distance of the claim from a true hit: the larger of the distance of the point at t from the
-  /// primitive's surface (continued beyond its boundary) and the distance by which the ray passes
-  /// beside the primitive. Infinite where the ray may not hit at all: at the entry into a primitive
-  /// that is seen from the inside only.
+  /// The distance of the claim from a true hit: the larger of the distance of the point at t from
+  /// the primitive's surface (continued beyond its boundary) and the distance by which the ray
+  /// passes beside the primitive. Infinite where the ray may not hit at all: at the entry into a
+  /// primitive that is seen from the inside only.
   double offset;
   /// |cos| of the angle between the ray and the surface normal there.
   double cosine;

@@ -92,8 +92,8 @@ class Finder {
         sphere.inside_only, [](int) { return true; });
   }
 
-  /// Solves for the lateral surface. With m = x + t d from the base, H = m . axis and L = |axis|^2, the surface is
-  /// L^2 |m|^2 - L H^2 = (radius L + taper H)^2 with 0 <= H <= L.
+  /// Solves for the lateral surface. With m = x + t d from the base, H = m . axis and L = |axis|^2,
+  /// the surface is L^2 |m|^2 - L H^2 = (radius L + taper H)^2 with 0 <= H <= L.
   void add(const scenes::Cone& cone) {
     const WholeVector axis = WholeVector(cone.apex) - WholeVector(cone.base);
     const WholeVector x = origin_ - WholeVector(cone.base);

@@ -19,25 +19,25 @@ struct Crossing {
   accel::embree::ExactHit hit() const { return {t, primitive}; }
 };
 
-/// Returns the primitives whose boxes the ray reaches, in ascending order: among them are all that it
-/// crosses, and all whose boundary or whose crossing just beyond an end of the interval is within
-/// the judge's tolerance.
+/// Returns the primitives whose boxes the ray reaches, in ascending order: among them are all that
+/// it crosses, and all whose boundary or whose crossing just beyond an end of the interval is
+/// within the judge's tolerance.
 std::vector<scenes::PrimitiveId> primitives_near(const scenes::Scene& scene, const accel::Ray& ray);
 
-/// Returns where the line of the ray, without ends, crosses one primitive, in any order. Floats are read as
-/// exact numbers, and whether there is a crossing is decided by integers. Polygons are closed
-/// triangles, seen from both sides; a ray in a triangle's plane does not cross it. A sphere or cone
-/// that is only touched is crossed twice, at one place.
+/// Returns where the line of the ray, without ends, crosses one primitive, in any order. Floats are
+/// read as exact numbers, and whether there is a crossing is decided by integers. Polygons are
+/// closed triangles, seen from both sides; a ray in a triangle's plane does not cross it. A sphere
+/// or cone that is only touched is crossed twice, at one place.
 std::vector<Crossing> line_crossings(const scenes::Scene& scene, const accel::Ray& ray,
                                      scenes::PrimitiveId id);
 
-/// Returns the crossings of some primitives in the ray's interval (`accel::in_interval`), in the order of
-/// t, at equal t in that of primitives.
+/// Returns the crossings of some primitives in the ray's interval (`accel::in_interval`), in the
+/// order of t, at equal t in that of primitives.
 std::vector<Crossing> crossings(const scenes::Scene& scene, const accel::Ray& ray,
                                 const std::vector<scenes::PrimitiveId>& ids);
 
-/// Returns the first crossing in the ray's interval. Shares no code with structures and oracle. Slow: some
-/// 20 ns a primitive, and 10 us for each whose box the ray reaches.
+/// Returns the first crossing in the ray's interval. Shares no code with structures and oracle.
+/// Slow: some 20 ns a primitive, and 10 us for each whose box the ray reaches.
 std::optional<accel::embree::ExactHit> exact_closest_hit(const scenes::Scene& scene,
                                                          const accel::Ray& ray);
 
