@@ -129,13 +129,14 @@ AnsweredRays closest_hits(const PencilRays& pencil, PencilUnit& unit, HitBuffer&
         counting.add("beams");
         walk_part<ClosestHitPolicy>(pencil, part, side, unit, counting);
         const auto z = static_cast<int>(side.z_axis());
-        // The place of a hit errs by some roundings of its distance from the apex. Where that is
-        // more than ray and hit allow for (float_unit), the canonical test finds t.
+        // The place of a hit errs by up to 8 roundings of its distance from the apex. Where these
+        // are more than the 16 that are allowed of origin and hit (`float_unit`), the canonical
+        // test finds t.
         const auto is_far = [](const Ray& ray, float t, float depth) {
-          const glm::vec3 origin = glm::abs(ray.origin);
-          const glm::vec3 point = glm::abs(ray.origin + t * ray.direction);
-          const auto largest = [](const glm::vec3& v) { return std::max({v.x, v.y, v.z}); };
-          return depth > 2.0F * (largest(origin) + largest(point));
+          const float more = depth - 2.0F * glm::length(ray.origin);
+          if (more <= 0.0F) return false;
+          const glm::vec3 size = glm::abs(ray.origin + t * ray.direction);
+          return more > 2.0F * std::max({size.x, size.y, size.z});
         };
         for (std::size_t place = 0; place < unit.places; ++place) {
           const std::size_t block = unit.slot[place];

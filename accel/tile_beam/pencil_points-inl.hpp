@@ -126,7 +126,6 @@ class PencilProjection {
 
   LaneBits operator()() {
     const std::size_t count = part_->rays.size();
-    unit_->end_depth = 0.0F;
     for (std::size_t block = 0; block < unit_->listed; ++block) {
       const std::size_t first = unit_->first[block];
       const LaneBits present = (LaneBits{1} << (unit_->first[block + 1] - first)) - 1;
@@ -141,6 +140,7 @@ class PencilProjection {
         project(block, last.data(), present);
       }
     }
+    unit_->end_depth = most_of(end_depth_);
     return others_;
   }
 
@@ -150,7 +150,7 @@ class PencilProjection {
     const Floats minus_infinity = all(-kInfinity);
     Floats low_u = infinity, high_u = minus_infinity;
     Floats low_v = infinity, high_v = minus_infinity;
-    Floats least_w = infinity, most_origin_w = minus_infinity, end_depth = hn::Zero(Tag());
+    Floats least_w = infinity, most_origin_w = minus_infinity;
     const LaneBits inside = for_each_register([&](std::size_t lane) {
       const RayLanes ray = load_rays(rays + lane);
       const Points from_apex{hn::Sub(ray.origin.x, all(part_->apex.x)),
@@ -189,7 +189,7 @@ class PencilProjection {
       if constexpr (kToward) {
         store(inverse, &unit_->w[at]);
         const Floats left = hn::Mul(hn::Sub(all(1.0F), ray.t_max), z);
-        end_depth = hn::Max(end_depth, hn::IfThenElse(in, left, hn::Zero(Tag())));
+        end_depth_ = hn::Max(end_depth_, hn::IfThenElseZero(in, left));
         least_w = hn::Min(least_w, hn::IfThenElse(in, inverse, infinity));
       } else {
         const Floats origin_w = hn::Div(all(1.0F), depth);
@@ -206,7 +206,6 @@ class PencilProjection {
     bounds.low_v[block] = least_of(low_v);
     bounds.high_v[block] = most_of(high_v);
     if constexpr (kToward) {
-      unit_->end_depth = std::max(unit_->end_depth, most_of(end_depth));
       bounds.least_w[block] = least_of(least_w);
     } else {
       bounds.least_w[block] = 0.0F;
@@ -230,6 +229,7 @@ class PencilProjection {
   /// one.
   static constexpr float kLeastEnd = 0.5F;
 
+  Floats end_depth_ = hn::Zero(Tag());
   const PencilPart* part_;
   CubeSide side_;
   PencilUnit* unit_;

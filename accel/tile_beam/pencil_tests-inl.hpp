@@ -51,6 +51,7 @@ class PencilTests {
       } else {
         Unsure unsure;
         LaneBits hits = test_triangle(place, shape, meshlet.primitives[shape], unsure);
+        unsure.depth &= unit_->alive[place];
         if (unsure.depth != 0) [[unlikely]] {
           hits = decided_by_plane(place, hits, unsure.depth, meshlet, shape);
         }
@@ -129,23 +130,18 @@ class PencilTests {
       };
       const Floats outside = either(edge(0), edge(1), edge(2));
       const Floats distance = of(SeenShapes::kDistance);
-      const auto slack = [&](Floats at_w) {
-        return hn::MulAdd(of(SeenShapes::kSlackPerW), at_w, of(SeenShapes::kSlack));
-      };
-      const auto note_close = [&](Mask close) {
-        unsure.depth |= (bits_of(close) << lane) & unit_->alive[place];
-      };
       if constexpr (kClosest) {
-        const Floats origin_w = load(&unit_->origin_w[block + lane]);
         const Floats plane = line(SeenShapes::kPlane, of(SeenShapes::kPlane + 2));
         const Floats before = hn::NegMulAdd(distance, w, plane);
+        const Mask met =
+            hn::AndNot(is_negative(hn::Or(outside, before)), lanes_of(unit_->alive[place], lane));
+        if (hn::AllFalse(Tag(), met)) return met;
+        const Floats origin_w = load(&unit_->origin_w[block + lane]);
         const Floats after = hn::MulSub(distance, origin_w, plane);
-        const Floats may_err = slack(origin_w);
-        const Mask possible =
-            hn::AndNot(is_negative(either(outside, before, hn::Add(after, may_err))),
-                       lanes_of(unit_->alive[place], lane));
+        const Floats may_err = slack_of(of, origin_w);
+        const Mask possible = hn::AndNot(is_negative(hn::Add(after, may_err)), met);
         const Mask close = hn::And(possible, is_negative(hn::Sub(after, may_err)));
-        note_close(close);
+        unsure.depth |= bits_of(close) << lane;
         const Mask hit = hn::AndNot(close, possible);
         if (!hn::AllFalse(Tag(), hit)) {
           keep(block + lane, hit, hn::Div(plane, distance), w, primitive);
@@ -154,8 +150,10 @@ class PencilTests {
       } else {
         const Floats beyond =
             line(SeenShapes::kPlane, hn::NegMulAdd(distance, w, of(SeenShapes::kPlane + 2)));
-        const Mask hit = hn::Not(is_negative(hn::Or(outside, beyond)));
-        note_close(hn::And(hit, is_negative(hn::Sub(beyond, slack(w)))));
+        const Floats missed = hn::Or(outside, beyond);
+        const Mask hit = hn::Not(is_negative(missed));
+        unsure.depth |= bits_of(is_negative(hn::AndNot(missed, hn::Sub(beyond, slack_of(of, w)))))
+                        << lane;
         if constexpr (Policy::kDense) {
           const auto inside = [&](std::size_t k) {
             const std::size_t row = SeenShapes::kMagnitudes + 2 * k;
@@ -167,6 +165,11 @@ class PencilTests {
         return hit;
       }
     });
+  }
+
+  /// By how much the place of a ray's origin beside a triangle's plane may be wrong.
+  static HWY_INLINE Floats slack_of(const OneShape& of, Floats w) {
+    return hn::MulAdd(of(SeenShapes::kSlackPerW), w, of(SeenShapes::kSlack));
   }
 
   /// Any hits, of which those at an edge are decided by single rays through the whole hierarchy:
@@ -318,7 +321,8 @@ class PencilTests {
     const Floats radius = of(SeenShapes::kRadius);
     const Floats square = hn::Mul(radius, radius);
     const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
-    const float slack_of_origins = 0x1p-24F * kSlackOfOrigins<Policy> * scene_size_;
+    const Floats least_slack =
+        hn::MulAdd(radius, all(0x1p-20F), all(0x1p-24F * kSlackOfOrigins<Policy> * scene_size_));
     const auto only = [](bool condition) {
       return hn::Gt(all(condition ? 1.0F : 0.0F), hn::Zero(Tag()));
     };
@@ -339,12 +343,9 @@ class PencilTests {
       const Points begin = from_center(origin);
       const Floats from_middle = dot(begin, begin);
       const Mask inside = hn::Lt(from_middle, square);
-      const Floats slack = hn::MulAdd(origin, all(0x1p-24F * kSlackOfDepths<Policy>),
-                                      hn::MulAdd(radius, all(0x1p-20F), all(slack_of_origins)));
-      const Floats outer = hn::Add(radius, slack);
-      const Floats inner = hn::Max(hn::Sub(radius, slack), hn::Zero(Tag()));
-      const Mask close = hn::And(hn::Le(from_middle, hn::Mul(outer, outer)),
-                                 hn::Ge(from_middle, hn::Mul(inner, inner)));
+      const Floats slack = hn::MulAdd(origin, all(0x1p-24F * kSlackOfDepths<Policy>), least_slack);
+      const Floats may_err = hn::Mul(slack, hn::Add(hn::Add(radius, radius), slack));
+      const Mask close = hn::Le(hn::Abs(hn::Sub(from_middle, square)), may_err);
       unsure.depth |= (bits_of(close) << lane) & unit_->alive[place];
       if constexpr (kClosest) {
         const Mask ahead = hn::Or(inside, hn::And(meets, hn::Gt(middle, origin)));

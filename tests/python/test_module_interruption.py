@@ -42,7 +42,7 @@ work = lambda: structure.render(shading="whitted")
 """,
     "build": """
 scene = bb.Scene("tetra:n=10")
-work = lambda: [bb.Structure(scene, "samet:max_level=14") for _ in range(100)]
+work = lambda: [bb.Structure(scene, "samet:max_level=12") for _ in range(100)]
 """,
     "scene": """
 work = lambda: [bb.Scene("tetra:n=11") for _ in range(100)]
