@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -135,6 +136,24 @@ TEST_F(ExactGeometry, MovedHitsAreRightWithinAQuarterAndWrongBeyondFour) {
     EXPECT_FALSE(right(down, accel::Hit{moved(7.746F, units), 0})) << units;
     EXPECT_FALSE(wrong(down, accel::Hit{moved(7.746F, units), 0})) << units;
   }
+}
+
+// The surface of a flat cone, continued beyond its rim, stays close to the ray for a long way.
+TEST(ExactCones, APlaceBesideTheRimOfAFlatConeIsNotRight) {
+  scenes::SceneBuilder builder("flat");
+  builder.add_cone({-0.868675351, 0, 0.27275753}, 0.0488567129,
+                   {-0.868675351, 7.11437388e-05, 0.27275753}, 0);
+  const scenes::Scene scene = std::move(builder).build();
+  const std::vector<Solid> solids = solids_of(scene);
+  const auto right = [&](glm::vec3 aim, float t) {  // K u / 4 is 0.337 there
+    const glm::vec3 origin(1e6F, 0.0F, 1e6F);
+    return Acceptance(Traced(solids, {origin, 0.0F, aim - origin}), kStrict)
+        .accepts(accel::Hit{t, 0});
+  };
+  EXPECT_FALSE(right({1.125F, 0.0F, -1.5625F}, std::nextafter(1.0F, 2.0F))) << "2.7 beside";
+  EXPECT_FALSE(right({-0.868675351F, 0.5F, 0.27275753F}, 1.0F)) << "0.5 above";
+  EXPECT_TRUE(right({-0.868675351F, 0.0F, 0.27275753F}, 1.0F)) << "through the base";
+  EXPECT_TRUE(right({-0.868675351F, 0.25F, 0.25F}, 1.0F)) << "0.25 above the surface";
 }
 
 TEST_F(ExactGeometry, WhatLiesBehindAClearHitIsWrong) {

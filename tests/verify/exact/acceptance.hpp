@@ -230,21 +230,33 @@ class Acceptance {
                double e) const {
     const Vector offset = x - cone.base;
     const Number height = dot(offset, cone.axis);
-    if (!favors() && (height.sign() < 0 || height > cone.length_2)) return false;
     // |across| is within e stretch of the radius there, all of it times |axis|^2.
     const Number across_2 = (square(offset) * cone.length_2 - height.squared()) * cone.length_2;
-    const Number radius = (cone.base_radius * cone.length_2 + cone.taper * height).abs();
+    const Number signed_radius = cone.base_radius * cone.length_2 + cone.taper * height;
+    const Number radius = favors() ? signed_radius.abs() : signed_radius;
     const Number widened = Number(e * cone.stretch) * cone.length_2;
     const Number outer = radius + widened;
     const Number inner = radius - widened;
-    if (across_2 > outer.squared()) return false;
+    if (outer.sign() < 0 || across_2 > outer.squared()) return false;
     if (inner.sign() > 0 && across_2 < inner.squared()) return false;
+    if (!favors() && !is_over(cone, height, across_2)) return false;
     const Solid& solid = traced_.solids[claim.primitive];
     if (favors() && crossing_counts(cone, traced_.ray) == std::array<int, 2>{} &&
         !is_near_boundary(solid, traced_.ray, e, leniency_.doubt)) {
       return false;
     }
     return is_visible_side(solid, cone.inside_only, s, e);
+  }
+
+  /// Whether a point, moved perpendicularly onto the surface continued beyond its rims, is between
+  /// these: `height` and `across_2` as in `is_near`.
+  static bool is_over(const Cone& cone, const Number& height, const Number& across_2) {
+    // From the base, (across - base_radius) taper + height along the line of the surface, times
+    // |axis|^2, where the apex is at taper^2 + |axis|^2.
+    const Number place = (height - cone.base_radius * cone.taper) * cone.length_2;
+    const Number apex = (cone.taper.squared() + cone.length_2) * cone.length_2;
+    return sign_with_root(place, cone.taper, across_2) >= 0 &&
+           sign_with_root(place - apex, cone.taper, across_2) <= 0;
   }
 
   /// A solid seen from the inside only is hit where the ray leaves it; beside its silhouette,
