@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_group.h>
 
 #include "harness/verify/tolerance.hpp"
 #include "harness/verify/verify_ray.hpp"
@@ -19,6 +20,16 @@ namespace {
 constexpr std::uint64_t kEnoughErrors = 64;
 constexpr std::uint64_t kTestBudget = 400'000'000;  // primitive tests
 constexpr std::size_t kBatch = 64;                  // rays searched at once, on all cores
+
+/// A parallel loop on all cores in the caller's floating-point mode. By default it would run in
+/// that of the thread's first loop, which may be Embree's: there denormals count as 0.
+template <class Range, class Body>
+void on_all_cores(const Range& range, const Body& body) {
+  tbb::task_group_context mode(
+      tbb::task_group_context::bound,
+      tbb::task_group_context::default_traits | tbb::task_group_context::fp_settings);
+  tbb::parallel_for(range, body, mode);
+}
 
 double graze_budget(std::uint64_t rays) { return std::max(2.0, 1e-4 * static_cast<double>(rays)); }
 
@@ -157,8 +168,8 @@ class Differ::Part {
       for (std::size_t i = first; i < last; ++i) batch.push_back(mismatch(disputed[i]));
       if (count_of(DiffClass::kStructureError) < kEnoughErrors &&
           differ_.search_tests_ < kTestBudget) {
-        tbb::parallel_for(std::size_t{0}, batch.size(), [&](std::size_t i) {
-          beambench::verify::classify_by_search(scene_, batch[i]);
+        on_all_cores(tbb::blocked_range(batch.begin(), batch.end(), 1), [&](const auto& part) {
+          for (Mismatch& found : part) classify_by_search(scene_, found);
         });
         differ_.search_tests_ +=
             batch.size() * (scene_.triangles.size() + scene_.primitives.size());
@@ -238,12 +249,11 @@ DiffReport verify_results(const ReferenceHits& reference, const rays::TraceResul
 std::vector<std::optional<accel::embree::ExactHit>> oracle_hits(
     const accel::embree::EmbreeOracle& oracle, const rays::TraceInput& input) {
   std::vector<std::optional<accel::embree::ExactHit>> hits(input.size());
-  tbb::parallel_for(tbb::blocked_range(std::size_t{0}, hits.size(), 1024),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                        hits[i] = oracle.closest_hit(input.ray(i));
-                      }
-                    });
+  on_all_cores(tbb::blocked_range(std::size_t{0}, hits.size(), 1024), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      hits[i] = oracle.closest_hit(input.ray(i));
+    }
+  });
   return hits;
 }
 

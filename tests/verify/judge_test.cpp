@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <limits>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -279,6 +280,22 @@ TEST(ShortAndLongDirections, AreJudgedAlike) {
     EXPECT_EQ(report_of(scene, any, rays::AnyHits{1}).verdict, Verdict::kOk);
     EXPECT_EQ(report_of(scene, any, rays::AnyHits{0}).verdict, Verdict::kMismatch);
   }
+}
+
+// Embree flushes denormals while it builds, and leaves that mode to the parallel loops of a thread
+// whose first one is its own: the judge's are not to inherit it.
+TEST(ShortAndLongDirections, DenormalComponentsCount) {
+  scenes::SceneBuilder builder("ceiling");
+  add_level(builder, 1.5, 3.0);
+  const scenes::Scene scene = std::move(builder).build();
+  rays::RaySet set;
+  set.rays = {{{1.0F, 1.5F, 2.0F}, 0.0F, {-2e-24F, 4e-44F, -2e-24F}, 0.0F}};  // not in the plane
+  set.query = rays::Query::kAnyHit;
+  const rays::TraceInput input(std::move(set));
+  std::thread([&] {  // has had no parallel loop before
+    EXPECT_EQ(report_of(scene, input, rays::AnyHits{1}).verdict, Verdict::kOk);
+  })
+      .join();
 }
 
 // A t that no float can hold is not a hit, whatever t_max is.
