@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -131,6 +132,28 @@ RC_GTEST_PROP(OverlapTriangle, AgreesWithClipping, (std::uint32_t seed)) {
     Box larger{box.lower - kBand, box.upper + kBand};
     if (!clipped_triangle_remains(corners, larger)) {
       RC_ASSERT(!triangle_overlaps(corners, box, 0.0));
+    }
+  }
+}
+
+TEST(SameSurface, HoldsForEqualNumbersAlone) {
+  scenes::SceneBuilder builder("pairs");
+  const std::vector<glm::dvec3> corners{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  std::vector<glm::dvec3> moved = corners;
+  moved[2].z = 0.5;
+  for (int i = 0; i < 2; ++i) {
+    builder.add_sphere({1, 2, 3}, 2);
+    builder.add_cone({0, 0, 0}, 0.5, {1, 1, 1}, 0.2);
+    builder.add_polygon(corners);
+  }
+  builder.add_sphere({1, 2, 3}, 2.5);
+  builder.add_cone({0, 0, 0}, 0.5, {1, 1, 1}, 0.25);
+  builder.add_polygon(moved);
+  const scenes::Scene scene = std::move(builder).build();
+  for (scenes::PrimitiveId a = 0; a < 9; ++a) {
+    for (scenes::PrimitiveId b = 0; b < 9; ++b) {
+      EXPECT_EQ(same_surface(scene, a, b), a == b || (a < 6 && b < 6 && a % 3 == b % 3))
+          << a << " and " << b;
     }
   }
 }
