@@ -181,11 +181,10 @@ struct ClaimVerifier::State {
   /// of the nearest.
   void find_primitive(const accel::Ray& ray, const std::optional<accel::embree::ExactHit>& expected,
                       Answer& answer) {
-    const double near = tolerance(ray, answer.hit.t);
-    const auto offset = [&](scenes::PrimitiveId id) {
-      return contact(scene, ray, {answer.hit.t, id}, near).offset;
+    const auto contact_with = [&](scenes::PrimitiveId id) {
+      return contact(scene, ray, {answer.hit.t, id});
     };
-    if (expected && offset(expected->primitive) <= near) {
+    if (expected && contact_with(expected->primitive).is_on_primitive()) {
       answer.hit.primitive = expected->primitive;
       return;
     }
@@ -194,14 +193,15 @@ struct ClaimVerifier::State {
       return;
     }
     searched += scene.primitives.size();
-    double nearest = std::numeric_limits<double>::infinity();
+    double nearest = std::numeric_limits<double>::infinity();  // in tolerances
     for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
-      const double distance = offset(id);
+      const Contact found = contact_with(id);
+      const double distance = found.offset / found.tolerance;
       if (distance >= nearest) continue;
       nearest = distance;
       answer.hit.primitive = id;
     }
-    if (nearest <= near) return;
+    if (nearest <= 1.0) return;
     ++faults_found;
     answer.fault = kNowhere;
   }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "harness/verify/tolerance.hpp"
@@ -20,6 +21,10 @@ using Real = long double;
 using Vector = glm::vec<3, Real>;
 
 constexpr Real kFar = std::numeric_limits<Real>::infinity();
+
+/// The least distance that the arithmetic of the tests in double can resolve, as a part of the
+/// distance to the farthest point of a primitive.
+constexpr double kLeastPart = 0x1p-50;
 
 /// The line of a ray, with a direction of unit length.
 struct RayLine {
@@ -87,25 +92,21 @@ Real lateral_distance(const RayLine& line, const Corners& corners) {
   return least_distance(edge_approaches(line, corners));
 }
 
-Contact made(Real offset, Real cosine, bool leaving) {
-  return {static_cast<double>(offset), static_cast<double>(cosine), leaving};
-}
-
-Contact contact_with(const RayLine& line, const Vector& point, const Corners& corners) {
-  const Vector normal =
-      glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
-  const Real off_plane = std::abs(glm::dot(normal, point - corners[0]));
-  return made(std::max(off_plane, lateral_distance(line, corners)),
-              std::abs(glm::dot(normal, line.direction)), false);
+Contact made(double tolerance, Real offset, Real cosine, bool leaving) {
+  return {tolerance, static_cast<double>(offset), static_cast<double>(cosine), leaving};
 }
 
 /// Of a polygon, the triangle that the claim fits best.
 Contact contact_with(const scenes::Scene& scene, const RayLine& line, const Vector& point,
-                     const scenes::Polygon& polygon) {
-  Contact best = made(kFar, 0.0L, false);
+                     const scenes::Polygon& polygon, double tolerance) {
+  Contact best{tolerance};
   for (std::uint32_t i = 0; i < polygon.triangle_count; ++i) {
-    const scenes::Triangle& triangle = scene.triangles[polygon.first_triangle + i];
-    const Contact found = contact_with(line, point, corners_of(scene, triangle));
+    const Corners corners = corners_of(scene, scene.triangles[polygon.first_triangle + i]);
+    const Vector normal =
+        glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+    const Real off_plane = std::abs(glm::dot(normal, point - corners[0]));
+    const Contact found = made(tolerance, std::max(off_plane, lateral_distance(line, corners)),
+                               std::abs(glm::dot(normal, line.direction)), false);
     if (found.offset < best.offset) best = found;
   }
   return best;
@@ -118,14 +119,14 @@ Approach silhouette_approach(const RayLine& line, const scenes::Sphere& sphere) 
 }
 
 Contact contact_with(const RayLine& line, const Vector& point, const scenes::Sphere& sphere,
-                     Real grazing) {
+                     double tolerance) {
   const Vector from_center = point - Vector(sphere.center);
   const Real distance = glm::length(from_center);
   const Real along = glm::dot(from_center, line.direction);
-  Contact found =
-      made(std::abs(distance - Real{sphere.radius}), std::abs(along) / distance, along > 0.0L);
+  Contact found = made(tolerance, std::abs(distance - Real{sphere.radius}),
+                       std::abs(along) / distance, along > 0.0L);
   if (sphere.inside_only && !found.leaving &&
-      silhouette_approach(line, sphere).distance > grazing) {
+      silhouette_approach(line, sphere).distance > tolerance) {
     found.offset = static_cast<double>(kFar);
   }
   return found;
@@ -249,53 +250,70 @@ std::vector<Approach> cone_approaches(const RayLine& line, const scenes::Cone& c
 /// The distance of the line from a rim near a point: from the rim's point next to that, or less
 /// where the line comes closer to the rim at one place with the point.
 Real rim_distance(const RayLine& line, const Profile& profile, const Vector& point, Real rim,
-                  Real grazing) {
+                  double tolerance) {
   Real nearest = line.distance_to(profile.rim_point(point, rim));
   std::vector<Approach> found;
   add_rim_approaches(line, profile, rim, found);
   const Real t = line.approach(point).t;
   for (const Approach& each : found) {
-    if (std::abs(each.t - t) * line.length > kAlong * grazing) continue;
+    if (std::abs(each.t - t) * line.length > kAlong * tolerance) continue;
     nearest = std::min<Real>(nearest, each.distance);
   }
   return nearest;
 }
 
-Contact cone_contact(const RayLine& line, const Vector& point, const scenes::Cone& cone,
-                     Real grazing) {
+Contact contact_with(const RayLine& line, const Vector& point, const scenes::Cone& cone,
+                     double tolerance) {
   const Profile profile(cone);
   const Real place = profile.place(point);
   const Real within = std::clamp(place, 0.0L, profile.length);
   Real offset = std::abs(profile.signed_distance(point));
   if (place != within) {
-    offset = std::max(offset, rim_distance(line, profile, point, within, grazing));
+    offset = std::max(offset, rim_distance(line, profile, point, within, tolerance));
   }
   const Vector normal =
       profile.outward(point) * profile.along_axis - profile.along_radius * profile.axis;
   const Real outward = glm::dot(normal, line.direction);
-  Contact found = made(offset, std::abs(outward), outward > 0.0L);
-  if (cone.inside_only && !found.leaving && least_distance(cone_approaches(line, cone)) > grazing) {
+  Contact found = made(tolerance, offset, std::abs(outward), outward > 0.0L);
+  if (cone.inside_only && !found.leaving &&
+      least_distance(cone_approaches(line, cone)) > tolerance) {
     found.offset = static_cast<double>(kFar);
   }
   return found;
 }
 
+double tolerance_in(const scenes::Bounds& box, const accel::Ray& ray, double t) {
+  const glm::dvec3 origin(ray.origin);
+  const glm::dvec3 reach =
+      glm::max(glm::abs(glm::dvec3(box.lower) - origin), glm::abs(glm::dvec3(box.upper) - origin));
+  return std::max(tolerance(ray, t), kLeastPart * glm::length(reach));
+}
+
 }  // namespace
 
+double tolerance(const scenes::Scene& scene, const accel::Ray& ray,
+                 const accel::embree::ExactHit& hit) {
+  return tolerance_in(scenes::primitive_bounds(scene, hit.primitive), ray, hit.t);
+}
+
 Contact contact(const scenes::Scene& scene, const accel::Ray& ray,
-                const accel::embree::ExactHit& hit, double grazing) {
-  const RayLine line(ray);
+                const accel::embree::ExactHit& hit) {
+  const scenes::Bounds box = scenes::primitive_bounds(scene, hit.primitive);
+  const double near = tolerance_in(box, ray, hit.t);
   const Vector point = Vector(ray.origin) + Real{hit.t} * Vector(ray.direction);
+  const Vector outside = glm::max(Vector(box.lower) - point, point - Vector(box.upper));
+  if (std::max({outside.x, outside.y, outside.z}) > kAlong * near) return {near};
+  const RayLine line(ray);
   const scenes::Primitive& primitive = scene.primitives[hit.primitive];
   switch (primitive.kind) {
     case scenes::PrimitiveKind::kSphere:
-      return contact_with(line, point, scene.spheres[primitive.index], grazing);
+      return contact_with(line, point, scene.spheres[primitive.index], near);
     case scenes::PrimitiveKind::kCone:
-      return cone_contact(line, point, scene.cones[primitive.index], grazing);
+      return contact_with(line, point, scene.cones[primitive.index], near);
     case scenes::PrimitiveKind::kPolygon:
-      return contact_with(scene, line, point, scene.polygons[primitive.index]);
+      break;
   }
-  return made(kFar, 0.0L, false);
+  return contact_with(scene, line, point, scene.polygons[primitive.index], near);
 }
 
 std::vector<Approach> approaches(const scenes::Scene& scene, const accel::Ray& ray,

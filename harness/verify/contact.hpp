@@ -2,6 +2,7 @@
 // How a ray meets a primitive, measured in long double: near which point, and how far from the
 // primitive's boundary.
 
+#include <limits>
 #include <vector>
 
 #include "accel/core/ray.hpp"
@@ -12,21 +13,28 @@ namespace beambench::verify {
 
 /// A claimed hit measured against its primitive.
 struct Contact {
+  /// K u at the hit, but at least what the arithmetic of the tests in double can resolve there.
+  double tolerance;
   /// The distance of the claim from a true hit: the larger of the distance of the point at t from
   /// the primitive's surface (continued beyond its boundary) and the distance by which the ray
-  /// passes beside the primitive. Infinite where the ray may not hit at all: at the entry into a
-  /// primitive that is seen from the inside only.
-  double offset;
+  /// passes beside the primitive. Infinite where the point is more than `kAlong` tolerances away
+  /// from the primitive's box, and where the ray may not hit at all: at the entry into a primitive
+  /// that is seen from the inside only.
+  double offset = std::numeric_limits<double>::infinity();
   /// |cos| of the angle between the ray and the surface normal there.
-  double cosine;
+  double cosine = 0.0;
   /// Does the ray leave the sphere or cone there? False for polygons, which have no inside.
-  bool leaving;
+  bool leaving = false;
+
+  bool is_on_primitive() const { return offset <= tolerance; }
 };
 
-/// `grazing` is K u there: the distance from a silhouette within which entry and exit cannot be
-/// distinguished.
 Contact contact(const scenes::Scene& scene, const accel::Ray& ray,
-                const accel::embree::ExactHit& hit, double grazing);
+                const accel::embree::ExactHit& hit);
+
+/// Returns `Contact::tolerance` at a hit.
+double tolerance(const scenes::Scene& scene, const accel::Ray& ray,
+                 const accel::embree::ExactHit& hit);
 
 /// The place where the line of a ray comes closest to a part of a primitive's boundary.
 struct Approach {

@@ -244,10 +244,4 @@ std::vector<Crossing> crossings(const scenes::Scene& scene, const accel::Ray& ra
   return found;
 }
 
-std::optional<accel::embree::ExactHit> exact_closest_hit(const scenes::Scene& scene,
-                                                         const accel::Ray& ray) {
-  const std::vector<Crossing> found = crossings(scene, ray, primitives_near(scene, ray));
-  return found.empty() ? std::nullopt : std::optional(found.front().hit());
-}
-
 }  // namespace beambench::verify

@@ -1,7 +1,8 @@
 #pragma once
-// Where rays cross primitives, decided by exact arithmetic: what settles disputes.
+// Where rays cross primitives, decided by exact arithmetic: what settles disputes. Shares no code
+// with structures and oracle. Slow: 20 ns for each primitive, and 10 us for each whose box the ray
+// reaches.
 
-#include <optional>
 #include <vector>
 
 #include "accel/core/ray.hpp"
@@ -35,10 +36,5 @@ std::vector<Crossing> line_crossings(const scenes::Scene& scene, const accel::Ra
 /// order of t, at equal t in that of primitives.
 std::vector<Crossing> crossings(const scenes::Scene& scene, const accel::Ray& ray,
                                 const std::vector<scenes::PrimitiveId>& ids);
-
-/// Returns the first crossing in the ray's interval. Shares no code with structures and oracle.
-/// Slow: some 20 ns a primitive, and 10 us for each whose box the ray reaches.
-std::optional<accel::embree::ExactHit> exact_closest_hit(const scenes::Scene& scene,
-                                                         const accel::Ray& ray);
 
 }  // namespace beambench::verify

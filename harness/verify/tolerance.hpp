@@ -2,10 +2,8 @@
 // The lengths within which the judge does not distinguish points.
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
-#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include "accel/core/ray.hpp"
@@ -28,13 +26,5 @@ inline double tolerance(const accel::Ray& ray, double t) {
 /// places that are close across a surface are far apart along it; where they are farther than this,
 /// the sine of the incidence is below 1/1024, and they are two places.
 inline constexpr double kAlong = 1024.0;
-
-/// Are two places on the ray one: across a surface that the ray meets there at an angle with that
-/// cosine to the normal, and along the ray?
-inline bool at_one_place(const accel::Ray& ray, double t0, double t1, double cosine,
-                         double tolerance) {
-  const double gap = std::abs(t0 - t1) * glm::length(glm::dvec3(ray.direction));
-  return gap * cosine <= tolerance && gap <= kAlong * tolerance;
-}
 
 }  // namespace beambench::verify

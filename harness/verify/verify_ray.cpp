@@ -4,7 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "harness/verify/contact.hpp"
@@ -16,74 +15,66 @@ namespace {
 
 using accel::embree::ExactHit;
 
-/// The least distance that the arithmetic of the tests in double can resolve, as a part of the
-/// distance to the farthest point of a primitive.
-constexpr double kLeastPart = 0x1p-50;
+/// A hit of the ray and its contact with the primitive.
+struct Place {
+  ExactHit hit;
+  Contact contact;
+};
 
 /// One ray over a scene, and what counts as one place on it.
 struct Measure {
   const scenes::Scene& scene;
   const accel::Ray& ray;
 
-  /// K u at a hit.
-  double tolerance_of(const ExactHit& hit) const {
-    const scenes::Bounds box = scenes::primitive_bounds(scene, hit.primitive);
-    const glm::dvec3 origin(ray.origin);
-    const glm::dvec3 reach = glm::max(glm::abs(glm::dvec3(box.lower) - origin),
-                                      glm::abs(glm::dvec3(box.upper) - origin));
-    return std::max(tolerance(ray, hit.t), kLeastPart * glm::length(reach));
+  Place place_of(const ExactHit& hit) const { return {hit, contact(scene, ray, hit)}; }
+  double length_between(double t0, double t1) const {
+    return std::abs(t0 - t1) * glm::length(glm::dvec3(ray.direction));
   }
-  Contact contact_of(const ExactHit& hit) const {
-    return contact(scene, ray, hit, tolerance_of(hit));
-  }
-  bool at_one_place(const ExactHit& hit, double t) const {
-    return verify::at_one_place(ray, hit.t, t, contact_of(hit).cosine, tolerance_of(hit));
-  }
-
-  /// Within K u of the primitive's surface, and not far from the primitive along it.
-  bool is_on_primitive(const ExactHit& hit) const {
-    const double near = tolerance_of(hit);
-    if (!(contact(scene, ray, hit, near).offset <= near)) return false;
-    const scenes::Bounds box = scenes::primitive_bounds(scene, hit.primitive);
-    const glm::dvec3 point = glm::dvec3(ray.origin) + hit.t * glm::dvec3(ray.direction);
-    const glm::dvec3 outside =
-        glm::max(glm::dvec3(box.lower) - point, point - glm::dvec3(box.upper));
-    return std::max({outside.x, outside.y, outside.z}) <= kAlong * near;
+  bool at_one_place(const Place& place, double t) const {
+    const double gap = length_between(place.hit.t, t);
+    const double near = place.contact.tolerance;
+    return gap * place.contact.cosine <= near && gap <= kAlong * near;
   }
 
   /// Does the ray begin or end on the surface that is hit?
-  bool touches(const ExactHit& hit) const {
-    return at_one_place(hit, ray.t_min) || at_one_place(hit, ray.t_max);
+  bool touches(const Place& place) const {
+    return at_one_place(place, ray.t_min) || at_one_place(place, ray.t_max);
   }
 
-  bool grazes(const ExactHit& hit) const {
-    return touches(hit) || boundary_distance(scene, ray, hit.primitive) <= tolerance_of(hit);
+  bool grazes(const Place& place) const {
+    return touches(place) ||
+           boundary_distance(scene, ray, place.hit.primitive) <= place.contact.tolerance;
+  }
+  bool all_are_grazed(const std::vector<Crossing>& crossings) const {
+    return std::ranges::all_of(crossings,
+                               [&](const Crossing& each) { return grazes(place_of(each.hit())); });
   }
 
   /// Two hits of one primitive at one point. On a sphere or cone |dt| says little near the
   /// silhouette; two points of its surface are the same crossing when the ray enters at both or
   /// leaves at both.
-  bool is_same(const ExactHit& claim, const ExactHit& reference) const {
-    if (claim.primitive != reference.primitive) return false;
-    const Contact expected = contact_of(reference);
-    const double gap = std::abs(claim.t - reference.t) * glm::length(glm::dvec3(ray.direction));
-    if (gap * expected.cosine <= tolerance_of(claim)) return true;
-    return scene.primitives[claim.primitive].kind != scenes::PrimitiveKind::kPolygon &&
-           contact_of(claim).leaving == expected.leaving;
+  bool is_same(const Place& claim, const Place& reference) const {
+    const scenes::PrimitiveId id = claim.hit.primitive;
+    if (id != reference.hit.primitive) return false;
+    const double gap = length_between(claim.hit.t, reference.hit.t);
+    if (gap * reference.contact.cosine <= claim.contact.tolerance) return true;
+    return scene.primitives[id].kind != scenes::PrimitiveKind::kPolygon &&
+           claim.contact.leaving == reference.contact.leaving;
   }
 
   /// Does the ray pass the primitive's boundary within K u, or cross it just beyond an end?
   bool nearly_hits(scenes::PrimitiveId id) const {
     const double length = glm::length(glm::dvec3(ray.direction));
     for (const Approach& approach : approaches(scene, ray, id)) {
-      const double near = tolerance_of({approach.t, id});
+      const double near = tolerance(scene, ray, {approach.t, id});
       if (approach.distance <= near && approach.t >= ray.t_min - near / length &&
           approach.t <= ray.t_max + near / length) {
         return true;
       }
     }
-    return std::ranges::any_of(line_crossings(scene, ray, id),
-                               [&](const Crossing& crossing) { return touches(crossing.hit()); });
+    return std::ranges::any_of(line_crossings(scene, ray, id), [&](const Crossing& crossing) {
+      return touches(place_of(crossing.hit()));
+    });
   }
 };
 
@@ -91,23 +82,23 @@ std::optional<ExactHit> as_exact(const std::optional<accel::Hit>& hit) {
   return hit ? std::optional(ExactHit{hit->t, hit->primitive}) : std::nullopt;
 }
 
-/// Returns what `class_of` returns, for crossings in their order.
+/// The class of a closest hit, or of a miss, by the crossings in their order: kAgree, kTie or
+/// kGraze; nothing where it is wrong.
 std::optional<DiffClass> class_among(const Measure& measure, const std::vector<Crossing>& crossings,
-                                     const std::optional<ExactHit>& claim) {
-  if (!claim) {
-    const bool all_grazed = std::ranges::all_of(
-        crossings, [&](const Crossing& each) { return measure.grazes(each.hit()); });
-    if (!all_grazed) return std::nullopt;
+                                     const std::optional<ExactHit>& answer) {
+  if (!answer) {
+    if (!measure.all_are_grazed(crossings)) return std::nullopt;
     return crossings.empty() ? DiffClass::kAgree : DiffClass::kGraze;
   }
-  if (!measure.is_on_primitive(*claim)) return std::nullopt;
+  const Place claim = measure.place_of(*answer);
+  if (!claim.contact.is_on_primitive()) return std::nullopt;
   DiffClass found = DiffClass::kAgree;
   for (const Crossing& crossing : crossings) {
-    const ExactHit hit = crossing.hit();
-    if (measure.is_same(*claim, hit)) return found;
-    if (hit.t >= claim->t || measure.at_one_place(hit, claim->t)) {
+    const Place place = measure.place_of(crossing.hit());
+    if (measure.is_same(claim, place)) return found;
+    if (crossing.t >= answer->t || measure.at_one_place(place, answer->t)) {
       found = std::max(found, DiffClass::kTie);
-    } else if (measure.grazes(hit)) {
+    } else if (measure.grazes(place)) {
       found = DiffClass::kGraze;
     } else {
       return std::nullopt;
@@ -125,7 +116,8 @@ void classify_as(DiffClass diff_class, std::string_view reason, Mismatch& found)
 std::string_view why_wrong(const Measure& measure, const Mismatch& found) {
   if (!found.answer) return "a hit was lost";
   const ExactHit claim{found.answer->t, found.answer->primitive};
-  if (!measure.is_on_primitive(claim)) return "the ray does not meet that primitive at that t";
+  if (!contact(measure.scene, measure.ray, claim).is_on_primitive())
+    return "the ray does not meet that primitive at that t";
   if (!found.exact || claim.t < found.exact->t) return "a hit too many is reported";
   return "a nearer hit was lost";
 }
@@ -136,8 +128,7 @@ std::string_view why_wrong(const Measure& measure, const Mismatch& found) {
 void classify_any_hit(const Measure& measure, const std::vector<scenes::PrimitiveId>& near,
                       const std::vector<Crossing>& crossings, Mismatch& found) {
   const bool answer = found.any_hit_answer == 1;
-  const bool all_grazed = std::ranges::all_of(
-      crossings, [&](const Crossing& each) { return measure.grazes(each.hit()); });
+  const bool all_grazed = measure.all_are_grazed(crossings);
   const auto is_hit_nearly = [&] {
     return std::ranges::any_of(near,
                                [&](scenes::PrimitiveId id) { return measure.nearly_hits(id); });
@@ -185,12 +176,6 @@ void classify_closest_hit(const Measure& measure, const std::vector<Crossing>& c
 
 }  // namespace
 
-std::optional<DiffClass> class_of(const scenes::Scene& scene, const accel::Ray& ray,
-                                  const std::optional<accel::Hit>& answer) {
-  return class_among({scene, ray}, crossings(scene, ray, primitives_near(scene, ray)),
-                     as_exact(answer));
-}
-
 bool is_invalid(const scenes::Scene& scene, const accel::Ray& ray, const accel::Hit& answer) {
   if (answer.primitive == scenes::kNoPrimitive) return answer.t != accel::kInfinity;
   return answer.primitive >= scene.primitives.size() || !accel::in_interval(ray, answer.t);
@@ -231,13 +216,12 @@ bool classify_by_oracle(const scenes::Scene& scene, Mismatch& found) {
   found.diff_class = DiffClass::kAgree;
   if (!found.answer || !found.oracle) return !found.answer && !found.oracle;
   const Measure measure{scene, found.ray};
-  const ExactHit claim{found.answer->t, found.answer->primitive};
-  if (!measure.is_on_primitive(claim)) return false;
-  if (measure.is_same(claim, *found.oracle)) return true;
+  const Place claim = measure.place_of({found.answer->t, found.answer->primitive});
+  if (!claim.contact.is_on_primitive()) return false;
+  if (measure.is_same(claim, measure.place_of(*found.oracle))) return true;
   // Nothing lies before the oracle's hit, nor between two places that are so close.
-  const double gap =
-      std::abs(claim.t - found.oracle->t) * glm::length(glm::dvec3(found.ray.direction));
-  if (!(gap <= measure.tolerance_of(claim))) return false;
+  const double gap = measure.length_between(claim.hit.t, found.oracle->t);
+  if (!(gap <= claim.contact.tolerance)) return false;
   classify_as(DiffClass::kTie, "both primitives are hit at one point", found);
   return true;
 }

@@ -14,15 +14,6 @@
 
 namespace beambench::verify {
 
-/// The class of an answer to a closest-hit query by the exact crossings of the ray: kAgree, kTie or
-/// kGraze; nothing where it is wrong. A hit is right when its point lies within K u of the
-/// primitive that it names, and each crossing before it either is at one place with it
-/// (`at_one_place`) or is grazed: then nothing is said of what lies behind. A miss is right when
-/// every crossing is grazed. A crossing is grazed where the primitive's boundary is within K u of
-/// the ray, or the crossing is at one place with an end of the ray's interval.
-std::optional<DiffClass> class_of(const scenes::Scene& scene, const accel::Ray& ray,
-                                  const std::optional<accel::Hit>& answer);
-
 /// Is the hit invalid: a primitive that the scene does not have, or a t that is not a number in the
 /// ray's interval? `t` of a miss is infinity.
 bool is_invalid(const scenes::Scene& scene, const accel::Ray& ray, const accel::Hit& answer);
@@ -37,7 +28,12 @@ Mismatch candidate_mismatch(const rays::TraceInput& input, const rays::TraceResu
 /// ray on another primitive, or is invalid; false where it is in dispute.
 bool classify_by_oracle(const scenes::Scene& scene, Mismatch& found);
 
-/// Sets class and reason of a dispute by exact arithmetic.
+/// Sets class and reason of a dispute by exact arithmetic. A hit is right when its point lies
+/// within K u of the primitive that it names, and each crossing before it is either at one place
+/// with it or grazed. A miss is right when every crossing is grazed. Two places are one where they
+/// are within K u of each other across the surface, and 1024 K u along the ray. A crossing is
+/// grazed where the primitive's boundary is within K u of the ray, or the crossing is at one place
+/// with an end of the ray's interval.
 void classify_by_search(const scenes::Scene& scene, Mismatch& found);
 
 /// A baseline's answer: only a miss is right.

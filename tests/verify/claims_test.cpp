@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -13,9 +14,11 @@
 #include "accel/exhaustive/exhaustive.hpp"
 #include "harness/verify/claim_verifier.hpp"
 #include "harness/verify/contact.hpp"
+#include "harness/verify/describe.hpp"
 #include "harness/verify/selftest/test_scenes.hpp"
 #include "harness/verify/tolerance.hpp"
 #include "scenes/catalogue.hpp"
+#include "scenes/scene_builder.hpp"
 #include "tests/scenes/thrown_message.hpp"
 
 namespace beambench::verify {
@@ -115,8 +118,7 @@ std::size_t clear_hit(const Traced& traced) {
   for (std::size_t i = 0; i < traced.rays.size(); ++i) {
     if (traced.hits.primitives[i] == scenes::kNoPrimitive) continue;
     const accel::Ray& ray = traced.rays[i];
-    const Contact found = contact(traced.scene, ray, {traced.hits.t[i], traced.hits.primitives[i]},
-                                  tolerance(ray, traced.hits.t[i]));
+    const Contact found = contact(traced.scene, ray, {traced.hits.t[i], traced.hits.primitives[i]});
     const bool inside = boundary_distance(traced.scene, ray, traced.hits.primitives[i]) > 0.01;
     if (found.cosine > 0.5 && inside) return i;
   }
@@ -287,6 +289,25 @@ TEST(Claims, ArraysThatDoNotGoTogetherAreRefused) {
         ClaimedHits{.t = std::span(h.t).first(3)}}) {
     EXPECT_THROW(verifier.add(traced.rays, wrong), std::logic_error);
   }
+}
+
+// The ray just misses an upright triangle, which the program hits. Behind, at a grazing incidence,
+// it meets a level one, in whose plane the claimed place nearly lies.
+TEST(Claims, APlaceFarBesideThePrimitiveInItsPlaneIsNotOnIt) {
+  scenes::SceneBuilder builder("level and upright");
+  const glm::dvec3 level[] = {{5, 0, -2}, {9, 0, 0}, {5, 0, 2}};
+  const glm::dvec3 upright[] = {{1, -1, 5e-7}, {1, 1, 5e-7}, {1, 0, 1}};
+  builder.add_polygon(level);
+  builder.add_polygon(upright);
+  const scenes::Scene scene = std::move(builder).build();
+  const accel::Ray ray{{0.0F, 7e-7F, 0.0F}, 0.0F, {1.0F, -1e-7F, 0.0F}};
+  const float t = 1.0F;
+  ClaimVerifier verifier(scene);
+  verifier.add({&ray, 1}, {.t = {&t, 1}});
+  const DiffReport report = verifier.finish();
+  EXPECT_EQ(report.hits, 1U) << "the level one";
+  ASSERT_EQ(report.count(DiffClass::kGraze), 1U) << describe(scene, report.examples.at(0));
+  EXPECT_EQ(report.examples.front().answer->primitive, 1U);
 }
 
 // A program that computes points in double may put them a rounding before t_min.

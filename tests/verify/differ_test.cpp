@@ -10,13 +10,13 @@
 
 #include "accel/core/registry.hpp"
 #include "harness/verify/describe.hpp"
-#include "harness/verify/exact_search.hpp"
 #include "harness/verify/tolerance.hpp"
 #include "harness/verify/verify_ray.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/embree_modes.hpp"
 #include "tests/random_scene.hpp"
+#include "tests/verify/exact_answers.hpp"
 #include "tests/verify/first_example.hpp"
 
 namespace beambench::verify {
@@ -44,7 +44,7 @@ TEST(Oracle, GivesTheExactAnswer) {
     for (int i = 0; i < 300; ++i) {
       const accel::Ray ray = random_ray(scene, random);
       const auto found = oracle.closest_hit(ray);
-      const auto exact = exact_closest_hit(scene, ray);
+      const auto exact = tests::exact_closest_hit(scene, ray);
       ++rays;
       if (found.has_value() == exact.has_value() &&
           (!exact || (found->primitive == exact->primitive &&
@@ -55,7 +55,7 @@ TEST(Oracle, GivesTheExactAnswer) {
       ++not_equal;
       std::optional<accel::Hit> rounded;
       if (found) rounded = accel::Hit{static_cast<float>(found->t), found->primitive};
-      ASSERT_TRUE(class_of(scene, ray, rounded).has_value()) << scene.name << " ray " << i;
+      ASSERT_TRUE(tests::class_of(scene, ray, rounded).has_value()) << scene.name << " ray " << i;
     }
   }
   EXPECT_LT(not_equal, rays / 10);
@@ -230,7 +230,7 @@ TEST_F(FaultyBuffer, FarSideOfTheSphereAndTheCone) {
     const accel::Hit before = *buffer_.get(index);
     accel::Ray ray = rays_.ray(static_cast<int>(index % 65), static_cast<int>(index / 65), 0);
     ray.t_min = before.t + 0.01F;
-    const auto far_side = exact_closest_hit(scene_, ray);
+    const auto far_side = tests::exact_closest_hit(scene_, ray);
     ASSERT_EQ(far_side->primitive, id);
     buffer_.set(index, accel::Hit{static_cast<float>(far_side->t), id});
     expect_structure_error();
@@ -329,9 +329,9 @@ class Grazing : public ::testing::Test {
   std::optional<DiffClass> missing(double x, double y, scenes::PrimitiveId id) const {
     accel::Ray ray;
     ray.origin = glm::vec3(static_cast<float>(x), static_cast<float>(y), 2.0F);
-    const auto exact = exact_closest_hit(scene_, ray);
+    const auto exact = tests::exact_closest_hit(scene_, ray);
     EXPECT_TRUE(exact && exact->primitive == id) << x << " " << y;
-    return class_of(scene_, ray, std::nullopt);
+    return tests::class_of(scene_, ray, std::nullopt);
   }
   /// K u near a place that a ray from 2 before it passes.
   static double unit(double x, double y) {
@@ -423,7 +423,7 @@ class EndsAtASurface : public ::testing::Test {
       for (const End end : {End::kOrigin, End::kTMin, End::kTMax}) {
         SCOPED_TRACE(std::string(place.kind) + ", end " + std::to_string(static_cast<int>(end)));
         const accel::Ray ray = ray_at(place, end, tolerances);
-        const bool is_hit = exact_closest_hit(scene_, ray).has_value();
+        const bool is_hit = tests::exact_closest_hit(scene_, ray).has_value();
         ASSERT_EQ(is_hit, tolerances < 0.0);
         EXPECT_EQ(verified(ray, is_hit).diff_class, DiffClass::kAgree);
         const Mismatch found = verified(ray, !is_hit);
@@ -461,7 +461,7 @@ TEST_F(EndsAtASurface, AnotherHitThatIsLostIsAnError) {
     SCOPED_TRACE(place.kind);
     for (const double tolerances : {0.5, -0.5}) {
       const accel::Ray through_ceiling = ray_at(place, End::kTMax, tolerances, 7.0);
-      ASSERT_TRUE(exact_closest_hit(scene_, through_ceiling).has_value());
+      ASSERT_TRUE(tests::exact_closest_hit(scene_, through_ceiling).has_value());
       EXPECT_EQ(verified(through_ceiling, false).diff_class, DiffClass::kStructureError);
       EXPECT_EQ(verified(through_ceiling, true).diff_class, DiffClass::kAgree);
     }
@@ -474,7 +474,7 @@ TEST_F(EndsAtASurface, AnyHitReportedBesideATriangleIsAnError) {
   for (const End end : {End::kOrigin, End::kTMin, End::kTMax}) {
     for (const double tolerances : {0.5, -0.5}) {
       const accel::Ray ray = ray_at(beside, end, tolerances);
-      ASSERT_FALSE(exact_closest_hit(scene_, ray).has_value());
+      ASSERT_FALSE(tests::exact_closest_hit(scene_, ray).has_value());
       EXPECT_EQ(verified(ray, true).diff_class, DiffClass::kStructureError);
     }
   }

@@ -11,8 +11,8 @@
 #include "harness/rays/ray_kind.hpp"
 #include "harness/rays/trace_input.hpp"
 #include "harness/verify/describe.hpp"
-#include "harness/verify/exact_search.hpp"
 #include "scenes/scene_builder.hpp"
+#include "tests/verify/exact_answers.hpp"
 #include "tests/verify/first_example.hpp"
 
 namespace beambench::verify {
@@ -91,7 +91,7 @@ TEST_P(FlatCone, IsHitAsTheRingThatItIs) {
       };
       const auto structure = found.get(i);
       const auto oracle = reference.hits()[i];
-      const auto exact = exact_closest_hit(scene_, ray);
+      const auto exact = tests::exact_closest_hit(scene_, ray);
       check("exhaustive", structure ? std::optional<double>(structure->t) : std::nullopt);
       check("oracle", oracle ? std::optional(oracle->t) : std::nullopt);
       check("exact", exact ? std::optional(exact->t) : std::nullopt);

@@ -18,11 +18,10 @@
 #include "harness/rays/trace_input.hpp"
 #include "harness/rays/trace_results.hpp"
 #include "harness/verify/differ.hpp"
-#include "harness/verify/exact_search.hpp"
-#include "harness/verify/verify_ray.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/random_scene.hpp"
+#include "tests/verify/exact_answers.hpp"
 #include "tests/verify/first_example.hpp"
 
 namespace beambench::verify {
@@ -122,7 +121,7 @@ TEST(EndsOfRays, ARayThatEndsAtItsOwnHitHasIt) {
     rays::RaySet set;
     for (int i = 0; i < 40; ++i) {
       Ray ray = tests::random_ray(scene, random);
-      const auto hit = exact_closest_hit(scene, ray);
+      const auto hit = tests::exact_closest_hit(scene, ray);
       if (!hit) continue;
       ray.t_max = static_cast<float>(hit->t);
       set.rays.push_back(ray);
@@ -339,7 +338,7 @@ scenes::Scene with_lights_at_surfaces(std::uint64_t seed) {
   Random random(seed);
   for (std::size_t i = 0; i < image.size() && lit.lights.size() < 4; ++i) {
     const Ray ray = image.ray(i);
-    const auto hit = exact_closest_hit(plain, ray);
+    const auto hit = tests::exact_closest_hit(plain, ray);
     if (!hit) continue;
     const double moved = random.below(3) == 0 ? 0.0 : random.uniform(-1e-4, 1e-4);
     const dvec3 at = dvec3(ray.origin) + (hit->t + moved) * dvec3(ray.direction);

@@ -22,9 +22,9 @@
 #include "harness/verify/describe.hpp"
 #include "harness/verify/selftest/subject.hpp"
 #include "harness/verify/selftest/test_scenes.hpp"
-#include "harness/verify/verify_ray.hpp"
 #include "scenes/core/error.hpp"
 #include "tests/only_target.hpp"
+#include "tests/verify/exact_answers.hpp"
 
 namespace beambench::verify {
 namespace {
@@ -212,8 +212,8 @@ TEST(SceneFamilies, EveryInstructionSetReturnsTheSame) {
               const auto other = images[b].get(i);
               if (one == other) continue;
               ++compared;
-              ASSERT_TRUE(class_of(scene, input.ray(i), one) &&
-                          class_of(scene, input.ray(i), other))
+              ASSERT_TRUE(tests::class_of(scene, input.ray(i), one) &&
+                          tests::class_of(scene, input.ray(i), other))
                   << rays::place_text(input, i) << ": primitive "
                   << (one ? one->primitive : scenes::kNoPrimitive) << " at "
                   << (one ? one->t : accel::kInfinity) << " and primitive "

@@ -1,0 +1,38 @@
+#pragma once
+// The exact answers to closest-hit queries, and the classes of others.
+
+#include <optional>
+#include <vector>
+
+#include "harness/verify/exact_search.hpp"
+#include "harness/verify/verify_ray.hpp"
+
+namespace beambench::tests {
+
+/// Returns the first crossing in the ray's interval.
+inline std::optional<accel::embree::ExactHit> exact_closest_hit(const scenes::Scene& scene,
+                                                                const accel::Ray& ray) {
+  const std::vector<verify::Crossing> found =
+      verify::crossings(scene, ray, verify::primitives_near(scene, ray));
+  return found.empty() ? std::nullopt : std::optional(found.front().hit());
+}
+
+/// Returns kAgree, kTie or kGraze by exact arithmetic; nothing where the answer is wrong.
+inline std::optional<verify::DiffClass> class_of(const scenes::Scene& scene, const accel::Ray& ray,
+                                                 const std::optional<accel::Hit>& answer) {
+  verify::Mismatch found{};
+  found.ray = ray;
+  found.query = rays::Query::kClosestHit;
+  found.answer = answer;
+  verify::classify_by_search(scene, found);
+  switch (found.diff_class) {
+    case verify::DiffClass::kStructureError:
+      return std::nullopt;
+    case verify::DiffClass::kEmbreeError:  // of the miss that stands in for the oracle's answer
+      return verify::DiffClass::kAgree;
+    default:
+      return found.diff_class;
+  }
+}
+
+}  // namespace beambench::tests
