@@ -12,7 +12,7 @@
 
 namespace beambench::accel {
 
-/// What the nodes of a tree refer to.
+/// The numbers of references that a tree is expected to have.
 struct ExpectedReferences {
   double leaves = 0.0;  ///< of all leaves
   double lists = 0.0;   ///< of all nodes but the root
@@ -62,7 +62,7 @@ class ReferenceEstimate {
       listed += kept.node.size();
       nodes.push_back(std::move(kept));
     }
-    /// How many nodes are enough.
+    /// The number of nodes that are enough.
     std::size_t sampled_nodes() const {
       constexpr std::size_t kReferences = std::size_t{1} << 14U;
       return std::clamp<std::size_t>(kReferences * nodes.size() / std::max<std::size_t>(listed, 1),
@@ -86,7 +86,7 @@ class ReferenceEstimate {
     return next;
   }
 
-  /// Each of as many references at equal distances chooses its node, one of them at random.
+  /// Keeps the nodes of references at equal distances, the first at random (systematic sampling).
   static Level sample(const Level& level, Random& random) {
     Level sampled;
     const double distance = level.references / static_cast<double>(level.sampled_nodes());
@@ -107,7 +107,7 @@ class ReferenceEstimate {
   Level first_;               ///< the first that is sampled; none where that is not needed
 };
 
-/// Does the expected value of a nonnegative estimate exceed `most`? A false positive has a
+/// Whether the expected value of a nonnegative estimate exceeds `most`. A false positive has a
 /// probability below one in a million, whatever the distribution: where the expected value is
 /// `most` or less, so is that of the product of estimates / most 1 or less after each of them, and
 /// that the product ever exceeds 2^20 has a probability below 2^-20 (Ville's inequality; Shafer,
@@ -144,14 +144,14 @@ struct RandomPart {
   std::vector<T> members;
 };
 
-/// Will a tree over a list, whose nodes are divided at fixed planes as long as they refer to more
-/// than so many members, have more than `most` references? Asked before it is built, for the answer
-/// takes no longer with more members: `references(members, random)` estimates the references of a
-/// tree over a random part of the list. That is the whole tree, but for branches that end earlier,
-/// so each member has as many references in the whole tree at least (or nearly: a leaf may refer to
-/// it where smaller cells are found not to hold it), and those of the part times `stride` are not
-/// expected to exceed those of all. Where few members have most of the references
-/// a part may not show it; short lists are not worth it.
+/// Predicts whether a tree over a list will have more than `most` references, if its nodes are
+/// divided at fixed planes as long as they refer to more than a given number of members. Longer
+/// lists take no longer: `references(members, random)` estimates the references of a tree over a
+/// random part of the list. That tree is the whole one, except that some branches end earlier. So
+/// each member has at least as many references in the whole tree (or nearly: a leaf may refer to it
+/// where smaller cells are found not to hold it), and those of the part times `stride` are not
+/// expected to exceed those of all. False for short lists, which are quickly divided, and possibly
+/// where few members have most of the references.
 template <class T, class References>
 bool part_surely_exceeds(std::uint64_t most, const std::vector<T>& list, References references) {
   constexpr std::size_t kShort = 4096;

@@ -38,8 +38,8 @@ struct Split {
   double cost = std::numeric_limits<double>::infinity();
 };
 
-/// What the heuristic (MacDonald and Booth, "Heuristics for ray tracing using space subdivision",
-/// 1990) says of planes across one axis of a cell.
+/// The costs of planes across one axis of a cell (MacDonald and Booth, "Heuristics for ray tracing
+/// using space subdivision", 1990).
 class PlaneCost {
  public:
   PlaneCost(const scenes::Bounds& cell, int axis, const KdTreeOptions& options)
@@ -55,7 +55,7 @@ class PlaneCost {
     along_ = options.intersection_cost * (side + other) / area;
   }
 
-  /// Does the plane cut the cell in two?
+  /// Whether the plane cuts the cell in two.
   bool is_inside(float plane) const { return lower_ < plane && plane < upper_; }
   /// The cost of a leaf of so many items, of those rays that meet it.
   static double leaf(std::uint32_t items, const KdTreeOptions& options) {
@@ -198,7 +198,7 @@ class Builder {
     end_ = above.first_event;
   }
 
-  /// For estimates: of some of the items of another builder, with its root and depth.
+  /// A builder for estimates: some of the items of another one, with its root and depth.
   Builder(const Builder& whole, std::vector<bvh::Piece> pieces)
       : scene_(whole.scene_),
         options_(whole.options_),
@@ -246,7 +246,7 @@ class Builder {
     return ReferenceEstimate(taken(root()), divide);
   }
 
-  /// In the middle of cells a small part of the items may show that there will be too many.
+  /// Refuses too many references where a small part of the items shows them (planes in the middle).
   void require_few_references() const {
     if (options_.builder != KdTreeOptions::Builder::kMedian) return;
     const bool exceeds = part_surely_exceeds(
@@ -257,7 +257,7 @@ class Builder {
     if (exceeds) fail_too_many("references", options_.max_references);
   }
 
-  /// Will there be too many references?
+  /// Predicts whether there will be too many references.
   bool will_exceed() const {
     Builder builder(*this, pieces_);
     auto estimate = builder.estimate();

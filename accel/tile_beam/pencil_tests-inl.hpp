@@ -200,9 +200,9 @@ class PencilTests {
     return groups_->note(place, hits);
   }
 
-  /// The hits of a block, of which the plane of a triangle decides some. The plane alone: where
-  /// triangles share an edge, one must not be tested in float and the other in double for which of
-  /// them a ray passes.
+  /// The hits of a block after a triangle's plane has decided in double on which side unsure rays
+  /// begin. The triangle's edges stay as tested in float: neighbors that share an edge must be
+  /// tested alike, or a ray could pass between them.
   LaneBits decided_by_plane(std::size_t place, LaneBits hits, LaneBits unsure,
                             const Meshlet& meshlet, std::size_t shape) {
     const TrianglePlane plane(
