@@ -100,7 +100,8 @@ class Builder {
         pieces_(bvh::collect_pieces(scene)),
         sides_(pieces_.size()),
         most_splits_(options.depth_for(pieces_.size())),
-        limit_(options.max_references, scene, [this] { return will_exceed(); }) {}
+        most_references_(options.references_for(pieces_.size())),
+        limit_(most_references_, scene, [this] { return will_exceed(); }) {}
 
   KdTree build() {
     tree_.scene_bounds = scene_.bounds;
@@ -206,7 +207,8 @@ class Builder {
         pieces_(std::move(pieces)),
         sides_(pieces_.size()),
         most_splits_(whole.most_splits_),
-        limit_(options_.max_references) {
+        most_references_(whole.most_references_),
+        limit_(most_references_) {
     tree_.root = whole.tree_.root;
   }
 
@@ -250,18 +252,18 @@ class Builder {
   void require_few_references() const {
     if (options_.builder != KdTreeOptions::Builder::kMedian) return;
     const bool exceeds = part_surely_exceeds(
-        options_.max_references, pieces_, [this](std::vector<bvh::Piece> pieces, Random& random) {
+        most_references_, pieces_, [this](std::vector<bvh::Piece> pieces, Random& random) {
           Builder builder(*this, std::move(pieces));
           return builder.estimate()(random).leaves;
         });
-    if (exceeds) fail_too_many("references", options_.max_references);
+    if (exceeds) fail_too_many("references", most_references_);
   }
 
   /// Predicts whether there will be too many references.
   bool will_exceed() const {
     Builder builder(*this, pieces_);
     auto estimate = builder.estimate();
-    return surely_more_than(options_.max_references,
+    return surely_more_than(most_references_,
                             [&](Random& random) { return estimate(random).leaves; });
   }
 
@@ -397,7 +399,7 @@ class Builder {
     if (pending.count == 0) ++tree_.empty_leaves;
     tree_.references += pending.count;
     if (limit_.exceeded(tree_.references)) {
-      fail_too_many("references", options_.max_references);
+      fail_too_many("references", most_references_);
     }
     leaf_items_.clear();
     for (const SplitEvent event : list(0, pending)) {
@@ -441,6 +443,7 @@ class Builder {
   std::vector<std::uint32_t> leaf_items_;  ///< of the leaf being made
   std::vector<bvh::Piece> leaf_pieces_;
   int most_splits_;
+  std::uint64_t most_references_;
   ReferenceLimit limit_;
   KdTree tree_;
 };

@@ -12,6 +12,11 @@ std::vector<ParameterInfo> KdTreeOptions::parameters() {
       "most splits on the way from the root to a leaf; auto: 8 + 1.3 log2 of the primitives, or 15 "
       "with builder=median (the cells of an octree of level 6)");
   depth.default_value = "auto";
+  ParameterInfo references = integer_or_auto_parameter(
+      "max_references", 1, 1, 2'000'000'000,
+      "stop with an error beyond this many references (up to 384 bytes each); auto: 10 million, or "
+      "8 for each primitive where that is more");
+  references.default_value = "auto";
   return {
       choice_parameter("builder", "sah", {"sah", "median"},
                        "where a node is split: where the surface area heuristic expects the least "
@@ -31,9 +36,7 @@ std::vector<ParameterInfo> KdTreeOptions::parameters() {
       flag_parameter("clip", defaults.clip,
                      "refer to a primitive where its part inside the cell reaches (Wald and Havran "
                      "2006), not where its whole box does"),
-      integer_parameter("max_references", static_cast<std::int64_t>(defaults.max_references), 1,
-                        2'000'000'000,
-                        "stop with an error beyond this many references (up to 384 bytes each)")};
+      references};
 }
 
 KdTreeOptions KdTreeOptions::from(const Parameters& parameters) {
@@ -47,7 +50,9 @@ KdTreeOptions KdTreeOptions::from(const Parameters& parameters) {
   }
   options.max_objects = static_cast<std::uint32_t>(parameters.integer("max_objects"));
   options.clip = parameters.flag("clip");
-  options.max_references = static_cast<std::uint64_t>(parameters.integer("max_references"));
+  if (const auto references = parameters.integer_or_auto("max_references")) {
+    options.max_references = static_cast<std::uint64_t>(*references);
+  }
   return options;
 }
 
@@ -56,6 +61,11 @@ int KdTreeOptions::depth_for(std::size_t primitives) const {
   if (builder == Builder::kMedian) return 15;
   const double doublings = std::log2(static_cast<double>(std::max<std::size_t>(primitives, 1)));
   return std::min(kMostSplits, static_cast<int>(8.0 + 1.3 * doublings));
+}
+
+std::uint64_t KdTreeOptions::references_for(std::size_t primitives) const {
+  return max_references.value_or(
+      std::max(std::uint64_t{10'000'000}, std::uint64_t{8} * primitives));
 }
 
 }  // namespace beambench::accel::kd_tree

@@ -23,7 +23,7 @@ struct KdTreeOptions {
   std::optional<int> max_depth;    ///< splits above a leaf; nothing: by the number of primitives
   std::uint32_t max_objects = 1;   ///< a node with more may be split
   bool clip = true;                ///< by a primitive's part in a cell, not by its whole box
-  std::uint64_t max_references = 50'000'000;
+  std::optional<std::uint64_t> max_references;  ///< nothing: by the number of primitives
 
   static std::vector<ParameterInfo> parameters();
   static KdTreeOptions from(const Parameters& parameters);
@@ -32,6 +32,9 @@ struct KdTreeOptions {
   /// Rendering", 2004; the form is Havran's), for the spatial median 15: its cells are then those
   /// of the thesis's octree of level 6.
   int depth_for(std::size_t primitives) const;
+  /// `max_references`, or 10 million, or 8 for each primitive where that is more: a mesh has less
+  /// than two for each of its triangles.
+  std::uint64_t references_for(std::size_t primitives) const;
 };
 
 }  // namespace beambench::accel::kd_tree

@@ -223,6 +223,14 @@ TEST(KdTree, CapOnReferencesIsAClearError) {
                             "max_objects", "max_references"}));
 }
 
+TEST(KdTree, CapOnReferencesFollowsThePrimitives) {
+  EXPECT_EQ(KdTreeOptions().references_for(100), 10'000'000U);
+  EXPECT_EQ(KdTreeOptions().references_for(5'000'000), 40'000'000U);
+  KdTreeOptions given;
+  given.max_references = 5;
+  EXPECT_EQ(given.references_for(5'000'000), 5U);
+}
+
 TEST(KdTree, RefusesWhatIsOutOfRange) {
   for (const char* spec : {"kd-tree:traversal_cost=0", "kd-tree:empty_bonus=1.5",
                            "kd-tree:max_depth=65", "kd-tree:builder=mean"}) {

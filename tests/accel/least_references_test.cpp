@@ -3,8 +3,10 @@
 #include "accel/core/least_references.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <ctime>
+#include <numbers>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -246,6 +248,27 @@ TEST(ReferenceLimit, IsKnownToBeExceededEarlyByPrimitivesInOnePlace) {
     EXPECT_NE(message.find("000000 references"), std::string::npos) << message;
     EXPECT_LT(seconds, 20.0 * enough);
   }
+}
+
+/// One polygon with so many spikes about its center, which overlap in all cells there.
+scenes::Scene star(int corners) {
+  scenes::SceneBuilder builder("star");
+  std::vector<glm::dvec3> places;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / corners;
+    const double radius = i % 2 == 0 ? 1.0 : 0.5;
+    places.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.0);
+  }
+  builder.add_polygon(places);
+  return std::move(builder).build();
+}
+
+TEST(ReferenceLimit, IsKnownToBeExceededEarlyByASceneOfNeedles) {
+  const auto [enough, accepted] = seconds_to_build("kd-tree", star(4'000));
+  EXPECT_EQ(accepted, "it was accepted");
+  const auto [seconds, message] = seconds_to_build("kd-tree", star(100'000));
+  EXPECT_NE(message.find("more than 10000000 references"), std::string::npos) << message;
+  EXPECT_LT(seconds, 15.0 * enough);
 }
 
 /// Many primitives, of which a part is looked at before the tree is built: as many references as
