@@ -1,19 +1,23 @@
-// Runs a target over files, where no libFuzzer is there: corpora and regressions are ordinary
-// tests.
+// Runs a target over files or over random inputs, where no libFuzzer is there: corpora and
+// regressions are ordinary tests.
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <unistd.h>
 
+#include "scenes/core/random.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace beambench::fuzz {
@@ -39,14 +43,11 @@ std::vector<char> bytes_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// Whether the target holds for the file; says on standard error which one it is first, so that
-/// the last line names it where the process ends.
-bool holds(const fs::path& path) {
-  const std::vector<char> bytes = bytes_of(path);
-  std::fprintf(stderr, "%s\n", path.c_str());
+/// Whether the target holds for an input.
+bool holds(std::span<const char> input) {
   ::alarm(kSecondsForOne);
   try {
-    LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+    LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
     return true;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "FAULT: %s\n", error.what());
@@ -54,19 +55,52 @@ bool holds(const fs::path& path) {
   }
 }
 
+struct Result {
+  std::size_t inputs = 0;
+  std::size_t faults = 0;
+};
+
+/// Names each file on standard error before it is read, so that the last line names it where the
+/// process ends.
+Result replay(std::span<char*> arguments) {
+  Result result;
+  for (const char* argument : arguments) {
+    for (const auto& file : files_of(argument)) {
+      std::fprintf(stderr, "%s\n", file.c_str());
+      ++result.inputs;
+      if (!holds(bytes_of(file))) ++result.faults;
+    }
+  }
+  return result;
+}
+
+/// Runs over as many inputs of eight random bytes, the same each time. They decide what is drawn
+/// (`Draw`): all of a valid file, in targets that write some.
+Result run_over_random_inputs(std::size_t count) {
+  Result result;
+  Random random(1);
+  for (; result.inputs < count; ++result.inputs) {
+    const std::uint64_t bits = random.bits();
+    std::array<char, sizeof(bits)> input{};
+    std::memcpy(input.data(), &bits, sizeof(bits));
+    if (holds(input)) continue;
+    std::fprintf(stderr, "by random input %zu\n", result.inputs);
+    ++result.faults;
+  }
+  return result;
+}
+
 }  // namespace
 }  // namespace beambench::fuzz
 
-/// Takes files and folders. Exits with 1 where the target fails for one, or there is none.
+/// Takes files and folders, or --random COUNT. Exits with 1 where the target fails for one input,
+/// or there is none.
 int main(int count, char** arguments) {
-  std::size_t files = 0;
-  std::size_t faults = 0;
-  for (const char* argument : std::span(arguments, static_cast<std::size_t>(count)).subspan(1)) {
-    for (const auto& file : beambench::fuzz::files_of(argument)) {
-      ++files;
-      if (!beambench::fuzz::holds(file)) ++faults;
-    }
-  }
-  std::printf("%zu inputs, %zu faults\n", files, faults);
-  return files > 0 && faults == 0 ? 0 : 1;
+  const std::span given(arguments + 1, static_cast<std::size_t>(count - 1));
+  const bool random = given.size() == 2 && std::string_view(given[0]) == "--random";
+  const auto [inputs, faults] = random
+                                    ? beambench::fuzz::run_over_random_inputs(std::stoul(given[1]))
+                                    : beambench::fuzz::replay(given);
+  std::printf("%zu inputs, %zu faults\n", inputs, faults);
+  return inputs > 0 && faults == 0 ? 0 : 1;
 }
