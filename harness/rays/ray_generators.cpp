@@ -124,10 +124,9 @@ accel::Ray line_through(const Box& box, Random& random) {
 
 }  // namespace
 
-std::vector<SurfacePoint> surface_points(const scenes::Scene& scene,
+std::vector<SurfacePoint> surface_points(const scenes::Scene& scene, const MirrorTable& mirrors,
                                          const accel::PrimaryRays& rays) {
   const accel::embree::EmbreeOracle oracle(scene, glm::length(dvec3(rays.eye())));
-  const MirrorTable mirrors(scene);
   std::vector<std::vector<SurfacePoint>> rows(static_cast<std::size_t>(rays.height()));
   tbb::parallel_for(0, rays.height(), [&](int y) {
     rays.for_each(y, y + 1, [&](std::size_t sample, const accel::Ray& ray) {
@@ -226,12 +225,11 @@ RayList occlusion_rays(const std::vector<SurfacePoint>& points, int samples, flo
   return list;
 }
 
-RayList path_rays(const scenes::Scene& scene, std::vector<SurfacePoint> points, int bounces,
-                  std::uint64_t seed) {
+RayList path_rays(const scenes::Scene& scene, const MirrorTable& mirrors,
+                  std::vector<SurfacePoint> points, int bounces, std::uint64_t seed) {
   Random random(seed);
   RayList list;
   std::optional<accel::embree::EmbreeOracle> oracle;
-  const MirrorTable mirrors(scene);
   for (int bounce = 0; bounce < bounces && !points.empty(); ++bounce) {
     const std::size_t first = list.rays.size();
     add_scattered(points, random, list);

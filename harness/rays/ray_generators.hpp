@@ -31,8 +31,12 @@ struct SurfacePoint {
 
 /// Where the primary rays hit, in their order, by the oracle (on all cores): the rays that start
 /// here are the same for every structure.
-std::vector<SurfacePoint> surface_points(const scenes::Scene& scene,
+std::vector<SurfacePoint> surface_points(const scenes::Scene& scene, const MirrorTable& mirrors,
                                          const accel::PrimaryRays& rays);
+inline std::vector<SurfacePoint> surface_points(const scenes::Scene& scene,
+                                                const accel::PrimaryRays& rays) {
+  return surface_points(scene, MirrorTable(scene), rays);
+}
 
 /// The same points in the order of `for_each_sample`.
 std::vector<SurfacePoint> in_picture_order(const std::vector<SurfacePoint>& points,
@@ -62,8 +66,8 @@ RayList occlusion_rays(const std::vector<SurfacePoint>& points, int samples, flo
 
 /// Diffuse rays, from where these hit (by the oracle, on all cores) diffuse rays again, and so on
 /// for `bounces` times; fewer when all paths have left the scene. The first are `diffuse_rays`.
-RayList path_rays(const scenes::Scene& scene, std::vector<SurfacePoint> points, int bounces,
-                  std::uint64_t seed);
+RayList path_rays(const scenes::Scene& scene, const MirrorTable& mirrors,
+                  std::vector<SurfacePoint> points, int bounces, std::uint64_t seed);
 
 /// `count` rays that are uniform among all lines through the box, by the measure of lines that does
 /// not change when space is moved or turned (Santalo, Integral Geometry, 1976, II.12): they enter

@@ -62,8 +62,8 @@ RayList made_rays(const scenes::Scene& scene, const accel::PrimaryRays& primary,
             "mirrors",
             scene.name));
       }
-      return mirror_rays(in_picture_order(surface_points(scene, primary), primary), mirrors,
-                         primary);
+      return mirror_rays(in_picture_order(surface_points(scene, mirrors, primary), primary),
+                         mirrors, primary);
     }
     case RayKind::kDiffuse:
       return diffuse_rays(surface_points(scene, primary), choice.seed);
@@ -79,9 +79,10 @@ RayList made_rays(const scenes::Scene& scene, const accel::PrimaryRays& primary,
     }
     case RayKind::kPath: {
       const auto bounces = parameters_of(choice).integer("bounces");
-      auto points = surface_points(scene, primary);
+      const MirrorTable mirrors(scene);
+      auto points = surface_points(scene, mirrors, primary);
       require_list_size(points.size(), bounces, choice, "bounces");
-      return path_rays(scene, std::move(points), static_cast<int>(bounces), choice.seed);
+      return path_rays(scene, mirrors, std::move(points), static_cast<int>(bounces), choice.seed);
     }
     case RayKind::kRandom:
       return random_rays(scene.bounds, primary.count(), choice.seed);

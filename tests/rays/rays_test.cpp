@@ -107,7 +107,7 @@ TEST(MirrorRays, AreTheReflectionRaysOfPlanarMirrors) {
   const scenes::Scene scene = scenes::load_scene("teapot:n=3");
   const MirrorTable mirrors(scene);
   const accel::PrimaryRays image(scene.cameras.front(), 64, 48, 1);
-  std::vector<SurfacePoint> points = surface_points(scene, image);
+  std::vector<SurfacePoint> points = surface_points(scene, mirrors, image);
   const RayList list = mirror_rays(points, mirrors, image);
   const std::size_t all = points.size();
   std::erase_if(points, [&](const SurfacePoint& at) {
@@ -213,7 +213,8 @@ TEST(PathRays, GoOnFromWhereTheyHit) {
   const scenes::Scene scene = scenes::load_scene("closed-room");
   const auto points = points_of(scene);
   ASSERT_EQ(points.size(), 64U * 48U);
-  const RayList list = path_rays(scene, points, 4, 7);
+  const MirrorTable mirrors(scene);
+  const RayList list = path_rays(scene, mirrors, points, 4, 7);
   ASSERT_EQ(list.rays.size(), 4 * points.size());
   RaySet set{list, "path", Query::kClosestHit, 7};
   const RayList first = diffuse_rays(points, 7);
@@ -222,7 +223,6 @@ TEST(PathRays, GoOnFromWhereTheyHit) {
 
   set.rays = list.rays;
   const verify::ReferenceHits reference(scene, TraceInput(std::move(set)));
-  const MirrorTable mirrors(scene);
   for (std::size_t i = points.size(); i < list.rays.size(); ++i) {
     const std::size_t before = i - points.size();
     const accel::Ray& ray = list.rays[before];
@@ -237,7 +237,7 @@ TEST(PathRays, GoOnFromWhereTheyHit) {
 TEST(PathRays, EndWhereNothingIsHit) {
   const scenes::Scene scene = lonely_sphere();
   const auto points = points_of(scene);
-  EXPECT_EQ(path_rays(scene, points, 5, 1).rays.size(), points.size());
+  EXPECT_EQ(path_rays(scene, MirrorTable(scene), points, 5, 1).rays.size(), points.size());
 }
 
 TEST(MakeInput, RefusesListsThatWouldFillTheMemory) {
