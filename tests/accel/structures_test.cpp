@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 
 #include "accel/core/registry.hpp"
 #include "harness/verify/selftest/selftest.hpp"
+#include "tests/number_from.hpp"
 #include "tests/random_scene.hpp"
 #include "tests/scenes/thrown_message.hpp"
 
@@ -50,10 +50,7 @@ class Contract : public ::testing::TestWithParam<CheckOfStructure> {};
 
 /// As many as say something of the hits; or as many as are asked for, where memory is looked at by
 /// a sanitizer, which sees as much in few (.ci/run).
-std::uint64_t random_scenes() {
-  const char* const asked = std::getenv("BEAMBENCH_CONTRACT_SCENES");
-  return asked == nullptr ? 240 : std::stoull(asked);
-}
+std::uint64_t random_scenes() { return tests::number_from("BEAMBENCH_CONTRACT_SCENES", 240); }
 
 TEST_P(Contract, IsKept) {
   const verify::SelftestEffort effort{.seed = 1, .scenes = random_scenes()};

@@ -1,11 +1,10 @@
 // The judge against exact arithmetic: it accepts no claim that is wrong by more than 4 K u, and
 // refuses none within K u / 4.
 //
-// BEAMBENCH_EXACT_CLAIMS=1000000 in the environment requests that many claims,
+// BEAMBENCH_EXACT_CLAIMS=1000000 in the environment requests that many claims, which take a minute,
 // BEAMBENCH_EXACT_SEED=N others. BEAMBENCH_EXACT_REPORT=N prints that many violations of each
 // family instead of 3.
 
-#include <cstdlib>
 #include <map>
 #include <string>
 #include <vector>
@@ -15,6 +14,7 @@
 
 #include "accel/core/ray.hpp"
 #include "harness/verify/differ.hpp"
+#include "tests/number_from.hpp"
 #include "tests/verify/exact/acceptance.hpp"
 #include "tests/verify/exact/claim_rays.hpp"
 #include "tests/verify/exact/claim_scenes.hpp"
@@ -25,11 +25,6 @@ namespace beambench::exact {
 namespace {
 
 using verify::DiffClass;
-
-std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
-  const char* text = std::getenv(variable);
-  return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
-}
 
 struct Family {
   const char* name;
@@ -194,7 +189,7 @@ class Comparison {
       ++(claim.right ? right_ : wrong_);
       if ((classes[i] != DiffClass::kStructureError) == claim.right) continue;
       std::size_t& count = claim.right ? refused_ : accepted_;
-      static const std::uint64_t kReported = number_from("BEAMBENCH_EXACT_REPORT", 3);
+      static const std::uint64_t kReported = tests::number_from("BEAMBENCH_EXACT_REPORT", 3);
       if (count++ < kReported) {
         examples_ += fmt::format("seed {}: the judge {} this claim, which is {} (class {})\n{}",
                                  seed, claim.right ? "refuses" : "accepts",
@@ -215,8 +210,9 @@ class Comparison {
 class ExactClaims : public ::testing::TestWithParam<Family> {};
 
 TEST_P(ExactClaims, JudgeAcceptsRightOnesAndRefusesWrongOnes) {
-  const std::uint64_t wanted = number_from("BEAMBENCH_EXACT_CLAIMS", 26'000) / std::size(kFamilies);
-  const std::uint64_t first = number_from("BEAMBENCH_EXACT_SEED", 1) * 10'000'000;
+  const std::uint64_t wanted =
+      tests::number_from("BEAMBENCH_EXACT_CLAIMS", 26'000) / std::size(kFamilies);
+  const std::uint64_t first = tests::number_from("BEAMBENCH_EXACT_SEED", 1) * 10'000'000;
   Comparison comparison(GetParam());
   for (std::uint64_t seed = first; comparison.made() < wanted; ++seed) {
     comparison.add(seed);

@@ -4,7 +4,6 @@
 // for others.
 
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 #include <memory>
 #include <optional>
@@ -23,16 +22,12 @@
 #include "harness/verify/selftest/subject.hpp"
 #include "harness/verify/selftest/test_scenes.hpp"
 #include "scenes/core/error.hpp"
+#include "tests/number_from.hpp"
 #include "tests/only_target.hpp"
 #include "tests/verify/exact_answers.hpp"
 
 namespace beambench::verify {
 namespace {
-
-std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
-  const char* text = std::getenv(variable);
-  return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
-}
 
 /// A structure held to one instruction set.
 struct Contender {
@@ -158,8 +153,8 @@ class Trial {
 };
 
 TEST(SceneFamilies, NoStructureErrs) {
-  const std::uint64_t scenes = number_from("BEAMBENCH_FAMILY_SCENES", 28);
-  const std::uint64_t first = number_from("BEAMBENCH_FAMILY_SEED", 1);
+  const std::uint64_t scenes = tests::number_from("BEAMBENCH_FAMILY_SCENES", 28);
+  const std::uint64_t first = tests::number_from("BEAMBENCH_FAMILY_SEED", 1);
   std::size_t verified = 0;
   for (std::uint64_t seed = first; seed < first + scenes; ++seed) {
     SCOPED_TRACE(fmt::format("seed {}", seed));
