@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include "accel/core/tolerance.hpp"
 #include "accel/octree/octree.hpp"
 #include "accel/tile_beam/tile_beam.hpp"
 #include "harness/rays/normal.hpp"
@@ -452,6 +453,42 @@ TEST(PencilHits, DoNotDependOnTheThreads) {
     }
     for (const rays::TraceResults& results : at_once) EXPECT_EQ(results, expected);
   }
+}
+
+/// Shadow rays that pass edges of triangles within some roundings of a place, seen from a light
+/// several times as far away as the triangles are from the origin of the coordinates: there these
+/// roundings are more than K u.
+TEST(PencilHits, PassEdgesFarFromTheLightAsSingleRaysDo) {
+  constexpr int kScenes = 60;
+  constexpr std::size_t kRays = 4096;
+  Random random(7);
+  std::uint64_t beams = 0;
+  for (int i = 0; i < kScenes; ++i) {
+    SCOPED_TRACE(i);
+    scenes::SceneBuilder builder("triangle");
+    const std::vector<dvec3> corners{point_in_cube(random), point_in_cube(random),
+                                     point_in_cube(random)};
+    builder.add_polygon(corners);
+    const scenes::Scene scene = std::move(builder).build();
+    const dvec3 light(glm::vec3(random.uniform(3.0, 12.0) * random_direction(random)));
+    rays::RaySet set;
+    set.query = rays::Query::kAnyHit;
+    set.may_graze = true;
+    set.pencils = {{0, kRays, light, true}};
+    for (std::size_t k = 0; k < kRays; ++k) {
+      const dvec3& from = corners[k % 3];
+      const dvec3 on_edge = from + random.unit() * (corners[(k + 1) % 3] - from);
+      const dvec3 beside =
+          on_edge + 0x1p-18 * random.unit() * glm::length(light) * random_direction(random);
+      const glm::vec3 origin(beside + 0.02 * random.unit() * (beside - light));
+      const glm::vec3 direction(light - dvec3(origin));
+      set.rays.push_back({origin, direction, 0.0F, accel::t_before_light(dvec3(origin), light)});
+    }
+    const Outcome outcome = verified(scene, rays::TraceInput(std::move(set)));
+    expect_right(outcome);
+    beams += outcome.beams;
+  }
+  EXPECT_GT(beams, static_cast<std::uint64_t>(kScenes) / 2);
 }
 
 }  // namespace

@@ -26,8 +26,13 @@ bool refuses(const accel::StructureChoice& choice, const scenes::Scene& scene) {
   return false;
 }
 
-/// Caps are numbers of things; to reach one takes another test than this.
-constexpr double kSmallDefault = 1000.0;
+/// A cap is a number of things; to reach one takes another test than this.
+bool is_cap(const ParameterInfo& parameter) {
+  constexpr double kSmallDefault = 1e3;
+  constexpr double kSmallMaximum = 1e6;
+  return parameter.default_value == "auto" ? parameter.maximum > kSmallMaximum
+                                           : std::stod(parameter.default_value) > kSmallDefault;
+}
 
 std::string small_integer(const ParameterInfo& parameter, Random& random) {
   const auto low = static_cast<std::uint64_t>(parameter.minimum);
@@ -44,10 +49,7 @@ std::string random_value(const ParameterInfo& parameter, Random& random) {
       if (random.below(4) == 0) return "auto";
       [[fallthrough]];
     case Type::kInteger:
-      if (parameter.default_value != "auto" && std::stod(parameter.default_value) > kSmallDefault) {
-        return "";
-      }
-      return small_integer(parameter, random);
+      return is_cap(parameter) ? "" : small_integer(parameter, random);
     case Type::kFlag:
       return random.below(2) == 0 ? "false" : "true";
     case Type::kChoice:
