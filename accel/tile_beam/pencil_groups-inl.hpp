@@ -21,19 +21,12 @@ namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 /// Rays toward the apex: a hit ends a ray.
 struct AnyHitPolicy {
   static constexpr bool kClosest = false;
-  static constexpr bool kDense = false;
   /// Leaves for each ray from which on single rays take less time, measured.
   static constexpr float kHandoverLeaves = 1.0F;
-};
-/// The same for rays so close together that float is not sure of many hits at a triangle's edge:
-/// these are confirmed.
-struct DenseAnyHitPolicy : AnyHitPolicy {
-  static constexpr bool kDense = true;
 };
 /// Rays away from the apex: a hit brings the ray's end nearer.
 struct ClosestHitPolicy {
   static constexpr bool kClosest = true;
-  static constexpr bool kDense = false;
   static constexpr float kHandoverLeaves = 3.0F;
 };
 

@@ -63,37 +63,10 @@ HWY_INLINE AnsweredRays for_each_side(const PencilRays& pencil, PencilUnit& unit
   return {count, some_undecided};
 }
 
-/// 2^9 roundings of a place: below, more than one in some hundred rays that pass an edge are closer
-/// to it than a few of these.
-constexpr float kCloseTogether = 0x1p-15F;
-
 template <class Policy, class Counting>
 void walk_part(const PencilRays& pencil, const PencilPart& part, CubeSide side, PencilUnit& unit,
                Counting& counting) {
   PencilWalk<Policy, Counting>(pencil.hierarchy, pencil.scene, part, side, unit, counting)();
-}
-
-/// Are the rays of a quarter of the blocks, which are four wide, as close together?
-bool are_dense(const PencilUnit& unit) {
-  constexpr float kExtent = 2.0F * 4.0F * kCloseTogether;  // along u and along v
-  std::size_t dense = 0;
-  for (std::size_t place = 0; place < unit.places; ++place) {
-    const float extent = (unit.high_u[place] + unit.minus_low_u[place]) +
-                         (unit.high_v[place] + unit.minus_low_v[place]);
-    dense += extent < kExtent ? 1U : 0U;
-  }
-  return 4 * dense >= unit.places;
-}
-
-/// Rays toward the apex.
-template <class Counting>
-void walk_toward(const PencilRays& pencil, const PencilPart& part, CubeSide side, PencilUnit& unit,
-                 Counting& counting) {
-  if (are_dense(unit)) {
-    walk_part<DenseAnyHitPolicy>(pencil, part, side, unit, counting);
-  } else {
-    walk_part<AnyHitPolicy>(pencil, part, side, unit, counting);
-  }
 }
 
 template <class Counting>
@@ -104,7 +77,7 @@ AnsweredRays any_hits(const PencilRays& pencil, PencilUnit& unit, std::span<std:
       pencil, unit,
       [&](const PencilPart& part, CubeSide side) {
         counting.add("beams");
-        walk_toward(pencil, part, side, unit, counting);
+        walk_part<AnyHitPolicy>(pencil, part, side, unit, counting);
         for (std::size_t place = 0; place < unit.places; ++place) {
           const std::size_t block = unit.slot[place];
           LaneBits hit = unit.lanes[block] & ~LaneBits{unit.alive[place]};
@@ -170,7 +143,7 @@ void places_of(const PencilRays& pencil, PencilUnit& unit, std::span<BeamPlace> 
       pencil, unit,
       [&](const PencilPart& part, CubeSide side) {
         HandOverRecorder recorder(PencilUnit::kBlocks * PencilUnit::kBlock);
-        walk_toward(pencil, part, side, unit, recorder);
+        walk_part<AnyHitPolicy>(pencil, part, side, unit, recorder);
         note_places(unit, side, recorder, places);
       },
       [](std::size_t) {});

@@ -100,6 +100,8 @@ struct SeenShapes {
     /// much where that was moved by it.
     kSlack = kMagnitudes + 8,
     kSlackPerW,
+    /// Triangles: the value of an edge below which a hit is uncertain.
+    kEdgeMargin,
     kRows,
     /// Spheres: center and radius in the coordinates of the side.
     kCenter = kEdge0,
@@ -270,15 +272,21 @@ class TriangleShapes {
 
     shapes_->set_bounds(lane, bounds);
     const Floats turn = hn::And(area, all(-0.0F));
+    Floats longest_edge = hn::Zero(Tag());
     for (std::size_t k = 0; k < 3; ++k) {
       shapes_->set(SeenShapes::kEdge0 + 3 * k, lane, hn::Xor(edges[k].a, turn));
       shapes_->set(SeenShapes::kEdge0 + 3 * k + 1, lane, hn::Xor(edges[k].b, turn));
       const Floats size_a = hn::Abs(edges[k].a);
       const Floats size_b = hn::Abs(edges[k].b);
+      const Floats length = hn::Add(size_a, size_b);
+      longest_edge = hn::Max(longest_edge, length);
       shapes_->set(SeenShapes::kEdge0 + 3 * k + 2, lane,
-                   hn::MulAdd(all(kOutward), hn::Add(size_a, size_b), hn::Xor(edges[k].c, turn)));
+                   hn::MulAdd(all(kOutward), length, hn::Xor(edges[k].c, turn)));
       shapes_->set(SeenShapes::kMagnitudes + 2 * k, lane, size_a);
       shapes_->set(SeenShapes::kMagnitudes + 2 * k + 1, lane, size_b);
+    }
+    if (!Policy::kClosest) {
+      shapes_->set(SeenShapes::kEdgeMargin, lane, hn::Mul(all(kUncertain), longest_edge));
     }
     const Floats toward = hn::And(distance, all(-0.0F));
     const auto with = [](Floats value, Floats change) {
@@ -349,6 +357,9 @@ class TriangleShapes {
   static constexpr float kRounding = 0x1p-24F;
   /// How far edges are moved, on the side of the cube: a rounding of places |u| <= 1.
   static constexpr float kOutward = kRounding;
+  /// How close to a moved edge any hits are uncertain: places and edges err by less together,
+  /// which far from the apex is more than ray and hit allow for (`float_unit`).
+  static constexpr float kUncertain = 8.0F * kRounding;
   /// Beyond this tangent a corner's place is less accurate than blocks' bounds allow for.
   static constexpr float kFarAside = 4.0F;
   /// The area of a triangle, over its extent, below which its sign is uncertain: eight roundings of

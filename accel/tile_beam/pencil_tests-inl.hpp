@@ -53,9 +53,8 @@ class PencilTests {
         LaneBits hits = test_triangle(place, shape, meshlet.primitives[shape], unsure);
         unsure.depth &= unit_->alive[place];
         if (unsure.depth != 0) [[unlikely]] {
+          if constexpr (!kClosest) tell_apart(place, shape, unsure);
           hits = decided_by_plane(place, hits, unsure.depth, meshlet, shape);
-        }
-        if (Policy::kDense && (unsure.edge & hits) != 0) [[unlikely]] {
           hits = decided_by_rays(place, hits, unsure.edge);
         }
         changed |= groups_->note(place, hits);
@@ -113,7 +112,8 @@ class PencilTests {
     LaneBits edge = 0;   ///< hits close to an edge, which was moved outward
   };
 
-  /// The rays of a block that hit a triangle, and which of these hits are uncertain.
+  /// The rays of a block that hit a triangle, and which of these hits are uncertain; of any hits
+  /// `unsure.depth` has both kinds (`tell_apart`): few are.
   HWY_INLINE LaneBits test_triangle(std::size_t place, std::size_t shape,
                                     scenes::PrimitiveId primitive, Unsure& unsure) {
     const OneShape of{*shapes_, shape};
@@ -122,16 +122,11 @@ class PencilTests {
       const Floats u = load(&unit_->u[block + lane]);
       const Floats v = load(&unit_->v[block + lane]);
       const Floats w = load(&unit_->w[block + lane]);
-      const auto line = [&](std::size_t row, Floats constant) {
-        return hn::MulAdd(of(row), u, hn::MulAdd(of(row + 1), v, constant));
-      };
-      const auto edge = [&](std::size_t k) {
-        return line(SeenShapes::kEdge0 + 3 * k, of(SeenShapes::kEdge0 + 3 * k + 2));
-      };
-      const Floats outside = either(edge(0), edge(1), edge(2));
-      const Floats distance = of(SeenShapes::kDistance);
+      const Edges edges = edges_of(of, u, v);
+      const Floats outside = either(edges[0], edges[1], edges[2]);
       if constexpr (kClosest) {
-        const Floats plane = line(SeenShapes::kPlane, of(SeenShapes::kPlane + 2));
+        const Floats distance = of(SeenShapes::kDistance);
+        const Floats plane = value_of(of, SeenShapes::kPlane, u, v, of(SeenShapes::kPlane + 2));
         const Floats before = hn::NegMulAdd(distance, w, plane);
         const Mask met =
             hn::AndNot(is_negative(hn::Or(outside, before)), lanes_of(unit_->alive[place], lane));
@@ -148,20 +143,12 @@ class PencilTests {
         }
         return hit;
       } else {
-        const Floats beyond =
-            line(SeenShapes::kPlane, hn::NegMulAdd(distance, w, of(SeenShapes::kPlane + 2)));
+        const Floats beyond = beyond_plane(of, u, v, w);
         const Floats missed = hn::Or(outside, beyond);
         const Mask hit = hn::Not(is_negative(missed));
-        unsure.depth |= bits_of(is_negative(hn::AndNot(missed, hn::Sub(beyond, slack_of(of, w)))))
-                        << lane;
-        if constexpr (Policy::kDense) {
-          const auto inside = [&](std::size_t k) {
-            const std::size_t row = SeenShapes::kMagnitudes + 2 * k;
-            return hn::NegMulAdd(hn::Add(of(row), of(row + 1)), all(kEdgeRounding), edge(k));
-          };
-          const Mask at_edge = hn::And(hit, is_negative(either(inside(0), inside(1), inside(2))));
-          unsure.edge |= (bits_of(at_edge) << lane) & unit_->alive[place];
-        }
+        const Floats clear = hn::Or(hn::Sub(beyond, slack_of(of, w)),
+                                    hn::Sub(least_of(edges), of(SeenShapes::kEdgeMargin)));
+        unsure.depth |= bits_of(is_negative(hn::AndNot(missed, clear))) << lane;
         return hit;
       }
     });
@@ -170,6 +157,44 @@ class PencilTests {
   /// By how much the place of a ray's origin beside a triangle's plane may be wrong.
   static HWY_INLINE Floats slack_of(const OneShape& of, Floats w) {
     return hn::MulAdd(of(SeenShapes::kSlackPerW), w, of(SeenShapes::kSlack));
+  }
+
+  using Edges = std::array<Floats, 3>;
+
+  static HWY_INLINE Floats value_of(const OneShape& of, std::size_t row, Floats u, Floats v,
+                                    Floats constant) {
+    return hn::MulAdd(of(row), u, hn::MulAdd(of(row + 1), v, constant));
+  }
+  static HWY_INLINE Edges edges_of(const OneShape& of, Floats u, Floats v) {
+    const auto edge = [&](std::size_t row) { return value_of(of, row, u, v, of(row + 2)); };
+    return {edge(SeenShapes::kEdge0), edge(SeenShapes::kEdge0 + 3), edge(SeenShapes::kEdge0 + 6)};
+  }
+  static HWY_INLINE Floats least_of(const Edges& edges) {
+    return hn::Min(edges[0], hn::Min(edges[1], edges[2]));
+  }
+  /// Any hits: how far behind a triangle's plane a ray begins, seen from the apex.
+  static HWY_INLINE Floats beyond_plane(const OneShape& of, Floats u, Floats v, Floats w) {
+    return value_of(of, SeenShapes::kPlane, u, v,
+                    hn::NegMulAdd(of(SeenShapes::kDistance), w, of(SeenShapes::kPlane + 2)));
+  }
+
+  /// Any hits: divides the uncertain ones into those that are so in depth and those at an edge.
+  void tell_apart(std::size_t place, std::size_t shape, Unsure& unsure) const {
+    const OneShape of{*shapes_, shape};
+    const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
+    LaneBits in_depth = 0;
+    LaneBits at_edge = 0;
+    for (std::size_t lane = 0; lane < PencilUnit::kBlock; lane += kLanes) {
+      const Floats u = load(&unit_->u[block + lane]);
+      const Floats v = load(&unit_->v[block + lane]);
+      const Floats w = load(&unit_->w[block + lane]);
+      const Floats depth = hn::Sub(beyond_plane(of, u, v, w), slack_of(of, w));
+      const Floats edge = hn::Sub(least_of(edges_of(of, u, v)), of(SeenShapes::kEdgeMargin));
+      in_depth |= bits_of(is_negative(depth)) << lane;
+      at_edge |= bits_of(is_negative(edge)) << lane;
+    }
+    unsure.edge = unsure.depth & at_edge;
+    unsure.depth &= in_depth;
   }
 
   /// Any hits, of which those at an edge are decided by single rays through the whole hierarchy:
@@ -378,9 +403,6 @@ class PencilTests {
                              hn::Load(ids, &unit_->primitive[at])),
               ids, &unit_->primitive[at]);
   }
-
-  /// By how much an edge was moved outward, and as much again on the inside.
-  static constexpr float kEdgeRounding = 0x1p-22F;
 
   const scenes::Scene* scene_;
   const PencilPart* part_;

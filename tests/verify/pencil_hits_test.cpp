@@ -482,7 +482,9 @@ TEST(PencilHits, PassEdgesFarFromTheLightAsSingleRaysDo) {
           on_edge + 0x1p-18 * random.unit() * glm::length(light) * random_direction(random);
       const glm::vec3 origin(beside + 0.02 * random.unit() * (beside - light));
       const glm::vec3 direction(light - dvec3(origin));
-      set.rays.push_back({origin, direction, 0.0F, accel::t_before_light(dvec3(origin), light)});
+      set.rays.push_back({.origin = origin,
+                          .direction = direction,
+                          .t_max = accel::t_before_light(dvec3(origin), light)});
     }
     const Outcome outcome = verified(scene, rays::TraceInput(std::move(set)));
     expect_right(outcome);
