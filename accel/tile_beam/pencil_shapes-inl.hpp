@@ -357,8 +357,8 @@ class TriangleShapes {
   static constexpr float kRounding = 0x1p-24F;
   /// How far edges are moved, on the side of the cube: a rounding of places |u| <= 1.
   static constexpr float kOutward = kRounding;
-  /// How close to a moved edge any hits are uncertain: places and edges err by less together,
-  /// which far from the apex is more than ray and hit allow for (`float_unit`).
+  /// The distance from a moved edge within which any hits are uncertain: places and edges err by
+  /// less, which far from the apex is more than ray and hit allow for (`float_unit`).
   static constexpr float kUncertain = 8.0F * kRounding;
   /// Beyond this tangent a corner's place is less accurate than blocks' bounds allow for.
   static constexpr float kFarAside = 4.0F;

@@ -154,7 +154,7 @@ class PencilTests {
     });
   }
 
-  /// By how much the place of a ray's origin beside a triangle's plane may be wrong.
+  /// Returns by how much the place of a ray's origin beside a triangle's plane may be wrong.
   static HWY_INLINE Floats slack_of(const OneShape& of, Floats w) {
     return hn::MulAdd(of(SeenShapes::kSlackPerW), w, of(SeenShapes::kSlack));
   }
@@ -172,7 +172,7 @@ class PencilTests {
   static HWY_INLINE Floats least_of(const Edges& edges) {
     return hn::Min(edges[0], hn::Min(edges[1], edges[2]));
   }
-  /// Any hits: how far behind a triangle's plane a ray begins, seen from the apex.
+  /// Returns how far behind a triangle's plane a ray begins, seen from the apex: of any hits.
   static HWY_INLINE Floats beyond_plane(const OneShape& of, Floats u, Floats v, Floats w) {
     return value_of(of, SeenShapes::kPlane, u, v,
                     hn::NegMulAdd(of(SeenShapes::kDistance), w, of(SeenShapes::kPlane + 2)));
