@@ -18,6 +18,7 @@
 #include "accel/core/least_references.hpp"
 #include "accel/core/tolerance.hpp"
 #include "accel/kd_tree/kd_tree.hpp"
+#include "accel/kd_tree/plane_cost.hpp"
 #include "accel/kd_tree/split_events.hpp"
 #include "scenes/core/error.hpp"
 
@@ -36,51 +37,6 @@ struct Split {
   int axis = -1;  ///< none
   float plane = 0.0F;
   double cost = std::numeric_limits<double>::infinity();
-};
-
-/// The costs of planes across one axis of a cell (MacDonald and Booth, "Heuristics for ray tracing
-/// using space subdivision", 1990).
-class PlaneCost {
- public:
-  PlaneCost(const scenes::Bounds& cell, int axis, const KdTreeOptions& options)
-      : lower_(cell.lower[axis]),
-        upper_(cell.upper[axis]),
-        traversal_(options.traversal_cost),
-        discount_(1.0 - options.empty_bonus) {
-    const glm::dvec3 size = glm::dvec3(cell.upper) - glm::dvec3(cell.lower);
-    const double side = size[(axis + 1) % 3];
-    const double other = size[(axis + 2) % 3];
-    const double area = size[axis] * (side + other) + side * other;
-    ends_ = options.intersection_cost * (side * other) / area;
-    along_ = options.intersection_cost * (side + other) / area;
-  }
-
-  /// Whether the plane cuts the cell in two.
-  bool is_inside(float plane) const { return lower_ < plane && plane < upper_; }
-  /// The cost of a leaf of so many items, of those rays that meet it.
-  static double leaf(std::uint32_t items, const KdTreeOptions& options) {
-    return options.intersection_cost * blocks(items);
-  }
-  /// The cost of a ray that meets the cell, of whose items so many reach to each side of the plane.
-  double operator()(float plane, std::uint32_t below, std::uint32_t above) const {
-    const double cost = traversal_ + blocks(below) * (ends_ + (double{plane} - lower_) * along_) +
-                        blocks(above) * (ends_ + (upper_ - double{plane}) * along_);
-    return below == 0 || above == 0 ? cost * discount_ : cost;
-  }
-
- private:
-  /// Items are tested in blocks. Without this a tree has twice the nodes, and rays take longer.
-  static std::uint32_t blocks(std::uint32_t items) {
-    constexpr std::uint32_t kLanes = bvh::kBvhLanes;
-    return (items + kLanes - 1) / kLanes;
-  }
-
-  double lower_;
-  double upper_;
-  double traversal_;
-  double discount_;
-  double ends_;   ///< probability of meeting a face across the axis, times the cost of a block
-  double along_;  ///< and what each unit of length adds to it
 };
 
 /// The build in O(n log n) of Wald and Havran (2006, section 4.3). The three lists of events (one
