@@ -9,6 +9,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "accel/tile_beam/pencil_grouping-inl.hpp"
 #include "accel/tile_beam/pencil_walk-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
