@@ -49,11 +49,11 @@ class PencilTests {
       if ((special >> shape & 1U) != 0) [[unlikely]] {
         changed |= test_specially(place, shape, meshlet);
       } else {
-        Unsure unsure;
-        LaneBits hits = test_triangle(place, shape, meshlet.primitives[shape], unsure);
-        unsure.depth &= unit_->alive[place];
-        if (unsure.depth != 0) [[unlikely]] {
-          if constexpr (!kClosest) tell_apart(place, shape, unsure);
+        LaneBits uncertain = 0;
+        LaneBits hits = test_triangle(place, shape, meshlet.primitives[shape], uncertain);
+        uncertain &= unit_->alive[place];
+        if (uncertain != 0) [[unlikely]] {
+          const Unsure unsure = told_apart(place, shape, uncertain);
           hits = decided_by_plane(place, hits, unsure.depth, meshlet, shape);
           hits = decided_by_rays(place, hits, unsure.edge);
         }
@@ -112,10 +112,10 @@ class PencilTests {
     LaneBits edge = 0;   ///< hits close to an edge, which was moved outward
   };
 
-  /// The rays of a block that hit a triangle, and which of these hits are uncertain; of any hits
-  /// `unsure.depth` has both kinds (`tell_apart`): few are.
+  /// The rays of a block that hit a triangle, and which of these hits are `uncertain`. These are so
+  /// few that `told_apart` says why.
   HWY_INLINE LaneBits test_triangle(std::size_t place, std::size_t shape,
-                                    scenes::PrimitiveId primitive, Unsure& unsure) {
+                                    scenes::PrimitiveId primitive, LaneBits& uncertain) {
     const OneShape of{*shapes_, shape};
     const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
     return for_each_register([&](std::size_t lane) {
@@ -136,7 +136,7 @@ class PencilTests {
         const Floats may_err = slack_of(of, origin_w);
         const Mask possible = hn::AndNot(is_negative(hn::Add(after, may_err)), met);
         const Mask close = hn::And(possible, is_negative(hn::Sub(after, may_err)));
-        unsure.depth |= bits_of(close) << lane;
+        uncertain |= bits_of(close) << lane;
         const Mask hit = hn::AndNot(close, possible);
         if (!hn::AllFalse(Tag(), hit)) {
           keep(block + lane, hit, hn::Div(plane, distance), w, primitive);
@@ -147,8 +147,8 @@ class PencilTests {
         const Floats missed = hn::Or(outside, beyond);
         const Mask hit = hn::Not(is_negative(missed));
         const Floats clear = hn::Or(hn::Sub(beyond, slack_of(of, w)),
-                                    hn::Sub(least_of(edges), of(SeenShapes::kEdgeMargin)));
-        unsure.depth |= bits_of(is_negative(hn::AndNot(missed, clear))) << lane;
+                                    hn::Sub(least_edge(edges), of(SeenShapes::kEdgeMargin)));
+        uncertain |= bits_of(is_negative(hn::AndNot(missed, clear))) << lane;
         return hit;
       }
     });
@@ -169,7 +169,7 @@ class PencilTests {
     const auto edge = [&](std::size_t row) { return value_of(of, row, u, v, of(row + 2)); };
     return {edge(SeenShapes::kEdge0), edge(SeenShapes::kEdge0 + 3), edge(SeenShapes::kEdge0 + 6)};
   }
-  static HWY_INLINE Floats least_of(const Edges& edges) {
+  static HWY_INLINE Floats least_edge(const Edges& edges) {
     return hn::Min(edges[0], hn::Min(edges[1], edges[2]));
   }
   /// Returns how far behind a triangle's plane a ray begins, seen from the apex: of any hits.
@@ -178,8 +178,9 @@ class PencilTests {
                     hn::NegMulAdd(of(SeenShapes::kDistance), w, of(SeenShapes::kPlane + 2)));
   }
 
-  /// Any hits: divides the uncertain ones into those that are so in depth and those at an edge.
-  void tell_apart(std::size_t place, std::size_t shape, Unsure& unsure) const {
+  /// Divides uncertain hits into those that are so in depth and, of any hits, those at an edge.
+  Unsure told_apart(std::size_t place, std::size_t shape, LaneBits uncertain) const {
+    if constexpr (kClosest) return {uncertain, 0};
     const OneShape of{*shapes_, shape};
     const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
     LaneBits in_depth = 0;
@@ -189,12 +190,11 @@ class PencilTests {
       const Floats v = load(&unit_->v[block + lane]);
       const Floats w = load(&unit_->w[block + lane]);
       const Floats depth = hn::Sub(beyond_plane(of, u, v, w), slack_of(of, w));
-      const Floats edge = hn::Sub(least_of(edges_of(of, u, v)), of(SeenShapes::kEdgeMargin));
+      const Floats edge = hn::Sub(least_edge(edges_of(of, u, v)), of(SeenShapes::kEdgeMargin));
       in_depth |= bits_of(is_negative(depth)) << lane;
       at_edge |= bits_of(is_negative(edge)) << lane;
     }
-    unsure.edge = unsure.depth & at_edge;
-    unsure.depth &= in_depth;
+    return {uncertain & in_depth, uncertain & at_edge};
   }
 
   /// Any hits, of which those at an edge are decided by single rays through the whole hierarchy:
