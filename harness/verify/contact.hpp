@@ -29,6 +29,7 @@ struct Contact {
   bool is_on_primitive() const { return offset <= tolerance; }
 };
 
+/// Measures a hit against the primitive that it names, in long double.
 Contact contact(const scenes::Scene& scene, const accel::Ray& ray,
                 const accel::embree::ExactHit& hit);
 

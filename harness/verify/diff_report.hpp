@@ -18,7 +18,7 @@ namespace beambench::verify {
 /// the hit + distance of the ray's origin from that of the coordinates), K is 16: correct hits of
 /// Embree in float were found up to 3.6 u off. The first three need a sound answer: its point lies
 /// within K u of the primitive it names. Hits that differ from the oracle's are judged by exact
-/// arithmetic (`classify_by_search`). An answer to an any-hit query names no point, so it never
+/// arithmetic (`classify_by_search`). An answer to an any-hit query has no point, so it never
 /// ties: it agrees, or it grazes where every hit that is in dispute does.
 enum class DiffClass : std::size_t {
   kAgree,  ///< the exact hit: same primitive, |dt| x |cos theta| <= K u (a sphere or cone:

@@ -116,8 +116,9 @@ void classify_as(DiffClass diff_class, std::string_view reason, Mismatch& found)
 std::string_view why_wrong(const Measure& measure, const Mismatch& found) {
   if (!found.answer) return "a hit was lost";
   const ExactHit claim{found.answer->t, found.answer->primitive};
-  if (!contact(measure.scene, measure.ray, claim).is_on_primitive())
+  if (!measure.place_of(claim).contact.is_on_primitive()) {
     return "the ray does not meet that primitive at that t";
+  }
   if (!found.exact || claim.t < found.exact->t) return "a hit too many is reported";
   return "a nearer hit was lost";
 }

@@ -219,7 +219,7 @@ TEST(ReferenceLimit, IsKnownToBeExceededEarly) {
   }
 }
 
-/// As many triangles or cones in one place, which no plane parts.
+/// Makes a scene of equal triangles or cones in one place, which no plane divides.
 scenes::Scene alike(int count, bool cones) {
   scenes::SceneBuilder builder("alike");
   const glm::dvec3 corners[] = {{0.0, 0.0, 0.0}, {1.0, 0.1, 0.2}, {0.3, 1.0, 0.7}};
@@ -233,7 +233,7 @@ scenes::Scene alike(int count, bool cones) {
   return std::move(builder).build();
 }
 
-/// Seventy thousand primitives that no plane parts have a hundred times the references of seven
+/// Seventy thousand primitives that no plane divides have a hundred times the references of seven
 /// hundred, which fit, and are refused in a fifth of the time that these would take.
 TEST(ReferenceLimit, IsKnownToBeExceededEarlyByPrimitivesInOnePlace) {
   for (const auto& [spec, cones] : std::vector<std::pair<std::string, bool>>{
@@ -250,7 +250,7 @@ TEST(ReferenceLimit, IsKnownToBeExceededEarlyByPrimitivesInOnePlace) {
   }
 }
 
-/// One polygon with so many spikes about its center, which overlap in all cells there.
+/// Makes one polygon with spikes about its center, whose triangles are needles.
 scenes::Scene star(int corners) {
   scenes::SceneBuilder builder("star");
   std::vector<glm::dvec3> places;

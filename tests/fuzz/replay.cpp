@@ -17,6 +17,7 @@
 
 #include <unistd.h>
 
+#include "scenes/core/decimal.hpp"
 #include "scenes/core/random.hpp"
 #include "tests/fuzz/target.hpp"
 
@@ -94,13 +95,21 @@ Result run_over_random_inputs(std::size_t count) {
 }  // namespace beambench::fuzz
 
 /// Takes files and folders, or --random COUNT. Exits with 1 where the target fails for one input,
-/// or there is none.
+/// or there is none, with 2 where COUNT is not a number.
 int main(int count, char** arguments) {
   const std::span given(arguments + 1, static_cast<std::size_t>(count - 1));
-  const bool random = given.size() == 2 && std::string_view(given[0]) == "--random";
-  const auto [inputs, faults] = random
-                                    ? beambench::fuzz::run_over_random_inputs(std::stoul(given[1]))
-                                    : beambench::fuzz::replay(given);
+  beambench::fuzz::Result result;
+  if (given.size() == 2 && std::string_view(given[0]) == "--random") {
+    const auto inputs = beambench::integer_of(given[1]);
+    if (!inputs || *inputs < 1) {
+      std::fprintf(stderr, "--random '%s': expected a number of inputs from 1 on\n", given[1]);
+      return 2;
+    }
+    result = beambench::fuzz::run_over_random_inputs(static_cast<std::size_t>(*inputs));
+  } else {
+    result = beambench::fuzz::replay(given);
+  }
+  const auto [inputs, faults] = result;
   std::printf("%zu inputs, %zu faults\n", inputs, faults);
   return inputs > 0 && faults == 0 ? 0 : 1;
 }
