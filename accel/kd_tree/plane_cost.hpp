@@ -5,7 +5,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "accel/bvh/clip.hpp"
+#include "accel/bvh/primitive_block.hpp"
 #include "accel/kd_tree/kd_tree_options.hpp"
 #include "scenes/bounds.hpp"
 
