@@ -94,7 +94,7 @@ inline render::WhittedPicture picture(const scenes::Scene& scene, const std::str
   const auto structure = built(scene, spec);
   const accel::PrimaryRays rays(scene.cameras.front(), 40, 30, 1);
   accel::HitBuffer hits(40, 30, 1);
-  structure->trace(rays, hits, nullptr);
+  structure->closest_hits(rays, hits, {});
   return render::whitted_picture(render::Whitted(scene, *structure, options), rays, hits);
 }
 

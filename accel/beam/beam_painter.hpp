@@ -20,7 +20,7 @@ namespace beambench::accel::beam {
 /// not wanted, or beams continue behind occupied leaves. Empty otherwise.
 template <class Sight>
 std::vector<std::uint8_t> finished_samples(const BeamRules& rules, const Sight& sight,
-                                           const HitBuffer& buffer) {
+                                           const HitSpan& buffer) {
   std::vector<std::uint8_t> finished = sight.finished();
   if (finished.empty() && !rules.continue_with_rays) finished.assign(buffer.size(), 0);
   return finished;
@@ -37,8 +37,8 @@ class BeamPainter {
   /// `cells` are those of the scene. All but these and `rules` must outlive the painter. The buffer
   /// begins as background, `finished` as `finished_samples`.
   BeamPainter(const scenes::Scene& scene, const Cells& cells, const BeamRules& rules,
-              const EyeView& view, const PrimaryRays& rays, const Sight& sight, HitBuffer& buffer,
-              std::span<std::uint8_t> finished, Watch& watch)
+              const EyeView& view, const PrimaryRays& rays, const Sight& sight,
+              const HitSpan& buffer, std::span<std::uint8_t> finished, Watch& watch)
       : scene_(&scene),
         cells_(cells),
         continue_with_rays_(rules.continue_with_rays),
@@ -47,7 +47,7 @@ class BeamPainter {
         images_(scene, view, rays),
         sight_(&sight),
         finished_(finished),
-        buffer_(&buffer),
+        buffer_(buffer),
         watch_(&watch),
         counting_(watch.rays()) {}
 
@@ -56,7 +56,7 @@ class BeamPainter {
     if constexpr (Watch::kPaintsLeaving || Sight::kRecordsLeaving) {
       std::uint64_t samples = 0;
       for_each_sample(beam, [&](const SampleLattice& lattice, int x, int y) {
-        lattice.for_each_index(*buffer_, x, y, [&](std::size_t index) {
+        lattice.for_each_index(buffer_, x, y, [&](std::size_t index) {
           if (!finished_.empty()) finished_[index] = 1;
           watch_->painted(index);
         });
@@ -106,7 +106,7 @@ class BeamPainter {
     if (!(sample.closest.ray.t_max < static_cast<float>(exit_t))) {
       if (!continue_with_rays_ || exit_t < sample.ray.t_min) {
         for_each_index(sample,
-                       [&](std::size_t index) { buffer_->set(index, sample.closest.result()); });
+                       [&](std::size_t index) { buffer_.set(index, sample.closest.result()); });
         return false;
       }
       watch_->handed_over(RayReason::kOccupied);
@@ -130,7 +130,7 @@ class BeamPainter {
 
   void finish(const LeafBatch::Sample& sample) {
     for_each_index(sample, [&](std::size_t index) {
-      buffer_->set(index, sample.closest.result());
+      buffer_.set(index, sample.closest.result());
       if (!finished_.empty()) finished_[index] = 1;
       watch_->painted(index);
     });
@@ -165,7 +165,7 @@ class BeamPainter {
 
   bool is_finished(const SampleLattice& lattice, int x, int y) const {
     bool finished = true;
-    lattice.for_each_index(*buffer_, x, y,
+    lattice.for_each_index(buffer_, x, y,
                            [&](std::size_t index) { finished = finished_[index] != 0; });
     return finished;
   }
@@ -173,14 +173,14 @@ class BeamPainter {
   /// Restores the hit that a sample found in leaves its beam passed.
   void resume(LeafBatch::Sample& sample) const {
     for_each_index(sample, [&](std::size_t index) {
-      if (const auto hit = buffer_->get(index)) sample.closest.keep(hit->t, hit->primitive);
+      if (const auto hit = buffer_.get(index)) sample.closest.keep(hit->t, hit->primitive);
     });
   }
 
   /// Calls `visit(index)` for a sample's places in the hit buffer.
   template <class Visit>
   void for_each_index(const LeafBatch::Sample& sample, Visit visit) const {
-    sample.lattice->for_each_index(*buffer_, sample.x, sample.y, visit);
+    sample.lattice->for_each_index(buffer_, sample.x, sample.y, visit);
   }
 
   const scenes::Scene* scene_;
@@ -192,7 +192,7 @@ class BeamPainter {
   PrimitiveImages images_;
   const Sight* sight_;
   std::span<std::uint8_t> finished_;
-  HitBuffer* buffer_;
+  HitSpan buffer_;
   Watch* watch_;
   decltype(std::declval<Watch>().rays()) counting_;
 };

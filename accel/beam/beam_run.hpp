@@ -19,7 +19,7 @@ class BeamRun {
  public:
   /// All but `cells` and `rules` must outlive it.
   BeamRun(const scenes::Scene& scene, const Cells& cells, const BeamRules& rules,
-          const PrimaryRays& rays, const Sight& sight, HitBuffer& buffer,
+          const PrimaryRays& rays, const Sight& sight, const HitSpan& buffer,
           std::span<std::uint8_t> finished, Watch& watch)
       : cells_(cells),
         view_(sight.view(cells_.grid(), rays)),
@@ -27,7 +27,7 @@ class BeamRun {
         painter_(scene, cells, rules, view_, rays, sight, buffer, finished, watch),
         samples_(static_cast<double>(rays.count())),
         handover_(sight.handover(rules)),
-        buffer_(&buffer),
+        buffer_(buffer),
         watch_(&watch) {
     queue_.passed = sight.passed();
   }
@@ -41,8 +41,8 @@ class BeamRun {
 
   /// Makes all samples background and queues the first beams.
   void begin() {
-    std::fill_n(buffer_->t(), buffer_->size(), kInfinity);
-    std::fill_n(buffer_->primitive(), buffer_->size(), scenes::kNoPrimitive);
+    std::fill_n(buffer_.t(), buffer_.size(), kInfinity);
+    std::fill_n(buffer_.primitive(), buffer_.size(), scenes::kNoPrimitive);
     cells_.begin(view_, sight_->part(view_), queue_);
   }
 
@@ -93,7 +93,7 @@ class BeamRun {
   BeamPainter<Watch, Sight, Cells> painter_;
   double samples_;
   std::int64_t handover_;
-  HitBuffer* buffer_;
+  HitSpan buffer_;
   Watch* watch_;
   BeamQueue queue_;
 };

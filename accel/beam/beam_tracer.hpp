@@ -2,6 +2,8 @@
 // The beam tracer of the thesis.
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -11,6 +13,11 @@
 #include "accel/beam/beam_sight.hpp"
 #include "accel/beam/beam_watch.hpp"
 #include "accel/octree/samet.hpp"
+
+namespace beambench::accel {
+class StructureChoice;
+struct Workload;
+}  // namespace beambench::accel
 
 namespace beambench::accel::beam {
 
@@ -30,24 +37,11 @@ class BeamTracer : public octree::Samet {
   const scenes::Scene& scene() const { return *scene_; }
   const BeamOptions& options() const { return options_; }
 
-  void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters* counters) const override {
-    if (counters != nullptr) {
-      CountingBeamWatch watch(*counters);
-      return trace_watched(rays, buffer, watch);
-    }
-    NoBeamWatch watch;
-    trace_watched(rays, buffer, watch);
-  }
-
-  /// What planar mirrors show is traced in beams from their virtual eyes (`BehindMirror`), all
-  /// other rays one by one.
-  void closest_hits(const RayBatch& batch, HitBuffer& buffer,
-                    WorkCounters* counters) const override;
-
-  /// The beams are shared among the threads: two have no sample in common, unless one descends from
-  /// the other.
-  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
-                    WorkCounters* counters) const override;
+  /// An image is traced in beams, which are shared among the context's threads: two have no sample
+  /// in common, unless one descends from the other. Of a batch, what planar mirrors show is traced
+  /// in beams from their virtual eyes (`BehindMirror`), all other rays one by one.
+  void closest_hits(const RaySource& rays, const HitSpan& hits,
+                    const QueryContext& context) const override;
 
   /// Samples become rays at occupied leaves only, so that not all of an image's rays are made.
   Statistics statistics() const override {
@@ -56,20 +50,25 @@ class BeamTracer : public octree::Samet {
     return statistics;
   }
 
-  std::vector<BeamOutline> beam_outlines(const PrimaryRays& rays) const override {
+  using octree::Samet::path;
+  SampleSteps path(const PrimaryRays& image, int x, int y, int sample) const override;
+
+  std::optional<std::vector<BeamOutline>> beams(const PrimaryRays& rays) const override {
     OutlineBeamWatch watch(rays.width(), rays.height());
     HitBuffer buffer(rays.width(), rays.height(), rays.samples());
     trace_watched(rays, buffer, watch);
     return std::move(watch).take();
   }
 
-  /// `trace`, reported to a policy (see NoBeamWatch).
+  /// Traces an image, reporting to a policy (see NoBeamWatch).
   template <class Watch>
-  void trace_watched(const PrimaryRays& rays, HitBuffer& buffer, Watch& watch) const;
+  void trace_watched(const PrimaryRays& rays, const HitSpan& buffer, Watch& watch) const;
 
  private:
+  void trace_image(const PrimaryRays& rays, const HitSpan& hits, const QueryContext& context) const;
+  void trace_batch(const RayBatch& batch, const HitSpan& hits, WorkCounters* counters) const;
   template <class Counting>
-  void trace_mirror(const RayBatch& batch, const Pencil& pencil, HitBuffer& buffer,
+  void trace_mirror(const RayBatch& batch, const Pencil& pencil, const HitSpan& buffer,
                     Counting& counting) const;
 
   const scenes::Scene* scene_;
@@ -77,10 +76,15 @@ class BeamTracer : public octree::Samet {
 };
 
 template <class Watch>
-void BeamTracer::trace_watched(const PrimaryRays& rays, HitBuffer& buffer, Watch& watch) const {
+void BeamTracer::trace_watched(const PrimaryRays& rays, const HitSpan& buffer, Watch& watch) const {
   const WholeImage sight;
   auto finished = finished_samples(options_, sight, buffer);
   BeamRun<Watch, WholeImage>(*scene_, *this, options_, rays, sight, buffer, finished, watch)();
 }
+
+/// Builds the beam tracer that a choice names, as `StructureChoice::build`. Throws InputError also
+/// where the choice is another structure.
+std::unique_ptr<BeamTracer> build_beam_tracer(const StructureChoice& choice,
+                                              const scenes::Scene& scene, const Workload& workload);
 
 }  // namespace beambench::accel::beam

@@ -1,6 +1,7 @@
 #pragma once
 // What a beam tracer does, reported to a compile-time policy beside that of the rays.
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
@@ -52,14 +53,19 @@ struct NoBeamWatch {
   NoCounting rays() const { return {}; }
 };
 
-/// Keeps the outline of each beam, in pixels.
+/// Keeps each beam: its outline in pixels, its leaf and its samples.
 class OutlineBeamWatch : public NoBeamWatch {
  public:
   OutlineBeamWatch(int width, int height) : pixels_(width, height) {}
 
   void met(BeamKind kind, const Beam& beam) {
-    BeamOutline& outline = outlines_.emplace_back(BeamOutline{kind, {}});
+    BeamOutline& outline = outlines_.emplace_back(BeamOutline{kind, {}, beam.node});
     for (const glm::dvec2& corner : beam.outline) outline.corners.push_back(corner * pixels_);
+  }
+  void painted(std::size_t place) { outlines_.back().samples.push_back(place); }
+  /// A beam finds its samples lattice by lattice, and those that hit before the others.
+  void finished() {
+    for (BeamOutline& outline : outlines_) std::ranges::sort(outline.samples);
   }
   std::vector<BeamOutline> take() && { return std::move(outlines_); }
 

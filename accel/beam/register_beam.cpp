@@ -1,6 +1,9 @@
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "accel/beam/beam_cost.hpp"
 #include "accel/beam/beam_counters.hpp"
@@ -9,10 +12,13 @@
 #include "accel/core/registry.hpp"
 #include "accel/octree/leaf_walk.hpp"
 #include "accel/octree/samet.hpp"
+#include "scenes/core/error.hpp"
 
 namespace beambench::accel::beam {
 
 namespace {
+
+constexpr const char* kName = "beam";
 
 octree::Octree chosen_octree(const scenes::Scene& scene, const BeamOptions& options,
                              const Workload& workload) {
@@ -26,9 +32,21 @@ octree::Octree chosen_octree(const scenes::Scene& scene, const BeamOptions& opti
 
 }  // namespace
 
+std::unique_ptr<BeamTracer> build_beam_tracer(const StructureChoice& choice,
+                                              const scenes::Scene& scene,
+                                              const Workload& workload) {
+  if (choice.info().name != kName) {
+    throw InputError(fmt::format(
+        "'{}' traces no beams; give --accel beam, with or without parameters", choice.info().name));
+  }
+  // The type that is registered below under this name, which no plug-in can take.
+  return std::unique_ptr<BeamTracer>(
+      static_cast<BeamTracer*>(choice.build(scene, workload).release()));
+}
+
 void register_beam(Registry& registry) {
   registry.add(
-      {"beam",
+      {kName,
        "the beam tracer of the thesis: primary rays, and what planar mirrors show, in beams "
        "through "
        "samet's octree, individual rays where a beam meets objects",
@@ -42,7 +60,7 @@ void register_beam(Registry& registry) {
   counters.emplace_back(std::string(octree::kNeighborSteps),
                         std::string(octree::kNeighborStepsMeaning));
   counters.emplace_back(std::string(octree::kLastClimb), std::string(octree::kLastClimbMeaning));
-  registry.describe_counters("beam", std::move(counters));
+  registry.describe_counters(kName, std::move(counters));
 }
 
 std::vector<ParameterInfo> BeamOptions::parameters() {

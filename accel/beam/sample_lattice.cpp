@@ -20,7 +20,7 @@ std::vector<SampleLattice> sample_lattices(const PrimaryRays& rays, bool share_c
   return lattices;
 }
 
-std::vector<SampleLattice> part_of(std::span<const SampleLattice> lattices, const HitBuffer& buffer,
+std::vector<SampleLattice> part_of(std::span<const SampleLattice> lattices, const HitSpan& buffer,
                                    const PixelRect& part) {
   std::vector<SampleLattice> parts(lattices.begin(), lattices.end());
   for (SampleLattice& lattice : parts) {

@@ -32,7 +32,7 @@ struct SampleLattice {
 
   /// Calls `visit(index)` for the places in a buffer that the sample (x, y) belongs to.
   template <class Visit>
-  void for_each_index(const HitBuffer& buffer, int x, int y, Visit visit) const {
+  void for_each_index(const HitSpan& buffer, int x, int y, Visit visit) const {
     for (const Place& place : places) {
       const int px = x - place.left;
       const int py = y - place.up;
@@ -52,7 +52,7 @@ struct PixelRect {
 
 /// The samples of a part of the image. Parts that divide the image divide its samples, those that
 /// pixels share too.
-std::vector<SampleLattice> part_of(std::span<const SampleLattice> lattices, const HitBuffer& buffer,
+std::vector<SampleLattice> part_of(std::span<const SampleLattice> lattices, const HitSpan& buffer,
                                    const PixelRect& part);
 
 /// A lattice for each sample of a pixel. `share_corners`: samples in the corners of pixels that are

@@ -153,4 +153,9 @@ SamplePath path_of_sample(const BeamTracer& tracer, const PrimaryRays& rays, int
   return path;
 }
 
+SampleSteps BeamTracer::path(const PrimaryRays& image, int x, int y, int sample) const {
+  SamplePath followed = path_of_sample(*this, image, x, y, sample);
+  return {std::move(followed.beams), std::move(followed.steps)};
+}
+
 }  // namespace beambench::accel::beam

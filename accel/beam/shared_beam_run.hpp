@@ -13,6 +13,7 @@
 #include <tbb/task_group.h>
 
 #include "accel/beam/beam_run.hpp"
+#include "accel/core/threads.hpp"
 
 namespace beambench::accel::beam {
 
@@ -25,9 +26,9 @@ class SharedBeamRun {
 
   /// All but `cells` and `rules` must outlive it.
   SharedBeamRun(const scenes::Scene& scene, const Cells& cells, const BeamRules& rules,
-                const PrimaryRays& rays, HitBuffer& buffer)
+                const PrimaryRays& rays, const HitSpan& buffer)
       : finished_(finished_samples(rules, sight_, buffer)),
-        workers_([this, &scene, cells, rules, &rays, &buffer] {
+        workers_([this, &scene, cells, rules, &rays, buffer = HitSpan(buffer)] {
           return std::make_unique<Worker>(scene, cells, rules, rays, sight_, buffer, finished_);
         }) {}
 
@@ -49,7 +50,7 @@ class SharedBeamRun {
   /// The state of one thread.
   struct Worker {
     Worker(const scenes::Scene& scene, const Cells& cells, const BeamRules& rules,
-           const PrimaryRays& rays, const WholeImage& sight, HitBuffer& buffer,
+           const PrimaryRays& rays, const WholeImage& sight, const HitSpan& buffer,
            std::span<std::uint8_t> finished)
         : watch(watch_of(counting)),
           run(scene, cells, rules, rays, sight, buffer, finished, watch) {}
@@ -82,5 +83,27 @@ class SharedBeamRun {
   tbb::enumerable_thread_specific<std::unique_ptr<Worker>> workers_;
   tbb::task_group tasks_;
 };
+
+/// Traces an image in beams. The context's threads share them.
+template <class Cells>
+void trace_image_in_beams(const scenes::Scene& scene, const Cells& cells, const BeamRules& rules,
+                          const PrimaryRays& rays, const HitSpan& hits,
+                          const QueryContext& context) {
+  const auto trace = [&]<class Watch, class Counting>(Watch watch, Counting& counting) {
+    if (thread_count(context.threads) == 1) {
+      const WholeImage sight;
+      auto finished = finished_samples(rules, sight, hits);
+      return BeamRun<Watch, WholeImage, Cells>(scene, cells, rules, rays, sight, hits, finished,
+                                               watch)();
+    }
+    on_threads(context.threads,
+               [&] { SharedBeamRun<Watch, Cells>(scene, cells, rules, rays, hits)(counting); });
+  };
+  if (context.counters != nullptr) {
+    return trace(CountingBeamWatch(*context.counters), *context.counters);
+  }
+  NoCounting none;
+  trace(NoBeamWatch(), none);
+}
 
 }  // namespace beambench::accel::beam

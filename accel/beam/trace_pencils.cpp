@@ -7,8 +7,8 @@
 
 namespace beambench::accel::beam {
 
-void BeamTracer::closest_hits(const RayBatch& batch, HitBuffer& buffer,
-                              WorkCounters* counters) const {
+void BeamTracer::trace_batch(const RayBatch& batch, const HitSpan& buffer,
+                             WorkCounters* counters) const {
   with_counting(counters, [&](auto& counting) {
     const auto singly = [&](std::size_t begin, std::size_t end) {
       for (; begin < end; ++begin) buffer.set(begin, find_closest(batch.rays[begin], counting));
@@ -25,7 +25,7 @@ void BeamTracer::closest_hits(const RayBatch& batch, HitBuffer& buffer,
 }
 
 template <class Counting>
-void BeamTracer::trace_mirror(const RayBatch& batch, const Pencil& pencil, HitBuffer& buffer,
+void BeamTracer::trace_mirror(const RayBatch& batch, const Pencil& pencil, const HitSpan& buffer,
                               Counting& counting) const {
   const BehindMirror mirror(batch, pencil, *scene_, octree());
   HitBuffer seen = mirror.buffer();

@@ -13,8 +13,8 @@
 
 #include "accel/bvh/box_quads.hpp"
 #include "accel/bvh/object_split.hpp"
-#include "accel/bvh/padded_bounds.hpp"
 #include "accel/core/large_pages.hpp"
+#include "accel/core/padded_bounds.hpp"
 
 namespace beambench::accel::bvh {
 namespace {

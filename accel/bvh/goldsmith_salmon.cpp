@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "accel/bvh/padded_bounds.hpp"
 #include "accel/core/expected_visits.hpp"
+#include "accel/core/padded_bounds.hpp"
 #include "scenes/core/random.hpp"
 
 namespace beambench::accel::bvh {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "accel/bvh/insertion_hierarchy.hpp"
-#include "accel/bvh/slab_ray.hpp"
 #include "accel/core/intersect.hpp"
+#include "accel/core/slab_ray.hpp"
 #include "accel/core/traversal_accelerator.hpp"
 #include "scenes/core/parameters.hpp"
 

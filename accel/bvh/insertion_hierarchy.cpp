@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "accel/bvh/padded_bounds.hpp"
+#include "accel/core/padded_bounds.hpp"
 
 namespace beambench::accel::bvh {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "accel/bvh/box_quads.hpp"
 #include "accel/bvh/bvh_builder.hpp"
-#include "accel/bvh/padded_bounds.hpp"
+#include "accel/core/padded_bounds.hpp"
 
 namespace beambench::accel::bvh {
 

@@ -8,8 +8,8 @@
 #include <span>
 
 #include "accel/bvh/probe_ray.hpp"
-#include "accel/bvh/slab_ray.hpp"
 #include "accel/core/intersect.hpp"
+#include "accel/core/slab_ray.hpp"
 
 // Highway includes this file once more for each instruction set.
 #undef HWY_TARGET_INCLUDE

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "accel/bvh/padded_bounds.hpp"
 #include "accel/bvh/piece.hpp"
 #include "accel/bvh/spatial_builder.hpp"
+#include "accel/core/padded_bounds.hpp"
 #include "accel/core/tolerance.hpp"
 #include "scenes/core/error.hpp"
 

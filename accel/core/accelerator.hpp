@@ -4,27 +4,34 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
 
-#include "accel/core/beam_outline.hpp"
-#include "accel/core/beam_place.hpp"
 #include "accel/core/hit_buffer.hpp"
-#include "accel/core/overlap.hpp"
-#include "accel/core/primary_rays.hpp"
-#include "accel/core/ray_batch.hpp"
+#include "accel/core/inspector.hpp"
+#include "accel/core/ray_source.hpp"
 #include "accel/core/statistics.hpp"
-#include "accel/core/trace_step.hpp"
 #include "accel/core/work_counters.hpp"
+#include "scenes/scene.hpp"
 
 namespace beambench::accel {
 
+/// What a query gets besides its rays.
+struct QueryContext {
+  /// The query adds its work to them. Null in timed code, which counts nothing: a structure has two
+  /// instantiations of its traversal.
+  WorkCounters* counters = nullptr;
+  /// How many threads may share the rays of an image (`thread_count`; 0: the default number). A
+  /// structure may use fewer, but hits and counters do not depend on the number, except for
+  /// counters of time. Rays alone and batches are traced on the calling thread.
+  int threads = 1;
+};
+
 /// A structure built over a scene. Queries are const and safe from several threads. The scene must
-/// outlive it. Rays must pass `require_valid`.
+/// outlive it. Rays must pass `require_valid`. Which rays and primitives it takes is registered
+/// with it (`StructureInfo::support`).
 ///
-/// A query adds the work it does to `counters`. In timed code the pointer is null and nothing is
-/// counted: a structure has two instantiations of its traversal. By deriving from
-/// `TraversalAccelerator` (traversal_accelerator.hpp) it gets both, the queries of many rays, and
-/// `explain`.
+/// By deriving from `TraversalAccelerator` (traversal_accelerator.hpp) a structure gets the queries
+/// and the paths of an inspector from one traversal of single rays; a wrapper derives from
+/// `ForwardingAccelerator` (forwarding_accelerator.hpp).
 ///
 /// Plug-ins hide their symbols, but derive from the one class that is in the program.
 class [[gnu::visibility("default")]] Accelerator {
@@ -34,38 +41,40 @@ class [[gnu::visibility("default")]] Accelerator {
   Accelerator& operator=(const Accelerator&) = delete;
   virtual ~Accelerator() = default;
 
-  /// The nearest hit in [t_min, t_max], ties to the lowest primitive id.
-  virtual std::optional<Hit> closest_hit(const Ray& ray, WorkCounters* counters) const = 0;
-  /// Is there a hit in [t_min, t_max]?
-  virtual bool any_hit(const Ray& ray, WorkCounters* counters) const = 0;
-  /// The closest hits of a whole image. `buffer` has the size of `rays`.
-  virtual void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters* counters) const = 0;
-  /// The closest hits of a list of rays. `buffer` has its size.
-  virtual void closest_hits(const RayBatch& batch, HitBuffer& buffer, WorkCounters* counters)
+  /// The nearest hit of each ray in [t_min, t_max], ties to the lowest primitive id. `hits` has the
+  /// size of the source, and the shape of an image. Throws what the structure cannot do now, such
+  /// as an InputError where a limit is exceeded on demand.
+  virtual void closest_hits(const RaySource& rays, const HitSpan& hits, const QueryContext& context)
       const = 0;
-  /// For each ray of a list: is there a hit (1) or none (0)? `hits` has its size.
-  virtual void any_hits(const RayBatch& batch, std::span<std::uint8_t> hits, WorkCounters* counters)
-      const = 0;
-
-  /// `trace`, shared among the threads of the TBB arena that calls it (`trace_on` makes one): the
-  /// same hits and counters for any number of them. Here row by row, each ray by `closest_hit`.
-  virtual void trace_shared(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters* counters)
-      const;
-
-  /// The traversal path of `closest_hit`, step by step; empty where the structure records none.
-  virtual std::vector<TraceStep> explain(const Ray&) const { return {}; }
-
-  /// The beams of an image in the order in which they are traced; empty where the structure has
-  /// none.
-  virtual std::vector<BeamOutline> beam_outlines(const PrimaryRays&) const { return {}; }
-  /// Where each ray of an image (as a HitBuffer numbers them) is when `trace` traces it, and each
-  /// ray of a batch when `any_hits` does; empty where the structure has no blocks of rays.
-  virtual std::vector<BeamPlace> beam_places(const PrimaryRays&) const { return {}; }
-  virtual std::vector<BeamPlace> beam_places(const RayBatch&) const { return {}; }
-  /// The cells that hold references, in scene units; empty where the structure has no cells.
-  virtual std::vector<Box> occupied_cells() const { return {}; }
-
+  /// For each ray: is there a hit in [t_min, t_max] (1) or none (0)? `hits` has the size of the
+  /// source. Throws as `closest_hits`.
+  virtual void any_hits(const RaySource& rays, std::span<std::uint8_t> hits,
+                        const QueryContext& context) const = 0;
+  /// Sizes of the structure as it is now: queries may divide a structure further.
   virtual Statistics statistics() const = 0;
+
+  /// Shows paths, cells and beams; null where the structure shows nothing. Lives as long as the
+  /// structure.
+  virtual const Inspector* inspector() const { return nullptr; }
+
+  /// Adapts the structure to its scene after coordinates have changed in place: `scene` is the one
+  /// that it was built over, with the same primitives. No query may run meanwhile. Returns false,
+  /// having done nothing, where the structure must be built anew.
+  virtual bool update(const scenes::Scene& /*scene*/) { return false; }
+
+  /// `closest_hits` of one ray.
+  std::optional<Hit> closest_hit(const Ray& ray, WorkCounters* counters = nullptr) const {
+    Hit hit{kInfinity, scenes::kNoPrimitive};
+    closest_hits(ray, HitSpan(hit), {counters});
+    if (hit.primitive == scenes::kNoPrimitive) return std::nullopt;
+    return hit;
+  }
+  /// `any_hits` of one ray.
+  bool any_hit(const Ray& ray, WorkCounters* counters = nullptr) const {
+    std::uint8_t hit = 0;
+    any_hits(ray, {&hit, 1}, {counters});
+    return hit != 0;
+  }
 };
 
 }  // namespace beambench::accel

@@ -1,6 +1,7 @@
 #pragma once
 // The beams of a structure that traces in beams, for pictures.
 
+#include <cstddef>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -14,11 +15,16 @@ enum class BeamKind {
   kLeaving       ///< the boundary of the scene: its samples are background
 };
 
-/// A beam's cross-section on the image.
+/// A beam's cross-section on the image, and its samples.
 struct BeamOutline {
   BeamKind kind;
   /// Of a convex polygon, in pixels; (0, 0) is the image's top left corner.
   std::vector<glm::dvec2> corners;
+  /// The leaf that the beam enters, as `TraceStep::index`; of a leaving beam the one it comes from.
+  std::size_t node = 0;
+  /// Those that the beam decided or made rays, as a HitBuffer numbers them, in increasing order.
+  /// None of a leaving beam.
+  std::vector<std::size_t> samples{};
 };
 
 }  // namespace beambench::accel

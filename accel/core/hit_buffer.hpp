@@ -61,4 +61,53 @@ class HitBuffer {
   LargePageVector<scenes::PrimitiveId> primitive_;
 };
 
+/// Where a query writes closest hits: a view of a HitBuffer or of one hit, which must outlive it.
+class HitSpan {
+ public:
+  // Implicit, so that a query is given the buffer itself.
+  HitSpan(HitBuffer& buffer)
+      : t_(buffer.t()),
+        primitive_(buffer.primitive()),
+        width_(buffer.width()),
+        height_(buffer.height()),
+        samples_(buffer.samples()) {}
+  /// One hit; a miss is t = infinity and kNoPrimitive.
+  explicit HitSpan(Hit& hit)
+      : t_(&hit.t), primitive_(&hit.primitive), width_(1), height_(1), samples_(1) {}
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  int samples() const { return samples_; }
+  std::size_t size() const {
+    return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) *
+           static_cast<std::size_t>(samples_);
+  }
+
+  /// As of a HitBuffer.
+  std::size_t index(int x, int y, int sample) const {
+    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+            static_cast<std::size_t>(x)) *
+               static_cast<std::size_t>(samples_) +
+           static_cast<std::size_t>(sample);
+  }
+  void set(std::size_t index, const std::optional<Hit>& hit) const {
+    t_[index] = hit ? hit->t : kInfinity;
+    primitive_[index] = hit ? hit->primitive : scenes::kNoPrimitive;
+  }
+  std::optional<Hit> get(std::size_t index) const {
+    if (primitive_[index] == scenes::kNoPrimitive) return std::nullopt;
+    return Hit{t_[index], primitive_[index]};
+  }
+  /// The raw arrays, for structures that write whole packets.
+  float* t() const { return t_; }
+  scenes::PrimitiveId* primitive() const { return primitive_; }
+
+ private:
+  float* t_;
+  scenes::PrimitiveId* primitive_;
+  int width_;
+  int height_;
+  int samples_;
+};
+
 }  // namespace beambench::accel

@@ -31,6 +31,10 @@ struct Pencil {
   const PrimaryRays* view = nullptr;
 };
 
+/// Marks of a batch that later versions of the interface define, so that no structure has to be
+/// compiled again for them. Like pencils they are hints.
+struct BatchMarks;
+
 /// Rays, and the pencils among them: in the order of `first`, and no ray is in two. Pencils are a
 /// hint that changes no hit beyond what `Conformance` allows, and the rays are the same bits with
 /// and without them: a structure may ignore them.
@@ -41,6 +45,7 @@ struct RayBatch {
   /// numbers them; empty where rays do not come from an image.
   std::span<const std::uint32_t> samples{};
   const PrimaryRays* image = nullptr;  ///< null where `samples` is empty
+  const BatchMarks* marks = nullptr;   ///< null in this version
 };
 
 }  // namespace beambench::accel

@@ -19,6 +19,10 @@ void register_families(Registry& registry);
 
 std::unique_ptr<Accelerator> StructureChoice::build(const scenes::Scene& scene,
                                                     const Workload& workload) const {
+  if (!info_->support.includes(scene)) {
+    throw UnsupportedError(fmt::format("'{}' does not take all kinds of primitives that {} has",
+                                       info_->name, scene.name));
+  }
   require_build_memory(*this, scene, workload);
   auto accelerator = info_->build(scene, parameters_, workload);
   parameters_.require_given_were_read();

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "accel/core/accelerator.hpp"
+#include "accel/core/support.hpp"
 #include "scenes/core/parameters.hpp"
 #include "scenes/scene.hpp"
 
@@ -49,6 +50,7 @@ struct StructureInfo {
   std::function<std::unique_ptr<Accelerator>(const scenes::Scene&, const Parameters&,
                                              const Workload&)>
       build;
+  Support support{};     ///< the rays and primitives that it takes
   std::string origin{};  ///< the file of the plug-in that it comes from; empty: built in
 };
 
@@ -65,8 +67,9 @@ class StructureChoice {
   /// The name and the parameters that are not at their defaults.
   std::string short_label() const { return parameters_.short_label(); }
 
-  /// Builds the structure. Throws InputError also when it is expected to take more memory than
-  /// there is (`require_build_memory`); std::logic_error when it ignores a parameter it was given.
+  /// Builds the structure. Throws UnsupportedError over primitives that it does not take;
+  /// InputError also when it is expected to take more memory than there is
+  /// (`require_build_memory`); std::logic_error when it ignores a parameter it was given.
   std::unique_ptr<Accelerator> build(const scenes::Scene& scene, const Workload& workload) const;
   /// For the usual workload.
   std::unique_ptr<Accelerator> build(const scenes::Scene& scene) const;

@@ -3,14 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "accel/core/accelerator.hpp"
-#include "accel/core/trace_on.hpp"
+#include "accel/core/threads.hpp"
 #include "accel/core/trace_step.hpp"
 
 namespace beambench::accel {
@@ -23,62 +22,71 @@ namespace beambench::accel {
 ///     template <class Counting> bool find_any(const Ray&, Counting&) const;
 ///
 /// A loop over rays calls these directly: no virtual call inside a traversal or between two rays.
+///
+/// The structure is its own inspector, which shows the paths of rays; it may override more of
+/// `Inspector`.
 template <class Structure>
-class TraversalAccelerator : public Accelerator {
+class TraversalAccelerator : public Accelerator, public Inspector {
  public:
-  std::optional<Hit> closest_hit(const Ray& ray, WorkCounters* counters) const override {
-    return with_counting(counters,
-                         [&](auto& counting) { return self().find_closest(ray, counting); });
+  void closest_hits(const RaySource& rays, const HitSpan& hits,
+                    const QueryContext& context) const override {
+    if (const PrimaryRays* image = rays.image()) return closest_of_image(*image, hits, context);
+    if (const RayBatch* batch = rays.batch()) return closest_of_list(batch->rays, hits, context);
+    with_counting(context.counters,
+                  [&](auto& counting) { hits.set(0, self().find_closest(*rays.ray(), counting)); });
   }
-  bool any_hit(const Ray& ray, WorkCounters* counters) const override {
-    return with_counting(counters, [&](auto& counting) { return self().find_any(ray, counting); });
-  }
-  void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters* counters) const override {
-    with_counting(counters,
-                  [&](auto& counting) { trace_rows(rays, 0, rays.height(), buffer, counting); });
-  }
-  void closest_hits(const RayBatch& batch, HitBuffer& buffer,
-                    WorkCounters* counters) const override {
-    with_counting(counters, [&](auto& counting) {
-      std::size_t index = 0;
-      for (const Ray& ray : batch.rays) buffer.set(index++, self().find_closest(ray, counting));
+  void any_hits(const RaySource& rays, std::span<std::uint8_t> hits,
+                const QueryContext& context) const override {
+    if (const PrimaryRays* image = rays.image()) return any_of_image(*image, hits, context);
+    if (const RayBatch* batch = rays.batch()) return any_of_list(batch->rays, hits, context);
+    with_counting(context.counters, [&](auto& counting) {
+      hits[0] = self().find_any(*rays.ray(), counting) ? 1 : 0;
     });
   }
-  void any_hits(const RayBatch& batch, std::span<std::uint8_t> hits,
-                WorkCounters* counters) const override {
-    with_counting(counters, [&](auto& counting) {
-      std::size_t index = 0;
-      for (const Ray& ray : batch.rays) hits[index++] = self().find_any(ray, counting) ? 1 : 0;
-    });
-  }
-  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
-                    WorkCounters* counters) const override {
-    with_counting(counters, [&]<class Counting>(Counting& counting) {
-      std::mutex adding;
-      share_rows(rays.height(), [&](int begin, int end) {
-        Counting own;
-        trace_rows(rays, begin, end, buffer, own);
-        const std::lock_guard lock(adding);
-        counting.add(own);
-      });
-    });
-  }
-  std::vector<TraceStep> explain(const Ray& ray) const override {
+  const Inspector* inspector() const override { return this; }
+
+  using Inspector::path;
+  std::vector<TraceStep> path(const Ray& ray) const override {
     StepRecorder recorder;
     self().find_closest(ray, recorder);
     return std::move(recorder).take_steps();
   }
 
- private:
-  const Structure& self() const { return static_cast<const Structure&>(*this); }
-
-  template <class Counting>
-  void trace_rows(const PrimaryRays& rays, int begin, int end, HitBuffer& buffer,
-                  Counting& counting) const {
-    rays.for_each(begin, end, [&](std::size_t index, const Ray& ray) {
-      buffer.set(index, self().find_closest(ray, counting));
+ protected:
+  // Functions of their own, so that what is inlined into one loop does not depend on the others.
+  [[gnu::noinline]] void closest_of_image(const PrimaryRays& image, const HitSpan& hits,
+                                          const QueryContext& context) const {
+    for_rows(context, image.height(), [&](int begin, int end, auto& counting) {
+      image.for_each(begin, end, [&](std::size_t index, const Ray& ray) {
+        hits.set(index, self().find_closest(ray, counting));
+      });
     });
   }
+  [[gnu::noinline]] void closest_of_list(std::span<const Ray> rays, const HitSpan& hits,
+                                         const QueryContext& context) const {
+    with_counting(context.counters, [&](auto& counting) {
+      std::size_t index = 0;
+      for (const Ray& ray : rays) hits.set(index++, self().find_closest(ray, counting));
+    });
+  }
+  [[gnu::noinline]] void any_of_image(const PrimaryRays& image, std::span<std::uint8_t> hits,
+                                      const QueryContext& context) const {
+    for_rows(context, image.height(), [&](int begin, int end, auto& counting) {
+      image.for_each(begin, end, [&](std::size_t index, const Ray& ray) {
+        hits[index] = self().find_any(ray, counting) ? 1 : 0;
+      });
+    });
+  }
+  [[gnu::noinline]] void any_of_list(std::span<const Ray> rays, std::span<std::uint8_t> hits,
+                                     const QueryContext& context) const {
+    with_counting(context.counters, [&](auto& counting) {
+      std::size_t index = 0;
+      for (const Ray& ray : rays) hits[index++] = self().find_any(ray, counting) ? 1 : 0;
+    });
+  }
+
+ private:
+  const Structure& self() const { return static_cast<const Structure&>(*this); }
 };
 
 }  // namespace beambench::accel

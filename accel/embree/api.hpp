@@ -1,6 +1,6 @@
 #pragma once
 // The Embree API as this folder uses it, for Embree 3 and 4 (BEAMBENCH_EMBREE_MAJOR, set by CMake).
-// Nothing outside this folder includes it.
+// Besides this folder only the oracle includes it.
 
 #include <limits>
 

@@ -4,7 +4,7 @@
 
 #include "accel/core/instruction_set.hpp"
 #include "accel/core/registry.hpp"
-#include "accel/core/trace_on.hpp"
+#include "accel/core/threads.hpp"
 #include "accel/embree/isa.hpp"
 #include "accel/embree/native_scene.hpp"
 #include "accel/embree/trace_modes.hpp"
@@ -34,31 +34,25 @@ class EmbreeStructure : public Accelerator {
         coherence_(coherence),
         isa_(isa_in_use(isa)) {}
 
-  std::optional<Hit> closest_hit(const Ray& ray, WorkCounters*) const override {
-    Context context(coherence_ != Coherence::kNone);
-    return scene_.closest_hit(context, ray);
+  void closest_hits(const RaySource& rays, const HitSpan& hits,
+                    const QueryContext& context) const override {
+    if (const PrimaryRays* image = rays.image()) return trace_image(*image, hits, context.threads);
+    if (const RayBatch* batch = rays.batch()) {
+      Context query(coherence_ == Coherence::kAll);
+      return list_.closest_hits(scene_, query, batch->rays, hits);
+    }
+    Context query(coherence_ != Coherence::kNone);
+    hits.set(0, scene_.closest_hit(query, *rays.ray()));
   }
-  bool any_hit(const Ray& ray, WorkCounters*) const override {
-    Context context(coherence_ != Coherence::kNone);
-    return scene_.any_hit(context, ray);
-  }
-  void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters*) const override {
-    Context context(coherence_ != Coherence::kNone);
-    trace_image_(scene_, context, rays, {0, rays.height()}, buffer);
-  }
-  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters*) const override {
-    share_rows(tile_rows(rays), [&](int begin, int end) {
-      Context context(coherence_ != Coherence::kNone);
-      trace_image_(scene_, context, rays, band_of(rays, begin, end), buffer);
+  void any_hits(const RaySource& rays, std::span<std::uint8_t> hits,
+                const QueryContext&) const override {
+    Context query(coherence_ != Coherence::kNone);
+    if (const RayBatch* batch = rays.batch()) {
+      return list_.any_hits(scene_, query, batch->rays, hits);
+    }
+    rays.for_each([&](std::size_t index, const Ray& ray) {
+      hits[index] = scene_.any_hit(query, ray) ? 1 : 0;
     });
-  }
-  void closest_hits(const RayBatch& batch, HitBuffer& buffer, WorkCounters*) const override {
-    Context context(coherence_ == Coherence::kAll);
-    list_.closest_hits(scene_, context, batch.rays, buffer);
-  }
-  void any_hits(const RayBatch& batch, std::span<std::uint8_t> hits, WorkCounters*) const override {
-    Context context(coherence_ != Coherence::kNone);
-    list_.any_hits(scene_, context, batch.rays, hits);
   }
 
   Statistics statistics() const override {
@@ -76,6 +70,17 @@ class EmbreeStructure : public Accelerator {
   }
 
  private:
+  void trace_image(const PrimaryRays& image, const HitSpan& hits, int threads) const {
+    const auto trace = [&](const Band& band) {
+      Context query(coherence_ != Coherence::kNone);
+      trace_image_(scene_, query, image, band, hits);
+    };
+    if (thread_count(threads) == 1) return trace({0, image.height()});
+    on_threads(threads, [&] {
+      share_rows(tile_rows(image), [&](int begin, int end) { trace(band_of(image, begin, end)); });
+    });
+  }
+
   NativeScene scene_;
   ImageTracers::Trace trace_image_;
   ListMode list_;

@@ -74,7 +74,7 @@ class Block {
 
   /// Always inline: otherwise GCC 12 warns of an infinite loop in it.
   HWY_INLINE void write(const OwnerTable& table, const Query& query, int x,
-                        HitBuffer& buffer) const {
+                        const HitSpan& buffer) const {
     alignas(64) std::array<scenes::PrimitiveId, N> owners;
     find_owners<N>(table, query.hit, owners.data());
     if (rays_.samples() == 1 && is_on_image(x)) {
@@ -167,7 +167,7 @@ void for_each_tile(const PrimaryRays& rays, const Band& band, TraceTile trace_ti
 /// Traces a band block by block; `trace_block(query, valid)` finds the closest hits of a packet.
 template <int N, class TraceBlock>
 void trace_blocks(const OwnerTable& owners, const PrimaryRays& rays, const Band& band,
-                  HitBuffer& buffer, TraceBlock trace_block) {
+                  const HitSpan& buffer, TraceBlock trace_block) {
   typename Block<N>::Query query;
   Block<N>::prepare(rays, query);
   alignas(64) std::array<int, N> valid;
@@ -187,7 +187,7 @@ void trace_blocks(const OwnerTable& owners, const PrimaryRays& rays, const Band&
 
 template <int N>
 void trace_packets(const NativeScene& scene, Context& context, const PrimaryRays& rays,
-                   const Band& band, HitBuffer& buffer) {
+                   const Band& band, const HitSpan& buffer) {
   trace_blocks<N>(
       scene.owners(), rays, band, buffer, [&](typename Packet<N>::Query& query, const int* valid) {
         trace_packet<N>(scene, query.ray, [&] { intersect(valid, scene.get(), context, query); });
@@ -195,7 +195,7 @@ void trace_packets(const NativeScene& scene, Context& context, const PrimaryRays
 }
 
 void trace_single(const NativeScene& scene, Context& context, const PrimaryRays& rays,
-                  const Band& band, HitBuffer& buffer) {
+                  const Band& band, const HitSpan& buffer) {
   constexpr int kLanes = 16;
   RTCRayHit one = to_embree_query({.origin = rays.eye()});
   const auto trace_each = [&](Packet<kLanes>::Query& query, const int* valid) {
@@ -220,7 +220,7 @@ void trace_single(const NativeScene& scene, Context& context, const PrimaryRays&
 
 #if BEAMBENCH_EMBREE_MAJOR == 3
 void trace_stream(const NativeScene& scene, Context& context, const PrimaryRays& rays,
-                  const Band& band, HitBuffer& buffer) {
+                  const Band& band, const HitSpan& buffer) {
   // Of another width Embree copies the rays ray by ray (kernels/bvh/bvh_intersector_stream_filters,
   // filterSOA); its own is that of its registers: 4, 8 or 16.
   constexpr int kLanes = std::max(4, static_cast<int>(hn::MaxLanes(hn::CappedTag<float, 16>())));
@@ -257,7 +257,7 @@ constexpr ImageTracers::Trace trace_stream = nullptr;
 #endif
 
 void trace_nothing(const OwnerTable& owners, const PrimaryRays& rays, const Band& band,
-                   HitBuffer& buffer) {
+                   const HitSpan& buffer) {
   constexpr int kLanes = 16;
   trace_blocks<kLanes>(owners, rays, band, buffer,
                        [](Packet<kLanes>::Query& query, const int* valid) {

@@ -30,7 +30,7 @@ Band band_of(const PrimaryRays& rays, int begin, int end);
 struct ImageTracers {
   /// `band` begins at a multiple of `kTile`.
   using Trace = void (*)(const NativeScene& scene, Context& context, const PrimaryRays& rays,
-                         const Band& band, HitBuffer& buffer);
+                         const Band& band, const HitSpan& buffer);
   Trace single;  ///< ray by ray, in blocks of 4x4 pixels
   Trace packet4;
   Trace packet8;
@@ -40,7 +40,7 @@ struct ImageTracers {
   Trace stream;
   /// Makes the rays in packets of 16 and stores a miss for each, without a query.
   void (*untraced)(const OwnerTable& owners, const PrimaryRays& rays, const Band& band,
-                   HitBuffer& buffer);
+                   const HitSpan& buffer);
   std::int64_t target;  ///< HWY_TARGET: hwy::TargetName gives its name
 };
 

@@ -97,7 +97,7 @@ void aim(const Ray* rays, Query& query) {
 /// The hits of a packet into a buffer; misses are at infinity, wherever their rays end.
 template <int N, class Query>
 HWY_INLINE void write(const OwnerTable& table, const Query& query, std::size_t first,
-                      std::size_t count, HitBuffer& buffer) {
+                      std::size_t count, const HitSpan& buffer) {
   alignas(64) std::array<scenes::PrimitiveId, N> owners;
   alignas(64) std::array<float, N> t;
   find_owners<N>(table, query.hit, owners.data());
@@ -118,7 +118,7 @@ void write(const Rays& rays, std::size_t first, std::size_t count,
 }
 
 void closest_hits_single(const NativeScene& scene, Context& context, std::span<const Ray> rays,
-                         HitBuffer& buffer) {
+                         const HitSpan& buffer) {
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const std::optional<Hit> hit = scene.closest_hit(context, rays[i]);
     buffer.t()[i] = hit ? hit->t : kInfinity;
@@ -135,8 +135,8 @@ void any_hits_single(const NativeScene& scene, Context& context, std::span<const
 
 /// `intersect(valid, query)` finds the closest hits of a packet.
 template <int N, class Intersect>
-void closest_hits_by_packets(const OwnerTable& owners, std::span<const Ray> rays, HitBuffer& buffer,
-                             Intersect intersect) {
+void closest_hits_by_packets(const OwnerTable& owners, std::span<const Ray> rays,
+                             const HitSpan& buffer, Intersect intersect) {
   typename Packet<N>::Query query{};
   prepare(query.ray);
   for_each_packet<N>(rays, [&](std::size_t first, std::size_t count, const Ray* some) {
@@ -163,7 +163,7 @@ void any_hits_by_packets(std::span<const Ray> rays, std::span<std::uint8_t> answ
 
 template <int N>
 void closest_hits_in_packets(const NativeScene& scene, Context& context, std::span<const Ray> rays,
-                             HitBuffer& buffer) {
+                             const HitSpan& buffer) {
   closest_hits_by_packets<N>(scene.owners(), rays, buffer, [&](const int* valid, auto& query) {
     trace_packet<N>(scene, query.ray, [&] { intersect(valid, scene.get(), context, query); });
   });
@@ -202,7 +202,7 @@ void trace_streams(std::span<const Ray> rays, std::vector<Query>& queries, Aim a
 }
 
 void closest_hits_in_streams(const NativeScene& scene, Context& context, std::span<const Ray> rays,
-                             HitBuffer& buffer) {
+                             const HitSpan& buffer) {
   using Query = Packet<kStreamLanes>::Query;
   std::vector<Query> queries(kStream / kStreamLanes);
   for (Query& query : queries) prepare(query.ray);
@@ -239,7 +239,7 @@ constexpr ListMode kStreams{closest_hits_in_streams, any_hits_in_streams};
 constexpr ListMode kStreams{nullptr, nullptr};
 #endif
 
-void untraced_closest(const OwnerTable& owners, std::span<const Ray> rays, HitBuffer& buffer) {
+void untraced_closest(const OwnerTable& owners, std::span<const Ray> rays, const HitSpan& buffer) {
   closest_hits_by_packets<16>(owners, rays, buffer, [](const int* valid, auto& query) {
     // For the compiler, the result depends on all of it.
     asm volatile("" : "+m"(query) : "r"(valid) : "memory");

@@ -15,7 +15,7 @@ namespace beambench::accel::embree {
 /// last one may have idle lanes.
 struct ListMode {
   void (*closest_hits)(const NativeScene& scene, Context& context, std::span<const Ray> rays,
-                       HitBuffer& buffer);
+                       const HitSpan& buffer);
   void (*any_hits)(const NativeScene& scene, Context& context, std::span<const Ray> rays,
                    std::span<std::uint8_t> answers);
 };
@@ -30,7 +30,8 @@ struct ListTracers {
   /// Embree need not copy them first; nullptr in Embree 4.
   ListMode stream;
   /// Fill packets of 16 and store a miss for each ray, without a query.
-  void (*untraced_closest)(const OwnerTable& owners, std::span<const Ray> rays, HitBuffer& buffer);
+  void (*untraced_closest)(const OwnerTable& owners, std::span<const Ray> rays,
+                           const HitSpan& buffer);
   void (*untraced_any)(std::span<const Ray> rays, std::span<std::uint8_t> answers);
 };
 

@@ -9,7 +9,7 @@
 #include <glm/vec4.hpp>
 #include <tbb/global_control.h>
 
-#include "accel/core/trace_on.hpp"
+#include "accel/core/threads.hpp"
 #include "accel/embree/isa.hpp"
 
 namespace beambench::accel::embree {

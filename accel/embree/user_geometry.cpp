@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "accel/embree/exact_tests.hpp"
+#include "accel/oracle/exact_tests.hpp"
 
 namespace beambench::accel::embree {
 namespace {
@@ -24,10 +24,10 @@ Ray ray_of(RTCRayN* rays, unsigned n, unsigned i) {
 
 std::optional<double> hit(const scenes::Scene& scene, scenes::PrimitiveId id, const Ray& ray) {
   const scenes::Primitive& primitive = scene.primitives[id];
-  const ExactRay exact(ray);
+  const oracle::ExactRay exact(ray);
   return primitive.kind == scenes::PrimitiveKind::kCone
-             ? first_hit(exact, scene.cones[primitive.index])
-             : first_hit(exact, scene.spheres[primitive.index]);
+             ? oracle::first_hit(exact, scene.cones[primitive.index])
+             : oracle::first_hit(exact, scene.spheres[primitive.index]);
 }
 
 }  // namespace

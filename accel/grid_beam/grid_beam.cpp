@@ -10,26 +10,13 @@
 
 namespace beambench::accel::grid_beam {
 
-void GridBeam::trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters* counters) const {
-  if (counters != nullptr) {
-    beam::CountingBeamWatch watch(*counters);
-    return trace_watched(rays, buffer, watch);
-  }
-  beam::NoBeamWatch watch;
-  trace_watched(rays, buffer, watch);
+void GridBeam::closest_hits(const RaySource& rays, const HitSpan& hits,
+                            const QueryContext& context) const {
+  if (rays.image() == nullptr) return GridCells::Tracer::closest_hits(rays, hits, context);
+  beam::trace_image_in_beams(*scene_, cells(), rules_, *rays.image(), hits, context);
 }
 
-void GridBeam::trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
-                            WorkCounters* counters) const {
-  if (counters != nullptr) {
-    return beam::SharedBeamRun<beam::CountingBeamWatch, GridCells>(*scene_, cells(), rules_, rays,
-                                                                   buffer)(*counters);
-  }
-  NoCounting none;
-  beam::SharedBeamRun<beam::NoBeamWatch, GridCells>(*scene_, cells(), rules_, rays, buffer)(none);
-}
-
-std::vector<BeamOutline> GridBeam::beam_outlines(const PrimaryRays& rays) const {
+std::optional<std::vector<BeamOutline>> GridBeam::beams(const PrimaryRays& rays) const {
   beam::OutlineBeamWatch watch(rays.width(), rays.height());
   HitBuffer buffer(rays.width(), rays.height(), rays.samples());
   trace_watched(rays, buffer, watch);

@@ -1,6 +1,7 @@
 #pragma once
 // The beams of the thesis through a hierarchy of grids.
 
+#include <optional>
 #include <vector>
 
 #include "accel/beam/beam_run.hpp"
@@ -23,18 +24,17 @@ class GridBeam : public GridCells::Tracer {
         rules_(options.rules),
         lattice_(hierarchy()) {}
 
-  void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters* counters) const override;
-  /// The beams are shared among the threads.
-  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
-                    WorkCounters* counters) const override;
-  std::vector<BeamOutline> beam_outlines(const PrimaryRays& rays) const override;
+  /// An image is traced in beams, which are shared among the context's threads.
+  void closest_hits(const RaySource& rays, const HitSpan& hits,
+                    const QueryContext& context) const override;
+  std::optional<std::vector<BeamOutline>> beams(const PrimaryRays& rays) const override;
   /// Samples become rays at occupied voxels only, so that not all of an image's rays are made.
   Statistics statistics() const override;
 
   const GridLattice& lattice() const { return lattice_; }
-  /// `trace`, reported to a policy (see beam::NoBeamWatch).
+  /// Traces an image, reporting to a policy (see beam::NoBeamWatch).
   template <class Watch>
-  void trace_watched(const PrimaryRays& rays, HitBuffer& buffer, Watch& watch) const {
+  void trace_watched(const PrimaryRays& rays, const HitSpan& buffer, Watch& watch) const {
     const beam::WholeImage sight;
     auto finished = finished_samples(rules_, sight, buffer);
     beam::BeamRun<Watch, beam::WholeImage, GridCells>(*scene_, cells(), rules_, rays, sight, buffer,

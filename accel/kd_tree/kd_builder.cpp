@@ -13,9 +13,9 @@
 #include <fmt/format.h>
 
 #include "accel/bvh/clip.hpp"
-#include "accel/bvh/padded_bounds.hpp"
 #include "accel/core/expected_references.hpp"
 #include "accel/core/least_references.hpp"
+#include "accel/core/padded_bounds.hpp"
 #include "accel/core/tolerance.hpp"
 #include "accel/kd_tree/kd_tree.hpp"
 #include "accel/kd_tree/plane_cost.hpp"
@@ -28,7 +28,7 @@ namespace {
 /// The largest float below a number, the smallest float above one.
 float float_below(double value) {
   const auto rounded = static_cast<float>(value);
-  return rounded < value ? rounded : -bvh::next_above(-rounded);
+  return rounded < value ? rounded : -next_above(-rounded);
 }
 float float_above(double value) { return -float_below(-value); }
 
@@ -75,11 +75,11 @@ class Builder {
                       scene_.name, pieces_.size(), SplitEvent::kItems));
     }
     // Hits lie within the tolerance of the bounds: the root must hold them.
-    tree_.root = bvh::padded(scene_.bounds, 2.0 * tolerance_);
+    tree_.root = padded(scene_.bounds, 2.0 * tolerance_);
     require_few_references();
     begin();
     subdivide(root());
-    tree_.cost /= bvh::half_area(tree_.root);
+    tree_.cost /= half_area(tree_.root);
     tree_.nodes.shrink_to_fit();
     tree_.blocks.shrink_to_fit();
     return std::move(tree_);
@@ -145,7 +145,7 @@ class Builder {
         KdNode::interior(static_cast<std::size_t>(split.axis), split.plane, children);
     tree_.nodes.resize(children + 2);
     tree_.nodes[pending.node] = node;
-    tree_.cost += bvh::half_area(pending.cell);
+    tree_.cost += half_area(pending.cell);
     tree_.visits.add_node(pending.cell);
 
     const auto [below, above] = distribute(pending, split, node);
@@ -374,7 +374,7 @@ class Builder {
     const std::size_t blocks = tree_.blocks.size() - first;
     tree_.nodes[pending.node] =
         KdNode::leaf(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(blocks));
-    tree_.cost += bvh::half_area(pending.cell) * static_cast<double>(blocks);
+    tree_.cost += half_area(pending.cell) * static_cast<double>(blocks);
     tree_.visits.add_leaf(pending.cell, pending.count);
   }
 

@@ -2,7 +2,7 @@
 
 #include "accel/core/instruction_set.hpp"
 #include "accel/core/registry.hpp"
-#include "accel/core/trace_on.hpp"
+#include "accel/core/threads.hpp"
 #include "accel/core/traversal_accelerator.hpp"
 #include "accel/embree/image_tracers.hpp"
 #include "accel/embree/list_tracers.hpp"
@@ -38,20 +38,18 @@ class SimdNull : public Null {
   explicit SimdNull(std::int64_t targets)
       : images_(&embree::image_tracers(targets)), lists_(&embree::list_tracers(targets)) {}
 
-  void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters*) const override {
-    images_->untraced(owners_, rays, {0, rays.height()}, buffer);
+  void closest_hits(const RaySource& rays, const HitSpan& hits,
+                    const QueryContext& context) const override {
+    if (const PrimaryRays* image = rays.image()) return make_rays(*image, hits, context.threads);
+    if (const RayBatch* batch = rays.batch()) {
+      return lists_->untraced_closest(owners_, batch->rays, hits);
+    }
+    Null::closest_hits(rays, hits, context);
   }
-  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters*) const override {
-    share_rows(embree::tile_rows(rays), [&](int begin, int end) {
-      images_->untraced(owners_, rays, embree::band_of(rays, begin, end), buffer);
-    });
-  }
-
-  void closest_hits(const RayBatch& batch, HitBuffer& buffer, WorkCounters*) const override {
-    lists_->untraced_closest(owners_, batch.rays, buffer);
-  }
-  void any_hits(const RayBatch& batch, std::span<std::uint8_t> hits, WorkCounters*) const override {
-    lists_->untraced_any(batch.rays, hits);
+  void any_hits(const RaySource& rays, std::span<std::uint8_t> hits,
+                const QueryContext& context) const override {
+    if (const RayBatch* batch = rays.batch()) return lists_->untraced_any(batch->rays, hits);
+    Null::any_hits(rays, hits, context);
   }
 
   Statistics statistics() const override {
@@ -61,6 +59,17 @@ class SimdNull : public Null {
   }
 
  private:
+  void make_rays(const PrimaryRays& image, const HitSpan& hits, int threads) const {
+    if (thread_count(threads) == 1) {
+      return images_->untraced(owners_, image, {0, image.height()}, hits);
+    }
+    on_threads(threads, [&] {
+      share_rows(embree::tile_rows(image), [&](int begin, int end) {
+        images_->untraced(owners_, image, embree::band_of(image, begin, end), hits);
+      });
+    });
+  }
+
   const embree::ImageTracers* images_;
   const embree::ListTracers* lists_;
   embree::OwnerTable owners_;  ///< empty

@@ -49,6 +49,17 @@ class OctreeTracer : public TraversalAccelerator<OctreeTracer<Search>> {
 
   std::vector<Box> occupied_cells() const override { return octree_.occupied_cells(); }
 
+  /// Of searches that name leaves by the numbers of their nodes.
+  std::vector<NodeFacts> nodes() const override {
+    std::vector<NodeFacts> facts;
+    if constexpr (requires { requires Search::kNeighborSteps; }) {
+      for (const OctreeNode& node : octree_.nodes()) {
+        facts.push_back({facts.empty() ? 0 : node.parent, node.is_leaf(), node.count});
+      }
+    }
+    return facts;
+  }
+
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
     ClosestHit closest(ray);

@@ -92,7 +92,7 @@ AnsweredRays any_hits(const PencilRays& pencil, PencilUnit& unit, std::span<std:
 }
 
 template <class Counting>
-AnsweredRays closest_hits(const PencilRays& pencil, PencilUnit& unit, HitBuffer& buffer,
+AnsweredRays closest_hits(const PencilRays& pencil, PencilUnit& unit, const HitSpan& buffer,
                           std::size_t first, Counting& counting) {
   float* const t = buffer.t() + first;
   scenes::PrimitiveId* const primitive = buffer.primitive() + first;

@@ -72,7 +72,7 @@ struct PencilQueries {
   AnsweredRays (*any_hits)(const PencilRays&, PencilUnit& unit, std::span<std::uint8_t> hits,
                            Counting&);
   /// Rays away from it: their hits from `first` of the buffer on; t is NaN where undecided.
-  AnsweredRays (*closest_hits)(const PencilRays&, PencilUnit& unit, HitBuffer& buffer,
+  AnsweredRays (*closest_hits)(const PencilRays&, PencilUnit& unit, const HitSpan& buffer,
                                std::size_t first, Counting&);
 };
 

@@ -368,7 +368,7 @@ bool answer_list(const TileHierarchy& hierarchy, const scenes::Scene& scene,
 
 template <class Counting>
 bool closest_of_list(const TileHierarchy& hierarchy, const scenes::Scene& scene,
-                     std::span<const Ray> rays, HitBuffer& buffer, std::size_t first,
+                     std::span<const Ray> rays, const HitSpan& buffer, std::size_t first,
                      Counting& counting) {
   return answer_list<ClosestQuery>(
       hierarchy, scene, rays, counting,

@@ -19,7 +19,7 @@ namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 inline constexpr std::size_t kStreamedSamples = std::size_t{1} << 17U;
 
 /// Are the image's rows whole cache lines, and too many for the caches?
-inline bool is_streamed(const HitBuffer& buffer) {
+inline bool is_streamed(const HitSpan& buffer) {
   return buffer.samples() == 1 && buffer.width() % 16 == 0 && buffer.size() > kStreamedSamples;
 }
 
@@ -79,7 +79,7 @@ HWY_INLINE void write_blocks(std::size_t from, int height, PlaceOfRow place_of_r
 /// Writes four blocks that lie side by side.
 template <bool kStreamed>
 HWY_INLINE void resolve_four(const TileImage& image, int column, int row, const TileView& view,
-                             HitBuffer& buffer) {
+                             const HitSpan& buffer) {
   const std::size_t from = TileImage::block(column, row);
   const int height = std::min(4, view.height - 4 * row);
   const auto place_of_row = [&](int y) {
@@ -99,7 +99,7 @@ HWY_INLINE void resolve_four(const TileImage& image, int column, int row, const 
 
 /// Writes the samples of a tile from a column on, one by one.
 inline void resolve_rest(const TileImage& image, const TileView& view, int first,
-                         HitBuffer& buffer) {
+                         const HitSpan& buffer) {
   for (int y = 0; y < view.height; ++y) {
     for (int x = first; x < view.width; ++x) {
       const std::size_t to = buffer.index(view.left + x, view.top + y, 0);
@@ -113,7 +113,7 @@ inline void resolve_rest(const TileImage& image, const TileView& view, int first
 
 /// One sample per pixel: rows of blocks are runs of the buffer.
 template <bool kStreamed>
-inline void resolve_blocks(const TileImage& image, const TileView& view, HitBuffer& buffer) {
+inline void resolve_blocks(const TileImage& image, const TileView& view, const HitSpan& buffer) {
   const int whole = view.width / 16 * 4;
   for (int row = 0; 4 * row < view.height; ++row) {
     for (int column = 0; column < whole; column += 4) {
@@ -125,7 +125,7 @@ inline void resolve_blocks(const TileImage& image, const TileView& view, HitBuff
 
 /// Background, without a ray.
 template <bool kStreamed>
-inline void paint_background(const TileView& view, HitBuffer& buffer) {
+inline void paint_background(const TileView& view, const HitSpan& buffer) {
   for (int y = 0; y < view.height; ++y) {
     const std::size_t to = buffer.index(view.left, view.top + y, 0);
     const auto width = static_cast<std::size_t>(view.width);
@@ -143,7 +143,7 @@ inline void paint_background(const TileView& view, HitBuffer& buffer) {
 
 /// Several samples per pixel: those of a pixel lie together in the buffer, and may be shared.
 inline void resolve_samples(TileImage& image, const SampleRaster& raster, const TileView& view,
-                            HitBuffer& buffer) {
+                            const HitSpan& buffer) {
   if (!image.touched) clear(image, view);
   float* const t = image.inverse_t.data();
   for (std::size_t i = 0; i < TileImage::kSamples; i += kLanes) {
@@ -163,7 +163,7 @@ inline void resolve_samples(TileImage& image, const SampleRaster& raster, const 
 }
 
 template <bool kStreamed>
-void resolve_pixels(const TileImage& image, const TileView& view, HitBuffer& buffer) {
+void resolve_pixels(const TileImage& image, const TileView& view, const HitSpan& buffer) {
   if (image.touched) {
     resolve_blocks<kStreamed>(image, view, buffer);
   } else {
@@ -173,7 +173,7 @@ void resolve_pixels(const TileImage& image, const TileView& view, HitBuffer& buf
 
 /// Writes the hits of a tile, which is not used afterward.
 inline void resolve(TileImage& image, const SampleRaster& raster, const TileView& view,
-                    HitBuffer& buffer) {
+                    const HitSpan& buffer) {
   if (buffer.samples() > 1) {
     resolve_samples(image, raster, view, buffer);
   } else if (is_streamed(buffer)) {

@@ -43,7 +43,7 @@ struct SampleRaster {
   /// Calls `visit(x, index)` for the samples (left + x, j), x < width, of a row that belong to
   /// `place`: with their places in a buffer.
   template <class Visit>
-  void for_each_of_row(const Place& place, const HitBuffer& buffer, int left, int j, int width,
+  void for_each_of_row(const Place& place, const HitSpan& buffer, int left, int j, int width,
                        Visit visit) const {
     const int py = j / per_pixel - place.up;
     if (py < 0 || py >= buffer.height()) return;

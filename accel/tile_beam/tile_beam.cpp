@@ -12,6 +12,7 @@
 #include <tbb/parallel_for.h>
 
 #include "accel/core/registry.hpp"
+#include "accel/core/threads.hpp"
 #include "accel/tile_beam/pencil_places.hpp"
 #include "accel/tile_beam/tile_recorder.hpp"
 
@@ -80,7 +81,7 @@ struct ThreadState {
 template <class Counting>
 void trace_tiles(const TileKernels& kernels, const TileHierarchy& hierarchy,
                  const scenes::Scene& scene, const PrimaryRays& rays, bool parallel,
-                 HitBuffer& buffer, Counting& counting) {
+                 const HitSpan& buffer, Counting& counting) {
   tbb::enumerable_thread_specific<ThreadState<Counting>> states;
   const TiledImage tiled(rays, hierarchy.bounds);
   const VisibleBacks backs(hierarchy, scene, rays.eye(), rays.count());
@@ -223,9 +224,17 @@ std::size_t solid_bytes(const TileHierarchy& hierarchy) {
 
 }  // namespace
 
-void TileBeam::closest_hits(const RayBatch& batch, HitBuffer& buffer,
-                            WorkCounters* counters) const {
-  if (hierarchy_.empty()) return TraversalAccelerator::closest_hits(batch, buffer, counters);
+void TileBeam::closest_hits(const RaySource& rays, const HitSpan& hits,
+                            const QueryContext& context) const {
+  if (const PrimaryRays* image = rays.image()) return trace_image(*image, hits, context);
+  if (rays.batch() != nullptr && !hierarchy_.empty()) {
+    return trace_batch(*rays.batch(), hits, context.counters);
+  }
+  TraversalAccelerator::closest_hits(rays, hits, context);
+}
+
+void TileBeam::trace_batch(const RayBatch& batch, const HitSpan& buffer,
+                           WorkCounters* counters) const {
   const SeenBatch seen{hierarchy_, *scene_, *pencil_kernels_, batch};
   with_counting(counters, [&]<class Counting>(Counting& counting) {
     answer(
@@ -243,11 +252,14 @@ void TileBeam::closest_hits(const RayBatch& batch, HitBuffer& buffer,
   });
 }
 
-void TileBeam::any_hits(const RayBatch& batch, std::span<std::uint8_t> hits,
-                        WorkCounters* counters) const {
-  if (hierarchy_.empty()) return TraversalAccelerator::any_hits(batch, hits, counters);
+void TileBeam::any_hits(const RaySource& rays, std::span<std::uint8_t> hits,
+                        const QueryContext& context) const {
+  if (rays.batch() == nullptr || hierarchy_.empty()) {
+    return TraversalAccelerator::any_hits(rays, hits, context);
+  }
+  const RayBatch& batch = *rays.batch();
   const SeenBatch seen{hierarchy_, *scene_, *pencil_kernels_, batch};
-  with_counting(counters, [&]<class Counting>(Counting& counting) {
+  with_counting(context.counters, [&]<class Counting>(Counting& counting) {
     answer(
         seen, true, parallel_, counting,
         [&](const PencilRays& rays, std::size_t first, PencilUnit& unit, Counting& own) {
@@ -264,22 +276,26 @@ void TileBeam::any_hits(const RayBatch& batch, std::span<std::uint8_t> hits,
   });
 }
 
-void TileBeam::trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters* counters) const {
-  with_counting(counters, [&](auto& counting) {
-    trace_tiles(*kernels_, hierarchy_, *scene_, rays, parallel_, buffer, counting);
+void TileBeam::trace_image(const PrimaryRays& rays, const HitSpan& hits,
+                           const QueryContext& context) const {
+  with_counting(context.counters, [&](auto& counting) {
+    const auto trace = [&](bool parallel) {
+      trace_tiles(*kernels_, hierarchy_, *scene_, rays, parallel, hits, counting);
+    };
+    if (thread_count(context.threads) == 1) return trace(parallel_);
+    on_threads(context.threads, [&] { trace(true); });
   });
 }
 
-void TileBeam::trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
-                            WorkCounters* counters) const {
-  with_counting(counters, [&](auto& counting) {
-    trace_tiles(*kernels_, hierarchy_, *scene_, rays, true, buffer, counting);
-  });
+std::vector<BeamPlace> TileBeam::places(const RaySource& rays) const {
+  if (rays.image() != nullptr) return places_in_image(*rays.image());
+  if (rays.batch() != nullptr) return places_in_batch(*rays.batch());
+  return {BeamPlace{}};
 }
 
-std::vector<BeamPlace> TileBeam::beam_places(const PrimaryRays& rays) const {
+std::vector<BeamPlace> TileBeam::places_in_image(const PrimaryRays& rays) const {
   std::vector<BeamPlace> places(rays.count());
-  const HitBuffer numbers(rays.width(), rays.height(), rays.samples());
+  HitBuffer numbers(rays.width(), rays.height(), rays.samples());
   const TiledImage tiled(rays, hierarchy_.bounds);
   const VisibleBacks backs(hierarchy_, *scene_, rays.eye(), rays.count());
   const auto image = std::make_unique_for_overwrite<TileImage>();
@@ -304,7 +320,7 @@ std::vector<BeamPlace> TileBeam::beam_places(const PrimaryRays& rays) const {
   return places;
 }
 
-std::vector<BeamPlace> TileBeam::beam_places(const RayBatch& batch) const {
+std::vector<BeamPlace> TileBeam::places_in_batch(const RayBatch& batch) const {
   std::vector<BeamPlace> places(batch.rays.size());
   if (hierarchy_.empty()) return places;
   const SeenBatch seen{hierarchy_, *scene_, *pencil_kernels_, batch};

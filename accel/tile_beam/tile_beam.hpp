@@ -46,16 +46,12 @@ class TileBeam : public TraversalAccelerator<TileBeam> {
   const char* instruction_set() const;
   Statistics statistics() const override;
 
-  void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters* counters) const override;
-  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
-                    WorkCounters* counters) const override;
-  void closest_hits(const RayBatch& batch, HitBuffer& buffer,
-                    WorkCounters* counters) const override;
-  void any_hits(const RayBatch& batch, std::span<std::uint8_t> hits,
-                WorkCounters* counters) const override;
-
-  std::vector<BeamPlace> beam_places(const PrimaryRays& rays) const override;
-  std::vector<BeamPlace> beam_places(const RayBatch& batch) const override;
+  /// An image is traced in tiles, a batch with its pencils.
+  void closest_hits(const RaySource& rays, const HitSpan& hits,
+                    const QueryContext& context) const override;
+  void any_hits(const RaySource& rays, std::span<std::uint8_t> hits,
+                const QueryContext& context) const override;
+  std::vector<BeamPlace> places(const RaySource& rays) const override;
 
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
@@ -74,6 +70,11 @@ class TileBeam : public TraversalAccelerator<TileBeam> {
   }
 
  private:
+  void trace_image(const PrimaryRays& rays, const HitSpan& hits, const QueryContext& context) const;
+  void trace_batch(const RayBatch& batch, const HitSpan& hits, WorkCounters* counters) const;
+  std::vector<BeamPlace> places_in_image(const PrimaryRays& rays) const;
+  std::vector<BeamPlace> places_in_batch(const RayBatch& batch) const;
+
   const scenes::Scene* scene_;
   TileHierarchy hierarchy_;
   const TileKernels* kernels_;

@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "accel/bvh/bvh_builder.hpp"
-#include "accel/bvh/padded_bounds.hpp"
+#include "accel/core/padded_bounds.hpp"
 #include "accel/core/tolerance.hpp"
 #include "accel/tile_beam/leaf_packer.hpp"
 
@@ -37,13 +37,13 @@ Pieces pieces_of(const scenes::Scene& scene) {
   all.pieces.reserve(count);
   for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
     all.pieces.push_back({scene.triangles[i].primitive, i, scenes::PrimitiveKind::kPolygon});
-    all.boxes.push_back(bvh::padded(triangle_bounds(scene, scene.triangles[i]), tolerance));
+    all.boxes.push_back(padded(triangle_bounds(scene, scene.triangles[i]), tolerance));
   }
   for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
     const auto& primitive = scene.primitives[id];
     if (primitive.kind == scenes::PrimitiveKind::kPolygon) continue;
     all.pieces.push_back({id, primitive.index, primitive.kind});
-    all.boxes.push_back(bvh::padded(scenes::primitive_bounds(scene, id), tolerance));
+    all.boxes.push_back(padded(scenes::primitive_bounds(scene, id), tolerance));
   }
   return all;
 }

@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
 template <class Counting>
-void draw(const TilePicture& picture, const TileView& view, TileImage& image, HitBuffer& buffer,
+void draw(const TilePicture& picture, const TileView& view, TileImage& image, const HitSpan& buffer,
           Counting& counting) {
   counting.add("beams");
   TileWalk<Counting>(picture, view, image, counting)();

@@ -32,7 +32,7 @@ template <class Counting>
 struct TileListQueries {
   /// The hits are written from `first` of the buffer on.
   bool (*closest_hits)(const TileHierarchy&, const scenes::Scene&, std::span<const Ray>,
-                       HitBuffer& buffer, std::size_t first, Counting&);
+                       const HitSpan& buffer, std::size_t first, Counting&);
   /// 1 for a hit and 0 for none.
   bool (*any_hits)(const TileHierarchy&, const scenes::Scene&, std::span<const Ray>,
                    std::span<std::uint8_t> hits, Counting&);
@@ -51,7 +51,7 @@ struct TilePicture {
 /// seen by other threads only after hwy::FlushStream.
 template <class Counting>
 struct TileDrawing {
-  void (*draw)(const TilePicture&, const TileView&, TileImage&, HitBuffer&, Counting&);
+  void (*draw)(const TilePicture&, const TileView&, TileImage&, const HitSpan&, Counting&);
 };
 
 /// The kernels for one instruction set.

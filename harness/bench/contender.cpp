@@ -56,6 +56,7 @@ Contender::Contender(const PlannedCell& cell, Task& task, int second_traces)
 
 void Contender::count() {
   try {
+    task_->require_support(cell_->structure);
     const MeasuringFloatMode mode;
     const auto heap_before = heap_in_use();
     const auto structure = cell_->structure.build(task_->scene(), task_->workload());
@@ -65,6 +66,8 @@ void Contender::count() {
     counted_hits_ = task_->fingerprint();
     record_.statistics = structure->statistics();
     record_.harness = task_->harness_share(*structure);
+  } catch (const accel::UnsupportedError& error) {
+    fail(verify::Verdict::kUnsupported, error.what());
   } catch (const std::exception& error) {
     fail(verify::Verdict::kError, message_of(error));
   }

@@ -30,7 +30,7 @@ Json members(const Json& object, const Names& names) {
 }  // namespace
 
 std::string describe_verdicts(const SweepOutcome& outcome) {
-  const std::size_t measured = outcome.cells - outcome.without_rays;
+  const std::size_t measured = outcome.cells - outcome.without_rays - outcome.unsupported;
   std::string out;
   if (outcome.failed > 0) {
     out = fmt::format("Hits:  {} of {} wrong or not built; these have no times\n", outcome.failed,
@@ -42,6 +42,10 @@ std::string describe_verdicts(const SweepOutcome& outcome) {
     out += fmt::format("Rays:  {} of {} have no rays over their scenes\n", outcome.without_rays,
                        base::counted(outcome.cells, "cell"));
   }
+  if (outcome.unsupported > 0) {
+    out += fmt::format("Cells: {} of {} have rays or primitives that the structure does not take\n",
+                       outcome.unsupported, base::counted(outcome.cells, "cell"));
+  }
   if (measured > outcome.failed) {
     out += outcome.doubts.empty()
                ? "Times: measured on a quiet machine, as precisely as wanted\n"
@@ -51,7 +55,7 @@ std::string describe_verdicts(const SweepOutcome& outcome) {
 }
 
 int exit_code_of(const SweepOutcome& outcome) {
-  const bool measured_nothing = outcome.without_rays == outcome.cells;
+  const bool measured_nothing = outcome.without_rays + outcome.unsupported == outcome.cells;
   if (measured_nothing && !outcome.is_part) return base::kInvalidInput;
   return outcome.failed > 0 ? base::kMismatch : base::kSuccess;
 }
@@ -110,6 +114,8 @@ SweepOutcome conclude(const RunFolder& folder, std::span<const Json> cells,
     };
     if (is(verify::Verdict::kNoRays)) {
       ++outcome.without_rays;
+    } else if (is(verify::Verdict::kUnsupported)) {
+      ++outcome.unsupported;
     } else if (!is(verify::Verdict::kOk) && !is(verify::Verdict::kBaseline)) {
       ++outcome.failed;
     }

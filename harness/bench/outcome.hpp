@@ -20,7 +20,8 @@ struct SweepOutcome {
   std::size_t cells = 0;          ///< in the record, those of an earlier part of the run included
   std::size_t failed = 0;         ///< of them, wrong or not built
   std::size_t without_rays = 0;   ///< of them, of a kind of rays that their scene has none of
-  bool is_part = false;           ///< is the run a shard of a sweep?
+  std::size_t unsupported = 0;  ///< of them, of rays or primitives that the structure does not take
+  bool is_part = false;         ///< is the run a shard of a sweep?
   std::vector<std::string> doubts{};  ///< why the times are worth little; clauses
   std::vector<Standings> standings{};
   std::string summary{};  ///< who is fastest, and the verdicts: the text of summary.txt

@@ -9,6 +9,7 @@
 #include "accel/core/hit_buffer.hpp"
 #include "harness/bench/measurement.hpp"
 #include "harness/plugin/load_plugin.hpp"
+#include "harness/rays/counted_queries.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "harness/rays/trace_results.hpp"
 #include "harness/render/picture/image.hpp"
@@ -48,6 +49,9 @@ class RaysTask : public Task {
     return rays::share_warning(input(), reference_.hit_count());
   }
   void poison() override { rays::poison(results_); }
+  void require_support(const accel::StructureChoice& choice) const override {
+    rays::require_support(choice, input());
+  }
   void ask(const accel::Accelerator& structure) override {
     rays::trace(structure, input(), results_, nullptr, group_.threads);
   }
@@ -123,7 +127,7 @@ class PictureTask : public Task {
         reference_(*group.scene, rays_),
         hits_(rays_.width(), rays_.height(), rays_.samples()),
         image_(rays_.width(), rays_.height()) {
-    const accel::embree::EmbreeOracle oracle(scene(), glm::length(glm::dvec3(rays_.eye())));
+    const accel::oracle::Oracle oracle(scene(), glm::length(glm::dvec3(rays_.eye())));
     const render::RecordedPicture picture =
         render::record_picture(shaded_, render::OracleQueries(oracle), rays_, reference_.rounded(),
                                options_, rays::HitCheck(scene(), "the oracle"));
@@ -144,18 +148,22 @@ class PictureTask : public Task {
     constexpr float kNoLight = std::numeric_limits<float>::quiet_NaN();
     image_ = render::Image(image_.width(), image_.height(), glm::vec3(kNoLight));
   }
+  void require_support(const accel::StructureChoice& choice) const override {
+    render::require_support(choice);
+  }
   void ask(const accel::Accelerator& structure) override {
-    structure.trace(rays_, hits_, nullptr);
+    structure.closest_hits(rays_, hits_, {});
     draw({&structure, &structure, &structure});
   }
   CountedWork count(const accel::Accelerator& structure) override {
     accel::WorkCounters all;
-    render::ByFollowingRays<accel::WorkCounters> following;
-    structure.trace(rays_, hits_, &all);
-    const render::CountedQueries reflected(structure, following[0]);
-    const render::CountedQueries refracted(structure, following[1]);
-    const render::CountedQueries shadow(structure, following[2]);
+    structure.closest_hits(rays_, hits_, {&all});
+    const rays::CountedQueries reflected(structure);
+    const rays::CountedQueries refracted(structure);
+    const rays::CountedQueries shadow(structure);
     const render::RayCensus census = draw({&reflected, &refracted, &shadow});
+    const render::ByFollowingRays<accel::WorkCounters> following{
+        reflected.work().counters, refracted.work().counters, shadow.work().counters};
 
     CountedWork work;
     const render::ByFollowingRays<std::uint64_t> rays{census.reflected, census.refracted,
@@ -179,7 +187,7 @@ class PictureTask : public Task {
     poison();
     render::RecordedPicture picture = [&] {
       const MeasuringFloatMode mode;  // as it was timed
-      structure.trace(rays_, hits_, nullptr);
+      structure.closest_hits(rays_, hits_, {});
       return render::record_picture(shaded_, structure, rays_, hits_, options_,
                                     rays::HitCheck(scene(), choice));
     }();

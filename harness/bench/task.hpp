@@ -40,6 +40,8 @@ class Task {
 
   /// Overwrites all results with invalid ones: the differ finds each that is left unwritten.
   virtual void poison() = 0;
+  /// Throws UnsupportedError where a structure does not take these rays.
+  virtual void require_support(const accel::StructureChoice& choice) const = 0;
   /// Traces with a structure. This is what is timed.
   virtual void ask(const accel::Accelerator& structure) = 0;
   /// The same, counting work.

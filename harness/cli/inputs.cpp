@@ -146,14 +146,6 @@ Contenders choose_contenders(std::string_view list, const scenes::Scene& scene) 
   return contenders;
 }
 
-const accel::beam::BeamTracer& require_beams(const accel::Accelerator& structure,
-                                             const accel::StructureChoice& choice) {
-  const auto* tracer = dynamic_cast<const accel::beam::BeamTracer*>(&structure);
-  if (tracer != nullptr) return *tracer;
-  throw InputError(fmt::format(
-      "'{}' traces no beams; give --accel beam, with or without parameters", choice.info().name));
-}
-
 void add_light_options(CLI::App& command, WhittedRequest& request) {
   command
       .add_option("--depth", request.max_depth,

@@ -8,7 +8,6 @@
 
 #include <CLI/App.hpp>
 
-#include "accel/beam/beam_tracer.hpp"
 #include "accel/core/registry.hpp"
 #include "harness/base/messages.hpp"
 #include "harness/rays/trace_input.hpp"
@@ -72,10 +71,6 @@ struct Contenders {
 };
 Contenders choose_contenders(std::string_view list, const scenes::Scene& scene);
 inline constexpr std::size_t kExhaustiveLimit = 20000;
-
-/// The structure as a beam tracer. Throws InputError where it traces no beams.
-const accel::beam::BeamTracer& require_beams(const accel::Accelerator& structure,
-                                             const accel::StructureChoice& choice);
 
 /// How light is followed in pictures of the whole ray tracer.
 struct WhittedRequest {

@@ -14,7 +14,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "accel/core/trace_on.hpp"
+#include "accel/core/threads.hpp"
 #include "harness/base/messages.hpp"
 #include "harness/base/process_start.hpp"
 #include "harness/bench/record/machine.hpp"

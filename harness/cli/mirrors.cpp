@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "accel/beam/beam_tracer.hpp"
 #include "harness/base/messages.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
@@ -77,10 +78,10 @@ bool show_mirrors(const MirrorsRequest& request) {
   const scenes::Scene scene = open_scene(request.scene);
   const rays::ImageOfRays image = choose_image(scene, request.image);
   const accel::PrimaryRays rays = image.rays();
-  const auto structure = choice.build(scene, rays::workload_of(image, rays));
-  const accel::beam::BeamTracer& tracer = require_beams(*structure, choice);
+  const auto built = accel::beam::build_beam_tracer(choice, scene, rays::workload_of(image, rays));
+  const accel::beam::BeamTracer& tracer = *built;
   accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
-  tracer.trace(rays, hits, nullptr);
+  tracer.closest_hits(rays, hits, {});
   rays::HitCheck(scene, choice).require(hits, rays);
   const auto found = experiments::compare_mirrors(tracer, scene, rays, hits, request.repetitions);
   request.json ? print_json(scene, request, found) : print_text(scene, request, found);

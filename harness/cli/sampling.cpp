@@ -82,8 +82,9 @@ void compare(const SamplingRequest& request) {
   }
   const scenes::Scene scene = open_scene(request.scene);
   const rays::ImageOfRays image = choose_image(scene, request.image);
-  const auto structure = choice.build(scene, rays::workload_of(image, image.rays()));
-  const accel::beam::BeamTracer& tracer = require_beams(*structure, choice);
+  const auto built =
+      accel::beam::build_beam_tracer(choice, scene, rays::workload_of(image, image.rays()));
+  const accel::beam::BeamTracer& tracer = *built;
   base::Progress progress(experiments::sampling_steps());
   const auto results =
       experiments::compare_sampling(tracer, scene, image, request.repetitions, progress);

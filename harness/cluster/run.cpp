@@ -56,10 +56,9 @@ struct WorkerState {
         rays(image.rays()) {
     const accel::StructureChoice choice = beam_choice(job);
     const base::CpuStopwatch timer;
-    structure = choice.build(scene, rays::workload_of(image, rays));
+    tracer = accel::beam::build_beam_tracer(choice, scene, rays::workload_of(image, rays));
     build_seconds = timer.seconds();
-    tracer = &dynamic_cast<const accel::beam::BeamTracer&>(*structure);
-    if (job.light) light.emplace(scene, *structure, job.whitted, rays::HitCheck(scene, choice));
+    if (job.light) light.emplace(scene, *tracer, job.whitted, rays::HitCheck(scene, choice));
   }
 
   ReadyReport ready_report() const {
@@ -69,7 +68,7 @@ struct WorkerState {
             {visible_hash(scene), scene.primitives.size(), octree.nodes().size(),
              octree.reference_count()},
             build_seconds,
-            structure->statistics().bytes};
+            tracer->statistics().bytes};
   }
   /// Of results of this picture.
   std::string key(Job job) const {
@@ -81,8 +80,7 @@ struct WorkerState {
   scenes::Scene scene;
   rays::ImageOfRays image;
   accel::PrimaryRays rays;
-  std::unique_ptr<accel::Accelerator> structure;
-  const accel::beam::BeamTracer* tracer = nullptr;
+  std::unique_ptr<accel::beam::BeamTracer> tracer;
   std::optional<render::Whitted> light;  ///< nothing if the job is for hits alone
   double build_seconds = 0.0;
 };

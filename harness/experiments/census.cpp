@@ -22,7 +22,7 @@ accel::HitBuffer primary_hits(const accel::Accelerator& structure, const accel::
                               const accel::PrimaryRays* image) {
   accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
   if (image != nullptr) {
-    structure.trace(*image, hits, nullptr);
+    structure.closest_hits(*image, hits, {});
     return hits;
   }
   for (int y = 0; y < rays.height(); ++y) {

@@ -25,9 +25,9 @@ MirrorResult compare(const accel::beam::BeamTracer& tracer, const accel::beam::M
   MirrorResult result{mirror.polygons.size(), view.rays.size()};
   const accel::Pencil pencil = view.pencil();
   result.rays_ms =
-      median_ms(repetitions, [&] { tracer.closest_hits({view.rays}, by_rays, nullptr); });
+      median_ms(repetitions, [&] { tracer.closest_hits(accel::RayBatch{view.rays}, by_rays, {}); });
   result.beams_ms = median_ms(repetitions, [&] {
-    tracer.closest_hits({view.rays, {&pencil, 1}, view.samples}, by_beams, nullptr);
+    tracer.closest_hits(accel::RayBatch{view.rays, {&pencil, 1}, view.samples}, by_beams, {});
   });
   for (std::size_t i = 0; i < view.rays.size(); ++i) {
     result.hits += by_rays.get(i).has_value() ? 1 : 0;

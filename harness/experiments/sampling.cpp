@@ -86,7 +86,7 @@ class Sampler {
   Attempt uniform(int samples) const {
     const accel::PrimaryRays rays = primary(samples);
     accel::HitBuffer hits(rays.width(), rays.height(), samples);
-    const double ms = timed([&] { tracer_->trace(rays, hits, nullptr); });
+    const double ms = timed([&] { tracer_->closest_hits(rays, hits, {}); });
     rays::HitCheck(*scene_, "structure 'beam'").require(hits, rays);
     const double traced = static_cast<double>(rays.count()) - leaving(rays);
     return {ms, traced, render::shade(*scene_, rays, hits, render::Shading::kPreview)};
@@ -126,7 +126,7 @@ class Sampler {
   double leaving(const accel::PrimaryRays& rays) const {
     accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
     accel::WorkCounters counters;
-    tracer_->trace(rays, hits, &counters);
+    tracer_->closest_hits(rays, hits, {&counters});
     return static_cast<double>(counters.by_name().at("samples_leaving"));
   }
 
@@ -188,7 +188,7 @@ accel::beam::SparseSamples trace_image_space(const accel::beam::BeamTracer& trac
   }
   const accel::PrimaryRays first(camera, rays.width(), rays.height(), 1);
   accel::HitBuffer hits(rays.width(), rays.height(), 1);
-  tracer.trace(first, hits, nullptr);
+  tracer.closest_hits(first, hits, {});
   rays::HitCheck(scene, "structure 'beam'").require(hits, first);
 
   accel::beam::SparseSamples samples{accel::HitBuffer(rays.width(), rays.height(), rays.samples()),

@@ -1,16 +1,27 @@
 #include "harness/plugin/guarded_structure.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "accel/core/forwarding_accelerator.hpp"
+#include "accel/core/inspector_of.hpp"
+
 namespace beambench::plugin {
 namespace {
 
-/// Forwards every call to the plug-in's structure.
-class GuardedStructure : public accel::Accelerator {
+/// What guards a structure's calls, and its inspector's.
+class Guard {
+ public:
+  Guard(const scenes::Scene& scene, std::string file, std::string name)
+      : primitives_(scene.primitives.size()),
+        file_(std::move(file)),
+        name_(std::move(name)),
+        when_queried_("when '" + name_ + "' was queried") {}
+
   template <class Query>
   decltype(auto) call(Query&& query) const {
     return foreign_call(file_, when_queried_, std::forward<Query>(query));
@@ -23,9 +34,11 @@ class GuardedStructure : public accel::Accelerator {
                     "scene has {} of them",
                     file_, name_, id, primitives_));
   }
-  std::optional<accel::Hit> checked(const std::optional<accel::Hit>& hit) const {
-    if (hit) require_primitive(hit->primitive);
-    return hit;
+  std::vector<accel::TraceStep> checked(std::vector<accel::TraceStep> steps) const {
+    for (const accel::TraceStep& step : steps) {
+      for (const accel::TestedPrimitive& test : step.tests) require_primitive(test.primitive);
+    }
+    return steps;
   }
   std::vector<accel::BeamPlace> checked(std::vector<accel::BeamPlace> places,
                                         std::size_t rays) const {
@@ -41,76 +54,88 @@ class GuardedStructure : public accel::Accelerator {
     return places;
   }
 
+ private:
+  std::size_t primitives_;
+  std::string file_;
+  std::string name_;
+  std::string when_queried_;
+};
+
+/// Forwards every call to the inspector of the plug-in's structure.
+class GuardedInspector final : public accel::Inspector {
+ public:
+  GuardedInspector(const accel::Accelerator& structure, const Guard& guard)
+      : structure_(&structure), guard_(&guard) {}
+
+  std::vector<accel::TraceStep> path(const accel::Ray& ray) const override {
+    return guard_->checked(guard_->call([&] { return shown().path(ray); }));
+  }
+  accel::SampleSteps path(const accel::PrimaryRays& image, int x, int y,
+                          int sample) const override {
+    accel::SampleSteps steps = guard_->call([&] { return shown().path(image, x, y, sample); });
+    steps.steps = guard_->checked(std::move(steps.steps));
+    return steps;
+  }
+  std::vector<accel::Box> occupied_cells() const override {
+    return guard_->call([&] { return shown().occupied_cells(); });
+  }
+  /// Not forwarded: what reads them relies on their numbers.
+  std::vector<accel::NodeFacts> nodes() const override { return {}; }
+  std::optional<std::vector<accel::BeamOutline>> beams(
+      const accel::PrimaryRays& image) const override {
+    return guard_->call([&] { return shown().beams(image); });
+  }
+  std::vector<accel::BeamPlace> places(const accel::RaySource& rays) const override {
+    return guard_->checked(guard_->call([&] { return shown().places(rays); }), rays.size());
+  }
+
+ private:
+  const accel::Inspector& shown() const { return accel::inspector_of(*structure_); }
+
+  const accel::Accelerator* structure_;
+  const Guard* guard_;
+};
+
+/// Forwards every call to the plug-in's structure.
+class GuardedStructure : public accel::ForwardingAccelerator {
  public:
   GuardedStructure(std::unique_ptr<accel::Accelerator> structure, const scenes::Scene& scene,
                    std::string file, std::string name, Activity& activity)
-      : structure_(std::move(structure)),
-        primitives_(scene.primitives.size()),
-        file_(std::move(file)),
-        name_(std::move(name)),
-        when_queried_("when '" + name_ + "' was queried"),
+      : ForwardingAccelerator(*structure),
+        structure_(std::move(structure)),
+        guard_(scene, std::move(file), std::move(name)),
+        inspector_(*structure_, guard_),
         activity_(&activity) {}
   GuardedStructure(const GuardedStructure&) = delete;
   GuardedStructure& operator=(const GuardedStructure&) = delete;
-
-  std::optional<accel::Hit> closest_hit(const accel::Ray& ray,
-                                        accel::WorkCounters* counters) const override {
-    return checked(call([&] { return structure_->closest_hit(ray, counters); }));
-  }
-  bool any_hit(const accel::Ray& ray, accel::WorkCounters* counters) const override {
-    return call([&] { return structure_->any_hit(ray, counters); });
-  }
-  void trace(const accel::PrimaryRays& rays, accel::HitBuffer& buffer,
-             accel::WorkCounters* counters) const override {
-    call([&] { structure_->trace(rays, buffer, counters); });
-  }
-  void closest_hits(const accel::RayBatch& batch, accel::HitBuffer& buffer,
-                    accel::WorkCounters* counters) const override {
-    call([&] { structure_->closest_hits(batch, buffer, counters); });
-  }
-  void any_hits(const accel::RayBatch& batch, std::span<std::uint8_t> hits,
-                accel::WorkCounters* counters) const override {
-    call([&] { structure_->any_hits(batch, hits, counters); });
-  }
-  void trace_shared(const accel::PrimaryRays& rays, accel::HitBuffer& buffer,
-                    accel::WorkCounters* counters) const override {
-    call([&] { structure_->trace_shared(rays, buffer, counters); });
-  }
-
-  std::vector<accel::TraceStep> explain(const accel::Ray& ray) const override {
-    std::vector<accel::TraceStep> steps = call([&] { return structure_->explain(ray); });
-    for (const accel::TraceStep& step : steps) {
-      for (const accel::TestedPrimitive& test : step.tests) require_primitive(test.primitive);
-    }
-    return steps;
-  }
-  std::vector<accel::BeamOutline> beam_outlines(const accel::PrimaryRays& rays) const override {
-    return call([&] { return structure_->beam_outlines(rays); });
-  }
-  std::vector<accel::BeamPlace> beam_places(const accel::PrimaryRays& rays) const override {
-    return checked(call([&] { return structure_->beam_places(rays); }), rays.count());
-  }
-  std::vector<accel::BeamPlace> beam_places(const accel::RayBatch& batch) const override {
-    return checked(call([&] { return structure_->beam_places(batch); }), batch.rays.size());
-  }
-  std::vector<accel::Box> occupied_cells() const override {
-    return call([&] { return structure_->occupied_cells(); });
-  }
-  accel::Statistics statistics() const override {
-    return call([&] { return structure_->statistics(); });
-  }
-
   ~GuardedStructure() override {
     structure_.reset();
     activity_->clear(Activity::Line::kForeign);
   }
 
+  void closest_hits(const accel::RaySource& rays, const accel::HitSpan& hits,
+                    const accel::QueryContext& context) const override {
+    guard_.call([&] { structure_->closest_hits(rays, hits, context); });
+    // Hits of images and batches are left to those who verify them.
+    if (rays.ray() == nullptr) return;
+    if (const auto hit = hits.get(0)) guard_.require_primitive(hit->primitive);
+  }
+  void any_hits(const accel::RaySource& rays, std::span<std::uint8_t> hits,
+                const accel::QueryContext& context) const override {
+    guard_.call([&] { structure_->any_hits(rays, hits, context); });
+  }
+  accel::Statistics statistics() const override {
+    return guard_.call([&] { return structure_->statistics(); });
+  }
+  const accel::Inspector* inspector() const override { return &inspector_; }
+  bool update(const scenes::Scene& scene) override {
+    return guard_.call([&] { return structure_->update(scene); });
+  }
+
  private:
   std::unique_ptr<accel::Accelerator> structure_;
-  std::size_t primitives_;
-  std::string file_;
-  std::string name_;
-  std::string when_queried_;
+  Guard guard_;
+  GuardedInspector inspector_;
   Activity* activity_;
 };
 

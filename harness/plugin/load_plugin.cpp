@@ -102,6 +102,9 @@ constexpr auto kInterfaceChanges = std::to_array<std::string_view>({
     "structures say where rays are in their beams",
     "statistics() names a library and its version, and add_tests counts tests by kind of primitive",
     "a parameter says whether its values may change hits",
+    "two queries over a source of rays with a context, an inspector in place of diagnostics, what "
+    "a "
+    "structure supports, and update()",
 });
 static_assert(kInterfaceChanges.size() == kPluginInterface - 1);
 

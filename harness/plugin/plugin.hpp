@@ -20,11 +20,12 @@
 
 #include <vector>
 
-#include "accel/bvh/padded_bounds.hpp"
-#include "accel/bvh/slab_ray.hpp"
+#include "accel/core/forwarding_accelerator.hpp"
 #include "accel/core/intersect.hpp"
 #include "accel/core/overlap.hpp"
+#include "accel/core/padded_bounds.hpp"
 #include "accel/core/registry.hpp"
+#include "accel/core/slab_ray.hpp"
 #include "accel/core/tolerance.hpp"
 #include "accel/core/traversal_accelerator.hpp"
 #include "harness/plugin/plugin_stamp.hpp"

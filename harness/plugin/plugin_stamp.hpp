@@ -16,7 +16,7 @@ namespace beambench::plugin {
 /// Incremented when an installed header changes so that a plug-in made with the old one would fail:
 /// a virtual function, a type, the meaning of a call. load_plugin.cpp lists what each version
 /// changed.
-inline constexpr std::uint32_t kPluginInterface = 6;
+inline constexpr std::uint32_t kPluginInterface = 7;
 
 /// Identifies the build of a plug-in. The first two members never move.
 struct PluginStamp {
@@ -46,10 +46,12 @@ inline constexpr std::uint64_t kMagic = 0x636E65626D616562U;  // "beambenc" in m
 inline constexpr std::uint64_t kLayout = plugin_stamp::layout_of<
     glm::vec3, glm::dvec3, scenes::Scene, scenes::Camera, scenes::Surface, scenes::Light,
     scenes::Primitive, scenes::Sphere, scenes::Cone, scenes::Polygon, scenes::Triangle,
-    scenes::Bounds, accel::Ray, accel::Pencil, accel::RayBatch, accel::Hit, accel::HitBuffer,
-    accel::PrimaryRays, accel::WorkCounters, accel::Statistics, accel::TraceStep,
-    accel::BeamOutline, accel::BeamPlace, accel::Box, accel::Accelerator, accel::Workload,
-    Parameters, ParameterInfo, accel::StructureInfo, scenes::SceneInfo, scenes::SceneReader>();
+    scenes::Bounds, accel::Ray, accel::Pencil, accel::RayBatch, accel::RaySource, accel::Hit,
+    accel::HitBuffer, accel::HitSpan, accel::QueryContext, accel::Inspector, accel::Support,
+    accel::SampleSteps, accel::BeamPassage, accel::NodeFacts, accel::PrimaryRays,
+    accel::WorkCounters, accel::Statistics, accel::TraceStep, accel::BeamOutline, accel::BeamPlace,
+    accel::Box, accel::Accelerator, accel::Workload, Parameters, ParameterInfo,
+    accel::StructureInfo, scenes::SceneInfo, scenes::SceneReader>();
 
 #if defined(_LIBCPP_VERSION)
 inline constexpr const char* kLibrary = "libc++";

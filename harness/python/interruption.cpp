@@ -12,7 +12,7 @@
 #include <nanobind/nanobind.h>
 #include <unistd.h>
 
-#include "accel/core/trace_on.hpp"
+#include "accel/core/threads.hpp"
 
 namespace beambench::python {
 namespace {

@@ -10,7 +10,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 
-#include "accel/core/trace_on.hpp"
+#include "accel/core/threads.hpp"
 #include "harness/python/arrays.hpp"
 #include "harness/python/bindings.hpp"
 #include "harness/python/interruption.hpp"
@@ -31,7 +31,7 @@ render::Image draw(const BuiltStructure& built, const rays::ImageOfRays& image,
   const StoppableQueries structure(*built.accelerator, stop);
   const accel::PrimaryRays rays = image.rays();
   accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
-  accel::trace_on(threads, structure, rays, hits, nullptr);
+  structure.closest_hits(rays, hits, {.threads = threads});
   const rays::HitCheck check(*built.scene, built.choice);
   check.require(hits, rays);
   if (shading != render::Shading::kWhitted) {

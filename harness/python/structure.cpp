@@ -24,7 +24,7 @@
 
 #include "accel/core/accelerator.hpp"
 #include "accel/core/registry.hpp"
-#include "accel/core/trace_on.hpp"
+#include "accel/core/threads.hpp"
 #include "harness/base/stopwatch.hpp"
 #include "harness/python/arrays.hpp"
 #include "harness/python/bindings.hpp"
@@ -102,7 +102,8 @@ Hits closest_hits(const StructureHandle& structure, const RaysIn& given, bool co
     hits = std::make_shared<accel::HitBuffer>(static_cast<int>(rays.size()), 1, 1);
     trace_in_parts(rays, [&](std::span<const accel::Ray> part, std::size_t first) {
       accel::HitBuffer found(static_cast<int>(part.size()), 1, 1);
-      structure.built->accelerator->closest_hits({part}, found, pointer_to(counters));
+      structure.built->accelerator->closest_hits(accel::RayBatch{part}, found,
+                                                 {pointer_to(counters)});
       std::copy_n(found.t(), part.size(), hits->t() + first);
       std::copy_n(found.primitive(), part.size(), hits->primitive() + first);
     });
@@ -120,8 +121,9 @@ std::tuple<ArrayOut<std::uint8_t>, std::optional<Counts>> any_hits(const Structu
     const nb::gil_scoped_release released;
     require_valid_rays(rays);
     trace_in_parts(rays, [&](std::span<const accel::Ray> part, std::size_t first) {
-      structure.built->accelerator->any_hits({part}, std::span(hits).subspan(first, part.size()),
-                                             pointer_to(counters));
+      structure.built->accelerator->any_hits(accel::RayBatch{part},
+                                             std::span(hits).subspan(first, part.size()),
+                                             {pointer_to(counters)});
     });
   }
   std::optional<Counts> counts;
@@ -145,8 +147,9 @@ Hits trace_image(const StructureHandle& structure, const ImageChoice& choice,
       TracedImage result{
           std::make_shared<accel::HitBuffer>(rays.width(), rays.height(), rays.samples()),
           counters_if(counting)};
-      accel::trace_on(threads.value_or(built->threads), StoppableQueries(*built->accelerator, stop),
-                      rays, *result.hits, pointer_to(result.counters));
+      StoppableQueries(*built->accelerator, stop)
+          .closest_hits(rays, *result.hits,
+                        {pointer_to(result.counters), threads.value_or(built->threads)});
       return result;
     });
   }

@@ -11,7 +11,7 @@
 #include <tbb/parallel_for.h>
 
 #include "accel/core/tolerance.hpp"
-#include "accel/embree/oracle.hpp"
+#include "accel/oracle/oracle.hpp"
 #include "harness/rays/normal.hpp"
 #include "harness/rays/picture_order.hpp"
 #include "harness/rays/trace_input.hpp"
@@ -23,7 +23,7 @@ namespace {
 using glm::dvec3;
 
 SurfacePoint point_of(const scenes::Scene& scene, const MirrorTable& mirrors, const accel::Ray& ray,
-                      const accel::embree::ExactHit& hit, std::size_t sample) {
+                      const accel::oracle::ExactHit& hit, std::size_t sample) {
   const dvec3 origin(ray.origin);
   const dvec3 direction(ray.direction);
   const dvec3 point = origin + hit.t * direction;
@@ -50,12 +50,12 @@ void reserve(std::size_t rays, RayList& list) {
 
 /// The rays of the list from `first` on, where they hit.
 std::vector<SurfacePoint> points_hit(const scenes::Scene& scene, const MirrorTable& mirrors,
-                                     const accel::embree::EmbreeOracle& oracle, const RayList& list,
+                                     const accel::oracle::Oracle& oracle, const RayList& list,
                                      std::size_t first) {
   std::vector<std::optional<SurfacePoint>> found(list.rays.size() - first);
   tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
     const accel::Ray& ray = list.rays[first + i];
-    const std::optional<accel::embree::ExactHit> hit = oracle.closest_hit(ray);
+    const std::optional<accel::oracle::ExactHit> hit = oracle.closest_hit(ray);
     if (hit) found[i] = point_of(scene, mirrors, ray, *hit, list.samples[first + i]);
   });
   std::vector<SurfacePoint> points;
@@ -126,11 +126,11 @@ accel::Ray line_through(const Box& box, Random& random) {
 
 std::vector<SurfacePoint> surface_points(const scenes::Scene& scene, const MirrorTable& mirrors,
                                          const accel::PrimaryRays& rays) {
-  const accel::embree::EmbreeOracle oracle(scene, glm::length(dvec3(rays.eye())));
+  const accel::oracle::Oracle oracle(scene, glm::length(dvec3(rays.eye())));
   std::vector<std::vector<SurfacePoint>> rows(static_cast<std::size_t>(rays.height()));
   tbb::parallel_for(0, rays.height(), [&](int y) {
     rays.for_each(y, y + 1, [&](std::size_t sample, const accel::Ray& ray) {
-      const std::optional<accel::embree::ExactHit> hit = oracle.closest_hit(ray);
+      const std::optional<accel::oracle::ExactHit> hit = oracle.closest_hit(ray);
       if (!hit) return;
       rows[static_cast<std::size_t>(y)].push_back(point_of(scene, mirrors, ray, *hit, sample));
     });
@@ -229,7 +229,7 @@ RayList path_rays(const scenes::Scene& scene, const MirrorTable& mirrors,
                   std::vector<SurfacePoint> points, int bounces, std::uint64_t seed) {
   Random random(seed);
   RayList list;
-  std::optional<accel::embree::EmbreeOracle> oracle;
+  std::optional<accel::oracle::Oracle> oracle;
   for (int bounce = 0; bounce < bounces && !points.empty(); ++bounce) {
     const std::size_t first = list.rays.size();
     add_scattered(points, random, list);

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "accel/core/trace_on.hpp"
+#include "accel/core/threads.hpp"
 #include "harness/base/stopwatch.hpp"
 
 namespace beambench::rays {
@@ -63,15 +63,23 @@ bool is_hit_at(const TraceResults& results, std::size_t index) {
   return std::get<accel::HitBuffer>(results).get(index).has_value();
 }
 
+void require_support(const accel::StructureChoice& choice, const TraceInput& input) {
+  const accel::Support& support = choice.info().support;
+  const bool is_image = input.image() != nullptr;
+  if (is_image ? support.images : support.batches) return;
+  throw accel::UnsupportedError(fmt::format("'{}' does not trace {}", choice.info().name,
+                                            is_image ? "images" : "lists of rays"));
+}
+
 void trace(const accel::Accelerator& structure, const TraceInput& input, TraceResults& results,
            accel::WorkCounters* counters, int threads) {
   if (auto* any = std::get_if<AnyHits>(&results)) {
-    structure.any_hits(input.list()->batch(), *any, counters);
+    structure.any_hits(input.list()->batch(), *any, {counters});
   } else if (input.image() != nullptr) {
-    accel::trace_on(threads, structure, *input.image(), std::get<accel::HitBuffer>(results),
-                    counters);
+    structure.closest_hits(*input.image(), std::get<accel::HitBuffer>(results),
+                           {counters, threads});
   } else {
-    structure.closest_hits(input.list()->batch(), std::get<accel::HitBuffer>(results), counters);
+    structure.closest_hits(input.list()->batch(), std::get<accel::HitBuffer>(results), {counters});
   }
 }
 

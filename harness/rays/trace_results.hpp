@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "accel/core/accelerator.hpp"
+#include "accel/core/registry.hpp"
 #include "harness/base/progress.hpp"
 #include "harness/rays/trace_input.hpp"
 
@@ -26,6 +27,9 @@ void poison(accel::HitBuffer& hits);
 
 /// Is the result at an index a hit? Poison counts as one.
 bool is_hit_at(const TraceResults& results, std::size_t index);
+
+/// Throws UnsupportedError where a structure does not take an image, or lists of rays.
+void require_support(const accel::StructureChoice& choice, const TraceInput& input);
 
 /// Traces the rays through a structure. `results` has the shape that `make_results` gives.
 /// `counters` may be null. An image is traced on that many threads (`accel::thread_count`), a list

@@ -135,11 +135,11 @@ void write_disputed_places(const std::filesystem::path& file, const scenes::Scen
 
 verify::ReferenceHits reference_from(const scenes::Scene& scene, const rays::TraceInput& input,
                                      const rays::TraceResults& results) {
-  std::vector<std::optional<accel::embree::ExactHit>> hits(input.size());
+  std::vector<std::optional<accel::oracle::ExactHit>> hits(input.size());
   for (std::size_t i = 0; i < hits.size(); ++i) {
     const verify::Mismatch asked = verify::candidate_mismatch(input, results, i, std::nullopt);
     if (asked.answer && !verify::is_invalid(scene, asked.ray, *asked.answer)) {
-      hits[i] = accel::embree::ExactHit{asked.answer->t, asked.answer->primitive};
+      hits[i] = accel::oracle::ExactHit{asked.answer->t, asked.answer->primitive};
     }
   }
   return {scene, input, std::move(hits)};

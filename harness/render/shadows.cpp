@@ -217,8 +217,8 @@ std::vector<double> Shadows::asked_at_once(const accel::RayBatch& to_light, std:
   std::vector<std::uint8_t> hidden(count);
   const std::vector<accel::Pencil> pencils = pencil(light, count);
   if (count > 0) {
-    structure_->any_hits({to_light.rays, pencils, to_light.samples, to_light.image}, hidden,
-                         nullptr);
+    structure_->any_hits(accel::RayBatch{to_light.rays, pencils, to_light.samples, to_light.image},
+                         hidden, {});
   }
   census.shadow_queries += count;
   std::vector<double> parts(count);
@@ -266,7 +266,7 @@ std::vector<double> Shadows::followed(const accel::RayBatch& to_light, std::size
   while (!rays.empty()) {
     accel::HitBuffer hits(static_cast<int>(rays.size()), 1, 1);
     const std::vector<accel::Pencil> pencils = pencil(light, rays.size());
-    structure_->closest_hits({rays, pencils, samples, to_light.image}, hits, nullptr);
+    structure_->closest_hits(accel::RayBatch{rays, pencils, samples, to_light.image}, hits, {});
     census.shadow_queries += rays.size();
     std::size_t left = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "accel/core/inspector_of.hpp"
 #include "harness/base/messages.hpp"
 #include "harness/rays/ray_generators.hpp"
 #include "harness/render/picture/overlay.hpp"
@@ -32,17 +33,18 @@ bool shows(const accel::StructureInfo& structure, Overlay overlay) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=1");
   const accel::PrimaryRays rays(scene.cameras.front(), 8, 8, 1);
   const auto accelerator = accel::registry().choose({structure.name, {}}).build(scene);
+  const accel::Inspector& inspector = accel::inspector_of(*accelerator);
   switch (overlay) {
     case Overlay::kBeams:
-      return !accelerator->beam_outlines(rays).empty() || !accelerator->beam_places(rays).empty();
+      return inspector.beams(rays).has_value() || !inspector.places(rays).empty();
     case Overlay::kCells: {
       accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
-      accelerator->trace(rays, hits, nullptr);  // cells may be made where rays pass
-      return !accelerator->occupied_cells().empty();
+      accelerator->closest_hits(rays, hits, {});  // cells may be made where rays pass
+      return !inspector.occupied_cells().empty();
     }
     case Overlay::kPencils: {
       const accel::Ray ray = rays.ray(0, 0, 0);
-      return !accelerator->beam_places(accel::RayBatch{{&ray, 1}}).empty();
+      return !inspector.places(accel::RayBatch{{&ray, 1}}).empty();
     }
   }
   return false;
@@ -50,8 +52,12 @@ bool shows(const accel::StructureInfo& structure, Overlay overlay) {
 
 std::vector<LegendEntry> draw_beams(Image& picture, const accel::Accelerator& accelerator,
                                     const accel::PrimaryRays& rays) {
-  const std::vector<accel::BeamPlace> places = accelerator.beam_places(rays);
-  if (places.empty()) return overlay_beams(picture, accelerator.beam_outlines(rays));
+  const accel::Inspector& inspector = accel::inspector_of(accelerator);
+  const std::vector<accel::BeamPlace> places = inspector.places(rays);
+  if (places.empty()) {
+    return overlay_beams(picture,
+                         inspector.beams(rays).value_or(std::vector<accel::BeamOutline>()));
+  }
   std::vector<std::uint32_t> samples(places.size());
   std::iota(samples.begin(), samples.end(), 0U);
   return overlay_tiles(picture, {places, samples, rays.samples()});
@@ -73,7 +79,8 @@ std::vector<LegendEntry> draw_pencil(Image& picture, const accel::Accelerator& a
                               {&alone, 1},
                               all.samples.subspan(pencil->first, pencil->count),
                               &rays};
-  return overlay_pencil(picture, {accelerator.beam_places(batch), batch.samples, rays.samples()});
+  return overlay_pencil(
+      picture, {accel::inspector_of(accelerator).places(batch), batch.samples, rays.samples()});
 }
 
 }  // namespace
@@ -120,7 +127,7 @@ std::vector<LegendEntry> draw_overlay(const OverlayChoice& choice, Image& pictur
     case Overlay::kBeams:
       return draw_beams(picture, accelerator, rays);
     case Overlay::kCells:
-      return overlay_cells(picture, rays, accelerator.occupied_cells());
+      return overlay_cells(picture, rays, accel::inspector_of(accelerator).occupied_cells());
     case Overlay::kPencils:
       return draw_pencil(picture, accelerator, scene, rays, scene.lights[choice.light - 1]);
   }

@@ -13,9 +13,9 @@
 namespace beambench::render {
 
 enum class Overlay {
-  kBeams,   ///< `Accelerator::beam_outlines`, or `beam_places` of the image's rays
-  kCells,   ///< `Accelerator::occupied_cells`
-  kPencils  ///< `Accelerator::beam_places` of a light's shadow rays
+  kBeams,   ///< `Inspector::beams`, or `places` of the image's rays
+  kCells,   ///< `Inspector::occupied_cells`
+  kPencils  ///< `Inspector::places` of a light's shadow rays
 };
 
 /// The names after --overlay, in the order of `Overlay`.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -43,64 +42,31 @@ void compare_bits(const Image& image, const std::string& first_label, const Imag
 
 }  // namespace
 
-void FollowingQueries::trace(const accel::PrimaryRays&, accel::HitBuffer&,
-                             accel::WorkCounters*) const {
-  throw std::logic_error("camera rays are traced beforehand");
+void RecordedQueries::closest_hits(const accel::RaySource& rays, const accel::HitSpan& hits,
+                                   const accel::QueryContext& context) const {
+  structure().closest_hits(rays, hits, context);
+  rays.for_each([&](std::size_t i, const accel::Ray& ray) {
+    asked_->closest.push_back(ray);
+    asked_->hits.push_back(hits.get(i));
+  });
+}
+void RecordedQueries::any_hits(const accel::RaySource& rays, std::span<std::uint8_t> hits,
+                               const accel::QueryContext& context) const {
+  structure().any_hits(rays, hits, context);
+  rays.for_each([&](std::size_t i, const accel::Ray& ray) {
+    asked_->any.push_back(ray);
+    asked_->any_hits.push_back(hits[i]);
+  });
 }
 
-std::optional<accel::Hit> CountedQueries::closest_hit(const accel::Ray& ray,
-                                                      accel::WorkCounters*) const {
-  return structure_->closest_hit(ray, counters_);
+void ReplayedResults::closest_hits(const accel::RaySource& rays, const accel::HitSpan& hits,
+                                   const accel::QueryContext&) const {
+  for (std::size_t i = 0; i < rays.size(); ++i) hits.set(i, *hit_++);
 }
-bool CountedQueries::any_hit(const accel::Ray& ray, accel::WorkCounters*) const {
-  return structure_->any_hit(ray, counters_);
-}
-void CountedQueries::closest_hits(const accel::RayBatch& batch, accel::HitBuffer& buffer,
-                                  accel::WorkCounters*) const {
-  structure_->closest_hits(batch, buffer, counters_);
-}
-void CountedQueries::any_hits(const accel::RayBatch& batch, std::span<std::uint8_t> hits,
-                              accel::WorkCounters*) const {
-  structure_->any_hits(batch, hits, counters_);
-}
-
-std::optional<accel::Hit> RecordedQueries::closest_hit(const accel::Ray& ray,
-                                                       accel::WorkCounters*) const {
-  asked_->closest.push_back(ray);
-  return asked_->hits.emplace_back(structure_->closest_hit(ray, nullptr));
-}
-bool RecordedQueries::any_hit(const accel::Ray& ray, accel::WorkCounters*) const {
-  asked_->any.push_back(ray);
-  return asked_->any_hits.emplace_back(structure_->any_hit(ray, nullptr) ? 1 : 0) != 0;
-}
-void RecordedQueries::closest_hits(const accel::RayBatch& batch, accel::HitBuffer& buffer,
-                                   accel::WorkCounters*) const {
-  structure_->closest_hits(batch, buffer, nullptr);
-  asked_->closest.insert(asked_->closest.end(), batch.rays.begin(), batch.rays.end());
-  for (std::size_t i = 0; i < buffer.size(); ++i) asked_->hits.push_back(buffer.get(i));
-}
-void RecordedQueries::any_hits(const accel::RayBatch& batch, std::span<std::uint8_t> hits,
-                               accel::WorkCounters*) const {
-  structure_->any_hits(batch, hits, nullptr);
-  asked_->any.insert(asked_->any.end(), batch.rays.begin(), batch.rays.end());
-  asked_->any_hits.insert(asked_->any_hits.end(), hits.begin(), hits.end());
-}
-
-std::optional<accel::Hit> ReplayedResults::closest_hit(const accel::Ray&,
-                                                       accel::WorkCounters*) const {
-  return *hit_++;
-}
-bool ReplayedResults::any_hit(const accel::Ray&, accel::WorkCounters*) const {
-  return *any_hit_++ != 0;
-}
-void ReplayedResults::closest_hits(const accel::RayBatch&, accel::HitBuffer& buffer,
-                                   accel::WorkCounters*) const {
-  for (std::size_t i = 0; i < buffer.size(); ++i) buffer.set(i, *hit_++);
-}
-void ReplayedResults::any_hits(const accel::RayBatch&, std::span<std::uint8_t> hits,
-                               accel::WorkCounters*) const {
-  std::copy_n(any_hit_, hits.size(), hits.begin());
-  any_hit_ += hits.size();
+void ReplayedResults::any_hits(const accel::RaySource& rays, std::span<std::uint8_t> hits,
+                               const accel::QueryContext&) const {
+  std::copy_n(any_hit_, rays.size(), hits.begin());
+  any_hit_ += rays.size();
 }
 
 RecordedPicture record_picture(const std::shared_ptr<const ShadedScene>& scene,
@@ -115,6 +81,14 @@ RecordedPicture record_picture(const std::shared_ptr<const ShadedScene>& scene,
   const Whitted tracer(scene, {&reflected, &refracted, &shadow}, options, std::move(check));
   picture.census = draw_in_order(tracer, rays, picture.primary, picture.image);
   return picture;
+}
+
+void require_support(const accel::StructureChoice& choice) {
+  const accel::Support& support = choice.info().support;
+  if (support.images && support.batches && support.single_rays) return;
+  throw accel::UnsupportedError(
+      fmt::format("'{}' does not trace all rays of a picture: an image, lists and single rays",
+                  choice.info().name));
 }
 
 std::vector<VerifiedRays> verify_recorded_picture(const verify::ReferenceHits& primary,
@@ -167,9 +141,10 @@ std::vector<verify::VerifiedCell> verify_picture(const scenes::Scene& scene,
   return verify::verify_each(
       scene, choice.label, std::move(contenders), progress,
       [&](const accel::StructureChoice& contender, verify::VerifiedCell& cell) {
+        require_support(contender);
         const auto structure = contender.build(scene, rays::workload_of(image, rays));
         accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
-        structure->trace(rays, hits, nullptr);
+        structure->closest_hits(rays, hits, {});
         RecordedPicture picture = record_picture(shaded, *structure, rays, std::move(hits), options,
                                                  rays::HitCheck(scene, contender));
         const accel::Conformance conformance = contender.info().conformance;

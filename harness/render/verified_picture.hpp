@@ -9,10 +9,11 @@
 #include <string_view>
 #include <vector>
 
+#include "accel/core/forwarding_accelerator.hpp"
 #include "accel/core/hit_buffer.hpp"
 #include "accel/core/primary_rays.hpp"
 #include "accel/core/traversal_accelerator.hpp"
-#include "accel/embree/oracle.hpp"
+#include "accel/oracle/oracle.hpp"
 #include "harness/rays/ray_kind.hpp"
 #include "harness/render/picture/image.hpp"
 #include "harness/render/whitted.hpp"
@@ -29,68 +30,35 @@ struct AskedRays {
   std::vector<std::uint8_t> any_hits;  ///< of `any`
 };
 
-/// What stands between a picture and its structure: the queries that pictures make, single and of
-/// batches.
-class FollowingQueries : public accel::Accelerator {
- public:
-  /// A picture is given the hits of its camera rays; never called.
-  void trace(const accel::PrimaryRays& rays, accel::HitBuffer& buffer,
-             accel::WorkCounters* counters) const override;
-  accel::Statistics statistics() const override { return {}; }
-};
-
-/// Counts the work of a structure.
-class CountedQueries : public FollowingQueries {
- public:
-  /// Both must outlive this.
-  CountedQueries(const accel::Accelerator& structure, accel::WorkCounters& counters)
-      : structure_(&structure), counters_(&counters) {}
-
-  std::optional<accel::Hit> closest_hit(const accel::Ray& ray, accel::WorkCounters*) const override;
-  bool any_hit(const accel::Ray& ray, accel::WorkCounters*) const override;
-  void closest_hits(const accel::RayBatch& batch, accel::HitBuffer& buffer,
-                    accel::WorkCounters*) const override;
-  void any_hits(const accel::RayBatch& batch, std::span<std::uint8_t> hits,
-                accel::WorkCounters*) const override;
-
- private:
-  const accel::Accelerator* structure_;
-  accel::WorkCounters* counters_;
-};
-
-/// Keeps all rays and results. Not for use from several threads.
-class RecordedQueries : public FollowingQueries {
+/// Keeps all rays and results of a structure. Not for use from several threads.
+class RecordedQueries : public accel::ForwardingAccelerator {
  public:
   /// Both must outlive this.
   RecordedQueries(const accel::Accelerator& structure, AskedRays& asked)
-      : structure_(&structure), asked_(&asked) {}
+      : ForwardingAccelerator(structure), asked_(&asked) {}
 
-  std::optional<accel::Hit> closest_hit(const accel::Ray& ray, accel::WorkCounters*) const override;
-  bool any_hit(const accel::Ray& ray, accel::WorkCounters*) const override;
-  void closest_hits(const accel::RayBatch& batch, accel::HitBuffer& buffer,
-                    accel::WorkCounters*) const override;
-  void any_hits(const accel::RayBatch& batch, std::span<std::uint8_t> hits,
-                accel::WorkCounters*) const override;
+  void closest_hits(const accel::RaySource& rays, const accel::HitSpan& hits,
+                    const accel::QueryContext& context) const override;
+  void any_hits(const accel::RaySource& rays, std::span<std::uint8_t> hits,
+                const accel::QueryContext& context) const override;
 
  private:
-  const accel::Accelerator* structure_;
   AskedRays* asked_;
 };
 
 /// Returns recorded results to the same queries in the same order: what is left of a time is all
 /// that is not the structure's. Not for use from several threads.
-class ReplayedResults : public FollowingQueries {
+class ReplayedResults : public accel::Accelerator {
  public:
   /// `asked` must outlive this.
   explicit ReplayedResults(const AskedRays& asked)
       : hit_(asked.hits.data()), any_hit_(asked.any_hits.data()) {}
 
-  std::optional<accel::Hit> closest_hit(const accel::Ray&, accel::WorkCounters*) const override;
-  bool any_hit(const accel::Ray&, accel::WorkCounters*) const override;
-  void closest_hits(const accel::RayBatch&, accel::HitBuffer& buffer,
-                    accel::WorkCounters*) const override;
-  void any_hits(const accel::RayBatch&, std::span<std::uint8_t> hits,
-                accel::WorkCounters*) const override;
+  void closest_hits(const accel::RaySource& rays, const accel::HitSpan& hits,
+                    const accel::QueryContext& context) const override;
+  void any_hits(const accel::RaySource& rays, std::span<std::uint8_t> hits,
+                const accel::QueryContext& context) const override;
+  accel::Statistics statistics() const override { return {}; }
 
  private:
   mutable const std::optional<accel::Hit>* hit_;
@@ -101,7 +69,7 @@ class ReplayedResults : public FollowingQueries {
 class OracleQueries : public accel::TraversalAccelerator<OracleQueries> {
  public:
   /// The oracle must outlive this.
-  explicit OracleQueries(const accel::embree::EmbreeOracle& oracle) : oracle_(&oracle) {}
+  explicit OracleQueries(const accel::oracle::Oracle& oracle) : oracle_(&oracle) {}
 
   accel::Statistics statistics() const override { return {}; }
   template <class Counting>
@@ -114,7 +82,7 @@ class OracleQueries : public accel::TraversalAccelerator<OracleQueries> {
   }
 
  private:
-  const accel::embree::EmbreeOracle* oracle_;
+  const accel::oracle::Oracle* oracle_;
 };
 
 /// The kinds of rays that follow camera rays.
@@ -138,6 +106,10 @@ RecordedPicture record_picture(const std::shared_ptr<const ShadedScene>& scene,
                                const accel::Accelerator& structure, const accel::PrimaryRays& rays,
                                accel::HitBuffer primary, const WhittedOptions& options,
                                rays::HitCheck check);
+
+/// Throws UnsupportedError where a structure does not take all that a picture is made of: an image,
+/// lists of rays and single rays.
+void require_support(const accel::StructureChoice& choice);
 
 /// The rays of one kind, and how they were answered.
 struct VerifiedRays {

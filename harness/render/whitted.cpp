@@ -50,7 +50,7 @@ accel::Ray& add_ray(std::vector<accel::Ray>& rays, const dvec3& origin, const dv
 accel::HitBuffer traced(const accel::Accelerator& structure, const accel::RayBatch& batch,
                         std::uint64_t& count) {
   accel::HitBuffer hits(static_cast<int>(batch.rays.size()), 1, 1);
-  if (!batch.rays.empty()) structure.closest_hits(batch, hits, nullptr);
+  if (!batch.rays.empty()) structure.closest_hits(batch, hits, {});
   count += batch.rays.size();
   return hits;
 }

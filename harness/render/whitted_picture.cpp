@@ -13,8 +13,8 @@
 #include <glm/vec3.hpp>
 #include <tbb/parallel_for.h>
 
-#include "accel/beam/beam_tracer.hpp"
-#include "accel/core/trace_on.hpp"
+#include "accel/core/inspector_of.hpp"
+#include "accel/core/threads.hpp"
 #include "harness/base/messages.hpp"
 #include "harness/rays/picture_order.hpp"
 #include "harness/rays/trace_input.hpp"
@@ -108,26 +108,6 @@ RayCensus draw(const Parts& parts, const PixelRange& part, const Whitted& tracer
   return progress.census;
 }
 
-/// Keeps the samples of one beam after the other.
-class PaintedPlaces : public accel::beam::NoBeamWatch {
- public:
-  void met(accel::BeamKind, const accel::beam::Beam&) { end_beam(); }
-  void painted(std::size_t place) { places_.push_back(place); }
-  void finished() { end_beam(); }
-
-  std::vector<std::size_t> take() && { return std::move(places_); }
-
- private:
-  /// A beam finds its samples lattice by lattice, and those that hit before the others.
-  void end_beam() {
-    std::sort(places_.begin() + static_cast<std::ptrdiff_t>(begin_), places_.end());
-    begin_ = places_.size();
-  }
-
-  std::vector<std::size_t> places_;
-  std::size_t begin_ = 0;  ///< of the beam that was met last
-};
-
 }  // namespace
 
 WhittedPicture whitted_picture(const Whitted& tracer, const accel::PrimaryRays& rays,
@@ -205,20 +185,19 @@ std::vector<std::size_t> scan_order(const accel::PrimaryRays& rays) {
 
 std::vector<std::size_t> beam_order(const accel::Accelerator& structure,
                                     const accel::PrimaryRays& rays) {
-  const auto* tracer = dynamic_cast<const accel::beam::BeamTracer*>(&structure);
-  if (tracer == nullptr) {
+  const auto beams = accel::inspector_of(structure).beams(rays);
+  if (!beams) {
     throw InputError(
         "only beams have an order of their own: give --accel beam, with parameters if you like, "
         "or --order scan");
   }
-  accel::HitBuffer buffer(rays.width(), rays.height(), rays.samples());
-  PaintedPlaces painted;
-  tracer->trace_watched(rays, buffer, painted);
-  std::vector<std::size_t> places = std::move(painted).take();
-
-  std::vector<bool> seen(buffer.size(), false);
+  std::vector<std::size_t> places;
+  for (const accel::BeamOutline& beam : *beams) {
+    places.insert(places.end(), beam.samples.begin(), beam.samples.end());
+  }
+  std::vector<bool> seen(rays.count(), false);
   for (const std::size_t place : places) seen[place] = true;
-  for (std::size_t place = 0; place < buffer.size(); ++place) {
+  for (std::size_t place = 0; place < rays.count(); ++place) {
     if (!seen[place]) places.push_back(place);
   }
   return places;

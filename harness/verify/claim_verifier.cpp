@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "accel/embree/oracle.hpp"
+#include "accel/oracle/oracle.hpp"
 #include "harness/rays/trace_input.hpp"
 #include "harness/rays/trace_results.hpp"
 #include "harness/verify/contact.hpp"
@@ -168,7 +168,7 @@ struct ClaimVerifier::State {
 
   /// The oracle's boxes are padded for rays from so far away. Powers of two: a few builds are
   /// enough for any rays.
-  const accel::embree::EmbreeOracle& oracle_for(double reach) {
+  const accel::oracle::Oracle& oracle_for(double reach) {
     if (!oracle || reach > oracle_reach) {
       const double least = std::max<double>(reach, scene.bounds.largest_coordinate());
       oracle_reach = least > 0.0 ? std::exp2(std::ceil(std::log2(least))) : 1.0;
@@ -179,7 +179,7 @@ struct ClaimVerifier::State {
 
   /// The primitive that lies at the claim's place: the oracle's where it does, otherwise the first
   /// of the nearest.
-  void find_primitive(const accel::Ray& ray, const std::optional<accel::embree::ExactHit>& expected,
+  void find_primitive(const accel::Ray& ray, const std::optional<accel::oracle::ExactHit>& expected,
                       Answer& answer) {
     const auto contact_with = [&](scenes::PrimitiveId id) {
       return contact(scene, ray, {answer.hit.t, id});
@@ -208,7 +208,7 @@ struct ClaimVerifier::State {
 
   const scenes::Scene& scene;
   Differ differ;
-  std::optional<accel::embree::EmbreeOracle> oracle{};
+  std::optional<accel::oracle::Oracle> oracle{};
   double oracle_reach = 0.0;
   std::size_t verified = 0;        ///< rays
   std::uint64_t faults_found = 0;  ///< by searching for a surface

@@ -292,12 +292,12 @@ double tolerance_in(const scenes::Bounds& box, const accel::Ray& ray, double t) 
 }  // namespace
 
 double tolerance(const scenes::Scene& scene, const accel::Ray& ray,
-                 const accel::embree::ExactHit& hit) {
+                 const accel::oracle::ExactHit& hit) {
   return tolerance_in(scenes::primitive_bounds(scene, hit.primitive), ray, hit.t);
 }
 
 Contact contact(const scenes::Scene& scene, const accel::Ray& ray,
-                const accel::embree::ExactHit& hit) {
+                const accel::oracle::ExactHit& hit) {
   const scenes::Bounds box = scenes::primitive_bounds(scene, hit.primitive);
   const double near = tolerance_in(box, ray, hit.t);
   const Vector point = Vector(ray.origin) + Real{hit.t} * Vector(ray.direction);

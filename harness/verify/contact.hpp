@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "accel/core/ray.hpp"
-#include "accel/embree/oracle.hpp"
+#include "accel/oracle/oracle.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::verify {
@@ -31,11 +31,11 @@ struct Contact {
 
 /// Measures a hit against the primitive that it names, in long double.
 Contact contact(const scenes::Scene& scene, const accel::Ray& ray,
-                const accel::embree::ExactHit& hit);
+                const accel::oracle::ExactHit& hit);
 
 /// Returns `Contact::tolerance` at a hit.
 double tolerance(const scenes::Scene& scene, const accel::Ray& ray,
-                 const accel::embree::ExactHit& hit);
+                 const accel::oracle::ExactHit& hit);
 
 /// The place where the line of a ray comes closest to a part of a primitive's boundary.
 struct Approach {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "accel/core/ray.hpp"
-#include "accel/embree/oracle.hpp"
+#include "accel/oracle/oracle.hpp"
 #include "harness/rays/ray_kind.hpp"
 
 namespace beambench::verify {
@@ -36,14 +36,15 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(DiffClass
 
 /// The result of a verification, as records state it.
 enum class Verdict {
-  kOk,        ///< no structure error, grazes within the budget
-  kMismatch,  ///< at least one structure error
-  kGrazes,    ///< no structure error, but more grazes than max(2, 1e-4 x rays)
-  kBaseline,  ///< a structure that returns no hits by design, and did not
-  kError,     ///< the structure could not be built or failed: nothing was verified
-  kNoRays     ///< the scene has no rays of the kind: nothing was verified, and nothing is wrong
+  kOk,          ///< no structure error, grazes within the budget
+  kMismatch,    ///< at least one structure error
+  kGrazes,      ///< no structure error, but more grazes than max(2, 1e-4 x rays)
+  kBaseline,    ///< a structure that returns no hits by design, and did not
+  kError,       ///< the structure could not be built or failed: nothing was verified
+  kNoRays,      ///< the scene has no rays of the kind: nothing was verified, and nothing is wrong
+  kUnsupported  ///< the structure takes no such rays or primitives: as kNoRays
 };
-/// "ok", "mismatch", "grazes", "baseline", "error", "no_rays".
+/// "ok", "mismatch", "grazes", "baseline", "error", "no_rays", "unsupported".
 std::string_view to_string(Verdict verdict);
 inline bool is_right(Verdict verdict) {
   return verdict == Verdict::kOk || verdict == Verdict::kBaseline;
@@ -57,8 +58,8 @@ struct Mismatch {
   DiffClass diff_class;
   std::optional<accel::Hit> answer;  ///< the structure's, of a closest-hit query
   std::uint8_t any_hit_answer;       ///< of an any-hit query: 0, 1, or what the structure wrote
-  std::optional<accel::embree::ExactHit> oracle;  ///< the closest hit, whatever the query
-  std::optional<accel::embree::ExactHit> exact;   ///< the exact hit, if it was searched
+  std::optional<accel::oracle::ExactHit> oracle;  ///< the closest hit, whatever the query
+  std::optional<accel::oracle::ExactHit> exact;   ///< the exact hit, if it was searched
   bool searched;                                  ///< was the answer judged by exact arithmetic?
   std::string_view reason;  ///< why it is of its class: a clause for `describe`
 };

@@ -202,7 +202,7 @@ class Differ::Part {
   Differ& differ_;
   const scenes::Scene& scene_;
   const rays::TraceInput& input_;
-  std::span<const std::optional<accel::embree::ExactHit>> hits_;
+  std::span<const std::optional<accel::oracle::ExactHit>> hits_;
   const rays::TraceResults& results_;
   std::span<DiffClass> classes_;
   std::span<const std::string_view> faults_;
@@ -210,8 +210,8 @@ class Differ::Part {
 };
 
 std::string_view to_string(Verdict verdict) {
-  static constexpr std::array<std::string_view, 6> kNames{"ok",       "mismatch", "grazes",
-                                                          "baseline", "error",    "no_rays"};
+  static constexpr std::array<std::string_view, 7> kNames{
+      "ok", "mismatch", "grazes", "baseline", "error", "no_rays", "unsupported"};
   return kNames[static_cast<std::size_t>(verdict)];
 }
 
@@ -246,9 +246,9 @@ DiffReport verify_results(const ReferenceHits& reference, const rays::TraceResul
   return differ.finish();
 }
 
-std::vector<std::optional<accel::embree::ExactHit>> oracle_hits(
-    const accel::embree::EmbreeOracle& oracle, const rays::TraceInput& input) {
-  std::vector<std::optional<accel::embree::ExactHit>> hits(input.size());
+std::vector<std::optional<accel::oracle::ExactHit>> oracle_hits(const accel::oracle::Oracle& oracle,
+                                                                const rays::TraceInput& input) {
+  std::vector<std::optional<accel::oracle::ExactHit>> hits(input.size());
   on_all_cores(tbb::blocked_range(std::size_t{0}, hits.size(), 1024), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       hits[i] = oracle.closest_hit(input.ray(i));
@@ -260,10 +260,10 @@ std::vector<std::optional<accel::embree::ExactHit>> oracle_hits(
 ReferenceHits::ReferenceHits(const scenes::Scene& scene, rays::TraceInput input)
     : scene_(&scene),
       input_(std::move(input)),
-      hits_(oracle_hits(accel::embree::EmbreeOracle(scene, input_.reach()), input_)) {}
+      hits_(oracle_hits(accel::oracle::Oracle(scene, input_.reach()), input_)) {}
 
 ReferenceHits::ReferenceHits(const scenes::Scene& scene, rays::TraceInput input,
-                             std::vector<std::optional<accel::embree::ExactHit>> hits)
+                             std::vector<std::optional<accel::oracle::ExactHit>> hits)
     : scene_(&scene), input_(std::move(input)), hits_(std::move(hits)) {
   if (hits_.size() != input_.size()) {
     throw std::logic_error(

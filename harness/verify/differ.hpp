@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "accel/core/registry.hpp"
-#include "accel/embree/oracle.hpp"
+#include "accel/oracle/oracle.hpp"
 #include "harness/rays/trace_input.hpp"
 #include "harness/rays/trace_results.hpp"
 #include "harness/verify/diff_report.hpp"
@@ -20,15 +20,15 @@
 namespace beambench::verify {
 
 /// The hit with `t` rounded to float.
-inline std::optional<accel::Hit> rounded(const std::optional<accel::embree::ExactHit>& hit) {
+inline std::optional<accel::Hit> rounded(const std::optional<accel::oracle::ExactHit>& hit) {
   if (!hit) return std::nullopt;
   return accel::Hit{static_cast<float>(hit->t), hit->primitive};
 }
 
 /// The oracle's closest hit of each ray, computed on all cores. The oracle must reach as far as the
 /// input (`TraceInput::reach`).
-std::vector<std::optional<accel::embree::ExactHit>> oracle_hits(
-    const accel::embree::EmbreeOracle& oracle, const rays::TraceInput& input);
+std::vector<std::optional<accel::oracle::ExactHit>> oracle_hits(const accel::oracle::Oracle& oracle,
+                                                                const rays::TraceInput& input);
 
 /// The oracle's closest hit of each ray of an input, computed once (on all cores) and used for
 /// every contender. The scene must outlive it.
@@ -37,11 +37,11 @@ class ReferenceHits {
   ReferenceHits(const scenes::Scene& scene, rays::TraceInput input);
   /// The same with hits from elsewhere.
   ReferenceHits(const scenes::Scene& scene, rays::TraceInput input,
-                std::vector<std::optional<accel::embree::ExactHit>> hits);
+                std::vector<std::optional<accel::oracle::ExactHit>> hits);
 
   const scenes::Scene& scene() const { return *scene_; }
   const rays::TraceInput& input() const { return input_; }
-  std::span<const std::optional<accel::embree::ExactHit>> hits() const { return hits_; }
+  std::span<const std::optional<accel::oracle::ExactHit>> hits() const { return hits_; }
   /// How many rays hit.
   std::uint64_t hit_count() const;
   /// The hits of an image, `t` rounded to float.
@@ -50,7 +50,7 @@ class ReferenceHits {
  private:
   const scenes::Scene* scene_;
   rays::TraceInput input_;
-  std::vector<std::optional<accel::embree::ExactHit>> hits_;
+  std::vector<std::optional<accel::oracle::ExactHit>> hits_;
 };
 
 /// Compares results with the oracle's hits, part by part where there are too many to be in memory

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "accel/core/ray.hpp"
-#include "accel/embree/oracle.hpp"
+#include "accel/oracle/oracle.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::verify {
@@ -17,7 +17,7 @@ struct Crossing {
   scenes::PrimitiveId primitive;
   bool leaving;  ///< Does the ray leave the sphere or cone there? False for polygons.
 
-  accel::embree::ExactHit hit() const { return {t, primitive}; }
+  accel::oracle::ExactHit hit() const { return {t, primitive}; }
 };
 
 /// Returns the primitives whose boxes the ray reaches, in ascending order: among them are all that

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "accel/core/inspector_of.hpp"
 #include "accel/core/intersect.hpp"
 #include "harness/rays/trace_results.hpp"
 #include "harness/verify/describe.hpp"
@@ -101,7 +102,7 @@ std::string step_text(std::size_t number, const accel::TraceStep& step, std::str
   return out;
 }
 
-std::string plane_text(const accel::beam::CrossedPlane& plane) {
+std::string plane_text(const accel::CrossedPlane& plane) {
   return fmt::format("{} = {:.9g}", "xyz"[plane.axis], plane.at);
 }
 
@@ -109,7 +110,7 @@ constexpr std::array<std::string_view, 3> kBeamMeets{"empty leaf", "occupied lea
 constexpr std::array<std::string_view, 3> kBeamKinds{"non-terminal", "occupied", "leaving"};
 
 /// Why there is no further beam.
-std::string_view end_text(const accel::beam::BeamPassage& last) {
+std::string_view end_text(const accel::BeamPassage& last) {
   switch (last.kind) {
     case accel::BeamKind::kLeaving:
       return "terminal: the scene's end, the background";
@@ -121,7 +122,7 @@ std::string_view end_text(const accel::beam::BeamPassage& last) {
   return "";
 }
 
-std::string passage_text(std::size_t number, const accel::beam::BeamPassage& beam, bool is_last) {
+std::string passage_text(std::size_t number, const accel::BeamPassage& beam, bool is_last) {
   std::string out = fmt::format("{:4}  {} {}, level {}, {} to {}", number,
                                 kBeamMeets[static_cast<std::size_t>(beam.kind)], beam.node,
                                 beam.level, text(beam.cell.lower), text(beam.cell.upper));
@@ -135,7 +136,7 @@ std::string passage_text(std::size_t number, const accel::beam::BeamPassage& bea
       is_last ? end_text(beam)
               : (beam.kind == accel::BeamKind::kOccupied ? "continues behind it" : "non-terminal"));
   if (beam.cuts.empty()) out += "        not cut\n";
-  for (const accel::beam::PlaneOrder& cut : beam.cuts) {
+  for (const accel::PlaneOrder& cut : beam.cuts) {
     out += fmt::format("        cut: crosses {} before {}\n", plane_text(cut.first),
                        plane_text(cut.second));
   }
@@ -179,11 +180,11 @@ std::string alone_text(const RayPath& path) {
                  : "miss");
 }
 
-Json plane_json(const accel::beam::CrossedPlane& plane) {
+Json plane_json(const accel::CrossedPlane& plane) {
   return {{"axis", std::string(1, "xyz"[plane.axis])}, {"at", plane.at}};
 }
 
-Json passage_json(const accel::beam::BeamPassage& beam) {
+Json passage_json(const accel::BeamPassage& beam) {
   Json out{
       {"kind", kBeamKinds[static_cast<std::size_t>(beam.kind)]},
       {"index", beam.node},
@@ -196,7 +197,7 @@ Json passage_json(const accel::beam::BeamPassage& beam) {
   for (const glm::dvec2& corner : beam.corners) {
     out["outline"].push_back(Json::array({corner.x, corner.y}));
   }
-  for (const accel::beam::PlaneOrder& cut : beam.cuts) {
+  for (const accel::PlaneOrder& cut : beam.cuts) {
     out["cuts"].push_back({{"first", plane_json(cut.first)}, {"second", plane_json(cut.second)}});
   }
   return out;
@@ -238,20 +239,19 @@ RayPath trace_path(const accel::StructureChoice& choice, const scenes::Scene& sc
                    bool alone, base::Progress& progress) {
   const accel::Ray ray = input.ray(index);
   const auto accelerator = choice.build(scene, rays::workload_of(image, input));
-  const accel::embree::EmbreeOracle oracle(scene, input.reach());
+  const accel::oracle::Oracle oracle(scene, input.reach());
   RayPath path{choice.short_label(), image, input, {}, {}, {}, {}, !alone, {}};
   accel::WorkCounters counters;
   accelerator->closest_hit(ray, &counters);
   path.counters = counters.by_name();
-  const auto* beams = dynamic_cast<const accel::beam::BeamTracer*>(accelerator.get());
-  if (beams != nullptr && input.image() != nullptr && !alone) {
+  const accel::Inspector& inspector = accel::inspector_of(*accelerator);
+  if (input.image() != nullptr && !alone) {
     const rays::PixelSample at = *input.pixel(index);
-    accel::beam::SamplePath with_beams =
-        accel::beam::path_of_sample(*beams, *input.image(), at.x, at.y, at.sample);
-    path.beams = std::move(with_beams.beams);
-    path.steps = std::move(with_beams.steps);
+    accel::SampleSteps in_image = inspector.path(*input.image(), at.x, at.y, at.sample);
+    path.beams = std::move(in_image.beams);
+    path.steps = std::move(in_image.steps);
   } else {
-    path.steps = accelerator->explain(ray);
+    path.steps = inspector.path(ray);
   }
   path.alone = accelerator->closest_hit(ray, nullptr);
   rays::TraceResults results = rays::make_results(input);
@@ -309,8 +309,7 @@ nlohmann::ordered_json to_json(const scenes::Scene& scene, const RayPath& path) 
   out["ray"] = ray_json(ray);
   if (!path.beams.empty()) {
     out["beams"] = Json::array();
-    for (const accel::beam::BeamPassage& beam : path.beams)
-      out["beams"].push_back(passage_json(beam));
+    for (const accel::BeamPassage& beam : path.beams) out["beams"].push_back(passage_json(beam));
   }
   out["steps"] = Json::array();
   out["counters"] = path.counters;

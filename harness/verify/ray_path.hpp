@@ -8,7 +8,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "accel/beam/sample_path.hpp"
 #include "accel/core/accelerator.hpp"
 #include "accel/core/registry.hpp"
 #include "harness/base/progress.hpp"
@@ -28,7 +27,7 @@ struct RayPath {
   std::optional<accel::Hit> alone;  ///< its closest hit, traced alone
   bool asked_all = true;            ///< were all rays of the input traced?
   /// With beams: those that contain the sample. The steps are then of the sample with its beams.
-  std::vector<accel::beam::BeamPassage> beams;
+  std::vector<accel::BeamPassage> beams;
 };
 
 /// Builds the structure and traces ray `index` of the input, unless `alone` with all the others.

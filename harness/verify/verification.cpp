@@ -101,6 +101,9 @@ std::vector<VerifiedCell> verify_each(const scenes::Scene& scene, const std::str
     progress.start(fmt::format("{} over {}, {} rays", cell.label, cell.scene, cell.rays));
     try {
       verify_into(choice, cell);
+    } catch (const accel::UnsupportedError& error) {
+      cell.verdict = Verdict::kUnsupported;
+      cell.message = error.what();
     } catch (const InputError& error) {  // a cap was exceeded: this cell fails, the others continue
       fail(cell, error);
     } catch (const PluginError& error) {
@@ -126,6 +129,7 @@ std::vector<VerifiedCell> verify_scene(const VerifiedView& view,
   std::optional<BitsReference> bits;
   const std::string hash = rays::hex_digits(rays::fingerprint(view.input));
   const auto verify_into = [&](const accel::StructureChoice& choice, VerifiedCell& cell) {
+    rays::require_support(choice, view.input);
     const auto accelerator =
         choice.build(view.scene, rays::workload_of(view.image, view.input, view.threads));
     rays::TraceResults results = rays::make_results(view.input);

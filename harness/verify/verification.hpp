@@ -34,8 +34,10 @@ struct VerifiedCell {
   std::string picture;  ///< file of the differences; empty: none was made
 
   bool has_rays() const { return verdict != Verdict::kNoRays; }
+  /// Was something verified? Not where there are no rays or the structure does not take them.
+  bool was_possible() const { return has_rays() && verdict != Verdict::kUnsupported; }
   /// Was nothing found to be wrong?
-  bool passed() const { return is_right(verdict) || !has_rays(); }
+  bool passed() const { return is_right(verdict) || !was_possible(); }
 };
 
 /// The rays that are traced over a scene, which outlives it.

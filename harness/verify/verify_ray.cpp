@@ -13,7 +13,7 @@
 namespace beambench::verify {
 namespace {
 
-using accel::embree::ExactHit;
+using accel::oracle::ExactHit;
 
 /// A hit of the ray and its contact with the primitive.
 struct Place {
@@ -184,7 +184,7 @@ bool is_invalid(const scenes::Scene& scene, const accel::Ray& ray, const accel::
 
 Mismatch candidate_mismatch(const rays::TraceInput& input, const rays::TraceResults& results,
                             std::size_t index,
-                            const std::optional<accel::embree::ExactHit>& oracle) {
+                            const std::optional<accel::oracle::ExactHit>& oracle) {
   Mismatch found{};
   found.index = index;
   found.ray = input.ray(index);

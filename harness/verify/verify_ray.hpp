@@ -6,7 +6,7 @@
 
 #include "accel/core/ray.hpp"
 #include "accel/core/registry.hpp"
-#include "accel/embree/oracle.hpp"
+#include "accel/oracle/oracle.hpp"
 #include "harness/rays/trace_input.hpp"
 #include "harness/rays/trace_results.hpp"
 #include "harness/verify/diff_report.hpp"
@@ -22,7 +22,7 @@ bool is_invalid(const scenes::Scene& scene, const accel::Ray& ray, const accel::
 /// classified. An answer that is neither hit nor miss is kept as it is.
 Mismatch candidate_mismatch(const rays::TraceInput& input, const rays::TraceResults& results,
                             std::size_t index,
-                            const std::optional<accel::embree::ExactHit>& oracle);
+                            const std::optional<accel::oracle::ExactHit>& oracle);
 
 /// Sets class and reason where the answer agrees with the oracle's, is within K u of it along the
 /// ray on another primitive, or is invalid; false where it is in dispute.

@@ -51,7 +51,7 @@ def committed(published: Path) -> dict[View, Committed]:
         if path.relative_to(published).parts[0] in _OTHER_LIBRARIES:
             continue
         for row in _rows(path):
-            if row["verdict"] in ("no_rays", "error"):
+            if row["verdict"] in ("no_rays", "unsupported", "error"):
                 continue
             view = View(
                 row["scene"],

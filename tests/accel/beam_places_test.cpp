@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "accel/core/beam_place.hpp"
+#include "accel/core/inspector_of.hpp"
 #include "accel/core/registry.hpp"
 #include "harness/rays/ray_generators.hpp"
 #include "scenes/catalogue.hpp"
@@ -54,9 +55,9 @@ struct TracedImage {
 TracedImage traced(const scenes::Scene& scene, int width, int height, int samples) {
   const auto structure = tile_beam_over(scene);
   const PrimaryRays rays(scene.cameras.front(), width, height, samples);
-  TracedImage image{HitBuffer(width, height, samples), {}, structure->beam_places(rays)};
+  TracedImage image{HitBuffer(width, height, samples), {}, structure->inspector()->places(rays)};
   WorkCounters counters;
-  structure->trace(rays, image.hits, &counters);
+  structure->closest_hits(rays, image.hits, {&counters});
   image.counters = counters.by_name();
   return image;
 }
@@ -109,7 +110,8 @@ TEST(BeamPlaces, RaysOfAnImageAreHandedOverWhereTheyAreCounted) {
 
 TEST(BeamPlaces, AnEmptySceneIsBackground) {
   const scenes::Scene scene = scenes::SceneBuilder("empty").build();
-  const auto places = tile_beam_over(scene)->beam_places(PrimaryRays(scenes::Camera{}, 70, 3, 1));
+  const auto places =
+      tile_beam_over(scene)->inspector()->places(PrimaryRays(scenes::Camera{}, 70, 3, 1));
   EXPECT_EQ(count(places, Way::kBackground), 70U * 3U);
 }
 
@@ -135,10 +137,10 @@ TracedShadows shadows_over(const scenes::Scene& scene, int width = 256, int heig
       {}};
   traced.list.image = image;
   const auto structure = tile_beam_over(scene);
-  traced.places = structure->beam_places(traced.list.batch());
+  traced.places = structure->inspector()->places(traced.list.batch());
   std::vector<std::uint8_t> hits(traced.list.rays.size());
   WorkCounters counters;
-  structure->any_hits(traced.list.batch(), hits, &counters);
+  structure->any_hits(traced.list.batch(), hits, {&counters});
   traced.counters = counters.by_name();
   return traced;
 }
@@ -214,7 +216,7 @@ TEST(PencilPlaces, RaysThatNoPencilTakesAreSingle) {
   TracedShadows shadows = shadows_over(scene, 64, 48);
   const auto structure = tile_beam_over(scene);
   const auto singles = [&] {
-    return count(structure->beam_places(shadows.list.batch()), Way::kSingle);
+    return count(structure->inspector()->places(shadows.list.batch()), Way::kSingle);
   };
   EXPECT_EQ(singles(), 0U);
   for (std::size_t i = 0; i < 5; ++i) shadows.list.rays[100 + i].t_max = 0.25F;
@@ -233,8 +235,8 @@ TEST(PencilPlaces, OtherStructuresReportNone) {
   for (const StructureInfo& info : registry().structures()) {
     const auto structure = registry().choose({info.name, {}}).build(scene);
     const std::size_t expected = info.name == "tile-beam" ? 1 : 0;
-    EXPECT_EQ(structure->beam_places(RayBatch{{&ray, 1}}).size(), expected) << info.name;
-    EXPECT_EQ(structure->beam_places(rays).size(), 64 * expected) << info.name;
+    EXPECT_EQ(inspector_of(*structure).places(RayBatch{{&ray, 1}}).size(), expected) << info.name;
+    EXPECT_EQ(inspector_of(*structure).places(rays).size(), 64 * expected) << info.name;
   }
 }
 

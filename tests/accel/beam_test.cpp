@@ -140,7 +140,7 @@ std::map<std::string, std::uint64_t, std::less<>> counters_of(const scenes::Scen
   const beam::BeamTracer tracer(scene, options);
   HitBuffer buffer(rays.width(), rays.height(), rays.samples());
   WorkCounters counters;
-  tracer.trace(rays, buffer, &counters);
+  tracer.closest_hits(rays, buffer, {&counters});
   return counters.by_name();
 }
 
@@ -207,7 +207,7 @@ TEST(Beam, CountsTheSameOnSeveralThreads) {
   const beam::BeamTracer tracer(scene, options_with(6));
   HitBuffer buffer(rays.width(), rays.height(), rays.samples());
   WorkCounters counters;
-  tracer.trace_shared(rays, buffer, &counters);
+  tracer.closest_hits(rays, buffer, {&counters, 2});
   const auto shared = counters.by_name();
   for (const char* counter : {"beams", "beams_made", "beams_divided", "beams_passed_whole"}) {
     EXPECT_EQ(shared.at(counter), alone.at(counter)) << counter;
@@ -259,7 +259,7 @@ TEST(Beam, ShowsTheOutlinesOfItsBeams) {
   const scenes::Scene scene = scenes::load_scene("escena2");
   const PrimaryRays rays(scene.cameras.front(), 64, 48, 1);
   const beam::BeamTracer tracer(scene, options_with(5));
-  const auto outlines = tracer.beam_outlines(rays);
+  const auto outlines = tracer.beams(rays).value();
   EXPECT_EQ(outlines.size(), counters_of(scene, options_with(5), rays).at("beams"));
   for (const BeamOutline& outline : outlines) {
     ASSERT_GE(outline.corners.size(), 1U);

@@ -98,7 +98,7 @@ octree::OctreeWork traced_beams(const beam::BeamTracer& tracer, const scenes::Ca
   const PrimaryRays rays(camera, 64, 48, 1);
   HitBuffer hits(64, 48, 1);
   WorkCounters counters;
-  tracer.trace(rays, hits, &counters);
+  tracer.closest_hits(rays, hits, {&counters});
   const auto counts = counters.by_name();
   octree::OctreeWork work{};
   work.nonterminal = static_cast<double>(counts.at("beams_nonterminal"));

@@ -108,7 +108,7 @@ TEST(CostPlanes, SaveTests) {
     registry()
         .choose(parse_spec(spec))
         .build(scene)
-        ->trace(PrimaryRays(scene.cameras.front(), 64, 64, 1), buffer, &counters);
+        ->closest_hits(PrimaryRays(scene.cameras.front(), 64, 64, 1), buffer, {&counters});
     return counters.get(Counter::kPrimitiveTests);
   };
   EXPECT_LT(work("gargantini:planes=cost,max_level=6,max_objects=1"),
@@ -182,7 +182,7 @@ TEST(OnDemandOctree, DividesWhereRaysCome) {
   EXPECT_EQ(before.more.front().first, "undivided_nodes");
   EXPECT_GT(before.more.front().second, 0.0);
   HitBuffer buffer(64, 64, 1);
-  structure.trace(PrimaryRays(scene.cameras.front(), 64, 64, 1), buffer, nullptr);
+  structure.closest_hits(PrimaryRays(scene.cameras.front(), 64, 64, 1), buffer, {});
   const Statistics after = structure.statistics();
   EXPECT_GT(after.nodes, before.nodes);
   octree::for_each_node(octree::OnDemandCursor(structure.octree()), [](const auto&) {});
@@ -201,7 +201,7 @@ TEST(OnDemandOctree, ThreadsDivideTheSameNodesTogether) {
   OctreeOptions options;
   options.built_level = 1;
   HitBuffer expected(64, 64, 1);
-  octree::Gargantini(scene, options).trace(rays, expected, nullptr);
+  octree::Gargantini(scene, options).closest_hits(rays, expected, {});
   for (int round = 0; round < 8; ++round) {
     const octree::GargantiniOnDemand structure(scene, options);
     std::array<std::optional<HitBuffer>, 4> found;
@@ -210,7 +210,7 @@ TEST(OnDemandOctree, ThreadsDivideTheSameNodesTogether) {
       for (auto& buffer : found) {
         threads.emplace_back([&] {
           buffer.emplace(64, 64, 1);
-          structure.trace(rays, *buffer, nullptr);
+          structure.closest_hits(rays, *buffer, {});
         });
       }
     }
@@ -230,7 +230,7 @@ TEST(OnDemandOctree, RefusesWhatItCannotDo) {
           .build(scene);
   HitBuffer buffer(8, 8, 1);
   const std::string cap = scenes::thrown_message(
-      [&] { structure->trace(PrimaryRays(scene.cameras.front(), 8, 8, 1), buffer, nullptr); });
+      [&] { structure->closest_hits(PrimaryRays(scene.cameras.front(), 8, 8, 1), buffer, {}); });
   EXPECT_TRUE(scenes::says(cap, {"more than 50 references", "max_references"}));
 }
 

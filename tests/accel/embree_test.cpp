@@ -13,7 +13,7 @@
 #include "accel/core/hit_buffer.hpp"
 #include "accel/core/registry.hpp"
 #include "accel/embree/isa.hpp"
-#include "accel/embree/oracle.hpp"
+#include "accel/oracle/oracle.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/scene_builder.hpp"
@@ -51,7 +51,7 @@ scenes::Scene row_of_primitives() {
   return std::move(builder).build();
 }
 
-void expect_hit(const std::optional<embree::ExactHit>& hit, double t,
+void expect_hit(const std::optional<oracle::ExactHit>& hit, double t,
                 scenes::PrimitiveId primitive) {
   ASSERT_TRUE(hit.has_value());
   EXPECT_DOUBLE_EQ(hit->t, t);
@@ -60,7 +60,7 @@ void expect_hit(const std::optional<embree::ExactHit>& hit, double t,
 
 TEST(EmbreeOracle, HitsEachKindWhereItsDefinitionSays) {
   const scenes::Scene scene = row_of_primitives();
-  const embree::EmbreeOracle oracle(scene, 10.0);
+  const oracle::Oracle oracle(scene, 10.0);
   Ray along = ray_from({-5.0F, 0.0F, 0.25F}, {2.0F, 0.0F, 0.0F});
   const double half = std::sqrt(1.0 - 0.0625);
   expect_hit(oracle.closest_hit(along), (5.0 - half) / 2.0, 0);
@@ -82,7 +82,7 @@ TEST(EmbreeOracle, HitsEachKindWhereItsDefinitionSays) {
 
 TEST(EmbreeOracle, TakesTheRangeAsClosed) {
   const scenes::Scene scene = row_of_primitives();
-  const embree::EmbreeOracle oracle(scene, 10.0);
+  const oracle::Oracle oracle(scene, 10.0);
   Ray exact = ray_from({10.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F});
   exact.t_min = 2.0F;
   exact.t_max = 2.0F;
@@ -96,7 +96,7 @@ TEST(EmbreeOracle, TakesTheRangeAsClosed) {
 
 TEST(EmbreeOracle, SeesNoCapsOnACone) {
   const scenes::Scene scene = row_of_primitives();
-  const embree::EmbreeOracle oracle(scene, 10.0);
+  const oracle::Oracle oracle(scene, 10.0);
   EXPECT_FALSE(oracle.any_hit(ray_from({6.0F, 0.0F, -5.0F}, {0.0F, 0.0F, 1.0F})));
   EXPECT_TRUE(oracle.any_hit(ray_from({6.0F, 0.0F, -5.0F}, {0.2F, 0.0F, 1.0F})));
 }
@@ -104,7 +104,7 @@ TEST(EmbreeOracle, SeesNoCapsOnACone) {
 TEST(EmbreeOracle, LosesNoRayAtTheVerticesOfAClosedMesh) {
   const scenes::Scene scene = scenes::load_scene("bumpy:triangles=5000");
   const glm::vec3 inside(0.1F, -0.2F, 0.05F);  // from here no vertex is on a silhouette
-  const embree::EmbreeOracle oracle(scene, glm::length(inside));
+  const oracle::Oracle oracle(scene, glm::length(inside));
   for (const glm::vec3& vertex : scene.vertices) {
     const Ray aimed = ray_from(inside, vertex - inside);
     ASSERT_TRUE(oracle.any_hit(aimed));
@@ -117,7 +117,7 @@ TEST(EmbreeOracle, LosesNoRayAtTheVerticesOfAClosedMesh) {
 TEST(EmbreeOracle, LosesNoRayFromAnywhereAtTheVerticesOfAClosedMesh) {
   for (const char* name : {"bumpy:triangles=1000", "bumpy:triangles=20000"}) {
     const scenes::Scene scene = scenes::load_scene(name);
-    const embree::EmbreeOracle oracle(scene, 2.0);
+    const oracle::Oracle oracle(scene, 2.0);
     Random random(1);
     int count = 0;
     for (int i = 0; i < 100'000; ++i) {
@@ -131,13 +131,13 @@ TEST(EmbreeOracle, LosesNoRayFromAnywhereAtTheVerticesOfAClosedMesh) {
   const scenes::Scene scene = scenes::load_scene("bumpy:triangles=1000");
   const Ray aimed = ray_from({0x1.99493p-5F, 0x1.23a03p-4F, -0x1.a8a096p-4F},
                              {-0x1.bc6ccep-2F, 0x1.a437d8p-1F, -0x1.e65e2ap-4F});
-  EXPECT_TRUE(embree::EmbreeOracle(scene, 2.0).closest_hit(aimed));
+  EXPECT_TRUE(oracle::Oracle(scene, 2.0).closest_hit(aimed));
 }
 
 TEST(EmbreeOracle, AnyHitAgreesWithClosestHit) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     const scenes::Scene scene = verify::random_scene(seed, 30);
-    const embree::EmbreeOracle oracle(scene, 20'000.0);
+    const oracle::Oracle oracle(scene, 20'000.0);
     Random random(seed);
     for (int i = 0; i < 200; ++i) {
       const Ray shot = verify::random_ray(scene, random);
@@ -164,7 +164,7 @@ TEST_P(EmbreeModes, WriteEverySampleOfAnImageOfAnySize) {
     const PrimaryRays rays(scene.cameras.front(), width, height, samples);
     HitBuffer buffer(width, height, samples);
     for (std::size_t i = 0; i < buffer.size(); ++i) buffer.set(i, Hit{-1.0F, 123'456});
-    structure->trace(rays, buffer, nullptr);
+    structure->closest_hits(rays, buffer, {});
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
         for (int sample = 0; sample < samples; ++sample) {
@@ -223,7 +223,7 @@ TEST_P(EmbreeModes, TraceTheVeryRaysOfTheImageOnEveryInstructionSet) {
          {std::tuple(64, 48, 1), std::tuple(37, 19, 4), std::tuple(23, 30, 5)}) {
       const PrimaryRays rays(random_camera(random), width, height, samples);
       HitBuffer traced(width, height, samples);
-      structure->trace(rays, traced, nullptr);
+      structure->closest_hits(rays, traced, {});
       HitBuffer expected(width, height, samples);
       for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
@@ -258,8 +258,8 @@ TEST_P(EmbreeModes, TraceListsOfAnyLengthOnEveryInstructionSet) {
       std::fill_n(closest.t(), count, -1.0F);
       std::fill_n(closest.primitive(), count, 7U);
       std::vector<std::uint8_t> any(count, 255);
-      structure->closest_hits({rays}, closest, nullptr);
-      structure->any_hits({rays}, any, nullptr);
+      structure->closest_hits(accel::RayBatch{rays}, closest, {});
+      structure->any_hits(accel::RayBatch{rays}, any, {});
       for (std::size_t i = 0; i < count; ++i) {
         const auto expected = structure->closest_hit(rays[i], nullptr);
         ASSERT_EQ(closest.get(i), expected) << i << " of " << count;
@@ -294,7 +294,7 @@ TEST_P(EmbreeModes, ConesAsCurvesAreHitWhereTheyAreByRaysOfAnyLength) {
   std::size_t unlike = 0;
   const PrimaryRays image(scene.cameras.front(), 61, 47, 1);
   HitBuffer hits(61, 47, 1);
-  structure->trace(image, hits, nullptr);
+  structure->closest_hits(image, hits, {});
   for (int y = 0; y < 47; ++y) {
     for (int x = 0; x < 61; ++x) {
       expect_as_exact(*exact, image.ray(x, y, 0), hits.get(hits.index(x, y, 0)), unlike);
@@ -312,8 +312,8 @@ TEST_P(EmbreeModes, ConesAsCurvesAreHitWhereTheyAreByRaysOfAnyLength) {
   }
   HitBuffer closest(1000, 1, 1);
   std::vector<std::uint8_t> any(1000, 255);
-  structure->closest_hits({rays}, closest, nullptr);
-  structure->any_hits({rays}, any, nullptr);
+  structure->closest_hits(accel::RayBatch{rays}, closest, {});
+  structure->any_hits(accel::RayBatch{rays}, any, {});
   std::size_t any_unlike = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     expect_as_exact(*exact, rays[i], closest.get(i), unlike);
@@ -329,7 +329,7 @@ TEST_P(EmbreeModes, MissEverythingInAnEmptyScene) {
   const auto structure = embree(mode(), scene);
   const PrimaryRays rays(scene.cameras.front(), 20, 20, 1);
   HitBuffer buffer(20, 20, 1);
-  structure->trace(rays, buffer, nullptr);
+  structure->closest_hits(rays, buffer, {});
   EXPECT_EQ(buffer, HitBuffer(20, 20, 1));
   EXPECT_FALSE(structure->any_hit(rays.ray(3, 3, 0), nullptr));
 }
@@ -391,12 +391,12 @@ TEST(Embree, IsRestrictedToAnInstructionSet) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=3");
   const PrimaryRays rays(scene.cameras.front(), 40, 30, 1);
   HitBuffer best(40, 30, 1);
-  embree("mode=packet8", scene)->trace(rays, best, nullptr);
+  embree("mode=packet8", scene)->closest_hits(rays, best, {});
   for (const auto& [isa, name] : {std::pair("avx2", "AVX2"), std::pair("sse4", "SSE4.2")}) {
     const auto structure = embree(std::string("mode=packet8,isa=") + isa, scene);
     EXPECT_EQ(structure->statistics().instruction_set, name);
     HitBuffer held(40, 30, 1);
-    structure->trace(rays, held, nullptr);
+    structure->closest_hits(rays, held, {});
     for (std::size_t i = 0; i < held.size(); ++i) {
       ASSERT_NEAR(held.t()[i] == kInfinity ? 0.0F : held.t()[i],
                   best.t()[i] == kInfinity ? 0.0F : best.t()[i], 1e-5F);
@@ -411,10 +411,10 @@ TEST(Embree, OfEachInstructionSetEveryModeGivesTheHitsOfSingleRays) {
   const PrimaryRays rays(scene.cameras.front(), 45, 35, 5);  // tiles and blocks that are cut off
   for (const char* isa : {"best", "avx2", "sse4"}) {
     HitBuffer single(45, 35, 5);
-    embree(fmt::format("mode=single,isa={}", isa), scene)->trace(rays, single, nullptr);
+    embree(fmt::format("mode=single,isa={}", isa), scene)->closest_hits(rays, single, {});
     for (const std::string& mode : tests::embree_modes()) {
       HitBuffer hits(45, 35, 5);
-      embree(fmt::format("mode={},isa={}", mode, isa), scene)->trace(rays, hits, nullptr);
+      embree(fmt::format("mode={},isa={}", mode, isa), scene)->closest_hits(rays, hits, {});
       for (std::size_t i = 0; i < hits.size(); ++i) {
         ASSERT_EQ(hits.get(i).has_value(), single.get(i).has_value()) << mode << " " << isa;
         if (!hits.get(i)) continue;
@@ -453,8 +453,8 @@ TEST(Embree, NullWithSimdRaysWritesAMissForEveryRayOfAnImage) {
     std::fill_n(alone.t(), alone.size(), 1.0F);
     std::fill_n(alone.primitive(), alone.size(), 0U);
     HitBuffer shared = alone;
-    null->trace(rays, alone, nullptr);
-    null->trace_shared(rays, shared, nullptr);
+    null->closest_hits(rays, alone, {});
+    null->closest_hits(rays, shared, {.threads = 2});
     for (std::size_t i = 0; i < alone.size(); ++i) {
       ASSERT_FALSE(alone.get(i)) << i;
       ASSERT_EQ(alone.t()[i], kInfinity) << i;
@@ -471,8 +471,8 @@ TEST(Embree, NullWithSimdRaysWritesAMissForEveryRayOfAList) {
     HitBuffer closest(static_cast<int>(count), 1, 1);
     std::fill_n(closest.primitive(), count, 0U);
     std::vector<std::uint8_t> any(count, 255);
-    null->closest_hits({rays}, closest, nullptr);
-    null->any_hits({rays}, any, nullptr);
+    null->closest_hits(accel::RayBatch{rays}, closest, {});
+    null->any_hits(accel::RayBatch{rays}, any, {});
     EXPECT_EQ(closest, HitBuffer(static_cast<int>(count), 1, 1));
     EXPECT_EQ(any, std::vector<std::uint8_t>(count, 0));
   }
@@ -484,11 +484,11 @@ TEST(Embree, HitsTheSameWhateverIsFlaggedAsCoherent) {
   std::vector<Ray> rays;
   image.for_each(0, 30, [&](std::size_t, const Ray& made) { rays.push_back(made); });
   HitBuffer expected(1200, 1, 1);
-  embree("mode=single", scene)->closest_hits({rays}, expected, nullptr);
+  embree("mode=single", scene)->closest_hits(accel::RayBatch{rays}, expected, {});
   for (const char* coherent : {"auto", "true", "false"}) {
     const auto structure = embree(fmt::format("mode=packet16,coherent={}", coherent), scene);
     HitBuffer hits(1200, 1, 1);
-    structure->closest_hits({rays}, hits, nullptr);
+    structure->closest_hits(accel::RayBatch{rays}, hits, {});
     for (std::size_t i = 0; i < hits.size(); ++i) {
       ASSERT_EQ(hits.get(i).has_value(), expected.get(i).has_value()) << coherent << " " << i;
     }

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "accel/core/inspector_of.hpp"
 #include "accel/core/registry.hpp"
 #include "accel/octree/samet.hpp"
 #include "scenes/scene_builder.hpp"
@@ -54,7 +55,7 @@ TEST(Explain, SametTraversesASmallOctreeAsByHand) {
 
   // From the empty leaf at (2, 0, 0), left at x = 2, into that at the origin, whose triangle is met
   // where the ray leaves it.
-  const std::vector<TraceStep> steps = samet.explain(ray);
+  const std::vector<TraceStep> steps = samet.path(ray);
   ASSERT_EQ(steps.size(), 2U);
   expect_leaf(steps[0], 2, {2.0, 0.0, 0.0}, 0.0, 1.25);
   EXPECT_TRUE(steps[0].tests.empty());
@@ -70,7 +71,7 @@ TEST(Explain, ATestThatFindsNothingIsAMiss) {
   Ray ray;
   ray.origin = {3.25F, 3.75F, 10.0F};  // beside the upper triangle, in its cell
 
-  const std::vector<TraceStep> steps = samet.explain(ray);
+  const std::vector<TraceStep> steps = samet.path(ray);
   ASSERT_EQ(steps.size(), 2U);
   expect_leaf(steps[0], 8, {2.0, 2.0, 2.0}, 6.0, 8.0);
   ASSERT_EQ(steps[0].tests.size(), 1U);
@@ -84,7 +85,7 @@ TEST(Explain, ARayThatPassesByEntersNothing) {
   const scenes::Scene scene = triangles_in_two_corners();
   Ray ray;
   ray.origin = {9.0F, 9.0F, 9.0F};
-  EXPECT_TRUE(octree::Samet(scene, eight_cells()).explain(ray).empty());
+  EXPECT_TRUE(octree::Samet(scene, eight_cells()).path(ray).empty());
 }
 
 std::optional<Hit> nearest(const std::vector<TraceStep>& steps) {
@@ -108,7 +109,7 @@ TEST(Explain, ReportsTheWorkThatIsCountedAndTheHitThatIsFound) {
       Random random(seed);
       for (int i = 0; i < 50; ++i) {
         const Ray ray = tests::random_ray(scene, random);
-        const std::vector<TraceStep> steps = structure->explain(ray);
+        const std::vector<TraceStep> steps = inspector_of(*structure).path(ray);
         if (steps.empty()) continue;
         ++reported;
         WorkCounters counters;
@@ -130,7 +131,7 @@ TEST(Explain, SametsLeavesFollowEachOther) {
     const scenes::Scene scene = tests::random_scene(seed, 20);
     const octree::Samet samet(scene, {});
     Random random(seed);
-    const std::vector<TraceStep> steps = samet.explain(tests::random_ray(scene, random));
+    const std::vector<TraceStep> steps = samet.path(tests::random_ray(scene, random));
     for (std::size_t i = 1; i < steps.size(); ++i) {
       EXPECT_EQ(steps[i].t_enter, std::max(steps[i - 1].t_exit, steps[0].t_enter));
     }

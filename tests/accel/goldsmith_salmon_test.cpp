@@ -235,8 +235,8 @@ TEST(GoldsmithSalmon, TheQueueEntersNoMoreThanTheStack) {
     std::array<HitBuffer, 2> hits{HitBuffer(64, 64, 1), HitBuffer(64, 64, 1)};
     std::array<WorkCounters, 2> work;
     const PrimaryRays rays(scene.cameras.front(), 64, 64, 1);
-    bvh::GoldsmithSalmon(scene, {}).trace(rays, hits[0], &work[0]);
-    bvh::GoldsmithSalmon(scene, stack).trace(rays, hits[1], &work[1]);
+    bvh::GoldsmithSalmon(scene, {}).closest_hits(rays, hits[0], {&work[0]});
+    bvh::GoldsmithSalmon(scene, stack).closest_hits(rays, hits[1], {&work[1]});
     EXPECT_EQ(hits[0], hits[1]);
     EXPECT_LE(work[0].get(Counter::kTraversalSteps), work[1].get(Counter::kTraversalSteps));
     EXPECT_LE(work[0].get(Counter::kBoxTests), work[1].get(Counter::kBoxTests));

@@ -91,8 +91,8 @@ TEST(GridBeam, HandsBeamsOverAndCountsThem) {
     HitBuffer buffer(128, 96, 1);
     WorkCounters counters;
     const auto structure = registry().choose(parse_spec(spec)).build(scene);
-    structure->trace(rays, buffer, &counters);
-    EXPECT_FALSE(structure->beam_outlines(rays).empty());
+    structure->closest_hits(rays, buffer, {&counters});
+    EXPECT_FALSE(structure->inspector()->beams(rays).value().empty());
     return counters.by_name();
   };
   auto beams = count("grid-beam:handover=0");

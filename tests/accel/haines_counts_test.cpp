@@ -81,7 +81,7 @@ Counts count_ours(const bvh::GoldsmithSalmon& structure, const RaySet& rays) {
 /// ends at the first hit.
 void traverse_plainly(const bvh::InsertionHierarchy& hierarchy, const scenes::Scene& scene,
                       const Ray& ray, bool shadow, Counts& counts) {
-  const bvh::SlabRay slabs(ray);
+  const SlabRay slabs(ray);
   const CanonicalRay canonical(ray);
   for (std::uint32_t index = 0; index < hierarchy.entries.size();) {
     const bvh::HierarchyEntry& entry = hierarchy.entries[index];

@@ -118,7 +118,7 @@ TEST(HierarchicalGrid, VoxelsAlongARayFollowEachOther) {
   Random random(1);
   std::size_t deep = 0;
   for (int i = 0; i < 300; ++i) {
-    const auto steps = structure->explain(tests::random_ray(scene, random));
+    const auto steps = structure->inspector()->path(tests::random_ray(scene, random));
     double left_at = 0.0;
     bool first = true;
     for (const TraceStep& step : steps) {
@@ -204,7 +204,7 @@ TEST(HierarchicalGrid, OneLevelIsTheGridOfVoxels) {
     const auto work = [&](const Accelerator& structure) {
       HitBuffer buffer(64, 64, 1);
       WorkCounters counters;
-      structure.trace(rays, buffer, &counters);
+      structure.closest_hits(rays, buffer, {&counters});
       return counters.by_name();
     };
     EXPECT_EQ(work(*one), work(*voxels));

@@ -115,7 +115,7 @@ TEST(InterleavedRays, ContinueImagesAndPencils) {
   const PrimaryRays image(large.cameras.front(), 20, 12, 1);
   HitBuffer buffer(20, 12, 1);
   WorkCounters counters;
-  structure.trace(image, buffer, &counters);
+  structure.closest_hits(image, buffer, {&counters});
   EXPECT_EQ(counters.by_name()["handed_over_rays"], 20U * 12U);
   std::size_t hits = 0;
   image.for_each(0, 12, [&](std::size_t index, const Ray& ray) {
@@ -138,7 +138,7 @@ TEST(InterleavedRays, ContinueImagesAndPencils) {
       {.first = 0, .count = rays.size(), .apex = light, .toward = true}};
   std::vector<std::uint8_t> any(rays.size());
   WorkCounters of_pencil;
-  structure.any_hits({rays, pencils, {}, nullptr}, any, &of_pencil);
+  structure.any_hits(accel::RayBatch{rays, pencils, {}, nullptr}, any, {&of_pencil});
   EXPECT_GT(of_pencil.by_name()["handed_over_rays"], 100U);
   std::size_t different = 0;
   std::size_t occluded = 0;

@@ -246,7 +246,7 @@ TEST(KdTree, ExplainsLeavesThatFollowEachOther) {
     Random random(seed);
     const Ray ray = tests::random_ray(scene, random);
     std::optional<TraceStep> before;
-    for (const TraceStep& step : structure.explain(ray)) {
+    for (const TraceStep& step : structure.path(ray)) {
       ASSERT_TRUE(step.box);
       if (step.place != "leaf") continue;
       const double middle = 0.5 * (step.t_enter + step.t_exit);

@@ -89,7 +89,7 @@ struct Compared {
 
 HitBuffer hits_of(const Accelerator& structure, const RayBatch& batch) {
   HitBuffer hits(static_cast<int>(batch.rays.size()), 1, 1);
-  structure.closest_hits(batch, hits, nullptr);
+  structure.closest_hits(batch, hits, {});
   return hits;
 }
 
@@ -108,7 +108,8 @@ void compare(const scenes::Scene& scene, const beam::BeamTracer& tracer, const R
       const Pencil pencil = seen.pencil();
       HitBuffer found(static_cast<int>(seen.rays.size()), 1, 1);
       WorkCounters counters;
-      tracer.closest_hits({seen.rays, {&pencil, 1}, seen.samples}, found, &counters);
+      tracer.closest_hits(accel::RayBatch{seen.rays, {&pencil, 1}, seen.samples}, found,
+                          {&counters});
       const HitBuffer expected = hits_of(samet, {seen.rays});
       ASSERT_EQ(found, expected);
       ASSERT_EQ(hits_of(tracer, {seen.rays, {&pencil, 1}, seen.samples}), expected);
@@ -264,7 +265,8 @@ TEST(MirrorBeams, TheirWorkIsUnchanged) {
   HitBuffer hits(static_cast<int>(floor.seen.rays.size()), 1, 1);
   WorkCounters counters;
   beam::BeamTracer(floor.scene, {})
-      .closest_hits({floor.seen.rays, {&pencil, 1}, floor.seen.samples}, hits, &counters);
+      .closest_hits(accel::RayBatch{floor.seen.rays, {&pencil, 1}, floor.seen.samples}, hits,
+                    {&counters});
   std::map<std::string, std::uint64_t> work;
   for (const auto& [name, count] : counters.by_name()) {
     if (count != 0 && !name.ends_with("_ns")) work[name] = count;
@@ -289,7 +291,7 @@ TEST(MirrorBeams, RaysOfAMirrorAreReflectedRays) {
   const scenes::Scene scene = scenes::load_scene("teapot:n=2");
   const PrimaryRays rays(scene.cameras.front(), 50, 50, 1);
   HitBuffer hits(50, 50, 1);
-  registry().choose({"samet", {}}).build(scene)->trace(rays, hits, nullptr);
+  registry().choose({"samet", {}}).build(scene)->closest_hits(rays, hits, {});
   const auto mirrors = scenes::planar_mirrors(scene);
   ASSERT_EQ(mirrors.size(), 1U);  // the checkerboard, all squares of it
   const auto view = beam::view_in(mirrors[0], rays, hits);

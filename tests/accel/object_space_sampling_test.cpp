@@ -18,7 +18,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 class ObjectSpaceSampling : public ::testing::Test {
  protected:
-  ObjectSpaceSampling() { tracer_.trace(rays_, all_, nullptr); }
+  ObjectSpaceSampling() { tracer_.closest_hits(rays_, all_, {}); }
 
   beam::SparseSamples sampled(double few, double many) const {
     return beam::trace_object_space(tracer_, rays_, {few, many});

@@ -70,8 +70,8 @@ TEST(OctreeNet, LeavesTheirOrderAndTheTestsAreThoseOfSamet) {
     Random random(seed);
     for (int i = 0; i < 100; ++i) {
       const Ray ray = tests::random_ray(scene, random);
-      const auto expected = samet.explain(ray);
-      const auto actual = net.explain(ray);
+      const auto expected = samet.path(ray);
+      const auto actual = net.path(ray);
       ASSERT_EQ(actual.size(), expected.size());
       for (std::size_t step = 0; step < actual.size(); ++step) {
         ASSERT_EQ(actual[step].index, expected[step].index);
@@ -92,7 +92,7 @@ TEST(OctreeNet, OneStepForEachNeighborWhereSametClimbs) {
     const auto count = [&](const Accelerator& structure) {
       HitBuffer buffer(64, 64, 1);
       WorkCounters counters;
-      structure.trace(rays, buffer, &counters);
+      structure.closest_hits(rays, buffer, {&counters});
       return counters.by_name();
     };
     auto samet = count(octree::Samet(scene, {}));

@@ -115,7 +115,7 @@ Counts expect_shadows_of_exhaustive(const scenes::Scene& scene, const TileBeam& 
       {.first = 0, .count = rays.size(), .apex = light, .toward = true}};
   std::vector<std::uint8_t> any(rays.size());
   WorkCounters work;
-  structure.any_hits({rays, pencils, {}, nullptr}, any, &work);
+  structure.any_hits(accel::RayBatch{rays, pencils, {}, nullptr}, any, {&work});
   const exhaustive::Exhaustive exhaustive(scene);
   Counts counts;
   counts.beams = work.by_name()["beams"];
@@ -179,7 +179,7 @@ Counts expect_reflections_of_exhaustive(const scenes::Scene& scene, const TileBe
       {.first = 0, .count = rays.size(), .apex = apex, .toward = false}};
   HitBuffer buffer(static_cast<int>(rays.size()), 1, 1);
   WorkCounters work;
-  structure.closest_hits({rays, pencils, {}, nullptr}, buffer, &work);
+  structure.closest_hits(accel::RayBatch{rays, pencils, {}, nullptr}, buffer, {&work});
   const exhaustive::Exhaustive exhaustive(scene);
   Counts counts;
   counts.beams = work.by_name()["beams"];

@@ -42,7 +42,7 @@ TEST_P(PinnedWork, IsUnchanged) {
   const auto structure = registry().choose(parse_spec(row.structure)).build(scene);
   HitBuffer buffer(64, 64, 1);
   WorkCounters counters;
-  structure->trace(PrimaryRays(scene.cameras.front(), 64, 64, 1), buffer, &counters);
+  structure->closest_hits(PrimaryRays(scene.cameras.front(), 64, 64, 1), buffer, {&counters});
   EXPECT_EQ(work_of(counters), row.work);
 }
 

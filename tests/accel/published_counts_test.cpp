@@ -64,7 +64,7 @@ octree::OctreeOptions octree_of_depth(int depth) {
 }
 
 std::uint64_t climb_out(const octree::Samet& samet, const Ray& ray) {
-  const auto steps = samet.explain(ray);
+  const auto steps = samet.path(ray);
   return steps.empty() ? 0 : static_cast<std::uint64_t>(steps.back().level - 1);
 }
 

@@ -32,7 +32,7 @@ TEST(Rounding, ATraceShootsTheVeryRaysOfTheCamera) {
     if (choice.info().name == "tile-beam") continue;  // its images are made without rays
     const auto structure = choice.build(scene);
     HitBuffer image(rays.width(), rays.height(), rays.samples());
-    structure->trace(rays, image, nullptr);
+    structure->closest_hits(rays, image, {});
     for (int y = 0; y < rays.height(); ++y) {
       for (int x = 0; x < rays.width(); ++x) {
         for (int sample = 0; sample < rays.samples(); ++sample) {

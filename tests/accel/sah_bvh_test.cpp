@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "accel/bvh/padded_bounds.hpp"
+#include "accel/core/padded_bounds.hpp"
 #include "accel/core/tolerance.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/scene_builder.hpp"
@@ -160,7 +160,7 @@ class WideBvhCheck {
         for (std::size_t corner = 0; corner < 3; ++corner)
           piece.include(block.corner(corner, lane));
       }
-      piece = bvh::padded(piece, overlap_tolerance(scene_));
+      piece = padded(piece, overlap_tolerance(scene_));
       scenes::Bounds both = box;
       both.include(piece);
       EXPECT_EQ(both.lower, box.lower);
@@ -179,7 +179,7 @@ TEST(SahBvh, HoldsEveryPrimitiveOnceInBoxesThatFit) {
     const bvh::SahBvh structure(scene, {});
     const bvh::WideBvh& bvh = structure.bvh();
     WideBvhCheck check(bvh, scene);
-    check.visit(bvh.root, bvh::padded(scene.bounds, overlap_tolerance(scene)), 1);
+    check.visit(bvh.root, padded(scene.bounds, overlap_tolerance(scene)), 1);
     EXPECT_EQ(check.leaves, bvh.leaves);
     EXPECT_EQ(check.deepest, bvh.depth);
     EXPECT_EQ(check.pieces, bvh.references);
@@ -215,7 +215,7 @@ TEST(SahBvh, ReportsWhatItDid) {
   WorkCounters work;
   const auto hit = structure.closest_hit(ray, &work);
   ASSERT_TRUE(hit);
-  const std::vector<TraceStep> steps = structure.explain(ray);
+  const std::vector<TraceStep> steps = structure.path(ray);
   EXPECT_EQ(steps.size(), work.get(Counter::kTraversalSteps));
   std::uint64_t tests = 0;
   bool found = false;
@@ -236,7 +236,7 @@ TEST(SahBvh, ConfirmsAboutOncePerHit) {
   const bvh::SahBvh structure(scene, {});
   WorkCounters work;
   HitBuffer hits(128, 128, 1);
-  structure.trace(PrimaryRays(scene.cameras.front(), 128, 128, 1), hits, &work);
+  structure.closest_hits(PrimaryRays(scene.cameras.front(), 128, 128, 1), hits, {&work});
   std::uint64_t hit = 0;
   for (std::size_t i = 0; i < hits.size(); ++i) hit += hits.get(i) ? 1 : 0;
   EXPECT_GE(work.by_name().at("confirmed_tests"), hit);

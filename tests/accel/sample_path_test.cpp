@@ -24,7 +24,7 @@ beam::BeamOptions options_of_level(int level) {
 /// Which beam, in which leaf: what it meets, the leaf and the outline name it.
 using Name = std::tuple<BeamKind, std::uint32_t, std::vector<std::pair<double, double>>>;
 
-Name name_of(const beam::BeamPassage& passage) {
+Name name_of(const BeamPassage& passage) {
   std::vector<std::pair<double, double>> corners;
   for (const glm::dvec2& corner : passage.corners) corners.emplace_back(corner.x, corner.y);
   return {passage.kind, passage.node, std::move(corners)};
@@ -58,7 +58,7 @@ TEST_P(SamplePaths, GiveTheImagesHitsAndEndWhereTheBeamEnds) {
   const beam::BeamTracer tracer(scene, options);
   const PrimaryRays rays(scene.cameras.front(), 10, 8, GetParam().samples);
   HitBuffer hits(10, 8, GetParam().samples);
-  tracer.trace(rays, hits, nullptr);
+  tracer.closest_hits(rays, hits, {});
   const bool shared = options.share_corners;
   std::map<Name, std::pair<std::uint64_t, std::uint64_t>> samples;  // expected, found
   for (int y = 0; y < 8; ++y) {
@@ -68,14 +68,14 @@ TEST_P(SamplePaths, GiveTheImagesHitsAndEndWhereTheBeamEnds) {
         const beam::SamplePath path = beam::path_of_sample(tracer, rays, x, y, sample);
         ASSERT_EQ(path.hit, hits.get(hits.index(x, y, sample)));
         const Ray ray = rays.ray(x, y, sample);
-        const std::vector<TraceStep> alone = tracer.explain(ray);
+        const std::vector<TraceStep> alone = tracer.path(ray);
         if (alone.empty()) {
           EXPECT_TRUE(path.beams.empty());
           continue;
         }
         ASSERT_FALSE(path.beams.empty());
         for (std::size_t i = 0; i < path.beams.size(); ++i) {
-          const beam::BeamPassage& beam = path.beams[i];
+          const BeamPassage& beam = path.beams[i];
           ++samples[name_of(beam)].second;
           samples[name_of(beam)].first = beam.samples;
           if (beam.kind == BeamKind::kLeaving) {
@@ -124,7 +124,7 @@ TEST(SamplePath, NamesTheCutsOfADividedBeamOnly) {
       EXPECT_EQ(path.beams[i].cuts.empty(), is_same);
       ++(is_same ? whole : divided);
       EXPECT_LE(path.beams[i].samples, path.beams[i - 1].samples);
-      for (const beam::PlaneOrder& cut : path.beams[i].cuts) {
+      for (const PlaneOrder& cut : path.beams[i].cuts) {
         EXPECT_TRUE(cut.first.axis != cut.second.axis || cut.first.at != cut.second.at);
       }
     }

@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "accel/bvh/padded_bounds.hpp"
+#include "accel/core/padded_bounds.hpp"
 #include "accel/core/tolerance.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/random.hpp"
@@ -28,7 +28,7 @@ struct Built {
         spatial(bvh::build_spatial_bvh(scene, pieces, overlap_tolerance(scene), {})) {
     std::vector<scenes::Bounds> boxes;
     for (const bvh::Piece& piece : pieces) {
-      boxes.push_back(bvh::padded(bvh::piece_bounds(scene, piece), overlap_tolerance(scene)));
+      boxes.push_back(padded(bvh::piece_bounds(scene, piece), overlap_tolerance(scene)));
     }
     binned = bvh::build_bvh(boxes, {});
   }
@@ -46,8 +46,7 @@ bool holds(const scenes::Bounds& box, const glm::dvec3& point) {
 }
 
 bool holds(const scenes::Bounds& outer, const scenes::Bounds& inner) {
-  return bvh::united(outer, inner).lower == outer.lower &&
-         bvh::united(outer, inner).upper == outer.upper;
+  return united(outer, inner).lower == outer.lower && united(outer, inner).upper == outer.upper;
 }
 
 /// Triangles of a tenth of the scene's size, and as thin as a hundredth.

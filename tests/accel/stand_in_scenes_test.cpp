@@ -236,7 +236,7 @@ TEST(BolaEspacial, LetsMostRaysHitWhereTheirBeamEnds) {
         registry().choose({"beam", {{"max_level", std::to_string(level)}}}).build(scene);
     HitBuffer buffer(1280, 1024, 1);
     WorkCounters work;
-    structure->trace(rays, buffer, &work);
+    structure->closest_hits(rays, buffer, {&work});
     const auto counters = work.by_name();
     const auto count = [&](const char* name) { return static_cast<double>(counters.at(name)); };
     // Hardly a ray leaves the root without an occupied leaf on its path.

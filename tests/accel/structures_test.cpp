@@ -80,13 +80,13 @@ TEST(Null, HitsNothing) {
   const scenes::Scene scene = tests::random_scene(3, 10);
   const auto null = registry().choose({"null", {}}).build(scene);
   HitBuffer buffer(8, 8, 1);
-  null->trace(PrimaryRays(scene.cameras.front(), 8, 8, 1), buffer, nullptr);
+  null->closest_hits(PrimaryRays(scene.cameras.front(), 8, 8, 1), buffer, {});
   EXPECT_EQ(buffer, HitBuffer(8, 8, 1));
   const std::vector<Ray> rays(3);
   HitBuffer closest(3, 1, 1);
   std::vector<std::uint8_t> any(3, 0xFF);
-  null->closest_hits({rays}, closest, nullptr);
-  null->any_hits({rays}, any, nullptr);
+  null->closest_hits(accel::RayBatch{rays}, closest, {});
+  null->any_hits(accel::RayBatch{rays}, any, {});
   EXPECT_EQ(closest, HitBuffer(3, 1, 1));
   EXPECT_EQ(any, (std::vector<std::uint8_t>(3, 0)));
 }

@@ -108,7 +108,7 @@ Comparison compare(const scenes::Scene& scene, const PrimaryRays& rays, const Hi
 HitBuffer image_of(const tile_beam::TileBeam& structure, const PrimaryRays& rays) {
   HitBuffer image(rays.width(), rays.height(), rays.samples());
   std::fill_n(image.t(), image.size(), -1.0F);  // what is not written shows
-  structure.trace(rays, image, nullptr);
+  structure.closest_hits(rays, image, {});
   return image;
 }
 
@@ -365,7 +365,7 @@ TEST(TileBeam, CrowdedTilesAreTracedByRays) {
   const PrimaryRays rays(scene.cameras.front(), 7, 5, 1);
   HitBuffer image(7, 5, 1);
   WorkCounters counters;
-  structure.trace(rays, image, &counters);
+  structure.closest_hits(rays, image, {&counters});
   EXPECT_GT(counters.by_name()["handed_over_rays"], 0U);
   EXPECT_EQ(compare(scene, rays, image).errors, 0U);
 }
@@ -376,7 +376,7 @@ TEST(TileBeam, CountingChangesNoHit) {
   const PrimaryRays rays(scene.cameras.front(), 200, 80, 1);
   HitBuffer counted(200, 80, 1);
   WorkCounters counters;
-  structure.trace(rays, counted, &counters);
+  structure.closest_hits(rays, counted, {&counters});
   EXPECT_EQ(counted, image_of(structure, rays));
   EXPECT_EQ(counters.by_name()["beams"], 2U);
   EXPECT_GT(counters.get(Counter::kLeaves), 0U);
@@ -393,8 +393,8 @@ TEST(TileBeam, ThreadsChangeNoHitAndNoCount) {
       HitBuffer image(300, 170, samples);
       WorkCounters expected_counters;
       WorkCounters counters;
-      alone.trace(rays, expected, &expected_counters);
-      together.trace(rays, image, &counters);
+      alone.closest_hits(rays, expected, {&expected_counters});
+      together.closest_hits(rays, image, {&counters});
       EXPECT_EQ(image, expected) << name;
       EXPECT_EQ(counters.by_name(), expected_counters.by_name()) << name;
       EXPECT_EQ(image_of(together, rays), expected) << name;

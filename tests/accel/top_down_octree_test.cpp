@@ -43,11 +43,11 @@ TEST(TopDownOctree, LeavesTheirOrderAndTheTestsAreThoseOfSamet) {
     Random random(seed);
     for (int i = 0; i < 100; ++i) {
       const Ray ray = tests::random_ray(scene, random);
-      const auto expected = samet.explain(ray);
+      const auto expected = samet.path(ray);
       const auto hit = exhaustive.closest_hit(ray, nullptr);
       for (const Accelerator* structure : {static_cast<const Accelerator*>(&glassner),
                                            static_cast<const Accelerator*>(&gargantini)}) {
-        const auto actual = structure->explain(ray);
+        const auto actual = structure->inspector()->path(ray);
         ASSERT_EQ(actual.size(), expected.size());
         for (std::size_t step = 0; step < actual.size(); ++step) {
           ASSERT_EQ(actual[step].index, expected[step].index);
@@ -80,7 +80,7 @@ TEST(TopDownOctree, StepsAreTheNodesPassed) {
       const Ray ray = tests::random_ray(scene, random);
       glassner.closest_hit(ray, &from_root);
       gargantini.closest_hit(ray, &in_order);
-      searched += levels_of(glassner.explain(ray));
+      searched += levels_of(glassner.path(ray));
     }
     EXPECT_EQ(from_root.get(Counter::kTraversalSteps), searched);
     EXPECT_EQ(in_order.get(Counter::kLeaves), from_root.get(Counter::kLeaves));

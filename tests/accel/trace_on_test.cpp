@@ -1,7 +1,5 @@
 // An image on several threads: the same hits and the same counts, whoever found them.
 
-#include "accel/core/trace_on.hpp"
-
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
@@ -19,6 +17,7 @@
 #include <xmmintrin.h>
 
 #include "accel/core/registry.hpp"
+#include "accel/core/threads.hpp"
 #include "accel/core/traversal_accelerator.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/cpu_quota.hpp"
@@ -43,13 +42,13 @@ void expect_same_on_threads(const StructureChoice& choice, const scenes::Scene& 
   const auto structure = choice.build(scene);
   HitBuffer expected(rays.width(), rays.height(), rays.samples());
   WorkCounters expected_counters;
-  structure->trace(rays, expected, &expected_counters);
+  structure->closest_hits(rays, expected, {&expected_counters});
   for (const int threads : kThreads) {
     HitBuffer hits(rays.width(), rays.height(), rays.samples());
     HitBuffer counted(rays.width(), rays.height(), rays.samples());
     WorkCounters counters;
-    trace_on(threads, *structure, rays, hits, nullptr);
-    trace_on(threads, *structure, rays, counted, &counters);
+    structure->closest_hits(rays, hits, {.threads = threads});
+    structure->closest_hits(rays, counted, {&counters, threads});
     EXPECT_EQ(hits, expected) << threads << " threads";
     EXPECT_EQ(counted, expected) << threads << " threads, counting";
     EXPECT_EQ(counts(counters), counts(expected_counters)) << threads << " threads";
@@ -141,7 +140,7 @@ TEST(TraceOn, UsesAsManyThreadsAsRequested) {
   HitBuffer buffer(1, 64, 1);
   for (const int threads : kThreads) {
     const Meeting meeting(static_cast<std::size_t>(threads));
-    trace_on(threads, meeting, rays, buffer, nullptr);
+    meeting.closest_hits(rays, buffer, {.threads = threads});
     EXPECT_EQ(meeting.threads(), static_cast<std::size_t>(threads));
   }
   EXPECT_EQ(thread_count(3), 3);
@@ -175,7 +174,7 @@ TEST(TraceOn, ThreadsComputeInTheCallersMode) {
   for (const unsigned mode : {0U, Meeting::kModeBits, 0U}) {
     const Meeting meeting(3);
     _mm_setcsr((before & ~Meeting::kModeBits) | mode);
-    trace_on(3, meeting, rays, buffer, nullptr);
+    meeting.closest_hits(rays, buffer, {.threads = 3});
     _mm_setcsr(before);
     EXPECT_EQ(meeting.modes(), std::set<unsigned>{mode});
   }

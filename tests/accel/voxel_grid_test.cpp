@@ -81,7 +81,7 @@ TEST(VoxelGrid, VoxelsFollowEachOtherAndTouch) {
   const auto grid = build("voxel-grid:resolution=9x17x33", scene);
   Random random(1);
   for (int i = 0; i < 200; ++i) {
-    const auto steps = grid->explain(tests::random_ray(scene, random));
+    const auto steps = grid->inspector()->path(tests::random_ray(scene, random));
     for (std::size_t k = 1; k < steps.size(); ++k) {
       EXPECT_EQ(steps[k].t_enter, std::max(steps[k - 1].t_exit, steps[0].t_enter));
       int moved = 0;
@@ -103,7 +103,7 @@ TEST(VoxelGrid, LazyEvaluatesWhatRaysVisitAndNoMore) {
   EXPECT_EQ(lazy->statistics().references, 0U);
 
   const Ray ray = PrimaryRays(scene.cameras.front(), 64, 64, 1).ray(31, 33, 0);
-  const auto visited = static_cast<double>(lazy->explain(ray).size());
+  const auto visited = static_cast<double>(lazy->inspector()->path(ray).size());
   EXPECT_EQ(more(lazy->statistics(), "evaluated_voxels"), visited);
   EXPECT_EQ(more(lazy->statistics(), "evaluated_share"), visited / 4096.0);
   lazy->closest_hit(ray, nullptr);
@@ -118,7 +118,7 @@ TEST(VoxelGrid, LazyAndEagerDoTheSameWork) {
     const auto count = [&](const char* spec) {
       HitBuffer buffer(64, 64, 1);
       WorkCounters counters;
-      build(spec, scene)->trace(rays, buffer, &counters);
+      build(spec, scene)->closest_hits(rays, buffer, {&counters});
       return counters.by_name();
     };
     EXPECT_EQ(count("voxel-grid:fill=lazy"), count("voxel-grid:fill=eager"));
@@ -164,8 +164,8 @@ TEST(VoxelGrid, MailboxesSaveTestsAndNoHit) {
   HitBuffer without(64, 64, 1);
   WorkCounters saved;
   WorkCounters all;
-  build("voxel-grid:resolution=20,mailboxes=true", scene)->trace(rays, with, &saved);
-  build("voxel-grid:resolution=20", scene)->trace(rays, without, &all);
+  build("voxel-grid:resolution=20,mailboxes=true", scene)->closest_hits(rays, with, {&saved});
+  build("voxel-grid:resolution=20", scene)->closest_hits(rays, without, {&all});
   EXPECT_EQ(with, without);
   EXPECT_EQ(saved.get(Counter::kTraversalSteps), all.get(Counter::kTraversalSteps));
   EXPECT_LT(saved.get(Counter::kPrimitiveTests), all.get(Counter::kPrimitiveTests));
@@ -237,7 +237,7 @@ TEST(VoxelGrid, LazyListsHaveTheSameCap) {
   const scenes::Scene scene = scenes::load_scene("escena1");
   const auto lazy = build("voxel-grid:resolution=30,fill=lazy,max_references=10", scene);
   HitBuffer buffer(32, 32, 1);
-  EXPECT_THROW(lazy->trace(PrimaryRays(scene.cameras.front(), 32, 32, 1), buffer, nullptr),
+  EXPECT_THROW(lazy->closest_hits(PrimaryRays(scene.cameras.front(), 32, 32, 1), buffer, {}),
                InputError);
 }
 

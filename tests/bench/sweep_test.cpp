@@ -31,7 +31,7 @@ using nlohmann::json;
 
 /// A trace that a broken structure spoils.
 struct Traced {
-  accel::HitBuffer& buffer;        ///< with the right hits
+  const accel::HitSpan& buffer;    ///< with the right hits
   const accel::HitBuffer& before;  ///< what was in it before
   int pass;  ///< counts the traces: the counting one is 0, the two of repetition n 2n - 1 and 2n
 };
@@ -45,26 +45,18 @@ class FaultyAccelerator : public accel::Accelerator {
         fault_(std::move(fault)),
         passes_(std::move(passes)) {}
 
-  std::optional<accel::Hit> closest_hit(const accel::Ray& ray,
-                                        accel::WorkCounters* counters) const override {
-    return right_->closest_hit(ray, counters);
+  void closest_hits(const accel::RaySource& rays, const accel::HitSpan& hits,
+                    const accel::QueryContext& context) const override {
+    accel::HitBuffer before(hits.width(), hits.height(), hits.samples());
+    std::copy_n(hits.t(), before.size(), before.t());
+    std::copy_n(hits.primitive(), before.size(), before.primitive());
+    right_->closest_hits(rays, hits, context);
+    if (rays.image() != nullptr) fault_({hits, before, (*passes_)++});
   }
-  bool any_hit(const accel::Ray& ray, accel::WorkCounters* counters) const override {
-    return right_->any_hit(ray, counters);
-  }
-  void trace(const accel::PrimaryRays& rays, accel::HitBuffer& buffer,
-             accel::WorkCounters* counters) const override {
-    const accel::HitBuffer before = buffer;
-    right_->trace(rays, buffer, counters);
-    fault_({buffer, before, (*passes_)++});
-  }
-  void closest_hits(const accel::RayBatch& batch, accel::HitBuffer& buffer,
-                    accel::WorkCounters* counters) const override {
-    right_->closest_hits({batch}, buffer, counters);
-  }
-  void any_hits(const accel::RayBatch& batch, std::span<std::uint8_t> hits,
-                accel::WorkCounters* counters) const override {
-    right_->any_hits({batch}, hits, counters);
+  void any_hits(const accel::RaySource& rays, std::span<std::uint8_t> hits,
+                const accel::QueryContext& context) const override {
+    right_->any_hits(rays, hits, context);
+    if (rays.batch() == nullptr) return;
     hits.front() = hits.front() == 0 ? 1 : 0;  // its fault with any-hit queries
   }
   accel::Statistics statistics() const override { return right_->statistics(); }
@@ -75,7 +67,9 @@ class FaultyAccelerator : public accel::Accelerator {
   std::shared_ptr<int> passes_;
 };
 
-void drop_one_hit(accel::HitBuffer& buffer) { buffer.set(buffer.index(16, 10, 0), std::nullopt); }
+void drop_one_hit(const accel::HitSpan& buffer) {
+  buffer.set(buffer.index(16, 10, 0), std::nullopt);
+}
 
 class Sweep : public testing::Test {
  protected:

@@ -43,7 +43,7 @@ class Workplace {
 
   accel::HitBuffer sequential_hits() const {
     accel::HitBuffer hits(rays_.width(), rays_.height(), rays_.samples());
-    tracer_.trace(rays_, hits, nullptr);
+    tracer_.closest_hits(rays_, hits, {});
     return hits;
   }
   render::Image sequential_picture() const {
@@ -243,7 +243,7 @@ TEST(Cluster, RunsFromACommandLineToItsEnd) {
   accel::HitBuffer expected(40, 30, 4);
   const scenes::Scene scene = scenes::load_scene("tetra:n=2");
   accel::beam::BeamTracer(scene, options_with(6))
-      .trace(accel::PrimaryRays(scene.cameras.front(), 40, 30, 4), expected, nullptr);
+      .closest_hits(accel::PrimaryRays(scene.cameras.front(), 40, 30, 4), expected, {});
   ClusterRequest request;
   request.job.scene = "tetra:n=2";
   request.job.structure = "beam:max_level=6";
@@ -261,7 +261,7 @@ TEST(Cluster, FindsTheSequentialHitsHoweverTheImageIsDivided) {
        {"beam:max_level=5", "beam:max_level=5,share_corners=true,handover=40"}) {
     accel::HitBuffer expected(53, 41, 5);
     accel::beam::BeamTracer(scene, options_with(5))
-        .trace(accel::PrimaryRays(scene.cameras.front(), 53, 41, 5), expected, nullptr);
+        .closest_hits(accel::PrimaryRays(scene.cameras.front(), 53, 41, 5), expected, {});
     for (const Work work :
          {Work::kTiles, Work::kContiguous, Work::kInterlaced, Work::kWindows, Work::kPrePass}) {
       for (const int processes : {1, 2, 5}) {

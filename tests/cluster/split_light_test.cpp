@@ -174,7 +174,7 @@ Drawing drawing_of(scenes::Scene scene, int width, int height, int samples) {
   const accel::beam::BeamOptions options = options_with(5);
   const accel::beam::BeamTracer whole(scene, options);
   accel::HitBuffer hits(width, height, samples);
-  whole.trace(rays, hits, nullptr);
+  whole.closest_hits(rays, hits, {});
   const render::Whitted tracer(scene, whole, {});
   render::WhittedPicture picture = render::whitted_picture(tracer, rays, hits);
   return {std::move(scene), rays, options, std::move(hits), std::move(picture)};
@@ -216,11 +216,11 @@ void expect_the_answers_of_one_process(const SceneWithRays& given, int level, in
       return leader.answer([&](const accel::Accelerator& divided) {
         accel::HitBuffer found(count, 1, 1);
         accel::HitBuffer expected(count, 1, 1);
-        divided.closest_hits({given.rays}, found, nullptr);
-        whole.closest_hits({given.rays}, expected, nullptr);
+        divided.closest_hits(accel::RayBatch{given.rays}, found, {});
+        whole.closest_hits(accel::RayBatch{given.rays}, expected, {});
         EXPECT_TRUE(found == expected) << processes << " processes";
         std::vector<std::uint8_t> any(given.rays.size());
-        divided.any_hits({given.rays}, any, nullptr);
+        divided.any_hits(accel::RayBatch{given.rays}, any, {});
         for (std::size_t i = 0; i < any.size(); ++i) {
           EXPECT_EQ(any[i], whole.any_hit(given.rays[i], nullptr) ? 1 : 0) << "ray " << i;
         }

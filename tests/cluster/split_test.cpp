@@ -229,7 +229,7 @@ TEST(SplitScene, GivesTheHitsOfOneProcessBitForBit) {
     const accel::beam::BeamOptions options = options_with(5, seed % 3 == 0 ? 50 : 0);
     const accel::PrimaryRays rays(scene.cameras.front(), 61, 43, seed % 2 == 0 ? 1 : 5);
     accel::HitBuffer expected(rays.width(), rays.height(), rays.samples());
-    accel::beam::BeamTracer(scene, options).trace(rays, expected, nullptr);
+    accel::beam::BeamTracer(scene, options).closest_hits(rays, expected, {});
     for (const int processes : {1, 2, 5}) {
       const int level = 2 + static_cast<int>(seed) % 4;
       for (const SceneDivision division : kSceneDivisions) {
@@ -254,7 +254,7 @@ TEST(SplitScene, SeesTheSameFromInside) {
     camera.angle = 100.0F;
     const accel::PrimaryRays rays(camera, 60, 60, 1);
     accel::HitBuffer expected(60, 60, 1);
-    accel::beam::BeamTracer(scene, options_with(5)).trace(rays, expected, nullptr);
+    accel::beam::BeamTracer(scene, options_with(5)).closest_hits(rays, expected, {});
     for (const SceneDivision division : kSceneDivisions) {
       EXPECT_TRUE(traced_in_parts(scene, options_with(5), rays, 3, 4, 1, division) == expected);
     }
@@ -288,7 +288,7 @@ TEST(SplitScene, RunsFromACommandLineToItsEnd) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=3");
   accel::HitBuffer expected(40, 30, 1);
   accel::beam::BeamTracer(scene, options_with(6))
-      .trace(accel::PrimaryRays(scene.cameras.front(), 40, 30, 1), expected, nullptr);
+      .closest_hits(accel::PrimaryRays(scene.cameras.front(), 40, 30, 1), expected, {});
   ClusterRequest request;
   request.job.scene = "tetra:n=3";
   request.job.structure = "beam:max_level=6";

@@ -32,7 +32,7 @@ class Sampling : public ::testing::Test {
 
 TEST_F(Sampling, AllSamplesMakeTheUniformPicture) {
   accel::HitBuffer hits(60, 48, 25);
-  tracer_.trace(rays_, hits, nullptr);
+  tracer_.closest_hits(rays_, hits, {});
   const render::Image uniform = render::shade(scene_, rays_, hits, render::Shading::kPreview);
   const render::Image object_space =
       sparse_image(scene_, rays_, accel::beam::trace_object_space(tracer_, rays_, {0.0, 0.0}));

@@ -325,7 +325,8 @@ def test_another_interface_is_refused_by_its_stamp(
             "since then: each query exists once",
             "RayBatch (version 3);",
             "counts tests by kind of primitive (version 5);",
-            "change hits (version 6); build",
+            "change hits (version 6); two queries",
+            "update() (version 7); build",
         ],
     )
     refusal_of(
@@ -335,7 +336,8 @@ def test_another_interface_is_refused_by_its_stamp(
             "image (version 2); each query",
             "(version 3); a RayBatch",
             "counts tests by kind of primitive (version 5);",
-            "change hits (version 6); build",
+            "change hits (version 6); two queries",
+            "update() (version 7); build",
         ],
     )
     refusal_of(8, version + 1, [f"this program has {version}, an older one; build it again"])

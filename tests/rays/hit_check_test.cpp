@@ -91,7 +91,7 @@ std::vector<std::string> complaints(const scenes::Scene& scene, const accel::Hit
   const accel::PrimaryRays rays(camera, 16, 16, 1);
   const Planted structure(scene, fault, chosen);
   accel::HitBuffer hits(16, 16, 1);
-  structure.trace(rays, hits, nullptr);
+  structure.closest_hits(rays, hits, {});
   const HitCheck check(scene, "structure 'planted:fault=1'");
   std::vector<std::string> messages;
   const auto note = [&](const auto& draw) {

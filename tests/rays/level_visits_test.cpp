@@ -22,7 +22,7 @@ Visited visited(const std::string& spec) {
   const auto structure = accel::registry().choose(parse_spec(spec)).build(scene);
   Visited found{count_level_visits(*structure, TraceInput(rays)), structure->statistics(), {}};
   accel::HitBuffer hits(rays.width(), rays.height(), 1);
-  structure->trace(rays, hits, &found.work);
+  structure->closest_hits(rays, hits, {&found.work});
   return found;
 }
 

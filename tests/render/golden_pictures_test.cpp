@@ -125,7 +125,7 @@ TEST(Whitted, GoldenPictures) {
     const auto structure = built(scene, "sah-bvh");
     const accel::PrimaryRays rays(scene.cameras.front(), 64, 64, 1);
     accel::HitBuffer hits(64, 64, 1);
-    structure->trace(rays, hits, nullptr);
+    structure->closest_hits(rays, hits, {});
     const OIIO::ImageBuf found =
         as_png(whitted_picture(Whitted(scene, *structure, {}), rays, hits).image);
     const std::string file =

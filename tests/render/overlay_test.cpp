@@ -152,8 +152,8 @@ TEST(OverlayBeams, ATwofoldCoverIsSeen) {
 TEST(OverlayBeams, TheEndsOfRealBeamsCoverNoPixelTwice) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=3");
   const accel::PrimaryRays rays(scene.cameras.front(), 200, 160, 1);
-  const auto beams =
-      accel::registry().choose(parse_spec("beam:max_level=4")).build(scene)->beam_outlines(rays);
+  const auto structure = accel::registry().choose(parse_spec("beam:max_level=4")).build(scene);
+  const auto beams = structure->inspector()->beams(rays).value();
   std::vector<int> ends(200 * 160, 0);
   for (const accel::BeamOutline& beam : beams) {
     if (beam.kind == accel::BeamKind::kNonTerminal) continue;
@@ -241,8 +241,11 @@ TEST(OverlayCells, CountsAllCells) {
 // Any eye, near faces and edges of cells as well: nothing is drawn where no cell can be.
 TEST(OverlayCells, WhereRaysMissAllCellsNothingIsDrawnButNextToThem) {
   const scenes::Scene scene = scenes::load_scene("balls:n=1");
-  const auto cells =
-      accel::registry().choose(parse_spec("samet:max_level=4")).build(scene)->occupied_cells();
+  const auto cells = accel::registry()
+                         .choose(parse_spec("samet:max_level=4"))
+                         .build(scene)
+                         ->inspector()
+                         ->occupied_cells();
   ASSERT_FALSE(cells.empty());
   const accel::PrimaryRays rays(scene.cameras.front(), 120, 100, 1);
   Image image(120, 100, kGround);
@@ -283,11 +286,12 @@ TEST(LazyGrid, ShowsTheCellsThatRaysFilled) {
   accel::HitBuffer hits(16, 16, 1);
   const auto eager = accel::registry().choose(parse_spec("voxel-grid:fill=eager")).build(scene);
   const auto lazy = accel::registry().choose(parse_spec("voxel-grid:fill=lazy")).build(scene);
-  EXPECT_FALSE(eager->occupied_cells().empty());
-  EXPECT_TRUE(lazy->occupied_cells().empty());
-  lazy->trace(rays, hits, nullptr);
-  EXPECT_FALSE(lazy->occupied_cells().empty());
-  EXPECT_LE(lazy->occupied_cells().size(), eager->occupied_cells().size());
+  EXPECT_FALSE(eager->inspector()->occupied_cells().empty());
+  EXPECT_TRUE(lazy->inspector()->occupied_cells().empty());
+  lazy->closest_hits(rays, hits, {});
+  EXPECT_FALSE(lazy->inspector()->occupied_cells().empty());
+  EXPECT_LE(lazy->inspector()->occupied_cells().size(),
+            eager->inspector()->occupied_cells().size());
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <glm/common.hpp>
 #include <gtest/gtest.h>
 
+#include "harness/rays/counted_queries.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "harness/render/verified_picture.hpp"
 #include "harness/render/whitted_picture.hpp"
@@ -25,28 +26,20 @@ namespace {
 using glm::dvec3;
 
 /// Forwards batches without their marks.
-class Unmarked : public FollowingQueries {
+class Unmarked : public accel::ForwardingAccelerator {
  public:
-  explicit Unmarked(const accel::Accelerator& structure) : structure_(&structure) {}
+  using ForwardingAccelerator::ForwardingAccelerator;
 
-  std::optional<accel::Hit> closest_hit(const accel::Ray& ray,
-                                        accel::WorkCounters* counters) const override {
-    return structure_->closest_hit(ray, counters);
+  void closest_hits(const accel::RaySource& rays, const accel::HitSpan& hits,
+                    const accel::QueryContext& context) const override {
+    if (rays.batch() == nullptr) return structure().closest_hits(rays, hits, context);
+    structure().closest_hits(accel::RayBatch{rays.batch()->rays}, hits, context);
   }
-  bool any_hit(const accel::Ray& ray, accel::WorkCounters* counters) const override {
-    return structure_->any_hit(ray, counters);
+  void any_hits(const accel::RaySource& rays, std::span<std::uint8_t> hits,
+                const accel::QueryContext& context) const override {
+    if (rays.batch() == nullptr) return structure().any_hits(rays, hits, context);
+    structure().any_hits(accel::RayBatch{rays.batch()->rays}, hits, context);
   }
-  void closest_hits(const accel::RayBatch& batch, accel::HitBuffer& buffer,
-                    accel::WorkCounters* counters) const override {
-    structure_->closest_hits({batch.rays}, buffer, counters);
-  }
-  void any_hits(const accel::RayBatch& batch, std::span<std::uint8_t> hits,
-                accel::WorkCounters* counters) const override {
-    structure_->any_hits({batch.rays}, hits, counters);
-  }
-
- private:
-  const accel::Accelerator* structure_;
 };
 
 /// Checks what is marked, and forwards it.
@@ -55,15 +48,15 @@ class Checked : public Unmarked {
   Checked(const accel::Accelerator& structure, tests::CheckedPencils& pencils)
       : Unmarked(structure), pencils_(&pencils) {}
 
-  void closest_hits(const accel::RayBatch& batch, accel::HitBuffer& buffer,
-                    accel::WorkCounters* counters) const override {
-    add(batch);
-    Unmarked::closest_hits(batch, buffer, counters);
+  void closest_hits(const accel::RaySource& rays, const accel::HitSpan& hits,
+                    const accel::QueryContext& context) const override {
+    if (rays.batch() != nullptr) add(*rays.batch());
+    Unmarked::closest_hits(rays, hits, context);
   }
-  void any_hits(const accel::RayBatch& batch, std::span<std::uint8_t> hits,
-                accel::WorkCounters* counters) const override {
-    add(batch);
-    Unmarked::any_hits(batch, hits, counters);
+  void any_hits(const accel::RaySource& rays, std::span<std::uint8_t> hits,
+                const accel::QueryContext& context) const override {
+    if (rays.batch() != nullptr) add(*rays.batch());
+    Unmarked::any_hits(rays, hits, context);
   }
 
  private:
@@ -79,7 +72,7 @@ class Checked : public Unmarked {
 RecordedPicture recorded(const scenes::Scene& scene, const accel::Accelerator& structure,
                          const accel::PrimaryRays& image, const WhittedOptions& options = {}) {
   accel::HitBuffer hits(image.width(), image.height(), image.samples());
-  built(scene, "sah-bvh")->trace(image, hits, nullptr);
+  built(scene, "sah-bvh")->closest_hits(image, hits, {});
   return record_picture(std::make_shared<const ShadedScene>(scene), structure, image,
                         std::move(hits), options, rays::HitCheck(scene));
 }
@@ -219,12 +212,11 @@ Worked drawn(const scenes::Scene& scene, const char* spec, const WhittedOptions&
   const auto structure = built(scene, spec);
   const accel::PrimaryRays image(scene.cameras.front(), 100, 70, 1);
   accel::HitBuffer hits(100, 70, 1);
-  structure->trace(image, hits, nullptr);
-  accel::WorkCounters counters;
-  const CountedQueries counted(*structure, counters);
+  structure->closest_hits(image, hits, {});
+  const rays::CountedQueries counted(*structure);
   const Whitted tracer(scene, counted, options);
   WhittedPicture picture = whitted_picture(tracer, image, hits, {}, 1);
-  return {std::move(picture), counters.by_name()};
+  return {std::move(picture), counted.work().counters.by_name()};
 }
 
 // The thesis's beams through mirrors that mirrors show: the picture of single rays, bit for bit.
@@ -271,10 +263,10 @@ TEST(Pencils, OfTolerantStructuresGiveTheSamePictureButForGrazes) {
     SCOPED_TRACE(scene.name);
     const accel::PrimaryRays image(scene.cameras.front(), 100, 70, 1);
     const auto structure = built(scene, "tile-beam");
-    accel::WorkCounters counters;
-    const RecordedPicture marked = recorded(scene, CountedQueries(*structure, counters), image);
+    const rays::CountedQueries counted(*structure);
+    const RecordedPicture marked = recorded(scene, counted, image);
     const RecordedPicture unmarked = recorded(scene, Unmarked(*structure), image);
-    scenes_with_beams += counters.by_name().contains("beams") ? 1 : 0;
+    scenes_with_beams += counted.work().counters.by_name().contains("beams") ? 1 : 0;
     const int different = visibly_different(marked.image, unmarked.image);
     EXPECT_LE(different, 2);  // the differ's budget for so few rays
     const verify::ReferenceHits primary(scene, image);
@@ -294,7 +286,7 @@ TEST(Pencils, DoNotChangeAPictureOfManySamples) {
   const auto structure = built(scene, "sah-bvh");
   const accel::PrimaryRays image(scene.cameras.front(), 70, 50, 4);
   accel::HitBuffer hits(70, 50, 4);
-  structure->trace(image, hits, nullptr);
+  structure->closest_hits(image, hits, {});
   const Whitted tracer(scene, *structure, {});
   const WhittedPicture expected = whitted_picture(tracer, image, hits);
   Whitted::Progress progress = tracer.begin();

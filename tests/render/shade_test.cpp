@@ -143,7 +143,7 @@ scenes::Scene red_ball() {
 Image picture_of(const scenes::Scene& scene, Shading shading) {
   const accel::PrimaryRays rays(scene.cameras.front(), 33, 33, 1);
   accel::HitBuffer hits(33, 33, 1);
-  accel::registry().choose({"exhaustive", {}}).build(scene)->trace(rays, hits, nullptr);
+  accel::registry().choose({"exhaustive", {}}).build(scene)->closest_hits(rays, hits, {});
   return shade(scene, rays, hits, shading);
 }
 

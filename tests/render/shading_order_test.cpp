@@ -36,7 +36,8 @@ TEST(ShadingOrder, KeepsTheSamplesOfABeamTogether) {
   std::size_t steps_back = 0;
   for (std::size_t i = 1; i < places.size(); ++i) steps_back += places[i] < places[i - 1] ? 1 : 0;
   std::size_t occupied = 0;
-  for (const accel::BeamOutline& outline : beam->beam_outlines(rays)) {
+  const auto outlines = beam->inspector()->beams(rays).value();
+  for (const accel::BeamOutline& outline : outlines) {
     occupied += outline.kind == accel::BeamKind::kOccupied ? 1 : 0;
   }
   EXPECT_GT(steps_back, 100U);
@@ -49,7 +50,7 @@ TEST(ShadingOrder, ChangesNeitherPictureNorRays) {
   const accel::PrimaryRays rays = primary;
   const auto beam = built(scene, "beam:max_level=5");
   accel::HitBuffer hits(primary.width(), primary.height(), 1);
-  beam->trace(primary, hits, nullptr);
+  beam->closest_hits(primary, hits, {});
   const Whitted tracer(scene, *beam, {.shadows = ShadowMethod::kCache});
   const WhittedPicture rows = whitted_picture(tracer, rays, hits);
   std::vector<std::uint64_t> cached;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include "accel/core/forwarding_accelerator.hpp"
 #include "accel/core/tolerance.hpp"
 #include "harness/rays/normal.hpp"
 #include "harness/render/places.hpp"
@@ -15,46 +16,33 @@ namespace beambench::render {
 namespace {
 
 /// Forwards queries and counts them.
-class CountedCalls : public accel::Accelerator {
+class CountedCalls : public accel::ForwardingAccelerator {
  public:
-  explicit CountedCalls(const accel::Accelerator& structure) : structure_(structure) {}
+  using ForwardingAccelerator::ForwardingAccelerator;
 
-  std::optional<accel::Hit> closest_hit(const accel::Ray& ray,
-                                        accel::WorkCounters* counters) const override {
-    ++single;
-    return structure_.closest_hit(ray, counters);
+  void closest_hits(const accel::RaySource& rays, const accel::HitSpan& hits,
+                    const accel::QueryContext& context) const override {
+    note(rays);
+    ForwardingAccelerator::closest_hits(rays, hits, context);
   }
-  bool any_hit(const accel::Ray& ray, accel::WorkCounters* counters) const override {
-    ++single;
-    return structure_.any_hit(ray, counters);
+  void any_hits(const accel::RaySource& rays, std::span<std::uint8_t> hits,
+                const accel::QueryContext& context) const override {
+    note(rays);
+    ForwardingAccelerator::any_hits(rays, hits, context);
   }
-  void trace(const accel::PrimaryRays& rays, accel::HitBuffer& buffer,
-             accel::WorkCounters* counters) const override {
-    structure_.trace(rays, buffer, counters);
-  }
-  void closest_hits(const accel::RayBatch& batch, accel::HitBuffer& buffer,
-                    accel::WorkCounters* counters) const override {
-    note(batch.rays.size());
-    structure_.closest_hits(batch, buffer, counters);
-  }
-  void any_hits(const accel::RayBatch& batch, std::span<std::uint8_t> hits,
-                accel::WorkCounters* counters) const override {
-    note(batch.rays.size());
-    structure_.any_hits(batch, hits, counters);
-  }
-  accel::Statistics statistics() const override { return structure_.statistics(); }
 
   mutable std::size_t single = 0;
   mutable std::size_t batches = 0;
   mutable std::size_t largest = 0;
 
  private:
-  void note(std::size_t rays) const {
-    EXPECT_GT(rays, 0U) << "nothing was asked for";
+  void note(const accel::RaySource& rays) const {
+    if (rays.ray() != nullptr) ++single;
+    if (rays.batch() == nullptr) return;
+    EXPECT_GT(rays.size(), 0U) << "nothing was asked for";
     ++batches;
-    largest = std::max(largest, rays);
+    largest = std::max(largest, rays.size());
   }
-  const accel::Accelerator& structure_;
 };
 
 /// The camera rays of an image, and their hits, as a list.
@@ -96,7 +84,7 @@ TEST(Waves, AskInBatchesAlone) {
   const CountedCalls counted(*structure);
   const accel::PrimaryRays rays(scene.cameras.front(), 100, 80, 1);
   accel::HitBuffer hits(100, 80, 1);
-  structure->trace(rays, hits, nullptr);
+  structure->closest_hits(rays, hits, {});
   Image image(100, 80);
   const RayCensus census = draw_in_order(Whitted(scene, counted, {}), rays, hits, image);
   EXPECT_EQ(counted.single, 0U);

@@ -329,7 +329,7 @@ TEST(Whitted, DrawnInOrderItIsTheSamePicture) {
   const auto structure = built(scene, "samet");
   const accel::PrimaryRays rays(scene.cameras.front(), 40, 30, 1);
   accel::HitBuffer hits(40, 30, 1);
-  structure->trace(rays, hits, nullptr);
+  structure->closest_hits(rays, hits, {});
   const Whitted tracer(scene, *structure, WhittedOptions{});
   const WhittedPicture expected = whitted_picture(tracer, rays, hits);
   Image image(40, 30);

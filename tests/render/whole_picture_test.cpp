@@ -121,9 +121,10 @@ class WrongAlone : public accel::TraversalAccelerator<WrongAlone> {
   WrongAlone(const scenes::Scene& scene, In in) : right_(built(scene, "exhaustive")), in_(in) {}
 
   accel::Statistics statistics() const override { return {}; }
-  void trace(const accel::PrimaryRays& rays, accel::HitBuffer& buffer,
-             accel::WorkCounters* counters) const override {
-    right_->trace(rays, buffer, counters);
+  void closest_hits(const accel::RaySource& rays, const accel::HitSpan& hits,
+                    const accel::QueryContext& context) const override {
+    if (rays.image() != nullptr) return right_->closest_hits(rays, hits, context);
+    TraversalAccelerator::closest_hits(rays, hits, context);
   }
   template <class Counting>
   std::optional<accel::Hit> find_closest(const accel::Ray& ray, Counting&) const {

@@ -151,7 +151,7 @@ struct Found {
 void add(Found& found, const scenes::Scene& scene, const TileBeam& structure,
          const ReferenceHits& reference, const PrimaryRays& rays, std::uint64_t seed) {
   accel::HitBuffer image(rays.width(), rays.height(), 1);
-  structure.trace(rays, image, nullptr);
+  structure.closest_hits(rays, image, {});
   const DiffReport report =
       verify_results(reference, std::move(image), accel::Conformance::kTolerance);
   found.rays += report.rays;
@@ -207,7 +207,7 @@ TEST(BackfaceCulling, LeavesOutNodesThatAreTurnedAway) {
   const auto leaves = [&](bool culling) {
     accel::HitBuffer image(320, 200, 1);
     accel::WorkCounters counters;
-    TileBeam(scene, {.backface_culling = culling}).trace(rays, image, &counters);
+    TileBeam(scene, {.backface_culling = culling}).closest_hits(rays, image, {&counters});
     return counters.get(accel::Counter::kLeaves);
   };
   EXPECT_LT(10 * leaves(true), 9 * leaves(false));

@@ -112,7 +112,7 @@ void expect_no_leak(std::uint64_t placements, Sealed::Aim aim = Sealed::Aim::kNe
     const TileBeam structure(sealed.scene(), {});
     const rays::RayList list = sealed.rays(light_inside, aim);
     std::ranges::fill(hits, std::uint8_t{9});
-    structure.any_hits(list.batch(), hits, nullptr);
+    structure.any_hits(list.batch(), hits, {});
     const auto stopped = static_cast<std::size_t>(std::ranges::count(hits, 1));
     if (stopped != Sealed::kRays) {
       ++leaking;
@@ -122,7 +122,7 @@ void expect_no_leak(std::uint64_t placements, Sealed::Aim aim = Sealed::Aim::kNe
     }
     if (i % 64 == 0) {
       accel::WorkCounters counters;
-      structure.any_hits(list.batch(), hits, &counters);
+      structure.any_hits(list.batch(), hits, {&counters});
       const auto work = counters.by_name();
       ASSERT_TRUE(work.contains("beams")) << "these rays are too few for a pencil";
       most_sides = std::max(most_sides, work.at("beams"));
@@ -170,7 +170,7 @@ TEST(ClosedMeshes, LeakNoLightInLargePencils) {
       }
       list.pencils.push_back({0, list.rays.size(), dvec3(light), true});
       std::vector<std::uint8_t> hits(list.rays.size(), 9);
-      structure.any_hits(list.batch(), hits, nullptr);
+      structure.any_hits(list.batch(), hits, {});
       EXPECT_EQ(std::ranges::count(hits, 1), 9000) << name << " placement " << placement;
     }
   }

@@ -206,7 +206,7 @@ TEST(ConeImages, AreSeldomDoubtful) {
       const accel::PrimaryRays rays(scene.cameras.front(), 300, 300, 1);
       accel::HitBuffer image(300, 300, 1);
       accel::WorkCounters counters;
-      structure.trace(rays, image, &counters);
+      structure.closest_hits(rays, image, {&counters});
       EXPECT_GT(counters.by_name()["cone_tests"], 0U) << name;
       EXPECT_LT(counters.by_name()["doubtful_samples"], image.size() / 400) << name;
     }

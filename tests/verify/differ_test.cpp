@@ -30,7 +30,7 @@ using tests::random_scene;
 accel::HitBuffer traced(const std::string& structure, const scenes::Scene& scene,
                         const accel::PrimaryRays& rays) {
   accel::HitBuffer buffer(rays.width(), rays.height(), rays.samples());
-  accel::registry().choose(parse_spec(structure)).build(scene)->trace(rays, buffer, nullptr);
+  accel::registry().choose(parse_spec(structure)).build(scene)->closest_hits(rays, buffer, {});
   return buffer;
 }
 
@@ -39,7 +39,7 @@ TEST(Oracle, GivesTheExactAnswer) {
   std::uint64_t not_equal = 0;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     const scenes::Scene scene = random_scene(seed, 30);
-    const accel::embree::EmbreeOracle oracle(scene, 20'000.0);
+    const accel::oracle::Oracle oracle(scene, 20'000.0);
     Random random(seed);
     for (int i = 0; i < 300; ++i) {
       const accel::Ray ray = random_ray(scene, random);
@@ -260,10 +260,10 @@ TEST_F(FaultyBuffer, AnswersThatAreNone) {
 }
 
 TEST_F(FaultyBuffer, ErrorOfTheOracleIsNotTheStructures) {
-  std::vector<std::optional<accel::embree::ExactHit>> hits(reference_.hits().begin(),
+  std::vector<std::optional<accel::oracle::ExactHit>> hits(reference_.hits().begin(),
                                                            reference_.hits().end());
   hits[on_tile()] = std::nullopt;
-  hits[on_wall()] = accel::embree::ExactHit{4.0, kTile};
+  hits[on_wall()] = accel::oracle::ExactHit{4.0, kTile};
   const ReferenceHits wrong(scene_, rays_, hits);
   const DiffReport report = verify_results(wrong, buffer_, accel::Conformance::kTolerance);
   EXPECT_EQ(report.count(DiffClass::kEmbreeError), 2U);
@@ -409,7 +409,7 @@ class EndsAtASurface : public ::testing::Test {
     set.rays = {ray};
     set.query = rays::Query::kAnyHit;
     const rays::TraceInput input(std::move(set));
-    const accel::embree::EmbreeOracle oracle(scene_, 100.0);
+    const accel::oracle::Oracle oracle(scene_, 100.0);
     Mismatch found =
         candidate_mismatch(input, rays::AnyHits{static_cast<std::uint8_t>(answer ? 1 : 0)}, 0,
                            oracle.closest_hit(ray));

@@ -10,7 +10,7 @@
 namespace beambench::tests {
 
 /// Returns the first crossing in the ray's interval.
-inline std::optional<accel::embree::ExactHit> exact_closest_hit(const scenes::Scene& scene,
+inline std::optional<accel::oracle::ExactHit> exact_closest_hit(const scenes::Scene& scene,
                                                                 const accel::Ray& ray) {
   const std::vector<verify::Crossing> found =
       verify::crossings(scene, ray, verify::primitives_near(scene, ray));

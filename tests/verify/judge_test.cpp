@@ -326,7 +326,7 @@ TEST(Disputes, ExactAnswersAreNeverGrazes) {
   }
   const rays::TraceInput input(std::move(set));
   const rays::TraceResults hits = results_of(scene, input, "exhaustive");
-  const std::vector<std::optional<accel::embree::ExactHit>> none(input.size());
+  const std::vector<std::optional<accel::oracle::ExactHit>> none(input.size());
   const DiffReport report =
       verify_results(ReferenceHits(scene, input, none), hits, accel::Conformance::kTolerance);
   EXPECT_EQ(report.count(DiffClass::kAgree), input.size());

@@ -76,7 +76,7 @@ class PlantedFault : public ::testing::TestWithParam<SceneAndLevel> {
 
   DiffReport verify_with(const SametFault& fault) const {
     accel::HitBuffer buffer(kSide, kSide, 1);
-    FaultySamet(scene_, options_, fault).trace(rays_, buffer, nullptr);
+    FaultySamet(scene_, options_, fault).closest_hits(rays_, buffer, {});
     return verify_results(reference_, buffer, accel::Conformance::kBitExact);
   }
 

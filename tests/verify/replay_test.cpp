@@ -133,7 +133,7 @@ TEST_F(PlantedMismatch, IsReplayedByThePastedCommand) {
   const ReferenceHits reference(scene_, rays);
   const accel::StructureChoice samet = accel::registry().choose(parse_spec("samet:max_level=3"));
   accel::HitBuffer buffer(33, 21, kSamples);
-  samet.build(scene_)->trace(rays, buffer, nullptr);
+  samet.build(scene_)->closest_hits(rays, buffer, {});
   const std::size_t lost = buffer.index(16, 10, 3);
   ASSERT_TRUE(buffer.get(lost));
   buffer.set(lost, std::nullopt);
@@ -187,7 +187,7 @@ TEST_F(PlantedMismatch, OneRayIsClassifiedAsInItsImage) {
   const accel::PrimaryRays rays(scene_.cameras.front(), 16, 16, 1);
   const ReferenceHits reference(scene_, rays);
   accel::HitBuffer buffer(16, 16, 1);
-  accel::registry().choose(parse_spec("exhaustive")).build(scene_)->trace(rays, buffer, nullptr);
+  accel::registry().choose(parse_spec("exhaustive")).build(scene_)->closest_hits(rays, buffer, {});
   for (std::size_t i = 0; i < buffer.size(); i += 3) {  // lost, moved, invented
     const auto hit = buffer.get(i);
     if (!hit) buffer.set(i, accel::Hit{4.0F, 1});

@@ -126,7 +126,7 @@ class Trial {
     const ReferenceHits& eye = references_.front();
     const accel::PrimaryRays& rays = *eye.input().image();
     accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
-    contender.structure->trace(rays, hits, nullptr);
+    contender.structure->closest_hits(rays, hits, {});
     std::vector<render::VerifiedRays> verified;
     try {
       verified = render::verify_recorded_picture(
@@ -173,7 +173,7 @@ accel::HitBuffer image_on(std::int64_t target, const std::string& name, const sc
   const auto structure = accel::registry().choose({name, {}}).build(scene);
   accel::HitBuffer image(rays.width(), rays.height(), rays.samples());
   rays::poison(image);
-  structure->trace(rays, image, nullptr);
+  structure->closest_hits(rays, image, {});
   return image;
 }
 

@@ -47,15 +47,15 @@ class Faulty : public accel::TraversalAccelerator<Faulty> {
   Faulty(const scenes::Scene& scene, Fault fault)
       : scene_(&scene), fault_(fault), number_(builds++) {}
 
-  void trace(const accel::PrimaryRays& rays, accel::HitBuffer& buffer,
-             accel::WorkCounters* counters) const override {
-    TraversalAccelerator::trace(rays, buffer, counters);
-    if (fault_ == Fault::kImageUpsideDown) std::reverse(buffer.t(), buffer.t() + buffer.size());
-  }
-  void closest_hits(const accel::RayBatch& batch, accel::HitBuffer& buffer,
-                    accel::WorkCounters* counters) const override {
-    TraversalAccelerator::closest_hits(batch, buffer, counters);
-    if (fault_ == Fault::kOtherInLists) buffer.t()[buffer.size() - 1] = 1.0F;  // of a miss, too
+  void closest_hits(const accel::RaySource& rays, const accel::HitSpan& hits,
+                    const accel::QueryContext& context) const override {
+    TraversalAccelerator::closest_hits(rays, hits, context);
+    if (rays.image() != nullptr && fault_ == Fault::kImageUpsideDown) {
+      std::reverse(hits.t(), hits.t() + hits.size());
+    }
+    if (rays.batch() != nullptr && fault_ == Fault::kOtherInLists) {
+      hits.t()[hits.size() - 1] = 1.0F;  // of a miss, too
+    }
   }
 
   template <class Counting>

@@ -12,7 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "accel/core/trace_on.hpp"
+#include "accel/core/threads.hpp"
 #include "harness/base/messages.hpp"
 #include "harness/base/process_start.hpp"
 #include "harness/bench/record/machine.hpp"

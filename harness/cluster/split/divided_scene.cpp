@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "harness/cluster/split/light_relay.hpp"
-#include "harness/rays/trace_input.hpp"
 
 namespace beambench::cluster {
 namespace {
@@ -21,60 +20,41 @@ DividedScene::DividedScene(const PartTracer& part, LightExchange& exchange,
                            accel::Statistics statistics)
     : part_(&part), exchange_(&exchange), statistics_(std::move(statistics)) {}
 
-std::vector<accel::Hit> DividedScene::hits_of(std::span<const accel::Ray> rays,
+std::vector<accel::Hit> DividedScene::hits_of(const accel::RaySource& rays,
                                               LightQuery query) const {
   std::vector<accel::Hit> hits(rays.size(), kNoHit);
   std::vector<LightRay> crossing;
   std::vector<std::size_t> places;  // theirs
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const std::optional<PartTracer::Place> begin = part_->beginning(rays[i]);
-    if (!begin) continue;
-    LightRay light{0, 0, query, rays[i], 0.0, kNoHit};
+  rays.for_each([&](std::size_t i, const accel::Ray& ray) {
+    const std::optional<PartTracer::Place> begin = part_->beginning(ray);
+    if (!begin) return;
+    LightRay light{0, 0, query, ray, 0.0, kNoHit};
     const auto [best, exit] = pass(*part_, light, *begin);
     hits[i] = best;
-    if (!exit) continue;
+    if (!exit) return;
     light.cell = exit->cell;
     light.t = exit->t;
     light.best = best;
     crossing.push_back(light);
     places.push_back(i);
-  }
+  });
   const std::vector<accel::Hit> answers = exchange_->ask(std::move(crossing));
   for (std::size_t i = 0; i < answers.size(); ++i) hits[places[i]] = answers[i];
   return hits;
 }
 
-std::optional<accel::Hit> DividedScene::closest_hit(const accel::Ray& ray,
-                                                    accel::WorkCounters*) const {
-  return as_result(hits_of({&ray, 1}, LightQuery::kClosest).front());
-}
-
-bool DividedScene::any_hit(const accel::Ray& ray, accel::WorkCounters*) const {
-  return is_hit(hits_of({&ray, 1}, LightQuery::kAny).front());
-}
-
-void DividedScene::trace(const accel::PrimaryRays& rays, accel::HitBuffer& buffer,
-                         accel::WorkCounters* counters) const {
-  std::vector<accel::Ray> all;
-  all.reserve(rays.count());
-  for (std::size_t i = 0; i < rays.count(); ++i) all.push_back(rays::ray_at(rays, i));
-  closest_hits({all, {}, {}, nullptr}, buffer, counters);
-}
-
-void DividedScene::closest_hits(const accel::RayBatch& batch, accel::HitBuffer& buffer,
-                                accel::WorkCounters*) const {
+void DividedScene::closest_hits(const accel::RaySource& rays, const accel::HitSpan& hits,
+                                const accel::QueryContext&) const {
   std::size_t index = 0;
-  for (const accel::Hit& hit : hits_of(batch.rays, LightQuery::kClosest)) {
-    buffer.set(index++, as_result(hit));
+  for (const accel::Hit& hit : hits_of(rays, LightQuery::kClosest)) {
+    hits.set(index++, as_result(hit));
   }
 }
 
-void DividedScene::any_hits(const accel::RayBatch& batch, std::span<std::uint8_t> hits,
-                            accel::WorkCounters*) const {
+void DividedScene::any_hits(const accel::RaySource& rays, std::span<std::uint8_t> hits,
+                            const accel::QueryContext&) const {
   std::size_t index = 0;
-  for (const accel::Hit& hit : hits_of(batch.rays, LightQuery::kAny)) {
-    hits[index++] = is_hit(hit) ? 1 : 0;
-  }
+  for (const accel::Hit& hit : hits_of(rays, LightQuery::kAny)) hits[index++] = is_hit(hit) ? 1 : 0;
 }
 
 }  // namespace beambench::cluster

@@ -15,19 +15,14 @@ class DividedScene : public accel::Accelerator {
   /// Both must outlive it. `statistics` are those of this part.
   DividedScene(const PartTracer& part, LightExchange& exchange, accel::Statistics statistics);
 
-  std::optional<accel::Hit> closest_hit(const accel::Ray& ray,
-                                        accel::WorkCounters* counters) const override;
-  bool any_hit(const accel::Ray& ray, accel::WorkCounters* counters) const override;
-  void trace(const accel::PrimaryRays& rays, accel::HitBuffer& buffer,
-             accel::WorkCounters* counters) const override;
-  void closest_hits(const accel::RayBatch& batch, accel::HitBuffer& buffer,
-                    accel::WorkCounters* counters) const override;
-  void any_hits(const accel::RayBatch& batch, std::span<std::uint8_t> hits,
-                accel::WorkCounters* counters) const override;
+  void closest_hits(const accel::RaySource& rays, const accel::HitSpan& hits,
+                    const accel::QueryContext& context) const override;
+  void any_hits(const accel::RaySource& rays, std::span<std::uint8_t> hits,
+                const accel::QueryContext& context) const override;
   accel::Statistics statistics() const override { return statistics_; }
 
  private:
-  std::vector<accel::Hit> hits_of(std::span<const accel::Ray> rays, LightQuery query) const;
+  std::vector<accel::Hit> hits_of(const accel::RaySource& rays, LightQuery query) const;
 
   const PartTracer* part_;
   LightExchange* exchange_;

@@ -153,5 +153,6 @@ const Plugin beambench_plugin{
                              "how long the hierarchy is worked on"),
             flag_parameter("robust", true, "the box test that loses no hit (Ize 2013)"),
             adapters::exact_t_parameter()},
-           build});
+           build,
+           {.spheres = false, .cones = false}});
     }};

@@ -219,5 +219,6 @@ const Plugin beambench_plugin{
             flag_parameter("normalize", true,
                            "directions, as the constructor of its rays does; t is scaled back"),
             adapters::exact_t_parameter()},
-           build});
+           build,
+           {.spheres = false, .cones = false}});
     }};

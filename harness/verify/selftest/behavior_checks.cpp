@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "accel/core/inspector_of.hpp"
 #include "harness/rays/trace_results.hpp"
 #include "harness/verify/selftest/selftest.hpp"
 #include "harness/verify/selftest/test_scenes.hpp"
@@ -225,7 +226,7 @@ CheckOutcome check_explanation(const Subject& subject, const SelftestEffort& eff
   const Trial trial(subject, effort.seed);
   CheckOutcome outcome;
   for (const accel::Ray& ray : trial.rays) {
-    const std::vector<accel::TraceStep> steps = trial.structure->explain(ray);
+    const std::vector<accel::TraceStep> steps = accel::inspector_of(*trial.structure).path(ray);
     if (steps.empty()) continue;
     ++outcome.rays;
     std::optional<accel::Hit> nearest;

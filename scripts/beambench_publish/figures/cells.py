@@ -77,7 +77,7 @@ class Cells:
     @property
     def wrong(self) -> pd.DataFrame:
         """The rows whose hits are not correct."""
-        return self.rows[~self.rows["verdict"].isin(("ok", "baseline", "no_rays"))]
+        return self.rows[~self.rows["verdict"].isin(("ok", "baseline", "no_rays", "unsupported"))]
 
     @staticmethod
     def _is(rows: pd.DataFrame, contender: str) -> pd.Series:

@@ -6,7 +6,7 @@ import csv
 from dataclasses import dataclass
 from pathlib import Path
 
-_RIGHT = ("ok", "baseline", "no_rays")
+_RIGHT = ("ok", "baseline", "no_rays", "unsupported")
 
 
 @dataclass(frozen=True)

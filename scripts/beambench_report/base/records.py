@@ -26,7 +26,8 @@ ERROR = "error"  # the structure could not be built
 REFERENCES = ("null", "exhaustive")
 """Structures that do not compete: one finds nothing, one tests everything."""
 NO_RAYS = "no_rays"  # the scene has none of the kind: nothing was measured, and nothing is wrong
-FAULTLESS_VERDICTS = (*TIMED_VERDICTS, NO_RAYS)
+UNSUPPORTED = "unsupported"  # the structure does not take these rays or primitives: as NO_RAYS
+FAULTLESS_VERDICTS = (*TIMED_VERDICTS, NO_RAYS, UNSUPPORTED)
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from beambench_report.base.cell_files import CellFile, Identity, ratio_of, read_
 from beambench_report.base.files import Problem
 from beambench_report.base.machine import Machine, machine_of
 from beambench_report.base.ratio import Median, Ratio, median_of, unpaired_ratio
-from beambench_report.base.records import NO_RAYS, contenders_with_times, read_run
+from beambench_report.base.records import NO_RAYS, UNSUPPORTED, contenders_with_times, read_run
 from beambench_report.history.night import cell_titles, comparable, keys_of, views_of
 
 Key = tuple
@@ -202,5 +202,5 @@ def _interval(ratio: Ratio) -> str:
 
 
 def _wrong(rows: pd.DataFrame, name: str) -> list[str]:
-    wrong = int((~rows["timed"] & (rows["verdict"] != NO_RAYS)).sum())
+    wrong = int((~rows["timed"] & ~rows["verdict"].isin((NO_RAYS, UNSUPPORTED))).sum())
     return [f"In {name}, {wrong} cells have no times: wrong hits."] if wrong else []

@@ -67,12 +67,11 @@ class Faulty : public TraversalAccelerator<Faulty> {
   bool find_any(const Ray& ray, Counting& counting) const {
     return find_closest(ray, counting).has_value() != fault_is("any hit is the other way round");
   }
-  std::vector<BeamPlace> beam_places(const PrimaryRays& rays) const override {
-    if (fault_is("places of too few rays")) return std::vector<BeamPlace>(rays.count() - 1);
-    if (fault_is("a side of no cube")) return {rays.count(), BeamPlace{.side = 6}};
+  std::vector<BeamPlace> places(const RaySource& rays) const override {
+    if (fault_is("places of too few rays")) return std::vector<BeamPlace>(rays.size() - 1);
+    if (fault_is("a side of no cube")) return {rays.size(), BeamPlace{.side = 6}};
     return {};
   }
-  std::vector<BeamPlace> beam_places(const RayBatch&) const override { return {}; }
   Statistics statistics() const override {
     if (fault_is("throw in statistics")) throw std::runtime_error("never counted");
     return {};

@@ -14,7 +14,7 @@ class MedianBvh : public beambench::accel::TraversalAccelerator<MedianBvh> {
  public:
   MedianBvh(const beambench::scenes::Scene& scene, std::uint32_t max_leaf)
       : scene_(&scene),
-        boxes_(beambench::accel::bvh::padded_primitive_bounds(scene)),
+        boxes_(beambench::accel::padded_primitive_bounds(scene)),
         order_(boxes_.size()) {
     std::iota(order_.begin(), order_.end(), 0U);
     if (!order_.empty()) build(0, static_cast<std::uint32_t>(order_.size()), max_leaf, 1);
@@ -92,7 +92,7 @@ class MedianBvh : public beambench::accel::TraversalAccelerator<MedianBvh> {
   bool visit(const beambench::accel::Ray& ray, Counting& counting, Test test,
              const float& t_max) const {
     if (nodes_.empty()) return false;
-    const beambench::accel::bvh::SlabRay slabs(ray);
+    const beambench::accel::SlabRay slabs(ray);
     std::uint32_t stack[64];  // the median halves: 2^32 primitives are 32 levels
     int size = 0;
     stack[size++] = 0;

@@ -10,7 +10,7 @@
 #include "accel/core/ray.hpp"
 #include "scenes/scene.hpp"
 
-namespace beambench::accel::embree {
+namespace beambench::accel::oracle {
 
 /// A ray's floats as doubles.
 struct ExactRay {
@@ -41,4 +41,4 @@ ExactBounds bounds_of(const scenes::Sphere& sphere);
 /// Loose: the box of the spheres around its ends.
 ExactBounds bounds_of(const scenes::Cone& cone);
 
-}  // namespace beambench::accel::embree
+}  // namespace beambench::accel::oracle

@@ -1,4 +1,4 @@
-#include "accel/embree/oracle.hpp"
+#include "accel/oracle/oracle.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,15 +8,18 @@
 
 #include "accel/core/canonical_ray.hpp"
 #include "accel/embree/device.hpp"
-#include "accel/embree/exact_tests.hpp"
+#include "accel/oracle/exact_tests.hpp"
 
-namespace beambench::accel::embree {
+namespace beambench::accel::oracle {
 
 namespace {
 
+using embree::to_embree;
+using embree::to_embree_query;
+
 /// A query inside Embree: the best hit so far keeps its double t here, since Embree's
 /// own ray has only a float.
-struct OracleQuery : Context {
+struct OracleQuery : embree::Context {
   explicit OracleQuery(const Ray& r)
       : Context(false),
         ray(r),
@@ -28,7 +31,7 @@ struct OracleQuery : Context {
   scenes::PrimitiveId primitive = scenes::kNoPrimitive;
 };
 
-OracleQuery& query_of(RawContext* context) { return *static_cast<OracleQuery*>(context); }
+OracleQuery& query_of(embree::RawContext* context) { return *static_cast<OracleQuery*>(context); }
 
 /// A float that is not below t: Embree prunes by it, so it may only err to the far side.
 float at_least(double t) {
@@ -133,7 +136,7 @@ struct Padded {
 
   void attach(RTCDevice device, RTCScene scene) {
     if (kind.count() == 0) return;
-    const GeometryHandle geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
+    const embree::GeometryHandle geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
     rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(kind.count()));
     rtcSetGeometryUserData(geometry.get(), this);
     rtcSetGeometryBoundsFunction(geometry.get(), on_bounds, nullptr);
@@ -150,7 +153,7 @@ double padding(const scenes::Scene& scene, double reach) {
 
 }  // namespace
 
-struct EmbreeOracle::State {
+struct Oracle::State {
   State(const scenes::Scene& s, double pad)
       : device(""),
         triangles{{s}, pad},
@@ -165,30 +168,30 @@ struct EmbreeOracle::State {
     device.check("building the oracle over " + s.name);
   }
 
-  Device device;
+  embree::Device device;
   Padded<Triangles> triangles;
   Padded<Shapes<scenes::Sphere>> spheres;
   Padded<Shapes<scenes::Cone>> cones;
-  SceneHandle scene;
+  embree::SceneHandle scene;
 };
 
-EmbreeOracle::EmbreeOracle(const scenes::Scene& scene, double reach)
+Oracle::Oracle(const scenes::Scene& scene, double reach)
     : state_(std::make_unique<State>(scene, padding(scene, reach))) {}
-EmbreeOracle::~EmbreeOracle() = default;
+Oracle::~Oracle() = default;
 
-std::optional<ExactHit> EmbreeOracle::closest_hit(const Ray& ray) const {
+std::optional<ExactHit> Oracle::closest_hit(const Ray& ray) const {
   OracleQuery query(ray);
   RTCRayHit ray_hit = to_embree_query(ray);
   ray_hit.ray = scaled(query);
-  intersect(state_->scene.get(), query, ray_hit);
+  embree::intersect(state_->scene.get(), query, ray_hit);
   if (query.primitive == scenes::kNoPrimitive) return std::nullopt;
   return ExactHit{query.best, query.primitive};
 }
 
-bool EmbreeOracle::any_hit(const Ray& ray) const {
+bool Oracle::any_hit(const Ray& ray) const {
   OracleQuery query(ray);
   RTCRay out = scaled(query);
-  return occluded(state_->scene.get(), query, out);
+  return embree::occluded(state_->scene.get(), query, out);
 }
 
-}  // namespace beambench::accel::embree
+}  // namespace beambench::accel::oracle

@@ -7,7 +7,7 @@
 #include "accel/core/ray.hpp"
 #include "scenes/bounds.hpp"
 
-namespace beambench::accel::bvh {
+namespace beambench::accel {
 
 /// The part of a ray inside a box, its ends rounded to float as the t of a hit is: rounding is
 /// monotonic, so whatever is hit in the box has its rounded t in this interval. Empty
@@ -54,4 +54,4 @@ class SlabRay {
   std::array<bool, 3> backward_;
 };
 
-}  // namespace beambench::accel::bvh
+}  // namespace beambench::accel

@@ -1,7 +1,6 @@
-#include "accel/core/trace_on.hpp"
+#include "accel/core/threads.hpp"
 
 #include <algorithm>
-#include <mutex>
 #include <optional>
 
 #include <tbb/blocked_range.h>
@@ -38,30 +37,9 @@ void on_default_threads(const std::function<void()>& work) {
   arena.execute(work);
 }
 
-void trace_on(int threads, const Accelerator& structure, const PrimaryRays& rays, HitBuffer& buffer,
-              WorkCounters* counters) {
-  const int count = thread_count(threads);
-  if (count == 1) return structure.trace(rays, buffer, counters);
-  on_threads(count, [&] { structure.trace_shared(rays, buffer, counters); });
-}
-
 void share_rows(int rows, const std::function<void(int begin, int end)>& work) {
   tbb::parallel_for(tbb::blocked_range(0, rows),
                     [&](const auto& range) { work(range.begin(), range.end()); });
-}
-
-void Accelerator::trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
-                               WorkCounters* counters) const {
-  std::mutex adding;
-  share_rows(rays.height(), [&](int begin, int end) {
-    WorkCounters own;
-    rays.for_each(begin, end, [&](std::size_t index, const Ray& ray) {
-      buffer.set(index, closest_hit(ray, counters == nullptr ? nullptr : &own));
-    });
-    if (counters == nullptr) return;
-    const std::lock_guard lock(adding);
-    counters->add(own);
-  });
 }
 
 }  // namespace beambench::accel

@@ -1,7 +1,8 @@
 #pragma once
-// How many threads there are by default, and images traced on several.
+// How many threads there are by default, and work shared among several.
 
 #include <functional>
+#include <mutex>
 
 #include "accel/core/accelerator.hpp"
 
@@ -21,13 +22,27 @@ void on_threads(int threads, const std::function<void()>& work);
 /// another. Without a CPU quota that is what TBB does anyway.
 void on_default_threads(const std::function<void()>& work);
 
-/// Traces an image `on_threads`. Hits and counters do not depend on their number, except for
-/// counters of time. `counters` may be null.
-void trace_on(int threads, const Accelerator& structure, const PrimaryRays& rays, HitBuffer& buffer,
-              WorkCounters* counters);
-
 /// Calls `work(begin, end)` for ranges that together are [0, rows), on the threads of the TBB arena
 /// that calls this. The ranges and their order are not determined.
 void share_rows(int rows, const std::function<void(int begin, int end)>& work);
+
+/// Calls `work(begin, end, counting)` for ranges that together are [0, rows): one on the calling
+/// thread, or several `on_threads`. `counting` is the policy for the context's counters
+/// (`with_counting`).
+template <class Work>
+void for_rows(const QueryContext& context, int rows, const Work& work) {
+  with_counting(context.counters, [&]<class Counting>(Counting& counting) {
+    if (thread_count(context.threads) == 1) return work(0, rows, counting);
+    std::mutex adding;
+    on_threads(context.threads, [&] {
+      share_rows(rows, [&](int begin, int end) {
+        Counting own;
+        work(begin, end, own);
+        const std::lock_guard lock(adding);
+        counting.add(own);
+      });
+    });
+  });
+}
 
 }  // namespace beambench::accel

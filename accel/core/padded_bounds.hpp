@@ -9,7 +9,7 @@
 #include "accel/core/tolerance.hpp"
 #include "scenes/scene.hpp"
 
-namespace beambench::accel::bvh {
+namespace beambench::accel {
 
 /// The next float above a finite number; std::nextafter takes ten times as long.
 inline float next_above(float value) {
@@ -55,4 +55,4 @@ inline scenes::Bounds united(scenes::Bounds a, const scenes::Bounds& b) {
   return a;
 }
 
-}  // namespace beambench::accel::bvh
+}  // namespace beambench::accel

@@ -1,11 +1,11 @@
-#include "accel/embree/exact_tests.hpp"
+#include "accel/oracle/exact_tests.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
 
-namespace beambench::accel::embree {
+namespace beambench::accel::oracle {
 
 using glm::dvec3;
 
@@ -207,4 +207,4 @@ ExactBounds bounds_of(const scenes::Cone& cone) {
   return {glm::min(base.lower, apex.lower), glm::max(base.upper, apex.upper)};
 }
 
-}  // namespace beambench::accel::embree
+}  // namespace beambench::accel::oracle

@@ -7,7 +7,7 @@
 #include "accel/core/ray.hpp"
 #include "scenes/scene.hpp"
 
-namespace beambench::accel::embree {
+namespace beambench::accel::oracle {
 
 /// A hit whose t has not been rounded to float.
 struct ExactHit {
@@ -23,13 +23,13 @@ struct ExactHit {
 /// Ties go to the lowest primitive id, but at equal *double* t, while structures break ties of the
 /// t they rounded to float: at an edge the two may name different primitives of one place, which
 /// the differ classes as a tie.
-class EmbreeOracle {
+class Oracle {
  public:
   /// `reach`: the largest distance of a ray's origin from the origin of the coordinates.
-  EmbreeOracle(const scenes::Scene& scene, double reach);
-  EmbreeOracle(const EmbreeOracle&) = delete;
-  EmbreeOracle& operator=(const EmbreeOracle&) = delete;
-  ~EmbreeOracle();
+  Oracle(const scenes::Scene& scene, double reach);
+  Oracle(const Oracle&) = delete;
+  Oracle& operator=(const Oracle&) = delete;
+  ~Oracle();
 
   /// Rays must pass `require_valid`.
   std::optional<ExactHit> closest_hit(const Ray& ray) const;
@@ -40,4 +40,4 @@ class EmbreeOracle {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace beambench::accel::embree
+}  // namespace beambench::accel::oracle

@@ -1,0 +1,47 @@
+#pragma once
+// The rays of one query.
+
+#include <cstddef>
+
+#include "accel/core/primary_rays.hpp"
+#include "accel/core/ray.hpp"
+#include "accel/core/ray_batch.hpp"
+
+namespace beambench::accel {
+
+/// One ray, an image or a batch. A view: what it is made from must outlive it, as an argument does
+/// the call. Results are numbered from 0; those of an image as `HitBuffer` numbers its samples.
+class RaySource {
+ public:
+  // Implicit, so that a query is given what it is to trace.
+  RaySource(const Ray& ray) : ray_(&ray) {}
+  RaySource(const PrimaryRays& image) : image_(&image) {}
+  RaySource(const RayBatch& batch) : batch_(&batch) {}
+
+  /// The source, if it is of this type; null otherwise.
+  const Ray* ray() const { return ray_; }
+  const PrimaryRays* image() const { return image_; }
+  const RayBatch* batch() const { return batch_; }
+
+  /// The number of rays.
+  std::size_t size() const {
+    if (image_ != nullptr) return image_->count();
+    return batch_ != nullptr ? batch_->rays.size() : 1;
+  }
+
+  /// Calls `visit(index, ray)` for all rays in order.
+  template <class Visit>
+  void for_each(Visit visit) const {
+    if (image_ != nullptr) return image_->for_each(0, image_->height(), visit);
+    if (batch_ == nullptr) return visit(std::size_t{0}, *ray_);
+    std::size_t index = 0;
+    for (const Ray& ray : batch_->rays) visit(index++, ray);
+  }
+
+ private:
+  const Ray* ray_ = nullptr;
+  const PrimaryRays* image_ = nullptr;
+  const RayBatch* batch_ = nullptr;
+};
+
+}  // namespace beambench::accel
