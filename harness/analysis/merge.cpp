@@ -1,4 +1,4 @@
-#include "harness/bench/merge.hpp"
+#include "harness/analysis/merge.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -14,34 +14,38 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "accel/core/registry.hpp"
+#include "harness/analysis/exports.hpp"
+#include "harness/analysis/results_csv.hpp"
 #include "harness/base/messages.hpp"
-#include "harness/bench/config.hpp"
+#include "harness/bench/record/conditions.hpp"
 #include "harness/bench/record/joined_manifest.hpp"
-#include "harness/bench/record/manifest.hpp"
-#include "harness/bench/record/run_folder.hpp"
+#include "harness/bench/record/run_log.hpp"
 #include "harness/bench/record/shard.hpp"
-#include "harness/plugin/load_plugin.hpp"
-#include "harness/rays/fingerprint.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
 #include "scenes/core/json_text.hpp"
 #include "scenes/core/shell_word.hpp"
 
-namespace beambench::bench {
+namespace beambench::analysis {
 namespace {
+
+using bench::CellRecord;
+using bench::Run;
+using bench::RunLog;
+using bench::Shard;
+using bench::ShardFacts;
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 /// A folder that holds a shard.
 struct ShardFolder {
-  RunFolder folder;
-  Json manifest;
-  nlohmann::json config;
+  RunLog log;  ///< nobody else has the folder
+  Run run;
   ShardFacts facts;
 
-  std::string path() const { return folder.path().string(); }
+  std::string path() const { return log.folder().string(); }
+  std::string file() const { return (log.folder() / bench::kLogName).string(); }
 };
 
 [[noreturn]] void refuse(const std::string& reason) { throw InputError("cannot merge: " + reason); }
@@ -58,37 +62,34 @@ void require_different(std::span<const fs::path> folders) {
 }
 
 ShardFolder read_shard(const fs::path& path) {
-  if (!fs::exists(path / "manifest.json")) {
-    refuse(
-        fmt::format("'{}' holds no run: there is no manifest.json; give the folders that "
-                    "'beambench run --shard K/N -o DIR' wrote",
-                    path.string()));
+  const std::string remedy = "give the folders that 'beambench run --shard K/N -o DIR' wrote";
+  if (!fs::exists(path / bench::kLogName)) {
+    refuse(fmt::format("'{}' holds no run: there is no {}; {}", path.string(), bench::kLogName,
+                       remedy));
   }
-  RunFolder folder = RunFolder::open(path);
-  Json manifest = folder.read_json("manifest.json");
-  const auto facts = read_as_written((path / "manifest.json").string(), "measure the shard anew",
-                                     [&] { return shard_of_manifest(manifest); });
+  RunLog log = RunLog::open(path);
+  Run run = bench::read_run(path);
+  const auto facts = read_as_written((path / bench::kLogName).string(), "measure the shard anew",
+                                     [&] { return bench::shard_of_manifest(run.manifest); });
   if (!facts) {
-    refuse(
-        fmt::format("'{}' holds no shard but {}; give the folders that 'beambench run --shard "
-                    "K/N -o DIR' wrote",
-                    path.string(), is_merged(manifest) ? "a run that was merged" : "a whole run"));
+    refuse(fmt::format("'{}' holds no shard but {}; {}", path.string(),
+                       bench::is_merged(run.manifest) ? "a run that was merged" : "a whole run",
+                       remedy));
   }
-  nlohmann::json config = folder.read_json("config.json");
-  return {std::move(folder), std::move(manifest), std::move(config), *facts};
+  return {std::move(log), std::move(run), *facts};
 }
 
 void require_one_sweep(const ShardFolder& first, const ShardFolder& other) {
-  const nlohmann::json changes = nlohmann::json::diff(first.config, other.config);
+  const nlohmann::json changes = nlohmann::json::diff(first.run.config, other.run.config);
   if (!changes.empty()) {
     refuse(
         fmt::format("'{}' and '{}' are of two sweeps, which differ at {}; merge the shards of "
                     "one sweep",
                     first.path(), other.path(), changes.front().at("path").get<std::string>()));
   }
-  const std::string difference =
-      read_as_written((other.folder.path() / "manifest.json").string(), "measure the shard anew",
-                      [&] { return program_difference(first.manifest, other.manifest); });
+  const std::string difference = read_as_written(other.file(), "measure the shard anew", [&] {
+    return bench::program_difference(first.run.manifest, other.run.manifest);
+  });
   if (!difference.empty()) {
     refuse(fmt::format("'{}' and '{}': {}; measure one of them anew", first.path(), other.path(),
                        difference));
@@ -118,15 +119,17 @@ bool is_repeatable(std::string_view column) {
 
 /// Refuses two folders that have a cell in common, with the most telling reason.
 [[noreturn]] void refuse_overlap(const ShardFolder& first, const ShardFolder& second) {
-  std::map<std::string, Json> rows;  // of the second, by the cells' keys
-  second.folder.for_each_cell(
-      [&](const Json& cell) { rows[cell.at("key").get<std::string>()] = cell.at("row"); });
+  std::map<std::string, Json> rows;  // of the second, by the cells' names
+  for (const CellRecord& cell : second.run.cells) {
+    rows[cell.id.name()] = to_row(facts_of(second.run.manifest), cell);
+  }
   std::string shared;
-  first.folder.for_each_cell([&](const Json& cell) {
-    const auto found = rows.find(cell.at("key").get<std::string>());
-    if (found == rows.end()) return;
-    shared = cell.at("name").get<std::string>();
-    for (const auto& [column, value] : cell.at("row").items()) {
+  for (const CellRecord& cell : first.run.cells) {
+    const auto found = rows.find(cell.id.name());
+    if (found == rows.end()) continue;
+    shared = cell.id.name();
+    const Row row = to_row(facts_of(first.run.manifest), cell);
+    for (const auto& [column, value] : row.items()) {
       const Json other = found->second.value(column, Json());
       if (!is_repeatable(column) || value == other) continue;
       refuse(fmt::format(
@@ -134,7 +137,7 @@ bool is_repeatable(std::string_view column) {
           "the records is damaged: measure both shards anew",
           shared, column, json_text(value, -1), first.path(), json_text(other, -1), second.path()));
     }
-  });
+  }
   if (first.facts.shard == second.facts.shard) refuse_doubled(first, second);
   refuse(
       fmt::format("the cell {} is in '{}' and in '{}', so the sweep was not divided in the same "
@@ -143,29 +146,30 @@ bool is_repeatable(std::string_view column) {
 }
 
 void require_each_cell_once(const std::vector<ShardFolder>& shards) {
-  std::map<std::string, const ShardFolder*> places;  // of cells, by their keys
+  std::map<std::string, const ShardFolder*> places;  // of cells, by their names
   for (const ShardFolder& shard : shards) {
-    for (const std::string& key : shard.folder.keys()) {
-      const auto [place, is_new] = places.emplace(key, &shard);
+    for (const CellRecord& cell : shard.run.cells) {
+      const auto [place, is_new] = places.emplace(cell.id.name(), &shard);
       if (!is_new) refuse_overlap(*place->second, shard);
     }
   }
 }
 
 void require_finished(const ShardFolder& shard) {
-  const bool is_closed = shard.manifest.at("finished_utc").is_string();
-  if (is_closed && shard.folder.cell_count() == shard.facts.cells) return;
+  const auto finished =
+      static_cast<std::size_t>(std::ranges::count_if(shard.run.cells, &CellRecord::is_finished));
+  if (shard.run.is_ended() && finished == shard.facts.cells) return;
   refuse(fmt::format("shard {} in '{}' has {} of {}; finish it with: beambench run --resume {}",
-                     to_string(shard.facts.shard), shard.path(), shard.folder.cell_count(),
+                     to_string(shard.facts.shard), shard.path(), finished,
                      base::counted(shard.facts.cells, "cell"), shell_quoted(shard.path())));
 }
 
 /// Refuses a manifest that was changed since, before anything is written.
 void require_intact(const ShardFolder& shard) {
-  read_as_written((shard.folder.path() / "manifest.json").string(), "measure the shard anew", [&] {
-    const Json joined = joined_manifest(std::span(&shard.manifest, 1));
-    conditions_of(joined);
-    static_cast<void>(joined.at("machine").at("id").get<std::string>());
+  read_as_written(shard.file(), "measure the shard anew", [&] {
+    const Json joined = bench::joined_manifest(std::span(&shard.run.manifest, 1));
+    bench::conditions_of(joined);
+    facts_of(joined);
   });
 }
 
@@ -194,22 +198,9 @@ InOrder require_all(const std::vector<ShardFolder>& shards) {
       fmt::format("{} of the sweep {} missing: {}; give all folders, or measure it with: "
                   "beambench run SWEEP --shard {} -o DIR",
                   missing.size() == 1 ? "a shard" : "shards",
-                  fmt::format("'{}' {}", shards.front().config.value("name", ""),
+                  fmt::format("'{}' {}", shards.front().run.config.value("name", ""),
                               missing.size() == 1 ? "is" : "are"),
                   fmt::join(missing, ", "), missing.front()));
-}
-
-/// The sweep, whose conditions explain why a contender is absent.
-SweepConfig sweep_of(const ShardFolder& shard) {
-  for (const Json& used : shard.manifest.value("plugins", Json::array())) {
-    const auto is_it = [&](const plugin::LoadedPlugin& loaded) {
-      return used.at("hash") == rays::hex_digits(loaded.hash);
-    };
-    if (std::ranges::any_of(plugin::loaded_plugins(), is_it)) continue;
-    refuse(fmt::format("'{}' was measured with the plug-in {}; load it here, too, with --plugin",
-                       shard.path(), used.at("file").get<std::string>()));
-  }
-  return parse_sweep(shard.config, shard.path() + "/config.json", accel::registry());
 }
 
 /// A folder beside its place, which is removed unless it is put there.
@@ -258,41 +249,40 @@ class FolderAside {
   fs::path path_;
 };
 
-void copy_cells(const InOrder& shards, const Json& run_id, RunFolder& run) {
+/// Copies what the log of a shard says of its cells.
+void copy_cells(const ShardFolder& shard, RunLog& log) {
+  bench::for_each_event(shard.log.folder(), [&](Json event) {
+    if (!event.contains("index")) return;
+    if (event.at("event") == "cell") event["shard"] = shard.facts.shard.number;
+    log.copy(event);
+  });
+}
+
+/// Writes the log of a run of the whole sweep.
+void write_log(const InOrder& shards, const fs::path& path) {
+  std::vector<Json> manifests;
+  std::vector<bench::PlannedName> plan;
   for (const ShardFolder* shard : shards) {
-    shard->folder.for_each_cell([&](Json cell) {
-      cell.at("row").at("run_id") = run_id;
-      cell["shard"] = shard->facts.shard.number;
-      run.take_cell(cell);
-    });
+    manifests.push_back(shard->run.manifest);
+    plan.insert(plan.end(), shard->run.plan.begin(), shard->run.plan.end());
   }
   const std::size_t wanted = shards.front()->facts.cells_of_sweep;
-  if (run.cell_count() == wanted) return;
-  refuse(
-      fmt::format("the shards have {} of {}, so the sweep was not divided in the same way; "
-                  "measure all shards anew",
-                  run.cell_count(), base::counted(wanted, "cell")));
+  if (plan.size() != wanted) {
+    refuse(
+        fmt::format("the shards have {} of {}, so the sweep was not divided in the same way; "
+                    "measure all shards anew",
+                    plan.size(), base::counted(wanted, "cell")));
+  }
+  std::ranges::sort(plan, {}, &bench::PlannedName::index);
+  const Json manifest = bench::joined_manifest(manifests);
+  RunLog log = RunLog::create(path);
+  log.begin(manifest, shards.front()->run.config, plan);
+  for (const ShardFolder* shard : shards) copy_cells(*shard, log);
+  log.end(manifest.at("finished_utc").get<std::string>());
 }
 
-/// The files of a run of the whole sweep.
-SweepOutcome write_run(const InOrder& shards, const SweepConfig& config, const fs::path& path) {
-  std::vector<Json> manifests;
-  manifests.reserve(shards.size());
-  for (const ShardFolder* shard : shards) manifests.push_back(shard->manifest);
-  Json manifest = joined_manifest(manifests);
-  RunFolder run = RunFolder::create(path);
-  run.write_json("config.json", shards.front()->config);
-  copy_cells(shards, manifest.at("run_id"), run);
-  run.write_results();
-  const std::vector<Json> cells = summaries(run);
-  manifest["harness_overhead"] = to_json(largest_overheads(cells));
-  write_benchmark_file(run, manifest);
-  run.write_json("manifest.json", manifest);
-  return conclude(run, cells, doubts_about_times(conditions_of(manifest), cells), config.exclude);
-}
-
-SweepOutcome merge_into(const fs::path& target, std::span<const fs::path> folders,
-                        std::FILE* messages) {
+Analysis merge_into(const fs::path& target, std::span<const fs::path> folders,
+                    std::FILE* messages) {
   std::vector<ShardFolder> shards;
   for (const fs::path& folder : folders) {
     shards.push_back(read_shard(folder));
@@ -302,23 +292,22 @@ SweepOutcome merge_into(const fs::path& target, std::span<const fs::path> folder
   std::ranges::for_each(shards, require_finished);
   std::ranges::for_each(shards, require_intact);
   const InOrder in_order = require_all(shards);
-  const SweepConfig config = sweep_of(shards.front());
   for (const ShardFolder* shard : in_order) {
     fmt::print(messages, "shard {}: {}, machine {}, '{}'\n", to_string(shard->facts.shard),
                base::counted(shard->facts.cells, "cell"),
-               shard->manifest.at("machine").at("id").get<std::string>(), shard->path());
+               shard->run.manifest.at("machine").at("id").get<std::string>(), shard->path());
   }
   FolderAside aside(target);
-  SweepOutcome outcome = write_run(in_order, config, aside.path());
+  write_log(in_order, aside.path());
+  Analysis analysis = conclude(aside.path());
   aside.put_in_place();
-  outcome.results = target / outcome.results.filename();
-  return outcome;
+  return analysis;
 }
 
 }  // namespace
 
-SweepOutcome merge_shards(std::span<const fs::path> folders, const fs::path& output,
-                          std::FILE* messages) {
+Analysis merge_shards(std::span<const fs::path> folders, const fs::path& output,
+                      std::FILE* messages) {
   fs::path target = output.lexically_normal();
   if (target.filename().empty()) target = target.parent_path();
   if (fs::exists(fs::symlink_status(target))) {
@@ -329,4 +318,4 @@ SweepOutcome merge_shards(std::span<const fs::path> folders, const fs::path& out
                          [&] { return merge_into(target, folders, messages); });
 }
 
-}  // namespace beambench::bench
+}  // namespace beambench::analysis

@@ -7,17 +7,18 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
-#include "harness/bench/config.hpp"
 #include "harness/bench/record/robust_statistics.hpp"
+#include "harness/bench/record/run_log.hpp"
 
-namespace beambench::bench {
+namespace beambench::analysis {
+
+using bench::Interval;
 
 /// How many times one time is of another, with a 95% interval where there are repetitions enough.
 struct TimeRatio {
   double value = 1.0;
   std::optional<Interval> interval{};
+  bool is_paired = false;  ///< was it made round by round?
 };
 
 /// One contender in one view.
@@ -38,8 +39,9 @@ struct LeftOut {
   std::string reason;
 };
 
-/// The contenders of one view (scene, camera, samples, kind of rays) at the highest resolution that
-/// one machine measured: times of two machines are not compared.
+/// The contenders of one view (scene, camera, samples, kind of rays) at the highest resolution at
+/// which one machine measured two of them: a run that was cut off may have one contender at its
+/// last resolution. Times of two machines are not compared.
 struct Standings {
   /// The scene, with camera, samples, kind of rays and machine where a run has several.
   std::string view;
@@ -59,11 +61,14 @@ struct Standings {
   /// the dearer build over what each ray saves. 0: from the first; infinite: never; none: there is
   /// nobody to compare with.
   std::optional<double> break_even_rays() const;
+  /// The contender over which `break_even_rays` is; null where there is none.
+  const Standing* last_overtaken() const;
 };
 
 /// A contender over all views of one kind of rays.
 struct MeanStanding {
   std::string contender;
+  std::string structure;
   TimeRatio ratio;  ///< geometric mean of its ratios to the fastest of each view
   int views;        ///< in which it has a time
   int wins;         ///< in which it is the fastest, or tied with it
@@ -77,26 +82,17 @@ struct OverallStandings {
 };
 
 /// The median ratio of the rounds that both cells have, with the 95% interval of that median: what
-/// disturbs a round disturbs both. Takes `repetitions` as the file of a cell has them; nothing
-/// where they have no round in common.
-std::optional<TimeRatio> paired_trace_ratio(const nlohmann::ordered_json& over,
-                                            const nlohmann::ordered_json& under);
+/// disturbs a round disturbs both. Nothing where they have no round in common.
+std::optional<TimeRatio> paired_trace_ratio(const bench::CellRecord& over,
+                                            const bench::CellRecord& under);
 
-/// Of each view, in the order of the cells, which are files of a run (`RunFolder::cells`).
-/// `exclude` are the sweep's conditions: they explain why a contender is absent.
-std::vector<Standings> standings(std::span<const nlohmann::ordered_json> cells,
-                                 std::span<const Exclusion> exclude);
+/// Of each view, in the order of the plan. The conditions of the sweep explain why a contender is
+/// absent.
+std::vector<Standings> standings(const bench::Run& run);
 
 /// Of each kind of rays. Where several machines measured a view, one at each resolution, the
 /// highest resolution counts. The views' noise is independent, so that the distances to the ends of
 /// their intervals add up in quadrature.
 std::vector<OverallStandings> overall(std::span<const Standings> views);
 
-/// A line for each view: the fastest, the next, Embree's best, and from how many rays on the
-/// fastest pays off; then the geometric means over all views, where there are several.
-std::string describe(std::span<const Standings> views);
-
-/// A table for each view with a line for each contender: build, trace, ratio to the fastest.
-std::string describe_contenders(std::span<const Standings> views);
-
-}  // namespace beambench::bench
+}  // namespace beambench::analysis
