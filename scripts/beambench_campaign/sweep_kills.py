@@ -28,7 +28,7 @@ def kill_sweep(beambench: Path, folder: Path, random: Random, programs: Programs
     run = folder / "killed"
     complete = False
     while not complete and not tally.faults:
-        begun = (run / "manifest.json").exists()
+        begun = (run / "run.jsonl").exists()
         arguments = ["--resume", run] if begun else [sweep, "-o", run]
         program = programs.start([beambench, "run", *arguments], folder)
         if tally.kills < _MOST_KILLS:

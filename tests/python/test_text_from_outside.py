@@ -10,6 +10,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from run_logs import begun_cells, forget_cell
 
 from beambench_report.__main__ import main
 from beambench_report.base.files import Problem, read_json
@@ -131,12 +132,10 @@ def test_a_run_over_a_name_with_an_escape_is_whole(tmp_path: Path) -> None:
     named = json.loads((out / "google-benchmark.json").read_text())["benchmarks"]
     assert all("esc\\x1b.nff" in one["name"] for one in named)
 
-    cells = sorted((out / "cells").iterdir())
-    assert len(cells) == 2
-    cells[0].unlink()
+    assert len(begun_cells(out)) == 2
+    forget_cell(out, 0)
     done = run_bytes("run", "--resume", "out", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
-    assert sorted((out / "cells").iterdir()) == cells
 
     rows = read_run(out).rows
     assert list(rows["scene"]) == ["./esc\\x1b.nff"] * 2
@@ -231,9 +230,9 @@ def test_a_record_that_is_no_record_ends_in_one_sentence(
 ) -> None:
     (tmp_path / "sweep.json").write_text(sweep_of("tetra:n=1"))
     assert run_bytes("run", "sweep.json", "-o", "out", cwd=tmp_path).returncode == 0
-    cell = next((tmp_path / "out" / "cells").iterdir())
-    for text in (DEEP, '{"row": [1], "message": "", "examples": [], "repetitions": []}'):
-        cell.write_text(text)
+    log = tmp_path / "out" / "run.jsonl"
+    for text in (DEEP, '{"event": "repetition", "index": 0}'):
+        log.write_text(text + "\n")
         assert main(["page", str(tmp_path / "out")]) == 2
         assert len(capsys.readouterr().err.splitlines()) == 1
     (tmp_path / "deep.json").write_text(DEEP)
@@ -341,13 +340,13 @@ def test_progress_that_cannot_be_written_fails_nothing(tmp_path: Path, arguments
         assert done.returncode == 0, end
 
 
-# A manifest
+# A log
 
 
-def test_a_manifest_that_nests_too_deep_is_refused(tmp_path: Path) -> None:
+def test_a_log_that_nests_too_deep_is_refused(tmp_path: Path) -> None:
     (tmp_path / "sweep.json").write_text(sweep_of("tetra:n=1"))
     assert run_bytes("run", "sweep.json", "-o", "out", cwd=tmp_path).returncode == 0
     for text in (DEEP, DEEP + "]" * 400_000):
-        (tmp_path / "out" / "manifest.json").write_text(text)
+        (tmp_path / "out" / "run.jsonl").write_text(text + "\n")
         done = beambench("run", "--resume", "out", cwd=tmp_path)
-        refused(done, ["manifest.json", "64 levels"])
+        refused(done, ["run.jsonl", "64 levels"])

@@ -141,8 +141,8 @@ def _read_csv(path: Path) -> pd.DataFrame:
 
 
 def _remedy(directory: Path) -> str:
-    if (directory / "manifest.json").is_file():
-        return "the run was cut off before its first cell ended"
+    if (directory / "run.jsonl").is_file():
+        return f"the run was cut off; resume it, or: beambench analyze --write {directory}"
     return "give the folder that `beambench run` wrote"
 
 
