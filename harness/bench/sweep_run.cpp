@@ -291,10 +291,19 @@ class SweepRun {
       shuffle(groups, random);
       for (OpenGroup& open : groups) {
         shuffle(open.contenders, random);
-        for (std::size_t i = 0; i < open.contenders.size(); ++i) {
-          set_activity(open.contenders[i].id().key());
+        int position = 0;
+        for (auto each = open.contenders.begin(); each != open.contenders.end(); ++position) {
+          set_activity(each->id().key());
           options_.before_each_piece();
-          open.contenders[i].repeat(instruments, round, static_cast<int>(i), log_);
+          each->repeat(instruments, round, position, log_);
+          // At once: a run that is cut off now must not resume with a wrong repetition.
+          if (each->failed()) {
+            finish(std::move(*each).finish(std::nullopt));
+            each = open.contenders.erase(each);
+            progress_.start(shown(*open.group));
+          } else {
+            ++each;
+          }
           progress_.advance(work_done(groups, allowance_ms));
         }
       }

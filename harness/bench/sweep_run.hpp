@@ -29,7 +29,7 @@ struct SweepOptions {
   /// The folder that holds /proc and the control groups, from which CPU quotas are read.
   std::filesystem::path root = "/";
   /// Called before each group's rays are made, each counting pass and each repetition. What it
-  /// throws ends the run; the finished cells are kept.
+  /// throws ends the run; every repetition is kept.
   std::function<void()> before_each_piece = [] {};
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -79,6 +80,7 @@ class Reader {
 
  private:
   void begin(const Json& event) {
+    if (!run_.manifest.is_null()) throw InputError("the log has a second header");
     if (const int version = event.at("schema_version").get<int>(); version != kLogVersion) {
       throw InputError(fmt::format("it is of version {}, and this beambench reads version {}",
                                    version, kLogVersion));
@@ -100,6 +102,19 @@ class Reader {
   Run run_;
   std::map<std::size_t, CellRecord> cells_;
 };
+
+/// Throws InputError where a cell is of a shard that the manifest does not have.
+void require_known_shards(const Run& run, const std::string& log) {
+  std::set<int> known{0};
+  for (const Json& shard : run.manifest.value("shards", Json::array())) {
+    known.insert(shard.at("number").get<int>());
+  }
+  for (const CellRecord& cell : run.cells) {
+    if (known.contains(cell.shard)) continue;
+    throw InputError(fmt::format("{}: cell {} is of shard {}, which the manifest does not have; {}",
+                                 log, cell.index, cell.shard, kRemedy));
+  }
+}
 
 /// A member of a manifest as text, whatever it is; empty where there is none.
 std::string member(const Json& manifest, const char* pointer) {
@@ -142,13 +157,14 @@ void for_each_event(const fs::path& folder, const std::function<void(const Json&
 
 Run read_run(const fs::path& folder) {
   require_run(folder);
+  const std::string log = (folder / kLogName).string();
   Reader reader;
   for_each_event(folder, [&](const Json& event) { reader.take(event); });
   Run run = std::move(reader).result();
   if (run.manifest.is_null()) {
-    throw InputError(
-        fmt::format("{}: it has no whole line; {}", (folder / kLogName).string(), kRemedy));
+    throw InputError(fmt::format("{}: it has no whole line; {}", log, kRemedy));
   }
+  read_as_written(log, kRemedy, [&] { require_known_shards(run, log); });
   return run;
 }
 
