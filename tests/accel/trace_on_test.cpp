@@ -96,7 +96,7 @@ TEST(ThreadsOf, EveryModeChangeNoHitAndNoCount) {
         "voxel-grid:fill=lazy", "tile-beam:parallel=true"}) {
     const StructureChoice choice = registry().choose(parse_spec(spec));
     const scenes::Scene scene = scenes::load_scene("escena1");
-    const PrimaryRays rays(scene.cameras.front(), 45, 34, 5);
+    const PrimaryRays rays(scene.cameras.front(), 80, 60, 5);
     expect_same_on_threads(choice, scene, rays);
   }
 }
