@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <map>
 #include <random>
@@ -19,6 +20,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/number_from.hpp"
 #include "tests/scenes/thrown_message.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -188,7 +190,8 @@ class Kill : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(Kill, AtFiftyMomentsLosesNothing) {
+TEST_F(Kill, AtRandomMomentsLosesNothing) {
+  const std::uint64_t kills = tests::in_full(50, 20);
   const auto begin = Clock::now();
   ASSERT_EQ(start("undisturbed").wait(), 0) << err();
   const std::chrono::duration<double> whole = Clock::now() - begin;
@@ -196,9 +199,9 @@ TEST_F(Kill, AtFiftyMomentsLosesNothing) {
 
   std::mt19937_64 random(1999);
   std::uniform_real_distribution<double> moment(0.0, 1.0);
-  int killed = 0;
+  std::uint64_t killed = 0;
   int finished = 0;
-  while (killed < 50) {
+  while (killed < kills) {
     const std::string name = "run" + std::to_string(finished);
     const std::string before = log(name);
     const int signal = killed % 5 == 4 ? SIGINT : SIGKILL;
