@@ -86,7 +86,7 @@ TEST_F(RunCommand, EndsWith1WhenACellHasNoTimes) {
 }
 
 TEST_F(RunCommand, TheFilesAreMadeAgainFromTheLog) {
-  write_sweep({"exhaustive", "null"});
+  write_sweep({"samet:max_level=3", "null"});
   EXPECT_EQ(run("tiny.json -o record").exit_code, 0);
   const auto record = folder_.path() / "record";
   std::map<std::string, std::string> files;
@@ -97,7 +97,7 @@ TEST_F(RunCommand, TheFilesAreMadeAgainFromTheLog) {
   EXPECT_EQ(files.size(), 7U);
   const Result shown = call("analyze record");
   EXPECT_EQ(shown.exit_code, 0) << shown.err;
-  EXPECT_TRUE(scenes::says(shown.out, {"exhaustive", "2 cells, all verified"}));
+  EXPECT_TRUE(scenes::says(shown.out, {"samet", "null (reference)", "2 cells, all verified"}));
   EXPECT_EQ(call("analyze record --json").out, files["analysis.json"]);
   EXPECT_FALSE(std::filesystem::exists(record / "results.csv"));
   EXPECT_EQ(call("analyze record --write").exit_code, 0);

@@ -9,9 +9,9 @@ import time
 from pathlib import Path
 
 import pytest
-from run_logs import events
 
 from module import ENVIRONMENT, bb
+from run_logs import events
 
 # Each defines `work`, which would take minutes, or for those that go on unseen several seconds.
 WORK = {

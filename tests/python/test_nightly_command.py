@@ -11,7 +11,6 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-from run_logs import begun_cells, events, forget_cell
 
 from beambench_report.__main__ import main
 from beambench_report.base.files import Problem
@@ -22,6 +21,7 @@ from beambench_report.nightly.diff import diff
 from beambench_report.nightly.home import Home, only_one
 from beambench_report.nightly.run import _free_folder
 from program import BINARY
+from run_logs import begun_cells, events, forget_cell
 from synthetic_nights import add_all, counting, nothing, slower, write_night, write_nights, wrong
 from synthetic_run import without_times
 

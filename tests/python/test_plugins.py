@@ -13,10 +13,10 @@ import time
 from pathlib import Path
 
 import pytest
-from run_logs import begun_cells, events
 
 from plugins import BUILD, SOURCES, built, call, configured, reached_headers, run
 from program import BINARY, refused
+from run_logs import begun_cells, events
 
 SWEEP = {
     "name": "plugged",

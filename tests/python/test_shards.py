@@ -10,7 +10,6 @@ from pathlib import Path
 from random import Random
 
 import pytest
-from run_logs import Event, begun_cells, change_events, change_manifest, cut_off, forget_cell
 
 from beambench_campaign.killed import Tally, ended_as_killed, finished, killed
 from beambench_campaign.programs import Programs
@@ -18,6 +17,7 @@ from beambench_campaign.rows import cells_of, difference
 from beambench_report.base.records import read_run
 from beambench_report.run.page import render
 from program import BINARY, beambench, refused
+from run_logs import Event, begun_cells, change_events, change_manifest, cut_off, forget_cell
 
 SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 COUNT = 4

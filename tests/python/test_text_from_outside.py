@@ -10,7 +10,6 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from run_logs import begun_cells, forget_cell
 
 from beambench_report.__main__ import main
 from beambench_report.base.files import Problem, read_json
@@ -20,6 +19,7 @@ from beambench_report.base.records import read_run
 from beambench_report.run.page import write_page
 from beambench_report.run.pictures import write_pictures
 from program import BINARY, beambench, refused
+from run_logs import begun_cells, forget_cell
 
 SCENE = b"""v
 from 0 0 -5
