@@ -22,13 +22,11 @@ using bench::Repetition;
 using Json = nlohmann::ordered_json;
 
 std::optional<Overhead> overhead_of(const CellRecord& cell) {
-  if (cell.verdict != verify::Verdict::kOk || cell.repetitions.empty() || !cell.harness ||
+  if (cell.verdict != verify::Verdict::kOk || !cell.has_times() || !cell.harness ||
       cell.harness->path == QueryPath::kImageOwn || cell.harness->path == QueryPath::kPicture) {
     return std::nullopt;
   }
-  std::vector<double> traces;
-  for (const Repetition& repetition : cell.repetitions) traces.push_back(repetition.trace_ms);
-  const double trace_ms = bench::median(traces);
+  const double trace_ms = bench::median(bench::collect(cell, &Repetition::trace_ms));
   // A plug-in that is faster than making rays one by one does not do so, whatever it states.
   if (trace_ms <= cell.harness->ms) return std::nullopt;
   return Overhead{std::string(to_string(cell.harness->path)), cell.id.name(),
@@ -115,7 +113,7 @@ std::vector<std::string> reasons_for_care(const bench::Run& run) {
   constexpr std::size_t kLeastForInterval = 6;
   std::size_t timed = 0, imprecise = 0, without_interval = 0;
   for (const CellRecord& cell : run.cells) {
-    if (!cell.keeps_times() || cell.repetitions.empty()) continue;
+    if (!cell.has_times()) continue;
     ++timed;
     if (cell.stop_reason != bench::StopReason::kPrecision) ++imprecise;
     if (cell.repetitions.size() < kLeastForInterval) ++without_interval;

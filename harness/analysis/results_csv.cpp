@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <ostream>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -27,18 +27,6 @@ template <class Value>
 Json or_null(const std::optional<Value>& value) {
   return value ? Json(*value) : Json();
 }
-
-/// One figure of every repetition.
-template <class Figure>
-std::vector<double> collect(const CellRecord& cell, Figure figure) {
-  std::vector<double> values;
-  for (const Repetition& repetition : cell.repetitions) {
-    values.push_back(std::invoke(figure, repetition));
-  }
-  return values;
-}
-
-bool has_times(const CellRecord& cell) { return cell.keeps_times() && !cell.repetitions.empty(); }
 
 void add_run(Row& row, const RunFacts& run, const CellRecord& cell) {
   row["schema_version"] = kSchemaVersion;
@@ -100,14 +88,6 @@ void add_wall_time(Row& row, const std::string& phase, const std::vector<double>
   row[phase + "_ms_mad"] = statistic(median_absolute_deviation, samples);
 }
 
-std::vector<double> warm_traces(const CellRecord& cell) {
-  std::vector<double> warm;
-  for (const Repetition& repetition : cell.repetitions) {
-    if (repetition.warm_trace_ms) warm.push_back(*repetition.warm_trace_ms);
-  }
-  return warm;
-}
-
 /// Null where nothing is left: of `null`, and of a plug-in that does not state that it makes no
 /// rays one by one.
 Json net_of_harness(const CellRecord& cell) {
@@ -117,7 +97,7 @@ Json net_of_harness(const CellRecord& cell) {
 }
 
 void add_times(Row& row, const CellRecord& cell) {
-  const bool known = has_times(cell);
+  const bool known = cell.has_times();
   const auto samples = [&](auto figure) {
     return known ? collect(cell, figure) : std::vector<double>();
   };
@@ -127,7 +107,7 @@ void add_times(Row& row, const CellRecord& cell) {
   add_wall_time(row, "build", samples(&Repetition::build_ms));
   add_wall_time(row, "trace", samples(&Repetition::trace_ms));
   add_interval(row, "trace_ms", samples(&Repetition::trace_ms));
-  const std::vector<double> warm = known ? warm_traces(cell) : std::vector<double>();
+  const std::vector<double> warm = known ? second_traces(cell) : std::vector<double>();
   row["trace_warm_ms_median"] = statistic(median, warm);
   add_interval(row, "trace_warm_ms", warm);
   row["harness_ms"] = known && cell.harness ? Json(cell.harness->ms) : Json();
@@ -165,7 +145,7 @@ Json median_count(const CellRecord& cell, HardwareCounts Repetition::*counts, st
 }
 
 void add_hardware_counts(Row& row, const CellRecord& cell) {
-  const bool known = has_times(cell);
+  const bool known = cell.has_times();
   const auto add = [&](std::string_view phase, HardwareCounts Repetition::*counts) {
     for (std::size_t event = 0; event < kHardwareEvents.size(); ++event) {
       row[fmt::format("{}_{}", phase, kHardwareEvents[event])] =
@@ -217,8 +197,9 @@ void add_counters(Row& row, const CellRecord& cell) {
   }
 }
 
-/// Of whole pictures: `shadow_rays`, and `shadow_box_tests_per_ray` of the shadow rays alone. A
-/// family's own counters are not split by kind: most are of beams, which only camera rays have.
+/// Adds those of whole pictures: `shadow_rays`, and `shadow_box_tests_per_ray` of the shadow rays
+/// alone. A family's own counters are not split by kind: most are of beams, which only camera rays
+/// have.
 void add_kinds(Row& row, const CellRecord& cell) {
   for (const RaysOfKind& kind : cell.work.kinds) {
     row[kind.kind + "_rays"] = kind.rays;
@@ -282,15 +263,13 @@ std::string csv_line(const Columns& columns, const Row& row) {
   return csv_line(fields);
 }
 
-/// What rows of the cells of each shard have in common; of a run that was not merged, of shard 0.
-std::map<int, RunFacts> facts_by_shard(const Json& manifest) {
-  std::map<int, RunFacts> facts{{0, facts_of(manifest)}};
-  for (const Json& shard : manifest.value("shards", Json::array())) {
-    RunFacts& own = facts[shard.at("number").get<int>()] = facts.at(0);
-    own.machine_id = shard.at("machine").at("id").get<std::string>();
-    own.isa = shard.at("measurement").at("isa").get<std::string>();
-  }
-  return facts;
+/// Writes header and rows. `row` makes each of the rows twice, because all of them take far more
+/// memory than the cells that they are of.
+void write_table(std::ostream& out, std::size_t count, const std::function<Row(std::size_t)>& row) {
+  Columns columns;
+  for (std::size_t i = 0; i < count; ++i) merge_columns(columns, row(i));
+  out << csv_header(columns);
+  for (std::size_t i = 0; i < count; ++i) out << csv_line(columns, row(i));
 }
 
 }  // namespace
@@ -306,6 +285,16 @@ RunFacts facts_of(const Json& manifest) {
           program.at("flags").get<std::string>(),
           measurement.at("isa").is_string() ? measurement.at("isa").get<std::string>() : "",
           measurement.at("threads").get<int>()};
+}
+
+std::map<int, RunFacts> facts_by_shard(const Json& manifest) {
+  std::map<int, RunFacts> facts{{0, facts_of(manifest)}};
+  for (const Json& shard : manifest.value("shards", Json::array())) {
+    RunFacts& own = facts[shard.at("number").get<int>()] = facts.at(0);
+    own.machine_id = shard.at("machine").at("id").get<std::string>();
+    own.isa = shard.at("measurement").at("isa").get<std::string>();
+  }
+  return facts;
 }
 
 Row to_row(const RunFacts& run, const CellRecord& cell) {
@@ -337,22 +326,15 @@ std::string csv_field(std::string_view text) {
 }
 
 std::string csv_table(std::span<const Row> rows) {
-  Columns columns;
-  for (const Row& row : rows) merge_columns(columns, row);
-  std::string text = csv_header(columns);
-  for (const Row& row : rows) text += csv_line(columns, row);
-  return text;
+  std::ostringstream out;
+  write_table(out, rows.size(), [&](std::size_t i) { return rows[i]; });
+  return out.str();
 }
 
 void write_results(std::ostream& out, const Run& run) {
   const std::map<int, RunFacts> facts = facts_by_shard(run.manifest);
-  Columns columns;
-  for (const CellRecord& cell : run.cells)
-    merge_columns(columns, to_row(facts.at(cell.shard), cell));
-  out << csv_header(columns);
-  for (const CellRecord& cell : run.cells) {
-    out << csv_line(columns, to_row(facts.at(cell.shard), cell));
-  }
+  write_table(out, run.cells.size(),
+              [&](std::size_t i) { return to_row(facts.at(run.cells[i].shard), run.cells[i]); });
 }
 
 }  // namespace beambench::analysis

@@ -2,6 +2,7 @@
 // results.csv: one row for each cell of a run.
 
 #include <iosfwd>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -27,10 +28,14 @@ inline constexpr int kSchemaVersion = 1;
 /// without this allowance 81% and 88% of the medians were found again, not 95%.
 inline constexpr double kBetweenRuns = 0.015;
 
-/// What every row of a run has in common.
+/// Returns what every row of a run has in common.
 bench::RunFacts facts_of(const nlohmann::ordered_json& manifest);
 
-/// The row of a cell. One that does not keep its times has null there.
+/// Returns the same for the cells of each shard of a merged run, by its number, each with the
+/// machine that measured it. Number 0 has the cells of a run that was not merged.
+std::map<int, bench::RunFacts> facts_by_shard(const nlohmann::ordered_json& manifest);
+
+/// Returns the row of a cell. One that does not keep its times has null there.
 Row to_row(const bench::RunFacts& run, const bench::CellRecord& cell);
 
 /// A text as a CSV field: in quotes, inner quotes doubled, when it holds a comma, quote or line

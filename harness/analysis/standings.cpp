@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "harness/analysis/results_csv.hpp"
 #include "harness/bench/plan.hpp"
 #include "scenes/core/parameters.hpp"
 
@@ -21,6 +22,7 @@ namespace beambench::analysis {
 namespace {
 
 using bench::CellRecord;
+using bench::collect;
 using bench::median;
 using bench::median_interval;
 using bench::Repetition;
@@ -33,37 +35,25 @@ bool is_reference(const std::string& structure) {
   return std::ranges::find(kReferences, structure) != kReferences.end();
 }
 
-/// One figure of every repetition.
-std::vector<double> times(const CellRecord& cell, double Repetition::*figure) {
-  std::vector<double> values;
-  for (const Repetition& repetition : cell.repetitions) values.push_back(repetition.*figure);
-  return values;
-}
-
 double median_of(const CellRecord& cell, double Repetition::*figure) {
-  return median(times(cell, figure));
+  return median(collect(cell, figure));
 }
 
 /// Cells without correct hits are not timed.
 bool is_timed(const CellRecord& cell) {
-  return cell.keeps_times() && !cell.repetitions.empty() &&
-         median_of(cell, &Repetition::trace_ms) > 0.0;
+  return cell.has_times() && median_of(cell, &Repetition::trace_ms) > 0.0;
 }
 
-/// In the order of the record.
+/// Returns the parameters in the order of the record.
 std::vector<std::pair<std::string, std::string>> parameters_of(const CellRecord& cell) {
   const auto& [structure, parameters] = std::tie(cell.id.structure, cell.id.parameters);
   return parse_spec(parameters.empty() ? structure : structure + ":" + parameters).parameters;
 }
 
-/// What the cells of a run are called: by what differs between them.
+/// Names the cells of a run by what differs between them.
 class Names {
  public:
-  explicit Names(const bench::Run& run) {
-    machines_[0] = run.manifest.at("machine").at("id").get<std::string>();
-    for (const Json& shard : run.manifest.value("shards", Json::array())) {
-      machines_[shard.at("number").get<int>()] = shard.at("machine").at("id").get<std::string>();
-    }
+  explicit Names(const bench::Run& run) : facts_(facts_by_shard(run.manifest)) {
     for (const CellRecord& cell : run.cells) {
       cameras_[cell.id.scene].insert(cell.id.camera);
       samples_.insert(cell.id.samples);
@@ -102,12 +92,14 @@ class Names {
   }
 
  private:
-  const std::string& machine(const CellRecord& cell) const { return machines_.at(cell.shard); }
+  const std::string& machine(const CellRecord& cell) const {
+    return facts_.at(cell.shard).machine_id;
+  }
 
   std::map<std::string, std::set<std::string>> cameras_;
   std::set<int> samples_;
   std::set<std::string> kinds_;
-  std::map<int, std::string> machines_;  ///< of each shard
+  std::map<int, bench::RunFacts> facts_;  ///< of each shard
   std::set<std::string> used_machines_;
   std::map<std::string, std::map<std::string, std::set<std::string>>> values_;
 };
@@ -115,8 +107,8 @@ class Names {
 /// The ratio of two medians; with an interval where both have one (Zou and Donner, Statistics in
 /// Medicine 27, 2008).
 TimeRatio unpaired_trace_ratio(const CellRecord& over, const CellRecord& under) {
-  const std::vector<double> a = times(over, &Repetition::trace_ms);
-  const std::vector<double> b = times(under, &Repetition::trace_ms);
+  const std::vector<double> a = collect(over, &Repetition::trace_ms);
+  const std::vector<double> b = collect(under, &Repetition::trace_ms);
   const double upper = median(a);
   const double lower = median(b);
   TimeRatio ratio{upper / lower};

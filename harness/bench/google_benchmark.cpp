@@ -136,7 +136,7 @@ benchmark::BenchmarkReporter::Run repetition_run(const CellRecord& cell,
 
 std::vector<benchmark::BenchmarkReporter::Run> runs_of(const CellRecord& cell, std::int64_t index) {
   std::vector<benchmark::BenchmarkReporter::Run> runs;
-  if (cell.keeps_times()) {
+  if (cell.has_times()) {
     for (const Repetition& repetition : cell.repetitions) {
       auto run = repetition_run(cell, repetition);
       run.repetition_index = static_cast<std::int64_t>(runs.size());

@@ -1,6 +1,7 @@
 #include "harness/bench/sweep_run.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
@@ -52,16 +53,12 @@ std::string with_interval(const std::vector<double>& times) {
 /// after 12 repetitions (precision)`; the second trace where there was one.
 std::string result_line(const CellRecord& cell) {
   if (!cell.keeps_times()) return fmt::format("{}: {}", to_string(cell.verdict), cell.message);
-  std::vector<double> build, trace, warm;
-  for (const Repetition& repetition : cell.repetitions) {
-    build.push_back(repetition.build_ms);
-    trace.push_back(repetition.trace_ms);
-    if (repetition.warm_trace_ms) warm.push_back(*repetition.warm_trace_ms);
-  }
+  const std::vector<double> trace = collect(cell, &Repetition::trace_ms);
+  const std::vector<double> second = second_traces(cell);
   const double trace_us = 1e3 * median(trace);
-  return fmt::format("build {:.4g} ms, trace {}, {}{:.4g} Mrays/s, {} after {} ({})", median(build),
-                     with_interval(trace),
-                     warm.empty() ? "" : "second trace " + with_interval(warm) + ", ",
+  return fmt::format("build {:.4g} ms, trace {}, {}{:.4g} Mrays/s, {} after {} ({})",
+                     median(collect(cell, &Repetition::build_ms)), with_interval(trace),
+                     second.empty() ? "" : "second trace " + with_interval(second) + ", ",
                      trace_us > 0.0 ? static_cast<double>(cell.rays.rays) / trace_us : 0.0,
                      to_string(cell.verdict), base::counted(cell.repetitions.size(), "repetition"),
                      to_string(*cell.stop_reason));
@@ -207,11 +204,7 @@ class SweepRun {
   }
 
   Plan unfinished(Plan plan) const {
-    std::set<std::string> done;
-    for (const PlannedName& cell : names_) {
-      if (finished_.contains(cell.index)) done.insert(cell.name);
-    }
-    filter_cells(plan, [&](const CellId& id) { return !done.contains(id.name()); });
+    filter_cells(plan, [&](const PlannedCell& cell) { return !finished_.contains(cell.index); });
     return plan;
   }
 
@@ -226,7 +219,7 @@ class SweepRun {
         }
       }
     }
-    filter_cells(plan_, [&](const CellId& id) { return !crashed.contains(id.key()); });
+    filter_cells(plan_, [&](const PlannedCell& cell) { return !crashed.contains(cell.id.key()); });
   }
 
   /// Measures groups together, so that the repetitions of a cell are as far apart in time as those
@@ -271,6 +264,7 @@ class SweepRun {
       options_.before_each_piece();
       open.contenders.emplace_back(cell, *open.task, config_.second_traces, earlier(cell))
           .count(log_);
+      if (open.contenders.back().failed()) finish(open, std::prev(open.contenders.end()));
     }
     return open;
   }
@@ -297,13 +291,7 @@ class SweepRun {
           options_.before_each_piece();
           each->repeat(instruments, round, position, log_);
           // At once: a run that is cut off now must not resume with a wrong repetition.
-          if (each->failed()) {
-            finish(std::move(*each).finish(std::nullopt));
-            each = open.contenders.erase(each);
-            progress_.start(shown(*open.group));
-          } else {
-            ++each;
-          }
+          each = each->failed() ? finish(open, each) : std::next(each);
           progress_.advance(work_done(groups, allowance_ms));
         }
       }
@@ -311,26 +299,26 @@ class SweepRun {
     }
   }
 
-  /// Records and removes the contenders that have failed or need no further repetition, and the
-  /// groups that have none left.
+  using Place = std::vector<Contender>::iterator;
+
+  /// Records and removes a contender; returns the place of the next.
+  Place finish(OpenGroup& open, Place contender, std::optional<StopReason> reason = std::nullopt) {
+    finish(std::move(*contender).finish(reason));
+    progress_.start(shown(*open.group));
+    return open.contenders.erase(contender);
+  }
+
+  /// Records and removes the contenders that need no further repetition, and the groups that have
+  /// none left.
   void finish_done(std::vector<OpenGroup>& groups, double allowance_ms) {
     const StoppingRule rule{config_.precision, config_.precise, config_.minimum_repetitions,
                             config_.maximum_repetitions};
     for (OpenGroup& open : groups) {
-      std::vector<Contender> still;
-      for (Contender& contender : open.contenders) {
+      for (Place each = open.contenders.begin(); each != open.contenders.end();) {
         const std::optional<StopReason> reason =
-            contender.failed() ? std::nullopt
-                               : reason_to_stop(contender.totals(rule.precise),
-                                                contender.spent_ms(), allowance_ms, rule);
-        if (!reason && !contender.failed()) {
-          still.push_back(std::move(contender));
-          continue;
-        }
-        finish(std::move(contender).finish(reason));
-        progress_.start(shown(*open.group));
+            reason_to_stop(each->totals(rule.precise), each->spent_ms(), allowance_ms, rule);
+        each = reason ? finish(open, each, reason) : std::next(each);
       }
-      open.contenders = std::move(still);
     }
     std::erase_if(groups, [](const OpenGroup& open) { return open.contenders.empty(); });
   }

@@ -39,12 +39,11 @@ struct RunRequest {
 };
 
 /// The configuration of the file that was named, or of the run to be resumed.
-bench::SweepConfig config_of(const RunRequest& request) {
+bench::SweepConfig config_of(const RunRequest& request, const std::optional<bench::Run>& earlier) {
   if (!request.config.empty()) return bench::read_sweep(request.config, accel::registry());
-  if (!request.resume.empty()) {
-    const std::filesystem::path folder = request.resume;
-    return bench::parse_sweep(bench::read_run(folder).config,
-                              (folder / bench::kLogName).string() + ", config", accel::registry());
+  if (earlier) {
+    const std::filesystem::path log = std::filesystem::path(request.resume) / bench::kLogName;
+    return bench::parse_sweep(earlier->config, log.string() + ", config", accel::registry());
   }
   throw InputError(
       "no configuration given; name a sweep's JSON file, such as "
@@ -97,13 +96,13 @@ nlohmann::ordered_json to_json(const bench::Plan& plan) {
 }
 
 /// The shard that is to be measured: the requested one, or that of the run to be resumed.
-std::optional<bench::Shard> shard_of(const RunRequest& request) {
+std::optional<bench::Shard> shard_of(const RunRequest& request,
+                                     const std::optional<bench::Run>& earlier) {
   if (request.shard) return bench::parse_shard(*request.shard);
-  if (request.resume.empty()) return std::nullopt;
-  const std::filesystem::path folder = request.resume;
-  const auto facts =
-      read_as_written((folder / bench::kLogName).string(), "begin a new run with -o",
-                      [&] { return bench::shard_of_manifest(bench::read_run(folder).manifest); });
+  if (!earlier) return std::nullopt;
+  const std::filesystem::path log = std::filesystem::path(request.resume) / bench::kLogName;
+  const auto facts = read_as_written(log.string(), "begin a new run with -o",
+                                     [&] { return bench::shard_of_manifest(earlier->manifest); });
   return facts ? std::optional(facts->shard) : std::nullopt;
 }
 
@@ -143,7 +142,8 @@ bench::PlannedShard reduce_to_shard(bench::Plan& plan, const bench::SweepConfig&
 /// Leaves the cells that --benchmark_filter selects.
 void select_cells(bench::Plan& plan, const bench::GoogleBenchmark& benchmark) {
   const std::set<std::string> selected = benchmark.select(cell_names(plan));
-  bench::filter_cells(plan, [&](const bench::CellId& id) { return selected.contains(id.name()); });
+  bench::filter_cells(
+      plan, [&](const bench::PlannedCell& cell) { return selected.contains(cell.id.name()); });
 }
 
 /// Makes the files of a run from its log, and prints what it comes to.
@@ -198,10 +198,13 @@ int run(RunRequest request, plugin::Activity& activity) {
   for (const std::string& note : flags.notes) {
     base::print_message(stderr, fmt::format("{}\n", note));
   }
-  bench::SweepConfig config = config_of(request);
+  std::optional<bench::Run> earlier;
+  if (!request.resume.empty()) earlier = bench::read_run(request.resume);
+  bench::SweepConfig config = config_of(request, earlier);
   if (flags.repetitions) override_repetitions(config, *flags.repetitions);
   bench::SweepOptions options = options_of(request, activity);
-  const std::optional<bench::Shard> shard = shard_of(request);
+  const std::optional<bench::Shard> shard = shard_of(request, earlier);
+  earlier.reset();  // its cells take memory
   if (shard) refuse_filtered_shard(flags);
   const bench::GoogleBenchmark benchmark(flags);
   bench::Plan plan = whole_plan(config);

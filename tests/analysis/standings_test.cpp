@@ -131,8 +131,10 @@ TEST(Standings, TimesOfTwoMachinesAreNotCompared) {
                            of_shard(1, cell_of({"embree", rounds(2.0)})),
                            of_shard(2, cell_of({"samet", rounds(9.0)}, "escena1", 4000)),
                            of_shard(2, cell_of({"embree", rounds(3.0)}, "escena1", 4000))});
-  run.manifest["shards"] = {{{"number", 1}, {"machine", {{"id", "0123456789abcdef"}}}},
-                            {{"number", 2}, {"machine", {{"id", "fedcba9876543210"}}}}};
+  const nlohmann::ordered_json measurement{{"isa", "AVX2"}};
+  run.manifest["shards"] = {
+      {{"number", 1}, {"machine", {{"id", "0123456789abcdef"}}}, {"measurement", measurement}},
+      {{"number", 2}, {"machine", {{"id", "fedcba9876543210"}}}, {"measurement", measurement}}};
   const auto views = standings(run);
   ASSERT_EQ(views.size(), 2U);
   EXPECT_EQ(views[0].view, "escena1, machine 01234567");

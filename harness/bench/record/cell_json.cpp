@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -47,13 +48,56 @@ std::optional<Value> optional(const Json& json, const std::string& name) {
   return found == json.end() ? std::nullopt : std::optional(found->template get<Value>());
 }
 
+// Calls `visit` with the name of each plain member and the member: written and read by one list.
+
+template <class Facts, class Visit>
+void for_each_member(std::type_identity<RaySetFacts>, Facts& facts, Visit visit) {
+  visit("seed", facts.seed);
+  visit("primitives", facts.primitives);
+  visit("rays", facts.rays);
+}
+
+template <class Statistics, class Visit>
+void for_each_member(std::type_identity<accel::Statistics>, Statistics& statistics, Visit visit) {
+  visit("nodes", statistics.nodes);
+  visit("leaves", statistics.leaves);
+  visit("empty_leaves", statistics.empty_leaves);
+  visit("references", statistics.references);
+  visit("depth", statistics.depth);
+  visit("bytes", statistics.bytes);
+  visit("instruction_set", statistics.instruction_set);
+  visit("library_geometry", statistics.library_geometry);
+  visit("library_version", statistics.library_version);
+}
+
+template <class Timed, class Visit>
+void for_each_member(std::type_identity<Repetition>, Timed& repetition, Visit visit) {
+  visit("round", repetition.round);
+  visit("position", repetition.position);
+  visit("build_ms", repetition.build_ms);
+  visit("trace_ms", repetition.trace_ms);
+  visit("build_cpu_ms", repetition.build_cpu_ms);
+  visit("trace_cpu_ms", repetition.trace_cpu_ms);
+  visit("clock_ghz", repetition.clock_ghz);
+}
+
+template <class Record>
+void write_members(const Record& record, Json& json) {
+  for_each_member(std::type_identity<Record>(), record,
+                  [&](const char* name, const auto& member) { json[name] = member; });
+}
+
+template <class Record>
+void read_members(const Json& json, Record& record) {
+  for_each_member(std::type_identity<Record>(), record,
+                  [&](const char* name, auto& member) { json.at(name).get_to(member); });
+}
+
 Json rays_json(const RaySetFacts& facts) {
   Json json{{"scene_hash", rays::hex_digits(facts.scene_hash)},
-            {"rays_hash", rays::hex_digits(facts.rays_hash)},
-            {"seed", facts.seed},
-            {"primitives", facts.primitives},
-            {"rays", facts.rays},
-            {"query", rays::to_string(facts.query)}};
+            {"rays_hash", rays::hex_digits(facts.rays_hash)}};
+  write_members(facts, json);
+  json["query"] = rays::to_string(facts.query);
   add(json, "hit_share", facts.hit_share);
   add(json, "occluded_share", facts.occluded_share);
   add(json, "coherence", facts.coherence);
@@ -64,9 +108,7 @@ RaySetFacts read_rays(const Json& json) {
   RaySetFacts facts;
   facts.scene_hash = hexadecimal(json.at("scene_hash"));
   facts.rays_hash = hexadecimal(json.at("rays_hash"));
-  json.at("seed").get_to(facts.seed);
-  json.at("primitives").get_to(facts.primitives);
-  json.at("rays").get_to(facts.rays);
+  read_members(json, facts);
   facts.query = named(json.at("query"), rays::Query::kPicture);
   facts.hit_share = optional<double>(json, "hit_share");
   facts.occluded_share = optional<double>(json, "occluded_share");
@@ -75,31 +117,17 @@ RaySetFacts read_rays(const Json& json) {
 }
 
 Json statistics_json(const accel::Statistics& statistics) {
+  Json json = Json::object();
+  write_members(statistics, json);
   Json more = Json::object();
   for (const auto& [name, value] : statistics.more) more[name] = value;
-  return {{"nodes", statistics.nodes},
-          {"leaves", statistics.leaves},
-          {"empty_leaves", statistics.empty_leaves},
-          {"references", statistics.references},
-          {"depth", statistics.depth},
-          {"bytes", statistics.bytes},
-          {"instruction_set", statistics.instruction_set},
-          {"library_geometry", statistics.library_geometry},
-          {"library_version", statistics.library_version},
-          {"family", more}};
+  json["family"] = more;
+  return json;
 }
 
 accel::Statistics read_statistics(const Json& json) {
   accel::Statistics statistics;
-  json.at("nodes").get_to(statistics.nodes);
-  json.at("leaves").get_to(statistics.leaves);
-  json.at("empty_leaves").get_to(statistics.empty_leaves);
-  json.at("references").get_to(statistics.references);
-  json.at("depth").get_to(statistics.depth);
-  json.at("bytes").get_to(statistics.bytes);
-  json.at("instruction_set").get_to(statistics.instruction_set);
-  json.at("library_geometry").get_to(statistics.library_geometry);
-  json.at("library_version").get_to(statistics.library_version);
+  read_members(json, statistics);
   for (const auto& [name, value] : json.at("family").items()) {
     statistics.more.emplace_back(name, value.is_null() ? std::nan("") : value.get<double>());
   }
@@ -179,13 +207,8 @@ void read_facts(const Json& event, CellRecord& cell) {
 }
 
 Json repetition_json(const Repetition& repetition) {
-  Json json{{"round", repetition.round},
-            {"position", repetition.position},
-            {"build_ms", repetition.build_ms},
-            {"trace_ms", repetition.trace_ms},
-            {"build_cpu_ms", repetition.build_cpu_ms},
-            {"trace_cpu_ms", repetition.trace_cpu_ms},
-            {"clock_ghz", repetition.clock_ghz}};
+  Json json = Json::object();
+  write_members(repetition, json);
   add(json, "warm_trace_ms", repetition.warm_trace_ms);
   add_counts(json, "build", repetition.build_counts);
   add_counts(json, "trace", repetition.trace_counts);
@@ -194,13 +217,7 @@ Json repetition_json(const Repetition& repetition) {
 
 Repetition read_repetition(const Json& event) {
   Repetition repetition{};
-  event.at("round").get_to(repetition.round);
-  event.at("position").get_to(repetition.position);
-  event.at("build_ms").get_to(repetition.build_ms);
-  event.at("trace_ms").get_to(repetition.trace_ms);
-  event.at("build_cpu_ms").get_to(repetition.build_cpu_ms);
-  event.at("trace_cpu_ms").get_to(repetition.trace_cpu_ms);
-  event.at("clock_ghz").get_to(repetition.clock_ghz);
+  read_members(event, repetition);
   repetition.warm_trace_ms = optional<double>(event, "warm_trace_ms");
   read_counts(event, "build", repetition.build_counts);
   read_counts(event, "trace", repetition.trace_counts);

@@ -21,4 +21,12 @@ std::string_view to_string(StopReason reason) {
   return kNames[static_cast<std::size_t>(reason)];
 }
 
+std::vector<double> second_traces(const CellRecord& cell) {
+  std::vector<double> traces;
+  for (const Repetition& repetition : cell.repetitions) {
+    if (repetition.warm_trace_ms) traces.push_back(*repetition.warm_trace_ms);
+  }
+  return traces;
+}
+
 }  // namespace beambench::bench

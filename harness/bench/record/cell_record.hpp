@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -157,6 +158,21 @@ struct CellRecord {
 
   /// A time is reported only when the hits are correct, or absent by design.
   bool keeps_times() const { return verify::is_right(verdict); }
+  bool has_times() const { return keeps_times() && !repetitions.empty(); }
 };
+
+/// Returns one figure of every repetition of a cell: a member of `Repetition`.
+template <class Figure>
+std::vector<double> collect(const CellRecord& cell, Figure figure) {
+  std::vector<double> values;
+  values.reserve(cell.repetitions.size());
+  for (const Repetition& repetition : cell.repetitions) {
+    values.push_back(std::invoke(figure, repetition));
+  }
+  return values;
+}
+
+/// Returns the second traces of the repetitions that have one, in milliseconds.
+std::vector<double> second_traces(const CellRecord& cell);
 
 }  // namespace beambench::bench

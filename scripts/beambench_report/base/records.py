@@ -11,6 +11,7 @@ from beambench_report.base.columns import COUNTER_SUFFIX, RENAMED_COLUMNS, dicti
 from beambench_report.base.csv_texts import unguarded
 from beambench_report.base.files import Problem
 from beambench_report.base.names import contender_labels, subjects, view_titles
+from beambench_report.base.run_log import has_log
 
 # The columns without which there is nothing to show.
 NEEDED_COLUMNS = (
@@ -141,7 +142,7 @@ def _read_csv(path: Path) -> pd.DataFrame:
 
 
 def _remedy(directory: Path) -> str:
-    if (directory / "run.jsonl").is_file():
+    if has_log(directory):
         return f"the run was cut off; resume it, or: beambench analyze --write {directory}"
     return "give the folder that `beambench run` wrote"
 

@@ -71,10 +71,11 @@ def describe(plan: Plan, directory: Path | None = None) -> str:
         count, state = len(sweep.cells()), "waiting"
         if directory is not None:
             state = state_of(directory / sweep.name)
-        done = sum(cell.is_finished for cell in logged_cells((directory or Path()) / sweep.name))
-        progress = {"finished": "finished", "begun": f"{done} done"}.get(state, "")
+        progress = "finished" if state == "finished" else ""
         left = 0.0 if state == "finished" else sweep.budget_seconds
-        if state == "begun":
+        if directory is not None and state == "begun":
+            done = sum(cell.is_finished for cell in logged_cells(directory / sweep.name))
+            progress = f"{done} done"
             left *= max(0.0, 1 - done / count)
         lines.append(
             f"{sweep.name:<18} {count:>4} cells {duration_in_words(left):>12}  {progress}".rstrip()
