@@ -13,4 +13,9 @@ inline std::uint64_t number_from(const char* variable, std::uint64_t otherwise) 
   return text == nullptr ? otherwise : std::stoull(text);
 }
 
+/// Returns `full` where BEAMBENCH_FULL is set, as `scripts/test --full` sets it, otherwise `usual`.
+inline std::uint64_t in_full(std::uint64_t full, std::uint64_t usual) {
+  return std::getenv("BEAMBENCH_FULL") != nullptr ? full : usual;
+}
+
 }  // namespace beambench::tests

@@ -47,14 +47,20 @@ bool is_precise(std::span<const double> samples, const StoppingRule& rule) {
 
 }  // namespace
 
-Contender::Contender(const PlannedCell& cell, Task& task, int second_traces)
+Contender::Contender(const PlannedCell& cell, Task& task, int second_traces,
+                     std::optional<CellRecord> earlier)
     : cell_(&cell), task_(&task), second_traces_(static_cast<std::size_t>(second_traces)) {
   record_.index = cell.index;
   record_.id = cell.id;
   record_.rays = task.facts();
+  if (!earlier) return;
+  record_.hits_hash = earlier->hits_hash;
+  record_.diff = std::move(earlier->diff);
+  record_.verdict = earlier->verdict;
+  for (const Repetition& repetition : earlier->repetitions) keep(repetition);
 }
 
-void Contender::count() {
+void Contender::count(RunLog& log) {
   try {
     task_->require_support(cell_->structure);
     const MeasuringFloatMode mode;
@@ -73,9 +79,12 @@ void Contender::count() {
   }
   // A structure that counts nothing at all cannot count; zeros would claim that it does no work.
   if (is_all_zero(record_.work.counters)) record_.work.counters.clear();
+  log.begin_cell(record_);
 }
 
-void Contender::repeat(const Instruments& instruments, int round, int position) {
+void Contender::repeat(const Instruments& instruments, int round, int position, RunLog& log) {
+  const std::size_t before = record_.repetitions.size();
+  const bool was_verified = record_.diff.has_value();
   try {
     const PinnedThread pin(instruments.core);
     task_->poison();
@@ -85,22 +94,32 @@ void Contender::repeat(const Instruments& instruments, int round, int position) 
     repetition.clock_ghz = 0.5 * (clock_before + clock_ghz());
     repetition.round = round;
     repetition.position = position;
-    record_.repetitions.push_back(repetition);
-    cycles_.push_back(repetition.total_mcycles());
-    milliseconds_.push_back(repetition.total_ms());
-    spent_ms_ += repetition.total_ms();
-    if (record_.repetitions.size() == 1) {
-      verify_first(*structure);
-    } else if (task_->fingerprint() != record_.hits_hash) {
-      fail(verify::Verdict::kMismatch,
-           fmt::format("repetition {} wrote other hits than the first: the structure's answers "
-                       "depend on more than scene and rays",
-                       record_.repetitions.size()));
-    }
+    keep(repetition);
+    check_answers(*structure);
     if (!failed_ && record_.repetitions.size() <= second_traces_) trace_warm(*structure);
   } catch (const std::exception& error) {
     fail(verify::Verdict::kError, message_of(error));
   }
+  if (!was_verified && record_.diff) log.add_verification(record_);
+  if (record_.repetitions.size() > before) log.add_repetition(record_);
+}
+
+void Contender::keep(const Repetition& repetition) {
+  record_.repetitions.push_back(repetition);
+  cycles_.push_back(repetition.total_mcycles());
+  milliseconds_.push_back(repetition.total_ms());
+  spent_ms_ += repetition.total_ms() + repetition.warm_trace_ms.value_or(0.0);
+}
+
+void Contender::check_answers(const accel::Accelerator& structure) {
+  if (record_.hits_hash && task_->fingerprint() != record_.hits_hash) {
+    return fail(verify::Verdict::kMismatch,
+                fmt::format("repetition {} wrote other hits than the first: the structure's "
+                            "answers depend on more than scene and rays",
+                            record_.repetitions.size()));
+  }
+  if (!is_verified_) verify_first(structure);
+  is_verified_ = true;
 }
 
 Repetition Contender::time_once(const Instruments& instruments,
@@ -180,6 +199,7 @@ void Contender::fail(verify::Verdict verdict, std::string message) {
 CellRecord Contender::finish(std::optional<StopReason> reason) && {
   record_.stop_reason = reason;
   record_.time_utc = utc_now();
+  record_.is_finished = true;
   return std::move(record_);
 }
 

@@ -12,6 +12,7 @@
 #include "harness/bench/measurement.hpp"
 #include "harness/bench/plan.hpp"
 #include "harness/bench/record/cell_record.hpp"
+#include "harness/bench/record/run_log.hpp"
 #include "harness/bench/task.hpp"
 
 namespace beambench::bench {
@@ -30,17 +31,25 @@ struct Instruments {
 /// measurement; nothing is thrown.
 class Contender {
  public:
-  /// So many of the repetitions are followed by a second trace of the same structure.
-  Contender(const PlannedCell& cell, Task& task, int second_traces);
+  /// So many of the repetitions are followed by a second trace of the same structure. `earlier` is
+  /// what a part of the run that was cut off has of the cell: its repetitions count, and its
+  /// answers must be the same.
+  Contender(const PlannedCell& cell, Task& task, int second_traces,
+            std::optional<CellRecord> earlier);
 
-  /// The untimed pass: sizes and counters.
-  void count();
+  /// The untimed pass: sizes and counters. Logs that the cell begins.
+  void count(RunLog& log);
   /// One timed repetition, run through Google Benchmark; the first ones followed by a second trace.
-  void repeat(const Instruments& instruments, int round, int position);
+  /// Logs it, and the first one's verification.
+  void repeat(const Instruments& instruments, int round, int position, RunLog& log);
 
   const CellId& id() const { return cell_->id; }
   bool failed() const { return failed_; }
   int repetitions() const { return static_cast<int>(record_.repetitions.size()); }
+  /// The first round that none of its repetitions was in.
+  int next_round() const {
+    return record_.repetitions.empty() ? 0 : record_.repetitions.back().round + 1;
+  }
   /// The total of each repetition by which it is decided whether such a figure is precise: of the
   /// median millions of cycles, because the clock's rate changes; of the minimum milliseconds,
   /// because a rate that was read in a disturbed moment makes the cycles too few.
@@ -56,6 +65,8 @@ class Contender {
   /// Leaves the structure that it built in `structure`.
   Repetition time_once(const Instruments& instruments,
                        std::unique_ptr<accel::Accelerator>& structure);
+  void keep(const Repetition& repetition);
+  void check_answers(const accel::Accelerator& structure);
   void trace_warm(const accel::Accelerator& structure);
   void verify_first(const accel::Accelerator& structure);
   void fail(verify::Verdict verdict, std::string message);
@@ -69,6 +80,7 @@ class Contender {
   double spent_ms_ = 0.0;
   std::uint64_t counted_hits_ = 0;  ///< fingerprint of the counting pass's answers
   bool failed_ = false;
+  bool is_verified_ = false;  ///< have this process's answers been compared with the oracle's?
 };
 
 struct StoppingRule {

@@ -97,10 +97,10 @@ struct RegisteredBenchmarks {
 /// A benchmark without a fixed number of iterations ends at once only by failing.
 void do_nothing(benchmark::State& state) { state.SkipWithError("not meant to be measured"); }
 
-benchmark::BenchmarkReporter::Run base_run(const Json& cell) {
+benchmark::BenchmarkReporter::Run base_run(const CellRecord& cell) {
   benchmark::BenchmarkReporter::Run run;
   // The library writes control characters of names as they are, which is no JSON.
-  run.run_name.function_name = printable(cell.at("name").get<std::string>());
+  run.run_name.function_name = printable(cell.id.name());
   run.run_name.time_type = "manual_time";
   run.family_index = 0;
   run.per_family_instance_index = 0;
@@ -123,32 +123,28 @@ void mark_failed(Run& run, const std::string& message) {
   }
 }
 
-benchmark::BenchmarkReporter::Run repetition_run(const Json& cell, const Json& repetition) {
+benchmark::BenchmarkReporter::Run repetition_run(const CellRecord& cell,
+                                                 const Repetition& repetition) {
   auto run = base_run(cell);
-  const double build_ms = repetition.at("build_ms").get<double>();
-  const double trace_ms = repetition.at("trace_ms").get<double>();
-  run.real_accumulated_time = 1e-3 * (build_ms + trace_ms);
-  run.cpu_accumulated_time = 1e-3 * (repetition.at("build_cpu_ms").get<double>() +
-                                     repetition.at("trace_cpu_ms").get<double>());
-  run.counters["build_ms"] = build_ms;
-  run.counters["trace_ms"] = trace_ms;
-  run.counters["rays"] = cell.at("row").at("rays").get<double>();
+  run.real_accumulated_time = 1e-3 * repetition.total_ms();
+  run.cpu_accumulated_time = 1e-3 * (repetition.build_cpu_ms + repetition.trace_cpu_ms);
+  run.counters["build_ms"] = repetition.build_ms;
+  run.counters["trace_ms"] = repetition.trace_ms;
+  run.counters["rays"] = static_cast<double>(cell.rays.rays);
   return run;
 }
 
-std::vector<benchmark::BenchmarkReporter::Run> runs_of(const Json& cell, std::int64_t index) {
+std::vector<benchmark::BenchmarkReporter::Run> runs_of(const CellRecord& cell, std::int64_t index) {
   std::vector<benchmark::BenchmarkReporter::Run> runs;
-  const Json& repetitions = cell.at("repetitions");
-  for (const Json& repetition : repetitions) {
-    auto run = repetition_run(cell, repetition);
-    run.repetition_index = static_cast<std::int64_t>(runs.size());
-    run.repetitions = static_cast<std::int64_t>(repetitions.size());
-    runs.push_back(std::move(run));
+  if (cell.has_times()) {
+    for (const Repetition& repetition : cell.repetitions) {
+      auto run = repetition_run(cell, repetition);
+      run.repetition_index = static_cast<std::int64_t>(runs.size());
+      run.repetitions = static_cast<std::int64_t>(cell.repetitions.size());
+      runs.push_back(std::move(run));
+    }
   }
-  if (runs.empty()) {
-    mark_failed(runs.emplace_back(base_run(cell)),
-                printable(cell.at("message").get<std::string>()));
-  }
+  if (runs.empty()) mark_failed(runs.emplace_back(base_run(cell)), printable(cell.message));
   for (auto& run : runs) run.family_index = index;
   return runs;
 }
@@ -222,7 +218,7 @@ void GoogleBenchmark::run_once(const std::string& name, const TimedWork& work) c
 }
 
 void write_google_benchmark_json(std::ostream& out, const Json& context,
-                                 const std::function<void(const CellVisitor&)>& for_each_cell) {
+                                 std::span<const CellRecord> cells) {
   std::ostringstream start;
   benchmark::JSONReporter reporter;
   reporter.SetOutputStream(&start);
@@ -233,7 +229,7 @@ void write_google_benchmark_json(std::ostream& out, const Json& context,
   out << text.substr(0, text.rfind("[]")) << "[\n";
   reporter.SetOutputStream(&out);
   std::int64_t index = 0;
-  for_each_cell([&](const Json& cell) { reporter.ReportRuns(runs_of(cell, index++)); });
+  for (const CellRecord& cell : cells) reporter.ReportRuns(runs_of(cell, index++));
   reporter.Finalize();
 }
 

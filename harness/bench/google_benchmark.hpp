@@ -50,10 +50,9 @@ class GoogleBenchmark {
   void run_once(const std::string& name, const TimedWork& work) const;
 };
 
-/// Writes finished cells as Google Benchmark writes its results: one entry each repetition,
-/// `context` put into its context. Derived from the cells, so that a resumed run loses none;
-/// `for_each_cell` hands over one after the other.
+/// Writes cells as Google Benchmark writes its results: one entry each repetition, `context` put
+/// into its context.
 void write_google_benchmark_json(std::ostream& out, const nlohmann::ordered_json& context,
-                                 const std::function<void(const CellVisitor&)>& for_each_cell);
+                                 std::span<const CellRecord> cells);
 
 }  // namespace beambench::bench

@@ -56,7 +56,7 @@ std::vector<SceneFacts> scene_facts(const Plan& plan);
 template <class Keep>
 void filter_cells(Plan& plan, Keep keep) {
   for (CellGroup& group : plan.groups) {
-    std::erase_if(group.cells, [&](const PlannedCell& cell) { return !keep(cell.id); });
+    std::erase_if(group.cells, [&](const PlannedCell& cell) { return !keep(cell); });
   }
   std::erase_if(plan.groups, [](const CellGroup& group) { return group.cells.empty(); });
 }

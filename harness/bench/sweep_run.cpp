@@ -1,11 +1,12 @@
 #include "harness/bench/sweep_run.hpp"
 
 #include <algorithm>
-#include <array>
+#include <iterator>
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,11 +20,12 @@
 #include "harness/bench/cost.hpp"
 #include "harness/bench/division.hpp"
 #include "harness/bench/measurement.hpp"
-#include "harness/bench/outcome.hpp"
 #include "harness/bench/plan.hpp"
 #include "harness/bench/record/conditions.hpp"
+#include "harness/bench/record/machine.hpp"
 #include "harness/bench/record/manifest.hpp"
-#include "harness/bench/record/run_folder.hpp"
+#include "harness/bench/record/robust_statistics.hpp"
+#include "harness/bench/record/run_log.hpp"
 #include "harness/bench/task.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "scenes/core/error.hpp"
@@ -33,40 +35,42 @@
 namespace beambench::bench {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-/// The manifest mentions the harness's own time above this part of the fastest contender's.
-constexpr double kWantedOverhead = 0.02;
-
 /// The core to pin to, or -1 where pinning does not work.
 int pinnable_core() {
   const int core = present_core();
   return PinnedThread(core).pinned() ? core : -1;
 }
 
-/// `35.1 ms [34.9, 35.6]`: a median, and its interval where there is one.
-std::string with_interval(const Row& row, const std::string& name) {
-  std::string text = fmt::format("{:.4g} ms", row.at(name + "_ms_median").get<double>());
-  const Json& low = row.at(name + "_ms_ci_low");
-  if (low.is_null()) return text;
-  return fmt::format("{} [{:.4g}, {:.4g}]", text, low.get<double>(),
-                     row.at(name + "_ms_ci_high").get<double>());
+/// `35.1 ms [34.9, 35.6]`: the median of times, and its interval where there is one.
+std::string with_interval(const std::vector<double>& times) {
+  const std::string text = fmt::format("{:.4g} ms", median(times));
+  const std::optional<Interval> interval = median_interval(times);
+  if (!interval) return text;
+  return fmt::format("{} [{:.4g}, {:.4g}]", text, interval->low, interval->high);
 }
 
 /// `build 1.23 ms, trace 35.1 ms [34.9, 35.6], second trace 34.0 ms [33.8, 34.3], 37.0 Mrays/s, ok
 /// after 12 repetitions (precision)`; the second trace where there was one.
-std::string result_line(const CellRecord& cell, const Row& row) {
-  if (!cell.keeps_times()) {
-    return fmt::format("{}: {}", verify::to_string(cell.verdict), cell.message);
-  }
-  const bool has_second = !row.at("trace_warm_ms_median").is_null();
+std::string result_line(const CellRecord& cell) {
+  if (!cell.keeps_times()) return fmt::format("{}: {}", to_string(cell.verdict), cell.message);
+  const std::vector<double> trace = collect(cell, &Repetition::trace_ms);
+  const std::vector<double> second = second_traces(cell);
+  const double trace_us = 1e3 * median(trace);
   return fmt::format("build {:.4g} ms, trace {}, {}{:.4g} Mrays/s, {} after {} ({})",
-                     row.at("build_ms_median").get<double>(), with_interval(row, "trace"),
-                     has_second ? "second trace " + with_interval(row, "trace_warm") + ", " : "",
-                     row.at("mrays_per_s").is_null() ? 0.0 : row.at("mrays_per_s").get<double>(),
-                     verify::to_string(cell.verdict),
-                     base::counted(cell.repetitions.size(), "repetition"),
+                     median(collect(cell, &Repetition::build_ms)), with_interval(trace),
+                     second.empty() ? "" : "second trace " + with_interval(second) + ", ",
+                     trace_us > 0.0 ? static_cast<double>(cell.rays.rays) / trace_us : 0.0,
+                     to_string(cell.verdict), base::counted(cell.repetitions.size(), "repetition"),
                      to_string(*cell.stop_reason));
+}
+
+/// The cells of a plan by name.
+std::vector<PlannedName> names_of(const Plan& plan) {
+  std::vector<PlannedName> names;
+  for (const CellGroup& group : plan.groups) {
+    for (const PlannedCell& cell : group.cells) names.push_back({cell.index, cell.id.name()});
+  }
+  return names;
 }
 
 /// A group's name without what is at its default.
@@ -123,12 +127,13 @@ class SweepRun {
         manifest_(begin_manifest(
             config.name, options.shard ? options.shard->scenes : scene_facts(plan), core_,
             config.threads, config.warm_up, facts_of(options.shard), options.root)),
-        folder_(open_folder()),
+        log_(open_log()),
         throttling_(options.root, manifest_.measurement.throttling),
+        names_(names_of(plan)),
         plan_(unfinished(std::move(plan))),
         progress_(plan_.cell_count(), messages) {}
 
-  SweepOutcome run() && {
+  std::filesystem::path run() && {
     {
       const PinnedThread pin(core_);
       manifest_.measurement.noise = warm_up(config_.warm_up);
@@ -140,8 +145,12 @@ class SweepRun {
     for (const std::string& line : preflight(manifest_)) {
       base::print_message(messages_, fmt::format("{}\n", line));
     }
-    folder_.write_json("manifest.json", to_json(manifest_));
-    options_.begun(folder_.path());
+    if (options_.resume) {
+      log_.resume(to_json(manifest_));
+    } else {
+      log_.begin(to_json(manifest_), config_.source, names_);
+    }
+    options_.begun(log_.folder());
     const base::Stopwatch watch;
     record_crashed_cells();
     std::size_t cells_left = plan_.cell_count();
@@ -156,32 +165,35 @@ class SweepRun {
       }
       first += batch.size();
     }
-    return close();
+    log_.end(utc_now());
+    return log_.folder();
   }
 
  private:
-  RunFolder open_folder() {
+  RunLog open_log() {
     if (!options_.resume) {
-      RunFolder folder = RunFolder::create(options_.folder.value_or(
-          std::filesystem::path("results") / "runs" / manifest_.run.run_id));
-      folder.write_json("config.json", config_.source);
-      return folder;
+      return RunLog::create(options_.folder.value_or(std::filesystem::path("results") / "runs" /
+                                                     manifest_.run.run_id));
     }
-    RunFolder folder = RunFolder::open(options_.folder.value());
-    require_same_run(folder, config_.source, to_json(manifest_));
-    read_as_written((folder.path() / "manifest.json").string(), "begin a new run with -o",
-                    [&] { continue_with(manifest_, folder.read_json("manifest.json")); });
-    // Before more is measured: the end of the run reads the cells like this.
-    folder.for_each_cell([&](const Json& cell) {
-      const std::array alone{summary_of(cell)};
-      standings(alone, config_.exclude);
-      largest_overheads(alone);
-      std::ostringstream nowhere;
-      write_google_benchmark_json(nowhere, Json::object(),
-                                  [&](const CellVisitor& visit) { visit(cell); });
-    });
-    folder.write_results();
-    return folder;
+    RunLog log = RunLog::open(options_.folder.value());
+    Run run = read_run(log.folder());
+    require_same_run(log.folder(), run, config_.source, to_json(manifest_));
+    read_as_written((log.folder() / kLogName).string(), "begin a new run with -o",
+                    [&] { continue_with(manifest_, run.manifest); });
+    for (CellRecord& cell : run.cells) {
+      if (cell.is_finished) {
+        finished_.insert(cell.index);
+      } else {
+        unfinished_.emplace(cell.index, std::move(cell));
+      }
+    }
+    return log;
+  }
+
+  /// What an earlier part of the run has of a cell.
+  std::optional<CellRecord> earlier(const PlannedCell& cell) {
+    auto found = unfinished_.extract(cell.index);
+    return found ? std::optional(std::move(found.mapped())) : std::nullopt;
   }
 
   /// A cell has the same allowance in a shard as in a run of the whole sweep.
@@ -192,7 +204,7 @@ class SweepRun {
   }
 
   Plan unfinished(Plan plan) const {
-    filter_cells(plan, [&](const CellId& id) { return !folder_.has_cell(id.key()); });
+    filter_cells(plan, [&](const PlannedCell& cell) { return !finished_.contains(cell.index); });
     return plan;
   }
 
@@ -207,7 +219,7 @@ class SweepRun {
         }
       }
     }
-    filter_cells(plan_, [&](const CellId& id) { return !crashed.contains(id.key()); });
+    filter_cells(plan_, [&](const PlannedCell& cell) { return !crashed.contains(cell.id.key()); });
   }
 
   /// Measures groups together, so that the repetitions of a cell are as far apart in time as those
@@ -243,14 +255,16 @@ class SweepRun {
       return fail(verify::Verdict::kError, error.what());
     }
     if (const auto warning = open.task->warning()) {
-      std::string sentence = fmt::format("{}: {}.", shown(group), *warning);
+      const std::string sentence = fmt::format("{}: {}.", shown(group), *warning);
       progress_.say("warning: " + sentence);
-      manifest_.uncontrolled.push_back(std::move(sentence));
+      log_.warn(sentence);
     }
     for (const PlannedCell& cell : group.cells) {
       set_activity(cell.id.key());
       options_.before_each_piece();
-      open.contenders.emplace_back(cell, *open.task, config_.second_traces).count();
+      open.contenders.emplace_back(cell, *open.task, config_.second_traces, earlier(cell))
+          .count(log_);
+      if (open.contenders.back().failed()) finish(open, std::prev(open.contenders.end()));
     }
     return open;
   }
@@ -263,14 +277,21 @@ class SweepRun {
     const Instruments instruments{benchmark_, counters_, core_, config_.threads};
     Random random(rays::fingerprint(groups.front().group->name()));
     finish_done(groups, allowance_ms);
-    for (int round = 0; !groups.empty(); ++round) {
+    int round = 0;
+    for (const OpenGroup& open : groups) {
+      for (const Contender& each : open.contenders) round = std::max(round, each.next_round());
+    }
+    for (; !groups.empty(); ++round) {
       shuffle(groups, random);
       for (OpenGroup& open : groups) {
         shuffle(open.contenders, random);
-        for (std::size_t i = 0; i < open.contenders.size(); ++i) {
-          set_activity(open.contenders[i].id().key());
+        int position = 0;
+        for (auto each = open.contenders.begin(); each != open.contenders.end(); ++position) {
+          set_activity(each->id().key());
           options_.before_each_piece();
-          open.contenders[i].repeat(instruments, round, static_cast<int>(i));
+          each->repeat(instruments, round, position, log_);
+          // At once: a run that is cut off now must not resume with a wrong repetition.
+          each = each->failed() ? finish(open, each) : std::next(each);
           progress_.advance(work_done(groups, allowance_ms));
         }
       }
@@ -278,26 +299,26 @@ class SweepRun {
     }
   }
 
-  /// Records and removes the contenders that have failed or need no further repetition, and the
-  /// groups that have none left.
+  using Place = std::vector<Contender>::iterator;
+
+  /// Records and removes a contender; returns the place of the next.
+  Place finish(OpenGroup& open, Place contender, std::optional<StopReason> reason = std::nullopt) {
+    finish(std::move(*contender).finish(reason));
+    progress_.start(shown(*open.group));
+    return open.contenders.erase(contender);
+  }
+
+  /// Records and removes the contenders that need no further repetition, and the groups that have
+  /// none left.
   void finish_done(std::vector<OpenGroup>& groups, double allowance_ms) {
     const StoppingRule rule{config_.precision, config_.precise, config_.minimum_repetitions,
                             config_.maximum_repetitions};
     for (OpenGroup& open : groups) {
-      std::vector<Contender> still;
-      for (Contender& contender : open.contenders) {
+      for (Place each = open.contenders.begin(); each != open.contenders.end();) {
         const std::optional<StopReason> reason =
-            contender.failed() ? std::nullopt
-                               : reason_to_stop(contender.totals(rule.precise),
-                                                contender.spent_ms(), allowance_ms, rule);
-        if (!reason && !contender.failed()) {
-          still.push_back(std::move(contender));
-          continue;
-        }
-        finish(std::move(contender).finish(reason));
-        progress_.start(shown(*open.group));
+            reason_to_stop(each->totals(rule.precise), each->spent_ms(), allowance_ms, rule);
+        each = reason ? finish(open, each, reason) : std::next(each);
       }
-      open.contenders = std::move(still);
     }
     std::erase_if(groups, [](const OpenGroup& open) { return open.contenders.empty(); });
   }
@@ -332,56 +353,27 @@ class SweepRun {
     record.time_utc = utc_now();
     record.verdict = verdict;
     record.message = message;
+    log_.begin_cell(record);
     finish(record);
   }
 
   void finish(const CellRecord& cell) {
-    const Json json = to_json(manifest_.run, cell);
-    folder_.add_cell(json);
-    record_throttling();
+    log_.finish_cell(cell);
+    log_throttling();
     if (!cell.keeps_times()) {
-      progress_.say(fmt::format("{}: {}: {}", verify::to_string(cell.verdict), shown_name(cell.id),
-                                cell.message));
+      progress_.say(
+          fmt::format("{}: {}: {}", to_string(cell.verdict), shown_name(cell.id), cell.message));
       for (const std::string& example : cell.examples) progress_.say(example);
     }
     progress_.start(shown_name(cell.id));
-    progress_.finish(result_line(cell, json.at("row")));
+    progress_.finish(result_line(cell));
   }
 
-  /// Keeps in the manifest how the kernel throttled the run so far, for a run that is cut off.
-  void record_throttling() {
+  void log_throttling() {
     const std::optional<Throttling> total = throttling_.total();
-    if (std::exchange(manifest_.measurement.throttling, total) == total) return;
-    folder_.write_json("manifest.json", to_json(manifest_));
-  }
-
-  SweepOutcome close() {
-    folder_.write_results();  // whose columns are then in the order of the plan
-    return read_as_written((folder_.path() / "cells").string(), "remove the file that is at fault",
-                           [&] { return summarize(summaries(folder_)); });
-  }
-
-  SweepOutcome summarize(const std::vector<Json>& cells) {
-    manifest_.finished_utc = utc_now();
-    manifest_.measurement.throttling = throttling_.total();
-    if (const auto throttled = describe(manifest_.measurement.throttling)) {
-      manifest_.uncontrolled.push_back(fmt::format("During the run, {}.", *throttled));
+    if (std::exchange(manifest_.measurement.throttling, total) != total && total) {
+      log_.set_throttling(*total);
     }
-    const std::vector<Overhead> overheads = largest_overheads(cells);
-    manifest_.overhead = to_json(overheads);
-    if (!overheads.empty()) {
-      base::print_message(messages_, fmt::format("{}\n", describe(overheads)));
-    }
-    if (!overheads.empty() && overheads.front().part > kWantedOverhead) {
-      manifest_.uncontrolled.push_back(fmt::format("The {}.", describe(overheads)));
-    }
-    const Json manifest = to_json(manifest_);
-    write_benchmark_file(folder_, manifest);
-    folder_.write_json("manifest.json", manifest);
-    SweepOutcome outcome = conclude(
-        folder_, cells, doubts_about_times(conditions_of(manifest), cells), config_.exclude);
-    outcome.is_part = manifest_.shard.has_value();
-    return outcome;
   }
 
   const SweepConfig& config_;
@@ -391,16 +383,20 @@ class SweepRun {
   int core_;
   HardwareCounters counters_;
   Manifest manifest_;
-  RunFolder folder_;
+  std::set<std::size_t> finished_;                ///< by an earlier part of the run: cells
+  std::map<std::size_t, CellRecord> unfinished_;  ///< begun by it
+  RunLog log_;
   ThrottlingWatch throttling_;
+  std::vector<PlannedName> names_;  ///< of all cells
   Plan plan_;
   base::Progress progress_;
 };
 
 }  // namespace
 
-SweepOutcome run_sweep(const SweepConfig& config, Plan plan, const GoogleBenchmark& benchmark,
-                       const SweepOptions& options, std::FILE* messages) {
+std::filesystem::path run_sweep(const SweepConfig& config, Plan plan,
+                                const GoogleBenchmark& benchmark, const SweepOptions& options,
+                                std::FILE* messages) {
   return SweepRun(config, std::move(plan), benchmark, options, messages).run();
 }
 

@@ -9,7 +9,6 @@
 #include "harness/bench/config.hpp"
 #include "harness/bench/division.hpp"
 #include "harness/bench/google_benchmark.hpp"
-#include "harness/bench/outcome.hpp"
 #include "harness/bench/plan.hpp"
 #include "harness/plugin/activity.hpp"
 
@@ -30,15 +29,17 @@ struct SweepOptions {
   /// The folder that holds /proc and the control groups, from which CPU quotas are read.
   std::filesystem::path root = "/";
   /// Called before each group's rays are made, each counting pass and each repetition. What it
-  /// throws ends the run; the finished cells are kept.
+  /// throws ends the run; every repetition is kept.
   std::function<void()> before_each_piece = [] {};
 };
 
-/// Measures all cells of `plan` that the folder does not hold yet. Progress, mismatches and notes
-/// go to `messages`; the folder's summary.txt names the fastest and has the verdicts. Throws
-/// InputError when the folder cannot be written, already holds a run, or holds one that cannot be
-/// resumed; a structure's fault is recorded and never thrown.
-SweepOutcome run_sweep(const SweepConfig& config, Plan plan, const GoogleBenchmark& benchmark,
-                       const SweepOptions& options, std::FILE* messages);
+/// Measures all cells of `plan` that the log in the folder does not have yet; an unfinished one
+/// goes on behind its last repetition. Only the log is written (`RunLog`). Progress, mismatches and
+/// notes go to `messages`. Returns the folder. Throws InputError when it cannot be written, already
+/// holds a run, or holds one that cannot be resumed; a structure's fault is recorded and never
+/// thrown.
+std::filesystem::path run_sweep(const SweepConfig& config, Plan plan,
+                                const GoogleBenchmark& benchmark, const SweepOptions& options,
+                                std::FILE* messages);
 
 }  // namespace beambench::bench

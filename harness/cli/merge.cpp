@@ -1,6 +1,6 @@
 // beambench merge: joins the shards of a sweep.
 
-#include "harness/bench/merge.hpp"
+#include "harness/analysis/merge.hpp"
 
 #include <cstdio>
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "harness/bench/outcome.hpp"
+#include "harness/analysis/words.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/interruption.hpp"
 
@@ -25,10 +25,10 @@ struct MergeRequest {
 int merge(const MergeRequest& request) {
   const Interruption interruption("interrupted; nothing was written, and the shards are as before");
   const std::vector<std::filesystem::path> shards(request.shards.begin(), request.shards.end());
-  const bench::SweepOutcome outcome = bench::merge_shards(shards, request.output, stderr);
-  fmt::print(stderr, "\n{}", outcome.summary);
-  fmt::print("{}\n", outcome.results.string());
-  return bench::exit_code_of(outcome);
+  const analysis::Analysis found = analysis::merge_shards(shards, request.output, stderr);
+  fmt::print(stderr, "\n{}", analysis::summary(found));
+  fmt::print("{}\n", (std::filesystem::path(request.output) / "results.csv").string());
+  return analysis::exit_code_of(found);
 }
 
 }  // namespace

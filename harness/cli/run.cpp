@@ -11,10 +11,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "harness/analysis/exports.hpp"
+#include "harness/analysis/words.hpp"
 #include "harness/base/messages.hpp"
 #include "harness/bench/division.hpp"
-#include "harness/bench/outcome.hpp"
-#include "harness/bench/record/run_folder.hpp"
+#include "harness/bench/record/run_log.hpp"
 #include "harness/bench/record/shard.hpp"
 #include "harness/bench/sweep_run.hpp"
 #include "harness/cli/commands.hpp"
@@ -37,11 +38,12 @@ struct RunRequest {
   std::vector<std::string> benchmark_flags;
 };
 
-std::filesystem::path config_path(const RunRequest& request) {
-  if (!request.config.empty()) return request.config;
-  if (!request.resume.empty()) {
-    bench::require_run(request.resume);
-    return std::filesystem::path(request.resume) / "config.json";
+/// The configuration of the file that was named, or of the run to be resumed.
+bench::SweepConfig config_of(const RunRequest& request, const std::optional<bench::Run>& earlier) {
+  if (!request.config.empty()) return bench::read_sweep(request.config, accel::registry());
+  if (earlier) {
+    const std::filesystem::path log = std::filesystem::path(request.resume) / bench::kLogName;
+    return bench::parse_sweep(earlier->config, log.string() + ", config", accel::registry());
   }
   throw InputError(
       "no configuration given; name a sweep's JSON file, such as "
@@ -94,13 +96,13 @@ nlohmann::ordered_json to_json(const bench::Plan& plan) {
 }
 
 /// The shard that is to be measured: the requested one, or that of the run to be resumed.
-std::optional<bench::Shard> shard_of(const RunRequest& request) {
+std::optional<bench::Shard> shard_of(const RunRequest& request,
+                                     const std::optional<bench::Run>& earlier) {
   if (request.shard) return bench::parse_shard(*request.shard);
-  if (request.resume.empty()) return std::nullopt;
-  const std::filesystem::path file = std::filesystem::path(request.resume) / "manifest.json";
-  const auto facts = read_as_written(file.string(), "begin a new run with -o", [&] {
-    return bench::shard_of_manifest(read_json_file<nlohmann::ordered_json>(file));
-  });
+  if (!earlier) return std::nullopt;
+  const std::filesystem::path log = std::filesystem::path(request.resume) / bench::kLogName;
+  const auto facts = read_as_written(log.string(), "begin a new run with -o",
+                                     [&] { return bench::shard_of_manifest(earlier->manifest); });
   return facts ? std::optional(facts->shard) : std::nullopt;
 }
 
@@ -140,13 +142,19 @@ bench::PlannedShard reduce_to_shard(bench::Plan& plan, const bench::SweepConfig&
 /// Leaves the cells that --benchmark_filter selects.
 void select_cells(bench::Plan& plan, const bench::GoogleBenchmark& benchmark) {
   const std::set<std::string> selected = benchmark.select(cell_names(plan));
-  bench::filter_cells(plan, [&](const bench::CellId& id) { return selected.contains(id.name()); });
+  bench::filter_cells(
+      plan, [&](const bench::PlannedCell& cell) { return selected.contains(cell.id.name()); });
 }
 
-int report(const bench::SweepOutcome& outcome) {
-  base::print_message(stderr, fmt::format("\n{}", outcome.summary));
-  fmt::print("{}\n", outcome.results.string());
-  return bench::exit_code_of(outcome);
+/// Makes the files of a run from its log, and prints what it comes to.
+int conclude(const std::filesystem::path& folder) {
+  const analysis::Analysis found = analysis::conclude(folder);
+  if (!found.overheads.empty()) {
+    base::print_message(stderr, fmt::format("{}\n", analysis::describe(found.overheads)));
+  }
+  base::print_message(stderr, fmt::format("\n{}", analysis::summary(found)));
+  fmt::print("{}\n", (folder / "results.csv").string());
+  return analysis::exit_code_of(found);
 }
 
 std::string resume_command(const std::filesystem::path& folder) {
@@ -154,20 +162,20 @@ std::string resume_command(const std::filesystem::path& folder) {
                      shell_quoted(folder.string()));
 }
 
-/// Runs the sweep so that, however it is cut off, its last line states how to resume it.
-bench::SweepOutcome run_resumable(const bench::SweepConfig& config, bench::Plan plan,
-                                  const bench::GoogleBenchmark& benchmark,
-                                  bench::SweepOptions options, plugin::Activity& activity,
-                                  Interruption& interruption) {
+/// Runs the sweep so that, however it is cut off, its last line states how to resume it. Returns
+/// the exit code.
+int run_resumable(const bench::SweepConfig& config, bench::Plan plan,
+                  const bench::GoogleBenchmark& benchmark, bench::SweepOptions options,
+                  plugin::Activity& activity, Interruption& interruption) {
   std::string resume;
   options.begun = [&](const std::filesystem::path& folder) {
     resume = resume_command(folder);
     activity.write(plugin::Activity::Line::kRunFolder, folder.string());
     interruption.set_last_line(
-        fmt::format("interrupted; every finished cell is kept, resume with: {}", resume));
+        fmt::format("interrupted; every repetition is kept, resume with: {}", resume));
   };
   try {
-    return bench::run_sweep(config, std::move(plan), benchmark, options, stderr);
+    return conclude(bench::run_sweep(config, std::move(plan), benchmark, options, stderr));
   } catch (const InputError& error) {
     if (resume.empty()) throw;
     throw InputError(fmt::format("{}; then resume with: {}", error.what(), resume));
@@ -190,10 +198,13 @@ int run(RunRequest request, plugin::Activity& activity) {
   for (const std::string& note : flags.notes) {
     base::print_message(stderr, fmt::format("{}\n", note));
   }
-  bench::SweepConfig config = bench::read_sweep(config_path(request), accel::registry());
+  std::optional<bench::Run> earlier;
+  if (!request.resume.empty()) earlier = bench::read_run(request.resume);
+  bench::SweepConfig config = config_of(request, earlier);
   if (flags.repetitions) override_repetitions(config, *flags.repetitions);
   bench::SweepOptions options = options_of(request, activity);
-  const std::optional<bench::Shard> shard = shard_of(request);
+  const std::optional<bench::Shard> shard = shard_of(request, earlier);
+  earlier.reset();  // its cells take memory
   if (shard) refuse_filtered_shard(flags);
   const bench::GoogleBenchmark benchmark(flags);
   bench::Plan plan = whole_plan(config);
@@ -206,8 +217,8 @@ int run(RunRequest request, plugin::Activity& activity) {
     }
     return base::kSuccess;
   }
-  return report(run_resumable(config, std::move(plan), benchmark, std::move(options), activity,
-                              interruption));
+  return run_resumable(config, std::move(plan), benchmark, std::move(options), activity,
+                       interruption);
 }
 
 }  // namespace
@@ -223,7 +234,7 @@ void add_run_command(CLI::App& app, int& exit_code, plugin::Activity& activity) 
   CLI::Option* resume =
       command
           ->add_option("--resume", request->resume,
-                       "Resume the run in this folder; finished cells are not repeated")
+                       "Resume the run in this folder; no repetition is made twice")
           ->excludes(output);
   command
       ->add_option("--shard", request->shard,

@@ -12,8 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "accel/core/registry.hpp"
-#include "harness/bench/outcome.hpp"
-#include "harness/bench/standings.hpp"
+#include "harness/analysis/words.hpp"
 #include "harness/bench/sweep_run.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
@@ -119,12 +118,12 @@ int time_structures(const TimeRequest& request) {
   bench::SweepOptions options;
   options.folder = folder.path();
   const bench::GoogleBenchmark benchmark(bench::parse_benchmark_flags({}));
-  const bench::SweepOutcome outcome =
-      bench::run_sweep(config, std::move(plan), benchmark, options, stderr);
-  fmt::print("{}", bench::describe_contenders(outcome.standings));
-  if (outcome.standings.size() > 1) fmt::print("{}\n", bench::describe(outcome.standings));
-  fmt::print("{}", bench::describe_verdicts(outcome));
-  return bench::exit_code_of(outcome);
+  const analysis::Analysis found = analysis::analyze(
+      bench::read_run(bench::run_sweep(config, std::move(plan), benchmark, options, stderr)));
+  fmt::print("{}", analysis::describe_contenders(found.views));
+  if (found.views.size() > 1) fmt::print("{}\n", analysis::describe(found.views));
+  fmt::print("{}", analysis::describe_verdicts(found));
+  return analysis::exit_code_of(found);
 }
 
 }  // namespace

@@ -15,9 +15,10 @@
 #include <nlohmann/json.hpp>
 
 #include "accel/core/registry.hpp"
+#include "harness/analysis/exports.hpp"
+#include "harness/analysis/words.hpp"
 #include "harness/bench/config.hpp"
 #include "harness/bench/google_benchmark.hpp"
-#include "harness/bench/outcome.hpp"
 #include "harness/bench/plan.hpp"
 #include "harness/bench/sweep_run.hpp"
 #include "harness/python/bindings.hpp"
@@ -58,23 +59,24 @@ std::tuple<nb::bytes, std::string> run_sweep(const std::string& json, const nb::
                                              bool progress) {
   const std::string file = text_of(file_given);
   const std::string folder = text_of(folder_given);
-  bench::SweepOutcome outcome;
+  std::string summary;
   {
     const nb::gil_scoped_release released;
     const bench::SweepConfig config = read_config(json, file);
-    outcome = result_of([config, folder, resume, progress](const StopRequest& stop) {
+    summary = result_of([config, folder, resume, progress](const StopRequest& stop) {
       const auto lock = lock_benchmark(stop);
       const std::unique_ptr<std::FILE, CloseFile> nowhere(std::fopen("/dev/null", "w"));
       bench::SweepOptions options;
       options.folder = folder;
       options.resume = resume;
       options.before_each_piece = [&] { stop.check(); };
-      return bench::run_sweep(config, bench::make_plan(config), bench::GoogleBenchmark({}), options,
-                              progress ? stderr : nowhere.get());
+      return analysis::summary(analysis::conclude(
+          bench::run_sweep(config, bench::make_plan(config), bench::GoogleBenchmark({}), options,
+                           progress ? stderr : nowhere.get())));
     });
   }
-  const std::string& results = outcome.results.native();
-  return {nb::bytes(results.data(), results.size()), outcome.summary};
+  const std::string results = (std::filesystem::path(folder) / "results.csv").native();
+  return {nb::bytes(results.data(), results.size()), summary};
 }
 
 }  // namespace

@@ -490,6 +490,40 @@ void make_folder(const fs::path& folder, std::string_view remedy) {
       fmt::format("cannot make the folder '{}': {}; {}", folder.string(), error.message(), remedy));
 }
 
+GrowingFile::GrowingFile(const fs::path& path, std::uint64_t bytes)
+    : path_(path),
+      descriptor_(::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666)),
+      bytes_(bytes) {
+  if (descriptor_ < 0) refuse_output_error(path_, errno);
+  if (::ftruncate(descriptor_, static_cast<off_t>(bytes_)) != 0) {
+    const int error = errno;
+    ::close(descriptor_);
+    refuse_output_error(path_, error);
+  }
+}
+
+GrowingFile::~GrowingFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+GrowingFile::GrowingFile(GrowingFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      bytes_(other.bytes_) {}
+
+void GrowingFile::add_line(std::string_view line) {
+  const std::string whole = std::string(line) + '\n';
+  const auto error = write_into(descriptor_, [&](std::ostream& out) { out << whole; });
+  if (!error) {
+    bytes_ += whole.size();
+    return;
+  }
+  // Half a line would be lost with whatever is added to it.
+  if (::ftruncate(descriptor_, static_cast<off_t>(bytes_)) != 0) { /* the reader leaves it out */
+  }
+  refuse_output_error(path_, *error);
+}
+
 bool is_left_behind(const fs::path& path) {
   const std::string name = path.filename().string();
   return name.starts_with('.') && name.find(kPartial) != std::string::npos;

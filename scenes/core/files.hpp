@@ -1,5 +1,6 @@
 #pragma once
-// The one function that opens input, the one that writes output, and locks of folders.
+// The one function that opens input, the one that writes output, logs that grow, and locks of
+// folders.
 
 #include <cstddef>
 #include <cstdint>
@@ -78,6 +79,27 @@ void write_file(const std::filesystem::path& target, std::string_view text);
 /// it throws, the file stays as it was.
 void write_file(const std::filesystem::path& target,
                 const std::function<void(std::ostream&)>& write);
+
+/// A file to which lines are added, such as a log. A line is given to the system at once, in one
+/// piece: it is there whatever happens to this process. Nothing waits for the disk.
+class GrowingFile {
+ public:
+  /// Opens or makes the file; what follows its first `bytes` is cut off. Throws InputError when it
+  /// cannot be written.
+  explicit GrowingFile(const std::filesystem::path& path, std::uint64_t bytes = 0);
+  ~GrowingFile();
+  GrowingFile(GrowingFile&& other) noexcept;
+  GrowingFile& operator=(GrowingFile&&) = delete;
+
+  /// Adds a line and its end. Throws InputError when the disk is full or fails; the file is then as
+  /// it was.
+  void add_line(std::string_view line);
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_;
+  std::uint64_t bytes_;
+};
 
 /// Makes a folder and those above it, unless it is there. Throws InputError, with what to do about
 /// it.

@@ -17,7 +17,7 @@ from beambench_report.base.files import ROOT, Problem
 
 SOURCES = ROOT / "tests/fuzz"
 _DICTIONARIES = dict.fromkeys(
-    ("sweep", "cell", "manifest", "rays", "hits", "gltf", "mesh_entry"), "json"
+    ("sweep", "run_log", "manifest", "rays", "hits", "gltf", "mesh_entry"), "json"
 )
 """Of the targets whose dictionary has another name than they."""
 _LIMITS = ("-max_len=4096", "-timeout=20", "-rss_limit_mb=3000")

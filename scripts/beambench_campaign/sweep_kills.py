@@ -15,6 +15,7 @@ from beambench_campaign.killed import (
 )
 from beambench_campaign.programs import Programs
 from beambench_campaign.rows import cells_of, difference
+from beambench_report.base.run_log import has_log
 
 _MOST_KILLS = 12
 
@@ -28,7 +29,7 @@ def kill_sweep(beambench: Path, folder: Path, random: Random, programs: Programs
     run = folder / "killed"
     complete = False
     while not complete and not tally.faults:
-        begun = (run / "manifest.json").exists()
+        begun = has_log(run)
         arguments = ["--resume", run] if begun else [sweep, "-o", run]
         program = programs.start([beambench, "run", *arguments], folder)
         if tally.kills < _MOST_KILLS:

@@ -18,7 +18,6 @@ from beambench_report.haines.report import write_report as write_haines
 from beambench_report.havran.report import write_report as write_havran
 from beambench_report.run.ratio_table import write_ratios
 from beambench_report.run.winners import write_winners
-from beambench_report.thesis.chapter5.levels import levels_of_runs
 from beambench_report.thesis.chapter6.report import write_report as write_cluster
 from beambench_report.thesis.report.plan import read_plan
 from beambench_report.thesis.report.report import gather
@@ -53,11 +52,6 @@ def _campaigns(folder: Path) -> str:
     return as_campaigns(Record(folder).pieces())
 
 
-def _levels(folder: Path) -> str:
-    """Of the levels that any of the sweeps beside it has."""
-    return str(levels_of_runs([file.parent for file in sorted(folder.glob("*/results.csv"))], None))
-
-
 def _in_copy(write: Callable[[Path], object], folder: Path) -> str:
     """What a command writes from all tables of a folder that draws plots beside its report, too."""
     with tempfile.TemporaryDirectory() as copy:
@@ -78,7 +72,6 @@ _REPORTS: dict[str, Callable[[Path], str]] = {
     "pencils/report.md": partial(_comparison, PENCILS),
     "robustness/campaigns.md": _campaigns,
     "structures/winners.md": _winners,
-    "thesis-earlier/levels.md": _levels,
     "thesis/report.md": _thesis,
 }
 

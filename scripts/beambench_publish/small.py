@@ -11,9 +11,10 @@ from PIL import Image
 from beambench_publish.images import with_small_images
 from beambench_report.base.cell_files import REPETITIONS, write_repetitions
 from beambench_report.base.files import write_text
+from beambench_report.base.run_log import LOG
 
 _COLORS = 256
-_NOT_COMMITTED = ("google-benchmark.json", "report.html", "*answers.jsonl")
+_NOT_COMMITTED = ("analysis.json", "google-benchmark.json", "report.html", "*answers.jsonl")
 """The last: what an interrupted simulation of the cluster goes on from."""
 _FOLDERS_NOT_COMMITTED = ("tasks",)
 """What single beams cost, from which only simulations of the cluster begin."""
@@ -25,10 +26,10 @@ def make_small(folder: Path) -> None:
     The repetitions of all cells become one file each, where there are enough for intervals; of
     plots the SVG stays, and pictures get a palette.
     """
-    for cells in sorted(folder.rglob("cells")):
-        if not (cells.parent / REPETITIONS).is_file():
-            write_repetitions(cells.parent)
-        shutil.rmtree(cells)
+    for log in sorted(folder.rglob(LOG)):
+        if not (log.parent / REPETITIONS).is_file():
+            write_repetitions(log.parent)
+        log.unlink()
     for name in _NOT_COMMITTED:
         for file in folder.rglob(name):
             file.unlink()

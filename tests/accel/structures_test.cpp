@@ -48,9 +48,11 @@ std::string name_of_check(const ::testing::TestParamInfo<CheckOfStructure>& info
 
 class Contract : public ::testing::TestWithParam<CheckOfStructure> {};
 
-/// As many as say something of the hits; or as many as are asked for, where memory is looked at by
-/// a sanitizer, which sees as much in few (.ci/run).
-std::uint64_t random_scenes() { return tests::number_from("BEAMBENCH_CONTRACT_SCENES", 240); }
+/// Returns the number of random scenes of each check: more than `beambench selftest` has. A
+/// sanitizer requests few, because it finds as much in them (.ci/run).
+std::uint64_t random_scenes() {
+  return tests::number_from("BEAMBENCH_CONTRACT_SCENES", tests::in_full(240, 80));
+}
 
 TEST_P(Contract, IsKept) {
   const verify::SelftestEffort effort{.seed = 1, .scenes = random_scenes()};

@@ -439,7 +439,7 @@ TEST(TileBeam, EveryInstructionSetIsRight) {
       const tile_beam::TileBeam structure(scene, {});
       ASSERT_STREQ(structure.instruction_set(), hwy::TargetName(target));
       for (const int width : {131, 512}) {  // of which the rows of one are whole cache lines
-        const PrimaryRays rays(scene.cameras.front(), width, 45, 1);
+        const PrimaryRays rays(scene.cameras.front(), width, 21, 1);
         const Comparison found = compare(scene, rays, image_of(structure, rays));
         EXPECT_EQ(found.errors, 0U) << name << " first " << found.first;
       }

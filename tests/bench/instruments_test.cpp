@@ -1,4 +1,4 @@
-// Hardware counters, the heap, the noise and the harness's own overhead.
+// Hardware counters, the heap and the noise.
 
 #include <array>
 #include <cerrno>
@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include "harness/bench/measurement.hpp"
-#include "harness/bench/record/manifest.hpp"
 #include "tests/scenes/thrown_message.hpp"
 
 namespace beambench::bench {
@@ -102,50 +101,6 @@ TEST(Noise, IsHowMuchLongerTheSlowestTwentiethTook) {
   EXPECT_EQ(noise(slices), 0.5);
   slices.resize(39);
   EXPECT_EQ(noise(slices), std::nullopt);
-}
-
-nlohmann::ordered_json cell(const char* name, const char* path, double harness_ms,
-                            double trace_ms) {
-  return {{"name", name},
-          {"row",
-           {{"harness_ms", harness_ms},
-            {"trace_ms_median", trace_ms},
-            {"query_path", path},
-            {"verdict", "ok"}}}};
-}
-
-TEST(Overhead, IsTheHarnessesPartWhereThatIsLargest) {
-  std::vector cells{cell("a", "image-single", 1.0, 200.0), cell("b", "image-single", 1.0, 50.0),
-                    cell("c", "image-single", 2.0, 200.0),
-                    cell("d makes no rays one by one", "image-single", 2.0, 1.0)};
-  const auto overheads = largest_overheads(cells);
-  ASSERT_EQ(overheads.size(), 1U);
-  EXPECT_EQ(overheads[0].part, 0.02);
-  EXPECT_TRUE(scenes::says(describe(overheads), {"at most 2%", "(b)", "trace_net_ms_median"}));
-  for (auto& each : cells) each["row"]["verdict"] = "mismatch";
-  EXPECT_TRUE(largest_overheads(cells).empty()) << "times that are wrong are no measure";
-  cells[1] = cell("b", "image-single", 1.0, 50.0);
-  cells[1]["row"]["verdict"] = "baseline";
-  EXPECT_TRUE(largest_overheads(cells).empty()) << "null is the harness's time itself";
-  cells[1] = cell("b", "picture", 1.0, 50.0);
-  EXPECT_TRUE(largest_overheads(cells).empty()) << "shading is part of the work of a whole picture";
-  cells[1] = cell("b", "image-own", 0.0, 50.0);
-  EXPECT_TRUE(largest_overheads(cells).empty()) << "it has no such part";
-  EXPECT_TRUE(to_json(largest_overheads(cells)).is_null());
-}
-
-TEST(Overhead, IsStatedForEachQueryPath) {
-  const std::vector cells{cell("a", "image-single", 1.0, 50.0), cell("b", "image-simd", 1.0, 4.0),
-                          cell("c", "list", 1.0, 100.0), cell("d", "image-simd", 1.0, 5.0)};
-  const auto overheads = largest_overheads(cells);
-  EXPECT_EQ(describe(overheads),
-            "harness overhead: at most 25% of a contender's trace time for images by SIMD rays "
-            "(b), 2% for images by single rays (a), 1% for lists of rays (c); trace_net_ms_median "
-            "in results.csv is without it");
-  const nlohmann::ordered_json json = to_json(overheads);
-  EXPECT_EQ(json.at("part"), 0.25);
-  EXPECT_EQ(json.at("cell"), "b");
-  EXPECT_EQ(json.at("by_query_path").at("list").at("part"), 0.01);
 }
 
 }  // namespace

@@ -1,8 +1,9 @@
-// A run that is cut off, at whatever moment, keeps every finished cell and is resumed.
+// A run that is cut off, at whatever moment, keeps every repetition and is resumed.
 
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <map>
 #include <random>
@@ -19,6 +20,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/number_from.hpp"
 #include "tests/scenes/thrown_message.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -30,6 +32,7 @@ using Clock = std::chrono::steady_clock;
 using nlohmann::json;
 
 constexpr int kCells = 12;
+constexpr int kRepetitions = 2;  ///< of each
 
 /// `beambench run` in a process of its own, messages to a file.
 class Process {
@@ -76,6 +79,17 @@ bool has_number(const std::string& line, double number) {
   return false;
 }
 
+/// The events of that kind in a log of whole lines.
+std::vector<json> events_of(const std::string& log, const char* kind) {
+  std::istringstream lines(log);
+  std::vector<json> found;
+  for (std::string line; std::getline(lines, line);) {
+    const json event = json::parse(line);
+    if (event.at("event") == kind) found.push_back(event);
+  }
+  return found;
+}
+
 class Kill : public testing::Test {
  protected:
   Kill() {
@@ -83,7 +97,7 @@ class Kill : public testing::Test {
                      {"scenes", {"tetra:n=1", "tetra:n=2"}},
                      {"structures", {"null", "samet:max_level=3", "embree"}},
                      {"resolutions", {"8x8", "16x10"}},
-                     {"repetitions", {{"minimum", 2}, {"maximum", 2}}},
+                     {"repetitions", {{"minimum", kRepetitions}, {"maximum", kRepetitions}}},
                      {"budget_seconds", 0},
                      {"warm_up_seconds", 0}};
     folder_.write("tiny.json", sweep.dump());
@@ -91,7 +105,7 @@ class Kill : public testing::Test {
 
   /// Begins the run in `name`, or resumes it.
   Process start(const std::string& name) const {
-    if (fs::exists(folder_.path() / name / "manifest.json")) {
+    if (fs::exists(folder_.path() / name / "run.jsonl")) {
       return {folder_.path(), {"--resume", name}};
     }
     return {folder_.path(), {"tiny.json", "-o", name}};
@@ -99,16 +113,15 @@ class Kill : public testing::Test {
 
   std::string err() const { return read_text(folder_.path() / "err"); }
 
-  /// Every finished cell of a run: its file's name and contents.
-  std::map<std::string, std::string> cells(const std::string& name) const {
-    std::map<std::string, std::string> found;
-    const fs::path cells = folder_.path() / name / "cells";
-    if (!fs::exists(cells)) return found;
-    for (const auto& entry : fs::directory_iterator(cells)) {
-      const std::string file = entry.path().filename().string();
-      if (!file.starts_with('.')) found[file] = read_text(entry.path());
-    }
-    return found;
+  /// The whole lines of a run's log; empty where there is none.
+  std::string log(const std::string& name) const {
+    const std::string text = read_text(folder_.path() / name / "run.jsonl");
+    return text.substr(0, text.rfind('\n') + 1);
+  }
+
+  /// The events of that kind in a run's log.
+  std::vector<json> events(const std::string& name, const char* kind) const {
+    return events_of(log(name), kind);
   }
 
   /// The rows of results.csv without the header.
@@ -120,35 +133,36 @@ class Kill : public testing::Test {
     return lines;
   }
 
-  void expect_kept(const std::map<std::string, std::string>& before, const std::string& name) {
-    const auto after = cells(name);
-    for (const auto& [file, contents] : before) {
-      const auto found = after.find(file);
-      ASSERT_NE(found, after.end()) << file << " is gone";
-      EXPECT_EQ(found->second, contents) << file << " was measured again";
-    }
-    for (const auto& [file, contents] : after) {
-      EXPECT_TRUE(json::accept(contents)) << file << " is not whole";
+  /// What was in the log is still there, and no repetition was made again.
+  void expect_kept(const std::string& before, const std::string& name) {
+    EXPECT_TRUE(log(name).starts_with(before)) << before << "became\n" << log(name);
+    std::map<int, std::set<int>> rounds;
+    for (const json& one : events(name, "repetition")) {
+      const int cell = one["index"];
+      EXPECT_TRUE(rounds[cell].insert(one["round"].get<int>()).second) << one;
+      EXPECT_LE(rounds[cell].size(), std::size_t{kRepetitions}) << "cell " << cell;
     }
   }
 
   /// Every cell once, every verdict right, every row that of its cell, nothing left over.
   void expect_complete(const std::string& name) {
     EXPECT_EQ(rows(name).size(), kCells);
-    EXPECT_EQ(cells(name).size(), kCells);
     for (const std::string& row : rows(name)) {
       EXPECT_TRUE(row.ends_with(",ok") || row.ends_with(",baseline")) << row;
     }
-    std::set<std::string> names;
-    for (const auto& [file, contents] : cells(name)) {
-      const json cell = json::parse(contents);
-      names.insert(cell["name"].get<std::string>());
-      EXPECT_EQ(cell["repetitions"].size(), 2U);
-      const auto is_its_row = [time = cell["row"]["trace_ms_median"].get<double>()](
-                                  const std::string& row) { return has_number(row, time); };
-      EXPECT_TRUE(std::ranges::any_of(rows(name), is_its_row)) << contents;
+    std::map<int, double> sums;  // of the trace times of each cell
+    for (const json& one : events(name, "repetition")) {
+      sums[one["index"].get<int>()] += one["trace_ms"].get<double>();
     }
-    EXPECT_EQ(names.size(), kCells);
+    for (const auto& [cell, sum] : sums) {
+      const auto is_its_row = [median = 0.5 * sum](const std::string& row) {
+        return has_number(row, median);
+      };
+      EXPECT_TRUE(std::ranges::any_of(rows(name), is_its_row)) << "cell " << cell;
+    }
+    EXPECT_EQ(sums.size(), kCells);
+    EXPECT_EQ(events(name, "repetition").size(), std::size_t{kCells * kRepetitions});
+    EXPECT_EQ(events(name, "finished").size(), kCells);
     for (const auto& entry : fs::recursive_directory_iterator(folder_.path() / name)) {
       EXPECT_EQ(entry.path().filename().string().find("partial"), std::string::npos) << entry;
     }
@@ -156,10 +170,28 @@ class Kill : public testing::Test {
     EXPECT_FALSE(manifest["finished_utc"].is_null());
   }
 
+  /// Makes the sweep one that has a first cell at once, and works at the next for a while.
+  void make_second_cell_long() const {
+    json sweep = json::parse(read_text(folder_.path() / "tiny.json"));
+    sweep["resolutions"] = {"8x8", "2000x2000"};
+    sweep["scenes"] = {"tetra:n=4"};
+    sweep["structures"] = {"exhaustive"};
+    folder_.write("tiny.json", sweep.dump());
+  }
+
+  /// Waits until a run has finished a cell.
+  void wait_for_a_cell(const std::string& name) const {
+    const auto end = Clock::now() + std::chrono::seconds(20);
+    while (events(name, "finished").empty() && Clock::now() < end) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+
   TemporaryFolder folder_;
 };
 
-TEST_F(Kill, AtFiftyMomentsLosesNothing) {
+TEST_F(Kill, AtRandomMomentsLosesNothing) {
+  const std::uint64_t kills = tests::in_full(50, 20);
   const auto begin = Clock::now();
   ASSERT_EQ(start("undisturbed").wait(), 0) << err();
   const std::chrono::duration<double> whole = Clock::now() - begin;
@@ -167,11 +199,11 @@ TEST_F(Kill, AtFiftyMomentsLosesNothing) {
 
   std::mt19937_64 random(1999);
   std::uniform_real_distribution<double> moment(0.0, 1.0);
-  int killed = 0;
+  std::uint64_t killed = 0;
   int finished = 0;
-  while (killed < 50) {
+  while (killed < kills) {
     const std::string name = "run" + std::to_string(finished);
-    const auto before = cells(name);
+    const std::string before = log(name);
     const int signal = killed % 5 == 4 ? SIGINT : SIGKILL;
     const Process process = start(name);
     std::this_thread::sleep_for(whole * moment(random));
@@ -192,31 +224,18 @@ TEST_F(Kill, AtFiftyMomentsLosesNothing) {
         << err();
   }
   const std::string name = "run" + std::to_string(finished);
-  const auto before = cells(name);
+  const std::string before = log(name);
   ASSERT_EQ(start(name).wait(), 0) << err();
   expect_kept(before, name);
   expect_complete(name);
 }
 
-/// Waits until a run has a finished cell, and a little of the next.
-void wait_for_a_cell(const fs::path& folder) {
-  const fs::path results = folder / "results.csv";
-  const auto end = Clock::now() + std::chrono::seconds(20);
-  while (!fs::exists(results) && Clock::now() < end) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-}
-
 class Interrupted : public Kill, public testing::WithParamInterface<int> {};
 
 TEST_P(Interrupted, EndsAtOnceAndSaysHowToContinue) {
-  json sweep = json::parse(read_text(folder_.path() / "tiny.json"));
-  sweep["resolutions"] = {"8x8", "2000x2000"};
-  sweep["scenes"] = {"tetra:n=4"};
-  sweep["structures"] = {"exhaustive"};
-  folder_.write("tiny.json", sweep.dump());
+  make_second_cell_long();
   const Process process = start("my run");
-  wait_for_a_cell(folder_.path() / "my run");
+  wait_for_a_cell("my run");
   const auto begin = Clock::now();
   process.send(GetParam());
   const int status = process.wait();
@@ -224,8 +243,9 @@ TEST_P(Interrupted, EndsAtOnceAndSaysHowToContinue) {
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 130);
   const std::string resume = std::string(BEAMBENCH_BINARY) + " run --resume 'my run'\n";
-  EXPECT_TRUE(err().ends_with("resume with: " + resume)) << err();
-  EXPECT_EQ(cells("my run").size(), 1U);
+  EXPECT_TRUE(err().ends_with("interrupted; every repetition is kept, resume with: " + resume))
+      << err();
+  EXPECT_EQ(events("my run", "finished").size(), 1U);
 }
 
 INSTANTIATE_TEST_SUITE_P(, Interrupted, testing::Values(SIGINT, SIGTERM), [](const auto& signal) {
@@ -233,14 +253,9 @@ INSTANTIATE_TEST_SUITE_P(, Interrupted, testing::Values(SIGINT, SIGTERM), [](con
 });
 
 TEST_F(Kill, TwoProcessesDoNotShareAFolder) {
-  json sweep = json::parse(read_text(folder_.path() / "tiny.json"));
-  sweep["warm_up_seconds"] = 30;
-  folder_.write("tiny.json", sweep.dump());
+  make_second_cell_long();
   const Process first = start("run");
-  const auto end = Clock::now() + std::chrono::seconds(20);
-  while (!fs::exists(folder_.path() / "run" / "config.json") && Clock::now() < end) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
+  wait_for_a_cell("run");
   EXPECT_EQ(WEXITSTATUS(start("run").wait()), 2);
   EXPECT_TRUE(scenes::says(err(), {"another beambench is at work in 'run'"}));
   first.send(SIGKILL);
@@ -259,21 +274,22 @@ TEST_F(Kill, AChangedSceneFileIsNoticed) {
   folder_.write("tiny.json", sweep.dump());
   write_scene("1");
   ASSERT_EQ(start("run").wait(), 0) << err();
-  const auto before = cells("run");
+  const std::string before = log("run");
   write_scene("2");
   EXPECT_EQ(WEXITSTATUS(start("run").wait()), 2);
   EXPECT_TRUE(scenes::says(err(), {"cannot resume 'run'", "ball.nff", "has changed"}));
+  EXPECT_EQ(log("run"), before);
   write_scene("1");
   EXPECT_EQ(start("run").wait(), 0) << err();
-  EXPECT_EQ(cells("run"), before);
+  EXPECT_EQ(events("run", "repetition"), events_of(before, "repetition"));
 }
 
-/// A disk of some 40 KB, where this process may mount one.
+/// A small disk, where this process may mount one.
 class TinyDisk {
  public:
-  explicit TinyDisk(fs::path path) : path_(std::move(path)) {
+  TinyDisk(fs::path path, const char* size) : path_(std::move(path)) {
     fs::create_directories(path_);
-    mounted_ = ::mount("none", path_.c_str(), "tmpfs", 0, "size=40k") == 0;
+    mounted_ = ::mount("none", path_.c_str(), "tmpfs", 0, size) == 0;
   }
   ~TinyDisk() {
     if (mounted_) ::umount2(path_.c_str(), MNT_DETACH);
@@ -289,20 +305,35 @@ class TinyDisk {
   bool mounted_ = false;
 };
 
-TEST_F(Kill, AFullDiskKeepsWhatIsFinished) {
-  const TinyDisk disk(folder_.path() / "disk");
+/// What a full disk does not hold any more, and how many cells it has then.
+struct FullDisk {
+  const char* name;
+  const char* size;
+  std::size_t fewest_cells;
+  std::size_t most_cells;
+};
+
+class AFullDisk : public Kill, public testing::WithParamInterface<FullDisk> {};
+
+TEST_P(AFullDisk, KeepsWhatIsInTheLog) {
+  const TinyDisk disk(folder_.path() / "disk", GetParam().size);
   if (!disk.mounted()) GTEST_SKIP() << "this process may not mount a small disk";
   EXPECT_EQ(WEXITSTATUS(start("disk/run").wait()), 2);
   EXPECT_TRUE(scenes::says(err(), {"cannot write 'disk/run/", "the disk of the folder 'disk/run",
                                    "is full", "make room", "beambench run --resume disk/run"}));
-  const auto before = cells("disk/run");
-  EXPECT_GT(before.size(), 0U);
-  EXPECT_LT(before.size(), kCells);
+  const std::string before = log("disk/run");
+  EXPECT_GE(events_of(before, "finished").size(), GetParam().fewest_cells);
+  EXPECT_LE(events_of(before, "finished").size(), GetParam().most_cells);
   disk.make_room();
   ASSERT_EQ(start("disk/run").wait(), 0) << err();
   expect_kept(before, "disk/run");
   expect_complete("disk/run");
 }
+
+INSTANTIATE_TEST_SUITE_P(, AFullDisk,
+                         testing::Values(FullDisk{"TheLog", "size=16k", 1, kCells - 1},
+                                         FullDisk{"WhatIsMadeFromIt", "size=32k", kCells, kCells}),
+                         [](const auto& disk) { return disk.param.name; });
 
 }  // namespace
 }  // namespace beambench::bench

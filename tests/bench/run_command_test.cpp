@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
+#include <map>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -25,9 +27,11 @@ class RunCommand : public testing::Test {
   };
 
   /// Runs `beambench run` with arguments for the shell, in the test's folder.
-  Result run(const std::string& arguments) const {
-    const std::string command = "cd '" + folder_.path().string() +
-                                "' && '" BEAMBENCH_BINARY "' run " + arguments + " >out 2>err";
+  Result run(const std::string& arguments) const { return call("run " + arguments); }
+
+  Result call(const std::string& arguments) const {
+    const std::string command = "cd '" + folder_.path().string() + "' && '" BEAMBENCH_BINARY "' " +
+                                arguments + " >out 2>err";
     const int status = std::system(command.c_str());
     return {WEXITSTATUS(status), read_text(folder_.path() / "out"),
             read_text(folder_.path() / "err")};
@@ -81,6 +85,34 @@ TEST_F(RunCommand, EndsWith1WhenACellHasNoTimes) {
   EXPECT_EQ(result.out, "record/results.csv\n");
 }
 
+TEST_F(RunCommand, TheFilesAreMadeAgainFromTheLog) {
+  write_sweep({"samet:max_level=3", "null"});
+  EXPECT_EQ(run("tiny.json -o record").exit_code, 0);
+  const auto record = folder_.path() / "record";
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(record)) {
+    files[entry.path().filename().string()] = read_text(entry.path());
+    if (entry.path().filename() != "run.jsonl") std::filesystem::remove(entry.path());
+  }
+  EXPECT_EQ(files.size(), 7U);
+  const Result shown = call("analyze record");
+  EXPECT_EQ(shown.exit_code, 0) << shown.err;
+  EXPECT_TRUE(scenes::says(shown.out, {"samet", "null (reference)", "2 cells, all verified"}));
+  EXPECT_EQ(call("analyze record --json").out, files["analysis.json"]);
+  EXPECT_FALSE(std::filesystem::exists(record / "results.csv"));
+  EXPECT_EQ(call("analyze record --write").exit_code, 0);
+  for (const auto& [name, text] : files) {
+    if (name == "google-benchmark.json") {  // its context is that of the program that writes it
+      EXPECT_EQ(json::parse(read_text(record / name))["benchmarks"],
+                json::parse(text)["benchmarks"]);
+    } else {
+      EXPECT_EQ(read_text(record / name), text) << name;
+    }
+  }
+  EXPECT_EQ(call("analyze .").exit_code, 2);
+  EXPECT_TRUE(scenes::says(read_text(folder_.path() / "err"), {"holds no run"}));
+}
+
 TEST_F(RunCommand, GoogleBenchmarksFlagsWork) {
   write_sweep({"null", "exhaustive"});
   EXPECT_EQ(run("tiny.json --dry-run --benchmark_filter=null").out,
@@ -109,7 +141,7 @@ TEST_F(RunCommand, WrongRequestsGetOneSentence) {
   expect_refused("tiny.json --benchmark_fliter=x", {"--benchmark_fliter"});
   expect_refused("tiny.json --benchmark_filter=zzz", {"'zzz'", "none of the 1 cells"});
   expect_refused("tiny.json -o a --resume b", {"excludes"});
-  expect_refused("--resume .", {"holds no run to resume", "manifest.json"});
+  expect_refused("--resume .", {"'.' holds no run", "run.jsonl"});
 }
 
 }  // namespace

@@ -8,11 +8,18 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <set>
 #include <span>
+#include <sstream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -20,6 +27,10 @@
 
 #include "accel/core/registry.hpp"
 #include "accel/embree/isa.hpp"
+#include "harness/analysis/exports.hpp"
+#include "harness/analysis/results_csv.hpp"
+#include "harness/bench/record/cell_json.hpp"
+#include "harness/bench/record/run_log.hpp"
 #include "harness/bench/sweep_run.hpp"
 #include "tests/scenes/thrown_message.hpp"
 #include "tests/temporary_folder.hpp"
@@ -97,30 +108,45 @@ class Sweep : public testing::Test {
             {"budget_seconds", 1},      {"warm_up_seconds", 0}};
   }
 
-  SweepOutcome run(const json& document, bool resume = false) {
+  analysis::Analysis run(const json& document, bool resume = false) {
     SweepOptions options;
     options.resume = resume;
     return run(document, std::move(options));
   }
-  SweepOutcome run(const json& document, SweepOptions options) {
+  analysis::Analysis run(const json& document, SweepOptions options) {
     const SweepConfig sweep = read_sweep(folder_.write("sweep.json", document.dump()), structures_);
     options.folder = results();
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> messages(
         std::fopen((folder_.path() / "messages").c_str(), "w"), std::fclose);
-    return run_sweep(sweep, make_plan(sweep), GoogleBenchmark(BenchmarkFlags()), options,
-                     messages.get());
+    return analysis::conclude(run_sweep(sweep, make_plan(sweep), GoogleBenchmark(BenchmarkFlags()),
+                                        options, messages.get()));
   }
 
   std::filesystem::path results() const { return folder_.path() / "run"; }
   std::string messages() const { return read_text(folder_.path() / "messages"); }
   json read_json(const std::string& name) const { return json::parse(read_text(results() / name)); }
+  /// Each cell by the log, with its row.
+  std::vector<json> all_cells() const {
+    const auto run = read_run(results());
+    const RunFacts facts = analysis::facts_of(run.manifest);
+    std::vector<json> found;
+    for (const CellRecord& cell : run.cells) {
+      json& one = found.emplace_back(json{{"name", cell.id.name()},
+                                          {"message", cell.message},
+                                          {"examples", cell.examples},
+                                          {"hits_hash", cell.hits_hash.value_or(0)},
+                                          {"row", analysis::to_row(facts, cell)}});
+      one["repetitions"] = json::array();
+      for (const Repetition& repetition : cell.repetitions) {
+        one["repetitions"].push_back(json(repetition_json(repetition)));
+      }
+    }
+    return found;
+  }
   /// The cells by the bare name of their structure.
   std::map<std::string, json> cells() const {
     std::map<std::string, json> found;
-    for (const auto& entry : std::filesystem::directory_iterator(results() / "cells")) {
-      json cell = json::parse(read_text(entry.path()));
-      found[cell["row"]["structure"].get<std::string>()] = cell;
-    }
+    for (const json& cell : all_cells()) found[cell["row"]["structure"].get<std::string>()] = cell;
     return found;
   }
 
@@ -140,11 +166,10 @@ void expect_times(const json& cell, bool has_times) {
     if (!is_time(column)) continue;
     EXPECT_EQ(value.is_number(), has_times) << column << " of " << cell["name"];
   }
-  EXPECT_EQ(cell["repetitions"].empty(), !has_times);
 }
 
 TEST_F(Sweep, RightStructuresKeepTheirTimes) {
-  const SweepOutcome outcome =
+  const analysis::Analysis outcome =
       run(config({"null", "exhaustive", "samet:max_level=4", "embree:mode=single"}));
   EXPECT_EQ(outcome.cells, 4U);
   EXPECT_EQ(outcome.failed, 0U);
@@ -177,13 +202,16 @@ TEST_F(Sweep, SeveralThreadsTraceAndAreRecorded) {
 }
 
 TEST_F(Sweep, TheHarnessesOwnTimeIsReported) {
-  run(config({"null", "exhaustive"}));
+  const analysis::Analysis outcome = run(config({"null", "exhaustive"}));
   const json row = cells()["exhaustive"]["row"];
   EXPECT_GT(row["harness_ms"], 0.0);
   EXPECT_EQ(row["trace_net_ms_median"],
             row["trace_ms_median"].get<double>() - row["harness_ms"].get<double>());
   EXPECT_TRUE(cells()["null"]["row"]["trace_net_ms_median"].is_null());
-  EXPECT_TRUE(scenes::says(messages(), {"harness overhead: at most"}));
+  ASSERT_EQ(outcome.overheads.size(), 1U);
+  EXPECT_EQ(outcome.overheads[0].path, "image-single");
+  EXPECT_EQ(outcome.overheads[0].part,
+            row["harness_ms"].get<double>() / row["trace_ms_median"].get<double>());
 }
 
 TEST_F(Sweep, EachQueryPathHasAShareOfItsOwn) {
@@ -246,6 +274,9 @@ TEST_F(Sweep, MemoryDoesNotGrowWithTheCells) {
   for (int width = 1; width <= 150; ++width) {
     document["resolutions"].push_back(fmt::format("{}x1", width));
   }
+#ifdef __GLIBC__
+  malloc_trim(0);  // what earlier tests of this process have freed would hide growth
+#endif
   std::vector<std::uint64_t> resident;
   SweepOptions options;
   options.before_each_piece = [&] { resident.push_back(resident_bytes()); };
@@ -267,6 +298,8 @@ TEST_F(Sweep, TheFolderHoldsTheWholeRecord) {
   EXPECT_FALSE(manifest["finished_utc"].is_null());
   EXPECT_EQ(manifest["program"]["libraries"]["google_benchmark"].get<std::string>().substr(0, 1),
             "1");
+  EXPECT_EQ(read_json("analysis.json")["cells"], 2);
+  EXPECT_TRUE(scenes::says(read_text(results() / "summary.txt"), {"2 cells, all verified"}));
   const json google = read_json("google-benchmark.json");
   EXPECT_EQ(google["context"]["beambench_run_id"], manifest["run_id"]);
   ASSERT_EQ(google["benchmarks"].size(), 8U);
@@ -339,7 +372,7 @@ class PlantedSweepFault : public Sweep, public testing::WithParamInterface<Plant
 
 TEST_P(PlantedSweepFault, LosesItsTimesAndNobodyElses) {
   add_faulty(GetParam().fault);
-  const SweepOutcome outcome = run(config({"faulty", "exhaustive"}));
+  const analysis::Analysis outcome = run(config({"faulty", "exhaustive"}));
   EXPECT_EQ(outcome.cells, 2U);
   EXPECT_EQ(outcome.failed, 1U);
   const json faulty = cells()["faulty"];
@@ -393,8 +426,8 @@ TEST_F(Sweep, TracesEveryKindOfRays) {
                  "ao:samples=2", "path",   "random"};
   EXPECT_EQ(run(all).failed, 0U);
   std::map<std::string, std::set<json>> hashes;
-  for (const auto& entry : std::filesystem::directory_iterator(results() / "cells")) {
-    const json row = json::parse(read_text(entry.path()))["row"];
+  for (const json& cell : all_cells()) {
+    const json& row = cell["row"];
     const std::string kind = row["ray_kind"];
     hashes[kind].insert(row["rays_hash"]);
     const bool any_hit = kind == "shadow" || kind == "ao:samples=2";
@@ -415,7 +448,7 @@ TEST_F(Sweep, DrawsWholePictures) {
   json whole = config({"null", "exhaustive", "samet:max_level=4", "beam", "embree"});
   whole["scenes"] = {"balls:n=1"};
   whole["rays"] = {"whitted"};
-  const SweepOutcome outcome = run(whole);
+  const analysis::Analysis outcome = run(whole);
   EXPECT_EQ(outcome.failed, 0U);
   for (const auto& [structure, cell] : cells()) {
     const json& row = cell["row"];
@@ -458,7 +491,7 @@ TEST_F(Sweep, RaysThatASceneHasNoneOfAreRowsThatSaySo) {
   config["scenes"] = {dark.string()};
   config["structures"] = {"exhaustive", "samet"};
   config["rays"] = {"shadow", "primary"};
-  const SweepOutcome outcome = run(config);
+  const analysis::Analysis outcome = run(config);
   EXPECT_EQ(outcome.cells, 4U);
   EXPECT_EQ(outcome.failed, 0U);
   EXPECT_EQ(outcome.without_rays, 2U);
@@ -495,7 +528,8 @@ TEST_F(Sweep, AWrongHitIsDescribed) {
 }
 
 TEST_F(Sweep, AStructureThatCannotBeBuiltIsAnErrorAndTheRunContinues) {
-  const SweepOutcome outcome = run(config({"samet:max_level=8,max_references=1", "exhaustive"}));
+  const analysis::Analysis outcome =
+      run(config({"samet:max_level=8,max_references=1", "exhaustive"}));
   EXPECT_EQ(outcome.failed, 1U);
   const json samet = cells()["samet"];
   EXPECT_EQ(samet["row"]["verdict"], "error");
@@ -520,10 +554,44 @@ TEST_F(Sweep, AnExceptionInATimedRepetitionEndsThatCellOnly) {
 class Resume : public Sweep {
  protected:
   Resume() {
-    add_faulty([this](const Traced&) { ++traces_; });  // right, and counted
+    // Right, and counted, unless `fault_` is set.
+    add_faulty([this](const Traced& traced) {
+      ++traces_;
+      fault_(traced);
+    });
   }
+
+  std::vector<std::string> log() const {
+    std::istringstream text(read_text(results() / kLogName));
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(text, line);) lines.push_back(line + '\n');
+    return lines;
+  }
+  void write_log(std::span<const std::string> lines, const std::string& part = "") const {
+    folder_.write("run/run.jsonl",
+                  std::accumulate(lines.begin(), lines.end(), std::string()) + part);
+  }
+  /// Changes a member of the first event of that kind.
+  void write_changed(std::vector<std::string> lines, const char* kind, const char* pointer,
+                     const json& value) const {
+    for (std::string& line : lines) {
+      auto event = nlohmann::ordered_json::parse(line);
+      if (event.at("event") != kind) continue;
+      event[nlohmann::ordered_json::json_pointer(pointer)] = value;
+      line = event.dump() + '\n';
+      break;
+    }
+    write_log(lines);
+  }
+
   json config_ = config({"faulty", "exhaustive"});
   int traces_ = 0;
+  Fault fault_ = [](const Traced&) {};
+};
+
+/// Ends a run as Ctrl-C does.
+struct SweepStopped : std::runtime_error {
+  SweepStopped() : std::runtime_error("interrupted") {}
 };
 
 TEST_F(Resume, OnlyTheFirstRepetitionsHaveASecondTrace) {
@@ -551,18 +619,125 @@ TEST_F(Resume, RepeatsNoFinishedCell) {
   EXPECT_EQ(read_text(results() / "results.csv"), table);
 }
 
-TEST_F(Resume, MakesUpForTheCellThatIsMissing) {
+TEST_F(Resume, MakesUpForTheCellsThatAreMissing) {
+  config_["scenes"] = {"tetra:n=1", "tetra:n=2"};
   run(config_);
   const std::string run_id = read_json("manifest.json")["run_id"];
-  const json exhaustive = cells()["exhaustive"];
-  const auto missing = cells()["faulty"]["key"].get<std::string>() + ".json";
-  std::filesystem::remove(results() / "cells" / missing);
+  const std::vector<json> before = all_cells();
+  const std::vector<std::string> lines = log();
+  const auto second = std::ranges::find_if(lines, [](const std::string& line) {
+    return line.find(R"("event":"cell","index":2)") != std::string::npos;
+  });
+  ASSERT_NE(second, lines.end());
+  write_log(std::span(lines.begin(), second));
   traces_ = 0;
-  EXPECT_EQ(run(config_, true).cells, 2U);
-  EXPECT_EQ(traces_, 9);
-  EXPECT_EQ(cells()["exhaustive"], exhaustive);
-  EXPECT_EQ(cells()["faulty"]["row"]["run_id"], run_id);
-  EXPECT_EQ(read_json("google-benchmark.json")["benchmarks"].size(), 8U);
+  EXPECT_EQ(run(config_, true).cells, 4U);
+  EXPECT_EQ(traces_, 9) << "those of the second scene alone";
+  const std::vector<json> after = all_cells();
+  ASSERT_EQ(after.size(), 4U);
+  EXPECT_EQ(after[0], before[0]);
+  EXPECT_EQ(after[1], before[1]);
+  EXPECT_EQ(after[2]["row"]["run_id"], run_id);
+  EXPECT_EQ(read_json("google-benchmark.json")["benchmarks"].size(), 16U);
+}
+
+/// How many traces a resumed run owes its cell `faulty`: none of a finished one; else the counting
+/// pass, and two of each repetition that is not in the log yet.
+int owed_traces(std::span<const std::string> lines, int index) {
+  const auto count = [&](const char* kind) {
+    return static_cast<int>(std::ranges::count_if(lines, [&](const std::string& line) {
+      const json event = json::parse(line);
+      return event.at("event") == kind && event.at("index") == index;
+    }));
+  };
+  return count("finished") > 0 ? 0 : 1 + 2 * (4 - count("repetition"));
+}
+
+TEST_F(Resume, NoRepetitionInTheLogIsMadeAgain) {
+  run(config_);
+  const std::vector<std::string> lines = log();
+  ASSERT_EQ(lines.size(), 16U) << "of each cell: itself, four repetitions, two more";
+  const int faulty = json::parse(lines[1]).at("structure") == "faulty" ? 0 : 1;
+  for (std::size_t kept = 1; kept <= lines.size(); ++kept) {
+    const auto begin = std::span(lines).first(kept);
+    // It may be cut off within a line, too.
+    const std::string part = kept < lines.size() ? lines[kept].substr(0, kept) : "";
+    write_log(begin, part);
+    const std::vector<json> before = all_cells();
+    traces_ = 0;
+    EXPECT_EQ(run(config_, true).cells, 2U);
+    EXPECT_EQ(traces_, owed_traces(begin, faulty)) << kept;
+    const std::vector<std::string> after = log();
+    EXPECT_TRUE(std::ranges::equal(begin, std::span(after).first(kept))) << kept;
+    for (const json& cell : all_cells()) {
+      EXPECT_EQ(cell["row"]["verdict"], "ok") << kept;
+      EXPECT_EQ(cell["row"]["stop_reason"], "repetitions") << kept;
+      ASSERT_EQ(cell["repetitions"].size(), 4U) << kept;
+      for (std::size_t i = 1; i < 4; ++i) {
+        EXPECT_GT(cell["repetitions"][i]["round"], cell["repetitions"][i - 1]["round"]) << kept;
+      }
+    }
+    for (const json& cell : before) {
+      const json now = cells().at(cell["row"]["structure"].get<std::string>());
+      for (const char* column : {"rays_hash", "hits", "agree", "primitive_tests_per_ray"}) {
+        EXPECT_EQ(now["row"][column], cell["row"][column]) << kept;
+      }
+      EXPECT_EQ(now["hits_hash"], cell["hits_hash"]) << kept;
+    }
+  }
+}
+
+/// So that a contender's repetitions and those of the others still meet in rounds.
+TEST_F(Resume, RoundsOfOneViewGoOnBehindTheLastOfAll) {
+  run(config_);
+  const std::vector<std::string> lines = log();
+  write_log(std::span(lines).first(9));
+  const std::vector<json> before = all_cells();
+  run(config_, true);
+  int last = 0;
+  std::map<std::string, std::size_t> kept;
+  for (const json& cell : before) {
+    kept[cell["name"]] = cell["repetitions"].size();
+    for (const json& one : cell["repetitions"]) last = std::max(last, one["round"].get<int>());
+  }
+  for (const json& cell : all_cells()) {
+    ASSERT_LT(kept[cell["name"]], 4U);
+    EXPECT_EQ(cell["repetitions"][kept[cell["name"]]]["round"], last + 1);
+  }
+}
+
+TEST_F(Resume, OtherAnswersThanBeforeAreAMismatch) {
+  run(config_);
+  const std::vector<std::string> lines = log();
+  write_log(std::span(lines).first(9));
+  fault_ = [](const Traced& traced) { drop_one_hit(traced.buffer); };
+  EXPECT_EQ(run(config_, true).failed, 1U);
+  const json faulty = cells().at("faulty");
+  EXPECT_EQ(faulty["row"]["verdict"], "mismatch");
+  EXPECT_TRUE(scenes::says(faulty["message"].get<std::string>(), {"other hits than the first"}));
+  expect_times(faulty, false);
+}
+
+/// Whatever comes before the others' turn is over: a time without correct hits would remain.
+TEST_F(Resume, AWrongRepetitionIsNotForgotten) {
+  for (const int wrong : {1, 2, 3, 5, 7}) {
+    std::filesystem::remove_all(results());
+    bool is_wrong = false;
+    const int before = traces_;
+    fault_ = [&](const Traced& traced) {
+      if (traces_ - before - 1 != wrong) return;
+      drop_one_hit(traced.buffer);
+      is_wrong = true;
+    };
+    SweepOptions options;
+    options.before_each_piece = [&] {
+      if (is_wrong) throw SweepStopped();
+    };
+    EXPECT_THROW(run(config_, options), SweepStopped) << wrong;
+    fault_ = [](const Traced&) {};
+    EXPECT_EQ(run(config_, true).failed, 1U) << wrong;
+    EXPECT_EQ(cells().at("faulty")["row"]["verdict"], "mismatch") << wrong;
+  }
 }
 
 TEST_F(Resume, RefusesAChangedConfiguration) {
@@ -575,50 +750,39 @@ TEST_F(Resume, RefusesAChangedConfiguration) {
 
 TEST_F(Resume, RefusesAnotherBuildOrScene) {
   run(config_);
-  const json manifest = read_json("manifest.json");
-  json changed = manifest;
-  changed["program"]["executable_hash"] = "0";
-  folder_.write("run/manifest.json", changed.dump());
+  const std::vector<std::string> lines = log();
+  write_changed(lines, "header", "/manifest/program/executable_hash", "0");
   EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { run(config_, true); }), {"another build"}));
-  changed = manifest;
-  changed["scenes"][0]["hash"] = "0";
-  folder_.write("run/manifest.json", changed.dump());
+  write_changed(lines, "header", "/manifest/scenes/0/hash", "0");
   EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { run(config_, true); }),
                            {"tetra:n=2", "has changed"}));
 }
 
 TEST_F(Resume, RefusesRecordsThatAreNotAsTheyWereWritten) {
+  struct Change {
+    const char* kind;
+    const char* pointer;
+    json value;
+  };
   run(config_);
-  const std::string cell = "run/cells/" + cells()["faulty"]["key"].get<std::string>() + ".json";
-  const json whole = cells()["faulty"];
-  for (const auto& [pointer, value] :
-       std::initializer_list<std::pair<const char*, json>>{{"/row", json::array({1})},
-                                                           {"/row/scene", 7},
-                                                           {"/row/rays", "many"},
-                                                           {"/row/trace_ms_median", "fast"},
-                                                           {"/index", "first"},
-                                                           {"/repetitions", json::array({1})}}) {
-    json changed = whole;
-    changed[json::json_pointer(pointer)] = value;
-    folder_.write(cell, changed.dump());
+  const std::vector<std::string> lines = log();
+  for (const auto& [kind, pointer, value] :
+       {Change{"cell", "/ray_set", json::array({1})}, Change{"cell", "/scene", 7},
+        Change{"cell", "/ray_set/rays", "many"}, Change{"repetition", "/trace_ms", "fast"},
+        Change{"repetition", "/index", "first"}, Change{"verification", "/agree", json::array()},
+        Change{"finished", "/examples", 1}, Change{"header", "/plan", json::array({1})},
+        Change{"header", "/manifest/plugins", json::array({1})},
+        Change{"header", "/manifest/scenes", json::array({1})},
+        Change{"header", "/manifest/run_id", json::array({1})}}) {
+    write_changed(lines, kind, pointer, value);
     EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { run(config_, true); }),
-                             {cell, "not as it was written", "remove"}))
-        << pointer;
+                             {"run/run.jsonl", "not as it was written", "-o"}))
+        << kind << pointer;
   }
-  folder_.write(cell, whole.dump());
-  const json manifest = read_json("manifest.json");
-  for (const char* member : {"plugins", "scenes", "run_id"}) {
-    json changed = manifest;
-    changed[member] = json::array({1});
-    folder_.write("run/manifest.json", changed.dump());
-    EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { run(config_, true); }),
-                             {"run/manifest.json", "not as it was written", "-o"}))
-        << member;
-  }
-  folder_.write("run/manifest.json", std::string(400'000, '['));
+  write_log({}, std::string(400'000, '[') + '\n');
   EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { run(config_, true); }),
-                           {"run/manifest.json", "64 levels", "-o"}));
-  folder_.write("run/manifest.json", manifest.dump());
+                           {"run/run.jsonl, line 1", "64 levels"}));
+  write_log(lines);
   EXPECT_EQ(run(config_, true).cells, 2U);
 }
 

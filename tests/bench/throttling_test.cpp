@@ -12,9 +12,12 @@
 #include <nlohmann/json.hpp>
 
 #include "accel/core/registry.hpp"
+#include "harness/analysis/exports.hpp"
+#include "harness/analysis/words.hpp"
 #include "harness/bench/record/conditions.hpp"
 #include "harness/bench/record/joined_manifest.hpp"
 #include "harness/bench/record/manifest.hpp"
+#include "harness/bench/record/run_log.hpp"
 #include "harness/bench/sweep_run.hpp"
 #include "tests/fake_system.hpp"
 #include "tests/scenes/thrown_message.hpp"
@@ -54,15 +57,6 @@ TEST(CpuQuota, IsInTheManifest) {
   EXPECT_EQ(preflight(without).front().find("quota"), std::string::npos);
 }
 
-TEST(Throttling, IsADoubtAboutTimes) {
-  const Conditions quiet{std::nullopt, 0.0, std::nullopt};
-  EXPECT_TRUE(doubts_about_times(quiet, {}).empty());
-  EXPECT_TRUE(doubts_about_times({std::nullopt, 0.0, Throttling{14, 0, 0.0}}, {}).empty());
-  const auto doubts = doubts_about_times({std::nullopt, 0.0, Throttling{14, 12, 0.9}}, {});
-  EXPECT_EQ(doubts, std::vector<std::string>{
-                        "the kernel throttled the process in 12 of 14 periods of its CPU quota"});
-}
-
 TEST(Throttling, OfShardsIsAddedUp) {
   const auto shard = [](int number, std::optional<Throttling> throttling) {
     Manifest manifest = begin_manifest("test", {}, -1, 1, std::chrono::seconds(0));
@@ -90,7 +84,8 @@ class ThrottledSweep : public testing::Test {
  protected:
   ThrottledSweep() { system_.join_group("/a"); }
 
-  SweepOutcome run(bool resume, std::optional<int> last_piece = std::nullopt) {
+  /// Nothing is concluded from a run that is cut off.
+  analysis::Analysis run(bool resume, std::optional<int> last_piece = std::nullopt) {
     const std::filesystem::path file = system_.root() / "sweep.json";
     system_.write("sweep.json",
                   R"({"name": "test", "scenes": ["tetra:n=2", "balls:n=1", "escena1"],
@@ -109,14 +104,16 @@ class ThrottledSweep : public testing::Test {
     };
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> messages(
         std::fopen((system_.root() / "messages").c_str(), "w"), std::fclose);
-    return run_sweep(sweep, make_plan(sweep), GoogleBenchmark(BenchmarkFlags()), options,
-                     messages.get());
+    return analysis::conclude(run_sweep(sweep, make_plan(sweep), GoogleBenchmark(BenchmarkFlags()),
+                                        options, messages.get()));
   }
 
   std::filesystem::path folder() const { return system_.root() / "run"; }
   Json manifest() const { return Json::parse(read_text(folder() / "manifest.json")); }
+  /// The periods by the log, which a run that is cut off has, too.
   int recorded() const {
-    return manifest().at("measurement").at("throttling").at("throttled_periods").get<int>();
+    return static_cast<int>(
+        conditions_of(read_run(folder()).manifest).throttling.value().throttled);
   }
   std::string messages() const { return read_text(system_.root() / "messages"); }
 
@@ -128,10 +125,11 @@ TEST_F(ThrottledSweep, SaysSoInSummaryAndManifest) {
   system_.write("sys/fs/cgroup/a/cpu.max", "20000 100000\n");
   system_.count_throttling("/a", 70, 50);  // before the run
   throttled_ = 50;
-  const SweepOutcome outcome = run(false);
+  const std::string summary = analysis::summary(run(false));
   EXPECT_EQ(recorded(), throttled_ - 50);
+  EXPECT_EQ(manifest()["measurement"]["throttling"]["throttled_periods"], recorded());
   const std::string words = "the kernel throttled the process in " + std::to_string(recorded());
-  EXPECT_TRUE(scenes::says(outcome.summary, {words}));
+  EXPECT_TRUE(scenes::says(summary, {words}));
   EXPECT_TRUE(scenes::says(manifest().at("uncontrolled").dump(), {words}));
   EXPECT_TRUE(scenes::says(messages(), {"warning: The process has a quota of 0.2 CPUs"}));
 }
@@ -149,9 +147,9 @@ TEST_F(ThrottledSweep, ThatIsResumedAddsUpItsParts) {
 
 TEST_F(ThrottledSweep, WithoutControlGroupsIsLikeAnyOther) {
   std::filesystem::remove_all(system_.root() / "proc");
-  const SweepOutcome outcome = run(false);
+  const std::string summary = analysis::summary(run(false));
   EXPECT_TRUE(manifest().at("measurement").at("throttling").is_null());
-  EXPECT_EQ(outcome.summary.find("throttled"), std::string::npos);
+  EXPECT_EQ(summary.find("throttled"), std::string::npos);
 }
 
 }  // namespace

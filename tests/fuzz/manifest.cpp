@@ -1,5 +1,5 @@
 // The manifest of a run that is to be resumed: is it the same run? An input is what differs (RFC
-// 7396) from the manifest that this program would write, or else the whole file.
+// 7396) from the manifest that this program would write, or else the whole one.
 
 #include "harness/bench/record/manifest.hpp"
 
@@ -8,7 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "harness/bench/record/run_folder.hpp"
+#include "harness/bench/record/run_log.hpp"
+#include "scenes/core/json_text.hpp"
 #include "tests/fuzz/scratch_folder.hpp"
 #include "tests/fuzz/target.hpp"
 
@@ -24,18 +25,27 @@ std::string changed(const nlohmann::ordered_json& manifest, std::string_view inp
   return result.dump();
 }
 
+/// A log of its header alone.
+std::string header_with(const std::string& manifest) {
+  return R"({"event":"header","schema_version":1,"manifest":)" + manifest +
+         R"(,"config":{},"plan":[]})" + '\n';
+}
+
 }  // namespace
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const fuzz::ScratchFolder folder;
   static const nlohmann::ordered_json now =
       to_json(bench::begin_manifest("fuzz", {}, -1, 1, std::chrono::seconds(0)));
-  folder.write("manifest.json", changed(now, fuzz::text_of(data, size)));
-  folder.write("config.json", "{}");
+  folder.write(bench::kLogName, header_with(changed(now, fuzz::text_of(data, size))));
   fuzz::accepted([] {
-    const bench::RunFolder run = bench::RunFolder::open(folder.path());
-    bench::require_same_run(run, nlohmann::json::object(), now);
-    return true;
+    const bench::Run run = bench::read_run(folder.path());
+    bench::require_same_run(folder.path(), run, nlohmann::json::object(), now);
+    return read_as_written(bench::kLogName, "", [&] {
+      bench::Manifest resumed;
+      bench::continue_with(resumed, run.manifest);
+      return true;
+    });
   });
   return 0;
 }

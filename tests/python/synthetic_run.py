@@ -67,7 +67,7 @@ def write_cell(
     message: str = "",
     examples: tuple[str, ...] = (),
 ) -> None:
-    """Writes the file of one cell, as `beambench run` does beside results.csv."""
+    """Adds one cell to the log, as `beambench run` does."""
     repetitions = [
         {"round": turn, "position": 0, "build_ms": 0.25 * total, "trace_ms": 0.75 * total}
         for turn, total in (total_ms or {}).items()
@@ -78,7 +78,7 @@ def write_cell(
 def write_trace_cell(
     folder: Path, row: dict[str, object], trace: Sequence[float], warm: Sequence[float]
 ) -> None:
-    """The file of a cell by its first traces, and by the second ones of the first rounds."""
+    """Adds a cell by its first traces, and by the second ones of the first rounds."""
     repetitions: list[dict[str, float]] = [
         {"round": turn, "position": 0, "build_ms": 1.0, "trace_ms": time}
         for turn, time in enumerate(trace)
@@ -95,10 +95,14 @@ def _write_cell(
     message: str = "",
     examples: tuple[str, ...] = (),
 ) -> None:
-    cells = folder / "cells"
-    cells.mkdir(exist_ok=True)
-    cell = {"row": row, "message": message, "examples": examples, "repetitions": repetitions}
-    (cells / f"{len(list(cells.iterdir())):016x}.json").write_text(json.dumps(cell))
+    log = folder / "run.jsonl"
+    index = log.read_text().count('"event": "cell"') if log.exists() else 0
+    events: list[dict[str, object]] = [{"event": "cell", **row}]
+    events += [{"event": "repetition", **repetition} for repetition in repetitions]
+    finish = {"verdict": row["verdict"], "message": message, "examples": list(examples)}
+    events.append({"event": "finished", **finish})
+    with log.open("a") as file:
+        file.writelines(json.dumps({**event, "index": index}) + "\n" for event in events)
 
 
 def write_manifest(folder: Path, **changes: object) -> None:

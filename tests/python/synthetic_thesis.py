@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable
 from pathlib import Path
 
 from beambench_report.base.published import primitives_by_scene, rays
 from beambench_report.thesis.report.plan import Plan, PlannedCell, Sweep, keep_plan
-from synthetic_run import write_manifest, write_run
+from synthetic_run import write_cell, write_manifest, write_run
 
 Row = dict[str, object]
 Change = Callable[[Row], Row]
@@ -44,14 +43,12 @@ def write_runs(
     for sweep in plan.sweeps:
         if only(sweep):
             folder = directory / sweep.name
-            (folder / "cells").mkdir(parents=True)
+            folder.mkdir(parents=True)
             rows = [change(row_of(cell)) for cell in sweep.cells()]
             write_run(folder, rows)
             write_manifest(folder, sweep=sweep.source["name"])
-            for number, row in enumerate(rows):
-                path = folder / "cells" / f"{number:016x}.json"
-                cell = {"row": row, "message": "", "examples": [], "repetitions": []}
-                path.write_text(json.dumps(cell))
+            for row in rows:
+                write_cell(folder, row)
     return directory
 
 

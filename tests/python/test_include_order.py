@@ -36,6 +36,7 @@ MODULES = {
     "harness/plugin": "plugin",
     "harness/render": "render",
     "harness/bench": "bench",
+    "harness/analysis": "analysis",
     "harness/experiments": "experiments",
     "harness/python": "python",
     "harness/cluster": "cluster",

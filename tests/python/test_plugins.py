@@ -16,6 +16,7 @@ import pytest
 
 from plugins import BUILD, SOURCES, built, call, configured, reached_headers, run
 from program import BINARY, refused
+from run_logs import begun_cells, events
 
 SWEEP = {
     "name": "plugged",
@@ -373,8 +374,12 @@ def test_a_sweep_says_in_the_row_what_went_wrong_and_goes_on(
     assert len(rows) == 4
     for row in rows:
         assert (row["trace_ms_median"] == "") == (row["structure"] == "faulty")
-    cells = [json.loads(path.read_text()) for path in (tmp_path / "run/cells").iterdir()]
-    told = [cell["message"] for cell in cells if "faulty" in cell["name"]]
+    names = {cell["index"]: cell["name"] for cell in begun_cells(tmp_path / "run")}
+    told = [
+        event["message"]
+        for event in events(tmp_path / "run")
+        if event["event"] == "finished" and "faulty" in names[event["index"]]
+    ]
     assert len(told) == 2
     for message in told:
         assert str(faulty) in message

@@ -27,7 +27,7 @@ from beambench_publish.small import make_small, size
 from beambench_report.__main__ import _parser as parser_of_reports
 from beambench_report.base.files import Problem, read_json
 from program import BINARY
-from synthetic_run import synthetic_rows, write_run
+from synthetic_run import synthetic_rows, write_cell, write_run
 
 HERE = Setting("c0ffee", False, "machine-1", "A Xeon", 2, "3.13.5", 0.01, 0.2)
 ELSEWHERE = replace(HERE, machine_id="machine-2")
@@ -287,7 +287,7 @@ def test_a_folder_that_is_new_gets_its_page(place: Place) -> None:
     published = place.published / "embree-4"
     files = {file.name for file in published.iterdir()}
     assert files >= {"README.md.j2", "config.json", "manifest.json", "repetitions.csv", RECORD}
-    assert not files & {"cells", "google-benchmark.json"}
+    assert not files & {"run.jsonl", "google-benchmark.json"}
     assert read_json(published / "config.json")["name"] == "embree-4"
     assert published / "README.md" in write_documents(place.published)
     text = (published / "README.md").read_text("utf-8")
@@ -396,10 +396,7 @@ def test_what_is_committed_is_small(tmp_path: Path) -> None:
     run = write_run(tmp_path, synthetic_rows())
     with (run / "results.csv").open(encoding="utf-8") as table:
         row = next(row for row in csv.DictReader(table) if row["trace_ms_median"])
-    (run / "cells").mkdir()
-    one = {"round": 1, "build_ms": 1.0, "trace_ms": 2.0}
-    cell = {"row": row, "message": "", "examples": [], "repetitions": [one]}
-    (run / "cells/a.json").write_text(json.dumps(cell))
+    write_cell(run, row, {1: 3.0})
     (run / "answers.jsonl").write_text("{}")
     (run / "tasks").mkdir()
     (run / "tasks/gato-bill-beams.csv").write_text("seconds")
@@ -412,7 +409,7 @@ def test_what_is_committed_is_small(tmp_path: Path) -> None:
     picture.save(plots / "rendered.png")
     before = size(run)
     make_small(run)
-    assert {"cells", "tasks", "answers.jsonl"}.isdisjoint(file.name for file in run.iterdir())
+    assert {"run.jsonl", "tasks", "answers.jsonl"}.isdisjoint(file.name for file in run.iterdir())
     assert (run / "repetitions.csv").is_file()
     assert {file.name for file in plots.iterdir()} == {"drawn.svg", "rendered.png"}
     with Image.open(plots / "rendered.png") as small:

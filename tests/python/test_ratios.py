@@ -19,6 +19,7 @@ from beambench_report.base.ratio import (
     unpaired_ratio,
 )
 from beambench_report.base.records import read_run
+from beambench_report.base.run_log import logged_cells
 from beambench_report.run.reference import choose_reference, compared
 from beambench_report.run.tables import ratio_field
 from synthetic_run import synthetic_rows, without_times, write_cell, write_run
@@ -147,8 +148,21 @@ def test_without_repetitions_it_is_the_ratio_of_medians_not_paired(run_folder: P
     assert ratio_field(ratio).note.endswith(", not paired")
 
 
-def test_a_file_that_is_no_cell_is_named(run_folder: Path) -> None:
-    (run_folder / "cells").mkdir()
-    (run_folder / "cells" / "0.json").write_text('{"row": {}}')
-    with pytest.raises(Problem, match=r"cells/0\.json: is not a cell of a run"):
+@pytest.mark.parametrize("line", ['{"event": "finished", "index": 0}', '{"row": {}}', "[1", "3"])
+def test_a_line_that_is_no_event_is_named(run_folder: Path, line: str) -> None:
+    (run_folder / "run.jsonl").write_text(f'{{"event": "header"}}\n{line}\n')
+    with pytest.raises(Problem, match=r"run\.jsonl, line 2: is no"):
         read_cell_files(run_folder)
+
+
+def test_a_log_is_read_up_to_its_last_whole_line(run_folder: Path) -> None:
+    row = read_run(run_folder).rows.iloc[0].to_dict()
+    write_cell(run_folder, row, {0: 4.0, 1: 8.0})
+    whole = (run_folder / "run.jsonl").read_text()
+    for size in range(len(whole) + 1):
+        (run_folder / "run.jsonl").write_text(whole[:size])
+        lines = whole[:size].count("\n")
+        cells = logged_cells(run_folder)
+        assert len(cells) == min(lines, 1)
+        assert sum(len(cell.repetitions) for cell in cells) == max(0, min(lines - 1, 2))
+        assert all(cell.is_finished == (lines == 4) for cell in cells)

@@ -19,9 +19,11 @@ from synthetic_run import synthetic_rows, write_run
 
 
 def published(run: Path, folder: Path) -> Path:
-    """The run as it is published: without its cells."""
+    """The run as it is published: without its log."""
     assert main(["repetitions", str(run)]) == 0
-    shutil.copytree(run, folder, ignore=shutil.ignore_patterns("cells", "google-benchmark.json"))
+    shutil.copytree(
+        run, folder, ignore=shutil.ignore_patterns("run.jsonl", "google-benchmark.json")
+    )
     return folder
 
 
@@ -83,4 +85,4 @@ def test_a_run_without_repetitions_is_refused(
     run_folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["repetitions", str(run_folder)]) == 2
-    assert "holds no repetitions" in capsys.readouterr().err
+    assert "holds no log with repetitions" in capsys.readouterr().err

@@ -11,6 +11,7 @@ import pytest
 from PIL import Image
 
 from program import beambench, output_of, shell
+from run_logs import events
 
 TRACE = ("trace", "tetra:n=3", "--resolution", "64x64", "--pixel", "32,40")
 
@@ -139,8 +140,8 @@ def test_a_sweep_prints_and_keeps_the_command_too(far_away: Path) -> None:
     (far_away / "far.json").write_text(json.dumps(sweep))
     done = beambench("run", "far.json", "-o", "record", cwd=far_away)
     assert done.returncode == 1
-    (cell,) = (far_away / "record/cells").glob("*.json")
-    for text in [done.stderr, *json.loads(cell.read_text())["examples"]]:
+    (end,) = [event for event in events(far_away / "record") if event["event"] == "finished"]
+    for text in [done.stderr, *end["examples"]]:
         command = replays(text)[0]
         assert "--accel embree" in command
         assert "graze" in shell(command, far_away).stdout

@@ -17,6 +17,7 @@ from beambench_campaign.rows import cells_of, difference
 from beambench_report.base.records import read_run
 from beambench_report.run.page import render
 from program import BINARY, beambench, refused
+from run_logs import Event, begun_cells, change_events, change_manifest, cut_off, forget_cell
 
 SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 COUNT = 4
@@ -71,21 +72,6 @@ def shards(folder: Path) -> list[Path]:
     return [folder / str(number) for number in range(1, COUNT + 1)]
 
 
-def change_json(path: Path, change: dict) -> None:
-    document = json.loads(path.read_text())
-    for place, value in change.items():
-        *inner, last = place.split("/")
-        at = document
-        for name in inner:
-            at = at[int(name) if isinstance(at, list) else name]
-        at[last] = value
-    path.write_text(json.dumps(document))
-
-
-def a_cell(shard: Path) -> Path:
-    return min((shard / "cells").glob("*.json"))
-
-
 def test_four_shards_have_the_rows_of_one_run(measured: Path, tmp_path: Path) -> None:
     done = beambench("merge", *reversed(shards(measured)), "-o", tmp_path / "merged")
     assert done.returncode == 0, done.stderr
@@ -114,8 +100,7 @@ def test_the_manifest_has_the_conditions_of_every_shard(measured: Path, tmp_path
     loads = [one["machine"]["load_average"] for one in begun]
     assert manifest["machine"]["load_average"] == max(loads)
     assert manifest["machine"]["id"] == begun[0]["machine"]["id"]
-    cells = [json.loads(path.read_text()) for path in (tmp_path / "merged/cells").glob("*.json")]
-    assert {cell["shard"] for cell in cells} == {1, 2, 3, 4}
+    assert {cell["shard"] for cell in begun_cells(tmp_path / "merged")} == {1, 2, 3, 4}
 
 
 def test_cells_that_are_compared_are_in_one_shard(measured: Path) -> None:
@@ -140,14 +125,12 @@ def test_a_dry_run_names_the_cells_of_a_shard(measured: Path) -> None:
 
 def test_rows_keep_their_machines(copy: Path) -> None:
     """The third shard is said to be of another machine."""
-    for path in (copy / "3/cells").glob("*.json"):
-        change_json(path, {"row/machine_id": "fedcba9876543210"})
-    change_json(copy / "3/manifest.json", {"machine/id": "fedcba9876543210", "machine/cpu": "B"})
+    change_manifest(copy / "3", {"machine/id": "fedcba9876543210", "machine/cpu": "B"})
     done = beambench("merge", *shards(copy), "-o", copy / "merged")
     assert done.returncode == 0, done.stderr
     merged = read_run(copy / "merged")
     others = merged.rows["machine_id"] == "fedcba9876543210"
-    assert others.sum() == len(list((copy / "3/cells").glob("*.json")))
+    assert others.sum() == len(begun_cells(copy / "3"))
     manifest = json.loads((copy / "merged/manifest.json").read_text())
     assert "fedcba9876543210" in manifest["machine"]["id"]
     assert manifest["machine"]["cpu"].endswith(" and B")
@@ -168,7 +151,7 @@ def test_a_killed_shard_is_resumed_and_merged(measured: Path, tmp_path: Path, se
     lost = tmp_path / "lost"
     complete = False
     while not complete:
-        begun = (lost / "manifest.json").exists()
+        begun = (lost / "run.jsonl").exists()
         sweep = [measured / "tiny.json", "--shard", f"{number}/{COUNT}", "-o", lost]
         program = programs.start(
             [BINARY, "run", *(["--resume", lost] if begun else sweep)], tmp_path
@@ -176,7 +159,7 @@ def test_a_killed_shard_is_resumed_and_merged(measured: Path, tmp_path: Path, se
         ended = killed(program, random, 1.0, tally) if tally.kills < 5 else finished(program, tally)
         complete = ended.code == 0
         assert complete or ended_as_killed(ended), ended.last_words()
-        if not complete and (lost / "manifest.json").exists():
+        if not complete and (lost / "run.jsonl").exists():
             others = [path for path in shards(measured) if path.name != str(number)]
             words = [f"shard {number}/4 in '{lost}' has", "finish it with: beambench run --resume"]
             merged = beambench("merge", lost, *others, "-o", tmp_path / "early")
@@ -193,7 +176,8 @@ def test_a_killed_shard_is_resumed_and_merged(measured: Path, tmp_path: Path, se
 
 def test_a_killed_merge_leaves_nothing_in_the_way(measured: Path, tmp_path: Path) -> None:
     left = tmp_path / ".merged.partial-1234"
-    (left / "cells").mkdir(parents=True)
+    left.mkdir()
+    (left / "run.jsonl").write_text("")
     done = beambench("merge", *shards(measured), "-o", tmp_path / "merged")
     assert done.returncode == 0, done.stderr
     assert [path.name for path in tmp_path.iterdir()] == ["merged"]
@@ -258,16 +242,24 @@ def test_a_doubled_shard_is_named(copy: Path) -> None:
 
 def test_a_cell_with_other_counters_is_named(copy: Path) -> None:
     shutil.copytree(copy / "2", copy / "again")
-    cell = a_cell(copy / "again")
-    change_json(cell, {"row/primitive_tests_per_ray": 0.125})
-    name = json.loads(cell.read_text())["name"]
-    words = [name, "primitive_tests_per_ray", "0.125", f"'{copy}/2'", f"'{copy}/again'"]
+
+    def changed(event: Event) -> Event:
+        if event.get("counters"):
+            event["counters"]["primitive_tests"] = 1
+        return event
+
+    change_events(copy / "again", changed)
+    words = ["the cell tetra", "primitive_tests_per_ray", f"'{copy}/2'", f"'{copy}/again'"]
     merge_is_refused(copy, ["1", "2", "3", "4", "again"], words)
 
 
 def test_times_may_differ_where_a_shard_is_doubled(copy: Path) -> None:
     shutil.copytree(copy / "2", copy / "again")
-    change_json(a_cell(copy / "again"), {"row/trace_ms_median": 0.125})
+
+    def changed(event: Event) -> Event:
+        return event | {"trace_ms": 0.125} if event["event"] == "repetition" else event
+
+    change_events(copy / "again", changed)
     merge_is_refused(copy, ["1", "2", "3", "4", "again"], ["shard 2/4 is there twice"])
 
 
@@ -279,14 +271,13 @@ def test_times_may_differ_where_a_shard_is_doubled(copy: Path) -> None:
         ({"scenes/0/hash": "0123456789abcdef"}, ['the scene "', "0123456789abcdef"]),
         ({"shard/count": 5}, ["shard 3/5", "one division"]),
         ({"shard/number": 2}, ["shard 2/4 is there twice"]),
-        ({"finished_utc": None}, ["shard 3/4", "beambench run --resume"]),
         ({"plugins": [{"file": "mine.so", "hash": "01"}]}, ["other plug-ins"]),
-        ({"shard": {}}, ["manifest.json"]),
-        ({"machine": 3}, ["manifest.json", "not as it was written"]),
+        ({"shard": {}}, ["run.jsonl"]),
+        ({"machine": 3}, ["run.jsonl", "not as it was written"]),
     ],
 )
 def test_a_shard_that_does_not_fit_is_named(copy: Path, change: dict, words: list[str]) -> None:
-    change_json(copy / "3/manifest.json", change)
+    change_manifest(copy / "3", change)
     done = beambench("merge", *shards(copy), "-o", copy / "merged")
     refused(done, [f"{copy}/3", *words])
     assert not (copy / "merged").exists()
@@ -314,9 +305,16 @@ def test_shards_of_two_sweeps_are_refused(copy: Path) -> None:
     merge_is_refused(copy, ["1", "2", "3", "4"], ["two sweeps", "/precision", f"'{copy}/3'"])
 
 
+def test_a_shard_without_its_end_is_unfinished(copy: Path) -> None:
+    cut_off(copy / "3")
+    words = [f"shard 3/4 in '{copy}/3'", "beambench run --resume"]
+    merge_is_refused(copy, ["1", "2", "3", "4"], words)
+
+
 def test_a_cell_that_is_gone_makes_a_shard_unfinished(copy: Path) -> None:
-    count = len(list((copy / "3/cells").glob("*.json")))
-    a_cell(copy / "3").unlink()
+    cells = begun_cells(copy / "3")
+    count = len(cells)
+    forget_cell(copy / "3", cells[0]["index"])
     words = ["shard 3/4", f"has {count - 1} of {count} cells", "--resume"]
     merge_is_refused(copy, ["1", "2", "3", "4"], words)
     run("--resume", copy / "3")
@@ -348,7 +346,7 @@ def test_a_shard_that_is_being_measured_is_refused(measured: Path, tmp_path: Pat
         [BINARY, "run", sweep, "--shard", "1/4", "-o", tmp_path / "1"], stderr=subprocess.PIPE
     ) as program:
         assert program.stderr is not None
-        while not (tmp_path / "1/manifest.json").exists():
+        while not (tmp_path / "1/run.jsonl").exists():
             assert program.poll() is None
         done = beambench("merge", tmp_path / "1", "-o", tmp_path / "merged")
         program.kill()
@@ -433,10 +431,7 @@ def test_a_job_array_is_submitted_merged_and_resumed(tmp_path: Path) -> None:
     assert done.returncode == 2
     assert "is there already" in done.stderr
 
-    a_cell(job / "shard-2").unlink()  # killed
-    manifest = job / "shard-2/manifest.json"
-    document = json.loads(manifest.read_text()) | {"finished_utc": None}
-    manifest.write_text(json.dumps(document, indent=2))
+    forget_cell(job / "shard-2", begun_cells(job / "shard-2")[0]["index"])  # killed
     (tmp_path / "repaired").touch()
     (tmp_path / "calls").unlink()
     done = script("slurm", "--resume", job, **path)

@@ -19,6 +19,7 @@ from beambench_report.base.records import read_run
 from beambench_report.run.page import write_page
 from beambench_report.run.pictures import write_pictures
 from program import BINARY, beambench, refused
+from run_logs import begun_cells, forget_cell
 
 SCENE = b"""v
 from 0 0 -5
@@ -131,12 +132,10 @@ def test_a_run_over_a_name_with_an_escape_is_whole(tmp_path: Path) -> None:
     named = json.loads((out / "google-benchmark.json").read_text())["benchmarks"]
     assert all("esc\\x1b.nff" in one["name"] for one in named)
 
-    cells = sorted((out / "cells").iterdir())
-    assert len(cells) == 2
-    cells[0].unlink()
+    assert len(begun_cells(out)) == 2
+    forget_cell(out, 0)
     done = run_bytes("run", "--resume", "out", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
-    assert sorted((out / "cells").iterdir()) == cells
 
     rows = read_run(out).rows
     assert list(rows["scene"]) == ["./esc\\x1b.nff"] * 2
@@ -231,9 +230,9 @@ def test_a_record_that_is_no_record_ends_in_one_sentence(
 ) -> None:
     (tmp_path / "sweep.json").write_text(sweep_of("tetra:n=1"))
     assert run_bytes("run", "sweep.json", "-o", "out", cwd=tmp_path).returncode == 0
-    cell = next((tmp_path / "out" / "cells").iterdir())
-    for text in (DEEP, '{"row": [1], "message": "", "examples": [], "repetitions": []}'):
-        cell.write_text(text)
+    log = tmp_path / "out" / "run.jsonl"
+    for text in (DEEP, '{"event": "repetition", "index": 0}'):
+        log.write_text(text + "\n")
         assert main(["page", str(tmp_path / "out")]) == 2
         assert len(capsys.readouterr().err.splitlines()) == 1
     (tmp_path / "deep.json").write_text(DEEP)
@@ -250,12 +249,13 @@ def test_the_report_prints_what_is_printable() -> None:
 # CSV
 
 
-@pytest.mark.parametrize("name", ["=1+1.nff", "-1.nff", "@SUM(1).nff", "+1.nff", "'x.nff"])
-def test_no_cell_of_results_csv_is_a_formula(tmp_path: Path, name: str) -> None:
-    (tmp_path / name).write_bytes(
-        SCENE.replace(b"hither 1\n", b'hither 1\n#beambench name =HYPERLINK("x","y")\n')
-    )
-    (tmp_path / "sweep.json").write_text(sweep_of(name))
+def test_no_cell_of_results_csv_is_a_formula(tmp_path: Path) -> None:
+    names = ["=1+1.nff", "-1.nff", "@SUM(1).nff", "+1.nff", "'x.nff"]
+    for name in names:
+        (tmp_path / name).write_bytes(
+            SCENE.replace(b"hither 1\n", b'hither 1\n#beambench name =HYPERLINK("x","y")\n')
+        )
+    (tmp_path / "sweep.json").write_text(sweep_of(*names))
     assert run_bytes("run", "sweep.json", "-o", "out", cwd=tmp_path).returncode == 0
     path = tmp_path / "out" / "results.csv"
     with path.open(newline="", encoding="utf-8") as file:
@@ -263,9 +263,9 @@ def test_no_cell_of_results_csv_is_a_formula(tmp_path: Path, name: str) -> None:
     for cell in cells:
         if cell.startswith(("=", "+", "-", "@", "\t", "\r")):
             float(cell)
-    assert f"'{name}" in cells
+    assert {f"'{name}" for name in names} <= set(cells)
     rows = read_run(tmp_path / "out").rows
-    assert set(rows["scene"]) == {name}
+    assert set(rows["scene"]) == set(names)
     assert set(rows["camera"]) == {'=HYPERLINK("x","y")'}
     assert run_bytes("run", "--resume", "out", cwd=tmp_path).returncode == 0
     assert main(["plots", str(tmp_path / "out")]) == 0
@@ -341,13 +341,13 @@ def test_progress_that_cannot_be_written_fails_nothing(tmp_path: Path, arguments
         assert done.returncode == 0, end
 
 
-# A manifest
+# A log
 
 
-def test_a_manifest_that_nests_too_deep_is_refused(tmp_path: Path) -> None:
+def test_a_log_that_nests_too_deep_is_refused(tmp_path: Path) -> None:
     (tmp_path / "sweep.json").write_text(sweep_of("tetra:n=1"))
     assert run_bytes("run", "sweep.json", "-o", "out", cwd=tmp_path).returncode == 0
     for text in (DEEP, DEEP + "]" * 400_000):
-        (tmp_path / "out" / "manifest.json").write_text(text)
+        (tmp_path / "out" / "run.jsonl").write_text(text + "\n")
         done = beambench("run", "--resume", "out", cwd=tmp_path)
-        refused(done, ["manifest.json", "64 levels"])
+        refused(done, ["run.jsonl", "64 levels"])

@@ -350,7 +350,7 @@ scenes::Scene with_lights_at_surfaces(std::uint64_t seed) {
 }
 
 TEST(RandomScenes, NoStructureIsWrongWithLightsAtSurfaces) {
-  const std::uint64_t scenes = tests::number_from("BEAMBENCH_JUDGE_SCENES", 500);
+  const std::uint64_t scenes = tests::number_from("BEAMBENCH_JUDGE_SCENES", 150);
   std::uint64_t rays = 0;
   for (std::uint64_t seed = 0; seed < scenes && !HasFailure(); ++seed) {
     const scenes::Scene scene = with_lights_at_surfaces(seed);

@@ -11,20 +11,11 @@
 #include <string_view>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "accel/core/statistics.hpp"
 #include "harness/rays/trace_input.hpp"
 #include "harness/verify/differ.hpp"
 
 namespace beambench::bench {
-
-/// A row of a record: column names to numbers, texts, flags, or null for what was not measured. The
-/// order is that of the columns.
-using Row = nlohmann::ordered_json;
-
-/// Takes one finished cell after the other, as its file has it.
-using CellVisitor = std::function<void(const nlohmann::ordered_json& cell)>;
 
 enum class QueryPath {
   kImageSingle,  ///< an image, its rays made one by one
@@ -55,17 +46,6 @@ inline constexpr std::array<std::string_view, 3> kHardwareEvents{"instructions",
 
 /// One count for each event; nothing for one that this machine does not count.
 using HardwareCounts = std::array<std::optional<std::uint64_t>, kHardwareEvents.size()>;
-
-/// The version of the columns of results.csv, their first one. Incremented when a column changes
-/// its name, meaning or unit or goes away, since a reader of the old ones would err; a new column
-/// alone is no new version. What each means is in scripts/beambench_report/columns.json.
-inline constexpr int kSchemaVersion = 1;
-
-/// What two runs differ by however often each repeats: another process has its code and data at
-/// other addresses (Mytkowicz et al., Producing Wrong Data Without Doing Anything Obviously Wrong!,
-/// ASPLOS 2009), of which a run alone knows nothing. Found by repeating a sweep of 48 cells:
-/// without this allowance 81% and 88% of the medians were found again, not 95%.
-inline constexpr double kBetweenRuns = 0.015;
 
 /// The identity of a cell within a sweep.
 struct CellId {
@@ -157,7 +137,9 @@ struct CellRecord {
   std::size_t index;  ///< in the plan of the whole sweep: the order of rows
   CellId id;
   RaySetFacts rays;
-  std::string time_utc;  ///< when it was finished
+  int shard = 0;             ///< that measured it; 0: the run is no merged one
+  std::string time_utc;      ///< when it was finished
+  bool is_finished = false;  ///< it needs no further repetition
 
   CountedWork work;
   // Absent where the structure could not be built:
@@ -176,12 +158,21 @@ struct CellRecord {
 
   /// A time is reported only when the hits are correct, or absent by design.
   bool keeps_times() const { return verify::is_right(verdict); }
+  bool has_times() const { return keeps_times() && !repetitions.empty(); }
 };
 
-/// One row of results.csv. A cell that does not keep its times has null there.
-Row to_row(const RunFacts& run, const CellRecord& cell);
+/// Returns one figure of every repetition of a cell: a member of `Repetition`.
+template <class Figure>
+std::vector<double> collect(const CellRecord& cell, Figure figure) {
+  std::vector<double> values;
+  values.reserve(cell.repetitions.size());
+  for (const Repetition& repetition : cell.repetitions) {
+    values.push_back(std::invoke(figure, repetition));
+  }
+  return values;
+}
 
-/// The file of a cell: name, key, row, message, examples, and every repetition.
-nlohmann::ordered_json to_json(const RunFacts& run, const CellRecord& cell);
+/// Returns the second traces of the repetitions that have one, in milliseconds.
+std::vector<double> second_traces(const CellRecord& cell);
 
 }  // namespace beambench::bench

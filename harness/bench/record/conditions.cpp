@@ -13,8 +13,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kNoisy = 0.05;  // of the slowest twentieth of equal work: others are running
-
 /// The throttling that a manifest's file states.
 std::optional<Throttling> throttling_of(const Json& manifest) {
   const Json stated = manifest.at("measurement").value("throttling", Json());
@@ -58,38 +56,6 @@ Conditions conditions_of(const Json& manifest) {
   const Json& noise = manifest.at("measurement").at("noise");
   return {noise.is_null() ? std::nullopt : std::optional(noise.get<double>()),
           manifest.at("machine").at("load_average").get<double>(), throttling_of(manifest)};
-}
-
-std::vector<std::string> doubts_about_times(const Conditions& conditions,
-                                            std::span<const Json> cells) {
-  constexpr double kMostArePrecise = 0.8;
-  constexpr std::size_t kLeastForInterval = 6;
-  std::size_t timed = 0, imprecise = 0, without_interval = 0;
-  for (const Json& cell : cells) {
-    if (cell.at("repetitions").empty()) continue;
-    ++timed;
-    if (cell.at("row").at("stop_reason") != to_string(StopReason::kPrecision)) ++imprecise;
-    if (cell.at("repetitions").size() < kLeastForInterval) ++without_interval;
-  }
-  std::vector<std::string> doubts;
-  if (conditions.noise && *conditions.noise > kNoisy) {
-    doubts.push_back(
-        fmt::format("equal work took up to {:.0f}% longer than usual", 100 * *conditions.noise));
-  }
-  if (conditions.load > kIdleLoad) {
-    doubts.push_back(fmt::format("other work was running (load {:.2f})", conditions.load));
-  }
-  if (const auto throttled = describe(conditions.throttling)) doubts.push_back(*throttled);
-  if (static_cast<double>(timed - imprecise) < kMostArePrecise * static_cast<double>(timed)) {
-    doubts.push_back(fmt::format("{} of {} less precise than wanted", imprecise,
-                                 base::counted(timed, "timed cell")));
-  }
-  if (without_interval > 0) {
-    doubts.push_back(fmt::format("{} of {} repeated fewer than {} times, so without intervals",
-                                 without_interval, base::counted(timed, "timed cell"),
-                                 kLeastForInterval));
-  }
-  return doubts;
 }
 
 }  // namespace beambench::bench

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +12,9 @@
 #include "scenes/core/cpu_quota.hpp"
 
 namespace beambench::bench {
+
+/// Noise above it, of the slowest twentieth of equal work, shows that others are running.
+constexpr double kNoisy = 0.05;
 
 /// Counts how the kernel throttles a run, from when it is made.
 class ThrottlingWatch {
@@ -55,11 +57,5 @@ struct Conditions {
 
 /// Returns the conditions that the manifest of a run states, or a `joined_manifest`.
 Conditions conditions_of(const nlohmann::ordered_json& manifest);
-
-/// Why the times of finished cells (their JSON files) are worth little: noise of equal work, other
-/// work (a load average), a CPU quota, missed precision, too few repetitions for an interval.
-/// Clauses; none where nothing speaks against them.
-std::vector<std::string> doubts_about_times(const Conditions& conditions,
-                                            std::span<const nlohmann::ordered_json> cells);
 
 }  // namespace beambench::bench

@@ -127,7 +127,6 @@ Json joined_manifest(std::span<const Json> shards) {
   joined["machine"] = joined_object(shards, "machine");
   joined["measurement"] = joined_object(shards, "measurement");
   joined["measurement"]["throttling"] = to_json(throttling(shards));
-  joined["harness_overhead"] = Json();
   joined["uncontrolled"] = uncontrolled(shards);
   joined["part_begun_utc"] = joined["time_utc"];
   joined["earlier_parts"] = Json::array();

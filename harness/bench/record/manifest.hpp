@@ -4,7 +4,6 @@
 #include <chrono>
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -49,7 +48,6 @@ struct Manifest {
   std::vector<plugin::LoadedPlugin> plugins;
   std::vector<SceneFacts> scenes;   ///< of the sweep; of a shard, those of the other shards, too
   std::optional<ShardFacts> shard;  ///< nothing: the run is the whole sweep
-  nlohmann::ordered_json overhead;  ///< of the harness, by `null`; null where it is not known
   std::vector<std::string> uncontrolled;  ///< sentences
   /// The conditions of the parts before the run was cut off and resumed.
   nlohmann::ordered_json earlier_parts = nlohmann::ordered_json::array();
@@ -73,25 +71,5 @@ Manifest begin_manifest(const std::string& sweep, std::vector<SceneFacts> scenes
                         int threads, std::chrono::duration<double> warm_up,
                         std::optional<ShardFacts> shard = std::nullopt,
                         const std::filesystem::path& root = "/");
-
-/// The harness's own share of a trace (`harness_ms`) in the cell where it is the largest part of
-/// the contender's time, among those of one query path.
-struct Overhead {
-  std::string path;  ///< the QueryPath, by name
-  std::string cell;  ///< its name
-  double part;       ///< of its median trace time
-};
-
-/// One for each path with right answers among finished cells (their JSON files), the largest first.
-/// Structures that trace images by samples of their own have none, nor whole pictures, whose
-/// shading is wanted.
-std::vector<Overhead> largest_overheads(std::span<const nlohmann::ordered_json> cells);
-
-/// `harness overhead: at most 1.2% of a contender's trace time for images by single rays
-/// (tetra.../samet), ...`, and where the times without it are. Of at least one.
-std::string describe(std::span<const Overhead> overheads);
-
-/// The largest, and each by its path; null where there is none.
-nlohmann::ordered_json to_json(std::span<const Overhead> overheads);
 
 }  // namespace beambench::bench

@@ -120,7 +120,7 @@ void LightLeader::require_signs() {
   const double now = transport_->seconds();
   for (ProcessId process = kProducer + 1; process < transport_->processes(); ++process) {
     const double silent = now - last_heard_[static_cast<std::size_t>(process)];
-    if (silent > timeout_) throw silent_part(process, silent);
+    if (silent > timeout_) throw silent_part(process, timeout_);
   }
 }
 

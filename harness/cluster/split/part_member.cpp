@@ -25,11 +25,11 @@ auto members(Report& report) requires std::same_as<std::remove_const_t<Report>, 
 
 }  // namespace
 
-LostProcess silent_part(ProcessId process, double seconds) {
+LostProcess silent_part(ProcessId process, double timeout) {
   return LostProcess(
       fmt::format("process {} was silent for {} s, and no other has its part of the scene; no "
                   "picture was made",
-                  process, seconds));
+                  process, timeout));
 }
 
 PartMember::PartMember(Transport& transport, PartWorker& worker, Outbox& outbox, double timeout,
@@ -233,7 +233,7 @@ void PartMember::require_heartbeats() {
   for (ProcessId process = kProducer + 1; process < transport_->processes(); ++process) {
     const double silent = now - other(process).last_heard;
     if (other(process).answered || silent <= timeout_) continue;
-    throw silent_part(process, silent);
+    throw silent_part(process, timeout_);
   }
 }
 

@@ -21,8 +21,9 @@ class LostProcess : public InputError {
   using InputError::InputError;
 };
 
-/// A process whose part of the scene nobody else has.
-LostProcess silent_part(ProcessId process, double seconds);
+/// A process whose part of the scene nobody else has, and which was silent for the timeout, in
+/// seconds.
+LostProcess silent_part(ProcessId process, double timeout);
 
 /// What a process had and did.
 struct PartReport {

@@ -1,11 +1,14 @@
-"""results/published/beams, beams-4k and beam-options: the thesis's beams beside single rays."""
+"""results/published/beams: the thesis's beams beside single rays."""
 
 from __future__ import annotations
 
 from pathlib import Path
 from typing import Any
 
+import pandas as pd
+
 from beambench_publish.figures.cells import Cells
+from beambench_report.base.names import parameter_items
 
 _LEVELS = ("6", "7", "8")
 _THESIS, _HANDOVER = "0", "48"
@@ -33,8 +36,8 @@ def figures(folder: Path) -> dict[str, Any]:
             }
             for rays in ("samet", "samet-net")
         },
-        "finest": _finest(folder.parent / "beams-4k"),
-        "options": _options(folder.parent / "beam-options"),
+        "finest": _finest(folder / "finest.csv"),
+        "options": _options(folder / "options.csv"),
     }
 
 
@@ -67,44 +70,72 @@ def _own_best(cells: Cells, rays: str, handover: str, **view: str) -> float:
     return least(rays) / least(f"beam:handover={handover}")
 
 
-def _finest(folder: Path) -> dict[str, Any]:
-    cells = Cells(folder)
-    size = cells.sizes[0]
+def _finest(file: Path) -> dict[str, Any]:
+    """The rows of an earlier run at the highest resolution."""
+    rows = _with_parameters(file)
+    scenes = list(dict.fromkeys(rows["scene"]))
+
+    def least(scene: str, structure: str, column: str, **wanted: str) -> float:
+        own = rows[(rows["scene"] == scene) & (rows["structure"] == structure)]
+        chosen = own[own["chosen"].map(lambda chosen: wanted.items() <= chosen.items())]
+        return float(chosen[column].min())
+
+    def ratio(scene: str, level: str, handover: str) -> float:
+        column = "trace_ms_median"
+        return least(scene, "samet", column, max_level=level) / least(
+            scene, "beam", column, max_level=level, handover=handover
+        )
+
+    def own_best(rays: str, scene: str) -> float:
+        column = "total_ms_median"
+        return least(scene, rays, column) / least(scene, "beam", column, handover=_HANDOVER)
+
     return {
-        "size": size,
-        "scenes": cells.scenes,
-        "by_level": _by_level(cells, ("7", "8")),
+        "size": "3840x2160",
+        "by_level": {
+            scene: {
+                level: {
+                    handover: ratio(scene, level, handover) for handover in (_THESIS, _HANDOVER)
+                }
+                for level in ("7", "8")
+            }
+            for scene in scenes
+        },
         "own_best": {
-            rays: [
-                _own_best(cells, rays, _HANDOVER, scene=scene, size=size) for scene in cells.scenes
-            ]
-            for rays in ("samet", "samet-net")
+            rays: [own_best(rays, scene) for scene in scenes] for rays in ("samet", "samet-net")
         },
     }
 
 
-def _options(folder: Path) -> dict[str, Any]:
-    cells = Cells(folder)
+def _options(file: Path) -> dict[str, Any]:
+    """The rows of an earlier run with the beams' options."""
+    rows = _with_parameters(file)
 
-    def ratio(scene: str, samples: float, option: str) -> float | None:
-        rows = cells.rows[(cells.rows["scene"] == scene) & (cells.rows["samples"] == samples)]
-        samet = rows[rows["structure"] == "samet"].iloc[0]["trace_ms_median"]
-        own = rows[rows["structure"] == "beam"]
-        own = own[own["parameters"].str.contains(option, regex=False)]
+    def ratio(scene: str, samples: int, **wanted: str) -> float | None:
+        view = rows[(rows["scene"] == scene) & (rows["samples"] == samples)]
+        samet = view[view["structure"] == "samet"].iloc[0]["trace_ms_median"]
+        own = view[view["structure"] == "beam"]
+        own = own[own["chosen"].map(lambda chosen: wanted.items() <= chosen.items())]
         return None if own.empty else float(samet / own.iloc[0]["trace_ms_median"])
 
-    plain = "continue=rays,share_corners=false"
-    columns = {
+    plain = {"continue": "rays", "share_corners": "false"}
+    columns: dict[str, tuple[int, dict[str, str]]] = {
         "1 sample: thesis": (1, plain),
-        "`continue=beams`": (1, "continue=beams"),
+        "`continue=beams`": (1, {"continue": "beams"}),
         "5 samples: thesis": (5, plain),
-        "`continue=beams`, 5 samples": (5, "continue=beams"),
-        "`share_corners=true`, 5 samples": (5, "share_corners=true"),
+        "`continue=beams`, 5 samples": (5, {"continue": "beams"}),
+        "`share_corners=true`, 5 samples": (5, {"share_corners": "true"}),
     }
     return {
-        "size": cells.sizes[0],
+        "size": "640x480",
         "columns": list(columns),
         "ratios": {
-            scene: [ratio(scene, *choice) for choice in columns.values()] for scene in cells.scenes
+            scene: [ratio(scene, samples, **wanted) for samples, wanted in columns.values()]
+            for scene in dict.fromkeys(rows["scene"])
         },
     }
+
+
+def _with_parameters(file: Path) -> pd.DataFrame:
+    rows = pd.read_csv(file)
+    return rows.assign(chosen=rows["parameters"].map(parameter_items))

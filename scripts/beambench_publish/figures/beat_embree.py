@@ -5,9 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import pandas as pd
+
 from beambench_publish.figures.cells import Cells
 from beambench_publish.figures.comparison import figures_of, read_pairings
 from beambench_publish.reports import BEAT_EMBREE
+from beambench_report.base.ratio import Ratio
 
 _MILLION = "bumpy:triangles=1000000"
 _FEWER = "bumpy:triangles=200000"
@@ -36,7 +39,16 @@ def figures(folder: Path) -> dict[str, Any]:
             "embree": [one.embree.build for one in million],
         },
         "memory": _memory(folder / "memory"),
+        "xeon": _xeon(folder / "xeon.csv"),
         "fastest": sorted({one.embree.contender for one in found if one.isa == "best"}),
+    }
+
+
+def _xeon(file: Path) -> dict[str, Ratio]:
+    """The geometric mean over the scenes of triangles by resolution, of an earlier run."""
+    return {
+        row.resolution: Ratio(row.ratio, row.low, row.high)
+        for row in pd.read_csv(file).itertuples()
     }
 
 

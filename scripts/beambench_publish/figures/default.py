@@ -8,7 +8,7 @@ from typing import Any
 from beambench_publish.figures.cells import Cells
 from beambench_report.base.cell_files import read_cell_files
 from beambench_report.base.machine import read_exclusions
-from beambench_report.base.records import Run, read_run
+from beambench_report.base.records import read_run
 from beambench_report.run.repeatability import repeatability
 from beambench_report.run.standings import overall, standings
 
@@ -44,7 +44,7 @@ def figures(folder: Path) -> dict[str, Any]:
 
 def _again(folder: Path) -> dict[str, Any]:
     """The medians of each of two runs that lie in the intervals that the other one states."""
-    first, second = _two_runs(folder)
+    first, second = read_run(folder), read_run(folder / "again")
     there, back = repeatability(first, second), repeatability(second, first)
     return {
         "folders": (str(first.directory.name), str(second.directory.name)),
@@ -56,10 +56,3 @@ def _again(folder: Path) -> dict[str, Any]:
         "half": float(there.cells["change"].abs().quantile(0.5)),
         "most": float(there.cells["change"].abs().quantile(0.9)),
     }
-
-
-def _two_runs(folder: Path) -> tuple[Run, Run]:
-    """This run and its repetition; where there is none yet, the two of an earlier commit."""
-    if (folder / "again").is_dir():
-        return read_run(folder), read_run(folder / "again")
-    return read_run(folder.parent / "repeated"), read_run(folder.parent / "repeated-again")

@@ -10,6 +10,7 @@ from typing import Any
 import pandas as pd
 
 from beambench_publish.figures.origins import origins
+from beambench_publish.figures.thesis_kept import chosen_levels, samplings
 from beambench_report.base.cell_files import IDENTITY
 from beambench_report.base.fastest import with_fastest
 from beambench_report.base.records import Run, read_run
@@ -61,6 +62,8 @@ def figures(folder: Path) -> dict[str, Any]:
         "more": len(more),
         "mirrors": mirrors,
         "unread": unread,
+        "sampling": samplings(folder / "sampling.csv"),
+        "chosen_levels": chosen_levels(folder / "chosen-levels.csv"),
     }
 
 

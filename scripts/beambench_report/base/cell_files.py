@@ -1,12 +1,11 @@
 """The repetitions, messages and examples of single cells, which results.csv does not have.
 
-They are in DIRECTORY/cells, one JSON file per cell. A published run has one compact file instead,
+They are in the log of a run (`run_log`). A published run has one compact file instead,
 repetitions.csv, a line for each repetition: `line` is that of its cell in results.csv, whose header
 is line 1. From it paired ratios and the noise of a calibration can be computed again.
 """
 
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import isclose
 from pathlib import Path
@@ -16,19 +15,14 @@ from typing import Literal
 import pandas as pd
 
 from beambench_report.base.csv_texts import csv_of, unguarded
-from beambench_report.base.files import Problem, load_json, write_text
+from beambench_report.base.files import Problem, write_text
 from beambench_report.base.ratio import Ratio, median_of, paired_ratio, unpaired_ratio
-from beambench_report.base.records import read_run
-
-# A run has some hundreds of cells. Thousands of files take too long to read.
-MOST_FILES = 5000
+from beambench_report.base.records import TIMED_VERDICTS, read_run
+from beambench_report.base.run_log import LoggedCell, Repetition, has_log, logged_cells
 
 IDENTITY = ("scene", "camera", "structure", "parameters", "width", "height", "samples", "ray_kind")
 Identity = tuple[str, ...]
 Row = dict[str, object]
-Repetition = dict[str, float]
-"""A member for each figure, as in the file of a cell; `round` is its turn."""
-
 REPETITIONS = "repetitions.csv"
 
 
@@ -42,7 +36,7 @@ class Example:
 
 @dataclass(frozen=True)
 class CellFile:
-    """One file of DIRECTORY/cells."""
+    """One cell of a run."""
 
     message: str
     examples: tuple[Example, ...]
@@ -62,15 +56,18 @@ def identity(row: Mapping[str, object]) -> Identity:
 
 
 def read_cell_files(directory: Path) -> dict[Identity, CellFile]:
-    """Every cell's file; none where there are too many to be read.
+    """Every cell of the log that has an end or repetitions.
 
-    Where there are no files, what the compact file of repetitions holds; it has no messages.
+    Where there is no log, what the compact file of repetitions holds; it has no messages.
     """
-    paths = [path for path in directory.glob("cells/*.json") if not path.name.startswith(".")]
-    if len(paths) > MOST_FILES:
-        return {}
-    if paths:
-        return dict(_read(path) for path in paths)
+    if has_log(directory):
+        return {
+            identity(cell.facts): _cell_file(
+                cell.message, tuple(_example(text) for text in cell.examples), repetitions_of(cell)
+            )
+            for cell in logged_cells(directory)
+            if cell.is_finished or cell.verdict
+        }
     return {
         identity(row): _cell_file("", (), repetitions)
         for row, repetitions in published_repetitions(directory)
@@ -111,15 +108,9 @@ def _without_gaps(repetition: Repetition) -> Repetition:
     return known | {"round": int(repetition["round"])}
 
 
-@contextmanager
-def opened_cell(path: Path) -> Iterator[dict]:
-    """A file of DIRECTORY/cells. Raises Problem where it is not what the block takes it for."""
-    try:
-        yield load_json(path)
-    except (ValueError, KeyError, TypeError) as error:
-        raise Problem(
-            f"{path}: is not a cell of a run ({type(error).__name__}: {error}); remove it"
-        ) from None
+def repetitions_of(cell: LoggedCell) -> list[Repetition]:
+    """The repetitions of a cell whose times count; of another, none."""
+    return cell.repetitions if cell.verdict in TIMED_VERDICTS else []
 
 
 def ratio_of(
@@ -136,13 +127,6 @@ def ratio_of(
     ]
     paired = paired_ratio(*repeated) if len(repeated) == 2 else None
     return paired or unpaired_ratio(median_of(row, phase), median_of(base, phase))
-
-
-def _read(path: Path) -> tuple[Identity, CellFile]:
-    with opened_cell(path) as source:
-        examples = tuple(_example(text) for text in source["examples"])
-        file = _cell_file(source["message"], examples, source["repetitions"])
-        return identity(source["row"]), file
 
 
 def _cell_file(
@@ -176,21 +160,21 @@ _FIGURES = "build_ms trace_ms warm_trace_ms build_cpu_ms trace_cpu_ms clock_ghz"
 
 
 def write_repetitions(run: Path, output: Path | None = None) -> Path:
-    """Writes RUN/cells into `output`, RUN/repetitions.csv if not given; six significant digits.
+    """Writes the repetitions of RUN's log into `output`; six significant digits.
+
+    Into RUN/repetitions.csv if not given.
 
     Raises Problem where the run has no repetitions, or a cell that results.csv has not.
     """
     rows = read_run(run).rows
     lines = {identity(row): place + 2 for place, row in rows.iterrows()}
     table = []
-    for path in sorted(run.glob("cells/[!.]*.json")):
-        with opened_cell(path) as cell:
-            line = lines[identity(cell["row"])]
-            for one in cell["repetitions"]:
-                figures = {name: one[name] for name in _FIGURES if name in one}
-                table.append({"line": line, "round": one["round"], **figures})
+    for cell in logged_cells(run):
+        for one in repetitions_of(cell):
+            figures = {name: one[name] for name in _FIGURES if name in one}
+            table.append({"line": lines[identity(cell.facts)], "round": one["round"], **figures})
     if not table:
-        raise Problem(f"{run}/cells: holds no repetitions; give the folder that a run left")
+        raise Problem(f"{run}: holds no log with repetitions; give the folder that a run left")
     columns = ["line", "round", *_FIGURES]
     whole = pd.DataFrame(table, columns=columns).sort_values(["line", "round"])
 

@@ -8,7 +8,7 @@ def guarded(value: object) -> object:
 
     A text that begins with one of `=+-@`, a tab or a carriage return, or with an apostrophe, has an
     apostrophe before it. beambench writes results.csv like that, too
-    (harness/bench/record/run_folder.cpp).
+    (harness/analysis/results_csv.cpp).
     """
     if isinstance(value, str) and value.startswith(_FIRST_OF_FORMULAS):
         return f"'{value}"

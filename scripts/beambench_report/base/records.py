@@ -11,6 +11,7 @@ from beambench_report.base.columns import COUNTER_SUFFIX, RENAMED_COLUMNS, dicti
 from beambench_report.base.csv_texts import unguarded
 from beambench_report.base.files import Problem
 from beambench_report.base.names import contender_labels, subjects, view_titles
+from beambench_report.base.run_log import has_log
 
 # The columns without which there is nothing to show.
 NEEDED_COLUMNS = (
@@ -142,8 +143,8 @@ def _read_csv(path: Path) -> pd.DataFrame:
 
 
 def _remedy(directory: Path) -> str:
-    if (directory / "manifest.json").is_file():
-        return "the run was cut off before its first cell ended"
+    if has_log(directory):
+        return f"the run was cut off; resume it, or: beambench analyze --write {directory}"
     return "give the folder that `beambench run` wrote"
 
 

@@ -17,12 +17,12 @@ from scipy import stats
 
 from beambench_report.base.cell_files import (
     REPETITIONS,
-    Repetition,
     Row,
-    opened_cell,
     published_repetitions,
+    repetitions_of,
 )
 from beambench_report.base.files import Problem
+from beambench_report.base.run_log import LOG, Repetition, has_log, logged_cells
 from beambench_report.history.night import VIEW
 from beambench_report.history.nights import Nights
 from beambench_report.history.steps import Rule, find_steps
@@ -257,8 +257,8 @@ def _nights_until_found(
 
 
 PROCESS = 0.004
-"""Standard deviation of a ratio from one process to the next: results/published/repeated against
-repeated-again, 96 cells of the same commit."""
+"""Standard deviation of a ratio from one process to the next: two default runs of commit f245b10,
+96 cells."""
 
 _ROUNDS = 9  # the least repetitions of a nightly cell
 _NIGHTS = 200
@@ -274,7 +274,7 @@ def noise_of_samples(folders: Iterable[Path], seed: int = 1999) -> Noise:
             scenes.setdefault(f"{folder}/{scene}", []).append(nights)
     if not scenes:
         raise Problem(
-            f"no run has a view with Embree, others, and {_ROUNDS} repetitions in cells/*.json "
+            f"no run has a view with Embree, others, and {_ROUNDS} repetitions in {LOG} "
             f"or {REPETITIONS}; give runs whose raw samples were not pruned"
         )
     parts = []
@@ -299,7 +299,9 @@ def _views(folder: Path) -> Iterable[tuple[str, list[dict[int, float]]]]:
             view = tuple(row[name] for name in VIEW)
             logs = {one["round"]: log(_cycles(one)) for one in repetitions}
         except (ValueError, KeyError, TypeError) as error:
-            raise Problem(f"{place}: is not a cell of a run ({error}); remove it") from None
+            raise Problem(
+                f"{place}: has no repetitions of a run ({error}); measure it anew"
+            ) from None
         is_reference = row["structure"] == "embree" and "mode=single" in row["parameters"]
         views.setdefault(view, []).append((is_reference, logs))
         scenes[view] = row["scene"]
@@ -311,11 +313,10 @@ def _views(folder: Path) -> Iterable[tuple[str, list[dict[int, float]]]]:
 
 def _cells(folder: Path) -> Iterable[tuple[Path, Row, list[Repetition]]]:
     """The file, row and repetitions of each cell."""
-    paths = sorted(folder.glob("cells/*.json"))
-    for path in paths:
-        with opened_cell(path) as cell:
-            yield path, cell["row"], cell["repetitions"]
-    if not paths:
+    if has_log(folder):
+        for cell in logged_cells(folder):
+            yield folder / LOG, cell.facts, repetitions_of(cell)
+    else:
         for row, repetitions in published_repetitions(folder):
             yield folder / REPETITIONS, row, repetitions
 

@@ -9,9 +9,10 @@ from pathlib import Path
 
 import pandas as pd
 
-from beambench_report.base.cell_files import opened_cell
+from beambench_report.base.cell_files import repetitions_of
 from beambench_report.base.files import write_text
 from beambench_report.base.records import Run, contenders_with_times, size_of
+from beambench_report.base.run_log import logged_cells
 
 BIGGER_IS_BETTER = "benchmark-bigger-is-better.json"
 GOOGLE_BENCHMARK = "benchmark-google.json"
@@ -113,14 +114,12 @@ def _cpu_time(row: pd.Series) -> float:
 
 def _samples(directory: Path) -> dict[str, list[tuple[float, float]]]:
     samples = {}
-    for path in directory.glob("cells/[!.]*.json"):
-        with opened_cell(path) as cell:
-            samples[benchmark_name(pd.Series(cell["row"]))] = [
-                (
-                    one["build_ms"] + one["trace_ms"],
-                    one.get("build_cpu_ms", one["build_ms"])
-                    + one.get("trace_cpu_ms", one["trace_ms"]),
-                )
-                for one in cell["repetitions"]
-            ]
+    for cell in logged_cells(directory):
+        samples[benchmark_name(pd.Series(cell.facts))] = [
+            (
+                one["build_ms"] + one["trace_ms"],
+                one.get("build_cpu_ms", one["build_ms"]) + one.get("trace_cpu_ms", one["trace_ms"]),
+            )
+            for one in repetitions_of(cell)
+        ]
     return samples

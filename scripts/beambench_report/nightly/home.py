@@ -10,8 +10,9 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
-from beambench_report.base.files import ROOT, Problem, load_json, read_json
+from beambench_report.base.files import ROOT, Problem, read_json
 from beambench_report.base.records import FAULTLESS_VERDICTS
+from beambench_report.base.run_log import LOG, logged_cells
 from beambench_report.history.store import recorded_folders
 
 
@@ -114,14 +115,16 @@ def abandon(run: Path) -> Path:
 def prune(home: Home, keep: int = KEEP_SAMPLES) -> list[Path]:
     """Deletes raw samples of all but the newest runs, and runs that were abandoned before them.
 
-    The cells that were wrong keep their files: they hold the examples.
+    A run with wrong cells keeps its log, which has the examples.
     """
     runs = home.finished()
     old, kept = (runs[:-keep], runs[-keep:]) if keep > 0 else (runs, [])
     deleted = []
     for run in old:
-        deleted += [path for path in (run / "google-benchmark.json",) if path.exists()]
-        deleted += [path for path in run.glob("cells/*.json") if _was_right(path)]
+        files = ["google-benchmark.json"]
+        if all(cell.verdict in FAULTLESS_VERDICTS for cell in logged_cells(run)):
+            files.append(LOG)
+        deleted += [run / name for name in files if (run / name).exists()]
     for path in deleted:
         path.unlink()
     oldest = kept[0].name if kept else ""
@@ -130,10 +133,3 @@ def prune(home: Home, keep: int = KEEP_SAMPLES) -> list[Path]:
             shutil.rmtree(path)
             deleted.append(path)
     return deleted
-
-
-def _was_right(path: Path) -> bool:
-    try:
-        return load_json(path)["row"]["verdict"] in FAULTLESS_VERDICTS
-    except (ValueError, KeyError, TypeError):
-        return False

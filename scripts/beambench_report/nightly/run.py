@@ -6,6 +6,7 @@ from pathlib import Path
 
 from beambench_report.base.files import INTERRUPTED, Problem, load_json, run_in_foreground, say
 from beambench_report.base.records import read_run
+from beambench_report.base.run_log import has_log
 from beambench_report.history.alarms import doubt, find_alarms, sentence
 from beambench_report.history.night import night_of
 from beambench_report.history.nights import read_nights
@@ -126,7 +127,7 @@ def _free_folder(home: Path, time: datetime) -> Path:
 
 
 def _measure(request: Request, folder: Path, lock: int) -> int:
-    resume = request.resume and (folder / "manifest.json").exists()
+    resume = request.resume and has_log(folder)
     arguments = ["--resume", folder] if resume else [request.sweep, "-o", folder]
     command = [str(part) for part in (request.beambench, "run", *arguments)]
     return run_in_foreground(command, pass_fds=(lock,))

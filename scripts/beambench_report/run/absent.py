@@ -51,13 +51,9 @@ def _repetitions(run: Run, files: Mapping[Identity, CellFile]) -> Iterator[str]:
     timed = run.rows[run.rows["timed"]]
     without = sum(identity(row) not in files for row in timed.to_dict("records")) if files else 0
     if not files:
-        why = (
-            "are too many to be read here"
-            if any(run.directory.glob("cells/*.json"))
-            else "are not in this folder"
-        )
         yield (
-            f"The repetitions of the cells {why}: ratios are of medians and have wider intervals."
+            "The repetitions of the cells are not in this folder: ratios are of medians and have "
+            "wider intervals."
         )
     elif without:
         yield (
@@ -66,7 +62,7 @@ def _repetitions(run: Run, files: Mapping[Identity, CellFile]) -> Iterator[str]:
         )
     wrong = ~run.rows["verdict"].isin(FAULTLESS_VERDICTS)
     if wrong.any() and not any(file.message for file in files.values()):
-        yield "Why cells were wrong is not in this folder; a run has it in cells/*.json."
+        yield "Why cells were wrong is not in this folder; a run has it in run.jsonl."
 
 
 def _images(run: Run, figures: Figures, pictures: Sequence[Image]) -> Iterator[str]:

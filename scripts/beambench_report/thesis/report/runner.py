@@ -7,6 +7,7 @@ from pathlib import Path
 from beambench_report.base.files import INTERRUPTED, load_json, run_in_foreground, say, write_text
 from beambench_report.base.quantities import duration_in_words
 from beambench_report.base.records import TIMED_VERDICTS
+from beambench_report.base.run_log import has_log, logged_cells
 from beambench_report.thesis.report.plan import Plan, Sweep
 
 _NOT_RIGHT = 1
@@ -57,9 +58,10 @@ def state_of(folder: Path) -> str:
     try:
         manifest = load_json(folder / "manifest.json")
     except (FileNotFoundError, ValueError):
-        return "waiting"
-    ended = isinstance(manifest, dict) and manifest.get("finished_utc")
-    return "finished" if ended else "begun"
+        manifest = None
+    if isinstance(manifest, dict) and manifest.get("finished_utc"):
+        return "finished"
+    return "begun" if manifest or has_log(folder) else "waiting"
 
 
 def describe(plan: Plan, directory: Path | None = None) -> str:
@@ -69,10 +71,11 @@ def describe(plan: Plan, directory: Path | None = None) -> str:
         count, state = len(sweep.cells()), "waiting"
         if directory is not None:
             state = state_of(directory / sweep.name)
-        done = len(list((directory or Path()).glob(f"{sweep.name}/cells/*.json")))
-        progress = {"finished": "finished", "begun": f"{done} done"}.get(state, "")
+        progress = "finished" if state == "finished" else ""
         left = 0.0 if state == "finished" else sweep.budget_seconds
-        if state == "begun":
+        if directory is not None and state == "begun":
+            done = sum(cell.is_finished for cell in logged_cells(directory / sweep.name))
+            progress = f"{done} done"
             left *= max(0.0, 1 - done / count)
         lines.append(
             f"{sweep.name:<18} {count:>4} cells {duration_in_words(left):>12}  {progress}".rstrip()
@@ -96,8 +99,4 @@ def _run(sweep: Sweep, directory: Path, beambench: Path, *, resume: bool) -> int
 
 
 def _has_wrong_cells(folder: Path) -> bool:
-    for path in folder.glob("cells/*.json"):
-        row = load_json(path)["row"]
-        if row["verdict"] not in TIMED_VERDICTS:
-            return True
-    return False
+    return any(cell.verdict not in TIMED_VERDICTS for cell in logged_cells(folder))

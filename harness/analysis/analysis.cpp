@@ -1,0 +1,195 @@
+#include "harness/analysis/analysis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "harness/base/messages.hpp"
+#include "harness/bench/record/conditions.hpp"
+#include "harness/bench/record/machine.hpp"
+#include "harness/bench/record/shard.hpp"
+
+namespace beambench::analysis {
+namespace {
+
+using bench::CellRecord;
+using bench::Conditions;
+using bench::QueryPath;
+using bench::Repetition;
+using Json = nlohmann::ordered_json;
+
+std::optional<Overhead> overhead_of(const CellRecord& cell) {
+  if (cell.verdict != verify::Verdict::kOk || !cell.has_times() || !cell.harness ||
+      cell.harness->path == QueryPath::kImageOwn || cell.harness->path == QueryPath::kPicture) {
+    return std::nullopt;
+  }
+  const double trace_ms = bench::median(bench::collect(cell, &Repetition::trace_ms));
+  // A plug-in that is faster than making rays one by one does not do so, whatever it states.
+  if (trace_ms <= cell.harness->ms) return std::nullopt;
+  return Overhead{std::string(to_string(cell.harness->path)), cell.id.name(),
+                  cell.harness->ms / trace_ms};
+}
+
+/// A number, or null where JSON has none for it: infinity.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json to_json(const TimeRatio& ratio) {
+  Json json{{"value", ratio.value}};
+  if (ratio.interval) {
+    json["low"] = ratio.interval->low;
+    json["high"] = ratio.interval->high;
+  }
+  json["paired"] = ratio.is_paired;
+  return json;
+}
+
+Json to_json(const std::vector<Standing>& standings) {
+  Json list = Json::array();
+  for (const Standing& one : standings) {
+    list.push_back({{"contender", one.contender},
+                    {"structure", one.structure},
+                    {"build_ms", one.build_ms},
+                    {"ns_per_ray", one.ns_per_ray},
+                    {"ratio", to_json(one.ratio)},
+                    {"is_tied", one.is_tied()}});
+  }
+  return list;
+}
+
+Json to_json(const Standings& view) {
+  Json left_out = Json::array();
+  for (const LeftOut& one : view.left_out) {
+    left_out.push_back({{"contender", one.contender}, {"reason", one.reason}});
+  }
+  Json json{{"view", view.view},
+            {"subject", view.subject},
+            {"size", view.size},
+            {"ray_kind", view.ray_kind},
+            {"rays", view.rays},
+            {"ranked", to_json(view.ranked)},
+            {"references", to_json(view.references)},
+            {"left_out", left_out}};
+  if (const auto rays = view.break_even_rays()) {
+    json["break_even"] = {{"rays", number(*rays)}, {"over", view.last_overtaken()->contender}};
+  }
+  return json;
+}
+
+Json to_json(const std::vector<MeanStanding>& means) {
+  Json list = Json::array();
+  for (const MeanStanding& mean : means) {
+    list.push_back({{"contender", mean.contender},
+                    {"structure", mean.structure},
+                    {"ratio", to_json(mean.ratio)},
+                    {"views", mean.views},
+                    {"wins", mean.wins}});
+  }
+  return list;
+}
+
+}  // namespace
+
+std::vector<Overhead> largest_overheads(std::span<const CellRecord> cells) {
+  std::vector<Overhead> largest;
+  for (const CellRecord& cell : cells) {
+    const std::optional<Overhead> found = overhead_of(cell);
+    if (!found) continue;
+    const auto same = std::ranges::find(largest, found->path, &Overhead::path);
+    if (same == largest.end()) {
+      largest.push_back(*found);
+    } else if (found->part > same->part) {
+      *same = *found;
+    }
+  }
+  std::ranges::stable_sort(largest, std::ranges::greater(), &Overhead::part);
+  return largest;
+}
+
+std::vector<std::string> reasons_for_care(const bench::Run& run) {
+  constexpr double kMostArePrecise = 0.8;
+  constexpr std::size_t kLeastForInterval = 6;
+  std::size_t timed = 0, imprecise = 0, without_interval = 0;
+  for (const CellRecord& cell : run.cells) {
+    if (!cell.has_times()) continue;
+    ++timed;
+    if (cell.stop_reason != bench::StopReason::kPrecision) ++imprecise;
+    if (cell.repetitions.size() < kLeastForInterval) ++without_interval;
+  }
+  const Conditions conditions = bench::conditions_of(run.manifest);
+  std::vector<std::string> reasons;
+  if (conditions.noise && *conditions.noise > bench::kNoisy) {
+    reasons.push_back(
+        fmt::format("equal work took up to {:.0f}% longer than usual", 100 * *conditions.noise));
+  }
+  if (conditions.load > bench::kIdleLoad) {
+    reasons.push_back(fmt::format("other work was running (load {:.2f})", conditions.load));
+  }
+  if (const auto throttled = bench::describe(conditions.throttling)) reasons.push_back(*throttled);
+  if (static_cast<double>(timed - imprecise) < kMostArePrecise * static_cast<double>(timed)) {
+    reasons.push_back(fmt::format("{} of {} less precise than wanted", imprecise,
+                                  base::counted(timed, "timed cell")));
+  }
+  if (without_interval > 0) {
+    reasons.push_back(fmt::format("{} of {} repeated fewer than {} times, so without intervals",
+                                  without_interval, base::counted(timed, "timed cell"),
+                                  kLeastForInterval));
+  }
+  if (!run.is_ended()) reasons.emplace_back("the run was cut off");
+  return reasons;
+}
+
+Analysis analyze(const bench::Run& run) {
+  Analysis analysis;
+  analysis.cells = run.cells.size();
+  analysis.planned = run.plan.size();
+  analysis.is_part = bench::shard_of_manifest(run.manifest).has_value();
+  for (const CellRecord& cell : run.cells) {
+    if (cell.verdict == verify::Verdict::kNoRays) {
+      ++analysis.without_rays;
+    } else if (cell.verdict == verify::Verdict::kUnsupported) {
+      ++analysis.unsupported;
+    } else if (!cell.keeps_times()) {
+      ++analysis.failed;
+    }
+  }
+  analysis.reasons_for_care = reasons_for_care(run);
+  analysis.views = standings(run);
+  analysis.means = overall(analysis.views);
+  analysis.overheads = largest_overheads(run.cells);
+  return analysis;
+}
+
+int exit_code_of(const Analysis& analysis) {
+  if (analysis.possible() == 0 && !analysis.is_part) return base::kInvalidInput;
+  return analysis.failed > 0 ? base::kMismatch : base::kSuccess;
+}
+
+Json to_json(const Analysis& analysis) {
+  Json views = Json::array(), means = Json::array(), overheads = Json::array();
+  for (const Standings& view : analysis.views) views.push_back(to_json(view));
+  for (const OverallStandings& one : analysis.means) {
+    means.push_back({{"ray_kind", one.ray_kind},
+                     {"views", one.views},
+                     {"means", to_json(one.means)},
+                     {"references", to_json(one.references)}});
+  }
+  for (const Overhead& one : analysis.overheads) {
+    overheads.push_back({{"query_path", one.path}, {"cell", one.cell}, {"part", one.part}});
+  }
+  return {{"schema_version", 1},
+          {"cells", analysis.cells},
+          {"planned", analysis.planned},
+          {"failed", analysis.failed},
+          {"without_rays", analysis.without_rays},
+          {"unsupported", analysis.unsupported},
+          {"is_part", analysis.is_part},
+          {"reasons_for_care", analysis.reasons_for_care},
+          {"views", views},
+          {"means", means},
+          {"harness_overheads", overheads}};
+}
+
+}  // namespace beambench::analysis

@@ -1,0 +1,61 @@
+#pragma once
+// The conclusions from a run: who is fastest, what the times are worth, what the harness adds.
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "harness/analysis/standings.hpp"
+#include "harness/bench/record/run_log.hpp"
+
+namespace beambench::analysis {
+
+/// The harness's own share of a trace (`harness_ms`) in the cell where it is the largest part of
+/// the contender's time, among those of one query path.
+struct Overhead {
+  std::string path;  ///< the QueryPath, by name
+  std::string cell;  ///< its name
+  double part;       ///< of its median trace time
+};
+
+/// What a run comes to.
+struct Analysis {
+  std::size_t cells = 0;         ///< in the record
+  std::size_t planned = 0;       ///< of the sweep, or of its shard
+  std::size_t failed = 0;        ///< wrong or not built
+  std::size_t without_rays = 0;  ///< of a kind of rays that their scene has none of
+  std::size_t unsupported = 0;   ///< of rays or primitives the structure does not take
+
+  /// The cells that could be measured.
+  std::size_t possible() const { return cells - without_rays - unsupported; }
+
+  bool is_part = false;                       ///< is the run a shard of a sweep?
+  std::vector<std::string> reasons_for_care;  ///< why the times are worth little; clauses
+  std::vector<Standings> views;
+  std::vector<OverallStandings> means;
+  std::vector<Overhead> overheads;  ///< the largest first
+};
+
+/// Draws the conclusions from a run, which may have been cut off. Depends on nothing else.
+Analysis analyze(const bench::Run& run);
+
+/// One for each path with right answers, the largest first. Structures that trace images by
+/// samples of their own have none, nor whole pictures, whose shading is wanted.
+std::vector<Overhead> largest_overheads(std::span<const bench::CellRecord> cells);
+
+/// Why the times of a run are worth little: noise of equal work, other work (a load average), a
+/// CPU quota, missed precision, too few repetitions for an interval. Clauses; none where nothing
+/// speaks against them.
+std::vector<std::string> reasons_for_care(const bench::Run& run);
+
+/// A mismatch where hits were wrong; invalid input where no scene of a whole sweep had any rays to
+/// measure. A shard may have none.
+int exit_code_of(const Analysis& analysis);
+
+/// The text of analysis.json.
+nlohmann::ordered_json to_json(const Analysis& analysis);
+
+}  // namespace beambench::analysis

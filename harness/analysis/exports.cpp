@@ -1,0 +1,82 @@
+#include "harness/analysis/exports.hpp"
+
+#include <ostream>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "harness/analysis/results_csv.hpp"
+#include "harness/analysis/words.hpp"
+#include "harness/bench/google_benchmark.hpp"
+#include "harness/bench/record/conditions.hpp"
+#include "scenes/core/files.hpp"
+#include "scenes/core/json_text.hpp"
+
+namespace beambench::analysis {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// The manifest mentions the harness's own time above this part of the fastest contender's.
+constexpr double kWantedOverhead = 0.02;
+
+Json overhead_json(const std::vector<Overhead>& overheads) {
+  if (overheads.empty()) return {};
+  Json json{{"part", overheads.front().part}, {"cell", overheads.front().cell}};
+  for (const Overhead& each : overheads) {
+    json["by_query_path"][each.path] = {{"part", each.part}, {"cell", each.cell}};
+  }
+  return json;
+}
+
+/// The manifest of a run with what its cells show.
+Json whole_manifest(const bench::Run& run, const Analysis& analysis) {
+  Json manifest = run.manifest;
+  manifest["harness_overhead"] = overhead_json(analysis.overheads);
+  Json& uncontrolled = manifest.at("uncontrolled");
+  if (const auto throttled = bench::describe(bench::conditions_of(manifest).throttling)) {
+    uncontrolled.push_back(fmt::format("During the run, {}.", *throttled));
+  }
+  if (!analysis.overheads.empty() && analysis.overheads.front().part > kWantedOverhead) {
+    uncontrolled.push_back(fmt::format("The {}.", describe(analysis.overheads)));
+  }
+  return manifest;
+}
+
+/// The context of google-benchmark.json. The host's name stays out of records; library_build_type
+/// is of Google Benchmark alone.
+Json benchmark_context(const Json& manifest) {
+  const Json& program = manifest.at("program");
+  return {{"host_name", manifest.at("machine").at("id")},
+          {"beambench_run_id", manifest.at("run_id")},
+          {"beambench_commit", program.at("commit")},
+          {"beambench_dirty", program.at("dirty")},
+          {"beambench_build_type", program.at("build_type")},
+          {"beambench_isa", manifest.at("measurement").at("isa")}};
+}
+
+void write_exports(const fs::path& folder, const bench::Run& run, const Analysis& analysis) {
+  const Json manifest = whole_manifest(run, analysis);
+  write_file(folder / "config.json", json_text(run.config) + '\n');
+  write_file(folder / "manifest.json", json_text(manifest) + '\n');
+  write_file(folder / "analysis.json", json_text(to_json(analysis)) + '\n');
+  write_file(folder / "summary.txt", summary(analysis));
+  write_file(folder / "results.csv", [&](std::ostream& out) { write_results(out, run); });
+  write_file(folder / "google-benchmark.json", [&](std::ostream& out) {
+    bench::write_google_benchmark_json(out, benchmark_context(manifest), run.cells);
+  });
+}
+
+}  // namespace
+
+Analysis conclude(const fs::path& folder) {
+  const bench::Run run = bench::read_run(folder);
+  return read_as_written((folder / bench::kLogName).string(), "begin a new run with -o", [&] {
+    const Analysis analysis = analyze(run);
+    write_exports(folder, run, analysis);
+    return analysis;
+  });
+}
+
+}  // namespace beambench::analysis

@@ -1,0 +1,340 @@
+#include "harness/analysis/results_csv.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <ostream>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "accel/core/work_counters.hpp"
+#include "harness/bench/record/robust_statistics.hpp"
+#include "harness/rays/fingerprint.hpp"
+#include "scenes/core/json_text.hpp"
+
+namespace beambench::analysis {
+namespace {
+
+using namespace bench;
+using Json = nlohmann::ordered_json;
+
+template <class Value>
+Json or_null(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json();
+}
+
+void add_run(Row& row, const RunFacts& run, const CellRecord& cell) {
+  row["schema_version"] = kSchemaVersion;
+  row["run_id"] = run.run_id;
+  row["time_utc"] = cell.time_utc;
+  row["commit"] = run.commit;
+  row["dirty"] = run.dirty;
+  row["machine_id"] = run.machine_id;
+  row["build_type"] = run.build_type;
+  row["flags"] = run.flags;
+  row["isa"] = run.isa;
+  const auto stated = [&](std::string accel::Statistics::*text) {
+    const bool known = cell.statistics && !((*cell.statistics).*text).empty();
+    return known ? Json((*cell.statistics).*text) : Json();
+  };
+  row["structure_isa"] = stated(&accel::Statistics::instruction_set);
+  row["library_version"] = stated(&accel::Statistics::library_version);
+  row["library_geometry"] = stated(&accel::Statistics::library_geometry);
+  row["threads"] = run.threads;
+}
+
+void add_identity(Row& row, const CellRecord& cell) {
+  row["scene"] = cell.id.scene;
+  row["camera"] = cell.id.camera;
+  row["scene_hash"] = rays::hex_digits(cell.rays.scene_hash);
+  row["rays_hash"] = rays::hex_digits(cell.rays.rays_hash);
+  row["seed"] = cell.rays.seed;
+  row["primitives"] = cell.rays.primitives;
+  row["structure"] = cell.id.structure;
+  row["parameters"] = cell.id.parameters;
+  row["width"] = cell.id.resolution.width;
+  row["height"] = cell.id.resolution.height;
+  row["samples"] = cell.id.samples;
+  row["ray_kind"] = cell.id.rays;
+  row["query"] = rays::to_string(cell.rays.query);
+  row["query_path"] = cell.harness ? Json(to_string(cell.harness->path)) : Json();
+  row["rays"] = cell.rays.rays;
+  row["hit_share"] = or_null(cell.rays.hit_share);
+  row["occluded_share"] = or_null(cell.rays.occluded_share);
+  row["coherence"] = or_null(cell.rays.coherence);
+}
+
+/// The 95% interval of a figure's median.
+void add_interval(Row& row, const std::string& figure, const std::vector<double>& samples) {
+  const std::optional<Interval> interval = median_interval(samples);
+  row[figure + "_ci_low"] = interval ? Json(interval->low) : Json();
+  row[figure + "_ci_high"] = interval ? Json(interval->high) : Json();
+}
+
+/// A statistic of samples; null where there are none.
+template <class Statistic>
+Json statistic(Statistic figure, const std::vector<double>& samples) {
+  return samples.empty() ? Json() : Json(figure(samples));
+}
+
+void add_wall_time(Row& row, const std::string& phase, const std::vector<double>& samples) {
+  row[phase + "_ms_median"] = statistic(median, samples);
+  row[phase + "_ms_min"] = statistic(minimum, samples);
+  row[phase + "_ms_mad"] = statistic(median_absolute_deviation, samples);
+}
+
+/// Null where nothing is left: of `null`, and of a plug-in that does not state that it makes no
+/// rays one by one.
+Json net_of_harness(const CellRecord& cell) {
+  if (!cell.harness || cell.verdict == verify::Verdict::kBaseline) return {};
+  const double net = median(collect(cell, &Repetition::trace_ms)) - cell.harness->ms;
+  return net > 0.0 ? Json(net) : Json();
+}
+
+void add_times(Row& row, const CellRecord& cell) {
+  const bool known = cell.has_times();
+  const auto samples = [&](auto figure) {
+    return known ? collect(cell, figure) : std::vector<double>();
+  };
+  const auto median_of = [&](auto figure) { return statistic(median, samples(figure)); };
+  row["repetitions"] = cell.repetitions.size();
+  row["stop_reason"] = cell.stop_reason ? Json(to_string(*cell.stop_reason)) : Json();
+  add_wall_time(row, "build", samples(&Repetition::build_ms));
+  add_wall_time(row, "trace", samples(&Repetition::trace_ms));
+  add_interval(row, "trace_ms", samples(&Repetition::trace_ms));
+  const std::vector<double> warm = known ? second_traces(cell) : std::vector<double>();
+  row["trace_warm_ms_median"] = statistic(median, warm);
+  add_interval(row, "trace_warm_ms", warm);
+  row["harness_ms"] = known && cell.harness ? Json(cell.harness->ms) : Json();
+  row["trace_net_ms_median"] = known ? net_of_harness(cell) : Json();
+  const std::vector<double> totals = samples(&Repetition::total_ms);
+  const std::optional<double> spread = repeat_spread_of_minimum(totals);
+  add_wall_time(row, "total", totals);
+  add_interval(row, "total_ms", totals);
+  row["total_ms_min_spread"] = spread ? Json(*spread) : Json();
+  const std::vector<double> cycles = samples(&Repetition::total_mcycles);
+  const std::optional<Interval> repeat = repeat_interval(cycles);
+  row["clock_ghz_median"] = median_of(&Repetition::clock_ghz);
+  row["total_mcycles_median"] = median_of(&Repetition::total_mcycles);
+  add_interval(row, "total_mcycles", cycles);
+  row["total_mcycles_repeat_low"] = repeat ? Json(repeat->low * (1.0 - kBetweenRuns)) : Json();
+  row["total_mcycles_repeat_high"] = repeat ? Json(repeat->high * (1.0 + kBetweenRuns)) : Json();
+  row["build_cpu_ms_median"] = median_of(&Repetition::build_cpu_ms);
+  row["trace_cpu_ms_median"] = median_of(&Repetition::trace_cpu_ms);
+  row["mrays_per_s"] = Json();
+  if (known) {
+    const double trace_us = 1e3 * median(collect(cell, &Repetition::trace_ms));
+    if (trace_us > 0.0) row["mrays_per_s"] = static_cast<double>(cell.rays.rays) / trace_us;
+  }
+}
+
+/// The median count of an event; null where not every repetition has one.
+Json median_count(const CellRecord& cell, HardwareCounts Repetition::*counts, std::size_t event) {
+  std::vector<double> values;
+  for (const Repetition& repetition : cell.repetitions) {
+    const auto& count = (repetition.*counts)[event];
+    if (!count) return {};
+    values.push_back(static_cast<double>(*count));
+  }
+  return std::llround(median(values));
+}
+
+void add_hardware_counts(Row& row, const CellRecord& cell) {
+  const bool known = cell.has_times();
+  const auto add = [&](std::string_view phase, HardwareCounts Repetition::*counts) {
+    for (std::size_t event = 0; event < kHardwareEvents.size(); ++event) {
+      row[fmt::format("{}_{}", phase, kHardwareEvents[event])] =
+          known ? median_count(cell, counts, event) : Json();
+    }
+  };
+  add("build", &Repetition::build_counts);
+  add("trace", &Repetition::trace_counts);
+}
+
+/// A figure that a family adds to its statistics; null where it does not.
+Json own_figure(const accel::Statistics& statistics, std::string_view name) {
+  const auto found =
+      std::ranges::find(statistics.more, name, &std::pair<std::string, double>::first);
+  return found == statistics.more.end() ? Json() : Json(found->second);
+}
+
+/// A family without nodes (Embree does not report any, `exhaustive` has none) leaves these null.
+void add_statistics(Row& row, const CellRecord& cell) {
+  row["memory_bytes"] = cell.statistics ? Json(cell.statistics->bytes) : Json();
+  row["allocated_bytes"] = or_null(cell.allocated_bytes);
+  const bool has_nodes = cell.statistics && cell.statistics->nodes > 0;
+  const auto size = [&](std::uint64_t accel::Statistics::*member) {
+    return has_nodes ? Json((*cell.statistics).*member) : Json();
+  };
+  row["nodes"] = size(&accel::Statistics::nodes);
+  row["leaves"] = size(&accel::Statistics::leaves);
+  row["empty_leaves"] = size(&accel::Statistics::empty_leaves);
+  row["references"] = size(&accel::Statistics::references);
+  row["depth"] = size(&accel::Statistics::depth);
+  row["tree_cost"] = cell.statistics ? own_figure(*cell.statistics, "cost") : Json();
+  for (const char* name : {"sah_nodes", "sah_leaves", "sah_tests"}) {
+    row[name] = cell.statistics ? own_figure(*cell.statistics, name) : Json();
+  }
+}
+
+void add_counters(Row& row, const CellRecord& cell) {
+  const NamedCounters& counters = cell.work.counters;
+  const auto rays = static_cast<double>(cell.rays.rays);
+  const auto add = [&](std::string_view name) {
+    const auto found = counters.find(name);
+    row[fmt::format("{}_per_ray", name)] =
+        found == counters.end() ? Json() : Json(static_cast<double>(found->second) / rays);
+  };
+  std::ranges::for_each(accel::kCounterNames, add);
+  std::ranges::for_each(accel::kTestNames, add);
+  for (const auto& [name, count] : counters) {
+    row[name + "_per_ray"] = static_cast<double>(count) / rays;
+  }
+}
+
+/// Adds those of whole pictures: `shadow_rays`, and `shadow_box_tests_per_ray` of the shadow rays
+/// alone. A family's own counters are not split by kind: most are of beams, which only camera rays
+/// have.
+void add_kinds(Row& row, const CellRecord& cell) {
+  for (const RaysOfKind& kind : cell.work.kinds) {
+    row[kind.kind + "_rays"] = kind.rays;
+    if (cell.work.counters.empty() || kind.rays == 0) continue;
+    const auto add = [&](std::string_view name) {
+      const auto count = kind.counters.find(name);
+      if (count == kind.counters.end()) return;
+      row[fmt::format("{}_{}_per_ray", kind.kind, name)] =
+          static_cast<double>(count->second) / static_cast<double>(kind.rays);
+    };
+    std::ranges::for_each(accel::kCounterNames, add);
+    std::ranges::for_each(accel::kTestNames, add);
+  }
+}
+
+void add_verification(Row& row, const CellRecord& cell) {
+  row["hits"] = cell.diff ? Json(cell.diff->hits) : Json();
+  for (std::size_t i = 0; i < verify::kDiffClassNames.size(); ++i) {
+    row[std::string(verify::kDiffClassNames[i])] = cell.diff ? Json(cell.diff->counts[i]) : Json();
+  }
+  row["verdict"] = verify::to_string(cell.verdict);
+}
+
+using Columns = std::vector<std::string>;
+
+/// Adds the columns of `row` that `columns` lacks, each behind its predecessor.
+void merge_columns(Columns& columns, const Row& row) {
+  auto place = columns.begin();
+  for (const auto& [name, value] : row.items()) {
+    const auto found = std::find(columns.begin(), columns.end(), name);
+    place = (found == columns.end() ? columns.insert(place, name) : found) + 1;
+  }
+}
+
+/// A value as a CSV field.
+std::string field_of(const Row& value) {
+  if (value.is_null()) return "";
+  if (value.is_string()) return csv_field(value.get<std::string>());
+  if (value.is_number_float()) return fmt::format("{}", value.get<double>());
+  return json_text(value, -1);
+}
+
+std::string csv_line(const std::vector<std::string>& fields) {
+  return fmt::format("{}\n", fmt::join(fields, ","));
+}
+
+std::string csv_header(const Columns& columns) {
+  std::vector<std::string> fields;
+  fields.reserve(columns.size());
+  for (const std::string& column : columns) fields.push_back(csv_field(column));
+  return csv_line(fields);
+}
+
+std::string csv_line(const Columns& columns, const Row& row) {
+  std::vector<std::string> fields;
+  fields.reserve(columns.size());
+  for (const std::string& column : columns) {
+    const auto found = row.find(column);
+    fields.push_back(found == row.end() ? std::string() : field_of(*found));
+  }
+  return csv_line(fields);
+}
+
+/// Writes header and rows. `row` makes each of the rows twice, because all of them take far more
+/// memory than the cells that they are of.
+void write_table(std::ostream& out, std::size_t count, const std::function<Row(std::size_t)>& row) {
+  Columns columns;
+  for (std::size_t i = 0; i < count; ++i) merge_columns(columns, row(i));
+  out << csv_header(columns);
+  for (std::size_t i = 0; i < count; ++i) out << csv_line(columns, row(i));
+}
+
+}  // namespace
+
+RunFacts facts_of(const Json& manifest) {
+  const Json& program = manifest.at("program");
+  const Json& measurement = manifest.at("measurement");
+  return {manifest.at("run_id").get<std::string>(),
+          program.at("commit").get<std::string>(),
+          program.at("dirty").get<bool>(),
+          manifest.at("machine").at("id").get<std::string>(),
+          program.at("build_type").get<std::string>(),
+          program.at("flags").get<std::string>(),
+          measurement.at("isa").is_string() ? measurement.at("isa").get<std::string>() : "",
+          measurement.at("threads").get<int>()};
+}
+
+std::map<int, RunFacts> facts_by_shard(const Json& manifest) {
+  std::map<int, RunFacts> facts{{0, facts_of(manifest)}};
+  for (const Json& shard : manifest.value("shards", Json::array())) {
+    RunFacts& own = facts[shard.at("number").get<int>()] = facts.at(0);
+    own.machine_id = shard.at("machine").at("id").get<std::string>();
+    own.isa = shard.at("measurement").at("isa").get<std::string>();
+  }
+  return facts;
+}
+
+Row to_row(const RunFacts& run, const CellRecord& cell) {
+  Row row = Row::object();
+  add_run(row, run, cell);
+  add_identity(row, cell);
+  add_times(row, cell);
+  add_hardware_counts(row, cell);
+  add_statistics(row, cell);
+  add_counters(row, cell);
+  add_kinds(row, cell);
+  add_verification(row, cell);
+  return row;
+}
+
+std::string csv_field(std::string_view text) {
+  constexpr std::string_view kFormulaOrApostrophe = "=+-@\t\r'";
+  std::string guarded(text);
+  if (!text.empty() && kFormulaOrApostrophe.find(text.front()) != std::string_view::npos) {
+    guarded.insert(0, 1, '\'');
+  }
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return guarded;
+  std::string field = "\"";
+  for (const char letter : guarded) {
+    if (letter == '"') field += '"';
+    field += letter;
+  }
+  return field + '"';
+}
+
+std::string csv_table(std::span<const Row> rows) {
+  std::ostringstream out;
+  write_table(out, rows.size(), [&](std::size_t i) { return rows[i]; });
+  return out.str();
+}
+
+void write_results(std::ostream& out, const Run& run) {
+  const std::map<int, RunFacts> facts = facts_by_shard(run.manifest);
+  write_table(out, run.cells.size(),
+              [&](std::size_t i) { return to_row(facts.at(run.cells[i].shard), run.cells[i]); });
+}
+
+}  // namespace beambench::analysis

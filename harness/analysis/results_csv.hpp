@@ -1,0 +1,55 @@
+#pragma once
+// results.csv: one row for each cell of a run.
+
+#include <iosfwd>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+#include "harness/bench/record/run_log.hpp"
+
+namespace beambench::analysis {
+
+/// A row: column names to numbers, texts, flags, or null for what was not measured. The order is
+/// that of the columns.
+using Row = nlohmann::ordered_json;
+
+/// The version of the columns of results.csv, their first one. Incremented when a column changes
+/// its name, meaning or unit or goes away, since a reader of the old ones would err; a new column
+/// alone is no new version. What each means is in scripts/beambench_report/columns.json.
+inline constexpr int kSchemaVersion = 1;
+
+/// What two runs differ by however often each repeats: another process has its code and data at
+/// other addresses (Mytkowicz et al., Producing Wrong Data Without Doing Anything Obviously Wrong!,
+/// ASPLOS 2009), of which a run alone knows nothing. Found by repeating a sweep of 48 cells:
+/// without this allowance 81% and 88% of the medians were found again, not 95%.
+inline constexpr double kBetweenRuns = 0.015;
+
+/// Returns what every row of a run has in common.
+bench::RunFacts facts_of(const nlohmann::ordered_json& manifest);
+
+/// Returns the same for the cells of each shard of a merged run, by its number, each with the
+/// machine that measured it. Number 0 has the cells of a run that was not merged.
+std::map<int, bench::RunFacts> facts_by_shard(const nlohmann::ordered_json& manifest);
+
+/// Returns the row of a cell. One that does not keep its times has null there.
+Row to_row(const bench::RunFacts& run, const bench::CellRecord& cell);
+
+/// A text as a CSV field: in quotes, inner quotes doubled, when it holds a comma, quote or line
+/// end. One that begins with a character at which a spreadsheet takes it for a formula (=, +, -, @,
+/// tab, carriage return), or with an apostrophe, gets an apostrophe before it, which readers drop
+/// (scripts/beambench_report/base/csv_texts.py).
+std::string csv_field(std::string_view text);
+
+/// Header and rows, lines ending with a line feed. The columns are those of the first row; columns
+/// that only later rows have are inserted after the one they follow there. What a row lacks, and
+/// null, is an empty field; numbers are in their shortest exact form.
+std::string csv_table(std::span<const Row> rows);
+
+/// Writes the table of a run's cells. Each row of a merged run has the machine of its shard.
+void write_results(std::ostream& out, const bench::Run& run);
+
+}  // namespace beambench::analysis

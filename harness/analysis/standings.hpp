@@ -1,0 +1,98 @@
+#pragma once
+// Who is fastest: in each view, by how much, and over all views of one kind of rays.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "harness/bench/record/robust_statistics.hpp"
+#include "harness/bench/record/run_log.hpp"
+
+namespace beambench::analysis {
+
+using bench::Interval;
+
+/// How many times one time is of another, with a 95% interval where there are repetitions enough.
+struct TimeRatio {
+  double value = 1.0;
+  std::optional<Interval> interval{};
+  bool is_paired = false;  ///< was it made round by round?
+};
+
+/// One contender in one view.
+struct Standing {
+  std::string contender;  ///< the structure, with the parameters by which its variants differ
+  std::string structure;  ///< the bare name
+  double build_ms;        ///< median
+  double ns_per_ray;      ///< median of the first trace after a build
+  TimeRatio ratio;        ///< its trace time over that of the fastest
+
+  /// Is it the fastest, or does the interval of its ratio to the fastest hold 1?
+  bool is_tied() const { return ratio.interval && ratio.interval->low <= 1.0; }
+};
+
+/// A contender without a time in a view, and the reason in a clause.
+struct LeftOut {
+  std::string contender;
+  std::string reason;
+};
+
+/// The contenders of one view (scene, camera, samples, kind of rays) at the highest resolution at
+/// which one machine measured two of them: a run that was cut off may have one contender at its
+/// last resolution. Times of two machines are not compared.
+struct Standings {
+  /// The scene, with camera, samples, kind of rays and machine where a run has several.
+  std::string view;
+  std::string subject;  ///< the same without the machine
+  std::string size;     ///< `1280x1024`
+  std::string ray_kind;
+  std::uint64_t rays;
+  std::vector<Standing> ranked;      ///< the fastest first; empty where no hits were correct
+  std::vector<Standing> references;  ///< `null`, which finds nothing; `exhaustive`, which tests all
+  std::vector<LeftOut> left_out;
+
+  /// The first that is not tied with the fastest; null where there is none.
+  const Standing* behind() const;
+  /// Embree's fastest mode; null where there is none.
+  const Standing* embree() const;
+  /// From how many rays on the fastest, build included, is ahead of all that are not tied with it:
+  /// the dearer build over what each ray saves. 0: from the first; infinite: never; none: there is
+  /// nobody to compare with.
+  std::optional<double> break_even_rays() const;
+  /// The contender over which `break_even_rays` is; null where there is none.
+  const Standing* last_overtaken() const;
+};
+
+/// A contender over all views of one kind of rays.
+struct MeanStanding {
+  std::string contender;
+  std::string structure;
+  TimeRatio ratio;  ///< geometric mean of its ratios to the fastest of each view
+  int views;        ///< in which it has a time
+  int wins;         ///< in which it is the fastest, or tied with it
+};
+
+struct OverallStandings {
+  std::string ray_kind;
+  int views;
+  std::vector<MeanStanding> means;  ///< those with times in every view first, the fastest ahead
+  std::vector<MeanStanding> references;
+};
+
+/// The median ratio of the rounds that both cells have, with the 95% interval of that median: what
+/// disturbs a round disturbs both. Nothing where they have no round in common.
+std::optional<TimeRatio> paired_trace_ratio(const bench::CellRecord& over,
+                                            const bench::CellRecord& under);
+
+/// Of each view, in the order of the plan. The conditions of the sweep explain why a contender is
+/// absent.
+std::vector<Standings> standings(const bench::Run& run);
+
+/// Of each kind of rays. Where several machines measured a view, one at each resolution, the
+/// highest resolution counts. The views' noise is independent, so that the distances to the ends of
+/// their intervals add up in quadrature.
+std::vector<OverallStandings> overall(std::span<const Standings> views);
+
+}  // namespace beambench::analysis

@@ -1,0 +1,191 @@
+#include "harness/analysis/words.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "harness/base/messages.hpp"
+
+namespace beambench::analysis {
+namespace {
+
+using bench::QueryPath;
+
+std::string in_words(const TimeRatio& ratio) {
+  if (!ratio.interval || ratio.interval->low == ratio.interval->high) {
+    return fmt::format("{:.3g}", ratio.value);
+  }
+  return fmt::format("{:.3g} [{:.3g}, {:.3g}]", ratio.value, ratio.interval->low,
+                     ratio.interval->high);
+}
+
+std::string rays_in_words(const std::optional<double>& rays) {
+  if (!rays) return "";
+  if (*rays <= 0.0) return "the first ray";
+  if (!std::isfinite(*rays)) return "never";
+  constexpr std::array<std::pair<double, const char*>, 4> kUnits{
+      {{1e3, ""}, {1e6, " k"}, {1e9, " M"}, {1e12, " G"}}};
+  for (const auto& [limit, unit] : kUnits) {
+    if (*rays < limit) return fmt::format("{:.3g}{} rays", *rays * 1e3 / limit, unit);
+  }
+  return fmt::format("{:.3g} rays", *rays);
+}
+
+std::string table(const std::vector<std::vector<std::string>>& lines) {
+  std::string out;
+  for (const std::string& line : base::aligned(lines, lines.front().size())) {
+    out += "  " + line + "\n";
+  }
+  return out;
+}
+
+/// The fastest, and those that may be as fast.
+std::string winners(const Standings& view) {
+  std::vector<std::string> names;
+  for (const Standing& one : view.ranked) {
+    if (one.is_tied()) names.push_back(one.contender);
+  }
+  return fmt::format("{}{}", names.size() > 1 ? "tie: " : "", fmt::join(names, ", "));
+}
+
+std::string against(const Standing* other, bool with_name) {
+  if (other == nullptr) return "-";
+  return (with_name ? other->contender + " " : "") + in_words(other->ratio);
+}
+
+/// `exhaustive: left out by the sweep (more than 1000 primitives), in 3 views`.
+std::string describe_left_out(std::span<const Standings> views) {
+  std::map<std::pair<std::string, std::string>, std::size_t> counts;
+  for (const Standings& view : views) {
+    for (const LeftOut& one : view.left_out) ++counts[{one.contender, one.reason}];
+  }
+  std::string out;
+  for (const auto& [one, count] : counts) {
+    out += fmt::format("  no time for {} in {}: {}\n", one.first, base::counted(count, "view"),
+                       one.second);
+  }
+  return out;
+}
+
+std::string describe_mean(const OverallStandings& overall) {
+  std::vector<std::vector<std::string>> lines{
+      {"contender", "times the fastest of each view", "fastest or tied", "views"}};
+  const auto add = [&](const MeanStanding& mean, const char* note, const std::string& wins) {
+    lines.push_back({mean.contender + note, in_words(mean.ratio), wins,
+                     fmt::format("{} of {}", mean.views, overall.views)});
+  };
+  for (const MeanStanding& mean : overall.means) {
+    add(mean, "", fmt::format("{} of {}", mean.wins, overall.views));
+  }
+  for (const MeanStanding& mean : overall.references) add(mean, " (reference)", "-");
+  return fmt::format("Over {} of {} rays, geometric means:\n{}",
+                     base::counted(static_cast<std::size_t>(overall.views), "view"),
+                     overall.ray_kind, table(lines));
+}
+
+std::string_view subject_of(const std::string& path) {
+  if (path == to_string(QueryPath::kImageSingle)) return "images by single rays";
+  if (path == to_string(QueryPath::kImageSimd)) return "images by SIMD rays";
+  if (path == to_string(QueryPath::kListPacked)) return "lists of rays packed by SIMD";
+  return "lists of rays";
+}
+
+}  // namespace
+
+std::string describe(std::span<const Standings> views) {
+  std::vector<std::vector<std::string>> lines{
+      {"view", "fastest", "the next", "Embree's best", "pays off from"}};
+  for (const Standings& view : views) {
+    const std::string title = fmt::format("{} {}", view.view, view.size);
+    if (view.ranked.empty()) {
+      lines.push_back({title, "no contender has a time", "", "", ""});
+      continue;
+    }
+    lines.push_back({title, winners(view), against(view.behind(), true),
+                     against(view.embree(), false), rays_in_words(view.break_even_rays())});
+  }
+  std::string out =
+      "Fastest by trace time, build apart. Figures: how many times as long the others take, with "
+      "95% intervals.\n" +
+      table(lines) + describe_left_out(views);
+  if (views.size() > 1) {
+    for (const OverallStandings& one : overall(views)) {
+      if (one.views == 1) continue;
+      out += '\n';
+      out += describe_mean(one);
+    }
+  }
+  return out;
+}
+
+std::string describe_contenders(std::span<const Standings> views) {
+  std::string out;
+  for (const Standings& view : views) {
+    std::vector<std::vector<std::string>> lines{
+        {"contender", "build ms", "ns per ray", "Mrays/s", "times the fastest"}};
+    const auto add = [&](const Standing& one, const char* note) {
+      lines.push_back({one.contender + note, fmt::format("{:.4g}", one.build_ms),
+                       fmt::format("{:.4g}", one.ns_per_ray),
+                       fmt::format("{:.4g}", 1e3 / one.ns_per_ray), in_words(one.ratio)});
+    };
+    for (const Standing& one : view.ranked)
+      add(one, &one != view.ranked.data() && one.is_tied() ? " (tied)" : "");
+    for (const Standing& one : view.references) add(one, " (reference)");
+    for (const LeftOut& one : view.left_out) lines.push_back({one.contender, one.reason});
+    out += fmt::format("{} {}, {} {} rays\n{}\n", view.view, view.size, view.rays, view.ray_kind,
+                       table(lines));
+  }
+  return out;
+}
+
+std::string describe_verdicts(const Analysis& analysis) {
+  std::string out;
+  if (analysis.failed > 0) {
+    out = fmt::format("Hits:  {} of {} wrong or not built; these have no times\n", analysis.failed,
+                      base::counted(analysis.cells, "cell"));
+  } else {
+    out = fmt::format("Hits:  {}, all verified\n", base::counted(analysis.possible(), "cell"));
+  }
+  if (analysis.without_rays > 0) {
+    out += fmt::format("Rays:  {} of {} have no rays over their scenes\n", analysis.without_rays,
+                       base::counted(analysis.cells, "cell"));
+  }
+  if (analysis.unsupported > 0) {
+    out +=
+        fmt::format("Cells: {} of {} have rays or primitives that the structure does not support\n",
+                    analysis.unsupported, base::counted(analysis.cells, "cell"));
+  }
+  if (analysis.possible() > analysis.failed) {
+    out += analysis.reasons_for_care.empty()
+               ? "Times: measured on a quiet machine, as precisely as wanted\n"
+               : fmt::format("Times: to be taken with care: {}\n",
+                             fmt::join(analysis.reasons_for_care, "; "));
+  }
+  return out;
+}
+
+std::string describe(std::span<const Overhead> overheads) {
+  std::vector<std::string> parts;
+  for (const Overhead& each : overheads) {
+    parts.push_back(fmt::format("{:.2g}%{} for {} ({})", 100.0 * each.part,
+                                parts.empty() ? " of a contender's trace time" : "",
+                                subject_of(each.path), each.cell));
+  }
+  return fmt::format(
+      "harness overhead: at most {}; trace_net_ms_median in results.csv is without it",
+      fmt::join(parts, ", "));
+}
+
+std::string summary(const Analysis& analysis) {
+  return describe(analysis.views) + "\n" + describe_verdicts(analysis);
+}
+
+}  // namespace beambench::analysis

@@ -1,0 +1,29 @@
+#pragma once
+// The conclusions of a run as texts.
+
+#include <span>
+#include <string>
+
+#include "harness/analysis/analysis.hpp"
+
+namespace beambench::analysis {
+
+/// A line for each view: the fastest, the next, Embree's best, and from how many rays on the
+/// fastest pays off; then the geometric means over all views, where there are several.
+std::string describe(std::span<const Standings> views);
+
+/// A table for each view with a line for each contender: build, trace, ratio to the fastest.
+std::string describe_contenders(std::span<const Standings> views);
+
+/// Two lines, one on the hits and one on what the times are worth; a third on rays that scenes
+/// lack.
+std::string describe_verdicts(const Analysis& analysis);
+
+/// `harness overhead: at most 1.2% of a contender's trace time for images by single rays
+/// (tetra.../samet), ...`, and where the times without it are. Of at least one.
+std::string describe(std::span<const Overhead> overheads);
+
+/// The text of summary.txt: who is fastest, and the verdicts.
+std::string summary(const Analysis& analysis);
+
+}  // namespace beambench::analysis

@@ -1,0 +1,59 @@
+// beambench analyze: draws the conclusions from the log of a run.
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "harness/analysis/exports.hpp"
+#include "harness/analysis/words.hpp"
+#include "harness/bench/record/run_log.hpp"
+#include "harness/cli/commands.hpp"
+#include "scenes/core/json_text.hpp"
+
+namespace beambench::cli {
+namespace {
+
+struct AnalyzeRequest {
+  std::string folder;
+  bool write = false;
+  bool json = false;
+};
+
+int analyze(const AnalyzeRequest& request) {
+  const std::filesystem::path folder = request.folder;
+  const analysis::Analysis found =
+      request.write ? analysis::conclude(folder)
+                    : read_as_written((folder / bench::kLogName).string(), "measure it anew",
+                                      [&] { return analysis::analyze(bench::read_run(folder)); });
+  if (request.json) {
+    fmt::print("{}\n", json_text(analysis::to_json(found)));
+  } else {
+    fmt::print("{}{}", analysis::describe_contenders(found.views), analysis::summary(found));
+  }
+  return analysis::exit_code_of(found);
+}
+
+}  // namespace
+
+void add_analyze_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "analyze", "State what a run shows: who is fastest, and what its times are worth");
+  const auto request = std::make_shared<AnalyzeRequest>();
+  command->add_option("DIR", request->folder, "The folder of a run; it may have been interrupted")
+      ->required();
+  command->add_flag("--write", request->write,
+                    "Make results.csv, summary.txt, analysis.json and the other files of the "
+                    "folder from its log, run.jsonl");
+  command->add_flag("--json", request->json, "Print JSON: what analysis.json has");
+  command->footer(
+      "Examples:\n"
+      "  beambench run harness/bench/sweeps/quick.json -o my-run --benchmark_filter=tetra.*samet\n"
+      "  beambench analyze my-run\n"
+      "  beambench analyze my-run --write");
+  command->callback([request, &exit_code] { exit_code = analyze(*request); });
+}
+
+}  // namespace beambench::cli

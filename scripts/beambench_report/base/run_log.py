@@ -1,0 +1,82 @@
+"""Reads run.jsonl, the log of a run: what `beambench run` adds a line to with each event.
+
+The events are described in harness/bench/record/run_log.hpp. What follows the last whole line is
+left out: there the run was cut off.
+"""
+
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from beambench_report.base.files import Problem
+
+LOG = "run.jsonl"
+
+Event = dict[str, object]
+Repetition = dict[str, float]
+"""A member for each figure, as in the log; `round` is its turn."""
+
+
+@dataclass
+class LoggedCell:
+    """One cell of a log."""
+
+    facts: Event
+    """What the cell is; the members that identify it have the names of the columns."""
+    repetitions: list[Repetition] = field(default_factory=list)
+    verdict: str = ""
+    message: str = ""
+    examples: tuple[str, ...] = ()
+    is_finished: bool = False
+
+
+def has_log(run: Path) -> bool:
+    """Was a run begun in this folder, whose log is still there?"""
+    return (run / LOG).is_file()
+
+
+def logged_cells(run: Path) -> list[LoggedCell]:
+    """The cells of RUN/run.jsonl in the order of the plan; none where there is no log.
+
+    Raises Problem naming the line that is not as it was written.
+    """
+    cells: dict[int, LoggedCell] = {}
+    for place, event in _events(run):
+        try:
+            _take(event, cells)
+        except (KeyError, TypeError, ValueError) as error:
+            raise Problem(
+                f"{place}: is no event of a run ({type(error).__name__}: {error}); measure it anew"
+            ) from None
+    return [cells[index] for index in sorted(cells)]
+
+
+def _events(run: Path) -> Iterator[tuple[str, Event]]:
+    """Each event, and where it stands."""
+    path = run / LOG
+    if not path.is_file():
+        return
+    with path.open(encoding="utf-8") as file:
+        for number, line in enumerate(file, 1):
+            if not line.endswith("\n"):
+                return
+            try:
+                yield f"{path}, line {number}", json.loads(line)
+            except (ValueError, RecursionError) as error:
+                raise Problem(f"{path}, line {number}: is no JSON ({error})") from None
+
+
+def _take(event: Event, cells: dict[int, LoggedCell]) -> None:
+    kind = event["event"]
+    if kind == "cell":
+        cells.setdefault(event["index"], LoggedCell(event)).facts = event
+    elif kind == "repetition":
+        cells[event["index"]].repetitions.append(event)
+    elif kind == "verification":
+        cells[event["index"]].verdict = event["verdict"]
+    elif kind == "finished":
+        cell = cells[event["index"]]
+        cell.verdict, cell.is_finished = event["verdict"], True
+        cell.message = event.get("message", "")
+        cell.examples = tuple(event.get("examples", ()))

@@ -1,0 +1,285 @@
+// What a run comes to: what its times are worth, the exit code, the harness's own time, the JSON.
+
+#include "harness/analysis/analysis.hpp"
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "harness/analysis/exports.hpp"
+#include "harness/analysis/words.hpp"
+#include "harness/base/messages.hpp"
+#include "harness/bench/record/conditions.hpp"
+#include "tests/analysis/some_run.hpp"
+#include "tests/scenes/thrown_message.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace beambench::analysis {
+namespace {
+
+using bench::CellRecord;
+using bench::QueryPath;
+using scenes::says;
+using verify::Verdict;
+using Json = nlohmann::ordered_json;
+using Reasons = std::vector<std::string>;
+
+bench::Run quiet_run() {
+  return run_of({cell_of({"samet", rounds(1.0)}), cell_of({"embree", rounds(2.0)})});
+}
+
+TEST(ReasonsForCare, AreNoneWhereNothingDisturbed) {
+  const Analysis analysis = analyze(quiet_run());
+  EXPECT_TRUE(analysis.reasons_for_care.empty());
+  EXPECT_EQ(describe_verdicts(analysis),
+            "Hits:  2 cells, all verified\n"
+            "Times: measured on a quiet machine, as precisely as wanted\n");
+}
+
+TEST(ReasonsForCare, AreTheNoiseAndTheLoad) {
+  bench::Run run = quiet_run();
+  run.manifest["measurement"]["noise"] = 0.12;
+  run.manifest["machine"]["load_average"] = 1.5;
+  EXPECT_EQ(reasons_for_care(run), (Reasons{"equal work took up to 12% longer than usual",
+                                            "other work was running (load 1.50)"}));
+  EXPECT_TRUE(says(describe_verdicts(analyze(run)),
+                   {"Times: to be taken with care: equal work", "; other work"}));
+}
+
+TEST(ReasonsForCare, HaveTheThrottling) {
+  bench::Run run = quiet_run();
+  Json& throttling = run.manifest["measurement"]["throttling"];
+  throttling = bench::to_json(Throttling{14, 0, 0.0});
+  EXPECT_TRUE(reasons_for_care(run).empty());
+  throttling = bench::to_json(Throttling{14, 12, 0.9});
+  EXPECT_EQ(reasons_for_care(run), Reasons{"the kernel throttled the process in 12 of 14 periods "
+                                           "of its CPU quota"});
+}
+
+TEST(ReasonsForCare, AreLittlePrecisionAndFewRepetitions) {
+  bench::Run run = quiet_run();
+  run.cells[0].stop_reason = bench::StopReason::kBudget;
+  EXPECT_EQ(reasons_for_care(run), Reasons{"1 of 2 timed cells less precise than wanted"});
+  run.cells[0].verdict = Verdict::kMismatch;
+  EXPECT_TRUE(reasons_for_care(run).empty()) << "it has no times";
+  run.cells[1].repetitions.resize(5);
+  EXPECT_EQ(reasons_for_care(run),
+            Reasons{"1 of 1 timed cell repeated fewer than 6 times, so without intervals"});
+}
+
+TEST(ReasonsForCare, AreThatARunWasCutOff) {
+  bench::Run run = quiet_run();
+  run.manifest["finished_utc"] = nullptr;
+  run.cells[1].is_finished = false;
+  run.cells[1].stop_reason.reset();
+  run.plan.push_back({2, "one that was not begun"});
+  const Analysis analysis = analyze(run);
+  EXPECT_EQ(analysis.reasons_for_care,
+            (Reasons{"1 of 2 timed cells less precise than wanted", "the run was cut off"}));
+  EXPECT_EQ(analysis.cells, 2U);
+  EXPECT_EQ(analysis.planned, 3U);
+  EXPECT_EQ(analysis.views.at(0).ranked.size(), 2U) << "its times so far count";
+}
+
+TEST(ExitCode, IsThatOfTheWorstCell) {
+  bench::Run run = quiet_run();
+  EXPECT_EQ(exit_code_of(analyze(run)), base::kSuccess);
+  run.cells[1].verdict = Verdict::kBaseline;
+  EXPECT_EQ(exit_code_of(analyze(run)), base::kSuccess);
+  run.cells[0].verdict = Verdict::kNoRays;
+  EXPECT_EQ(exit_code_of(analyze(run)), base::kSuccess);
+  for (const Verdict wrong : {Verdict::kMismatch, Verdict::kGrazes, Verdict::kError}) {
+    run.cells[1].verdict = wrong;
+    const Analysis analysis = analyze(run);
+    EXPECT_EQ(exit_code_of(analysis), base::kMismatch);
+    EXPECT_EQ(analysis.failed, 1U);
+    EXPECT_TRUE(says(describe_verdicts(analysis),
+                     {"Hits:  1 of 2 cells wrong or not built", "Rays:  1 of 2 cells have no"}));
+  }
+}
+
+TEST(ExitCode, OfAWholeSweepWithoutRaysIsInvalidInput) {
+  bench::Run run = quiet_run();
+  for (CellRecord& cell : run.cells) cell.verdict = Verdict::kNoRays;
+  EXPECT_EQ(exit_code_of(analyze(run)), base::kInvalidInput);
+  run.manifest["shard"] = {{"number", 1}, {"count", 2}, {"cells", 2}, {"cells_of_sweep", 4}};
+  EXPECT_TRUE(analyze(run).is_part);
+  EXPECT_EQ(exit_code_of(analyze(run)), base::kSuccess);
+}
+
+/// A cell of that camera, for its name, by a query path with that share of the harness.
+CellRecord with_share(const char* camera, QueryPath path, double harness_ms, double trace_ms) {
+  CellRecord cell = cell_of({"samet", {trace_ms}});
+  cell.id.camera = camera;
+  cell.harness = {path, harness_ms};
+  return cell;
+}
+
+TEST(Overhead, IsTheHarnessesPartWhereThatIsLargest) {
+  const auto single = QueryPath::kImageSingle;
+  std::vector cells{with_share("a", single, 1.0, 200.0), with_share("b", single, 1.0, 50.0),
+                    with_share("c", single, 2.0, 200.0),
+                    with_share("makes no rays one by one", single, 2.0, 1.0)};
+  const auto overheads = largest_overheads(cells);
+  ASSERT_EQ(overheads.size(), 1U);
+  EXPECT_EQ(overheads[0].part, 0.02);
+  EXPECT_TRUE(
+      says(describe(overheads), {"at most 2%", "(escena1/b/100x10", "trace_net_ms_median"}));
+  for (CellRecord& each : cells) each.verdict = Verdict::kMismatch;
+  EXPECT_TRUE(largest_overheads(cells).empty()) << "times that are wrong are no measure";
+  cells[1] = with_share("b", single, 1.0, 50.0);
+  cells[1].verdict = Verdict::kBaseline;
+  EXPECT_TRUE(largest_overheads(cells).empty()) << "null is the harness's time itself";
+  cells[1] = with_share("b", QueryPath::kPicture, 1.0, 50.0);
+  EXPECT_TRUE(largest_overheads(cells).empty()) << "shading is part of the work of a whole picture";
+  cells[1] = with_share("b", QueryPath::kImageOwn, 0.0, 50.0);
+  EXPECT_TRUE(largest_overheads(cells).empty()) << "it has no such part";
+}
+
+TEST(Overhead, IsStatedForEachQueryPath) {
+  const std::vector cells{with_share("a", QueryPath::kImageSingle, 1.0, 50.0),
+                          with_share("b", QueryPath::kImageSimd, 1.0, 4.0),
+                          with_share("c", QueryPath::kList, 1.0, 100.0),
+                          with_share("d", QueryPath::kImageSimd, 1.0, 5.0)};
+  EXPECT_EQ(describe(largest_overheads(cells)),
+            "harness overhead: at most 25% of a contender's trace time for images by SIMD rays "
+            "(escena1/b/100x10/1/primary/samet), 2% for images by single rays "
+            "(escena1/a/100x10/1/primary/samet), 1% for lists of rays "
+            "(escena1/c/100x10/1/primary/samet); trace_net_ms_median in results.csv is without it");
+  const Json json = to_json(analyze(run_of(cells))).at("harness_overheads");
+  ASSERT_EQ(json.size(), 3U);
+  EXPECT_EQ(json[0], Json({{"query_path", "image-simd"},
+                           {"cell", "escena1/b/100x10/1/primary/samet"},
+                           {"part", 0.25}}));
+  EXPECT_EQ(json[2].at("part"), 0.01);
+}
+
+TEST(AnalysisJson, HasEachViewWithItsRatios) {
+  const bench::Run run =
+      run_of({cell_of({"samet", rounds(1.0), 4.0}), cell_of({"embree", rounds(2.0)}),
+              cell_of({"null", rounds(0.1), 0.0, "", Verdict::kBaseline}),
+              cell_of({"beam", {}, 0.0, "", Verdict::kMismatch})});
+  const Json json = to_json(analyze(run));
+  EXPECT_EQ(json.at("schema_version"), 1);
+  EXPECT_EQ(json.at("cells"), 4);
+  EXPECT_EQ(json.at("planned"), 4);
+  EXPECT_EQ(json.at("failed"), 1);
+  EXPECT_EQ(json.at("without_rays"), 0);
+  EXPECT_EQ(json.at("is_part"), false);
+  EXPECT_EQ(json.at("reasons_for_care"), Json::array());
+  ASSERT_EQ(json.at("views").size(), 1U);
+  const Json& view = json.at("views").at(0);
+  EXPECT_EQ(view.at("view"), "escena1");
+  EXPECT_EQ(view.at("size"), "100x10");
+  EXPECT_EQ(view.at("rays"), 1000);
+  const Json& ranked = view.at("ranked");
+  ASSERT_EQ(ranked.size(), 2U);
+  EXPECT_EQ(ranked[0].at("contender"), "samet");
+  EXPECT_EQ(ranked[0].at("build_ms"), 4.0);
+  EXPECT_EQ(ranked[0].at("ns_per_ray"), 1000.0);
+  EXPECT_EQ(ranked[0].at("is_tied"), true);
+  EXPECT_EQ(ranked[1].at("is_tied"), false);
+  EXPECT_EQ(ranked[1].at("ratio").at("paired"), true);
+  EXPECT_NEAR(ranked[1].at("ratio").at("value").get<double>(), 2.0, 1e-12);
+  EXPECT_TRUE(ranked[1].at("ratio").contains("low"));
+  EXPECT_EQ(view.at("references").at(0).at("contender"), "null");
+  EXPECT_EQ(view.at("left_out"), Json::parse(R"([{"contender": "beam",
+                                                  "reason": "mismatch: two hits are wrong"}])"));
+  EXPECT_NEAR(view.at("break_even").at("rays").get<double>(), 3000.0, 1e-6);
+  EXPECT_EQ(view.at("break_even").at("over"), "embree");
+  const Json& mean = json.at("means").at(0).at("means").at(1);
+  EXPECT_EQ(mean.at("contender"), "embree");
+  EXPECT_EQ(mean.at("wins"), 0);
+  EXPECT_EQ(mean.at("views"), 1);
+}
+
+TEST(AnalysisJson, HasNoNumberForABuildThatNeverPaysOff) {
+  // Round by round samet is faster, by its median time as slow: no ray makes up for its build.
+  const bench::Run run = run_of(
+      {cell_of({"samet", {1, 1, 1, 1, 1, 1}, 9.0}), cell_of({"embree", {2, 2, 2, 2, 2, 2}})});
+  Analysis analysis = analyze(run);
+  analysis.views.at(0).ranked.at(1).ns_per_ray = analysis.views.at(0).ranked.at(0).ns_per_ray;
+  const Json view = to_json(analysis).at("views").at(0);
+  EXPECT_TRUE(view.at("break_even").at("rays").is_null());
+  const bench::Run alone = run_of({cell_of({"samet", rounds(1.0)})});
+  EXPECT_FALSE(to_json(analyze(alone)).at("views").at(0).contains("break_even"));
+}
+
+/// Writes the run's log as a sweep does, a round at a time.
+void write_log(const bench::Run& run, const std::filesystem::path& folder) {
+  bench::RunLog log = bench::RunLog::create(folder);
+  Json manifest = run.manifest;
+  manifest["finished_utc"] = nullptr;
+  log.begin(manifest, run.config, run.plan);
+  for (const CellRecord& cell : run.cells) log.begin_cell(cell);
+  for (std::size_t round = 0; round < 8; ++round) {
+    for (const CellRecord& cell : run.cells) {
+      if (round >= cell.repetitions.size()) continue;
+      if (round == 0) log.add_verification(cell);
+      CellRecord so_far = cell;
+      so_far.repetitions.resize(round + 1);
+      log.add_repetition(so_far);
+    }
+  }
+  for (const CellRecord& cell : run.cells) {
+    if (cell.is_finished) log.finish_cell(cell);
+  }
+  if (run.is_ended()) log.end(run.manifest.at("finished_utc").get<std::string>());
+}
+
+bench::Run run_of_all_kinds() {
+  bench::Run run = run_of(
+      {cell_of({"samet", rounds(1.0 / 3.0), 4.0, "max_level=6"}), cell_of({"embree", rounds(0.7)}),
+       cell_of({"null", rounds(0.1), 0.0, "", Verdict::kBaseline}),
+       cell_of({"beam", {}, 0.0, "", Verdict::kError}),
+       cell_of({"samet", rounds(5.0), 4.0, "max_level=6"}, "escena1", 4000),
+       cell_of({"embree", rounds(6.0)}, "escena2", 500)},
+      {{"exclude", {{{"structure", "samet"}, {"scene", "escena2"}}}}});
+  run.cells[0].harness = {QueryPath::kImageSingle, 0.01};
+  return run;
+}
+
+TEST(Analysis, OfALogIsThatOfTheRun) {
+  const TemporaryFolder folder;
+  bench::Run run = run_of_all_kinds();
+  write_log(run, folder.path() / "whole");
+  EXPECT_EQ(to_json(analyze(bench::read_run(folder.path() / "whole"))), to_json(analyze(run)));
+  run.manifest["finished_utc"] = nullptr;
+  run.cells[4].is_finished = false;
+  run.cells[4].stop_reason.reset();
+  run.cells.pop_back();
+  write_log(run, folder.path() / "cut off");
+  EXPECT_EQ(to_json(analyze(bench::read_run(folder.path() / "cut off"))), to_json(analyze(run)));
+}
+
+TEST(Conclude, MakesEveryFileFromTheLogAlone) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "run";
+  const bench::Run run = run_of_all_kinds();
+  write_log(run, path);
+  const std::vector<std::string> names{"config.json",   "manifest.json", "results.csv",
+                                       "analysis.json", "summary.txt",   "google-benchmark.json"};
+  const Analysis analysis = conclude(path);
+  std::vector<std::string> first;
+  for (const std::string& name : names) first.push_back(read_text(path / name));
+  EXPECT_EQ(nlohmann::json::parse(first[0]), run.config);
+  EXPECT_EQ(Json::parse(first[3]), to_json(analysis));
+  EXPECT_EQ(first[4], summary(analysis));
+  const Json manifest = Json::parse(first[1]);
+  EXPECT_EQ(manifest.at("harness_overhead").at("by_query_path").size(), 1U);
+  EXPECT_TRUE(says(manifest.at("uncontrolled").dump(), {"harness overhead: at most 3%"}));
+  for (const std::string& name : names) std::filesystem::remove(path / name);
+  conclude(path);
+  conclude(path);
+  for (std::size_t i = 0; i + 1 < names.size(); ++i) {
+    EXPECT_EQ(read_text(path / names[i]), first[i]) << names[i];
+  }
+  // The library's own context has the time of day.
+  EXPECT_EQ(Json::parse(read_text(path / names.back())).at("benchmarks"),
+            Json::parse(first.back()).at("benchmarks"));
+}
+
+}  // namespace
+}  // namespace beambench::analysis

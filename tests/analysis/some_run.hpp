@@ -1,0 +1,84 @@
+#pragma once
+// Runs with given times, as their logs would have them.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "harness/bench/record/run_log.hpp"
+
+namespace beambench::analysis {
+
+/// A structure in a view, with its times.
+struct Entrant {
+  std::string structure;
+  std::vector<double> trace_ms;  ///< of each round
+  double build_ms = 1.0;
+  std::string parameters{};
+  verify::Verdict verdict = verify::Verdict::kOk;
+};
+
+/// A finished cell: `rays` rays in ten rows.
+inline bench::CellRecord cell_of(const Entrant& entrant, const std::string& scene = "escena1",
+                                 std::uint64_t rays = 1000) {
+  bench::CellRecord cell{};
+  cell.id = {
+      scene, "default", entrant.structure, entrant.parameters, {static_cast<int>(rays / 10), 10},
+      1,     "primary"};
+  cell.rays.rays = rays;
+  cell.rays.primitives = 400;
+  cell.time_utc = "2026-01-01T00:00:00Z";
+  cell.is_finished = true;
+  cell.verdict = entrant.verdict;
+  for (const double trace_ms : entrant.trace_ms) {
+    bench::Repetition repetition{};
+    repetition.round = static_cast<int>(cell.repetitions.size());
+    repetition.build_ms = entrant.build_ms;
+    repetition.trace_ms = trace_ms;
+    repetition.clock_ghz = 3.0;
+    cell.repetitions.push_back(repetition);
+  }
+  if (entrant.trace_ms.empty()) {
+    cell.message = "two hits are wrong";
+  } else {
+    cell.stop_reason = bench::StopReason::kPrecision;
+    cell.diff.emplace().verdict = entrant.verdict;
+    cell.hits_hash = 1;
+  }
+  return cell;
+}
+
+/// The manifest of a run on a quiet machine that has ended.
+inline nlohmann::ordered_json quiet_manifest() {
+  return {{"run_id", "20260101-000000.000-test"},
+          {"time_utc", "2026-01-01T00:00:00Z"},
+          {"finished_utc", "2026-01-01T01:00:00Z"},
+          {"program",
+           {{"commit", "abc"}, {"dirty", false}, {"build_type", "Release"}, {"flags", "-O3"}}},
+          {"machine", {{"id", "0123456789abcdef"}, {"load_average", 0.0}}},
+          {"measurement",
+           {{"isa", "AVX2"}, {"threads", 1}, {"noise", nullptr}, {"throttling", nullptr}}},
+          {"uncontrolled", nlohmann::ordered_json::array()}};
+}
+
+/// A run of these cells, in this order; they are all that its sweep has.
+inline bench::Run run_of(std::vector<bench::CellRecord> cells,
+                         nlohmann::json config = nlohmann::json::object()) {
+  bench::Run run{quiet_manifest(), std::move(config), {}, std::move(cells)};
+  for (std::size_t i = 0; i < run.cells.size(); ++i) {
+    run.cells[i].index = i;
+    run.plan.push_back({i, run.cells[i].id.name()});
+  }
+  return run;
+}
+
+/// Eight repetitions, all but equal.
+inline std::vector<double> rounds(double ms) {
+  return {ms, ms * 1.01, ms * 0.99, ms, ms * 1.02, ms, ms, ms * 0.98};
+}
+
+}  // namespace beambench::analysis
