@@ -14,9 +14,9 @@
 #include <glm/geometric.hpp>
 #include <xxhash.h>
 
-#include "scenes/core/error.hpp"
-#include "scenes/core/nearest_name.hpp"
-#include "scenes/core/printable.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/nearest_name.hpp"
+#include "scenes/base/printable.hpp"
 
 namespace beambench::scenes {
 namespace {

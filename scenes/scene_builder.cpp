@@ -10,8 +10,8 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "scenes/core/error.hpp"
-#include "scenes/core/printable.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/printable.hpp"
 #include "scenes/triangulate.hpp"
 
 namespace beambench::scenes {

@@ -10,8 +10,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "scenes/base/error.hpp"
 #include "scenes/bounds.hpp"
-#include "scenes/core/error.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::scenes {

@@ -11,9 +11,9 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "harness/verify/selftest/test_scenes.hpp"
+#include "scenes/base/portable_math.hpp"
+#include "scenes/base/random.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/portable_math.hpp"
-#include "scenes/core/random.hpp"
 #include "scenes/modelling/box.hpp"
 #include "scenes/modelling/parametric_surface.hpp"
 #include "scenes/modelling/subdivide.hpp"

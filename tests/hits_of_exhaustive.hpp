@@ -7,7 +7,7 @@
 
 #include "accel/core/accelerator.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
-#include "scenes/core/random.hpp"
+#include "scenes/base/random.hpp"
 #include "tests/random_scene.hpp"
 
 namespace beambench::tests {

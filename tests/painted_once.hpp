@@ -15,7 +15,7 @@
 #include "accel/core/accelerator.hpp"
 #include "accel/core/primary_rays.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
-#include "scenes/core/random.hpp"
+#include "scenes/base/random.hpp"
 #include "scenes/scene.hpp"
 #include "tests/random_view.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "scenes/core/random.hpp"
+#include "scenes/base/random.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::tests {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "accel/octree/octree.hpp"
-#include "scenes/core/parameters.hpp"
+#include "scenes/base/parameters.hpp"
 
 namespace beambench::accel::beam {
 

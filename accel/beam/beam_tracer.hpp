@@ -12,12 +12,8 @@
 #include "accel/beam/beam_run.hpp"
 #include "accel/beam/beam_sight.hpp"
 #include "accel/beam/beam_watch.hpp"
+#include "accel/core/registry.hpp"
 #include "accel/octree/samet.hpp"
-
-namespace beambench::accel {
-class StructureChoice;
-struct Workload;
-}  // namespace beambench::accel
 
 namespace beambench::accel::beam {
 

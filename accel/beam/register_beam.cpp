@@ -12,7 +12,7 @@
 #include "accel/core/registry.hpp"
 #include "accel/octree/leaf_walk.hpp"
 #include "accel/octree/samet.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::accel::beam {
 

@@ -5,7 +5,7 @@
 
 #include "accel/core/expected_visits.hpp"
 #include "accel/core/padded_bounds.hpp"
-#include "scenes/core/random.hpp"
+#include "scenes/base/random.hpp"
 
 namespace beambench::accel::bvh {
 namespace {

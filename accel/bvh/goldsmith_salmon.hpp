@@ -11,7 +11,7 @@
 #include "accel/core/intersect.hpp"
 #include "accel/core/slab_ray.hpp"
 #include "accel/core/traversal_accelerator.hpp"
-#include "scenes/core/parameters.hpp"
+#include "scenes/base/parameters.hpp"
 
 namespace beambench::accel::bvh {
 

@@ -6,7 +6,7 @@
 #include "accel/bvh/wide_bvh.hpp"
 #include "accel/core/traversal_accelerator.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
-#include "scenes/core/parameters.hpp"
+#include "scenes/base/parameters.hpp"
 
 namespace beambench::accel::bvh {
 

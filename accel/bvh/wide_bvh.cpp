@@ -10,7 +10,7 @@
 #include "accel/bvh/spatial_builder.hpp"
 #include "accel/core/padded_bounds.hpp"
 #include "accel/core/tolerance.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::accel::bvh {
 namespace {

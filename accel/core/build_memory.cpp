@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "scenes/core/error.hpp"
-#include "scenes/core/process_memory.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/process_memory.hpp"
 #include "scenes/subset.hpp"
 
 namespace beambench::accel {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "scenes/core/random.hpp"
+#include "scenes/base/random.hpp"
 
 namespace beambench::accel {
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <hwy/targets.h>
 
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::accel {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "scenes/core/parameters.hpp"
+#include "scenes/base/parameters.hpp"
 
 namespace beambench::accel {
 

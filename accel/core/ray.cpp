@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::accel {
 

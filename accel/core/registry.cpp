@@ -8,9 +8,9 @@
 #include <fmt/ranges.h>
 
 #include "accel/core/build_memory.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/nearest_name.hpp"
-#include "scenes/core/printable.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/nearest_name.hpp"
+#include "scenes/base/printable.hpp"
 
 namespace beambench::accel {
 

@@ -12,7 +12,7 @@
 
 #include "accel/core/accelerator.hpp"
 #include "accel/core/support.hpp"
-#include "scenes/core/parameters.hpp"
+#include "scenes/base/parameters.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::accel {

@@ -1,7 +1,7 @@
 #pragma once
 // What a structure can do at all.
 
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::accel {

@@ -9,7 +9,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include "scenes/core/cpu_quota.hpp"
+#include "scenes/base/cpu_quota.hpp"
 
 namespace beambench::accel {
 

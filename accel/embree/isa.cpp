@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 
 #include "accel/core/instruction_set.hpp"
-#include "accel/embree/device.hpp"
-#include "scenes/core/error.hpp"
+#include "accel/embree_api/device.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::accel::embree {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "accel/core/ray.hpp"
-#include "accel/embree/api.hpp"
-#include "accel/embree/device.hpp"
+#include "accel/embree_api/api.hpp"
+#include "accel/embree_api/device.hpp"
 #include "accel/embree/user_geometry.hpp"
 #include "scenes/scene.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "accel/embree/device.hpp"
+#include "accel/embree_api/device.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::accel::embree {

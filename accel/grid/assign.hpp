@@ -1,7 +1,7 @@
 #pragma once
 // What must reach into a voxel for a reference.
 
-#include "scenes/core/parameters.hpp"
+#include "scenes/base/parameters.hpp"
 
 namespace beambench::accel::grid {
 

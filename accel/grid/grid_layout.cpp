@@ -10,7 +10,7 @@
 
 #include "accel/core/tolerance.hpp"
 #include "accel/grid/voxel_walk.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::accel::grid {
 namespace {

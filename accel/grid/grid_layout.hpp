@@ -9,7 +9,7 @@
 
 #include "accel/core/cell_grid.hpp"
 #include "accel/grid/assign.hpp"
-#include "scenes/core/parameters.hpp"
+#include "scenes/base/parameters.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::accel::grid {

@@ -5,7 +5,7 @@
 
 #include "accel/beam/beam_options.hpp"
 #include "accel/hierarchical_grid/hierarchical_grid_options.hpp"
-#include "scenes/core/parameters.hpp"
+#include "scenes/base/parameters.hpp"
 
 namespace beambench::accel::grid_beam {
 

@@ -16,7 +16,7 @@
 #include "accel/grid/rasterizer.hpp"
 #include "accel/grid/voxel_walk.hpp"
 #include "accel/hierarchical_grid/grid_hierarchy.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::accel::hierarchical_grid {
 

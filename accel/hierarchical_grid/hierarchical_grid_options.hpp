@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "accel/grid/grid_layout.hpp"
-#include "scenes/core/parameters.hpp"
+#include "scenes/base/parameters.hpp"
 
 namespace beambench::accel::hierarchical_grid {
 

@@ -20,7 +20,7 @@
 #include "accel/kd_tree/kd_tree.hpp"
 #include "accel/kd_tree/plane_cost.hpp"
 #include "accel/kd_tree/split_events.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::accel::kd_tree {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "scenes/core/parameters.hpp"
+#include "scenes/base/parameters.hpp"
 
 namespace beambench::accel::kd_tree {
 

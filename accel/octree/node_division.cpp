@@ -12,7 +12,7 @@
 #include "accel/core/overlap.hpp"
 #include "accel/core/tolerance.hpp"
 #include "accel/octree/cost_planes.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::accel::octree {
 namespace {

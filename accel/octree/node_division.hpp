@@ -12,7 +12,7 @@
 #include "accel/core/cell_grid.hpp"
 #include "accel/core/expected_references.hpp"
 #include "accel/octree/octree.hpp"
-#include "scenes/core/random.hpp"
+#include "scenes/base/random.hpp"
 #include "scenes/primitive.hpp"
 #include "scenes/scene.hpp"
 

@@ -12,7 +12,7 @@
 
 #include "accel/core/cell_grid.hpp"
 #include "accel/core/statistics.hpp"
-#include "scenes/core/parameters.hpp"
+#include "scenes/base/parameters.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::accel::octree {

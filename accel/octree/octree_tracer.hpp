@@ -15,7 +15,7 @@
 #include "accel/core/traversal_accelerator.hpp"
 #include "accel/octree/octree.hpp"
 #include "accel/octree/octree_cursor.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::accel::octree {

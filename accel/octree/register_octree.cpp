@@ -8,7 +8,7 @@
 #include "accel/octree/choose_octree.hpp"
 #include "accel/octree/glassner.hpp"
 #include "accel/octree/samet.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::accel::octree {
 namespace {

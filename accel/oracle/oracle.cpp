@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "accel/core/canonical_ray.hpp"
-#include "accel/embree/device.hpp"
+#include "accel/embree_api/device.hpp"
 #include "accel/oracle/exact_tests.hpp"
 
 namespace beambench::accel::oracle {

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::accel::tile_beam {
 namespace {

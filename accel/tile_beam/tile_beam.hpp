@@ -11,7 +11,7 @@
 #include "accel/tile_beam/pencil_kernels.hpp"
 #include "accel/tile_beam/tile_hierarchy.hpp"
 #include "accel/tile_beam/tile_kernels.hpp"
-#include "scenes/core/parameters.hpp"
+#include "scenes/base/parameters.hpp"
 
 namespace beambench::accel::tile_beam {
 

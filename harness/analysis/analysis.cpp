@@ -8,17 +8,17 @@
 #include <fmt/format.h>
 
 #include "harness/base/messages.hpp"
-#include "harness/bench/record/conditions.hpp"
-#include "harness/bench/record/machine.hpp"
-#include "harness/bench/record/shard.hpp"
+#include "harness/measure/record/conditions.hpp"
+#include "harness/measure/record/machine.hpp"
+#include "harness/measure/record/shard.hpp"
 
 namespace beambench::analysis {
 namespace {
 
-using bench::CellRecord;
-using bench::Conditions;
-using bench::QueryPath;
-using bench::Repetition;
+using measure::CellRecord;
+using measure::Conditions;
+using measure::QueryPath;
+using measure::Repetition;
 using Json = nlohmann::ordered_json;
 
 std::optional<Overhead> overhead_of(const CellRecord& cell) {
@@ -26,7 +26,7 @@ std::optional<Overhead> overhead_of(const CellRecord& cell) {
       cell.harness->path == QueryPath::kImageOwn || cell.harness->path == QueryPath::kPicture) {
     return std::nullopt;
   }
-  const double trace_ms = bench::median(bench::collect(cell, &Repetition::trace_ms));
+  const double trace_ms = measure::median(measure::collect(cell, &Repetition::trace_ms));
   // A plug-in that is faster than making rays one by one does not do so, whatever it states.
   if (trace_ms <= cell.harness->ms) return std::nullopt;
   return Overhead{std::string(to_string(cell.harness->path)), cell.id.name(),
@@ -108,26 +108,27 @@ std::vector<Overhead> largest_overheads(std::span<const CellRecord> cells) {
   return largest;
 }
 
-std::vector<std::string> reasons_for_care(const bench::Run& run) {
+std::vector<std::string> reasons_for_care(const measure::Run& run) {
   constexpr double kMostArePrecise = 0.8;
   constexpr std::size_t kLeastForInterval = 6;
   std::size_t timed = 0, imprecise = 0, without_interval = 0;
   for (const CellRecord& cell : run.cells) {
     if (!cell.has_times()) continue;
     ++timed;
-    if (cell.stop_reason != bench::StopReason::kPrecision) ++imprecise;
+    if (cell.stop_reason != measure::StopReason::kPrecision) ++imprecise;
     if (cell.repetitions.size() < kLeastForInterval) ++without_interval;
   }
-  const Conditions conditions = bench::conditions_of(run.manifest);
+  const Conditions conditions = measure::conditions_of(run.manifest);
   std::vector<std::string> reasons;
-  if (conditions.noise && *conditions.noise > bench::kNoisy) {
+  if (conditions.noise && *conditions.noise > measure::kNoisy) {
     reasons.push_back(
         fmt::format("equal work took up to {:.0f}% longer than usual", 100 * *conditions.noise));
   }
-  if (conditions.load > bench::kIdleLoad) {
+  if (conditions.load > measure::kIdleLoad) {
     reasons.push_back(fmt::format("other work was running (load {:.2f})", conditions.load));
   }
-  if (const auto throttled = bench::describe(conditions.throttling)) reasons.push_back(*throttled);
+  if (const auto throttled = measure::describe(conditions.throttling))
+    reasons.push_back(*throttled);
   if (static_cast<double>(timed - imprecise) < kMostArePrecise * static_cast<double>(timed)) {
     reasons.push_back(fmt::format("{} of {} less precise than wanted", imprecise,
                                   base::counted(timed, "timed cell")));
@@ -141,11 +142,11 @@ std::vector<std::string> reasons_for_care(const bench::Run& run) {
   return reasons;
 }
 
-Analysis analyze(const bench::Run& run) {
+Analysis analyze(const measure::Run& run) {
   Analysis analysis;
   analysis.cells = run.cells.size();
   analysis.planned = run.plan.size();
-  analysis.is_part = bench::shard_of_manifest(run.manifest).has_value();
+  analysis.is_part = measure::shard_of_manifest(run.manifest).has_value();
   for (const CellRecord& cell : run.cells) {
     if (cell.verdict == verify::Verdict::kNoRays) {
       ++analysis.without_rays;

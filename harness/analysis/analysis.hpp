@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/analysis/standings.hpp"
-#include "harness/bench/record/run_log.hpp"
+#include "harness/measure/record/run_log.hpp"
 
 namespace beambench::analysis {
 
@@ -40,16 +40,16 @@ struct Analysis {
 };
 
 /// Draws the conclusions from a run, which may have been cut off. Depends on nothing else.
-Analysis analyze(const bench::Run& run);
+Analysis analyze(const measure::Run& run);
 
 /// One for each path with right answers, the largest first. Structures that trace images by
 /// samples of their own have none, nor whole pictures, whose shading is wanted.
-std::vector<Overhead> largest_overheads(std::span<const bench::CellRecord> cells);
+std::vector<Overhead> largest_overheads(std::span<const measure::CellRecord> cells);
 
 /// Why the times of a run are worth little: noise of equal work, other work (a load average), a
 /// CPU quota, missed precision, too few repetitions for an interval. Clauses; none where nothing
 /// speaks against them.
-std::vector<std::string> reasons_for_care(const bench::Run& run);
+std::vector<std::string> reasons_for_care(const measure::Run& run);
 
 /// A mismatch where hits were wrong; invalid input where no scene of a whole sweep had any rays to
 /// measure. A shard may have none.

@@ -7,10 +7,10 @@
 
 #include "harness/analysis/results_csv.hpp"
 #include "harness/analysis/words.hpp"
-#include "harness/bench/google_benchmark.hpp"
-#include "harness/bench/record/conditions.hpp"
-#include "scenes/core/files.hpp"
-#include "scenes/core/json_text.hpp"
+#include "harness/measure/google_benchmark.hpp"
+#include "harness/measure/record/conditions.hpp"
+#include "scenes/base/files.hpp"
+#include "scenes/base/json_text.hpp"
 
 namespace beambench::analysis {
 namespace {
@@ -31,11 +31,11 @@ Json overhead_json(const std::vector<Overhead>& overheads) {
 }
 
 /// The manifest of a run with what its cells show.
-Json whole_manifest(const bench::Run& run, const Analysis& analysis) {
+Json whole_manifest(const measure::Run& run, const Analysis& analysis) {
   Json manifest = run.manifest;
   manifest["harness_overhead"] = overhead_json(analysis.overheads);
   Json& uncontrolled = manifest.at("uncontrolled");
-  if (const auto throttled = bench::describe(bench::conditions_of(manifest).throttling)) {
+  if (const auto throttled = measure::describe(measure::conditions_of(manifest).throttling)) {
     uncontrolled.push_back(fmt::format("During the run, {}.", *throttled));
   }
   if (!analysis.overheads.empty() && analysis.overheads.front().part > kWantedOverhead) {
@@ -56,7 +56,7 @@ Json benchmark_context(const Json& manifest) {
           {"beambench_isa", manifest.at("measurement").at("isa")}};
 }
 
-void write_exports(const fs::path& folder, const bench::Run& run, const Analysis& analysis) {
+void write_exports(const fs::path& folder, const measure::Run& run, const Analysis& analysis) {
   const Json manifest = whole_manifest(run, analysis);
   write_file(folder / "config.json", json_text(run.config) + '\n');
   write_file(folder / "manifest.json", json_text(manifest) + '\n');
@@ -64,15 +64,15 @@ void write_exports(const fs::path& folder, const bench::Run& run, const Analysis
   write_file(folder / "summary.txt", summary(analysis));
   write_file(folder / "results.csv", [&](std::ostream& out) { write_results(out, run); });
   write_file(folder / "google-benchmark.json", [&](std::ostream& out) {
-    bench::write_google_benchmark_json(out, benchmark_context(manifest), run.cells);
+    measure::write_google_benchmark_json(out, benchmark_context(manifest), run.cells);
   });
 }
 
 }  // namespace
 
 Analysis conclude(const fs::path& folder) {
-  const bench::Run run = bench::read_run(folder);
-  return read_as_written((folder / bench::kLogName).string(), "begin a new run with -o", [&] {
+  const measure::Run run = measure::read_run(folder);
+  return read_as_written((folder / measure::kLogName).string(), "begin a new run with -o", [&] {
     const Analysis analysis = analyze(run);
     write_exports(folder, run, analysis);
     return analysis;

@@ -17,23 +17,23 @@
 #include "harness/analysis/exports.hpp"
 #include "harness/analysis/results_csv.hpp"
 #include "harness/base/messages.hpp"
-#include "harness/bench/record/conditions.hpp"
-#include "harness/bench/record/joined_manifest.hpp"
-#include "harness/bench/record/run_log.hpp"
-#include "harness/bench/record/shard.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/files.hpp"
-#include "scenes/core/json_text.hpp"
-#include "scenes/core/shell_word.hpp"
+#include "harness/measure/record/conditions.hpp"
+#include "harness/measure/record/joined_manifest.hpp"
+#include "harness/measure/record/run_log.hpp"
+#include "harness/measure/record/shard.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/files.hpp"
+#include "scenes/base/json_text.hpp"
+#include "scenes/base/shell_word.hpp"
 
 namespace beambench::analysis {
 namespace {
 
-using bench::CellRecord;
-using bench::Run;
-using bench::RunLog;
-using bench::Shard;
-using bench::ShardFacts;
+using measure::CellRecord;
+using measure::Run;
+using measure::RunLog;
+using measure::Shard;
+using measure::ShardFacts;
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
@@ -45,7 +45,7 @@ struct ShardFolder {
   ShardFacts facts;
 
   std::string path() const { return log.folder().string(); }
-  std::string file() const { return (log.folder() / bench::kLogName).string(); }
+  std::string file() const { return (log.folder() / measure::kLogName).string(); }
 };
 
 [[noreturn]] void refuse(const std::string& reason) { throw InputError("cannot merge: " + reason); }
@@ -63,17 +63,17 @@ void require_different(std::span<const fs::path> folders) {
 
 ShardFolder read_shard(const fs::path& path) {
   const std::string remedy = "give the folders that 'beambench run --shard K/N -o DIR' wrote";
-  if (!fs::exists(path / bench::kLogName)) {
-    refuse(fmt::format("'{}' holds no run: there is no {}; {}", path.string(), bench::kLogName,
+  if (!fs::exists(path / measure::kLogName)) {
+    refuse(fmt::format("'{}' holds no run: there is no {}; {}", path.string(), measure::kLogName,
                        remedy));
   }
   RunLog log = RunLog::open(path);
-  Run run = bench::read_run(path);
-  const auto facts = read_as_written((path / bench::kLogName).string(), "measure the shard anew",
-                                     [&] { return bench::shard_of_manifest(run.manifest); });
+  Run run = measure::read_run(path);
+  const auto facts = read_as_written((path / measure::kLogName).string(), "measure the shard anew",
+                                     [&] { return measure::shard_of_manifest(run.manifest); });
   if (!facts) {
     refuse(fmt::format("'{}' holds no shard but {}; {}", path.string(),
-                       bench::is_merged(run.manifest) ? "a run that was merged" : "a whole run",
+                       measure::is_merged(run.manifest) ? "a run that was merged" : "a whole run",
                        remedy));
   }
   return {std::move(log), std::move(run), *facts};
@@ -88,7 +88,7 @@ void require_one_sweep(const ShardFolder& first, const ShardFolder& other) {
                     first.path(), other.path(), changes.front().at("path").get<std::string>()));
   }
   const std::string difference = read_as_written(other.file(), "measure the shard anew", [&] {
-    return bench::program_difference(first.run.manifest, other.run.manifest);
+    return measure::program_difference(first.run.manifest, other.run.manifest);
   });
   if (!difference.empty()) {
     refuse(fmt::format("'{}' and '{}': {}; measure one of them anew", first.path(), other.path(),
@@ -167,8 +167,8 @@ void require_finished(const ShardFolder& shard) {
 /// Refuses a manifest that was changed since, before anything is written.
 void require_intact(const ShardFolder& shard) {
   read_as_written(shard.file(), "measure the shard anew", [&] {
-    const Json joined = bench::joined_manifest(std::span(&shard.run.manifest, 1));
-    bench::conditions_of(joined);
+    const Json joined = measure::joined_manifest(std::span(&shard.run.manifest, 1));
+    measure::conditions_of(joined);
     facts_of(joined);
   });
 }
@@ -251,7 +251,7 @@ class FolderAside {
 
 /// Copies what the log of a shard says of its cells.
 void copy_cells(const ShardFolder& shard, RunLog& log) {
-  bench::for_each_event(shard.log.folder(), [&](Json event) {
+  measure::for_each_event(shard.log.folder(), [&](Json event) {
     if (!event.contains("index")) return;
     if (event.at("event") == "cell") event["shard"] = shard.facts.shard.number;
     log.copy(event);
@@ -261,7 +261,7 @@ void copy_cells(const ShardFolder& shard, RunLog& log) {
 /// Writes the log of a run of the whole sweep.
 void write_log(const InOrder& shards, const fs::path& path) {
   std::vector<Json> manifests;
-  std::vector<bench::PlannedName> plan;
+  std::vector<measure::PlannedName> plan;
   for (const ShardFolder* shard : shards) {
     manifests.push_back(shard->run.manifest);
     plan.insert(plan.end(), shard->run.plan.begin(), shard->run.plan.end());
@@ -273,8 +273,8 @@ void write_log(const InOrder& shards, const fs::path& path) {
                     "measure all shards anew",
                     plan.size(), base::counted(wanted, "cell")));
   }
-  std::ranges::sort(plan, {}, &bench::PlannedName::index);
-  const Json manifest = bench::joined_manifest(manifests);
+  std::ranges::sort(plan, {}, &measure::PlannedName::index);
+  const Json manifest = measure::joined_manifest(manifests);
   RunLog log = RunLog::create(path);
   log.begin(manifest, shards.front()->run.config, plan);
   for (const ShardFolder* shard : shards) copy_cells(*shard, log);

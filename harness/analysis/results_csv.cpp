@@ -13,14 +13,14 @@
 #include <fmt/ranges.h>
 
 #include "accel/core/work_counters.hpp"
-#include "harness/bench/record/robust_statistics.hpp"
+#include "harness/measure/record/robust_statistics.hpp"
 #include "harness/rays/fingerprint.hpp"
-#include "scenes/core/json_text.hpp"
+#include "scenes/base/json_text.hpp"
 
 namespace beambench::analysis {
 namespace {
 
-using namespace bench;
+using namespace measure;
 using Json = nlohmann::ordered_json;
 
 template <class Value>

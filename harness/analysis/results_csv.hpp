@@ -9,7 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "harness/bench/record/run_log.hpp"
+#include "harness/measure/record/run_log.hpp"
 
 namespace beambench::analysis {
 
@@ -29,14 +29,14 @@ inline constexpr int kSchemaVersion = 1;
 inline constexpr double kBetweenRuns = 0.015;
 
 /// Returns what every row of a run has in common.
-bench::RunFacts facts_of(const nlohmann::ordered_json& manifest);
+measure::RunFacts facts_of(const nlohmann::ordered_json& manifest);
 
 /// Returns the same for the cells of each shard of a merged run, by its number, each with the
 /// machine that measured it. Number 0 has the cells of a run that was not merged.
-std::map<int, bench::RunFacts> facts_by_shard(const nlohmann::ordered_json& manifest);
+std::map<int, measure::RunFacts> facts_by_shard(const nlohmann::ordered_json& manifest);
 
 /// Returns the row of a cell. One that does not keep its times has null there.
-Row to_row(const bench::RunFacts& run, const bench::CellRecord& cell);
+Row to_row(const measure::RunFacts& run, const measure::CellRecord& cell);
 
 /// A text as a CSV field: in quotes, inner quotes doubled, when it holds a comma, quote or line
 /// end. One that begins with a character at which a spreadsheet takes it for a formula (=, +, -, @,
@@ -50,6 +50,6 @@ std::string csv_field(std::string_view text);
 std::string csv_table(std::span<const Row> rows);
 
 /// Writes the table of a run's cells. Each row of a merged run has the machine of its shard.
-void write_results(std::ostream& out, const bench::Run& run);
+void write_results(std::ostream& out, const measure::Run& run);
 
 }  // namespace beambench::analysis

@@ -15,18 +15,18 @@
 #include <fmt/ranges.h>
 
 #include "harness/analysis/results_csv.hpp"
-#include "harness/bench/plan.hpp"
-#include "scenes/core/parameters.hpp"
+#include "harness/measure/plan.hpp"
+#include "scenes/base/parameters.hpp"
 
 namespace beambench::analysis {
 namespace {
 
-using bench::CellRecord;
-using bench::collect;
-using bench::median;
-using bench::median_interval;
-using bench::Repetition;
-using bench::shown_scene;
+using measure::CellRecord;
+using measure::collect;
+using measure::median;
+using measure::median_interval;
+using measure::Repetition;
+using measure::shown_scene;
 using Json = nlohmann::ordered_json;
 
 constexpr std::array<std::string_view, 2> kReferences{"null", "exhaustive"};
@@ -53,7 +53,7 @@ std::vector<std::pair<std::string, std::string>> parameters_of(const CellRecord&
 /// Names the cells of a run by what differs between them.
 class Names {
  public:
-  explicit Names(const bench::Run& run) : facts_(facts_by_shard(run.manifest)) {
+  explicit Names(const measure::Run& run) : facts_(facts_by_shard(run.manifest)) {
     for (const CellRecord& cell : run.cells) {
       cameras_[cell.id.scene].insert(cell.id.camera);
       samples_.insert(cell.id.samples);
@@ -99,7 +99,7 @@ class Names {
   std::map<std::string, std::set<std::string>> cameras_;
   std::set<int> samples_;
   std::set<std::string> kinds_;
-  std::map<int, bench::RunFacts> facts_;  ///< of each shard
+  std::map<int, measure::RunFacts> facts_;  ///< of each shard
   std::set<std::string> used_machines_;
   std::map<std::string, std::map<std::string, std::set<std::string>>> values_;
 };
@@ -291,7 +291,7 @@ std::optional<TimeRatio> paired_trace_ratio(const CellRecord& over, const CellRe
   return TimeRatio{median(ratios), median_interval(ratios), true};
 }
 
-std::vector<Standings> standings(const bench::Run& run) {
+std::vector<Standings> standings(const measure::Run& run) {
   const Names names(run);
   std::vector<std::pair<std::string, ViewCells>> views;
   std::vector<std::pair<std::string, std::string>> structures;  // of each contender

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "harness/bench/record/robust_statistics.hpp"
-#include "harness/bench/record/run_log.hpp"
+#include "harness/measure/record/robust_statistics.hpp"
+#include "harness/measure/record/run_log.hpp"
 
 namespace beambench::analysis {
 
-using bench::Interval;
+using measure::Interval;
 
 /// How many times one time is of another, with a 95% interval where there are repetitions enough.
 struct TimeRatio {
@@ -83,12 +83,12 @@ struct OverallStandings {
 
 /// The median ratio of the rounds that both cells have, with the 95% interval of that median: what
 /// disturbs a round disturbs both. Nothing where they have no round in common.
-std::optional<TimeRatio> paired_trace_ratio(const bench::CellRecord& over,
-                                            const bench::CellRecord& under);
+std::optional<TimeRatio> paired_trace_ratio(const measure::CellRecord& over,
+                                            const measure::CellRecord& under);
 
 /// Of each view, in the order of the plan. The conditions of the sweep explain why a contender is
 /// absent.
-std::vector<Standings> standings(const bench::Run& run);
+std::vector<Standings> standings(const measure::Run& run);
 
 /// Of each kind of rays. Where several machines measured a view, one at each resolution, the
 /// highest resolution counts. The views' noise is independent, so that the distances to the ends of

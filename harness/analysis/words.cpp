@@ -17,7 +17,7 @@
 namespace beambench::analysis {
 namespace {
 
-using bench::QueryPath;
+using measure::QueryPath;
 
 std::string in_words(const TimeRatio& ratio) {
   if (!ratio.interval || ratio.interval->low == ratio.interval->high) {

@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "scenes/base/error.hpp"
+#include "scenes/base/printable.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/printable.hpp"
 
 namespace beambench::base {
 

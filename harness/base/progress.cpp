@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "harness/base/messages.hpp"
-#include "scenes/core/printable.hpp"
+#include "scenes/base/printable.hpp"
 
 namespace beambench::base {
 namespace {

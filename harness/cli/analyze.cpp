@@ -9,9 +9,9 @@
 
 #include "harness/analysis/exports.hpp"
 #include "harness/analysis/words.hpp"
-#include "harness/bench/record/run_log.hpp"
 #include "harness/cli/commands.hpp"
-#include "scenes/core/json_text.hpp"
+#include "harness/measure/record/run_log.hpp"
+#include "scenes/base/json_text.hpp"
 
 namespace beambench::cli {
 namespace {
@@ -26,8 +26,8 @@ int analyze(const AnalyzeRequest& request) {
   const std::filesystem::path folder = request.folder;
   const analysis::Analysis found =
       request.write ? analysis::conclude(folder)
-                    : read_as_written((folder / bench::kLogName).string(), "measure it anew",
-                                      [&] { return analysis::analyze(bench::read_run(folder)); });
+                    : read_as_written((folder / measure::kLogName).string(), "measure it anew",
+                                      [&] { return analysis::analyze(measure::read_run(folder)); });
   if (request.json) {
     fmt::print("{}\n", json_text(analysis::to_json(found)));
   } else {
@@ -50,7 +50,8 @@ void add_analyze_command(CLI::App& app, int& exit_code) {
   command->add_flag("--json", request->json, "Print JSON: what analysis.json has");
   command->footer(
       "Examples:\n"
-      "  beambench run harness/bench/sweeps/quick.json -o my-run --benchmark_filter=tetra.*samet\n"
+      "  beambench run quick -o my-run "
+      "--benchmark_filter=tetra.*samet\n"
       "  beambench analyze my-run\n"
       "  beambench analyze my-run --write");
   command->callback([request, &exit_code] { exit_code = analyze(*request); });

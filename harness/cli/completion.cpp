@@ -11,8 +11,8 @@
 #include <fmt/ranges.h>
 
 #include "accel/core/registry.hpp"
-#include "harness/bench/record/machine.hpp"
 #include "harness/cli/commands.hpp"
+#include "harness/measure/record/machine.hpp"
 #include "harness/rays/ray_kind.hpp"
 #include "harness/render/diagnostics.hpp"
 #include "harness/render/shading.hpp"
@@ -241,7 +241,7 @@ std::string manual_page(const CLI::App& app) {
       ".SH NAME\nbeambench \\- compares the acceleration structures of ray tracing\n"
       ".SH SYNOPSIS\n.B beambench\n\\fICOMMAND\\fR [\\fIOPTION\\fR]...\n"
       ".SH DESCRIPTION\n{}\n.SH OPTIONS\n",
-      escaped(bench::build_info().version), escaped(app.get_description()));
+      escaped(measure::build_info().version), escaped(app.get_description()));
   for (const CLI::Option* option : app.get_options()) out += option_entry(*option);
   out += ".SH COMMANDS\n";
   for (const CLI::App* command : app.get_subcommands({})) out += command_section(*command);

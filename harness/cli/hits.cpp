@@ -13,9 +13,9 @@
 #include "harness/rays/hit_check.hpp"
 #include "harness/rays/hit_file.hpp"
 #include "harness/rays/trace_results.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/files.hpp"
-#include "scenes/core/printable.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/files.hpp"
+#include "scenes/base/printable.hpp"
 
 namespace beambench::cli {
 namespace {

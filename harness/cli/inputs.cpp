@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "harness/rays/trace_input.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 #include "scenes/scene.hpp"
 #include "scenes/scene_builder.hpp"
 

@@ -18,11 +18,11 @@
 #include "harness/plugin/load_plugin.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "harness/rays/ray_kind.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/json_text.hpp"
+#include "scenes/base/nearest_name.hpp"
+#include "scenes/base/printable.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/json_text.hpp"
-#include "scenes/core/nearest_name.hpp"
-#include "scenes/core/printable.hpp"
 #include "scenes/formats/mesh/mesh_registry.hpp"
 
 namespace beambench::cli {

@@ -17,14 +17,14 @@
 #include "accel/core/threads.hpp"
 #include "harness/base/messages.hpp"
 #include "harness/base/process_start.hpp"
-#include "harness/bench/record/machine.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
+#include "harness/measure/record/machine.hpp"
 #include "harness/plugin/activity.hpp"
 #include "harness/plugin/load_plugin.hpp"
 #include "harness/rays/hit_check.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/nearest_name.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/nearest_name.hpp"
 
 namespace beambench::cli {
 namespace {
@@ -95,18 +95,18 @@ std::string suggested_option(const CLI::App& command) {
 int parse_and_run(const Arguments& arguments, plugin::Activity& activity) {
   CLI::App app(kDescription, "beambench");
   int exit_code = base::kSuccess;
-  app.set_version_flag("--version", fmt::format("beambench {}", bench::build_info().version));
+  app.set_version_flag("--version", fmt::format("beambench {}", measure::build_info().version));
   app.footer(kExamples);
   app.get_formatter()->column_width(34);
   app.require_subcommand(1);
   for (const auto add :
        {add_list_command, add_scene_command, add_export_command, add_render_command,
         add_rays_command, add_hits_command, add_stats_command, add_time_command, add_verify_command,
-        add_trace_command, add_selftest_command, add_sampling_command, add_census_command,
-        add_mirrors_command, add_analyze_command, add_merge_command, add_completion_command,
-        add_man_command}) {
+        add_trace_command, add_selftest_command, add_analyze_command, add_merge_command,
+        add_completion_command, add_man_command}) {
     add(app, exit_code);
   }
+  for (AddCommand* add : thesis_commands()) add(app, exit_code);
   add_run_command(app, exit_code, activity);
   add_plugin_option(app);
   try {

@@ -47,8 +47,8 @@ void add_merge_command(CLI::App& app, int& exit_code) {
       "Each row keeps the machine that it was measured on; times of two machines are not "
       "compared.\n"
       "Examples:\n"
-      "  beambench run harness/bench/sweeps/quick.json --shard 1/2 -o first\n"
-      "  beambench run harness/bench/sweeps/quick.json --shard 2/2 -o second\n"
+      "  beambench run quick --shard 1/2 -o first\n"
+      "  beambench run quick --shard 2/2 -o second\n"
       "  beambench merge first second -o whole");
   command->callback([request, &exit_code] { exit_code = merge(*request); });
 }

@@ -15,9 +15,9 @@
 #include "harness/rays/ray_file.hpp"
 #include "harness/rays/trace_results.hpp"
 #include "harness/verify/differ.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/files.hpp"
-#include "scenes/core/json_text.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/files.hpp"
+#include "scenes/base/json_text.hpp"
 
 namespace beambench::cli {
 namespace {

@@ -26,9 +26,9 @@
 #include "harness/render/shading.hpp"
 #include "harness/render/structure_overlay.hpp"
 #include "harness/render/whitted_picture.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/files.hpp"
-#include "scenes/core/printable.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/files.hpp"
+#include "scenes/base/printable.hpp"
 
 namespace beambench::cli {
 namespace {

@@ -14,16 +14,16 @@
 #include "harness/analysis/exports.hpp"
 #include "harness/analysis/words.hpp"
 #include "harness/base/messages.hpp"
-#include "harness/bench/division.hpp"
-#include "harness/bench/record/run_log.hpp"
-#include "harness/bench/record/shard.hpp"
-#include "harness/bench/sweep_run.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/interruption.hpp"
+#include "harness/measure/division.hpp"
+#include "harness/measure/record/run_log.hpp"
+#include "harness/measure/record/shard.hpp"
+#include "harness/measure/sweep_run.hpp"
 #include "harness/plugin/load_plugin.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/json_text.hpp"
-#include "scenes/core/shell_word.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/json_text.hpp"
+#include "scenes/base/shell_word.hpp"
 
 namespace beambench::cli {
 namespace {
@@ -39,20 +39,20 @@ struct RunRequest {
 };
 
 /// The configuration of the file that was named, or of the run to be resumed.
-bench::SweepConfig config_of(const RunRequest& request, const std::optional<bench::Run>& earlier) {
-  if (!request.config.empty()) return bench::read_sweep(request.config, accel::registry());
+measure::SweepConfig config_of(const RunRequest& request,
+                               const std::optional<measure::Run>& earlier) {
+  if (!request.config.empty()) return measure::read_sweep(request.config, accel::registry());
   if (earlier) {
-    const std::filesystem::path log = std::filesystem::path(request.resume) / bench::kLogName;
-    return bench::parse_sweep(earlier->config, log.string() + ", config", accel::registry());
+    const std::filesystem::path log = std::filesystem::path(request.resume) / measure::kLogName;
+    return measure::parse_sweep(earlier->config, log.string() + ", config", accel::registry());
   }
   throw InputError(
-      "no configuration given; name a sweep's JSON file, such as "
-      "harness/bench/sweeps/default.json, or "
-      "resume a run with --resume DIR");
+      "no sweep given; name one, such as quick, or a JSON file, or resume a run with --resume "
+      "DIR");
 }
 
-bench::SweepOptions options_of(const RunRequest& request, plugin::Activity& activity) {
-  bench::SweepOptions options;
+measure::SweepOptions options_of(const RunRequest& request, plugin::Activity& activity) {
+  measure::SweepOptions options;
   options.activity = &activity;
   options.resume = !request.resume.empty();
   if (options.resume) options.folder = request.resume;
@@ -61,24 +61,24 @@ bench::SweepOptions options_of(const RunRequest& request, plugin::Activity& acti
 }
 
 /// --benchmark_repetitions=N: exactly N, in the configuration that is kept, too.
-void override_repetitions(bench::SweepConfig& config, int repetitions) {
+void override_repetitions(measure::SweepConfig& config, int repetitions) {
   config.minimum_repetitions = config.maximum_repetitions = repetitions;
   config.source["repetitions"] = {{"minimum", repetitions}, {"maximum", repetitions}};
 }
 
-std::vector<std::string> cell_names(const bench::Plan& plan) {
+std::vector<std::string> cell_names(const measure::Plan& plan) {
   std::vector<std::string> names;
-  for (const bench::CellGroup& group : plan.groups) {
-    for (const bench::PlannedCell& cell : group.cells) names.push_back(cell.id.name());
+  for (const measure::CellGroup& group : plan.groups) {
+    for (const measure::PlannedCell& cell : group.cells) names.push_back(cell.id.name());
   }
   return names;
 }
 
 /// The cells in the order in which they are recorded.
-nlohmann::ordered_json to_json(const bench::Plan& plan) {
+nlohmann::ordered_json to_json(const measure::Plan& plan) {
   nlohmann::ordered_json cells = nlohmann::ordered_json::array();
-  for (const bench::CellGroup& group : plan.groups) {
-    for (const bench::PlannedCell& cell : group.cells) {
+  for (const measure::CellGroup& group : plan.groups) {
+    for (const measure::PlannedCell& cell : group.cells) {
       cells.push_back({{"name", cell.id.name()},
                        {"scene", cell.id.scene},
                        {"primitives", group.scene->primitives.size()},
@@ -96,18 +96,18 @@ nlohmann::ordered_json to_json(const bench::Plan& plan) {
 }
 
 /// The shard that is to be measured: the requested one, or that of the run to be resumed.
-std::optional<bench::Shard> shard_of(const RunRequest& request,
-                                     const std::optional<bench::Run>& earlier) {
-  if (request.shard) return bench::parse_shard(*request.shard);
+std::optional<measure::Shard> shard_of(const RunRequest& request,
+                                       const std::optional<measure::Run>& earlier) {
+  if (request.shard) return measure::parse_shard(*request.shard);
   if (!earlier) return std::nullopt;
-  const std::filesystem::path log = std::filesystem::path(request.resume) / bench::kLogName;
+  const std::filesystem::path log = std::filesystem::path(request.resume) / measure::kLogName;
   const auto facts = read_as_written(log.string(), "begin a new run with -o",
-                                     [&] { return bench::shard_of_manifest(earlier->manifest); });
+                                     [&] { return measure::shard_of_manifest(earlier->manifest); });
   return facts ? std::optional(facts->shard) : std::nullopt;
 }
 
 /// A shard is found complete by its number of cells.
-void refuse_filtered_shard(const bench::BenchmarkFlags& flags) {
+void refuse_filtered_shard(const measure::BenchmarkFlags& flags) {
   for (const std::string& flag : flags.passed_on) {
     if (!flag.starts_with("--benchmark_filter")) continue;
     throw InputError(
@@ -118,8 +118,8 @@ void refuse_filtered_shard(const bench::BenchmarkFlags& flags) {
 }
 
 /// All cells of the configuration.
-bench::Plan whole_plan(const bench::SweepConfig& config) {
-  bench::Plan plan = bench::make_plan(config);
+measure::Plan whole_plan(const measure::SweepConfig& config) {
+  measure::Plan plan = measure::make_plan(config);
   if (plan.merged > 0) {
     base::print_message(
         stderr,
@@ -130,20 +130,20 @@ bench::Plan whole_plan(const bench::SweepConfig& config) {
 }
 
 /// Leaves the cells of one shard, and reports how many.
-bench::PlannedShard reduce_to_shard(bench::Plan& plan, const bench::SweepConfig& config,
-                                    const bench::Shard& shard) {
-  bench::PlannedShard planned = bench::keep_shard(plan, config, shard);
-  fmt::print(stderr, "shard {}: {} of {}, {:.0f}% of the estimated work\n", bench::to_string(shard),
-             planned.facts.cells, base::counted(planned.facts.cells_of_sweep, "cell"),
-             100.0 * planned.share);
+measure::PlannedShard reduce_to_shard(measure::Plan& plan, const measure::SweepConfig& config,
+                                      const measure::Shard& shard) {
+  measure::PlannedShard planned = measure::keep_shard(plan, config, shard);
+  fmt::print(stderr, "shard {}: {} of {}, {:.0f}% of the estimated work\n",
+             measure::to_string(shard), planned.facts.cells,
+             base::counted(planned.facts.cells_of_sweep, "cell"), 100.0 * planned.share);
   return planned;
 }
 
 /// Leaves the cells that --benchmark_filter selects.
-void select_cells(bench::Plan& plan, const bench::GoogleBenchmark& benchmark) {
+void select_cells(measure::Plan& plan, const measure::GoogleBenchmark& benchmark) {
   const std::set<std::string> selected = benchmark.select(cell_names(plan));
-  bench::filter_cells(
-      plan, [&](const bench::PlannedCell& cell) { return selected.contains(cell.id.name()); });
+  measure::filter_cells(
+      plan, [&](const measure::PlannedCell& cell) { return selected.contains(cell.id.name()); });
 }
 
 /// Makes the files of a run from its log, and prints what it comes to.
@@ -164,8 +164,8 @@ std::string resume_command(const std::filesystem::path& folder) {
 
 /// Runs the sweep so that, however it is cut off, its last line states how to resume it. Returns
 /// the exit code.
-int run_resumable(const bench::SweepConfig& config, bench::Plan plan,
-                  const bench::GoogleBenchmark& benchmark, bench::SweepOptions options,
+int run_resumable(const measure::SweepConfig& config, measure::Plan plan,
+                  const measure::GoogleBenchmark& benchmark, measure::SweepOptions options,
                   plugin::Activity& activity, Interruption& interruption) {
   std::string resume;
   options.begun = [&](const std::filesystem::path& folder) {
@@ -175,7 +175,7 @@ int run_resumable(const bench::SweepConfig& config, bench::Plan plan,
         fmt::format("interrupted; every repetition is kept, resume with: {}", resume));
   };
   try {
-    return conclude(bench::run_sweep(config, std::move(plan), benchmark, options, stderr));
+    return conclude(measure::run_sweep(config, std::move(plan), benchmark, options, stderr));
   } catch (const InputError& error) {
     if (resume.empty()) throw;
     throw InputError(fmt::format("{}; then resume with: {}", error.what(), resume));
@@ -194,20 +194,20 @@ void continue_after_crashed_cells(RunRequest& request, const plugin::Activity& a
 int run(RunRequest request, plugin::Activity& activity) {
   Interruption interruption("interrupted; nothing was measured yet");
   continue_after_crashed_cells(request, activity);
-  const bench::BenchmarkFlags flags = bench::parse_benchmark_flags(request.benchmark_flags);
+  const measure::BenchmarkFlags flags = measure::parse_benchmark_flags(request.benchmark_flags);
   for (const std::string& note : flags.notes) {
     base::print_message(stderr, fmt::format("{}\n", note));
   }
-  std::optional<bench::Run> earlier;
-  if (!request.resume.empty()) earlier = bench::read_run(request.resume);
-  bench::SweepConfig config = config_of(request, earlier);
+  std::optional<measure::Run> earlier;
+  if (!request.resume.empty()) earlier = measure::read_run(request.resume);
+  measure::SweepConfig config = config_of(request, earlier);
   if (flags.repetitions) override_repetitions(config, *flags.repetitions);
-  bench::SweepOptions options = options_of(request, activity);
-  const std::optional<bench::Shard> shard = shard_of(request, earlier);
+  measure::SweepOptions options = options_of(request, activity);
+  const std::optional<measure::Shard> shard = shard_of(request, earlier);
   earlier.reset();  // its cells take memory
   if (shard) refuse_filtered_shard(flags);
-  const bench::GoogleBenchmark benchmark(flags);
-  bench::Plan plan = whole_plan(config);
+  const measure::GoogleBenchmark benchmark(flags);
+  measure::Plan plan = whole_plan(config);
   if (shard) options.shard = reduce_to_shard(plan, config, *shard);
   select_cells(plan, benchmark);
   if (request.dry_run || flags.list) {
@@ -227,7 +227,7 @@ void add_run_command(CLI::App& app, int& exit_code, plugin::Activity& activity) 
   CLI::App* command = app.add_subcommand(
       "run", "Measure a sweep: a time is reported only when the hits are correct");
   const auto request = std::make_shared<RunRequest>();
-  command->add_option("CONFIG", request->config, "The sweep's JSON file");
+  command->add_option("CONFIG", request->config, "The sweep: a name, such as quick, or a JSON file");
   CLI::Option* output =
       command->add_option("-o,--output", request->output,
                           "Folder for the record (default: results/runs/<time>-<name>)");
@@ -255,10 +255,11 @@ void add_run_command(CLI::App& app, int& exit_code, plugin::Activity& activity) 
       "(over the names that --dry-run prints), --benchmark_repetitions=N,\n"
       "--benchmark_list_tests, --benchmark_context=KEY=VALUE, --v=N.\n"
       "Examples:\n"
-      "  beambench run harness/bench/sweeps/quick.json\n"
-      "  beambench run harness/bench/sweeps/quick.json -o my-run --benchmark_filter=tetra.*samet\n"
+      "  beambench run quick\n"
+      "  beambench run quick -o my-run "
+      "--benchmark_filter=tetra.*samet\n"
       "  beambench run --resume my-run\n"
-      "  beambench run harness/bench/sweeps/quick.json --shard 2/4 -o shards/2");
+      "  beambench run quick --shard 2/4 -o shards/2");
   command->callback([command, request, &activity, &exit_code] {
     request->benchmark_flags = command->remaining();
     exit_code = run(*request, activity);

@@ -14,9 +14,9 @@
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/text.hpp"
-#include "harness/experiments/scene_growth.hpp"
+#include "harness/measure/scene_growth.hpp"
 #include "harness/rays/fingerprint.hpp"
-#include "scenes/core/json_text.hpp"
+#include "scenes/base/json_text.hpp"
 
 namespace beambench::cli {
 namespace {
@@ -109,9 +109,9 @@ void print_json(const scenes::Scene& scene) {
   fmt::print("{}\n", json_text(out));
 }
 
-void print_text(const experiments::SceneGrowth& growth) {
+void print_text(const measure::SceneGrowth& growth) {
   TextTable table({growth.size_parameter, "primitives", "memory", "per primitive", "seconds"}, 0);
-  for (const experiments::GrownScene& row : growth.sizes) {
+  for (const measure::GrownScene& row : growth.sizes) {
     const double each = static_cast<double>(row.bytes) / static_cast<double>(row.primitives);
     table.add({fmt::format("{}", row.size), fmt::format("{}", row.primitives),
                format_bytes(row.bytes), fmt::format("{:.0f} bytes", each),
@@ -120,10 +120,10 @@ void print_text(const experiments::SceneGrowth& growth) {
   fmt::print("{}\n{}", growth.generator, table.text());
 }
 
-void print_json(const experiments::SceneGrowth& growth) {
+void print_json(const measure::SceneGrowth& growth) {
   nlohmann::ordered_json out{{"scene", growth.generator},
                              {"size_parameter", growth.size_parameter}};
-  for (const experiments::GrownScene& row : growth.sizes) {
+  for (const measure::GrownScene& row : growth.sizes) {
     out["sizes"].push_back({{"scene", row.scene},
                             {"size", row.size},
                             {"primitives", row.primitives},
@@ -134,9 +134,9 @@ void print_json(const experiments::SceneGrowth& growth) {
 }
 
 /// A label may hold commas, so it is quoted.
-void print_csv(const experiments::SceneGrowth& growth) {
+void print_csv(const measure::SceneGrowth& growth) {
   fmt::print("generator,parameter,size,primitives,bytes,seconds,scene\n");
-  for (const experiments::GrownScene& row : growth.sizes) {
+  for (const measure::GrownScene& row : growth.sizes) {
     fmt::print("{},{},{},{},{},{:.6f},\"{}\"\n", growth.generator, growth.size_parameter, row.size,
                row.primitives, row.bytes, row.seconds, row.scene);
   }
@@ -154,7 +154,7 @@ struct SceneRequest {
 void show(const SceneRequest& request) {
   if (request.growth) {
     base::Progress progress(1);
-    const auto growth = experiments::measure_growth(request.scene, request.growth_limit, progress);
+    const auto growth = measure::measure_growth(request.scene, request.growth_limit, progress);
     progress.clear();
     request.csv ? print_csv(growth) : request.json ? print_json(growth) : print_text(growth);
     return;
@@ -178,7 +178,7 @@ void add_scene_command(CLI::App& app, int&) {
       "--growth", request->growth,
       "Generate it in growing sizes; print primitives, bytes and seconds of each");
   command->add_option("--growth-limit", request->growth_limit, "Maximum number of primitives")
-      ->check(CLI::Range(std::size_t{1}, experiments::kMaxGrowth))
+      ->check(CLI::Range(std::size_t{1}, measure::kMaxGrowth))
       ->capture_default_str()
       ->needs(growth);
   command->add_flag("--csv", request->csv, "Print the growth as CSV")

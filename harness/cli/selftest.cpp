@@ -17,18 +17,18 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/base/progress.hpp"
-#include "harness/bench/record/machine.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/text.hpp"
 #include "harness/cli/verify_hits.hpp"
+#include "harness/measure/record/machine.hpp"
 #include "harness/verify/minimize.hpp"
 #include "harness/verify/selftest/hit_comparison.hpp"
 #include "harness/verify/selftest/kit.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/files.hpp"
-#include "scenes/core/json_text.hpp"
-#include "scenes/core/printable.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/files.hpp"
+#include "scenes/base/json_text.hpp"
+#include "scenes/base/printable.hpp"
 
 namespace beambench::cli {
 namespace {
@@ -148,7 +148,7 @@ void print_verdicts(const std::vector<CheckedProperty>& checked,
 
 void write_json(const SelftestRequest& request, const std::vector<CheckedProperty>& checked,
                 const std::vector<verify::Subject>& subjects, bool passed) {
-  nlohmann::ordered_json out{{"beambench", bench::build_info().version},
+  nlohmann::ordered_json out{{"beambench", measure::build_info().version},
                              {"seed", request.effort.seed},
                              {"scenes", request.effort.scenes},
                              {"rays", request.effort.rays},

@@ -19,8 +19,8 @@
 #include "harness/rays/fingerprint.hpp"
 #include "harness/rays/level_visits.hpp"
 #include "harness/rays/trace_results.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/json_text.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/json_text.hpp"
 
 namespace beambench::cli {
 namespace {

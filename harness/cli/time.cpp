@@ -13,14 +13,14 @@
 
 #include "accel/core/registry.hpp"
 #include "harness/analysis/words.hpp"
-#include "harness/bench/sweep_run.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/interruption.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/files.hpp"
-#include "scenes/core/json_text.hpp"
-#include "scenes/core/printable.hpp"
+#include "harness/measure/sweep_run.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/files.hpp"
+#include "scenes/base/json_text.hpp"
+#include "scenes/base/printable.hpp"
 
 namespace beambench::cli {
 namespace {
@@ -109,17 +109,17 @@ void require_can_be_saved(const TimeRequest& request) {
 int time_structures(const TimeRequest& request) {
   if (!request.save.empty()) require_can_be_saved(request);
   Interruption interruption("interrupted; nothing was kept");
-  const bench::SweepConfig config =
-      bench::parse_sweep(sweep_of(request), "beambench time", accel::registry());
-  bench::Plan plan = bench::make_plan(config);
+  const measure::SweepConfig config =
+      measure::parse_sweep(sweep_of(request), "beambench time", accel::registry());
+  measure::Plan plan = measure::make_plan(config);
   if (!request.save.empty()) write_file(request.save, json_text(config.source) + "\n");
   const TemporaryFolder folder;
   interruption.set_folder_to_remove(folder.path());
-  bench::SweepOptions options;
+  measure::SweepOptions options;
   options.folder = folder.path();
-  const bench::GoogleBenchmark benchmark(bench::parse_benchmark_flags({}));
+  const measure::GoogleBenchmark benchmark(measure::parse_benchmark_flags({}));
   const analysis::Analysis found = analysis::analyze(
-      bench::read_run(bench::run_sweep(config, std::move(plan), benchmark, options, stderr)));
+      measure::read_run(measure::run_sweep(config, std::move(plan), benchmark, options, stderr)));
   fmt::print("{}", analysis::describe_contenders(found.views));
   if (found.views.size() > 1) fmt::print("{}\n", analysis::describe(found.views));
   fmt::print("{}", analysis::describe_verdicts(found));

@@ -13,8 +13,8 @@
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/verify/ray_path.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/json_text.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/json_text.hpp"
 
 namespace beambench::cli {
 namespace {

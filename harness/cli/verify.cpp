@@ -11,21 +11,21 @@
 #include <fmt/format.h>
 
 #include "accel/core/threads.hpp"
-#include "harness/bench/record/machine.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/text.hpp"
 #include "harness/cli/verify_hits.hpp"
+#include "harness/measure/record/machine.hpp"
 #include "harness/plugin/load_plugin.hpp"
 #include "harness/rays/ray_kind.hpp"
 #include "harness/rays/trace_input.hpp"
 #include "harness/render/diagnostics.hpp"
 #include "harness/render/verified_picture.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/files.hpp"
+#include "scenes/base/json_text.hpp"
+#include "scenes/base/shell_word.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/files.hpp"
-#include "scenes/core/json_text.hpp"
-#include "scenes/core/shell_word.hpp"
 
 namespace beambench::cli {
 namespace {
@@ -99,7 +99,7 @@ void print_missing_rays(const std::vector<verify::VerifiedCell>& cells) {
 
 void write_json(const VerifyRequest& request, const std::vector<verify::VerifiedCell>& cells,
                 bool passed) {
-  nlohmann::ordered_json out{{"beambench", bench::build_info().version},
+  nlohmann::ordered_json out{{"beambench", measure::build_info().version},
                              {"resolution", request.resolution},
                              {"samples", request.samples},
                              {"ray_kinds", request.rays},

@@ -10,18 +10,18 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "harness/bench/record/machine.hpp"
 #include "harness/cli/text.hpp"
+#include "harness/measure/record/machine.hpp"
 #include "harness/rays/ray_file.hpp"
 #include "harness/render/diagnostics.hpp"
 #include "harness/verify/describe.hpp"
 #include "harness/verify/hit_files.hpp"
 #include "harness/verify/outside_program.hpp"
 #include "harness/verify/selftest/kit.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/files.hpp"
-#include "scenes/core/json_text.hpp"
-#include "scenes/core/printable.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/files.hpp"
+#include "scenes/base/json_text.hpp"
+#include "scenes/base/printable.hpp"
 
 namespace beambench::cli {
 namespace {
@@ -106,7 +106,7 @@ Json json_of(const VerifiedClaims& claims) {
 }
 
 void write_json(const VerifyHitsRequest& request, std::span<const VerifiedClaims> all) {
-  Json out{{"beambench", bench::build_info().version},
+  Json out{{"beambench", measure::build_info().version},
            {"passed", std::ranges::all_of(all, &VerifiedClaims::passed)},
            {"cases", Json::array()}};
   for (const VerifiedClaims& each : all) out["cases"].push_back(json_of(each));

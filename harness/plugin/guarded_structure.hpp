@@ -12,7 +12,7 @@
 
 #include "accel/core/registry.hpp"
 #include "harness/plugin/activity.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::plugin {
 

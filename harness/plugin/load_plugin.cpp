@@ -18,10 +18,10 @@
 #include "harness/plugin/guarded_structure.hpp"
 #include "harness/plugin/validation.hpp"
 #include "harness/rays/fingerprint.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/files.hpp"
+#include "scenes/base/shell_word.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/files.hpp"
-#include "scenes/core/shell_word.hpp"
 
 namespace beambench::plugin {
 namespace {

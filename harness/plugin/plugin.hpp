@@ -29,10 +29,10 @@
 #include "accel/core/tolerance.hpp"
 #include "accel/core/traversal_accelerator.hpp"
 #include "harness/plugin/plugin_stamp.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/portable_math.hpp"
+#include "scenes/base/random.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/portable_math.hpp"
-#include "scenes/core/random.hpp"
 #include "scenes/scene_builder.hpp"
 
 #if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__

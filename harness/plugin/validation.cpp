@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 #include "scenes/scene_builder.hpp"
 
 namespace beambench::plugin {

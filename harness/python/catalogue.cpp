@@ -13,7 +13,7 @@
 #include "accel/core/registry.hpp"
 #include "harness/python/bindings.hpp"
 #include "harness/rays/ray_kind.hpp"
-#include "scenes/core/parameters.hpp"
+#include "scenes/base/parameters.hpp"
 
 namespace beambench::python {
 namespace {

@@ -6,10 +6,10 @@
 
 #include <nanobind/nanobind.h>
 
-#include "harness/bench/record/machine.hpp"
+#include "harness/measure/record/machine.hpp"
 #include "harness/python/bindings.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/printable.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/printable.hpp"
 #include "scenes/primitive.hpp"
 
 NB_MODULE(_beambench, module) {
@@ -31,7 +31,7 @@ NB_MODULE(_beambench, module) {
       PyErr_SetString(PyExc_OSError, beambench::message_line(error.what()).c_str());
     }
   });
-  const std::string_view version = beambench::bench::build_info().version;
+  const std::string_view version = beambench::measure::build_info().version;
   module.def(
       "version", [version] { return nb::str(version.data(), version.size()); },
       "The program's version.");

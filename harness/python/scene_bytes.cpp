@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "harness/rays/fingerprint.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::python {
 namespace {

@@ -32,8 +32,8 @@
 #include "harness/python/scene_handle.hpp"
 #include "harness/python/stoppable_queries.hpp"
 #include "harness/python/structure_handle.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/parameters.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/parameters.hpp"
 
 namespace beambench::python {
 

@@ -17,13 +17,13 @@
 #include "accel/core/registry.hpp"
 #include "harness/analysis/exports.hpp"
 #include "harness/analysis/words.hpp"
-#include "harness/bench/config.hpp"
-#include "harness/bench/google_benchmark.hpp"
-#include "harness/bench/plan.hpp"
-#include "harness/bench/sweep_run.hpp"
+#include "harness/measure/config.hpp"
+#include "harness/measure/google_benchmark.hpp"
+#include "harness/measure/plan.hpp"
+#include "harness/measure/sweep_run.hpp"
 #include "harness/python/bindings.hpp"
 #include "harness/python/interruption.hpp"
-#include "scenes/core/json_text.hpp"
+#include "scenes/base/json_text.hpp"
 
 namespace beambench::python {
 namespace {
@@ -48,10 +48,10 @@ struct CloseFile {
 };
 
 /// A configuration from JSON, or where there is none from a file.
-bench::SweepConfig read_config(const std::string& json, const std::string& file) {
-  if (json.empty()) return bench::read_sweep(file, accel::registry());
-  return bench::parse_sweep(parse_json<nlohmann::json>(json, "config"), "config",
-                            accel::registry());
+measure::SweepConfig read_config(const std::string& json, const std::string& file) {
+  if (json.empty()) return measure::read_sweep(file, accel::registry());
+  return measure::parse_sweep(parse_json<nlohmann::json>(json, "config"), "config",
+                              accel::registry());
 }
 
 std::tuple<nb::bytes, std::string> run_sweep(const std::string& json, const nb::bytes& file_given,
@@ -62,17 +62,17 @@ std::tuple<nb::bytes, std::string> run_sweep(const std::string& json, const nb::
   std::string summary;
   {
     const nb::gil_scoped_release released;
-    const bench::SweepConfig config = read_config(json, file);
+    const measure::SweepConfig config = read_config(json, file);
     summary = result_of([config, folder, resume, progress](const StopRequest& stop) {
       const auto lock = lock_benchmark(stop);
       const std::unique_ptr<std::FILE, CloseFile> nowhere(std::fopen("/dev/null", "w"));
-      bench::SweepOptions options;
+      measure::SweepOptions options;
       options.folder = folder;
       options.resume = resume;
       options.before_each_piece = [&] { stop.check(); };
       return analysis::summary(analysis::conclude(
-          bench::run_sweep(config, bench::make_plan(config), bench::GoogleBenchmark({}), options,
-                           progress ? stderr : nowhere.get())));
+          measure::run_sweep(config, measure::make_plan(config), measure::GoogleBenchmark({}),
+                             options, progress ? stderr : nowhere.get())));
     });
   }
   const std::string results = (std::filesystem::path(folder) / "results.csv").native();

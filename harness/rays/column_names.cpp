@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "scenes/core/error.hpp"
-#include "scenes/core/nearest_name.hpp"
-#include "scenes/core/printable.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/nearest_name.hpp"
+#include "scenes/base/printable.hpp"
 
 namespace beambench::rays {
 namespace {

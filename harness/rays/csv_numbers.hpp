@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scenes/core/files.hpp"
+#include "scenes/base/files.hpp"
 
 namespace beambench::rays {
 

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "scenes/core/error.hpp"
-#include "scenes/core/json_text.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/json_text.hpp"
 
 namespace beambench::rays {
 namespace {

@@ -19,10 +19,10 @@
 #include "harness/rays/csv_numbers.hpp"
 #include "harness/rays/file_header.hpp"
 #include "harness/rays/fingerprint.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/files.hpp"
-#include "scenes/core/json_text.hpp"
-#include "scenes/core/printable.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/files.hpp"
+#include "scenes/base/json_text.hpp"
+#include "scenes/base/printable.hpp"
 
 namespace beambench::rays {
 

@@ -15,7 +15,7 @@
 #include "harness/rays/normal.hpp"
 #include "harness/rays/picture_order.hpp"
 #include "harness/rays/trace_input.hpp"
-#include "scenes/core/random.hpp"
+#include "scenes/base/random.hpp"
 
 namespace beambench::rays {
 namespace {

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "scenes/core/error.hpp"
-#include "scenes/core/printable.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/printable.hpp"
 
 namespace beambench::rays {
 namespace {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scenes/core/parameters.hpp"
+#include "scenes/base/parameters.hpp"
 
 namespace beambench::rays {
 

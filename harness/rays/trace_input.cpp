@@ -12,7 +12,7 @@
 #include "harness/rays/fingerprint.hpp"
 #include "harness/rays/ray_file.hpp"
 #include "harness/rays/ray_generators.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::rays {
 namespace {

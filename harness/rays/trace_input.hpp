@@ -12,7 +12,7 @@
 #include "accel/core/registry.hpp"
 #include "harness/rays/ray_kind.hpp"
 #include "harness/rays/ray_set.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::rays {

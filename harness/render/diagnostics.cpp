@@ -15,7 +15,7 @@
 #include "harness/render/picture/point_marks.hpp"
 #include "harness/render/shading.hpp"
 #include "harness/verify/verify_ray.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::render {
 namespace {

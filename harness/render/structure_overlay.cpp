@@ -14,8 +14,8 @@
 #include "harness/rays/ray_generators.hpp"
 #include "harness/render/picture/overlay.hpp"
 #include "harness/render/picture/place_overlay.hpp"
+#include "scenes/base/error.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/error.hpp"
 
 namespace beambench::render {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "harness/render/whitted_picture.hpp"
 #include "harness/verify/describe.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::render {
 namespace {

@@ -18,7 +18,7 @@
 #include "harness/base/messages.hpp"
 #include "harness/rays/picture_order.hpp"
 #include "harness/rays/trace_input.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::render {
 namespace {

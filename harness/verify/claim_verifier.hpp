@@ -10,7 +10,7 @@
 #include "accel/core/ray.hpp"
 #include "harness/rays/claimed_hits.hpp"
 #include "harness/verify/diff_report.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::verify {

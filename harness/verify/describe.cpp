@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "harness/verify/hit_json.hpp"
-#include "scenes/core/printable.hpp"
-#include "scenes/core/shell_word.hpp"
+#include "scenes/base/printable.hpp"
+#include "scenes/base/shell_word.hpp"
 
 namespace beambench::verify {
 namespace {

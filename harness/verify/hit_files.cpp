@@ -8,7 +8,7 @@
 #include "harness/rays/hit_file.hpp"
 #include "harness/rays/ray_file.hpp"
 #include "harness/rays/trace_input.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::verify {
 namespace {

@@ -16,9 +16,9 @@
 
 #include "harness/rays/hit_file.hpp"
 #include "harness/rays/ray_file.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/files.hpp"
-#include "scenes/core/shell_word.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/files.hpp"
+#include "scenes/base/shell_word.hpp"
 #include "scenes/formats/mesh/obj_writer.hpp"
 #include "scenes/formats/nff/nff_writer.hpp"
 

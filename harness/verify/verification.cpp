@@ -11,7 +11,7 @@
 #include "harness/rays/hit_check.hpp"
 #include "harness/rays/trace_results.hpp"
 #include "harness/verify/describe.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::verify {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "scenes/core/portable_math.hpp"
+#include "scenes/base/portable_math.hpp"
 
 namespace beambench::scenes::modelling {
 

@@ -3,7 +3,7 @@
 #include <numbers>
 #include <vector>
 
-#include "scenes/core/portable_math.hpp"
+#include "scenes/base/portable_math.hpp"
 #include "scenes/modelling/lathe.hpp"
 #include "scenes/modelling/polygon_mesh.hpp"
 

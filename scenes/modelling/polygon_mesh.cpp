@@ -13,7 +13,7 @@
 #include <glm/trigonometric.hpp>
 #include <glm/vec4.hpp>
 
-#include "scenes/core/portable_math.hpp"
+#include "scenes/base/portable_math.hpp"
 
 namespace beambench::scenes::modelling {
 namespace {

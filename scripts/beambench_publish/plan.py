@@ -11,7 +11,7 @@ from beambench_report.base.files import ROOT, Problem, load_json
 from beambench_report.base.quantities import markdown_table
 
 PLAN = Path(__file__).parent / "plan.json"
-SWEEPS = ROOT / "harness/bench/sweeps"
+SWEEPS = ROOT / "harness/measure/sweeps"
 
 
 @dataclass(frozen=True)

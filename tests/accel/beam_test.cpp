@@ -11,8 +11,8 @@
 
 #include "accel/beam/beam_tracer.hpp"
 #include "accel/core/registry.hpp"
+#include "scenes/base/random.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/random.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/painted_once.hpp"
 #include "tests/random_scene.hpp"

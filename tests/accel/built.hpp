@@ -6,7 +6,7 @@
 
 #include "accel/core/accelerator.hpp"
 #include "accel/core/registry.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::tests {

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scenes/core/random.hpp"
+#include "scenes/base/random.hpp"
 #include "tests/accel/contains.hpp"
 
 namespace beambench::accel {

@@ -14,8 +14,8 @@
 
 #include "accel/core/registry.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/random.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/random.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/accel/bits.hpp"
 #include "tests/random_scene.hpp"

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "accel/core/registry.hpp"
+#include "scenes/base/random.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/random.hpp"
 #include "tests/painted_once.hpp"
 #include "tests/random_scene.hpp"
 

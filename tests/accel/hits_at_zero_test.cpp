@@ -13,7 +13,7 @@
 
 #include "accel/core/registry.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
-#include "scenes/core/random.hpp"
+#include "scenes/base/random.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/accel/bits.hpp"
 #include "tests/random_scene.hpp"

@@ -17,8 +17,8 @@
 #include "accel/beam/beam_tracer.hpp"
 #include "accel/core/primary_rays.hpp"
 #include "accel/core/registry.hpp"
+#include "scenes/base/random.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/random.hpp"
 #include "scenes/planar_mirrors.hpp"
 #include "tests/random_scene.hpp"
 

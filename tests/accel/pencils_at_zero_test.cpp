@@ -18,7 +18,7 @@
 #include "accel/exhaustive/exhaustive.hpp"
 #include "accel/tile_beam/tile_beam.hpp"
 #include "harness/verify/contact.hpp"
-#include "scenes/core/random.hpp"
+#include "scenes/base/random.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/only_target.hpp"
 #include "tests/random_scene.hpp"

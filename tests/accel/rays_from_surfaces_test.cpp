@@ -12,9 +12,9 @@
 #include "accel/core/tolerance.hpp"
 #include "accel/core/work_counters.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
+#include "scenes/base/parameters.hpp"
+#include "scenes/base/random.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/parameters.hpp"
-#include "scenes/core/random.hpp"
 #include "scenes/scene_builder.hpp"
 
 namespace beambench::accel {

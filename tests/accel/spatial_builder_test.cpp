@@ -13,8 +13,8 @@
 
 #include "accel/core/padded_bounds.hpp"
 #include "accel/core/tolerance.hpp"
+#include "scenes/base/random.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/random.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/random_scene.hpp"
 

@@ -12,8 +12,8 @@
 #include <gtest/gtest.h>
 
 #include "accel/core/registry.hpp"
+#include "scenes/base/random.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/random.hpp"
 #include "scenes/modelling/add_mesh.hpp"
 #include "scenes/modelling/box.hpp"
 

@@ -10,7 +10,7 @@
 #include "accel/exhaustive/exhaustive.hpp"
 #include "accel/octree/glassner.hpp"
 #include "accel/octree/samet.hpp"
-#include "scenes/core/random.hpp"
+#include "scenes/base/random.hpp"
 #include "tests/random_scene.hpp"
 
 namespace beambench::accel {

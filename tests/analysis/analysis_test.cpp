@@ -11,7 +11,7 @@
 #include "harness/analysis/exports.hpp"
 #include "harness/analysis/words.hpp"
 #include "harness/base/messages.hpp"
-#include "harness/bench/record/conditions.hpp"
+#include "harness/measure/record/conditions.hpp"
 #include "tests/analysis/some_run.hpp"
 #include "tests/scenes/thrown_message.hpp"
 #include "tests/temporary_folder.hpp"
@@ -19,14 +19,14 @@
 namespace beambench::analysis {
 namespace {
 
-using bench::CellRecord;
-using bench::QueryPath;
+using measure::CellRecord;
+using measure::QueryPath;
 using scenes::says;
 using verify::Verdict;
 using Json = nlohmann::ordered_json;
 using Reasons = std::vector<std::string>;
 
-bench::Run quiet_run() {
+measure::Run quiet_run() {
   return run_of({cell_of({"samet", rounds(1.0)}), cell_of({"embree", rounds(2.0)})});
 }
 
@@ -39,7 +39,7 @@ TEST(ReasonsForCare, AreNoneWhereNothingDisturbed) {
 }
 
 TEST(ReasonsForCare, AreTheNoiseAndTheLoad) {
-  bench::Run run = quiet_run();
+  measure::Run run = quiet_run();
   run.manifest["measurement"]["noise"] = 0.12;
   run.manifest["machine"]["load_average"] = 1.5;
   EXPECT_EQ(reasons_for_care(run), (Reasons{"equal work took up to 12% longer than usual",
@@ -49,18 +49,18 @@ TEST(ReasonsForCare, AreTheNoiseAndTheLoad) {
 }
 
 TEST(ReasonsForCare, HaveTheThrottling) {
-  bench::Run run = quiet_run();
+  measure::Run run = quiet_run();
   Json& throttling = run.manifest["measurement"]["throttling"];
-  throttling = bench::to_json(Throttling{14, 0, 0.0});
+  throttling = measure::to_json(Throttling{14, 0, 0.0});
   EXPECT_TRUE(reasons_for_care(run).empty());
-  throttling = bench::to_json(Throttling{14, 12, 0.9});
+  throttling = measure::to_json(Throttling{14, 12, 0.9});
   EXPECT_EQ(reasons_for_care(run), Reasons{"the kernel throttled the process in 12 of 14 periods "
                                            "of its CPU quota"});
 }
 
 TEST(ReasonsForCare, AreLittlePrecisionAndFewRepetitions) {
-  bench::Run run = quiet_run();
-  run.cells[0].stop_reason = bench::StopReason::kBudget;
+  measure::Run run = quiet_run();
+  run.cells[0].stop_reason = measure::StopReason::kBudget;
   EXPECT_EQ(reasons_for_care(run), Reasons{"1 of 2 timed cells less precise than wanted"});
   run.cells[0].verdict = Verdict::kMismatch;
   EXPECT_TRUE(reasons_for_care(run).empty()) << "it has no times";
@@ -70,7 +70,7 @@ TEST(ReasonsForCare, AreLittlePrecisionAndFewRepetitions) {
 }
 
 TEST(ReasonsForCare, AreThatARunWasCutOff) {
-  bench::Run run = quiet_run();
+  measure::Run run = quiet_run();
   run.manifest["finished_utc"] = nullptr;
   run.cells[1].is_finished = false;
   run.cells[1].stop_reason.reset();
@@ -84,7 +84,7 @@ TEST(ReasonsForCare, AreThatARunWasCutOff) {
 }
 
 TEST(ExitCode, IsThatOfTheWorstCell) {
-  bench::Run run = quiet_run();
+  measure::Run run = quiet_run();
   EXPECT_EQ(exit_code_of(analyze(run)), base::kSuccess);
   run.cells[1].verdict = Verdict::kBaseline;
   EXPECT_EQ(exit_code_of(analyze(run)), base::kSuccess);
@@ -101,7 +101,7 @@ TEST(ExitCode, IsThatOfTheWorstCell) {
 }
 
 TEST(ExitCode, OfAWholeSweepWithoutRaysIsInvalidInput) {
-  bench::Run run = quiet_run();
+  measure::Run run = quiet_run();
   for (CellRecord& cell : run.cells) cell.verdict = Verdict::kNoRays;
   EXPECT_EQ(exit_code_of(analyze(run)), base::kInvalidInput);
   run.manifest["shard"] = {{"number", 1}, {"count", 2}, {"cells", 2}, {"cells_of_sweep", 4}};
@@ -157,7 +157,7 @@ TEST(Overhead, IsStatedForEachQueryPath) {
 }
 
 TEST(AnalysisJson, HasEachViewWithItsRatios) {
-  const bench::Run run =
+  const measure::Run run =
       run_of({cell_of({"samet", rounds(1.0), 4.0}), cell_of({"embree", rounds(2.0)}),
               cell_of({"null", rounds(0.1), 0.0, "", Verdict::kBaseline}),
               cell_of({"beam", {}, 0.0, "", Verdict::kMismatch})});
@@ -197,19 +197,19 @@ TEST(AnalysisJson, HasEachViewWithItsRatios) {
 
 TEST(AnalysisJson, HasNoNumberForABuildThatNeverPaysOff) {
   // Round by round samet is faster, by its median time as slow: no ray makes up for its build.
-  const bench::Run run = run_of(
+  const measure::Run run = run_of(
       {cell_of({"samet", {1, 1, 1, 1, 1, 1}, 9.0}), cell_of({"embree", {2, 2, 2, 2, 2, 2}})});
   Analysis analysis = analyze(run);
   analysis.views.at(0).ranked.at(1).ns_per_ray = analysis.views.at(0).ranked.at(0).ns_per_ray;
   const Json view = to_json(analysis).at("views").at(0);
   EXPECT_TRUE(view.at("break_even").at("rays").is_null());
-  const bench::Run alone = run_of({cell_of({"samet", rounds(1.0)})});
+  const measure::Run alone = run_of({cell_of({"samet", rounds(1.0)})});
   EXPECT_FALSE(to_json(analyze(alone)).at("views").at(0).contains("break_even"));
 }
 
 /// Writes the run's log as a sweep does, a round at a time.
-void write_log(const bench::Run& run, const std::filesystem::path& folder) {
-  bench::RunLog log = bench::RunLog::create(folder);
+void write_log(const measure::Run& run, const std::filesystem::path& folder) {
+  measure::RunLog log = measure::RunLog::create(folder);
   Json manifest = run.manifest;
   manifest["finished_utc"] = nullptr;
   log.begin(manifest, run.config, run.plan);
@@ -229,8 +229,8 @@ void write_log(const bench::Run& run, const std::filesystem::path& folder) {
   if (run.is_ended()) log.end(run.manifest.at("finished_utc").get<std::string>());
 }
 
-bench::Run run_of_all_kinds() {
-  bench::Run run = run_of(
+measure::Run run_of_all_kinds() {
+  measure::Run run = run_of(
       {cell_of({"samet", rounds(1.0 / 3.0), 4.0, "max_level=6"}), cell_of({"embree", rounds(0.7)}),
        cell_of({"null", rounds(0.1), 0.0, "", Verdict::kBaseline}),
        cell_of({"beam", {}, 0.0, "", Verdict::kError}),
@@ -243,21 +243,21 @@ bench::Run run_of_all_kinds() {
 
 TEST(Analysis, OfALogIsThatOfTheRun) {
   const TemporaryFolder folder;
-  bench::Run run = run_of_all_kinds();
+  measure::Run run = run_of_all_kinds();
   write_log(run, folder.path() / "whole");
-  EXPECT_EQ(to_json(analyze(bench::read_run(folder.path() / "whole"))), to_json(analyze(run)));
+  EXPECT_EQ(to_json(analyze(measure::read_run(folder.path() / "whole"))), to_json(analyze(run)));
   run.manifest["finished_utc"] = nullptr;
   run.cells[4].is_finished = false;
   run.cells[4].stop_reason.reset();
   run.cells.pop_back();
   write_log(run, folder.path() / "cut off");
-  EXPECT_EQ(to_json(analyze(bench::read_run(folder.path() / "cut off"))), to_json(analyze(run)));
+  EXPECT_EQ(to_json(analyze(measure::read_run(folder.path() / "cut off"))), to_json(analyze(run)));
 }
 
 TEST(Conclude, MakesEveryFileFromTheLogAlone) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "run";
-  const bench::Run run = run_of_all_kinds();
+  const measure::Run run = run_of_all_kinds();
   write_log(run, path);
   const std::vector<std::string> names{"config.json",   "manifest.json", "results.csv",
                                        "analysis.json", "summary.txt",   "google-benchmark.json"};

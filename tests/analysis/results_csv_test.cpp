@@ -12,14 +12,14 @@
 #include <rapidcheck/gtest.h>
 
 #include "tests/analysis/some_run.hpp"
-#include "tests/bench/some_cell.hpp"
+#include "tests/measure/some_cell.hpp"
 
 namespace beambench::analysis {
 namespace {
 
-using bench::CellRecord;
-using bench::QueryPath;
-using bench::RunFacts;
+using measure::CellRecord;
+using measure::QueryPath;
+using measure::RunFacts;
 
 using Fields = std::vector<std::vector<std::string>>;
 
@@ -126,14 +126,14 @@ const char* const kContract =
     "hits,agree,tie,graze,structure_error,embree_error,verdict\n";
 
 TEST(CellRow, HasTheColumnsOfTheContract) {
-  CellRecord cell = bench::some_cell();
+  CellRecord cell = measure::some_cell();
   cell.work.counters.erase("clips");
   const std::string table = csv_table(std::vector{to_row(kRun, cell)});
   EXPECT_EQ(table.substr(0, table.find('\n') + 1), kContract);
 }
 
 TEST(CellRow, SumsUpTheRepetitions) {
-  const Row row = to_row(kRun, bench::some_cell());
+  const Row row = to_row(kRun, measure::some_cell());
   EXPECT_EQ(row.at("schema_version"), kSchemaVersion);
   EXPECT_EQ(row.at("repetitions"), 7);
   EXPECT_EQ(row.at("build_ms_median"), 4.0);
@@ -154,13 +154,13 @@ TEST(CellRow, SumsUpTheRepetitions) {
 }
 
 TEST(CellRow, NamesTheInstructionSetThatTheStructureChose) {
-  CellRecord cell = bench::some_cell();
+  CellRecord cell = measure::some_cell();
   cell.statistics->instruction_set = "AVX3";
   EXPECT_EQ(to_row(kRun, cell).at("structure_isa"), "AVX3");
 }
 
 TEST(CellRow, HardwareCountsAreEmptyWhereTheMachineCountsNone) {
-  const CellRecord cell = bench::some_cell();
+  const CellRecord cell = measure::some_cell();
   const Row row = to_row(kRun, cell);
   EXPECT_EQ(row.at("trace_instructions"), 1003);
   EXPECT_EQ(row.at("trace_cycles"), 500);
@@ -169,7 +169,7 @@ TEST(CellRow, HardwareCountsAreEmptyWhereTheMachineCountsNone) {
 }
 
 TEST(CellRow, TheHarnesssShareIsThatOfItsOwnPath) {
-  CellRecord cell = bench::some_cell();
+  CellRecord cell = measure::some_cell();
   Row row = to_row(kRun, cell);
   EXPECT_EQ(row.at("query_path"), "image-single");
   EXPECT_EQ(row.at("harness_ms"), 2.5);
@@ -183,7 +183,7 @@ TEST(CellRow, TheHarnesssShareIsThatOfItsOwnPath) {
 }
 
 TEST(CellRow, TheFirstAndTheSecondTracesHaveAnIntervalEach) {
-  CellRecord cell = bench::some_cell();
+  CellRecord cell = measure::some_cell();
   for (int i = 0; i < 6; ++i) cell.repetitions[static_cast<std::size_t>(i)].warm_trace_ms = 8.0 + i;
   Row row = to_row(kRun, cell);
   EXPECT_EQ(row.at("trace_ms_median"), 10.0);
@@ -197,7 +197,7 @@ TEST(CellRow, TheFirstAndTheSecondTracesHaveAnIntervalEach) {
 }
 
 TEST(CellRow, NamesALibraryItsVersionAndItsGeometry) {
-  CellRecord cell = bench::some_cell();
+  CellRecord cell = measure::some_cell();
   EXPECT_TRUE(to_row(kRun, cell).at("library_version").is_null());
   EXPECT_TRUE(to_row(kRun, cell).at("library_geometry").is_null());
   cell.statistics->library_version = "Embree 4.3.3";
@@ -209,7 +209,7 @@ TEST(CellRow, NamesALibraryItsVersionAndItsGeometry) {
 }
 
 TEST(CellRow, WithoutTheVerdictOkItKeepsCountersAndLosesTimes) {
-  CellRecord cell = bench::some_cell();
+  CellRecord cell = measure::some_cell();
   cell.verdict = verify::Verdict::kMismatch;
   const Row row = to_row(kRun, cell);
   for (const auto& [column, value] : row.items()) {
@@ -231,7 +231,7 @@ TEST(CellRow, WithoutTheVerdictOkItKeepsCountersAndLosesTimes) {
 }
 
 TEST(Results, HaveARowOfEachCellInTheOrderOfThePlan) {
-  bench::Run run = run_of({cell_of({"samet", {1.0, 2.0}}), cell_of({"embree", {3.0}})});
+  measure::Run run = run_of({cell_of({"samet", {1.0, 2.0}}), cell_of({"embree", {3.0}})});
   run.cells[1].work.counters["own_counter"] = 2000;
   std::ostringstream out;
   write_results(out, run);
@@ -243,7 +243,7 @@ TEST(Results, HaveARowOfEachCellInTheOrderOfThePlan) {
 }
 
 TEST(Results, OfAMergedRunHaveTheMachineOfTheirShard) {
-  bench::Run run = run_of({cell_of({"samet", {1.0}}), cell_of({"embree", {3.0}})});
+  measure::Run run = run_of({cell_of({"samet", {1.0}}), cell_of({"embree", {3.0}})});
   run.cells[0].shard = 2;
   run.cells[1].shard = 1;
   const auto shard = [](int number, const char* machine, const char* isa) {

@@ -9,7 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "harness/bench/record/run_log.hpp"
+#include "harness/measure/record/run_log.hpp"
 
 namespace beambench::analysis {
 
@@ -23,9 +23,9 @@ struct Entrant {
 };
 
 /// A finished cell: `rays` rays in ten rows.
-inline bench::CellRecord cell_of(const Entrant& entrant, const std::string& scene = "escena1",
-                                 std::uint64_t rays = 1000) {
-  bench::CellRecord cell{};
+inline measure::CellRecord cell_of(const Entrant& entrant, const std::string& scene = "escena1",
+                                   std::uint64_t rays = 1000) {
+  measure::CellRecord cell{};
   cell.id = {
       scene, "default", entrant.structure, entrant.parameters, {static_cast<int>(rays / 10), 10},
       1,     "primary"};
@@ -35,7 +35,7 @@ inline bench::CellRecord cell_of(const Entrant& entrant, const std::string& scen
   cell.is_finished = true;
   cell.verdict = entrant.verdict;
   for (const double trace_ms : entrant.trace_ms) {
-    bench::Repetition repetition{};
+    measure::Repetition repetition{};
     repetition.round = static_cast<int>(cell.repetitions.size());
     repetition.build_ms = entrant.build_ms;
     repetition.trace_ms = trace_ms;
@@ -45,7 +45,7 @@ inline bench::CellRecord cell_of(const Entrant& entrant, const std::string& scen
   if (entrant.trace_ms.empty()) {
     cell.message = "two hits are wrong";
   } else {
-    cell.stop_reason = bench::StopReason::kPrecision;
+    cell.stop_reason = measure::StopReason::kPrecision;
     cell.diff.emplace().verdict = entrant.verdict;
     cell.hits_hash = 1;
   }
@@ -66,9 +66,9 @@ inline nlohmann::ordered_json quiet_manifest() {
 }
 
 /// A run of these cells, in this order; they are all that its sweep has.
-inline bench::Run run_of(std::vector<bench::CellRecord> cells,
-                         nlohmann::json config = nlohmann::json::object()) {
-  bench::Run run{quiet_manifest(), std::move(config), {}, std::move(cells)};
+inline measure::Run run_of(std::vector<measure::CellRecord> cells,
+                           nlohmann::json config = nlohmann::json::object()) {
+  measure::Run run{quiet_manifest(), std::move(config), {}, std::move(cells)};
   for (std::size_t i = 0; i < run.cells.size(); ++i) {
     run.cells[i].index = i;
     run.plan.push_back({i, run.cells[i].id.name()});

@@ -14,7 +14,7 @@
 namespace beambench::analysis {
 namespace {
 
-using bench::CellRecord;
+using measure::CellRecord;
 using verify::Verdict;
 
 TEST(Standings, TheFastestContenderLeadsWhateverTheOrderOfTheCells) {
@@ -127,10 +127,10 @@ CellRecord of_shard(int shard, CellRecord cell) {
 
 TEST(Standings, TimesOfTwoMachinesAreNotCompared) {
   // At 1000 rays one machine, at 4000 another, where the order is the other one.
-  bench::Run run = run_of({of_shard(1, cell_of({"samet", rounds(1.0)})),
-                           of_shard(1, cell_of({"embree", rounds(2.0)})),
-                           of_shard(2, cell_of({"samet", rounds(9.0)}, "escena1", 4000)),
-                           of_shard(2, cell_of({"embree", rounds(3.0)}, "escena1", 4000))});
+  measure::Run run = run_of({of_shard(1, cell_of({"samet", rounds(1.0)})),
+                             of_shard(1, cell_of({"embree", rounds(2.0)})),
+                             of_shard(2, cell_of({"samet", rounds(9.0)}, "escena1", 4000)),
+                             of_shard(2, cell_of({"embree", rounds(3.0)}, "escena1", 4000))});
   const nlohmann::ordered_json measurement{{"isa", "AVX2"}};
   run.manifest["shards"] = {
       {{"number", 1}, {"machine", {{"id", "0123456789abcdef"}}}, {"measurement", measurement}},
@@ -160,11 +160,11 @@ TEST(Standings, AViewWithoutTimesSaysSo) {
 /// The sweep may name a scene as its user does, the record has all of its parameters.
 TEST(Standings, ASceneIsExcludedInWhicheverFormTheSweepNamesIt) {
   const std::string whole = "escena1:seed=1999,spheres=430";
-  const bench::Run run =
+  const measure::Run run =
       run_of({cell_of({"samet", rounds(1.0)}, whole), cell_of({"embree", rounds(2.0)}, whole),
               cell_of({"beam", rounds(3.0)}, "escena2")});
   const auto reason = [&](const char* scene) {
-    bench::Run excluding = run;
+    measure::Run excluding = run;
     excluding.config["exclude"] = {{{"structure", "beam"}, {"scene", scene}}};
     const Standings view = standings(excluding).at(0);
     return view.left_out.size() == 1 ? view.left_out[0].reason : "(not one is left out)";

@@ -1,15 +1,15 @@
 // The manifest of a run that is to be resumed: is it the same run? An input is what differs (RFC
 // 7396) from the manifest that this program would write, or else the whole one.
 
-#include "harness/bench/record/manifest.hpp"
+#include "harness/measure/record/manifest.hpp"
 
 #include <chrono>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
-#include "harness/bench/record/run_log.hpp"
-#include "scenes/core/json_text.hpp"
+#include "harness/measure/record/run_log.hpp"
+#include "scenes/base/json_text.hpp"
 #include "tests/fuzz/scratch_folder.hpp"
 #include "tests/fuzz/target.hpp"
 
@@ -36,14 +36,14 @@ std::string header_with(const std::string& manifest) {
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const fuzz::ScratchFolder folder;
   static const nlohmann::ordered_json now =
-      to_json(bench::begin_manifest("fuzz", {}, -1, 1, std::chrono::seconds(0)));
-  folder.write(bench::kLogName, header_with(changed(now, fuzz::text_of(data, size))));
+      to_json(measure::begin_manifest("fuzz", {}, -1, 1, std::chrono::seconds(0)));
+  folder.write(measure::kLogName, header_with(changed(now, fuzz::text_of(data, size))));
   fuzz::accepted([] {
-    const bench::Run run = bench::read_run(folder.path());
-    bench::require_same_run(folder.path(), run, nlohmann::json::object(), now);
-    return read_as_written(bench::kLogName, "", [&] {
-      bench::Manifest resumed;
-      bench::continue_with(resumed, run.manifest);
+    const measure::Run run = measure::read_run(folder.path());
+    measure::require_same_run(folder.path(), run, nlohmann::json::object(), now);
+    return read_as_written(measure::kLogName, "", [&] {
+      measure::Manifest resumed;
+      measure::continue_with(resumed, run.manifest);
       return true;
     });
   });

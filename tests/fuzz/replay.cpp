@@ -17,8 +17,8 @@
 
 #include <unistd.h>
 
-#include "scenes/core/decimal.hpp"
-#include "scenes/core/random.hpp"
+#include "scenes/base/decimal.hpp"
+#include "scenes/base/random.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace beambench::fuzz {

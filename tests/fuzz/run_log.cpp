@@ -1,7 +1,7 @@
 // The log of a run, from which the run is resumed and all of its files are made. An input is lines
 // of events, in which `"manifest":{}` stands for a manifest that lacks nothing.
 
-#include "harness/bench/record/run_log.hpp"
+#include "harness/measure/record/run_log.hpp"
 
 #include <chrono>
 #include <sstream>
@@ -12,8 +12,8 @@
 #include "harness/analysis/analysis.hpp"
 #include "harness/analysis/results_csv.hpp"
 #include "harness/analysis/words.hpp"
-#include "harness/bench/record/manifest.hpp"
-#include "scenes/core/json_text.hpp"
+#include "harness/measure/record/manifest.hpp"
+#include "scenes/base/json_text.hpp"
 #include "tests/fuzz/scratch_folder.hpp"
 #include "tests/fuzz/target.hpp"
 
@@ -24,7 +24,7 @@ using namespace beambench;
 /// The input with the whole manifest in place of an empty one.
 std::string with_manifest(std::string text) {
   static const std::string manifest =
-      to_json(bench::begin_manifest("fuzz", {}, -1, 1, std::chrono::seconds(0))).dump();
+      to_json(measure::begin_manifest("fuzz", {}, -1, 1, std::chrono::seconds(0))).dump();
   constexpr std::string_view kEmpty = R"("manifest":{})";
   for (auto place = text.find(kEmpty); place != std::string::npos;
        place = text.find(kEmpty, place)) {
@@ -38,11 +38,11 @@ std::string with_manifest(std::string text) {
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const fuzz::ScratchFolder folder;
-  folder.write(bench::kLogName, with_manifest(std::string(fuzz::text_of(data, size))));
-  const auto run = fuzz::accepted([] { return bench::read_run(folder.path()); });
+  folder.write(measure::kLogName, with_manifest(std::string(fuzz::text_of(data, size))));
+  const auto run = fuzz::accepted([] { return measure::read_run(folder.path()); });
   if (!run) return 0;
   fuzz::accepted([&] {
-    return read_as_written(bench::kLogName, "", [&] {
+    return read_as_written(measure::kLogName, "", [&] {
       const analysis::Analysis found = analysis::analyze(*run);
       std::ostringstream rows;
       analysis::write_results(rows, *run);

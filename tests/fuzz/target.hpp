@@ -10,7 +10,7 @@
 #include <string_view>
 #include <type_traits>
 
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 
 /// The entry of a target: libFuzzer calls it with inputs of its own, replay.cpp with those of
 /// files. Returns 0. Whatever ends the process or throws is a fault of the reader.

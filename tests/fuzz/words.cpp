@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "accel/core/registry.hpp"
-#include "harness/bench/plan.hpp"
+#include "harness/measure/plan.hpp"
 #include "harness/rays/ray_kind.hpp"
 #include "harness/rays/trace_input.hpp"
+#include "scenes/base/parameters.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/parameters.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace {
@@ -36,7 +36,7 @@ void check_scenes(std::string_view text) {
       const scenes::SceneInfo& scene = scenes::find_scene(spec.name);
       return Parameters(scene.name, scene.parameters, spec.parameters).label();
     });
-    if (label) bench::shown_scene(*label);
+    if (label) measure::shown_scene(*label);
   }
 }
 

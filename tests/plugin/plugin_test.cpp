@@ -16,7 +16,7 @@
 #include "harness/plugin/adapters/madmann91_hit.hpp"
 #include "harness/plugin/load_plugin.hpp"
 #include "harness/plugin/validation.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/random_scene.hpp"
 

@@ -362,7 +362,7 @@ def test_runs_without_both_are_refused(tmp_path: Path, capsys: pytest.CaptureFix
 def test_the_aims_name_the_scenes_of_the_sweeps() -> None:
     named = {(group.kind, scene) for group in groups() for scene in group.scenes}
     swept = set()
-    for file in (REPOSITORY / "harness/bench/sweeps").glob("beat-embree*.json"):
+    for file in (REPOSITORY / "harness/measure/sweeps").glob("beat-embree*.json"):
         if file.stem in ("beat-embree-scaling", "beat-embree-resolutions"):
             continue  # lines of sizes, without aims
         config = json.loads(file.read_text())

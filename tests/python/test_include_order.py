@@ -12,13 +12,15 @@ import pytest
 REPOSITORY = Path(__file__).resolve().parents[2]
 # Each module includes itself and what stands before it. The namespace is within `beambench`.
 MODULES = {
-    "scenes/core": "",
+    "scenes/base": "",
     "scenes": "scenes",
     "scenes/modelling": "scenes::modelling",
     "scenes/formats/nff": "scenes::nff",
     "scenes/formats/mesh": "scenes::mesh",
     "scenes/generators": "scenes::generators",
     "accel/core": "accel",
+    "accel/embree_api": "accel::embree",
+    "accel/oracle": "accel::oracle",
     "accel/exhaustive": "accel::exhaustive",
     "accel/octree": "accel::octree",
     "accel/grid": "accel::grid",
@@ -35,11 +37,11 @@ MODULES = {
     "harness/verify": "verify",
     "harness/plugin": "plugin",
     "harness/render": "render",
-    "harness/bench": "bench",
+    "harness/measure": "measure",
     "harness/analysis": "analysis",
-    "harness/experiments": "experiments",
     "harness/python": "python",
-    "harness/cluster": "cluster",
+    "harness/thesis": "thesis",
+    "harness/thesis/cluster": "cluster",
     "harness/cli": "cli",
 }
 ORDER = {module: place for place, module in enumerate(MODULES)}
@@ -108,6 +110,42 @@ def test_modules_include_only_what_stands_before_them() -> None:
     texts = sources(REPOSITORY)
     assert len(includes(texts)) > 1000
     assert faults(texts) == []
+
+
+def box_of(file: str) -> str:
+    """The box of the module picture in harness/README.md that a file belongs to."""
+    module = module_of(file)
+    assert module is not None
+    if module in ("scenes/base", "accel/core") or module.startswith("harness/"):
+        return module
+    if module in ("accel/embree_api", "accel/oracle"):
+        return "accel/oracle"
+    return "structures" if module.startswith("accel/") else "scenes"
+
+
+def arrows(edges: dict[str, set[str]]) -> set[tuple[str, str]]:
+    """The edges of a graph without a circle that do not follow from others."""
+
+    def reached(box: str) -> set[str]:
+        return set().union(*({after} | reached(after) for after in edges.get(box, set())), set())
+
+    return {
+        (box, after)
+        for box, all_after in edges.items()
+        for after in all_after
+        if not any(after in reached(other) for other in all_after)
+    }
+
+
+def test_the_module_picture_shows_the_includes() -> None:
+    edges: dict[str, set[str]] = {}
+    for include in includes(sources(REPOSITORY)):
+        upper, lower = box_of(include.file), box_of(include.included)
+        if upper != lower:
+            edges.setdefault(upper, set()).add(lower)
+    text = (REPOSITORY / "harness/README.md").read_text("utf-8")
+    drawn = set(re.findall(r"^ +(\S+) -(?:\.-|-)> (\S+)$", text, re.MULTILINE))
+    assert drawn == arrows(edges)
 
 
 def test_each_module_has_its_namespace() -> None:

@@ -15,7 +15,7 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 FOLDERS = ("accel", "harness", "scenes", "tests")
 # Definitions of which the preprocessor takes one.
 ALTERNATIVES = {
-    "beambench::accel::embree::Context": {"accel/embree/api3.hpp", "accel/embree/api4.hpp"}
+    "beambench::accel::embree::Context": {"accel/embree_api/api3.hpp", "accel/embree_api/api4.hpp"}
 }
 
 NOT_CODE = re.compile(

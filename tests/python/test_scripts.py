@@ -238,7 +238,7 @@ def test_an_interrupted_run_is_resumed_and_leaves_records_pictures_plots_and_a_p
         start_new_session=True,
     )
     for _ in range(600):
-        if (run / "config.json").exists():
+        if (run / "run.jsonl").exists():
             break
         time.sleep(0.1)
     time.sleep(1)

@@ -9,14 +9,14 @@ import jsonschema
 import pytest
 
 REPOSITORY = Path(__file__).resolve().parents[2]
-SWEEPS = sorted((REPOSITORY / "harness" / "bench" / "sweeps").glob("*.json"))
+SWEEPS = sorted((REPOSITORY / "harness" / "measure" / "sweeps").glob("*.json"))
 LIBRARIES = REPOSITORY / "harness" / "plugin" / "adapters" / "libraries.json"
 
 
 @pytest.fixture(scope="module")
 def validator() -> jsonschema.Draft202012Validator:
     """The schema, itself checked."""
-    schema = json.loads((REPOSITORY / "harness" / "bench" / "sweep.schema.json").read_text())
+    schema = json.loads((REPOSITORY / "harness" / "measure" / "sweep.schema.json").read_text())
     jsonschema.Draft202012Validator.check_schema(schema)
     return jsonschema.Draft202012Validator(schema)
 
@@ -35,7 +35,7 @@ def structures_of(sweep: dict) -> dict[str, list[dict]]:
 
 
 def test_the_default_sweep_has_every_structure_and_the_modes_of_embree() -> None:
-    sweep = json.loads((REPOSITORY / "harness" / "bench" / "sweeps" / "default.json").read_text())
+    sweep = json.loads((REPOSITORY / "harness" / "measure" / "sweeps" / "default.json").read_text())
     structures = structures_of(sweep)
     assert set(structures) == {
         "null", "exhaustive", "samet", "samet-net", "voxel-grid", "goldsmith-salmon",
@@ -53,7 +53,7 @@ def test_a_committed_sweep_is_valid(path: Path, validator: jsonschema.Draft20201
 
 
 def test_editors_find_the_schema_that_each_sweep_names() -> None:
-    schema = REPOSITORY / "harness" / "bench" / "sweep.schema.json"
+    schema = REPOSITORY / "harness" / "measure" / "sweep.schema.json"
     for path in [*SWEEPS, *SWEEPS[0].parent.glob("*/*.json"), LIBRARIES]:
         named = path.parent / json.loads(path.read_text())["$schema"]
         assert named.resolve() == schema, path
@@ -70,7 +70,7 @@ def test_editors_find_the_schema_that_each_sweep_names() -> None:
     ],
 )
 def test_the_schema_refuses(change: dict, validator: jsonschema.Draft202012Validator) -> None:
-    sweep = json.loads((REPOSITORY / "harness" / "bench" / "sweeps" / "default.json").read_text())
+    sweep = json.loads((REPOSITORY / "harness" / "measure" / "sweeps" / "default.json").read_text())
     assert not validator.is_valid(sweep | change)
 
 
@@ -124,7 +124,7 @@ def test_no_image_is_judged_twice_against_embree() -> None:
     seen: set[tuple] = set()
     for name in JUDGED:
         sweep = json.loads(
-            (REPOSITORY / "harness" / "bench" / "sweeps" / f"{name}.json").read_text()
+            (REPOSITORY / "harness" / "measure" / "sweeps" / f"{name}.json").read_text()
         )
         (tile_beam,) = structures_of(sweep)["tile-beam"]
         isa = tile_beam.get("isa", "best")

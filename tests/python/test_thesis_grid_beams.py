@@ -16,7 +16,7 @@ from beambench_report.thesis.report.plan import read_sweep
 from program import beambench
 
 REPOSITORY = Path(__file__).parents[2]
-SWEEP = REPOSITORY / "harness/bench/sweeps/grid-beams.json"
+SWEEP = REPOSITORY / "harness/measure/sweeps/grid-beams.json"
 
 
 def measured(folder: Path) -> tuple[Cell, ...]:
@@ -61,7 +61,7 @@ def test_beams_stand_beside_single_rays_through_the_same_grids(tmp_path: Path) -
 
 def test_the_sweep_has_all_scenes(tmp_path: Path) -> None:
     source = json.loads(SWEEP.read_text())
-    schema = json.loads((REPOSITORY / "harness/bench/sweep.schema.json").read_text())
+    schema = json.loads((REPOSITORY / "harness/measure/sweep.schema.json").read_text())
     jsonschema.Draft202012Validator(schema).validate(source)
     sweep = read_sweep("grid-beams", SWEEP.parent)
     assert {cell.scene for cell in sweep.cells()} == set(primitives_by_scene())

@@ -20,7 +20,7 @@ from synthetic_run import without_times, write_manifest, write_run
 from synthetic_thesis import Row, row_of, write_runs
 
 REPOSITORY = Path(__file__).resolve().parents[2]
-SWEEP = REPOSITORY / "harness/bench/sweeps/levels.json"
+SWEEP = REPOSITORY / "harness/measure/sweeps/levels.json"
 
 
 def row(
@@ -182,7 +182,7 @@ def test_a_run_without_choices_is_refused(
 
 def test_the_sweep_has_all_scenes_and_both_structures() -> None:
     source = json.loads(SWEEP.read_text())
-    schema = json.loads((REPOSITORY / "harness/bench/sweep.schema.json").read_text())
+    schema = json.loads((REPOSITORY / "harness/measure/sweep.schema.json").read_text())
     jsonschema.Draft202012Validator(schema).validate(source)
     sweep = read_sweep(LEVELS, SWEEP.parent)
     assert {cell.scene for cell in sweep.cells()} == set(primitives_by_scene())

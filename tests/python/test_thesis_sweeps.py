@@ -59,7 +59,7 @@ def is_wanted(cell: PlannedCell, row: dict[str, str]) -> bool:
 
 @pytest.mark.parametrize("name", SWEEPS)
 def test_a_sweep_is_valid_and_says_what_it_is_for(name: str) -> None:
-    schema = json.loads((REPOSITORY / "harness/bench/sweep.schema.json").read_text())
+    schema = json.loads((REPOSITORY / "harness/measure/sweep.schema.json").read_text())
     sweep = read_sweep(name)
     jsonschema.Draft202012Validator(schema).validate(sweep.source)
     assert sweep.source["name"] == f"thesis-{name}"

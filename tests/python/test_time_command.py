@@ -41,7 +41,7 @@ def test_save_writes_the_sweep_that_it_was(tmp_path: Path, repository: Path) -> 
     file = tmp_path / "mine.json"
     output_of("time", "tetra:n=2", "--accel", "samet:max_level=4", "--save", str(file), *QUICK)
     sweep = json.loads(file.read_text())
-    schema = json.loads((repository / "harness/bench/sweep.schema.json").read_text())
+    schema = json.loads((repository / "harness/measure/sweep.schema.json").read_text())
     jsonschema.Draft202012Validator(schema).validate(sweep)
     assert sweep["structures"] == ["samet:max_level=4"]
     assert "tetra:n=2" in output_of("run", str(file), "--dry-run")

@@ -19,7 +19,7 @@
 #include "harness/render/picture/image.hpp"
 #include "harness/render/picture/image_file.hpp"
 #include "harness/render/picture/legend.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace beambench::render {

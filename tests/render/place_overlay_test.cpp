@@ -12,8 +12,8 @@
 #include <gtest/gtest.h>
 
 #include "harness/render/structure_overlay.hpp"
+#include "scenes/base/error.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/error.hpp"
 #include "scenes/scene_builder.hpp"
 
 namespace beambench::render {

@@ -9,7 +9,7 @@
 #include "accel/core/registry.hpp"
 #include "harness/rays/normal.hpp"
 #include "harness/render/shading.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 #include "scenes/scene_builder.hpp"
 
 namespace beambench::render {

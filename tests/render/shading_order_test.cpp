@@ -6,8 +6,8 @@
 
 #include "accel/beam/beam_tracer.hpp"
 #include "harness/render/whitted_picture.hpp"
+#include "scenes/base/error.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/error.hpp"
 #include "tests/drawn.hpp"
 
 namespace beambench::render {

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "scenes/base/error.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/error.hpp"
 #include "tests/drawn.hpp"
 
 namespace beambench::render {

@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "accel/core/traversal_accelerator.hpp"
-#include "harness/bench/task.hpp"
+#include "harness/measure/task.hpp"
 #include "harness/render/verified_picture.hpp"
+#include "scenes/base/error.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/error.hpp"
 #include "tests/drawn.hpp"
 #include "tests/scenes/thrown_message.hpp"
 
@@ -17,7 +17,7 @@ namespace beambench::render {
 namespace {
 
 /// A group that requests a whole picture of a scene.
-bench::CellGroup group_of(scenes::Scene scene, const std::string& rays = "whitted") {
+measure::CellGroup group_of(scenes::Scene scene, const std::string& rays = "whitted") {
   const scenes::Camera camera = scene.cameras.front();
   return {std::make_shared<const scenes::Scene>(std::move(scene)),
           7,  // for its hash
@@ -34,7 +34,7 @@ accel::StructureChoice choice(const std::string& spec) {
 }
 
 /// Traces a structure as a contender does; the verification of its answers.
-verify::DiffReport verified(bench::Task& task, const std::string& spec) {
+verify::DiffReport verified(measure::Task& task, const std::string& spec) {
   const auto structure = choice(spec).build(task.scene());
   task.poison();
   task.ask(*structure);
@@ -44,16 +44,16 @@ verify::DiffReport verified(bench::Task& task, const std::string& spec) {
   return report;
 }
 
-std::uint64_t ray_count(const bench::CountedWork& work) {
+std::uint64_t ray_count(const measure::CountedWork& work) {
   std::uint64_t rays = 0;
-  for (const bench::RaysOfKind& kind : work.kinds) rays += kind.rays;
+  for (const measure::RaysOfKind& kind : work.kinds) rays += kind.rays;
   return rays;
 }
 
 TEST(WholePicture, EveryStructureIsRightInEveryRay) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const bench::CellGroup group = group_of(scene_of_all_surfaces(seed));
-    const auto task = bench::make_task(group, -1);
+    const measure::CellGroup group = group_of(scene_of_all_surfaces(seed));
+    const auto task = measure::make_task(group, -1);
     std::uint64_t expected = 0;
     for (const char* spec : {"exhaustive", "samet", "samet-net", "voxel-grid", "goldsmith-salmon",
                              "sah-bvh", "beam", "tile-beam", "embree"}) {
@@ -70,12 +70,12 @@ TEST(WholePicture, EveryStructureIsRightInEveryRay) {
 }
 
 TEST(WholePicture, CountsWorkByKindOfRays) {
-  const bench::CellGroup group = group_of(scene_of_all_surfaces(2));  // with glass
-  const auto task = bench::make_task(group, -1);
+  const measure::CellGroup group = group_of(scene_of_all_surfaces(2));  // with glass
+  const auto task = measure::make_task(group, -1);
   const auto structure = choice("exhaustive").build(task->scene());
   task->ask(*structure);
   const std::uint64_t timed = task->fingerprint();
-  const bench::CountedWork work = task->count(*structure);
+  const measure::CountedWork work = task->count(*structure);
   EXPECT_EQ(task->fingerprint(), timed);
   EXPECT_EQ(ray_count(work), task->facts().rays);
   const RayCensus census = picture(task->scene(), "exhaustive", {}).census;
@@ -98,20 +98,21 @@ TEST(WholePicture, CountsWorkByKindOfRays) {
 }
 
 TEST(WholePicture, ItsFactsAreThoseOfTheOraclesPicture) {
-  const bench::CellGroup group = group_of(scenes::load_scene("balls:n=1"));
-  const auto task = bench::make_task(group, -1);
-  const bench::RaySetFacts& facts = task->facts();
+  const measure::CellGroup group = group_of(scenes::load_scene("balls:n=1"));
+  const auto task = measure::make_task(group, -1);
+  const measure::RaySetFacts& facts = task->facts();
   EXPECT_EQ(facts.scene_hash, 7U);
   EXPECT_EQ(facts.query, rays::Query::kPicture);
-  const bench::HarnessShare share = task->harness_share(*choice("exhaustive").build(task->scene()));
-  EXPECT_EQ(share.path, bench::QueryPath::kPicture);
+  const measure::HarnessShare share =
+      task->harness_share(*choice("exhaustive").build(task->scene()));
+  EXPECT_EQ(share.path, measure::QueryPath::kPicture);
   EXPECT_GT(share.ms, 0.0);
   EXPECT_GT(facts.hit_share.value(), 0.2);
   EXPECT_LT(facts.occluded_share.value(), 0.9);
   EXPECT_FALSE(facts.coherence);
-  EXPECT_EQ(bench::make_task(group, -1)->facts().rays_hash, facts.rays_hash);
-  const bench::CellGroup shallow = group_of(scenes::load_scene("balls:n=1"), "whitted:depth=1");
-  EXPECT_NE(bench::make_task(shallow, -1)->facts().rays_hash, facts.rays_hash);
+  EXPECT_EQ(measure::make_task(group, -1)->facts().rays_hash, facts.rays_hash);
+  const measure::CellGroup shallow = group_of(scenes::load_scene("balls:n=1"), "whitted:depth=1");
+  EXPECT_NE(measure::make_task(shallow, -1)->facts().rays_hash, facts.rays_hash);
 }
 
 /// `exhaustive`, wrong only where it traces single rays, and there now and then.
@@ -142,13 +143,13 @@ class WrongAlone : public accel::TraversalAccelerator<WrongAlone> {
 };
 
 TEST(WholePicture, AWrongRayThatFollowsIsFoundAndNamed) {
-  const bench::CellGroup group = group_of(scene_of_all_surfaces(1));  // without glass
-  const auto task = bench::make_task(group, -1);
+  const measure::CellGroup group = group_of(scene_of_all_surfaces(1));  // without glass
+  const auto task = measure::make_task(group, -1);
   for (const auto& [in, name] : {std::pair{WrongAlone::In::kClosest, "reflected rays, ray "},
                                  std::pair{WrongAlone::In::kAny, "shadow rays, ray "}}) {
     const WrongAlone structure(task->scene(), in);
     task->ask(structure);
-    const bench::Verification found = task->verify_results(structure, choice("exhaustive"));
+    const measure::Verification found = task->verify_results(structure, choice("exhaustive"));
     EXPECT_EQ(found.report.verdict, verify::Verdict::kMismatch);
     EXPECT_GT(found.report.count(verify::DiffClass::kStructureError), 0U);
     ASSERT_FALSE(found.examples.empty());

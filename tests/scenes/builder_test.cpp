@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "scenes/core/random.hpp"
+#include "scenes/base/random.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/scenes/thrown_message.hpp"
 

@@ -1,14 +1,14 @@
 // Limits of control groups, as the kernel lays them out: both versions, nested groups, containers.
 
-#include "scenes/core/control_groups.hpp"
+#include "scenes/base/control_groups.hpp"
 
 #include <optional>
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "scenes/core/cpu_quota.hpp"
-#include "scenes/core/process_memory.hpp"
+#include "scenes/base/cpu_quota.hpp"
+#include "scenes/base/process_memory.hpp"
 #include "tests/fake_system.hpp"
 
 namespace beambench {

@@ -1,4 +1,4 @@
-#include "scenes/core/files.hpp"
+#include "scenes/base/files.hpp"
 
 #include <array>
 #include <filesystem>
@@ -12,7 +12,7 @@
 #include <termios.h>
 #include <unistd.h>
 
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 #include "scenes/formats/nff/nff_reader.hpp"
 #include "tests/scenes/thrown_message.hpp"
 #include "tests/temporary_folder.hpp"

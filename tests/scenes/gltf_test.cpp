@@ -20,9 +20,9 @@
 #include <rapidcheck/gtest.h>
 #include <sys/stat.h>
 
+#include "scenes/base/error.hpp"
+#include "scenes/base/random.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/random.hpp"
 #include "scenes/formats/mesh/mesh_import.hpp"
 #include "scenes/scene_builder.hpp"
 #include "scenes/triangulate.hpp"

@@ -1,4 +1,4 @@
-#include "scenes/core/json_text.hpp"
+#include "scenes/base/json_text.hpp"
 
 #include <string>
 

@@ -8,9 +8,9 @@
 #include <rapidcheck/gtest.h>
 #include <zlib.h>
 
+#include "scenes/base/process_memory.hpp"
+#include "scenes/base/random.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/process_memory.hpp"
-#include "scenes/core/random.hpp"
 #include "scenes/formats/mesh/fitted_cameras.hpp"
 #include "scenes/formats/mesh/mesh.hpp"
 #include "scenes/formats/mesh/mesh_cache.hpp"

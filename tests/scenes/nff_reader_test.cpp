@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "scenes/base/random.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/random.hpp"
 #include "tests/scenes/thrown_message.hpp"
 
 namespace beambench::scenes {

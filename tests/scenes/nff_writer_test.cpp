@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "scenes/base/random.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/random.hpp"
 #include "scenes/formats/nff/nff_reader.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/scenes/thrown_message.hpp"

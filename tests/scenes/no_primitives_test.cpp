@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "scenes/base/error.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/error.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/scenes/thrown_message.hpp"
 #include "tests/temporary_folder.hpp"

@@ -14,8 +14,8 @@
 #include <rapidcheck/gtest.h>
 #include <sys/stat.h>
 
-#include "scenes/core/error.hpp"
-#include "scenes/core/random.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/random.hpp"
 #include "scenes/formats/mesh/mesh_import.hpp"
 #include "tests/scenes/mesh_files.hpp"
 #include "tests/scenes/thrown_message.hpp"

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "scenes/core/process_memory.hpp"
+#include "scenes/base/process_memory.hpp"
 #include "tests/scenes/imported.hpp"
 #include "tests/scenes/mesh_files.hpp"
 

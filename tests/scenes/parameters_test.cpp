@@ -1,4 +1,4 @@
-#include "scenes/core/parameters.hpp"
+#include "scenes/base/parameters.hpp"
 
 #include <stdexcept>
 

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "scenes/core/process_memory.hpp"
-#include "scenes/core/random.hpp"
+#include "scenes/base/process_memory.hpp"
+#include "scenes/base/random.hpp"
 #include "tests/ply_file.hpp"
 #include "tests/scenes/imported.hpp"
 #include "tests/scenes/ply_parts.hpp"

@@ -1,4 +1,4 @@
-#include "scenes/core/portable_math.hpp"
+#include "scenes/base/portable_math.hpp"
 
 #include <cmath>
 #include <numbers>

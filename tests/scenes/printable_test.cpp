@@ -1,4 +1,4 @@
-#include "scenes/core/printable.hpp"
+#include "scenes/base/printable.hpp"
 
 #include <string>
 #include <string_view>
@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "scenes/core/error.hpp"
-#include "scenes/core/shell_word.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/shell_word.hpp"
 
 namespace beambench {
 namespace {

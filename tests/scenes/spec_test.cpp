@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "scenes/core/nearest_name.hpp"
-#include "scenes/core/parameters.hpp"
+#include "scenes/base/nearest_name.hpp"
+#include "scenes/base/parameters.hpp"
 #include "tests/scenes/thrown_message.hpp"
 
 namespace beambench::scenes {

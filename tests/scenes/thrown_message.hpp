@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::scenes {
 

@@ -14,7 +14,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "scenes/core/random.hpp"
+#include "scenes/base/random.hpp"
 #include "scenes/corner_search.hpp"
 
 namespace beambench::scenes {

@@ -11,8 +11,8 @@
 
 #include "accel/tile_beam/tile_beam.hpp"
 #include "harness/rays/ray_set.hpp"
+#include "scenes/base/random.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/random.hpp"
 #include "scenes/modelling/add_mesh.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/closed_bodies.hpp"

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "harness/verify/selftest/test_scenes.hpp"
-#include "scenes/core/random.hpp"
+#include "scenes/base/random.hpp"
 #include "tests/verify/exact/boundary.hpp"
 #include "tests/verify/exact/claim_rays.hpp"
 #include "tests/verify/exact/claim_scenes.hpp"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scenes/core/random.hpp"
+#include "scenes/base/random.hpp"
 #include "tests/verify/exact/number.hpp"
 
 namespace beambench::exact {

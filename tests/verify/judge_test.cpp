@@ -19,7 +19,7 @@
 #include "harness/rays/trace_input.hpp"
 #include "harness/rays/trace_results.hpp"
 #include "harness/verify/differ.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/number_from.hpp"
 #include "tests/random_scene.hpp"

@@ -9,8 +9,8 @@
 
 #include "harness/verify/describe.hpp"
 #include "harness/verify/verify_ray.hpp"
+#include "scenes/base/shell_word.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/shell_word.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace beambench::verify {

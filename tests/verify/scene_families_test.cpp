@@ -21,7 +21,7 @@
 #include "harness/verify/describe.hpp"
 #include "harness/verify/selftest/subject.hpp"
 #include "harness/verify/selftest/test_scenes.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 #include "tests/number_from.hpp"
 #include "tests/only_target.hpp"
 #include "tests/verify/exact_answers.hpp"

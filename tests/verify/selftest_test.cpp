@@ -15,7 +15,7 @@
 #include "harness/verify/minimize.hpp"
 #include "harness/verify/selftest/hit_comparison.hpp"
 #include "harness/verify/selftest/test_scenes.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::verify {
 namespace {

@@ -10,6 +10,6 @@
 #include "harness/verify/claim_verifier.hpp"
 #include "harness/verify/describe.hpp"
 #include "harness/verify/diff_report.hpp"
+#include "scenes/base/error.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/error.hpp"
 #include "scenes/scene_builder.hpp"

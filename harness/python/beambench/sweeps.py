@@ -33,7 +33,7 @@ def sweep(
     """Measures a sweep in this process; a time is reported only when the hits are correct.
 
     Args:
-        config: a sweep as in harness/bench/sweep.schema.json, or the path of its JSON file.
+        config: a sweep as in harness/measure/sweep.schema.json, or the path of its JSON file.
         output: folder for the whole record, which must not hold a run; None: it is not kept.
         resume: continue the run in `output`, of which every finished cell is kept.
         progress: report on the standard error.

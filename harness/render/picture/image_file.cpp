@@ -10,8 +10,8 @@
 
 #include "harness/render/picture/color.hpp"
 #include "harness/render/picture/image_encoder.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/files.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/files.hpp"
 
 namespace beambench::render {
 namespace {

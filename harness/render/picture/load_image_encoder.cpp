@@ -5,10 +5,10 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
-#include <link.h>
 
+#include "harness/base/code_folder.hpp"
 #include "harness/render/picture/image_encoder.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::render {
 namespace {
@@ -17,21 +17,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kFile = "libbeambench_image_encoder.so";
 
-/// The folder of the program or shared object that this code was linked into.
-fs::path folder_of_this_code() {
-  Dl_info info{};
-  link_map* object = nullptr;
-  const auto* here = reinterpret_cast<const void*>(&folder_of_this_code);
-  const bool known =
-      ::dladdr1(here, &info, reinterpret_cast<void**>(&object), RTLD_DL_LINKMAP) != 0;
-  // The program itself has no name there, and that of its call may be relative to another folder.
-  const bool is_program = !known || object == nullptr || object->l_name[0] == '\0';
-  std::error_code error;
-  return fs::weakly_canonical(is_program ? "/proc/self/exe" : object->l_name, error).parent_path();
-}
-
 EncodeImage* load() {
-  const fs::path here = folder_of_this_code();
+  const fs::path here = base::code_folder();
   const std::array places{here / kFile, here.parent_path() / "lib/beambench" / kFile};
   for (const fs::path& place : places) {
     std::error_code error;

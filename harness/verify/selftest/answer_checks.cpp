@@ -15,8 +15,8 @@
 #include "harness/verify/selftest/hit_comparison.hpp"
 #include "harness/verify/selftest/selftest.hpp"
 #include "harness/verify/selftest/test_scenes.hpp"
+#include "scenes/base/error.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/error.hpp"
 
 namespace beambench::verify {
 namespace {

@@ -10,7 +10,7 @@
 #include "harness/verify/describe.hpp"
 #include "harness/verify/differ.hpp"
 #include "harness/verify/selftest/selftest.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::verify {
 namespace {

@@ -11,9 +11,9 @@
 
 #include "harness/rays/ray_file.hpp"
 #include "harness/verify/selftest/test_scenes.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/files.hpp"
-#include "scenes/core/json_text.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/files.hpp"
+#include "scenes/base/json_text.hpp"
 #include "scenes/formats/mesh/obj_writer.hpp"
 #include "scenes/formats/nff/nff_writer.hpp"
 

@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 
 #include "harness/verify/selftest/test_scenes.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/random.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/random.hpp"
 #include "scenes/scene_builder.hpp"
 
 namespace beambench::verify {

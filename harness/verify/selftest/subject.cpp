@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "harness/verify/selftest/test_scenes.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::verify {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "accel/core/registry.hpp"
-#include "scenes/core/random.hpp"
+#include "scenes/base/random.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::verify {

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "harness/verify/tolerance.hpp"
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 #include "scenes/scene_builder.hpp"
 
 namespace beambench::verify {

@@ -8,7 +8,7 @@
 
 #include "accel/core/ray.hpp"
 #include "harness/verify/selftest/subject.hpp"
-#include "scenes/core/random.hpp"
+#include "scenes/base/random.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::verify {

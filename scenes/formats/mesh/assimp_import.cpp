@@ -20,7 +20,7 @@
 #include <assimp/version.h>
 #include <fmt/format.h>
 
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 #include "scenes/formats/mesh/importers.hpp"
 #include "scenes/formats/mesh/mesh.hpp"
 #include "scenes/formats/mesh/mesh_cleaning.hpp"

@@ -19,7 +19,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 #include "scenes/formats/mesh/mesh_file.hpp"
 
 namespace beambench::scenes::mesh {

@@ -19,8 +19,8 @@
 #include <glm/vec4.hpp>
 #include <tiny_gltf.h>
 
+#include "scenes/base/error.hpp"
 #include "scenes/bounds.hpp"
-#include "scenes/core/error.hpp"
 #include "scenes/formats/mesh/gltf_accessors.hpp"
 #include "scenes/formats/mesh/gltf_file.hpp"
 #include "scenes/formats/mesh/gltf_materials.hpp"

@@ -11,7 +11,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 #include "scenes/formats/mesh/fitted_cameras.hpp"
 #include "scenes/formats/mesh/gltf_file.hpp"
 #include "scenes/scene_builder.hpp"

@@ -17,8 +17,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "scenes/core/error.hpp"
-#include "scenes/core/process_memory.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/process_memory.hpp"
 #include "scenes/formats/mesh/mesh.hpp"
 #include "scenes/formats/mesh/mesh_import.hpp"
 

@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-#include "scenes/core/error.hpp"
-#include "scenes/core/files.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/files.hpp"
 #include "scenes/formats/mesh/mesh.hpp"
 #include "scenes/formats/mesh/mesh_file.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 #include "scenes/formats/mesh/mesh_cache.hpp"
 #include "scenes/formats/mesh/mesh_file.hpp"
 

@@ -10,8 +10,8 @@
 #include <fmt/ranges.h>
 #include <zlib.h>
 
-#include "scenes/core/error.hpp"
-#include "scenes/core/files.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/files.hpp"
 
 namespace beambench::scenes::mesh {
 namespace {

@@ -9,7 +9,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "scenes/core/files.hpp"
+#include "scenes/base/files.hpp"
 
 namespace beambench::scenes::mesh {
 

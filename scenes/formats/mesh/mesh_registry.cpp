@@ -8,10 +8,10 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
-#include "scenes/core/error.hpp"
-#include "scenes/core/json_text.hpp"
-#include "scenes/core/nearest_name.hpp"
-#include "scenes/core/printable.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/json_text.hpp"
+#include "scenes/base/nearest_name.hpp"
+#include "scenes/base/printable.hpp"
 #include "scenes/formats/mesh/mesh_cache.hpp"
 #include "scenes/formats/mesh/mesh_file.hpp"
 #include "scenes/scene_builder.hpp"

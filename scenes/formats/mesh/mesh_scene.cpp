@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "scenes/base/error.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/error.hpp"
 #include "scenes/formats/mesh/fitted_cameras.hpp"
 #include "scenes/formats/mesh/mesh_cache.hpp"
 #include "scenes/formats/mesh/mesh_file.hpp"

@@ -11,8 +11,8 @@
 
 #include <fmt/format.h>
 
-#include "scenes/core/error.hpp"
-#include "scenes/core/plain_text.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/plain_text.hpp"
 #include "scenes/formats/mesh/importers.hpp"
 #include "scenes/formats/mesh/mesh.hpp"
 #include "scenes/formats/mesh/mesh_cleaning.hpp"

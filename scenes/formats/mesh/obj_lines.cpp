@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "scenes/core/printable.hpp"
+#include "scenes/base/printable.hpp"
 
 namespace beambench::scenes::mesh {
 namespace {

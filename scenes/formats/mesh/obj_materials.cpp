@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 #include <glm/vec3.hpp>
 
-#include "scenes/core/decimal.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/plain_text.hpp"
+#include "scenes/base/decimal.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/plain_text.hpp"
 #include "scenes/formats/mesh/importers.hpp"
 #include "scenes/formats/mesh/obj_lines.hpp"
 

@@ -5,7 +5,7 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::scenes::mesh {
 

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "scenes/core/decimal.hpp"
-#include "scenes/core/printable.hpp"
+#include "scenes/base/decimal.hpp"
+#include "scenes/base/printable.hpp"
 
 namespace beambench::scenes::mesh {
 namespace {

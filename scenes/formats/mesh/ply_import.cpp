@@ -23,7 +23,7 @@
 
 #include <fmt/format.h>
 
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 #include "scenes/formats/mesh/importers.hpp"
 #include "scenes/formats/mesh/indexed_faces.hpp"
 #include "scenes/formats/mesh/ply_header.hpp"

@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
-#include "scenes/core/decimal.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/printable.hpp"
+#include "scenes/base/decimal.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/printable.hpp"
 
 namespace beambench::scenes::mesh {
 namespace {

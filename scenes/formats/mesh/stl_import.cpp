@@ -27,9 +27,9 @@
 
 #include <fmt/format.h>
 
-#include "scenes/core/decimal.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/printable.hpp"
+#include "scenes/base/decimal.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/printable.hpp"
 #include "scenes/formats/mesh/importers.hpp"
 #include "scenes/formats/mesh/mesh_cleaning.hpp"
 #include "scenes/formats/mesh/text_lines.hpp"

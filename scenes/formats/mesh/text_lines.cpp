@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "scenes/core/error.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::scenes::mesh {
 namespace {

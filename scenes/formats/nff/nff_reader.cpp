@@ -13,10 +13,10 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "scenes/base/error.hpp"
+#include "scenes/base/files.hpp"
+#include "scenes/base/printable.hpp"
 #include "scenes/camera.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/files.hpp"
-#include "scenes/core/printable.hpp"
 #include "scenes/formats/nff/nff_tokens.hpp"
 #include "scenes/scene_builder.hpp"
 

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "scenes/core/decimal.hpp"
-#include "scenes/core/error.hpp"
-#include "scenes/core/printable.hpp"
+#include "scenes/base/decimal.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/printable.hpp"
 #include "scenes/scene_builder.hpp"
 
 namespace beambench::scenes::nff {

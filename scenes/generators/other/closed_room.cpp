@@ -2,8 +2,8 @@
 
 #include <glm/ext/matrix_transform.hpp>
 
+#include "scenes/base/portable_math.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/portable_math.hpp"
 #include "scenes/modelling/add_mesh.hpp"
 #include "scenes/modelling/box.hpp"
 #include "scenes/modelling/lathe.hpp"

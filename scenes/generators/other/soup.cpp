@@ -1,7 +1,7 @@
 #include <array>
 
+#include "scenes/base/random.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/random.hpp"
 #include "scenes/scene_builder.hpp"
 
 namespace beambench::scenes::generators {

@@ -2,8 +2,8 @@
 
 #include <glm/mat3x3.hpp>
 
+#include "scenes/base/portable_math.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/portable_math.hpp"
 #include "scenes/scene_builder.hpp"
 
 namespace beambench::scenes::generators {

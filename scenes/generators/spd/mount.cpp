@@ -4,8 +4,8 @@
 
 #include <glm/vec2.hpp>
 
+#include "scenes/base/portable_math.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/portable_math.hpp"
 #include "scenes/generators/spd/spd_sky.hpp"
 #include "scenes/scene_builder.hpp"
 

@@ -6,9 +6,9 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "scenes/base/portable_math.hpp"
+#include "scenes/base/random.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/portable_math.hpp"
-#include "scenes/core/random.hpp"
 #include "scenes/modelling/add_mesh.hpp"
 #include "scenes/modelling/box.hpp"
 #include "scenes/modelling/extrusion.hpp"

@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "scenes/base/portable_math.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/portable_math.hpp"
 #include "scenes/modelling/add_mesh.hpp"
 #include "scenes/modelling/polygon_mesh.hpp"
 #include "scenes/modelling/subdivide.hpp"

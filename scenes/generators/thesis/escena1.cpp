@@ -6,8 +6,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "scenes/base/random.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/random.hpp"
 #include "scenes/scene_builder.hpp"
 
 namespace beambench::scenes::generators {

@@ -2,8 +2,8 @@
 #include <numbers>
 #include <vector>
 
+#include "scenes/base/random.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/random.hpp"
 #include "scenes/generators/thesis/plant.hpp"
 #include "scenes/modelling/add_mesh.hpp"
 #include "scenes/modelling/lathe.hpp"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "scenes/core/portable_math.hpp"
+#include "scenes/base/portable_math.hpp"
 
 namespace beambench::scenes::generators {
 namespace {

@@ -5,8 +5,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "scenes/base/portable_math.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/portable_math.hpp"
 #include "scenes/modelling/add_mesh.hpp"
 #include "scenes/modelling/box.hpp"
 #include "scenes/modelling/lathe.hpp"

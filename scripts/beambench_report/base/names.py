@@ -55,7 +55,7 @@ def subjects(rows: pd.DataFrame) -> pd.Series:
 def path_of_name(name: str) -> str:
     """The path of the file that records name so: `\\x1b` is a byte, two backslashes are one.
 
-    Names of files are made by `name_of_path` (scenes/core/printable.hpp).
+    Names of files are made by `name_of_path` (scenes/base/printable.hpp).
     """
     pieces = re.split(rb"\\(\\|x[0-9a-f]{2})", name.encode())
     for i in range(1, len(pieces), 2):

@@ -1,6 +1,6 @@
 """Reads run.jsonl, the log of a run: what `beambench run` adds a line to with each event.
 
-The events are described in harness/bench/record/run_log.hpp. What follows the last whole line is
+The events are described in harness/measure/record/run_log.hpp. What follows the last whole line is
 left out: there the run was cut off.
 """
 

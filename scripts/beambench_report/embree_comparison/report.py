@@ -63,7 +63,7 @@ def comparison(runs: Sequence[Path], file: Path | None = None) -> list[Path] | s
         names = ", ".join(str(run) for run in runs)
         raise Problem(
             f"{names}: no rays have correct hits by both tile-beam and embree; measure "
-            "harness/bench/sweeps/beat-embree.json"
+            "harness/measure/sweeps/beat-embree.json"
         )
     if file is None:
         return as_markdown(found)

@@ -18,7 +18,7 @@ from beambench_report.nightly.home import HOME, KEEP_SAMPLES, Home, adopt, only_
 from beambench_report.nightly.run import Request, describe, rebuild_history, record, run_night
 from beambench_report.site.write import write_site
 
-_SWEEP = ROOT / "harness/bench/sweeps/nightly.json"
+_SWEEP = ROOT / "harness/measure/sweeps/nightly.json"
 _PUBLISHED = ROOT / "results/published/nightly"
 
 

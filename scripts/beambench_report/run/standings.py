@@ -7,7 +7,7 @@ beforehand: the break-even ray count is the number of rays from which the fastes
 is ahead of every contender that is not tied with it.
 
 `null` finds nothing and `exhaustive` tests everything: they are references, not contenders.
-`harness/bench/standings.cpp` prints the same at the end of a run; a test compares the two.
+`harness/measure/standings.cpp` prints the same at the end of a run; a test compares the two.
 """
 
 from collections.abc import Mapping, Sequence

@@ -5,7 +5,7 @@
 
 Ends with 1 when a median ratio is off by more than 1.5% and its 95% interval leaves out 1: the same
 machine code in two files lies at other addresses, which alone makes up to that much
-(harness/bench/record/cell_record.hpp, kBetweenRuns).
+(harness/measure/record/cell_record.hpp, kBetweenRuns).
 """
 
 from __future__ import annotations

@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "harness/verify/selftest/test_scenes.hpp"
-#include "scenes/core/random.hpp"
+#include "scenes/base/random.hpp"
 #include "scenes/scene_builder.hpp"
 
 namespace beambench::exact {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "accel/core/ray.hpp"
-#include "scenes/core/random.hpp"
+#include "scenes/base/random.hpp"
 #include "tests/verify/exact/acceptance.hpp"
 
 namespace beambench::exact {

@@ -4,7 +4,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "scenes/core/random.hpp"
+#include "scenes/base/random.hpp"
 #include "scenes/generators/thesis/room/room.hpp"
 #include "scenes/modelling/box.hpp"
 

@@ -5,8 +5,8 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "scenes/core/portable_math.hpp"
-#include "scenes/core/random.hpp"
+#include "scenes/base/portable_math.hpp"
+#include "scenes/base/random.hpp"
 #include "scenes/generators/thesis/plant.hpp"
 #include "scenes/generators/thesis/room/room.hpp"
 #include "scenes/modelling/box.hpp"

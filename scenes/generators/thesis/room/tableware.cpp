@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "scenes/core/portable_math.hpp"
+#include "scenes/base/portable_math.hpp"
 #include "scenes/generators/thesis/plant.hpp"
 #include "scenes/generators/thesis/room/room.hpp"
 #include "scenes/modelling/implicit_surface.hpp"

@@ -7,7 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "scenes/core/portable_math.hpp"
+#include "scenes/base/portable_math.hpp"
 #include "scenes/generators/thesis/room/room.hpp"
 #include "scenes/modelling/lathe.hpp"
 #include "scenes/modelling/parametric_surface.hpp"

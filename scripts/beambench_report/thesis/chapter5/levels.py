@@ -295,7 +295,7 @@ def levels_of_runs(runs: Sequence[Path], file: Path | None = None) -> list[Path]
         names = ", ".join(str(run) for run in runs)
         raise Problem(
             f"{names}: no cell of max_level=auto has two fixed levels beside it; measure "
-            "harness/bench/sweeps/levels.json"
+            "harness/measure/sweeps/levels.json"
         )
     if file is None:
         return section_as_markdown(replace(section, figures=()), level=1, origin=by_file)

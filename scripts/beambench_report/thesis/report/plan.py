@@ -112,7 +112,7 @@ SWEEPS = (
 )
 
 
-FOLDER = ROOT / "harness/bench/sweeps/thesis"
+FOLDER = ROOT / "harness/measure/sweeps/thesis"
 
 LEVELS = "levels"
 """The sweep that tests max_level=auto; its file lies in the folder above FOLDER."""

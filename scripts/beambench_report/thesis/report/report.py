@@ -38,7 +38,7 @@ SAMPLING = "sampling"
 MIRRORS = "mirrors"
 """The folder of what `beambench mirrors SCENE --json` printed."""
 GRID_BEAMS = "grid-beams"
-"""The folder of the run of harness/bench/sweeps/grid-beams.json."""
+"""The folder of the run of harness/measure/sweeps/grid-beams.json."""
 
 
 @dataclass(frozen=True)

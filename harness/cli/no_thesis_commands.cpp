@@ -1,0 +1,9 @@
+// The commands of the thesis where they are not built (BEAMBENCH_THESIS=OFF).
+
+#include "harness/cli/commands.hpp"
+
+namespace beambench::cli {
+
+std::vector<AddCommand*> thesis_commands() { return {}; }
+
+}  // namespace beambench::cli

@@ -1,0 +1,69 @@
+#pragma once
+// The configuration of a sweep: what is to be measured, read from JSON.
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "accel/core/registry.hpp"
+#include "harness/rays/ray_kind.hpp"
+#include "harness/rays/trace_input.hpp"
+
+namespace beambench::measure {
+
+/// A scene of a sweep.
+struct SceneEntry {
+  std::string spec;                  ///< a catalogue name with parameters, or a path
+  std::vector<std::string> cameras;  ///< by name; empty: the scene's first
+  std::string place;                 ///< its place in the file, for messages
+};
+
+/// Cells to leave out: those to which everything that is given applies.
+struct Exclusion {
+  std::optional<std::string> structure;  ///< the bare name
+  std::optional<std::string> scene;      ///< as the configuration spells it
+  std::optional<std::uint64_t> primitives_above;
+  std::optional<std::uint64_t> rays_above;
+};
+
+/// A figure of a cell's repetitions.
+enum class Figure { kMedian, kMinimum };
+
+struct SweepConfig {
+  std::string name;
+  std::string description;
+  std::vector<SceneEntry> scenes;
+  std::vector<accel::StructureChoice> structures;  ///< lists of parameters multiplied out
+  std::vector<rays::Resolution> resolutions;
+  std::vector<int> samples;
+  std::vector<rays::RayChoice> rays;
+  int threads;       ///< that trace an image
+  double precision;  ///< wanted half-width of the interval of a repeat, relative to the figure
+  Figure precise;    ///< the figure that is to be that precise
+  int minimum_repetitions;
+  int maximum_repetitions;
+  int second_traces;      ///< of each cell: so many repetitions are followed by one
+  double budget_seconds;  ///< for the whole run; the minimum of repetitions is made all the same
+  std::chrono::duration<double> warm_up;  ///< of the machine, before anything is timed
+  std::vector<Exclusion> exclude;
+
+  nlohmann::json source;  ///< as it was read
+};
+
+/// Reads and checks a configuration, by path or by name (`find_sweep`; schema:
+/// harness/measure/sweep.schema.json). Structures and their parameters are checked against
+/// `structures`, which outlives the result. Throws InputError `file:
+/// /structures/1/parameters/max_level: ...`, and where the lists multiply to more than 100,000
+/// cells, which is known before any is made.
+SweepConfig read_sweep(const std::string& asked, const accel::Registry& structures);
+
+/// The same of a configuration in memory; `name` stands for it in messages.
+SweepConfig parse_sweep(nlohmann::json source, const std::string& name,
+                        const accel::Registry& structures);
+
+}  // namespace beambench::measure

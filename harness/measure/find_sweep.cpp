@@ -1,0 +1,72 @@
+#include "harness/measure/find_sweep.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "harness/base/code_folder.hpp"
+#include "harness/base/messages.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/nearest_name.hpp"
+#include "scenes/base/printable.hpp"
+
+namespace beambench::measure {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where an installed program has its sweeps, or else where they lie in the sources.
+fs::path sweep_folder() {
+  const fs::path installed = base::code_folder().parent_path() / "share/beambench/sweeps";
+  std::error_code error;
+  return fs::is_directory(installed, error) ? installed : fs::path(BEAMBENCH_SWEEPS);
+}
+
+/// The name in a path of the former folder; empty for other paths.
+std::string former_name(const std::string& asked) {
+  constexpr std::string_view kFormer = "harness/bench/sweeps/";
+  const std::size_t at = asked.find(kFormer);
+  if (at == std::string::npos || !asked.ends_with(".json")) return "";
+  const std::size_t begin = at + kFormer.size();
+  return asked.substr(begin, asked.size() - begin - std::string_view(".json").size());
+}
+
+}  // namespace
+
+std::vector<std::string> sweep_names() {
+  std::vector<std::string> names;
+  const fs::path folder = sweep_folder();
+  std::error_code error;
+  for (const auto& entry : fs::recursive_directory_iterator(folder, error)) {
+    if (entry.path().extension() != ".json") continue;
+    names.push_back(fs::relative(entry.path(), folder).replace_extension().string());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+fs::path find_sweep(const std::string& asked) {
+  std::error_code error;
+  if (fs::exists(asked, error)) return asked;
+  const std::vector<std::string> names = sweep_names();
+  const std::string former = former_name(asked);
+  const std::string& name = former.empty() ? asked : former;
+  if (std::ranges::find(names, name) == names.end()) {
+    throw InputError(
+        fmt::format("{}: there is no such file, and no sweep of that name; {}name a "
+                    "JSON file or one of {}",
+                    name_of_path(asked), did_you_mean(asked, names), fmt::join(names, ", ")));
+  }
+  if (!former.empty()) {
+    base::report_error("beambench",
+                       fmt::format("{} has moved to harness/measure/sweeps; name it '{}'",
+                                   name_of_path(asked), name),
+                       base::kSuccess);
+  }
+  return sweep_folder() / (name + ".json");
+}
+
+}  // namespace beambench::measure

@@ -1,0 +1,58 @@
+#pragma once
+// Google Benchmark's command-line flags, as far as they mean something here.
+
+#include <functional>
+#include <iosfwd>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "harness/measure/record/cell_record.hpp"
+
+namespace benchmark {
+class State;
+}
+
+namespace beambench::measure {
+
+/// The user's Google Benchmark flags.
+struct BenchmarkFlags {
+  std::vector<std::string> passed_on;  ///< --benchmark_filter, --benchmark_context, --v
+  std::optional<int> repetitions;      ///< --benchmark_repetitions
+  bool list = false;                   ///< --benchmark_list_tests
+  std::vector<std::string> notes;      ///< sentences on flags that have no effect here, and why
+};
+
+/// Throws InputError for a flag that Google Benchmark does not have or cannot read, naming those
+/// that it has.
+BenchmarkFlags parse_benchmark_flags(const std::vector<std::string>& arguments);
+
+/// A timed piece of work. It loops over the state once and sets the iteration's time (manual time).
+using TimedWork = std::function<void(benchmark::State&)>;
+
+/// Runs timed work through Google Benchmark. One object at a time: the library's state is global.
+class GoogleBenchmark {
+ public:
+  /// Throws InputError when the library refuses a flag.
+  explicit GoogleBenchmark(const BenchmarkFlags& flags);
+
+  /// The names that --benchmark_filter selects, by the library's own matching. Throws InputError
+  /// when it selects none.
+  std::set<std::string> select(std::span<const std::string> names) const;
+
+  /// Runs the work for one iteration. Which contender's turn it is, the caller decides: the
+  /// library's own interleaving shuffles all repetitions at once and cannot stop one contender
+  /// earlier than another.
+  void run_once(const std::string& name, const TimedWork& work) const;
+};
+
+/// Writes cells as Google Benchmark writes its results: one entry each repetition, `context` put
+/// into its context.
+void write_google_benchmark_json(std::ostream& out, const nlohmann::ordered_json& context,
+                                 std::span<const CellRecord> cells);
+
+}  // namespace beambench::measure

@@ -1,0 +1,163 @@
+#include "harness/measure/plan.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "accel/core/registry.hpp"
+#include "harness/base/messages.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/catalogue.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench::measure {
+namespace {
+
+/// Runs `work`, putting the entry's place in front of an InputError that it throws.
+template <class Work>
+auto placed(const SceneEntry& entry, Work work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", entry.place, error.what()));
+  }
+}
+
+std::shared_ptr<const scenes::Scene> load(const SceneEntry& entry) {
+  return placed(
+      entry, [&] { return std::make_shared<const scenes::Scene>(base::open_scene(entry.spec)); });
+}
+
+std::vector<scenes::Camera> cameras_of(const scenes::Scene& scene, const SceneEntry& entry) {
+  if (entry.cameras.empty()) return {scene.cameras.front()};
+  std::vector<scenes::Camera> cameras;
+  for (const std::string& name : entry.cameras) {
+    cameras.push_back(placed(entry, [&] { return scenes::find_camera(scene, name); }));
+  }
+  return cameras;
+}
+
+std::uint64_t ray_count(const CellGroup& group) {
+  return static_cast<std::uint64_t>(group.resolution.width) *
+         static_cast<std::uint64_t>(group.resolution.height) *
+         static_cast<std::uint64_t>(group.samples);
+}
+
+bool applies(const Exclusion& rule, const CellGroup& group, const SceneEntry& entry,
+             const accel::StructureChoice& structure) {
+  if (rule.structure && *rule.structure != structure.info().name) return false;
+  if (rule.scene && *rule.scene != entry.spec && *rule.scene != group.scene->name) return false;
+  if (rule.primitives_above && group.scene->primitives.size() <= *rule.primitives_above) {
+    return false;
+  }
+  return !rule.rays_above || ray_count(group) > *rule.rays_above;
+}
+
+/// Adds the group's cells, each once; `names` are those of the cells in the plan.
+void add_group(const SweepConfig& config, const SceneEntry& entry, CellGroup group, Plan& plan,
+               std::set<std::string>& names) {
+  for (const accel::StructureChoice& structure : config.structures) {
+    if (std::ranges::any_of(config.exclude, [&](const Exclusion& rule) {
+          return applies(rule, group, entry, structure);
+        })) {
+      continue;
+    }
+    CellId id{group.scene->name,     group.camera.name,
+              structure.info().name, structure.parameters().canonical(),
+              group.resolution,      group.samples,
+              group.rays.label};
+    if (names.insert(id.name()).second) {
+      group.cells.push_back({names.size() - 1, std::move(id), structure});
+    } else {
+      ++plan.merged;
+    }
+  }
+  if (!group.cells.empty()) plan.groups.push_back(std::move(group));
+}
+
+/// The groups of a scene in one of its views.
+std::vector<CellGroup> groups_of(const SweepConfig& config,
+                                 const std::shared_ptr<const scenes::Scene>& scene,
+                                 std::uint64_t hash, const scenes::Camera& camera) {
+  std::vector<CellGroup> groups;
+  for (const rays::Resolution& resolution : config.resolutions) {
+    for (const int samples : config.samples) {
+      const bool first = camera.name == scene->cameras.front().name &&
+                         resolution == config.resolutions.front() &&
+                         samples == config.samples.front();
+      for (const rays::RayChoice& rays : config.rays) {
+        // The rays of a file are the same in every view: they are traced once.
+        if (!rays.file.empty() && !first) continue;
+        groups.push_back({scene, hash, camera, resolution, samples, rays, config.threads, {}});
+      }
+    }
+  }
+  return groups;
+}
+
+/// `label`, a structure or scene with all parameters, without those at their defaults; whatever
+/// `infos` do not have, such as a file, as it is.
+template <class Infos>
+std::string shortened(const Infos& infos, const std::string& label) {
+  const std::string name = label.substr(0, label.find(':'));
+  const auto info = std::ranges::find_if(infos, [&](const auto& i) { return i.name == name; });
+  if (info == infos.end() || name.size() == label.size()) return label;
+  return Parameters(name, info->parameters, parse_spec(label).parameters).short_label();
+}
+
+}  // namespace
+
+std::string CellGroup::name() const {
+  return fmt::format("{}/{}/{}/{}/{}", scene->name, camera.name, rays::to_string(resolution),
+                     samples, rays.label);
+}
+
+std::size_t Plan::cell_count() const {
+  std::size_t count = 0;
+  for (const CellGroup& group : groups) count += group.cells.size();
+  return count;
+}
+
+Plan make_plan(const SweepConfig& config) {
+  Plan plan;
+  std::set<std::string> names;
+  for (const SceneEntry& entry : config.scenes) {
+    const std::shared_ptr<const scenes::Scene> scene = load(entry);
+    const std::uint64_t hash = scenes::scene_hash(*scene);
+    for (const scenes::Camera& camera : cameras_of(*scene, entry)) {
+      for (CellGroup& group : groups_of(config, scene, hash, camera)) {
+        add_group(config, entry, std::move(group), plan, names);
+      }
+    }
+  }
+  if (plan.groups.empty()) {
+    throw InputError("nothing is left to measure: 'exclude' leaves out every cell; relax it");
+  }
+  return plan;
+}
+
+std::vector<SceneFacts> scene_facts(const Plan& plan) {
+  std::vector<SceneFacts> facts;
+  for (const CellGroup& group : plan.groups) {
+    const scenes::Scene& scene = *group.scene;
+    if (!facts.empty() && facts.back().name == scene.name) continue;  // groups go scene by scene
+    facts.push_back({scene.name, group.scene_hash, scene.primitives.size()});
+  }
+  return facts;
+}
+
+std::string shown_scene(const std::string& scene) {
+  return shortened(scenes::scene_catalogue(), scene);
+}
+
+std::string shown_name(const CellId& id) {
+  CellId shown = id;
+  shown.scene = shown_scene(id.scene);
+  shown.parameters.clear();
+  const std::string colon = id.parameters.empty() ? "" : ":";
+  shown.structure = shortened(accel::registry().structures(), id.structure + colon + id.parameters);
+  return shown.name();
+}
+
+}  // namespace beambench::measure

@@ -1,0 +1,71 @@
+#pragma once
+// The plan of a sweep: its cells, in groups that share their rays.
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "harness/measure/config.hpp"
+#include "harness/measure/record/cell_record.hpp"
+#include "harness/measure/record/manifest.hpp"
+#include "harness/rays/trace_input.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench::measure {
+
+/// One cell to measure.
+struct PlannedCell {
+  std::size_t index;  ///< in the whole plan: the order of the record's rows
+  CellId id;
+  accel::StructureChoice structure;
+};
+
+/// The cells with the same rays over the same scene: contenders, measured in turns.
+struct CellGroup {
+  std::shared_ptr<const scenes::Scene> scene;  ///< freed when the last of its groups is done
+  std::uint64_t scene_hash;
+  scenes::Camera camera;
+  rays::Resolution resolution;
+  int samples;
+  rays::RayChoice rays;
+  int threads = 1;  ///< that trace an image
+  std::vector<PlannedCell> cells;
+
+  /// `escena1/default/320x200/1/primary`.
+  std::string name() const;
+  rays::ImageOfRays image() const { return {camera, resolution, samples}; }
+};
+
+struct Plan {
+  std::vector<CellGroup> groups;
+  std::size_t merged = 0;  ///< cells that the configuration names more than once
+
+  std::size_t cell_count() const;
+};
+
+/// Loads every scene once and multiplies the configuration out: scene by scene, all structures of a
+/// group together. Cells named twice are made once. Throws InputError when a scene cannot be
+/// loaded, has no camera of that name, or nothing is left to measure.
+Plan make_plan(const SweepConfig& config);
+
+/// The scenes that the plan measures, each once.
+std::vector<SceneFacts> scene_facts(const Plan& plan);
+
+/// Leaves out the cells that `keep` refuses, and groups without cells.
+template <class Keep>
+void filter_cells(Plan& plan, Keep keep) {
+  for (CellGroup& group : plan.groups) {
+    std::erase_if(group.cells, [&](const PlannedCell& cell) { return !keep(cell); });
+  }
+  std::erase_if(plan.groups, [](const CellGroup& group) { return group.cells.empty(); });
+}
+
+/// `CellId::name` without the parameters of the scene and the structure that are at their defaults,
+/// which would fill lines: `escena1/default/320x200/1/primary/samet:max_level=6`.
+std::string shown_name(const CellId& id);
+
+/// A scene's name likewise: `tetra:n=4`, or `tetra` for `tetra:n=6`. A path stays as it is.
+std::string shown_scene(const std::string& scene);
+
+}  // namespace beambench::measure

@@ -1,0 +1,178 @@
+#pragma once
+// The record of one cell: one structure traced with one set of rays.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "accel/core/statistics.hpp"
+#include "harness/rays/trace_input.hpp"
+#include "harness/verify/differ.hpp"
+
+namespace beambench::measure {
+
+enum class QueryPath {
+  kImageSingle,  ///< an image, its rays made one by one
+  kImageSimd,    ///< an image, its rays made and its hits stored by SIMD
+  kImageOwn,     ///< an image, by the structure's own samples: no share is the harness's
+  kList,         ///< a list of rays: each is read, each answer is written
+  kListPacked,   ///< the same, by SIMD, in packets
+  kPicture       ///< a whole picture, which is shaded
+};
+
+/// As records name them: "image-single", ...
+inline constexpr std::array<std::string_view, 6> kQueryPathNames{
+    "image-single", "image-simd", "image-own", "list", "list-packed", "picture"};
+
+constexpr std::string_view to_string(QueryPath path) {
+  return kQueryPathNames[static_cast<std::size_t>(path)];
+}
+
+/// The harness's own share of a trace by a path: what it takes where answers cost nothing.
+struct HarnessShare {
+  QueryPath path;
+  double ms;
+};
+
+/// The events, as columns name them after the phase: `trace_instructions`.
+inline constexpr std::array<std::string_view, 3> kHardwareEvents{"instructions", "cycles",
+                                                                 "cache_misses"};
+
+/// One count for each event; nothing for one that this machine does not count.
+using HardwareCounts = std::array<std::optional<std::uint64_t>, kHardwareEvents.size()>;
+
+/// The identity of a cell within a sweep.
+struct CellId {
+  std::string scene;
+  std::string camera;
+  std::string structure;   ///< the bare name
+  std::string parameters;  ///< all of them, canonical
+  rays::Resolution resolution;
+  int samples;
+  std::string rays;  ///< as `RayChoice::label`
+
+  /// `escena1/default/320x200/1/primary/samet:max_level=6,max_objects=0`.
+  std::string name() const;
+  /// The fingerprint of the name, sixteen hexadecimal digits.
+  std::string key() const;
+};
+
+/// One timed repetition: built, traced, thrown away.
+struct Repetition {
+  int round;     ///< contenders take turns, one repetition each a round; groups do, too
+  int position;  ///< in the order of its group in that round
+  double build_ms;
+  double trace_ms;
+  double build_cpu_ms;
+  double trace_cpu_ms;
+  HardwareCounts build_counts{};
+  HardwareCounts trace_counts{};
+  /// A second trace of the same structure, which may have kept something of the first.
+  std::optional<double> warm_trace_ms{};
+  /// The rate of the core's clock, measured just before and after.
+  double clock_ghz = 1.0;
+
+  double total_ms() const { return build_ms + trace_ms; }
+  /// Millions of clock cycles: a time that a clock that changes its rate does not change.
+  double total_mcycles() const { return total_ms() * clock_ghz; }
+};
+
+/// Why no further repetition was made.
+enum class StopReason {
+  kPrecision,   ///< the median's interval is narrow enough
+  kBudget,      ///< the time was up
+  kRepetitions  ///< as many as were allowed
+};
+std::string_view to_string(StopReason reason);  // "precision", "budget", "repetitions"
+
+/// What every row of a run has in common.
+struct RunFacts {
+  std::string run_id;
+  std::string commit;
+  bool dirty;
+  std::string machine_id;
+  std::string build_type;
+  std::string flags;
+  std::string isa;
+  int threads;
+};
+
+/// What every cell of a group has in common.
+struct RaySetFacts {
+  std::uint64_t scene_hash = 0;
+  std::uint64_t rays_hash = 0;
+  std::uint64_t seed = 0;  ///< of a random set of rays; 0 where nothing is random
+  std::uint64_t primitives = 0;
+  std::uint64_t rays = 0;  ///< 0 where they could not be made
+  rays::Query query = rays::Query::kClosestHit;
+  /// By the oracle: of the closest-hit queries, and of the any-hit queries.
+  std::optional<double> hit_share{}, occluded_share{};
+  std::optional<double> coherence{};  ///< between neighbors
+};
+
+/// Work by name.
+using NamedCounters = std::map<std::string, std::uint64_t, std::less<>>;
+
+/// Rays of one kind within a whole picture.
+struct RaysOfKind {
+  std::string kind;  ///< "camera", "reflected", "refracted", "shadow"
+  std::uint64_t rays;
+  NamedCounters counters;
+};
+
+/// What the counting pass found.
+struct CountedWork {
+  NamedCounters counters;         ///< empty where the structure counts nothing
+  std::vector<RaysOfKind> kinds;  ///< of a whole picture: the same kind by kind
+};
+
+/// A cell and all that was found out about it.
+struct CellRecord {
+  std::size_t index;  ///< in the plan of the whole sweep: the order of rows
+  CellId id;
+  RaySetFacts rays;
+  int shard = 0;             ///< that measured it; 0: the run is no merged one
+  std::string time_utc;      ///< when it was finished
+  bool is_finished = false;  ///< it needs no further repetition
+
+  CountedWork work;
+  // Absent where the structure could not be built:
+  std::optional<accel::Statistics> statistics;
+  std::optional<std::uint64_t> allocated_bytes;  ///< by which the heap grew (`heap_in_use`)
+  std::optional<HarnessShare> harness;
+  std::vector<Repetition> repetitions;
+  std::optional<StopReason> stop_reason;
+  /// The verification of the timed buffer, and its fingerprint.
+  std::optional<verify::DiffReport> diff;
+  std::optional<std::uint64_t> hits_hash;
+
+  verify::Verdict verdict = verify::Verdict::kError;
+  std::string message;                ///< what is wrong, in one sentence; empty when nothing is
+  std::vector<std::string> examples;  ///< disputed rays, described
+
+  /// A time is reported only when the hits are correct, or absent by design.
+  bool keeps_times() const { return verify::is_right(verdict); }
+  bool has_times() const { return keeps_times() && !repetitions.empty(); }
+};
+
+/// Returns one figure of every repetition of a cell: a member of `Repetition`.
+template <class Figure>
+std::vector<double> collect(const CellRecord& cell, Figure figure) {
+  std::vector<double> values;
+  values.reserve(cell.repetitions.size());
+  for (const Repetition& repetition : cell.repetitions) {
+    values.push_back(std::invoke(figure, repetition));
+  }
+  return values;
+}
+
+/// Returns the second traces of the repetitions that have one, in milliseconds.
+std::vector<double> second_traces(const CellRecord& cell);
+
+}  // namespace beambench::measure

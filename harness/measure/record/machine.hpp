@@ -1,0 +1,68 @@
+#pragma once
+// The machine that a run was made on, as far as it reports itself, and the build of this program.
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace beambench::measure {
+
+struct BuildInfo {
+  std::string_view version;
+  std::string_view commit;  ///< 40 hexadecimal digits, or "unknown" outside of a git checkout
+  bool dirty;               ///< were tracked files changed since that commit?
+  std::string_view build_type;
+  std::string_view compiler;
+  std::string_view flags;
+  /// The libraries that were found when the build was configured.
+  std::array<std::pair<std::string_view, std::string_view>, 9> libraries;
+};
+
+const BuildInfo& build_info();
+
+/// A load average above it disturbs times.
+constexpr double kIdleLoad = 0.5;
+
+struct Machine {
+  std::string id;  ///< see machine_id
+  std::string cpu;
+  unsigned cores;  ///< that this process may use
+  /// The processors' time that this process may use (`beambench::cpu_quota`); nothing: unlimited.
+  std::optional<double> cpu_quota;
+  std::uint64_t memory_bytes;
+  std::string kernel;
+  std::string instructions;  ///< the widest vector instructions it has, "AVX2"
+  bool virtual_machine;      ///< does it report a hypervisor?
+  std::uint64_t page_bytes;
+  std::string huge_pages;         ///< "always", "madvise", "never", or empty: transparent ones
+  std::string governor;           ///< of the first core; empty: unknown
+  std::string turbo;              ///< "on", "off", or empty: unknown
+  double load;                    ///< one-minute load average when it was read
+  std::uint64_t executable_hash;  ///< of this program's file
+};
+
+/// Inspects this machine; the quota is read below `root`, as by `cpu_quota`.
+Machine inspect_machine(const std::filesystem::path& root = "/");
+
+/// Sixteen hexadecimal digits that differ between machines, without naming them: a fingerprint of
+/// the processor (maker, family, model and stepping, not its name alone, which virtual machines
+/// share) and of the installation (machine-id(5), else the host's name). A machine whose processor
+/// or system is exchanged is another one, for its times are.
+std::string machine_id(std::string_view processor, std::string_view installation);
+
+/// What identifies the first processor in a text laid out as Linux's /proc/cpuinfo, line by line;
+/// empty where the text has nothing of that.
+std::string processor_identity(std::string_view cpuinfo);
+
+/// What disturbs timings and cannot be controlled from here, a sentence each.
+std::vector<std::string> disturbances(const Machine& machine);
+
+/// Now in UTC, `2024-05-31T14:07:09Z`.
+std::string utc_now();
+
+}  // namespace beambench::measure

@@ -1,0 +1,75 @@
+#pragma once
+// The manifest of a run: what was measured, by what, where, and what could not be controlled.
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "harness/measure/record/cell_record.hpp"
+#include "harness/measure/record/conditions.hpp"
+#include "harness/measure/record/machine.hpp"
+#include "harness/measure/record/shard.hpp"
+#include "harness/plugin/load_plugin.hpp"
+
+namespace beambench::measure {
+
+/// One scene of a run.
+struct SceneFacts {
+  std::string name;
+  std::uint64_t hash;
+  std::uint64_t primitives;
+};
+
+/// How the timed code was run.
+struct MeasurementFacts {
+  bool flush_to_zero;     ///< MXCSR's FTZ and DAZ bits were set for every contender
+  int pinned_core;        ///< -1 where the thread could not be pinned
+  unsigned control_word;  ///< MXCSR in the timed code
+  double warm_up_seconds;
+  std::string simd_target;       ///< Highway's best on this machine, what our own SIMD runs on
+  std::optional<double> noise;   ///< of equal work in the warm-up (`noise`)
+  std::string hardware_problem;  ///< why the processor's counters are not read; empty: they are
+  /// The throttling of the whole run, with the parts before it was resumed; nothing: no quota.
+  std::optional<Throttling> throttling{};
+};
+
+struct Manifest {
+  RunFacts run;
+  std::string sweep;  ///< the configuration's name
+  std::string begun_utc;
+  std::string part_begun_utc;  ///< later than `begun_utc` when the run was resumed
+  std::string finished_utc;    ///< empty unless the run has finished
+  Machine machine;
+  MeasurementFacts measurement;
+  std::vector<plugin::LoadedPlugin> plugins;
+  std::vector<SceneFacts> scenes;   ///< of the sweep; of a shard, those of the other shards, too
+  std::optional<ShardFacts> shard;  ///< nothing: the run is the whole sweep
+  std::vector<std::string> uncontrolled;  ///< sentences
+  /// The conditions of the parts before the run was cut off and resumed.
+  nlohmann::ordered_json earlier_parts = nlohmann::ordered_json::array();
+};
+
+/// Makes `now` the manifest of the run that was begun under `before` (its file) and is resumed. How
+/// the earlier parts were throttled counts from then on.
+void continue_with(Manifest& now, const nlohmann::ordered_json& before);
+
+nlohmann::ordered_json to_json(const Manifest& manifest);
+
+/// Two lines on the machine, and a warning in plain words for each thing that could not be
+/// controlled.
+std::vector<std::string> preflight(const Manifest& manifest);
+
+/// The manifest of a new run of the sweep of that name, whose timed code is pinned to `core` (-1:
+/// to none) and runs on that many threads, after a warm-up; `shard` is the part of the sweep that
+/// the run is. The rest is read from this program, the machine (its quota below `root`, as by
+/// `cpu_quota`) and Embree.
+Manifest begin_manifest(const std::string& sweep, std::vector<SceneFacts> scenes, int core,
+                        int threads, std::chrono::duration<double> warm_up,
+                        std::optional<ShardFacts> shard = std::nullopt,
+                        const std::filesystem::path& root = "/");
+
+}  // namespace beambench::measure

@@ -1,0 +1,317 @@
+#include "harness/measure/record/run_log.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "harness/measure/record/cell_json.hpp"
+#include "harness/measure/record/conditions.hpp"
+#include "harness/measure/record/shard.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/json_text.hpp"
+#include "scenes/base/printable.hpp"
+#include "scenes/base/shell_word.hpp"
+
+namespace beambench::measure {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kRemedy = "begin a new run with -o";
+
+void remove_left_behind(const fs::path& folder) {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (is_left_behind(entry.path())) fs::remove(entry.path(), ignored);
+  }
+}
+
+/// Calls `visit` with each whole line; returns the bytes of all of them.
+std::uint64_t for_each_line(const fs::path& log,
+                            const std::function<void(std::string_view line)>& visit) {
+  InputStream input(log);
+  std::uint64_t whole = 0;
+  while (const auto line = input.line()) {
+    if (input.position() == whole + line->size()) break;  // it has no end: it was cut off
+    visit(*line);
+    whole = input.position();
+  }
+  return whole;
+}
+
+/// Puts an event of a log into the run that is read.
+class Reader {
+ public:
+  void take(const Json& event) {
+    const auto& kind = event.at("event").get_ref<const std::string&>();
+    if (kind == "header") return begin(event);
+    if (run_.manifest.is_null()) throw InputError("the log does not begin with its header");
+    if (kind == "resumed") {
+      run_.manifest = event.at("manifest");
+    } else if (kind == "cell") {
+      read_facts(event, cell_of(event));
+    } else if (kind == "repetition") {
+      cell_of(event).repetitions.push_back(read_repetition(event));
+    } else if (kind == "verification") {
+      read_verification(event, cell_of(event));
+    } else if (kind == "finished") {
+      read_finish(event, cell_of(event));
+    } else if (kind == "warning") {
+      run_.manifest.at("uncontrolled").push_back(event.at("text"));
+    } else if (kind == "throttling") {
+      run_.manifest.at("measurement")["throttling"] = event.at("throttling");
+    } else if (kind == "end") {
+      run_.manifest["finished_utc"] = event.at("time_utc");
+    } else {
+      throw InputError(fmt::format("'{}' is no event that this version knows", kind));
+    }
+  }
+
+  Run result() && {
+    for (auto& [index, cell] : cells_) {
+      if (cell.is_finished || cell.diff) run_.cells.push_back(std::move(cell));
+    }
+    return std::move(run_);
+  }
+
+ private:
+  void begin(const Json& event) {
+    if (!run_.manifest.is_null()) throw InputError("the log has a second header");
+    if (const int version = event.at("schema_version").get<int>(); version != kLogVersion) {
+      throw InputError(fmt::format("it is of version {}, and this beambench reads version {}",
+                                   version, kLogVersion));
+    }
+    run_.manifest = event.at("manifest");
+    run_.config = event.at("config");
+    for (const Json& planned : event.at("plan")) {
+      run_.plan.push_back({planned.at(0).get<std::size_t>(), planned.at(1).get<std::string>()});
+    }
+  }
+
+  CellRecord& cell_of(const Json& event) {
+    const auto index = event.at("index").get<std::size_t>();
+    CellRecord& cell = cells_[index];
+    cell.index = index;
+    return cell;
+  }
+
+  Run run_;
+  std::map<std::size_t, CellRecord> cells_;
+};
+
+/// Throws InputError where a cell is of a shard that the manifest does not have.
+void require_known_shards(const Run& run, const std::string& log) {
+  std::set<int> known{0};
+  for (const Json& shard : run.manifest.value("shards", Json::array())) {
+    known.insert(shard.at("number").get<int>());
+  }
+  for (const CellRecord& cell : run.cells) {
+    if (known.contains(cell.shard)) continue;
+    throw InputError(fmt::format("{}: cell {} is of shard {}, which the manifest does not have; {}",
+                                 log, cell.index, cell.shard, kRemedy));
+  }
+}
+
+/// A member of a manifest as text, whatever it is; empty where there is none.
+std::string member(const Json& manifest, const char* pointer) {
+  const Json::json_pointer place(pointer);
+  return manifest.contains(place) ? json_text(manifest.at(place), -1) : "";
+}
+
+/// The hashes of a manifest's plug-ins or scenes, by file or name.
+std::map<std::string, std::string> hashes(const Json& manifest, const char* list, const char* key) {
+  std::map<std::string, std::string> found;
+  for (const Json& each : manifest.value(list, Json::array())) {
+    found[each.at(key).get<std::string>()] = each.at("hash").get<std::string>();
+  }
+  return found;
+}
+
+Json event_of(const char* kind, const CellRecord& cell, const Json& members) {
+  Json event{{"event", kind}, {"index", cell.index}};
+  event.update(members);
+  return event;
+}
+
+}  // namespace
+
+void for_each_event(const fs::path& folder, const std::function<void(const Json&)>& visit) {
+  const fs::path log = folder / kLogName;
+  std::size_t number = 0;
+  for_each_line(log, [&](std::string_view line) {
+    const std::string place = fmt::format("{}, line {}", log.string(), ++number);
+    const Json event = parse_json<Json>(line, place);
+    try {
+      read_as_written(place, kRemedy, [&] { visit(event); });
+    } catch (const InputError& error) {
+      const std::string message = error.what();
+      if (message.starts_with(log.string())) throw;
+      throw InputError(fmt::format("{}: {}; {}", place, message, kRemedy));
+    }
+  });
+}
+
+Run read_run(const fs::path& folder) {
+  require_run(folder);
+  const std::string log = (folder / kLogName).string();
+  Reader reader;
+  for_each_event(folder, [&](const Json& event) { reader.take(event); });
+  Run run = std::move(reader).result();
+  if (run.manifest.is_null()) {
+    throw InputError(fmt::format("{}: it has no whole line; {}", log, kRemedy));
+  }
+  read_as_written(log, kRemedy, [&] { require_known_shards(run, log); });
+  return run;
+}
+
+void require_run(const fs::path& folder) {
+  if (fs::exists(folder / kLogName)) return;
+  throw InputError(fmt::format("'{}' holds no run: there is no {}; begin one with -o",
+                               folder.string(), kLogName));
+}
+
+RunLog RunLog::create(const fs::path& folder) {
+  make_folder(folder, "choose another with -o");
+  RunLog log(folder);
+  if (fs::exists(folder / kLogName) || fs::exists(folder / "results.csv")) {
+    throw InputError(
+        fmt::format("'{}' already holds a run; resume it with --resume '{}', or "
+                    "choose another folder with -o",
+                    folder.string(), folder.string()));
+  }
+  remove_left_behind(folder);
+  return log;
+}
+
+RunLog RunLog::open(const fs::path& folder) {
+  require_run(folder);
+  RunLog log(folder);
+  remove_left_behind(folder);
+  return log;
+}
+
+void RunLog::begin(const Json& manifest, const nlohmann::json& config,
+                   std::span<const PlannedName> plan) {
+  Json names = Json::array();
+  for (const PlannedName& cell : plan) names.push_back(Json::array({cell.index, cell.name}));
+  const Json header{{"event", "header"},
+                    {"schema_version", kLogVersion},
+                    {"manifest", manifest},
+                    {"config", config},
+                    {"plan", names}};
+  const std::string line = json_text(header, -1) + '\n';
+  write_file(folder_ / kLogName, line);
+  file_.emplace(folder_ / kLogName, line.size());
+}
+
+void RunLog::resume(const Json& manifest) {
+  const fs::path log = folder_ / kLogName;
+  file_.emplace(log, for_each_line(log, [](std::string_view) {}));
+  add({{"event", "resumed"}, {"manifest", manifest}});
+}
+
+void RunLog::begin_cell(const CellRecord& cell) { add(event_of("cell", cell, facts_json(cell))); }
+
+void RunLog::add_repetition(const CellRecord& cell) {
+  add(event_of("repetition", cell, repetition_json(cell.repetitions.back())));
+}
+
+void RunLog::add_verification(const CellRecord& cell) {
+  add(event_of("verification", cell, verification_json(cell)));
+}
+
+void RunLog::finish_cell(const CellRecord& cell) {
+  add(event_of("finished", cell, finish_json(cell)));
+}
+
+void RunLog::warn(const std::string& sentence) { add({{"event", "warning"}, {"text", sentence}}); }
+
+void RunLog::set_throttling(const Throttling& throttling) {
+  add({{"event", "throttling"}, {"throttling", to_json(std::optional(throttling))}});
+}
+
+void RunLog::end(const std::string& time_utc) { add({{"event", "end"}, {"time_utc", time_utc}}); }
+
+void RunLog::copy(const Json& event) { add(event); }
+
+void RunLog::add(const Json& event) { file_.value().add_line(json_text(event, -1)); }
+
+std::string program_difference(const Json& first, const Json& second) {
+  const auto differs = [&](const char* pointer) {
+    return member(first, pointer) != member(second, pointer);
+  };
+  if (differs("/program/commit")) {
+    return fmt::format("one is by beambench of commit {}, the other of {}",
+                       member(first, "/program/commit"), member(second, "/program/commit"));
+  }
+  if (differs("/program/executable_hash")) {
+    return "they are by two builds of beambench, from other sources or with other options";
+  }
+  if (hashes(first, "plugins", "file") != hashes(second, "plugins", "file")) {
+    return "they were run with other plug-ins";
+  }
+  const auto scenes = hashes(first, "scenes", "name");
+  for (const auto& [name, hash] : hashes(second, "scenes", "name")) {
+    const auto found = scenes.find(name);
+    if (found != scenes.end() && found->second != hash) {
+      return fmt::format("the scene {} is not the same in both (scene hashes {} and {})",
+                         json_text(Json(name), -1), found->second, hash);
+    }
+  }
+  return "";
+}
+
+namespace {
+
+/// Why the run cannot be resumed; empty where nothing speaks against it.
+std::string other_run(const Run& run, const nlohmann::json& config, const Json& now) {
+  const Json& then = run.manifest;
+  const auto differs = [&](const char* pointer) {
+    return member(then, pointer) != member(now, pointer);
+  };
+  if (const auto changes = nlohmann::json::diff(run.config, config); !changes.empty()) {
+    return fmt::format("the configuration has changed at {}",
+                       changes.front().at("path").get<std::string>());
+  }
+  if (differs("/program/commit")) {
+    return fmt::format("it was begun by beambench of commit {}, this one is of {}",
+                       member(then, "/program/commit"), member(now, "/program/commit"));
+  }
+  if (differs("/program/executable_hash")) {
+    return "it was begun by another build of beambench, from changed sources or with other options";
+  }
+  if (is_merged(then)) return "it was merged from the shards of a sweep, and is complete";
+  if (differs("/machine/id")) return "it was begun on another machine";
+  const auto plugins = hashes(now, "plugins", "file");
+  for (const auto& [file, hash] : hashes(then, "plugins", "file")) {
+    const auto found = plugins.find(file);
+    if (found == plugins.end()) {
+      return fmt::format("it was begun with --plugin {}", shell_quoted(path_of_name(file)));
+    }
+    if (found->second != hash) return fmt::format("the plug-in {} has changed since", file);
+  }
+  const auto earlier = hashes(then, "scenes", "name");
+  for (const auto& [name, hash] : hashes(now, "scenes", "name")) {
+    const auto found = earlier.find(name);
+    if (found != earlier.end() && found->second != hash) {
+      return fmt::format("the scene {} has changed since", json_text(Json(name), -1));
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+void require_same_run(const fs::path& folder, const Run& run, const nlohmann::json& config,
+                      const Json& manifest) {
+  const std::string reason = read_as_written((folder / kLogName).string(), kRemedy,
+                                             [&] { return other_run(run, config, manifest); });
+  if (reason.empty()) return;
+  throw InputError(fmt::format("cannot resume '{}': {}; {}", folder.string(), reason, kRemedy));
+}
+
+}  // namespace beambench::measure

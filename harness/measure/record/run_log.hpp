@@ -1,0 +1,122 @@
+#pragma once
+// The log of a run, run.jsonl: the record from which all other files of its folder are made.
+//
+// One JSON object a line, in the order of events, never rewritten:
+//   header        schema_version, manifest, config, plan: index and name of each cell
+//   resumed       manifest: the run goes on in another process
+//   cell          the timing of a cell begins: what it is, its rays, its counters and sizes
+//   repetition    a timed one of a cell, with its second trace
+//   verification  of the hits of a cell's first repetition
+//   warning       a sentence on what could not be controlled
+//   throttling    how the kernel throttled the run so far, with the parts before it was resumed
+//   finished      a cell needs no further repetition: verdict, reason, message, examples
+//   end           every cell is finished
+// A cell is named by its `index` in the plan of the whole sweep.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "harness/measure/record/cell_record.hpp"
+#include "scenes/base/cpu_quota.hpp"
+#include "scenes/base/files.hpp"
+
+namespace beambench::measure {
+
+/// The version of the log. Incremented when a reader of the old one would fail.
+inline constexpr int kLogVersion = 1;
+
+/// The name of the log in a run's folder.
+inline constexpr const char* kLogName = "run.jsonl";
+
+/// A cell of a plan.
+struct PlannedName {
+  std::size_t index;  ///< in the plan of the whole sweep
+  std::string name;   ///< as `CellId::name`
+};
+
+/// A run as its log has it.
+struct Run {
+  /// With what later events changed of it: warnings, throttling, the end.
+  nlohmann::ordered_json manifest;
+  nlohmann::json config;
+  std::vector<PlannedName> plan;
+  /// Those that were begun, in the order of the plan. A cell that is not finished has the verdict
+  /// of its verification; without one it is not here.
+  std::vector<CellRecord> cells;
+
+  bool is_ended() const { return manifest.at("finished_utc").is_string(); }
+};
+
+/// Reads the log in a folder. What follows its last whole line is left out: there the run was cut
+/// off. Throws InputError when there is no log or it cannot be read, with the line that is not as
+/// it was written.
+Run read_run(const std::filesystem::path& folder);
+
+/// Throws InputError when a folder holds no run that could be resumed.
+void require_run(const std::filesystem::path& folder);
+
+/// Writes the log of a run. Each event is in the system's hands when its function returns; nothing
+/// waits for the disk but the header. One process at a time may have a folder. All functions throw
+/// InputError when the log cannot be written; it then ends with its last event.
+class RunLog {
+ public:
+  /// Takes a folder, which is made, for a new run; throws InputError when it already holds one.
+  static RunLog create(const std::filesystem::path& folder);
+  /// Takes the folder of a run that is to be resumed or read; throws InputError when it holds none.
+  static RunLog open(const std::filesystem::path& folder);
+
+  const std::filesystem::path& folder() const { return folder_; }
+
+  /// Writes the header of a new run.
+  void begin(const nlohmann::ordered_json& manifest, const nlohmann::json& config,
+             std::span<const PlannedName> plan);
+  /// Continues an opened log behind its last whole line.
+  void resume(const nlohmann::ordered_json& manifest);
+
+  void begin_cell(const CellRecord& cell);
+  /// The last of the cell's repetitions.
+  void add_repetition(const CellRecord& cell);
+  void add_verification(const CellRecord& cell);
+  void finish_cell(const CellRecord& cell);
+  void warn(const std::string& sentence);
+  void set_throttling(const Throttling& throttling);
+  void end(const std::string& time_utc);
+
+  /// Adds an event of another log as it is.
+  void copy(const nlohmann::ordered_json& event);
+
+ private:
+  explicit RunLog(std::filesystem::path folder) : folder_(std::move(folder)), lock_(folder_) {}
+  void add(const nlohmann::ordered_json& event);
+
+  std::filesystem::path folder_;
+  FolderLock lock_;
+  std::optional<GrowingFile> file_;
+};
+
+/// Calls `visit` with each event of the log in a folder, in order. Throws as `read_run`.
+void for_each_event(const std::filesystem::path& folder,
+                    const std::function<void(const nlohmann::ordered_json& event)>& visit);
+
+/// What differs between the runs of two manifests and makes their cells incomparable, in a clause:
+/// the program, the plug-ins or a scene that both have; empty where nothing does.
+std::string program_difference(const nlohmann::ordered_json& first,
+                               const nlohmann::ordered_json& second);
+
+/// Throws InputError when the run in `folder` was made with another configuration, by another
+/// program or machine, with other plug-ins or with a scene that has changed since: its cells and
+/// new ones would not compare. The reason is named.
+void require_same_run(const std::filesystem::path& folder, const Run& run,
+                      const nlohmann::json& config, const nlohmann::ordered_json& manifest);
+
+}  // namespace beambench::measure

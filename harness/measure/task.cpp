@@ -1,0 +1,247 @@
+#include "harness/measure/task.hpp"
+
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "accel/core/hit_buffer.hpp"
+#include "harness/measure/measurement.hpp"
+#include "harness/plugin/load_plugin.hpp"
+#include "harness/rays/counted_queries.hpp"
+#include "harness/rays/fingerprint.hpp"
+#include "harness/rays/trace_results.hpp"
+#include "harness/render/picture/image.hpp"
+#include "harness/render/verified_picture.hpp"
+#include "harness/render/whitted.hpp"
+#include "harness/render/whitted_picture.hpp"
+#include "harness/verify/describe.hpp"
+
+namespace beambench::measure {
+namespace {
+
+double share(std::uint64_t part, std::uint64_t whole) {
+  return static_cast<double>(part) / static_cast<double>(whole);
+}
+
+/// Rays that do not depend on the results: an image's, or a list.
+class RaysTask : public Task {
+ public:
+  RaysTask(const CellGroup& group, int core)
+      : Task(group),
+        reference_(*group.scene, rays::make_trace_input(*group.scene, group.image(), group.rays)),
+        results_(rays::make_results(input())),
+        core_(core) {
+    facts_.scene_hash = group.scene_hash;
+    facts_.rays_hash = rays::fingerprint(input());
+    facts_.seed = input().seed();
+    facts_.primitives = scene().primitives.size();
+    facts_.rays = input().size();
+    facts_.query = input().query();
+    const bool any_hit = facts_.query == rays::Query::kAnyHit;
+    (any_hit ? facts_.occluded_share : facts_.hit_share) =
+        share(reference_.hit_count(), input().size());
+    facts_.coherence = rays::coherence(input());
+  }
+
+  std::optional<std::string> warning() const override {
+    return rays::share_warning(input(), reference_.hit_count());
+  }
+  void poison() override { rays::poison(results_); }
+  void require_support(const accel::StructureChoice& choice) const override {
+    rays::require_support(choice, input());
+  }
+  void ask(const accel::Accelerator& structure) override {
+    rays::trace(structure, input(), results_, nullptr, group_.threads);
+  }
+  CountedWork count(const accel::Accelerator& structure) override {
+    accel::WorkCounters counters;
+    rays::trace(structure, input(), results_, &counters);
+    return {counters.by_name(), {}};
+  }
+  std::uint64_t fingerprint() const override { return rays::fingerprint(results_); }
+
+  Verification verify_results(const accel::Accelerator&,
+                              const accel::StructureChoice& choice) override {
+    Verification found{verify::verify_results(reference_, results_, choice.info().conformance), {}};
+    if (verify::is_right(found.report.verdict)) return found;
+    const verify::ReplayCommand replay(plugin::program_call(), scene(), group_.image(), choice,
+                                       input());
+    for (const verify::Mismatch& example : found.report.examples) {
+      found.examples.push_back(verify::describe(scene(), input(), example, replay));
+    }
+    return found;
+  }
+
+ private:
+  QueryPath path_of(const accel::Accelerator& structure) const override {
+    const accel::ImageRays made = structure.statistics().image_rays;
+    if (input().image() == nullptr) {
+      return made == accel::ImageRays::kSimd ? QueryPath::kListPacked : QueryPath::kList;
+    }
+    switch (made) {
+      case accel::ImageRays::kSimd:
+        return QueryPath::kImageSimd;
+      case accel::ImageRays::kOwn:
+        return QueryPath::kImageOwn;
+      case accel::ImageRays::kSingle:
+        break;
+    }
+    return QueryPath::kImageSingle;
+  }
+  double measure_harness_ms(QueryPath path) override {
+    const bool is_simd = path == QueryPath::kImageSimd || path == QueryPath::kListPacked;
+    const char* const rays = is_simd ? "simd" : "single";
+    const auto null = accel::registry().choose({"null", {{"rays", rays}}}).build(scene());
+    return harness_ms(core_, [&] { ask(*null); });
+  }
+  const rays::TraceInput& input() const { return reference_.input(); }
+
+  verify::ReferenceHits reference_;
+  rays::TraceResults results_;
+  int core_;
+};
+
+/// Of all rays, camera rays first.
+std::uint64_t hash_of(const accel::PrimaryRays& rays, const render::RecordedPicture& picture) {
+  std::string hashes = rays::hex_digits(rays::fingerprint(rays));
+  for (const render::AskedRays& asked : picture.asked) {
+    hashes += rays::hex_digits(rays::fingerprint(asked.closest)) +
+              rays::hex_digits(rays::fingerprint(asked.any));
+  }
+  return rays::fingerprint(hashes);
+}
+
+/// The picture of `render --shade whitted`, on one thread: camera rays by what the structure has
+/// for images (beams), the rest in waves, shading included. Not the picture is verified but every
+/// answer that it depends on, reflected, refracted and shadow rays too: a second drawing, with all
+/// of them recorded, must give the same bits as the timed one.
+class PictureTask : public Task {
+ public:
+  PictureTask(const CellGroup& group, int core)
+      : Task(group),
+        rays_(group.image().rays()),
+        options_(render::whitted_options(group.rays)),
+        shaded_(std::make_shared<const render::ShadedScene>(*group.scene)),
+        reference_(*group.scene, rays_),
+        hits_(rays_.width(), rays_.height(), rays_.samples()),
+        image_(rays_.width(), rays_.height()) {
+    const accel::oracle::Oracle oracle(scene(), glm::length(glm::dvec3(rays_.eye())));
+    const render::RecordedPicture picture =
+        render::record_picture(shaded_, render::OracleQueries(oracle), rays_, reference_.rounded(),
+                               options_, rays::HitCheck(scene(), "the oracle"));
+    set_facts(picture);
+    // What the picture takes without a structure: its results are known.
+    hits_ = picture.primary;
+    const auto& [reflected, refracted, shadow] = picture.asked;
+    shading_ms_ = harness_ms(core, [&] {
+      const render::ReplayedResults mirrors(reflected);
+      const render::ReplayedResults glass(refracted);
+      const render::ReplayedResults lights(shadow);
+      draw({&mirrors, &glass, &lights});
+    });
+  }
+
+  void poison() override {
+    rays::poison(hits_);
+    constexpr float kNoLight = std::numeric_limits<float>::quiet_NaN();
+    image_ = render::Image(image_.width(), image_.height(), glm::vec3(kNoLight));
+  }
+  void require_support(const accel::StructureChoice& choice) const override {
+    render::require_support(choice);
+  }
+  void ask(const accel::Accelerator& structure) override {
+    structure.closest_hits(rays_, hits_, {});
+    draw({&structure, &structure, &structure});
+  }
+  CountedWork count(const accel::Accelerator& structure) override {
+    accel::WorkCounters all;
+    structure.closest_hits(rays_, hits_, {&all});
+    const rays::CountedQueries reflected(structure);
+    const rays::CountedQueries refracted(structure);
+    const rays::CountedQueries shadow(structure);
+    const render::RayCensus census = draw({&reflected, &refracted, &shadow});
+    const render::ByFollowingRays<accel::WorkCounters> following{
+        reflected.work().counters, refracted.work().counters, shadow.work().counters};
+
+    CountedWork work;
+    const render::ByFollowingRays<std::uint64_t> rays{census.reflected, census.refracted,
+                                                      census.shadow};
+    work.kinds.push_back({"camera", census.eye, all.by_name()});
+    for (std::size_t i = 0; i < render::kFollowingRays; ++i) {
+      work.kinds.push_back(
+          {std::string(render::kFollowingRayNames[i]), rays[i], following[i].by_name()});
+      all.add(following[i]);
+    }
+    work.counters = all.by_name();
+    return work;
+  }
+  std::uint64_t fingerprint() const override {
+    return rays::fingerprint(rays::hex_digits(rays::fingerprint(hits_)) +
+                             rays::hex_digits(render::fingerprint(image_)));
+  }
+
+  Verification verify_results(const accel::Accelerator& structure,
+                              const accel::StructureChoice& choice) override {
+    poison();
+    render::RecordedPicture picture = [&] {
+      const MeasuringFloatMode mode;  // as it was timed
+      structure.closest_hits(rays_, hits_, {});
+      return render::record_picture(shaded_, structure, rays_, hits_, options_,
+                                    rays::HitCheck(scene(), choice));
+    }();
+    image_ = picture.image;
+    const std::vector<render::VerifiedRays> verified =
+        render::verify_recorded_picture(reference_, std::move(picture), choice.info().conformance);
+    return {render::sum_of(verified), render::described_examples(scene(), verified)};
+  }
+
+ private:
+  QueryPath path_of(const accel::Accelerator&) const override { return QueryPath::kPicture; }
+  double measure_harness_ms(QueryPath) override { return shading_ms_; }
+
+  void set_facts(const render::RecordedPicture& picture) {
+    const render::RayCensus& census = picture.census;
+    facts_.scene_hash = group_.scene_hash;
+    facts_.rays_hash = hash_of(rays_, picture);
+    facts_.primitives = scene().primitives.size();
+    facts_.rays = census.all_rays();
+    facts_.query = rays::Query::kPicture;
+    facts_.hit_share = share(census.eye_hits + census.secondary_hits,
+                             census.eye + census.reflected + census.refracted);
+    if (census.shadow > 0) facts_.occluded_share = share(census.shadow_hidden, census.shadow);
+  }
+  render::RayCensus draw(const render::Answerers& answerers) {
+    return render::draw_in_order(
+        render::Whitted(shaded_, answerers, options_, rays::HitCheck(scene())), rays_, hits_,
+        image_);
+  }
+
+  accel::PrimaryRays rays_;
+  render::WhittedOptions options_;
+  std::shared_ptr<const render::ShadedScene> shaded_;
+  verify::ReferenceHits reference_;
+  accel::HitBuffer hits_;
+  render::Image image_;
+  double shading_ms_ = 0.0;
+};
+
+}  // namespace
+
+HarnessShare Task::harness_share(const accel::Accelerator& structure) {
+  const QueryPath path = path_of(structure);
+  if (path == QueryPath::kImageOwn) return {path, 0.0};
+  const auto [entry, is_new] = harness_ms_.try_emplace(path);
+  if (is_new) entry->second = measure_harness_ms(path);
+  return {path, entry->second};
+}
+
+std::unique_ptr<Task> make_task(const CellGroup& group, int core) {
+  if (group.rays.kind == rays::RayKind::kWhitted) {
+    return std::make_unique<PictureTask>(group, core);
+  }
+  return std::make_unique<RaysTask>(group, core);
+}
+
+}  // namespace beambench::measure

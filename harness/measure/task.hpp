@@ -1,0 +1,78 @@
+#pragma once
+// What the contenders of a group trace: rays, or a whole picture.
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "accel/core/accelerator.hpp"
+#include "accel/core/registry.hpp"
+#include "harness/measure/plan.hpp"
+#include "harness/measure/record/cell_record.hpp"
+#include "harness/verify/differ.hpp"
+
+namespace beambench::measure {
+
+/// The outcome of a verification.
+struct Verification {
+  verify::DiffReport report;
+  std::vector<std::string> examples;  ///< disputed rays, described, where the verdict is bad
+};
+
+/// Rays, and one buffer for their results: contenders take turns.
+class Task {
+ public:
+  Task(const Task&) = delete;
+  Task& operator=(const Task&) = delete;
+  virtual ~Task() = default;
+
+  const scenes::Scene& scene() const { return *group_.scene; }
+  const RaySetFacts& facts() const { return facts_; }
+  accel::Workload workload() const {
+    return {group_.camera, static_cast<std::size_t>(facts_.rays), group_.threads};
+  }
+
+  /// A clause about rays that are not as expected.
+  virtual std::optional<std::string> warning() const { return std::nullopt; }
+
+  /// Overwrites all results with invalid ones: the differ finds each that is left unwritten.
+  virtual void poison() = 0;
+  /// Throws UnsupportedError where a structure does not take these rays.
+  virtual void require_support(const accel::StructureChoice& choice) const = 0;
+  /// Traces with a structure. This is what is timed.
+  virtual void ask(const accel::Accelerator& structure) = 0;
+  /// The same, counting work.
+  virtual CountedWork count(const accel::Accelerator& structure) = 0;
+  /// Of all results, bit for bit.
+  virtual std::uint64_t fingerprint() const = 0;
+  /// Verifies the answers; may have `structure`, which `choice` has built, trace again for it.
+  virtual Verification verify_results(const accel::Accelerator& structure,
+                                      const accel::StructureChoice& choice) = 0;
+
+  /// The query path of `structure`, and the harness's own share of a trace by it, which is measured
+  /// when it is first wanted. Overwrites all answers.
+  HarnessShare harness_share(const accel::Accelerator& structure);
+
+ protected:
+  /// The group must outlive it.
+  explicit Task(const CellGroup& group) : group_(group) {}
+
+  virtual QueryPath path_of(const accel::Accelerator& structure) const = 0;
+  /// What a trace by `path`, which is not the structure's own, takes where answers cost nothing.
+  virtual double measure_harness_ms(QueryPath path) = 0;
+
+  const CellGroup& group_;
+  RaySetFacts facts_;
+
+ private:
+  std::map<QueryPath, double> harness_ms_;
+};
+
+/// The task of a group. `core` is to measure the harness's own time on (-1: any). Throws as
+/// `make_trace_input`.
+std::unique_ptr<Task> make_task(const CellGroup& group, int core);
+
+}  // namespace beambench::measure

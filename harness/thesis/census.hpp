@@ -1,0 +1,66 @@
+#pragma once
+// How many rays of which kind the whole ray tracer takes, and how long.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "accel/core/registry.hpp"
+#include "accel/core/statistics.hpp"
+#include "harness/base/progress.hpp"
+#include "harness/rays/trace_input.hpp"
+#include "harness/render/picture/image.hpp"
+#include "harness/render/ray_census.hpp"
+#include "harness/render/shadows.hpp"
+#include "harness/render/whitted_picture.hpp"
+#include "harness/thesis/counted_queries.hpp"
+
+namespace beambench::thesis {
+
+struct CensusOptions {
+  render::WhittedOptions whitted;
+  /// The rules of Haines's Standard Procedural Databases: rays through the corners of pixels, and a
+  /// mirror ray from all glass.
+  bool spd_rules = false;
+  render::ShadingOrder order = render::ShadingOrder::kRows;
+  int threads = 0;  ///< see `accel::thread_count`
+  /// Count the structure's work, which times then include.
+  bool count_work = false;
+};
+
+/// The same picture with all rays, however small their weight.
+struct FullPicture {
+  std::uint64_t rays;
+  double picture_ms;
+  double error;  ///< of the picture without some of the rays: `root_mean_square_error`
+};
+
+/// What a structure is and did, over all rays of a picture.
+struct StructureWork {
+  accel::Statistics statistics;
+  QueryWork queries;  ///< shadow rays: to the first thing that they hit (`CountedShadows`)
+};
+
+/// The rays and times of one picture.
+struct CensusResult {
+  std::string scene;
+  std::size_t lights;
+  render::RayCensus census;
+  double build_ms;
+  double eye_ms;          ///< primary rays
+  double preparation_ms;  ///< light buffers
+  double picture_ms;      ///< all but the primary rays
+  std::size_t shadow_bytes;
+  std::optional<FullPicture> full;    ///< where `min_weight` is positive
+  std::optional<StructureWork> work;  ///< with `count_work`
+  render::Image picture;
+};
+
+/// Draws the picture, and again with all rays where `min_weight` is positive. `progress` gets a
+/// cell for each. Throws rays::InvalidHit.
+CensusResult take_census(const accel::StructureChoice& choice, const scenes::Scene& scene,
+                         const rays::ImageOfRays& image, const CensusOptions& options,
+                         base::Progress& progress);
+
+}  // namespace beambench::thesis

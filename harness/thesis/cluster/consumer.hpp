@@ -1,0 +1,22 @@
+#pragma once
+// The process that performs the producer's tasks.
+
+#include <span>
+
+#include "harness/thesis/cluster/report.hpp"
+#include "harness/thesis/cluster/transport.hpp"
+
+namespace beambench::cluster {
+
+/// A consumer's final report, as bytes: its tasks, times and counts.
+Bytes write_report(const ProcessReport& report);
+/// Reads it into the producer's report of that process. Throws ProtocolError for other bytes.
+void read_report(std::span<const std::byte> bytes, ProcessReport& report);
+
+/// A consumer of section 6.2: sends `ready_report`, then waits for a parcel, performs its tasks and
+/// sends the results, until the end message. In a long task it sends heartbeats, one in
+/// `heartbeat_interval` seconds.
+void consume(Transport& transport, TaskWorker& worker, double heartbeat_interval,
+             Bytes ready_report);
+
+}  // namespace beambench::cluster

@@ -1,0 +1,141 @@
+#pragma once
+// What a consumer computes, the hits or light of beams and blocks: as bytes, and collected.
+
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "accel/beam/beam_painter.hpp"
+#include "accel/beam/beam_paths.hpp"
+#include "accel/beam/beam_tracer.hpp"
+#include "accel/beam/sample_lattice.hpp"
+#include "accel/core/hit_buffer.hpp"
+#include "accel/core/primary_rays.hpp"
+#include "harness/render/picture/image.hpp"
+#include "harness/render/whitted.hpp"
+#include "harness/thesis/cluster/tasks.hpp"
+#include "harness/thesis/cluster/transport.hpp"
+
+namespace beambench::cluster {
+
+/// Indices in a hit buffer, ascending.
+using SampleList = std::span<const std::uint32_t>;
+
+/// Appends the hits of samples, 8 bytes each and 8 for each run of neighbors.
+void write_hits(SampleList samples, const accel::HitBuffer& hits, Bytes& bytes);
+
+/// Collects hits.
+class HitSink : public ResultSink {
+ public:
+  /// Nothing is hit yet. The buffer must outlive the sink.
+  explicit HitSink(accel::HitBuffer& hits) : hits_(&hits) {}
+  std::size_t accept(std::span<const std::byte> result) override;
+
+ private:
+  accel::HitBuffer* hits_;
+};
+
+/// Appends the light of samples: 12 bytes for a pixel with all its samples here, their mean; 28
+/// bytes for other samples, in double, so that the sink can add a pixel's samples in their order.
+/// `heartbeat` is called from time to time.
+void write_colors(SampleList samples, const accel::HitBuffer& hits, const accel::PrimaryRays& rays,
+                  const render::Whitted& tracer, render::Whitted::Progress& progress,
+                  const Heartbeat& heartbeat, Bytes& bytes);
+
+/// Collects light: the picture equals `whitted_picture` bit for bit.
+class ColorSink : public ResultSink {
+ public:
+  /// `background`: along rays that hit nothing.
+  ColorSink(int width, int height, int samples, const glm::dvec3& background);
+  std::size_t accept(std::span<const std::byte> result) override;
+
+  /// The picture, once all results are in.
+  render::Image image() const;
+
+ private:
+  std::size_t accept_pixels(ByteReader& reader);
+  std::size_t accept_sample(ByteReader& reader);
+
+  int samples_;
+  glm::dvec3 background_;
+  render::Image image_;
+  /// All samples of the pixels that were divided among several tasks.
+  std::unordered_map<std::uint32_t, std::vector<glm::dvec3>> divided_;
+};
+
+/// Records which samples a beam decided.
+class DecidedSamples : public accel::beam::NoBeamWatch {
+ public:
+  /// Of beams only the samples of a part of the image are wanted; empty: all.
+  void want(std::vector<accel::beam::SampleLattice> part) { part_ = std::move(part); }
+  std::span<const accel::beam::SampleLattice> chosen(
+      std::span<const accel::beam::SampleLattice> all) const {
+    return part_.empty() ? all : part_;
+  }
+
+  /// Clears; `heartbeat` is called from time to time and must outlive the record.
+  void begin(const Heartbeat& heartbeat) {
+    pulse_ = &heartbeat;
+    samples_.clear();
+  }
+  void painted(std::size_t index) {
+    samples_.push_back(static_cast<std::uint32_t>(index));
+    if (samples_.size() % 64 == 0) (*pulse_)();
+  }
+  std::vector<std::uint32_t>& samples() { return samples_; }
+
+ private:
+  std::vector<accel::beam::SampleLattice> part_;
+  std::vector<std::uint32_t> samples_;
+  const Heartbeat* pulse_ = nullptr;
+};
+
+/// Finds the samples of a beam (thesis, section 6.2.3, "BuscarPixel") and traces them, with light
+/// if requested; of a tile also its beams. One for each process.
+class ImageWorker : public TaskWorker {
+ public:
+  /// Results are hits, or light where `light` is given. All must outlive this.
+  ImageWorker(const accel::beam::BeamTracer& tracer, const accel::PrimaryRays& rays,
+              const render::Whitted* light);
+
+  void perform(std::span<const std::byte> task, Bytes& result, const Heartbeat& heartbeat) override;
+  /// Those in its results so far.
+  std::uint64_t samples() const { return samples_; }
+  /// Its census of rays.
+  void write_counts(Bytes& bytes) const override;
+
+ private:
+  /// What the samples of a task need when these are decided.
+  struct Results {
+    Bytes* bytes;
+    const Heartbeat* heartbeat;
+  };
+  void perform(const BeamTask& task, const Results& results);
+  void perform(const BlockTask& task, const Results& results);
+  void perform(const TileTask& task, const Results& results);
+  void trace_beams_through(const accel::beam::PixelRect& tile);
+  /// Of the samples that were decided.
+  void write(const Results& results);
+
+  const accel::beam::BeamTracer* tracer_;
+  const accel::PrimaryRays* rays_;
+  const render::Whitted* light_;
+  accel::beam::EyeView view_;
+  accel::beam::WholeImage sight_;
+  std::vector<accel::beam::SampleLattice> lattices_;
+  accel::HitBuffer hits_;
+  DecidedSamples decided_;
+  accel::beam::BeamQueue queue_;
+  accel::beam::BeamPainter<DecidedSamples, accel::beam::WholeImage> painter_;
+  std::uint64_t samples_ = 0;
+  render::RayCensus census_;
+};
+
+/// Reads what `ImageWorker::write_counts` wrote. Throws ProtocolError for other bytes.
+render::RayCensus read_census(std::span<const std::byte> bytes);
+
+}  // namespace beambench::cluster

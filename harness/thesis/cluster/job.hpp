@@ -1,0 +1,72 @@
+#pragma once
+// The job that is broadcast at the beginning, and the check that all processes agree.
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "accel/core/registry.hpp"
+#include "harness/rays/trace_input.hpp"
+#include "harness/render/shadows.hpp"
+#include "harness/thesis/cluster/messages.hpp"
+#include "harness/thesis/cluster/split/scene_division.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench::cluster {
+
+/// The scene's name and how it is subdivided (thesis, section 6.2.3), and the image.
+struct Job {
+  std::string scene;
+  std::string structure;              ///< `beam:max_level=6,...`
+  std::string camera;                 ///< empty: the scene's first
+  rays::Resolution resolution{0, 0};  ///< 0: the camera's
+  int samples = 1;
+  bool light = false;  ///< consumers send light; otherwise hits
+  render::WhittedOptions whitted;
+  int split_level =
+      0;  ///< level of the cells that divide the scene; 0: every process has all of it
+  SceneDivision division = SceneDivision::kPrimitives;  ///< of those cells among the processes
+  std::string work;    ///< what the tasks are, for results that are kept
+  std::string stored;  ///< folder in which every process keeps its results; empty: they are sent
+  double heartbeat_interval = 1.0;  ///< seconds between heartbeats in long tasks
+};
+
+/// The structure of a job with its parameters. Throws InputError where it is not `beam`.
+accel::StructureChoice beam_choice(const Job& job);
+
+/// The image of a job over its scene, which must outlive it.
+rays::ImageOfRays job_image(const Job& job, const scenes::Scene& scene);
+
+/// As bytes, preceded by the version of this program.
+Bytes write_job(const Job& job);
+/// Throws InputError where the producer is another version of this program.
+Job read_job(std::span<const std::byte> bytes);
+
+/// What must be equal in all processes for a beam to mean the same.
+struct Identity {
+  std::uint64_t scene = 0;  ///< hash of all that is visible: primitives, surfaces, lights, cameras
+  std::uint64_t primitives = 0;
+  std::uint64_t nodes = 0;  ///< of the octree of the whole scene; 0 where no process has it
+  std::uint64_t references = 0;
+  friend bool operator==(const Identity&, const Identity&) = default;
+};
+
+/// Hash of the scene and everything that shading depends on.
+std::uint64_t visible_hash(const scenes::Scene& scene);
+
+/// What a process sends when it is set up: its identity, or why it cannot work.
+struct ReadyReport {
+  std::string host;
+  std::string problem;  ///< empty: none
+  Identity identity;
+  double build_seconds = 0.0;
+  std::uint64_t structure_bytes = 0;
+};
+Bytes write_ready_report(const ReadyReport& ready_report);
+/// Throws InputError, naming the process, if it has another version, a problem or another identity.
+ReadyReport read_ready_report(int process, std::span<const std::byte> bytes, const Identity& mine);
+
+/// This machine's name.
+std::string host_name();
+
+}  // namespace beambench::cluster

@@ -1,0 +1,107 @@
+#pragma once
+// Finished results of a picture, kept on disk until it is written: what `--resume` goes on with.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "harness/thesis/cluster/image_worker.hpp"
+#include "harness/thesis/cluster/job.hpp"
+#include "harness/thesis/cluster/messages.hpp"
+#include "harness/thesis/cluster/transport.hpp"
+#include "scenes/base/files.hpp"
+
+namespace beambench::cluster {
+
+/// What must be the same for results to be of the same picture: a line for each property.
+std::string picture_key(const Job& job, const Identity& identity);
+
+/// A file of results that one process appends to. What was added is there after the process died,
+/// whole; the last one may be there in part, and is then not read.
+class KeptFile {
+ public:
+  /// A new file in the folder, which must be there. Throws InputError.
+  KeptFile(const std::filesystem::path& folder, ProcessId process, const std::string& key);
+  /// Removes a file without results.
+  ~KeptFile();
+  KeptFile(const KeptFile&) = delete;
+  KeptFile& operator=(const KeptFile&) = delete;
+
+  /// Throws InputError, for a full disk.
+  void add(std::span<const std::byte> task, std::span<const std::byte> result);
+
+ private:
+  void write(const Bytes& bytes);
+
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+  bool empty_ = true;
+};
+
+/// The folder PICTURE.kept beside a picture, for one run at a time.
+class KeptFolder {
+ public:
+  /// `resume`: keeps what is there; otherwise it is removed. Throws InputError where the folder
+  /// cannot be made or another run has it.
+  KeptFolder(const std::filesystem::path& picture, bool resume);
+  /// Removes a folder without results.
+  ~KeptFolder();
+  KeptFolder(const KeptFolder&) = delete;
+  KeptFolder& operator=(const KeptFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  /// Calls `visit` for the result of each task once. Throws InputError for a file of another
+  /// picture, naming what differs.
+  void read(const std::string& key,
+            const std::function<void(std::span<const std::byte> task,
+                                     std::span<const std::byte> result)>& visit) const;
+  /// Removes the results: the picture is written.
+  void remove();
+
+ private:
+  std::filesystem::path path_;
+  std::unique_ptr<FolderLock> lock_;
+};
+
+/// Tasks, as they were sent.
+using TaskSet = std::set<Bytes>;
+
+/// Leaves out the tasks that are finished.
+class RemainingSource : public TaskSource {
+ public:
+  RemainingSource(std::unique_ptr<TaskSource> all, TaskSet finished)
+      : all_(std::move(all)), finished_(std::move(finished)) {}
+  bool next(Bytes& task) override;
+
+ private:
+  std::unique_ptr<TaskSource> all_;
+  TaskSet finished_;
+};
+
+/// Keeps results where they were made, and returns a receipt for each.
+class StoringWorker : public TaskWorker {
+ public:
+  /// All must outlive this.
+  StoringWorker(ImageWorker& worker, KeptFile& file) : worker_(&worker), file_(&file) {}
+  void perform(std::span<const std::byte> task, Bytes& result, const Heartbeat& heartbeat) override;
+  void write_counts(Bytes& bytes) const override { worker_->write_counts(bytes); }
+
+ private:
+  ImageWorker* worker_;
+  KeptFile* file_;
+  Bytes result_;
+};
+
+/// Takes the receipts of a StoringWorker.
+class ReceiptSink : public ResultSink {
+ public:
+  std::size_t accept(std::span<const std::byte> result) override;
+};
+
+}  // namespace beambench::cluster

@@ -1,0 +1,93 @@
+#pragma once
+// The process that makes the tasks, distributes them and collects the results.
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <span>
+
+#include "harness/thesis/cluster/messages.hpp"
+#include "harness/thesis/cluster/report.hpp"
+#include "harness/thesis/cluster/transport.hpp"
+#include "harness/thesis/cluster/worker_pool.hpp"
+
+namespace beambench::cluster {
+
+/// The defaults are those of the thesis.
+struct ProducerOptions {
+  std::size_t batch = 1;          ///< tasks per message
+  int in_flight = 1;              ///< messages that a consumer may hold
+  bool consumes = false;          ///< performs tasks itself while no consumer waits
+  double timeout = 30.0;          ///< seconds after which a silent consumer is declared lost
+  double startup_timeout = 60.0;  ///< seconds after which it begins alone if no consumer is ready
+  /// Called with each task and its result, once; may be empty.
+  std::function<void(std::span<const std::byte> task, std::span<const std::byte> result)> keep;
+};
+
+/// The producer of section 6.2: takes a task from its source, sends it to the consumer that has
+/// waited longest without waiting for the message to leave, and receives results before each
+/// message it sends. When there are no more tasks, each consumer is shut down with its last result.
+///
+/// A consumer that is silent for too long is declared lost: its tasks go to the others, or are
+/// performed here if none is left. If it is heard again it is given work again; duplicate results
+/// are used once.
+class Producer {
+ public:
+  /// Checks a consumer's ready report; throws InputError if it does not match, which ends the run.
+  using Check = std::function<void(ProcessId, std::span<const std::byte>)>;
+
+  /// All arguments must outlive this. `own` performs the tasks that no consumer gets.
+  Producer(Transport& transport, TaskSource& source, ResultSink& sink, TaskWorker& own, Check check,
+           const ProducerOptions& options);
+
+  /// All tasks, from the first to the last result. If it throws, the consumers were shut down
+  /// before.
+  ClusterReport run();
+
+ private:
+  struct Parcel {
+    Bytes bytes;
+    std::size_t first_task;
+    ProcessId holder;
+  };
+  using Number = std::uint32_t;
+
+  void finish();
+  void wait_for_final_reports();
+  bool make_parcel();
+  void hand_out(Number number);
+  void give(Number number, ProcessId consumer);
+  void give_lost();
+  void do_here(Number number);
+  bool must_work_alone() const;
+
+  void wait_for_message();
+  void handle(const Message& message);
+  void take_results(const Message& message);
+  void take_result(std::size_t number, std::span<const std::byte> task, ProcessId from,
+                   const ParcelItem& result);
+  void declare_silent_lost();
+  void shut_down(ProcessId consumer);
+  void shut_down_idle();
+  void shut_down_all();
+
+  ProcessReport& of(ProcessId process) {
+    return report_.processes[static_cast<std::size_t>(process)];
+  }
+
+  Transport* transport_;
+  TaskSource* source_;
+  ResultSink* sink_;
+  TaskWorker* own_;
+  Check check_;
+  ProducerOptions options_;
+  WorkerPool pool_;
+  std::map<Number, Parcel> open_;  ///< parcels without results
+  std::deque<Number> lost_;        ///< of these: those that no process is working on
+  Number next_number_ = 0;
+  double begin_ = 0.0;
+  double walked_ = 0.0;  ///< CPU seconds since the task before
+  ClusterReport report_;
+};
+
+}  // namespace beambench::cluster

@@ -1,0 +1,107 @@
+#pragma once
+// The record of a run on several processes: totals, each process, each task.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "harness/render/ray_census.hpp"
+#include "harness/thesis/cluster/job.hpp"
+#include "harness/thesis/cluster/transport.hpp"
+
+namespace beambench::cluster {
+
+struct Traffic {
+  std::uint64_t messages = 0;
+  std::uint64_t bytes = 0;
+
+  void add(std::size_t size) {
+    ++messages;
+    bytes += size;
+  }
+  Traffic& operator+=(const Traffic& other) {
+    messages += other.messages;
+    bytes += other.bytes;
+    return *this;
+  }
+};
+nlohmann::ordered_json to_json(const Traffic& traffic);
+nlohmann::ordered_json to_json(const render::RayCensus& census);
+
+/// What a process did. Wall times are of the transport's clock.
+struct ProcessReport {
+  std::uint64_t tasks = 0;
+  std::uint64_t samples = 0;  ///< in its results
+  double busy_seconds = 0.0;  ///< wall time in tasks
+  double cpu_seconds = 0.0;   ///< CPU time in tasks
+  double wait_seconds = 0.0;  ///< wall time waiting for messages
+  double last_result = 0.0;   ///< wall time from the beginning to its last result
+  Traffic from_producer;
+  Traffic to_producer;
+  Bytes counted;                   ///< `TaskWorker::write_counts`
+  bool final_report_came = false;  ///< of a consumer
+};
+
+/// One task, in the order in which they were made.
+struct TaskReport {
+  ProcessId process = kProducer;  ///< that performed it
+  double walk_seconds = 0.0;      ///< CPU time of the producer since the task before
+  double work_seconds = 0.0;      ///< CPU time of the task
+  double accept_seconds = 0.0;    ///< CPU time of the producer for its result
+  double estimate_seconds = 0.0;  ///< what it was expected to take, where that was estimated
+  std::size_t samples = 0;
+  std::size_t task_bytes = 0;
+  std::size_t result_bytes = 0;
+};
+
+struct ClusterReport {
+  double seconds = 0.0;            ///< wall time from the first beam to the last result
+  double walk_seconds = 0.0;       ///< CPU time in which the producer made tasks
+  double last_walk_seconds = 0.0;  ///< of it: after the last task
+  double accept_seconds = 0.0;     ///< CPU time in which it collected results
+  double producer_wait_seconds = 0.0;
+  std::vector<ProcessReport> processes;  ///< by `ProcessId`
+  std::vector<TaskReport> tasks;
+  std::vector<std::string> remarks;  ///< failures that were recovered from, a sentence each
+  std::vector<ProcessId> lost;       ///< processes that hung at the end
+
+  /// The messages of all processes in one direction.
+  Traffic total(Traffic ProcessReport::*direction) const {
+    Traffic sum;
+    for (const ProcessReport& process : processes) sum += process.*direction;
+    return sum;
+  }
+  /// The part of the run in which the producer did not wait for a message.
+  double producer_busy_share() const {
+    return seconds > 0.0 ? 1.0 - producer_wait_seconds / seconds : 1.0;
+  }
+};
+
+/// All of a run.
+struct ClusterRun {
+  Job job;
+  std::string work;  ///< `name_of(Work)`
+  std::size_t batch = 1;
+  int in_flight = 1;
+  bool producer_consumes = false;
+  bool stored = false;                     ///< results stayed with the processes until the end
+  std::size_t resumed_tasks = 0;           ///< of an interrupted run, which were not done again
+  double pre_pass_seconds = 0.0;           ///< CPU time of the producer, before the first task
+  std::vector<ReadyReport> ready_reports;  ///< by process; the producer's own is the first
+  ClusterReport report;
+  std::uint64_t result_hash = 0;  ///< of the hits, or of the picture's light
+};
+
+/// Totals, and the report of each process.
+nlohmann::ordered_json to_json(const ClusterRun& run);
+
+/// A row for each task in their order, and a last one, `end`, for the producer's time after the
+/// last task: the input of a simulation.
+std::string task_table(const ClusterReport& report);
+
+/// One or two lines for the user.
+std::string summary(const ClusterRun& run);
+
+}  // namespace beambench::cluster

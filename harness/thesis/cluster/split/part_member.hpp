@@ -1,0 +1,136 @@
+#pragma once
+// A process with its part of a divided scene.
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "harness/thesis/cluster/job.hpp"
+#include "harness/thesis/cluster/report.hpp"
+#include "harness/thesis/cluster/split/part_worker.hpp"
+#include "harness/thesis/cluster/transport.hpp"
+#include "scenes/base/error.hpp"
+
+namespace beambench::cluster {
+
+/// A process is lost and will not reach MPI_Finalize.
+class LostProcess : public InputError {
+ public:
+  using InputError::InputError;
+};
+
+/// A process whose part of the scene nobody else has, and which was silent for the timeout, in
+/// seconds.
+LostProcess silent_part(ProcessId process, double timeout);
+
+/// What a process had and did.
+struct PartReport {
+  std::uint64_t primitives = 0;
+  std::uint64_t scene_bytes = 0;
+  std::uint64_t structure_bytes = 0;
+  std::uint64_t beams_out = 0;
+  std::uint64_t rays_out = 0;
+  Traffic crossings_out;  ///< messages with beams and rays
+  Traffic crossings_in;
+  double cpu_seconds = 0.0;   ///< in tracing and in receiving handoffs
+  double wait_seconds = 0.0;  ///< for messages, wall time
+};
+
+/// Sums over all processes, each at a time when it was idle.
+struct Wave {
+  std::uint64_t sent = 0;
+  std::uint64_t received = 0;
+  friend bool operator==(const Wave&, const Wave&) = default;
+};
+
+/// Traces until all processes are idle and no message is on its way. Process 0 detects that by
+/// Mattern's four counters ("Algorithms for distributed termination detection", Distributed
+/// Computing 2, 1987): it requests the numbers of handoff messages sent and received, each process
+/// replies when it is idle, and when two rounds give the same sums, sent equal to received, the run
+/// is over.
+///
+/// No process can be replaced: process 0 ends the run if one is silent.
+class PartMember {
+ public:
+  using Check = std::function<void(ProcessId, std::span<const std::byte>)>;
+  /// Called after each piece of work with its CPU time.
+  using Meter = std::function<void(PartWork, double cpu_seconds)>;
+
+  /// `timeout`: seconds of silence after which process 0 throws LostProcess; `check`: see Producer.
+  PartMember(Transport& transport, PartWorker& worker, Outbox& outbox, double timeout, Check check,
+             Meter meter = nullptr);
+
+  /// On process 0: the final reports of the others, by process. The others are shut down even if it
+  /// throws.
+  std::vector<Bytes> lead();
+  /// On the others: works to the end and sends `result`.
+  void follow(const std::function<Bytes()>& result);
+  /// Has the run begun? Not where process 0 found that the processes do not match.
+  bool began() const { return going_; }
+
+  /// So far.
+  PartReport report() const;
+
+ private:
+  void wait_for_all();
+  void run();
+  void handle(const Message& message);
+  void take_crossings(const Message& message);
+  void done(PartWork work, double cpu_seconds);
+  void take_count(const Message& message);
+  void wait_idle();
+  void begin_wave();
+  void end_wave();
+  void send_others(Tag tag);
+  void send_heartbeat();
+  void require_heartbeats();
+
+  Transport* transport_;
+  PartWorker* worker_;
+  Outbox* outbox_;
+  double timeout_;
+  Check check_;
+  Meter meter_;
+  Traffic received_;
+  double cpu_seconds_ = 0.0;
+  double wait_seconds_ = 0.0;
+  double last_sign_ = 0.0;  ///< last heartbeat sent
+  bool going_ = false;
+  bool asked_ = false;
+  bool over_ = false;
+  // Of process 0:
+  struct Other {
+    bool answered = false;  ///< this wave
+    double last_heard = 0.0;
+  };
+  Other& other(ProcessId process) { return others_[static_cast<std::size_t>(process)]; }
+  std::vector<Other> others_;
+  std::vector<Bytes> results_;
+  int missing_;  ///< processes that are not ready yet
+  int missing_counts_ = 0;
+  int missing_results_;
+  bool in_wave_ = false;
+  Wave wave_;
+  std::optional<Wave> last_wave_;
+};
+
+/// A process's part of a scene, ready to be traced.
+struct PartState {
+  /// Frees the whole scene before it builds. Throws InputError for options that do not fit the job.
+  PartState(std::shared_ptr<const scenes::Scene> whole, const Job& job, Transport& transport);
+
+  accel::beam::BeamOptions options;
+  accel::PrimaryRays rays;
+  SceneSplit split;
+  Outbox outbox;
+  std::optional<PartWorker> worker;
+};
+
+/// A process's report and its hits, as bytes.
+Bytes write_result(const PartReport& report, const PartWorker& worker);
+/// Adds them to the others' hits. Throws ProtocolError for other bytes.
+PartReport take_result(std::span<const std::byte> result, accel::HitBuffer& hits);
+
+}  // namespace beambench::cluster

@@ -1,0 +1,91 @@
+#pragma once
+// Single rays through a process's part of a scene, up to the border.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "accel/core/cell_ray.hpp"
+#include "accel/core/ray.hpp"
+#include "accel/octree/samet.hpp"
+#include "harness/thesis/cluster/split/scene_split.hpp"
+
+namespace beambench::cluster {
+
+/// Which leaves of a process's octree are other processes' cells.
+class ForeignLeaves {
+ public:
+  ForeignLeaves(const accel::octree::Octree& octree, const SceneSplit& split, ProcessId self);
+
+  /// The cell of another process that a leaf stands for, if any.
+  std::optional<std::uint32_t> cell_at(std::uint32_t leaf) const {
+    if (cells_[leaf] == kOwn) return std::nullopt;
+    return cells_[leaf];
+  }
+  std::size_t memory_bytes() const { return cells_.capacity() * sizeof(std::uint32_t); }
+
+ private:
+  static constexpr std::uint32_t kOwn = 0xFFFFFFFFU;
+  std::vector<std::uint32_t> cells_;  ///< by node
+};
+
+/// The node of a cell of a split.
+accel::octree::OctreeCursor cursor_of_cell(const accel::octree::Octree& octree,
+                                           const SceneSplit& split, std::uint32_t cell);
+
+/// What a ray has that has met nothing.
+inline constexpr accel::Hit kNoHit{accel::kInfinity, scenes::kNoPrimitive};
+
+/// Traces rays from where they begin or enter to where they end or enter another process's cell.
+/// The hits that a ray finds in all parts that it passes are together those of one process, bit for
+/// bit: a ray takes its best hit along, which limits the search, nothing farther is kept, and an
+/// equal t is compared by the whole scene's ids. Queries are const and safe from several threads.
+class PartTracer {
+ public:
+  /// All must outlive it.
+  PartTracer(const ScenePart& part, const accel::octree::Samet& tracer, const SceneSplit& split,
+             const ForeignLeaves& foreign)
+      : part_(&part), tracer_(&tracer), split_(&split), foreign_(&foreign) {}
+
+  /// Where a ray is in this part's octree.
+  struct Place {
+    accel::octree::OctreeCursor cursor;
+    double t;
+  };
+  /// Where a ray begins, whether that is in this part or not; nothing if it misses the root.
+  std::optional<Place> beginning(const accel::Ray& ray) const;
+  /// Where it enters an own cell at t.
+  Place entry(std::uint32_t cell, double t) const;
+
+  /// Where a ray enters another process's cell.
+  struct Exit {
+    std::uint32_t cell;
+    double t;
+  };
+  /// What a ray has found, and where it goes on: nowhere if that is its result.
+  struct Passage {
+    accel::Hit best;  ///< by the whole scene's ids
+    std::optional<Exit> exit;
+  };
+  /// Goes on with a ray that has found `best` so far.
+  Passage closest(const accel::Ray& ray, const Place& from, const accel::Hit& best) const;
+  /// The same for a ray that ends at any hit: it has found none so far.
+  Passage any(const accel::Ray& ray, const Place& from) const;
+
+  accel::Hit global(const std::optional<accel::Hit>& local) const {
+    if (!local) return kNoHit;
+    return {local->t, part_->global[local->primitive]};
+  }
+
+ private:
+  template <class Test>
+  std::optional<Exit> walk(const accel::Ray& ray, const Place& from, Test test) const;
+
+  const ScenePart* part_;
+  const accel::octree::Samet* tracer_;
+  const SceneSplit* split_;
+  const ForeignLeaves* foreign_;
+};
+
+}  // namespace beambench::cluster

@@ -1,0 +1,58 @@
+#pragma once
+// Choosing the number of samples of a pixel: in image space, in object space, and compared.
+
+#include <string>
+#include <vector>
+
+#include "accel/beam/object_space_sampling.hpp"
+#include "harness/base/progress.hpp"
+#include "harness/rays/trace_input.hpp"
+#include "harness/render/picture/image.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench::thesis {
+
+/// Contrast between pixels: the largest difference of a channel's display values, 0 to 1.
+struct SamplingContrast {
+  double few = 0.05;   ///< to one of the four neighbors: the pixel gets 5 samples instead of 1
+  double many = 0.30;  ///< it gets 25
+};
+
+/// Adaptive sampling in image space (after Whitted 1980, section 4, who compares the corners of
+/// pixels): one sample per pixel is traced by beams and shaded; pixels that differ from a neighbor
+/// get more, as individual rays. `rays` must have 25 samples per pixel (std::invalid_argument).
+accel::beam::SparseSamples trace_image_space(const accel::beam::BeamTracer& tracer,
+                                             const scenes::Scene& scene,
+                                             const scenes::Camera& camera,
+                                             const accel::PrimaryRays& rays,
+                                             const SamplingContrast& contrast);
+
+/// The picture of sparse samples, in the colors of `Shading::kPreview`. Each sample stands for
+/// 1/number of its pixel; what is left of the pixel is background, and where the parts are more
+/// than a pixel, because leaves with other numbers of samples meet there, they are scaled to it.
+render::Image sparse_image(const scenes::Scene& scene, const accel::PrimaryRays& rays,
+                           const accel::beam::SparseSamples& samples);
+
+/// Cost and error of one sampling method with one setting.
+struct SamplingResult {
+  std::string method;   ///< `uniform`, `object-space` or `image-space`
+  std::string setting;  ///< samples per pixel, or the thresholds for 5 and 25 samples
+  double rays;          ///< per pixel, on average; samples of leaving beams need none
+  double trace_ms;      ///< tracing and choosing, without the final shading; median
+  double error;         ///< RMS error on a 0-255 scale against 64 samples per pixel
+};
+
+/// The number of cells that `compare_sampling` reports to its progress.
+std::size_t sampling_steps();
+
+/// Traces the image by uniform, object-space and image-space sampling at several settings, each
+/// `repetitions` times. Throws InputError where the image is too large for 64 samples per pixel.
+std::vector<SamplingResult> compare_sampling(const accel::beam::BeamTracer& tracer,
+                                             const scenes::Scene& scene,
+                                             const rays::ImageOfRays& image, int repetitions,
+                                             base::Progress& progress);
+
+/// The number of samples in each pixel, row by row.
+std::vector<float> samples_by_pixel(const accel::beam::SparseSamples& samples);
+
+}  // namespace beambench::thesis

@@ -1,0 +1,796 @@
+// Whole sweeps over tiny scenes: what is right keeps its times, what is wrong loses them, and what
+// is finished is not repeated.
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <set>
+#include <span>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "accel/core/registry.hpp"
+#include "accel/embree/isa.hpp"
+#include "harness/analysis/exports.hpp"
+#include "harness/analysis/results_csv.hpp"
+#include "harness/measure/record/cell_json.hpp"
+#include "harness/measure/record/run_log.hpp"
+#include "harness/measure/sweep_run.hpp"
+#include "tests/scenes/thrown_message.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace beambench::measure {
+namespace {
+
+using nlohmann::json;
+
+/// A trace that a broken structure spoils.
+struct Traced {
+  const accel::HitSpan& buffer;    ///< with the right hits
+  const accel::HitBuffer& before;  ///< what was in it before
+  int pass;  ///< counts the traces: the counting one is 0, the two of repetition n 2n - 1 and 2n
+};
+using Fault = std::function<void(const Traced&)>;
+
+/// `exhaustive` with a fault.
+class FaultyAccelerator : public accel::Accelerator {
+ public:
+  FaultyAccelerator(const scenes::Scene& scene, Fault fault, std::shared_ptr<int> passes)
+      : right_(accel::registry().choose({"exhaustive", {}}).build(scene)),
+        fault_(std::move(fault)),
+        passes_(std::move(passes)) {}
+
+  void closest_hits(const accel::RaySource& rays, const accel::HitSpan& hits,
+                    const accel::QueryContext& context) const override {
+    accel::HitBuffer before(hits.width(), hits.height(), hits.samples());
+    std::copy_n(hits.t(), before.size(), before.t());
+    std::copy_n(hits.primitive(), before.size(), before.primitive());
+    right_->closest_hits(rays, hits, context);
+    if (rays.image() != nullptr) fault_({hits, before, (*passes_)++});
+  }
+  void any_hits(const accel::RaySource& rays, std::span<std::uint8_t> hits,
+                const accel::QueryContext& context) const override {
+    right_->any_hits(rays, hits, context);
+    if (rays.batch() == nullptr) return;
+    hits.front() = hits.front() == 0 ? 1 : 0;  // its fault with any-hit queries
+  }
+  accel::Statistics statistics() const override { return right_->statistics(); }
+
+ private:
+  std::unique_ptr<accel::Accelerator> right_;
+  Fault fault_;
+  std::shared_ptr<int> passes_;
+};
+
+void drop_one_hit(const accel::HitSpan& buffer) {
+  buffer.set(buffer.index(16, 10, 0), std::nullopt);
+}
+
+class Sweep : public testing::Test {
+ protected:
+  Sweep() {
+    for (const accel::StructureInfo& info : beambench::accel::registry().structures())
+      structures_.add(info);
+  }
+
+  void add_faulty(const Fault& fault) {
+    const auto passes = std::make_shared<int>(0);
+    structures_.add(
+        {"faulty",
+         "A broken structure.",
+         accel::Conformance::kBitExact,
+         {},
+         [fault, passes](const scenes::Scene& scene, const Parameters&, const accel::Workload&) {
+           return std::make_unique<FaultyAccelerator>(scene, fault, passes);
+         }});
+  }
+
+  static json config(const json& structures) {
+    return {{"name", "test"},           {"scenes", {"tetra:n=2"}},
+            {"structures", structures}, {"resolutions", {"32x20"}},
+            {"precision", 0},           {"repetitions", {{"minimum", 4}, {"maximum", 4}}},
+            {"budget_seconds", 1},      {"warm_up_seconds", 0}};
+  }
+
+  analysis::Analysis run(const json& document, bool resume = false) {
+    SweepOptions options;
+    options.resume = resume;
+    return run(document, std::move(options));
+  }
+  analysis::Analysis run(const json& document, SweepOptions options) {
+    const SweepConfig sweep = read_sweep(folder_.write("sweep.json", document.dump()), structures_);
+    options.folder = results();
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> messages(
+        std::fopen((folder_.path() / "messages").c_str(), "w"), std::fclose);
+    return analysis::conclude(run_sweep(sweep, make_plan(sweep), GoogleBenchmark(BenchmarkFlags()),
+                                        options, messages.get()));
+  }
+
+  std::filesystem::path results() const { return folder_.path() / "run"; }
+  std::string messages() const { return read_text(folder_.path() / "messages"); }
+  json read_json(const std::string& name) const { return json::parse(read_text(results() / name)); }
+  /// Each cell by the log, with its row.
+  std::vector<json> all_cells() const {
+    const auto run = read_run(results());
+    const RunFacts facts = analysis::facts_of(run.manifest);
+    std::vector<json> found;
+    for (const CellRecord& cell : run.cells) {
+      json& one = found.emplace_back(json{{"name", cell.id.name()},
+                                          {"message", cell.message},
+                                          {"examples", cell.examples},
+                                          {"hits_hash", cell.hits_hash.value_or(0)},
+                                          {"row", analysis::to_row(facts, cell)}});
+      one["repetitions"] = json::array();
+      for (const Repetition& repetition : cell.repetitions) {
+        one["repetitions"].push_back(json(repetition_json(repetition)));
+      }
+    }
+    return found;
+  }
+  /// The cells by the bare name of their structure.
+  std::map<std::string, json> cells() const {
+    std::map<std::string, json> found;
+    for (const json& cell : all_cells()) found[cell["row"]["structure"].get<std::string>()] = cell;
+    return found;
+  }
+
+  accel::Registry structures_;
+  TemporaryFolder folder_;
+};
+
+/// Intervals aside: four repetitions have none. A quick trace may have nothing beyond the
+/// harness's.
+bool is_time(const std::string& column) {
+  return column.find("_ms_") != std::string::npos && column.find("_ci_") == std::string::npos &&
+         column != "trace_net_ms_median";
+}
+
+void expect_times(const json& cell, bool has_times) {
+  for (const auto& [column, value] : cell["row"].items()) {
+    if (!is_time(column)) continue;
+    EXPECT_EQ(value.is_number(), has_times) << column << " of " << cell["name"];
+  }
+}
+
+TEST_F(Sweep, RightStructuresKeepTheirTimes) {
+  const analysis::Analysis outcome =
+      run(config({"null", "exhaustive", "samet:max_level=4", "embree:mode=single"}));
+  EXPECT_EQ(outcome.cells, 4U);
+  EXPECT_EQ(outcome.failed, 0U);
+  for (const auto& [structure, cell] : cells()) {
+    EXPECT_EQ(cell["row"]["verdict"], structure == "null" ? "baseline" : "ok");
+    EXPECT_EQ(cell["row"]["stop_reason"], "repetitions");
+    EXPECT_GT(cell["row"]["hits"], 0);
+    EXPECT_EQ(cell["repetitions"].size(), 4U);
+    expect_times(cell, true);
+  }
+  EXPECT_GT(cells()["samet"]["row"]["traversal_steps_per_ray"], 1.0);
+  EXPECT_GT(cells()["samet"]["row"]["nodes"], 1);
+  EXPECT_TRUE(cells()["embree"]["row"]["nodes"].is_null());
+  EXPECT_EQ(cells()["samet"]["hits_hash"], cells()["exhaustive"]["hits_hash"]);
+}
+
+TEST_F(Sweep, SeveralThreadsTraceAndAreRecorded) {
+  json document = config({"exhaustive", "beam", "embree"});
+  document["threads"] = 2;
+  run(document);
+  for (const auto& [name, cell] : cells()) {
+    EXPECT_EQ(cell["row"]["verdict"], "ok") << name;
+    EXPECT_EQ(cell["row"]["threads"], 2) << name;
+    EXPECT_GT(cell["row"]["trace_ms_median"], 0.0) << name;
+    EXPECT_TRUE(cell["row"]["trace_cycles"].is_null()) << name;  // counted on one thread only
+  }
+  const json manifest = read_json("manifest.json");
+  EXPECT_EQ(manifest["measurement"]["cpu_clock"], "CLOCK_PROCESS_CPUTIME_ID");
+  EXPECT_EQ(manifest["measurement"]["pinned"], false);
+}
+
+TEST_F(Sweep, TheHarnessesOwnTimeIsReported) {
+  const analysis::Analysis outcome = run(config({"null", "exhaustive"}));
+  const json row = cells()["exhaustive"]["row"];
+  EXPECT_GT(row["harness_ms"], 0.0);
+  EXPECT_EQ(row["trace_net_ms_median"],
+            row["trace_ms_median"].get<double>() - row["harness_ms"].get<double>());
+  EXPECT_TRUE(cells()["null"]["row"]["trace_net_ms_median"].is_null());
+  ASSERT_EQ(outcome.overheads.size(), 1U);
+  EXPECT_EQ(outcome.overheads[0].path, "image-single");
+  EXPECT_EQ(outcome.overheads[0].part,
+            row["harness_ms"].get<double>() / row["trace_ms_median"].get<double>());
+}
+
+TEST_F(Sweep, EachQueryPathHasAShareOfItsOwn) {
+  json document =
+      config({"null:rays=single", "samet:max_level=4", "beam", "tile-beam", "embree:mode=packet8"});
+  document["resolutions"] = {"320x200"};
+  run(document);
+  const auto images = cells();
+  const auto row = [&](const char* structure) { return images.at(structure).at("row"); };
+  EXPECT_EQ(row("null")["query_path"], "image-single");
+  EXPECT_EQ(row("samet")["query_path"], "image-single");
+  EXPECT_EQ(row("samet")["harness_ms"], row("null")["harness_ms"]);
+  EXPECT_EQ(row("embree")["query_path"], "image-simd");
+  EXPECT_GT(row("embree")["harness_ms"], 0.0);
+  EXPECT_NE(row("embree")["harness_ms"], row("null")["harness_ms"]);
+  for (const char* structure : {"beam", "tile-beam"}) {
+    EXPECT_EQ(row(structure)["query_path"], "image-own") << structure;
+    EXPECT_EQ(row(structure)["harness_ms"], 0.0) << structure;
+    EXPECT_EQ(row(structure)["trace_net_ms_median"], row(structure)["trace_ms_median"])
+        << structure;
+  }
+  EXPECT_EQ(row("embree")["library_geometry"], "triangles");
+  EXPECT_TRUE(row("samet")["library_geometry"].is_null());
+  EXPECT_EQ(row("embree")["library_version"], "Embree " + accel::embree::embree_version());
+  EXPECT_TRUE(row("samet")["library_version"].is_null());
+  const json overhead = read_json("manifest.json")["harness_overhead"];
+  EXPECT_TRUE(overhead["by_query_path"].contains("image-single"));
+  EXPECT_FALSE(overhead["by_query_path"].contains("image-own"));
+}
+
+TEST_F(Sweep, AListOfRaysIsReadOneByOneOrInPackets) {
+  json document = config({"exhaustive", "tile-beam", "embree:mode=packet8"});
+  document["rays"] = {"diffuse"};
+  run(document);
+  const auto lists = cells();
+  const auto row = [&](const char* structure) { return lists.at(structure).at("row"); };
+  EXPECT_EQ(row("exhaustive")["query_path"], "list");
+  EXPECT_EQ(row("tile-beam")["query_path"], "list");
+  EXPECT_EQ(row("tile-beam")["harness_ms"], row("exhaustive")["harness_ms"]);
+  EXPECT_EQ(row("embree")["query_path"], "list-packed");
+  EXPECT_GT(row("embree")["harness_ms"], 0.0);
+}
+
+/// The resident memory of this process, in bytes; 0 where the system does not say.
+std::uint64_t resident_bytes() {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    std::uint64_t kibibytes = 0;
+    if (word == "VmRSS:" && status >> kibibytes) return 1024 * kibibytes;
+  }
+  return 0;
+}
+
+/// A cell took 20 kB or more, for as long as the run went on, and at its end as much again.
+TEST_F(Sweep, MemoryDoesNotGrowWithTheCells) {
+  json document = config({"null", "exhaustive"});
+  document["scenes"] = {"tetra:n=1"};
+  document["repetitions"] = {{"minimum", 12}, {"maximum", 12}};
+  document["resolutions"] = json::array();
+  for (int width = 1; width <= 150; ++width) {
+    document["resolutions"].push_back(fmt::format("{}x1", width));
+  }
+#ifdef __GLIBC__
+  malloc_trim(0);  // what earlier tests of this process have freed would hide growth
+#endif
+  std::vector<std::uint64_t> resident;
+  SweepOptions options;
+  options.before_each_piece = [&] { resident.push_back(resident_bytes()); };
+  EXPECT_EQ(run(document, options).cells, 300U);
+  if (resident.front() == 0) GTEST_SKIP() << "the system does not say how much memory is used";
+  const std::uint64_t early = resident[resident.size() / 10];
+  constexpr std::uint64_t kMost = std::uint64_t{3} << 20U;  // 10 kB for each of the other cells
+  EXPECT_LT(resident.back(), early + kMost) << "as the last cell is measured";
+  EXPECT_LT(resident_bytes(), early + kMost) << "at the end";
+}
+
+TEST_F(Sweep, TheFolderHoldsTheWholeRecord) {
+  run(config({"null", "samet:max_level=4"}));
+  const std::string table = read_text(results() / "results.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3);
+  EXPECT_EQ(read_json("config.json"), config({"null", "samet:max_level=4"}));
+  const json manifest = read_json("manifest.json");
+  EXPECT_EQ(manifest["scenes"][0]["name"], "tetra:n=2");
+  EXPECT_FALSE(manifest["finished_utc"].is_null());
+  EXPECT_EQ(manifest["program"]["libraries"]["google_benchmark"].get<std::string>().substr(0, 1),
+            "1");
+  EXPECT_EQ(read_json("analysis.json")["cells"], 2);
+  EXPECT_TRUE(scenes::says(read_text(results() / "summary.txt"), {"2 cells, all verified"}));
+  const json google = read_json("google-benchmark.json");
+  EXPECT_EQ(google["context"]["beambench_run_id"], manifest["run_id"]);
+  ASSERT_EQ(google["benchmarks"].size(), 8U);
+  const json& first = google["benchmarks"][0];
+  EXPECT_EQ(first["time_unit"], "ms");
+  EXPECT_NEAR(first["real_time"].get<double>(),
+              first["build_ms"].get<double>() + first["trace_ms"].get<double>(), 1e-9);
+}
+
+TEST_F(Sweep, ContendersTakeTurns) {
+  run(config({"null", "exhaustive", "samet:max_level=4"}));
+  std::map<int, std::set<int>> positions;
+  for (const auto& [structure, cell] : cells()) {
+    int round = 0;
+    for (const json& repetition : cell["repetitions"]) {
+      EXPECT_EQ(repetition["round"], round);
+      positions[round++].insert(repetition["position"].get<int>());
+    }
+  }
+  ASSERT_EQ(positions.size(), 4U);
+  for (const auto& [round, taken] : positions) EXPECT_EQ(taken, (std::set<int>{0, 1, 2}));
+}
+
+/// So that a slow half of a minute meets some repetitions of each view, not all of one.
+TEST_F(Sweep, ViewsOfASceneTakeTurns) {
+  std::vector<std::size_t> rays;  // of each trace
+  add_faulty([&](const Traced& traced) { rays.push_back(traced.buffer.size()); });
+  json document = config({"faulty"});
+  document["resolutions"] = {"4x4", "8x4", "8x8"};
+  document["repetitions"]["second_traces"] = 1;
+  run(document);
+  constexpr std::size_t kViews = 3;
+  constexpr std::size_t kRepetitions = 4;
+  constexpr std::size_t kExtra = 2;  // the counting pass, and the trace after the first repetition
+  ASSERT_EQ(rays.size(), kViews * (kRepetitions + kExtra));
+  const std::set<std::size_t> all{16, 32, 64};
+  const std::span later = std::span(rays).last(kViews * (kRepetitions - 1));
+  for (std::size_t first = 0; first < later.size(); first += kViews) {
+    const auto round = later.subspan(first, kViews);
+    EXPECT_EQ(std::set(round.begin(), round.end()), all) << "round " << 1 + first / kViews;
+  }
+}
+
+/// Rays of several views are in memory together, so they are few; and no more than eight views, so
+/// that an interrupted run loses little.
+TEST_F(Sweep, NoMoreThanEightViewsTakeTurns) {
+  std::vector<std::size_t> rays;
+  add_faulty([&](const Traced& traced) { rays.push_back(traced.buffer.size()); });
+  json document = config({"faulty"});
+  document["resolutions"] = json::array();
+  for (int width = 1; width <= 10; ++width) {
+    document["resolutions"].push_back(fmt::format("{}x1", width));
+  }
+  run(document);
+  const auto at_most = [&](std::size_t most) {
+    return std::is_partitioned(rays.begin(), rays.end(), [&](std::size_t n) { return n <= most; });
+  };
+  EXPECT_FALSE(at_most(7)) << "the eighth view waits for the seventh to end";
+  EXPECT_TRUE(at_most(8)) << "the ninth view does not wait for the eighth to end";
+}
+
+/// A fault in the hits, and what the message says of it.
+struct Planted {
+  const char* name;
+  Fault fault;
+  const char* words;
+};
+
+class PlantedSweepFault : public Sweep, public testing::WithParamInterface<Planted> {};
+
+TEST_P(PlantedSweepFault, LosesItsTimesAndNobodyElses) {
+  add_faulty(GetParam().fault);
+  const analysis::Analysis outcome = run(config({"faulty", "exhaustive"}));
+  EXPECT_EQ(outcome.cells, 2U);
+  EXPECT_EQ(outcome.failed, 1U);
+  const json faulty = cells()["faulty"];
+  EXPECT_EQ(faulty["row"]["verdict"], "mismatch");
+  EXPECT_TRUE(scenes::says(faulty["message"].get<std::string>(), {GetParam().words}));
+  EXPECT_TRUE(scenes::says(messages(), {"mismatch: tetra:n=2/default/32x20/1/primary/faulty"}));
+  EXPECT_GT(faulty["row"]["primitive_tests_per_ray"], 0);
+  expect_times(faulty, false);
+  EXPECT_EQ(cells()["exhaustive"]["row"]["verdict"], "ok");
+  expect_times(cells()["exhaustive"], true);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , PlantedSweepFault,
+    testing::Values(Planted{"ShiftedT",
+                            [](const Traced& traced) {
+                              for (std::size_t i = 0; i < traced.buffer.size(); ++i) {
+                                if (traced.buffer.get(i)) traced.buffer.t()[i] *= 1.001F;
+                              }
+                            },
+                            "wrong hit"},
+                    Planted{"OneDroppedHit",
+                            [](const Traced& traced) { drop_one_hit(traced.buffer); },
+                            "1 of 640 rays got a wrong hit"},
+                    Planted{"OneSampleLeftAsItWas",
+                            [](const Traced& traced) {
+                              traced.buffer.t()[0] = traced.before.t()[0];
+                              traced.buffer.primitive()[0] = traced.before.primitive()[0];
+                            },
+                            "1 of 640 rays got a wrong hit"},
+                    Planted{"AnotherAnswerInTheThirdRepetition",
+                            [](const Traced& traced) {
+                              if (traced.pass == 5) drop_one_hit(traced.buffer);
+                            },
+                            "repetition 3 wrote other hits"},
+                    Planted{"AnotherAnswerInASecondTrace",
+                            [](const Traced& traced) {
+                              if (traced.pass == 4) drop_one_hit(traced.buffer);
+                            },
+                            "a second trace of the same structure"},
+                    Planted{"AnotherAnswerWhileCounting",
+                            [](const Traced& traced) {
+                              if (traced.pass == 0) drop_one_hit(traced.buffer);
+                            },
+                            "the counting pass found other hits"}),
+    [](const auto& planted) { return planted.param.name; });
+
+TEST_F(Sweep, TracesEveryKindOfRays) {
+  json all = config({"exhaustive", "samet:max_level=4", "embree"});
+  all["rays"] = {"primary",      "shadow", "reflection", "diffuse:seed=3",
+                 "ao:samples=2", "path",   "random"};
+  EXPECT_EQ(run(all).failed, 0U);
+  std::map<std::string, std::set<json>> hashes;
+  for (const json& cell : all_cells()) {
+    const json& row = cell["row"];
+    const std::string kind = row["ray_kind"];
+    hashes[kind].insert(row["rays_hash"]);
+    const bool any_hit = kind == "shadow" || kind == "ao:samples=2";
+    EXPECT_EQ(row["query"], any_hit ? "any" : "closest");
+    EXPECT_EQ(row["hit_share"].is_null(), any_hit);
+    EXPECT_EQ(row["occluded_share"].is_null(), !any_hit);
+    const json share = any_hit ? row["occluded_share"] : row["hit_share"];
+    EXPECT_EQ(share.get<double>(), row["hits"].get<double>() / row["rays"].get<double>());
+    const bool seeded = any_hit ? kind != "shadow" : kind == "random" || kind == "path";
+    EXPECT_EQ(row["seed"], kind == "diffuse:seed=3" ? 3 : seeded ? 1 : 0);
+    EXPECT_LE(row["coherence"].get<double>(), 1.0);
+  }
+  EXPECT_EQ(hashes.size(), 7U);
+  for (const auto& [kind, of_kind] : hashes) EXPECT_EQ(of_kind.size(), 1U) << kind;
+}
+
+TEST_F(Sweep, DrawsWholePictures) {
+  json whole = config({"null", "exhaustive", "samet:max_level=4", "beam", "embree"});
+  whole["scenes"] = {"balls:n=1"};
+  whole["rays"] = {"whitted"};
+  const analysis::Analysis outcome = run(whole);
+  EXPECT_EQ(outcome.failed, 0U);
+  for (const auto& [structure, cell] : cells()) {
+    const json& row = cell["row"];
+    EXPECT_EQ(row["query"], "picture");
+    EXPECT_EQ(row["camera_rays"], 640);
+    EXPECT_EQ(row["hit_share"].is_null() || row["occluded_share"].is_null(), false);
+    expect_times(cell, true);
+    if (structure == "null") continue;
+    EXPECT_GT(row["shadow_rays"], 0);
+    EXPECT_GT(row["reflected_rays"], 0);
+    EXPECT_EQ(row["refracted_rays"], 0);
+  }
+  const json row = cells()["exhaustive"]["row"];
+  EXPECT_EQ(row["camera_primitive_tests_per_ray"], row["primitives"]);
+  EXPECT_EQ(row["reflected_primitive_tests_per_ray"], row["primitives"]);
+  EXPECT_LT(row["shadow_primitive_tests_per_ray"], row["primitives"]);
+  EXPECT_LT(row["harness_ms"], row["trace_ms_median"]) << "shading alone";
+  EXPECT_FALSE(row.contains("refracted_primitive_tests_per_ray"));
+  EXPECT_EQ(cells()["beam"]["hits_hash"], cells()["exhaustive"]["hits_hash"]);
+}
+
+TEST_F(Sweep, AWrongAnyHitLosesItsTimes) {
+  add_faulty([](const Traced&) {});
+  json shadow = config({"faulty", "exhaustive"});
+  shadow["rays"] = {"shadow"};
+  EXPECT_EQ(run(shadow).failed, 1U);
+  const json faulty = cells()["faulty"];
+  EXPECT_EQ(faulty["row"]["verdict"], "mismatch");
+  EXPECT_EQ(faulty["row"]["structure_error"], 1);
+  expect_times(faulty, false);
+  EXPECT_TRUE(
+      scenes::says(faulty["examples"][0].get<std::string>(), {"ray 0", "--rays shadow --ray 0"}));
+}
+
+TEST_F(Sweep, RaysThatASceneHasNoneOfAreRowsThatSaySo) {
+  const auto dark = folder_.write("dark.nff",
+                                  "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 0.1\n"
+                                  "resolution 8 8\nf 1 0 0 1 0 0 0 0\ns 0 0 0 1\n");
+  json config = this->config({"exhaustive"});
+  config["scenes"] = {dark.string()};
+  config["structures"] = {"exhaustive", "samet"};
+  config["rays"] = {"shadow", "primary"};
+  const analysis::Analysis outcome = run(config);
+  EXPECT_EQ(outcome.cells, 4U);
+  EXPECT_EQ(outcome.failed, 0U);
+  EXPECT_EQ(outcome.without_rays, 2U);
+  EXPECT_TRUE(scenes::says(messages(), {"has no lights"}));
+  EXPECT_TRUE(scenes::says(messages(), {"primary/exhaustive: build"}));
+
+  // A record of these rays alone has the rows, too.
+  std::filesystem::remove_all(results());
+  config["rays"] = {"shadow"};
+  EXPECT_EQ(run(config).without_rays, 2U);
+  const json cell = cells().at("samet");
+  EXPECT_EQ(cell["row"]["verdict"], "no_rays");
+  EXPECT_EQ(cell["row"]["rays"], 0);
+  EXPECT_EQ(cell["row"]["primitives"], 1);
+  EXPECT_TRUE(scenes::says(cell["message"].get<std::string>(), {"has no lights"}));
+  expect_times(cell, false);
+}
+
+TEST_F(Sweep, WarnsOfRaysThatNeverHit) {
+  json config = this->config({"exhaustive"});
+  config["scenes"] = {"escena2"};
+  config["rays"] = {"reflection"};
+  EXPECT_EQ(run(config).failed, 0U);
+  EXPECT_TRUE(
+      scenes::says(messages(), {"warning: escena2/default/32x20/1/reflection", "hit something"}));
+  EXPECT_TRUE(scenes::says(read_json("manifest.json")["uncontrolled"].dump(), {"reflection"}));
+}
+
+TEST_F(Sweep, AWrongHitIsDescribed) {
+  add_faulty([](const Traced& traced) { drop_one_hit(traced.buffer); });
+  run(config({"faulty"}));
+  ASSERT_EQ(cells()["faulty"]["examples"].size(), 1U);
+  EXPECT_TRUE(scenes::says(cells()["faulty"]["examples"][0].get<std::string>(), {"16", "10"}));
+}
+
+TEST_F(Sweep, AStructureThatCannotBeBuiltIsAnErrorAndTheRunContinues) {
+  const analysis::Analysis outcome =
+      run(config({"samet:max_level=8,max_references=1", "exhaustive"}));
+  EXPECT_EQ(outcome.failed, 1U);
+  const json samet = cells()["samet"];
+  EXPECT_EQ(samet["row"]["verdict"], "error");
+  EXPECT_TRUE(scenes::says(samet["message"].get<std::string>(), {"max_references"}));
+  expect_times(samet, false);
+  EXPECT_EQ(cells()["exhaustive"]["row"]["verdict"], "ok");
+  const json google = read_json("google-benchmark.json");
+  EXPECT_EQ(google["benchmarks"][0]["error_occurred"], true);
+}
+
+TEST_F(Sweep, AnExceptionInATimedRepetitionEndsThatCellOnly) {
+  add_faulty([](const Traced& traced) {
+    if (traced.pass == 3) throw std::runtime_error("worn out");
+  });
+  run(config({"faulty", "exhaustive"}));
+  EXPECT_EQ(cells()["faulty"]["row"]["verdict"], "error");
+  EXPECT_EQ(cells()["faulty"]["message"], "worn out");
+  expect_times(cells()["faulty"], false);
+  EXPECT_EQ(cells()["exhaustive"]["row"]["verdict"], "ok");
+}
+
+class Resume : public Sweep {
+ protected:
+  Resume() {
+    // Right, and counted, unless `fault_` is set.
+    add_faulty([this](const Traced& traced) {
+      ++traces_;
+      fault_(traced);
+    });
+  }
+
+  std::vector<std::string> log() const {
+    std::istringstream text(read_text(results() / kLogName));
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(text, line);) lines.push_back(line + '\n');
+    return lines;
+  }
+  void write_log(std::span<const std::string> lines, const std::string& part = "") const {
+    folder_.write("run/run.jsonl",
+                  std::accumulate(lines.begin(), lines.end(), std::string()) + part);
+  }
+  /// Changes a member of the first event of that kind.
+  void write_changed(std::vector<std::string> lines, const char* kind, const char* pointer,
+                     const json& value) const {
+    for (std::string& line : lines) {
+      auto event = nlohmann::ordered_json::parse(line);
+      if (event.at("event") != kind) continue;
+      event[nlohmann::ordered_json::json_pointer(pointer)] = value;
+      line = event.dump() + '\n';
+      break;
+    }
+    write_log(lines);
+  }
+
+  json config_ = config({"faulty", "exhaustive"});
+  int traces_ = 0;
+  Fault fault_ = [](const Traced&) {};
+};
+
+/// Ends a run as Ctrl-C does.
+struct SweepStopped : std::runtime_error {
+  SweepStopped() : std::runtime_error("interrupted") {}
+};
+
+TEST_F(Resume, OnlyTheFirstRepetitionsHaveASecondTrace) {
+  config_["repetitions"]["second_traces"] = 1;
+  run(config_);
+  EXPECT_EQ(traces_, 6);  // the counting pass, four repetitions, one second trace
+}
+
+TEST_F(Resume, NoRepetitionNeedsASecondTrace) {
+  config_["repetitions"]["second_traces"] = 0;
+  EXPECT_EQ(run(config_).failed, 0U);
+  EXPECT_EQ(traces_, 5);
+  EXPECT_TRUE(cells()["faulty"]["row"]["trace_warm_ms_median"].is_null());
+  EXPECT_EQ(messages().find("second trace"), std::string::npos);
+  EXPECT_EQ(run(config_, true).cells, 2U) << "what was written is read";
+}
+
+TEST_F(Resume, RepeatsNoFinishedCell) {
+  run(config_);
+  const std::string table = read_text(results() / "results.csv");
+  const int traces = std::exchange(traces_, 0);
+  EXPECT_EQ(traces, 9);  // the counting pass and four repetitions of two traces
+  EXPECT_EQ(run(config_, true).cells, 2U);
+  EXPECT_EQ(traces_, 0);
+  EXPECT_EQ(read_text(results() / "results.csv"), table);
+}
+
+TEST_F(Resume, MakesUpForTheCellsThatAreMissing) {
+  config_["scenes"] = {"tetra:n=1", "tetra:n=2"};
+  run(config_);
+  const std::string run_id = read_json("manifest.json")["run_id"];
+  const std::vector<json> before = all_cells();
+  const std::vector<std::string> lines = log();
+  const auto second = std::ranges::find_if(lines, [](const std::string& line) {
+    return line.find(R"("event":"cell","index":2)") != std::string::npos;
+  });
+  ASSERT_NE(second, lines.end());
+  write_log(std::span(lines.begin(), second));
+  traces_ = 0;
+  EXPECT_EQ(run(config_, true).cells, 4U);
+  EXPECT_EQ(traces_, 9) << "those of the second scene alone";
+  const std::vector<json> after = all_cells();
+  ASSERT_EQ(after.size(), 4U);
+  EXPECT_EQ(after[0], before[0]);
+  EXPECT_EQ(after[1], before[1]);
+  EXPECT_EQ(after[2]["row"]["run_id"], run_id);
+  EXPECT_EQ(read_json("google-benchmark.json")["benchmarks"].size(), 16U);
+}
+
+/// How many traces a resumed run owes its cell `faulty`: none of a finished one; else the counting
+/// pass, and two of each repetition that is not in the log yet.
+int owed_traces(std::span<const std::string> lines, int index) {
+  const auto count = [&](const char* kind) {
+    return static_cast<int>(std::ranges::count_if(lines, [&](const std::string& line) {
+      const json event = json::parse(line);
+      return event.at("event") == kind && event.at("index") == index;
+    }));
+  };
+  return count("finished") > 0 ? 0 : 1 + 2 * (4 - count("repetition"));
+}
+
+TEST_F(Resume, NoRepetitionInTheLogIsMadeAgain) {
+  run(config_);
+  const std::vector<std::string> lines = log();
+  ASSERT_EQ(lines.size(), 16U) << "of each cell: itself, four repetitions, two more";
+  const int faulty = json::parse(lines[1]).at("structure") == "faulty" ? 0 : 1;
+  for (std::size_t kept = 1; kept <= lines.size(); ++kept) {
+    const auto begin = std::span(lines).first(kept);
+    // It may be cut off within a line, too.
+    const std::string part = kept < lines.size() ? lines[kept].substr(0, kept) : "";
+    write_log(begin, part);
+    const std::vector<json> before = all_cells();
+    traces_ = 0;
+    EXPECT_EQ(run(config_, true).cells, 2U);
+    EXPECT_EQ(traces_, owed_traces(begin, faulty)) << kept;
+    const std::vector<std::string> after = log();
+    EXPECT_TRUE(std::ranges::equal(begin, std::span(after).first(kept))) << kept;
+    for (const json& cell : all_cells()) {
+      EXPECT_EQ(cell["row"]["verdict"], "ok") << kept;
+      EXPECT_EQ(cell["row"]["stop_reason"], "repetitions") << kept;
+      ASSERT_EQ(cell["repetitions"].size(), 4U) << kept;
+      for (std::size_t i = 1; i < 4; ++i) {
+        EXPECT_GT(cell["repetitions"][i]["round"], cell["repetitions"][i - 1]["round"]) << kept;
+      }
+    }
+    for (const json& cell : before) {
+      const json now = cells().at(cell["row"]["structure"].get<std::string>());
+      for (const char* column : {"rays_hash", "hits", "agree", "primitive_tests_per_ray"}) {
+        EXPECT_EQ(now["row"][column], cell["row"][column]) << kept;
+      }
+      EXPECT_EQ(now["hits_hash"], cell["hits_hash"]) << kept;
+    }
+  }
+}
+
+/// So that a contender's repetitions and those of the others still meet in rounds.
+TEST_F(Resume, RoundsOfOneViewGoOnBehindTheLastOfAll) {
+  run(config_);
+  const std::vector<std::string> lines = log();
+  write_log(std::span(lines).first(9));
+  const std::vector<json> before = all_cells();
+  run(config_, true);
+  int last = 0;
+  std::map<std::string, std::size_t> kept;
+  for (const json& cell : before) {
+    kept[cell["name"]] = cell["repetitions"].size();
+    for (const json& one : cell["repetitions"]) last = std::max(last, one["round"].get<int>());
+  }
+  for (const json& cell : all_cells()) {
+    ASSERT_LT(kept[cell["name"]], 4U);
+    EXPECT_EQ(cell["repetitions"][kept[cell["name"]]]["round"], last + 1);
+  }
+}
+
+TEST_F(Resume, OtherAnswersThanBeforeAreAMismatch) {
+  run(config_);
+  const std::vector<std::string> lines = log();
+  write_log(std::span(lines).first(9));
+  fault_ = [](const Traced& traced) { drop_one_hit(traced.buffer); };
+  EXPECT_EQ(run(config_, true).failed, 1U);
+  const json faulty = cells().at("faulty");
+  EXPECT_EQ(faulty["row"]["verdict"], "mismatch");
+  EXPECT_TRUE(scenes::says(faulty["message"].get<std::string>(), {"other hits than the first"}));
+  expect_times(faulty, false);
+}
+
+/// Whatever comes before the others' turn is over: a time without correct hits would remain.
+TEST_F(Resume, AWrongRepetitionIsNotForgotten) {
+  for (const int wrong : {1, 2, 3, 5, 7}) {
+    std::filesystem::remove_all(results());
+    bool is_wrong = false;
+    const int before = traces_;
+    fault_ = [&](const Traced& traced) {
+      if (traces_ - before - 1 != wrong) return;
+      drop_one_hit(traced.buffer);
+      is_wrong = true;
+    };
+    SweepOptions options;
+    options.before_each_piece = [&] {
+      if (is_wrong) throw SweepStopped();
+    };
+    EXPECT_THROW(run(config_, options), SweepStopped) << wrong;
+    fault_ = [](const Traced&) {};
+    EXPECT_EQ(run(config_, true).failed, 1U) << wrong;
+    EXPECT_EQ(cells().at("faulty")["row"]["verdict"], "mismatch") << wrong;
+  }
+}
+
+TEST_F(Resume, RefusesAChangedConfiguration) {
+  run(config_);
+  json changed = config_;
+  changed["precision"] = 0.5;
+  EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { run(changed, true); }),
+                           {"cannot resume", "configuration", "/precision"}));
+}
+
+TEST_F(Resume, RefusesAnotherBuildOrScene) {
+  run(config_);
+  const std::vector<std::string> lines = log();
+  write_changed(lines, "header", "/manifest/program/executable_hash", "0");
+  EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { run(config_, true); }), {"another build"}));
+  write_changed(lines, "header", "/manifest/scenes/0/hash", "0");
+  EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { run(config_, true); }),
+                           {"tetra:n=2", "has changed"}));
+}
+
+TEST_F(Resume, RefusesRecordsThatAreNotAsTheyWereWritten) {
+  struct Change {
+    const char* kind;
+    const char* pointer;
+    json value;
+  };
+  run(config_);
+  const std::vector<std::string> lines = log();
+  for (const auto& [kind, pointer, value] :
+       {Change{"cell", "/ray_set", json::array({1})}, Change{"cell", "/scene", 7},
+        Change{"cell", "/ray_set/rays", "many"}, Change{"repetition", "/trace_ms", "fast"},
+        Change{"repetition", "/index", "first"}, Change{"verification", "/agree", json::array()},
+        Change{"finished", "/examples", 1}, Change{"header", "/plan", json::array({1})},
+        Change{"header", "/manifest/plugins", json::array({1})},
+        Change{"header", "/manifest/scenes", json::array({1})},
+        Change{"header", "/manifest/run_id", json::array({1})}}) {
+    write_changed(lines, kind, pointer, value);
+    EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { run(config_, true); }),
+                             {"run/run.jsonl", "not as it was written", "-o"}))
+        << kind << pointer;
+  }
+  write_log({}, std::string(400'000, '[') + '\n');
+  EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { run(config_, true); }),
+                           {"run/run.jsonl, line 1", "64 levels"}));
+  write_log(lines);
+  EXPECT_EQ(run(config_, true).cells, 2U);
+}
+
+TEST_F(Resume, ANewRunDoesNotOverwriteAnOldOne) {
+  run(config_);
+  EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { run(config_); }),
+                           {"already holds a run", "--resume"}));
+}
+
+}  // namespace
+}  // namespace beambench::measure
