@@ -65,8 +65,9 @@ void require_primitives(const Scene& scene, const std::vector<std::string>& noti
   std::vector<std::string> names;
   for (const SceneInfo& info : scene_catalogue()) names.push_back(info.name);
   throw InputError(fmt::format(
-      "there is no scene '{}'; {}the scenes are {}; a file is given as a path with a slash or the "
-      "ending .nff or of a mesh, and an installed mesh as mesh:NAME; scenes of a plug-in need "
+      "there is no scene '{}'; {}the scenes are {}; a file is given as a path with the ending "
+      ".nff, that "
+      "of a mesh, or none, and an installed mesh as mesh:NAME; scenes of a plug-in need "
       "--plugin FILE",
       excerpt(name), did_you_mean(name, names), fmt::join(names, ", ")));
 }

@@ -71,8 +71,8 @@ std::optional<std::uint32_t> CornerSet::next_not_around(std::uint32_t number) co
 CornerTree::CornerTree(std::span<const glm::dvec2> points, std::vector<std::uint32_t> corners)
     : points_(points), slots_(std::move(corners)) {
   if (slots_.empty()) return;
-  constexpr std::size_t kMostInALeaf = 8;
-  nodes_.resize(2 * std::bit_ceil((slots_.size() + kMostInALeaf - 1) / kMostInALeaf));
+  constexpr std::size_t kMaxInALeaf = 8;
+  nodes_.resize(2 * std::bit_ceil((slots_.size() + kMaxInALeaf - 1) / kMaxInALeaf));
   leaf_of_.resize(points_.size(), kNoLeaf);
   build(kRoot);
 }

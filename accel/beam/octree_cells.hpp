@@ -44,7 +44,7 @@ class OctreeCells {
     octree::OctreeCursor place(octree());
     place.jump(beam.node, beam.corner, beam.size);
     ClosestHit closest = best;  // a copy can stay in registers
-    octree::LeafWalk{octree(), tracer_->neighbors(), ray, cell_ray}.behind(
+    octree::LeafWalk{octree(), tracer_->search(), ray, cell_ray}.behind(
         place, counting, [&](const octree::OctreeNode& leaf, double exit_t) {
           if (watch.leaves_part(leaf, t)) return true;
           t = exit_t;

@@ -102,7 +102,8 @@ std::optional<Box> clipped_sphere(const scenes::Sphere& sphere, const Box& box) 
 
 }  // namespace
 
-std::optional<Box> clipped_bounds(const scenes::Scene& scene, const Piece& piece, const Box& box) {
+std::optional<Box> clipped_bounds(const scenes::Scene& scene, const PrimitivePart& piece,
+                                  const Box& box) {
   switch (scene.primitives[piece.primitive].kind) {
     case scenes::PrimitiveKind::kPolygon:
       return clipped_triangle(scene, scene.triangles[piece.index], box);
@@ -115,8 +116,9 @@ std::optional<Box> clipped_bounds(const scenes::Scene& scene, const Piece& piece
   return whole_bounds(scene, piece, box);
 }
 
-std::optional<Box> whole_bounds(const scenes::Scene& scene, const Piece& piece, const Box& box) {
-  const scenes::Bounds whole = piece_bounds(scene, piece);
+std::optional<Box> whole_bounds(const scenes::Scene& scene, const PrimitivePart& piece,
+                                const Box& box) {
+  const scenes::Bounds whole = part_bounds(scene, piece);
   return common({glm::dvec3(whole.lower), glm::dvec3(whole.upper)}, box);
 }
 

@@ -3,7 +3,7 @@
 namespace beambench::accel::bvh {
 namespace {
 
-void append(const scenes::Scene& scene, const Piece& piece, PrimitiveBlock& block) {
+void append(const scenes::Scene& scene, const PrimitivePart& piece, PrimitiveBlock& block) {
   const std::size_t lane = block.count++;
   block.primitives[lane] = piece.primitive;
   const auto put = [&](std::size_t first_row, const glm::vec3& point) {
@@ -23,13 +23,13 @@ void append(const scenes::Scene& scene, const Piece& piece, PrimitiveBlock& bloc
 
 }  // namespace
 
-void append_blocks(const scenes::Scene& scene, std::span<const Piece> pieces, float extent,
+void append_blocks(const scenes::Scene& scene, std::span<const PrimitivePart> pieces, float extent,
                    std::vector<PrimitiveBlock>& blocks) {
   for (const scenes::PrimitiveKind kind :
        {scenes::PrimitiveKind::kPolygon, scenes::PrimitiveKind::kSphere,
         scenes::PrimitiveKind::kCone}) {
     PrimitiveBlock* block = nullptr;
-    for (const Piece& piece : pieces) {
+    for (const PrimitivePart& piece : pieces) {
       if (scene.primitives[piece.primitive].kind != kind) continue;
       if (block == nullptr || block->count == kBvhLanes) {
         block = &blocks.emplace_back();

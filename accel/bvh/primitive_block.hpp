@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "accel/bvh/piece.hpp"
+#include "accel/bvh/primitive_part.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::accel::bvh {
@@ -34,7 +34,7 @@ struct alignas(64) PrimitiveBlock {
 
 /// Appends the blocks of one leaf: of one kind each, kind by kind, pieces in the order given.
 /// `extent` becomes their `leaf_extent`.
-void append_blocks(const scenes::Scene& scene, std::span<const Piece> pieces, float extent,
+void append_blocks(const scenes::Scene& scene, std::span<const PrimitivePart> pieces, float extent,
                    std::vector<PrimitiveBlock>& blocks);
 
 }  // namespace beambench::accel::bvh

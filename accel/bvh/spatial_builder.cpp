@@ -24,7 +24,7 @@ namespace beambench::accel::bvh {
 namespace {
 
 /// Children that overlap by less of the root's surface are not worth a plane.
-constexpr double kLeastOverlap = 1e-5;
+constexpr double kMinOverlap = 1e-5;
 
 /// References to pieces, each with the box of a part of its piece.
 using References = std::vector<BuildItem>;
@@ -104,7 +104,7 @@ QuadBox united(QuadBox a, const QuadBox& b) {
 
 class SpatialBuilder {
  public:
-  SpatialBuilder(const scenes::Scene& scene, std::span<const Piece> pieces,
+  SpatialBuilder(const scenes::Scene& scene, std::span<const PrimitivePart> pieces,
                  const BvhOptions& options)
       : scene_(scene), pieces_(pieces), options_(options) {}
 
@@ -112,7 +112,7 @@ class SpatialBuilder {
     References references;
     references.reserve(pieces_.size());
     for (std::uint32_t i = 0; i < pieces_.size(); ++i) {
-      references.emplace_back(piece_bounds(scene_, pieces_[i]), i);
+      references.emplace_back(part_bounds(scene_, pieces_[i]), i);
     }
     const BuildExtent extent = extent_of(references);
     root_area_ = half_area(extent.boxes.bounds());
@@ -195,7 +195,7 @@ class SpatialBuilder {
       (bin < static_cast<std::size_t>(split.bin) ? left : right).include(bins.at(axis, bin).box);
     }
     const QuadBox common{larger(left.lower, right.lower), smaller(left.upper, right.upper)};
-    return area(common) > kLeastOverlap * root_area_;
+    return area(common) > kMinOverlap * root_area_;
   }
 
   /// The part of a reference between two planes; nothing where its piece has none there.
@@ -222,7 +222,7 @@ class SpatialBuilder {
   template <class Visit>
   void cut(const BuildItem& reference, int axis, const AxisBins& bins, std::size_t first,
            std::size_t last, Visit visit) const {
-    const Piece& piece = pieces_[reference.index()];
+    const PrimitivePart& piece = pieces_[reference.index()];
     if (scene_.primitives[piece.primitive].kind != scenes::PrimitiveKind::kPolygon) {
       for (std::size_t bin = first; bin <= last; ++bin) {
         const auto inside = part(reference, axis, bins.plane(bin), bins.plane(bin + 1));
@@ -380,7 +380,7 @@ class SpatialBuilder {
   }
 
   const scenes::Scene& scene_;
-  std::span<const Piece> pieces_;
+  std::span<const PrimitivePart> pieces_;
   BvhOptions options_;
   double root_area_ = 0.0;
 };
@@ -418,7 +418,7 @@ BinaryBvh flatten(const TreeNode& root, double tolerance) {
 
 }  // namespace
 
-BinaryBvh build_spatial_bvh(const scenes::Scene& scene, std::span<const Piece> pieces,
+BinaryBvh build_spatial_bvh(const scenes::Scene& scene, std::span<const PrimitivePart> pieces,
                             double tolerance, const BvhOptions& options) {
   if (pieces.empty()) return {};
   return flatten(SpatialBuilder(scene, pieces, options).build(), tolerance);

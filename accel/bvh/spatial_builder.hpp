@@ -4,7 +4,7 @@
 #include <span>
 
 #include "accel/bvh/bvh_builder.hpp"
-#include "accel/bvh/piece.hpp"
+#include "accel/bvh/primitive_part.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::accel::bvh {
@@ -19,7 +19,7 @@ namespace beambench::accel::bvh {
 /// Boxes are those of the parts, widened by `tolerance` (scene units): every point of a piece is in
 /// the box of a leaf that refers to it. The result is the same with and without
 /// `options.parallel`.
-BinaryBvh build_spatial_bvh(const scenes::Scene& scene, std::span<const Piece> pieces,
+BinaryBvh build_spatial_bvh(const scenes::Scene& scene, std::span<const PrimitivePart> pieces,
                             double tolerance, const BvhOptions& options);
 
 }  // namespace beambench::accel::bvh

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "accel/bvh/piece.hpp"
+#include "accel/bvh/primitive_part.hpp"
 #include "accel/bvh/spatial_builder.hpp"
 #include "accel/core/padded_bounds.hpp"
 #include "accel/core/tolerance.hpp"
@@ -19,7 +19,7 @@ namespace {
 class WideBvhBuilder {
  public:
   WideBvhBuilder(const scenes::Scene& scene, const WideBvhOptions& options)
-      : scene_(scene), pieces_(collect_pieces(scene)) {
+      : scene_(scene), pieces_(collect_parts(scene)) {
     if (options.builder == BvhBuilder::kSpatial) {
       binary_ = build_spatial_bvh(scene, pieces_, overlap_tolerance(scene), options.splits);
     } else {
@@ -43,8 +43,8 @@ class WideBvhBuilder {
     const double tolerance = overlap_tolerance(scene_);
     std::vector<scenes::Bounds> boxes;
     boxes.reserve(pieces_.size());
-    for (const Piece& piece : pieces_) {
-      boxes.push_back(padded(piece_bounds(scene_, piece), tolerance));
+    for (const PrimitivePart& piece : pieces_) {
+      boxes.push_back(padded(part_bounds(scene_, piece), tolerance));
     }
     return boxes;
   }
@@ -115,7 +115,7 @@ class WideBvhBuilder {
     float extent = 0.0F;
     for (const std::uint32_t item : items) {
       leaf_pieces_.push_back(pieces_[item]);
-      const glm::vec3 sides = piece_bounds(scene_, pieces_[item]).extent();
+      const glm::vec3 sides = part_bounds(scene_, pieces_[item]).extent();
       extent = std::max({extent, sides.x, sides.y, sides.z});
     }
     append_blocks(scene_, leaf_pieces_, extent, wide_.blocks);
@@ -130,8 +130,8 @@ class WideBvhBuilder {
   }
 
   const scenes::Scene& scene_;
-  std::vector<Piece> pieces_;
-  std::vector<Piece> leaf_pieces_;  ///< of the leaf being made
+  std::vector<PrimitivePart> pieces_;
+  std::vector<PrimitivePart> leaf_pieces_;  ///< of the leaf being made
   BinaryBvh binary_;
   WideBvh wide_;
 };

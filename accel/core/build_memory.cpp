@@ -14,10 +14,10 @@ namespace beambench::accel {
 namespace {
 
 /// No build is known to take more for a primitive, where no list is longer than its cap.
-constexpr std::uint64_t kMostBytesPerPrimitive = 2048;
+constexpr std::uint64_t kMaxBytesPerPrimitive = 2048;
 
 /// Below this, what an allocator keeps in reserve is more than what is measured.
-constexpr std::size_t kLeastPrimitives = std::size_t{1} << 17U;
+constexpr std::size_t kMinPrimitives = std::size_t{1} << 17U;
 
 /// Every `stride`-th run of primitives: neighbors in a mesh stay together, so that they share
 /// vertices and leaves as they do in the whole.
@@ -56,8 +56,8 @@ std::optional<std::uint64_t> predicted_build_bytes(const StructureChoice& choice
 void require_build_memory(const StructureChoice& choice, const scenes::Scene& scene,
                           const Workload& workload) {
   const auto available = available_memory();
-  const std::uint64_t most = kMostBytesPerPrimitive * scene.primitives.size();
-  if (!available || most <= *available || scene.primitives.size() < kLeastPrimitives) return;
+  const std::uint64_t most = kMaxBytesPerPrimitive * scene.primitives.size();
+  if (!available || most <= *available || scene.primitives.size() < kMinPrimitives) return;
   const auto needed = predicted_build_bytes(choice, scene, workload);
   if (!needed || *needed <= *available) return;
   throw InputError(fmt::format(

@@ -116,11 +116,11 @@ class ReferenceEstimate {
 /// random numbers are the same each time; where the limit is kept, one estimate is made or few.
 template <class Estimate>
 bool surely_more_than(std::uint64_t most, Estimate estimate) {
-  constexpr int kMostEstimates = 40;
+  constexpr int kMaxEstimates = 40;
   constexpr double kEnough = 0x1p20;
   Random random(1);
   double product = 1.0;
-  for (int i = 0; i < kMostEstimates && product >= 1.0; ++i) {
+  for (int i = 0; i < kMaxEstimates && product >= 1.0; ++i) {
     product *= estimate(random) / static_cast<double>(most);
     if (product > kEnough) return true;
   }

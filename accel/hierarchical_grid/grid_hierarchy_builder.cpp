@@ -223,8 +223,8 @@ class GridHierarchyBuilder {
 
   /// The power of two nearest to the cube root, by ratio; few, so that finest cells have numbers.
   glm::ivec3 power_cells(const glm::dvec3& size, double number) const {
-    constexpr int kMostPower = 4;
-    int power = std::clamp(static_cast<int>(std::lround(std::log2(number) / 3.0)), 0, kMostPower);
+    constexpr int kMaxPower = 4;
+    int power = std::clamp(static_cast<int>(std::lround(std::log2(number) / 3.0)), 0, kMaxPower);
     const double shortest = std::min({size.x, size.y, size.z});
     while (power > 0 && std::ldexp(shortest, -power) < narrowest_) --power;
     return glm::ivec3(1 << power);
@@ -253,7 +253,7 @@ class GridHierarchyBuilder {
   double narrowest_ = 1.0;
   std::uint64_t voxels_ = 0;      ///< made, and those of the grids that were chosen
   std::uint64_t references_ = 0;  ///< of the voxels made so far, if no other is divided
-  std::array<Scratch, kMostLevels> scratch_;
+  std::array<Scratch, kMaxLevels> scratch_;
 };
 
 GridHierarchy::GridHierarchy(const scenes::Scene& scene, const HierarchicalGridOptions& options) {

@@ -17,7 +17,7 @@ std::vector<ParameterInfo> HierarchicalGridOptions::parameters() {
                        "along each axis, the same for all, as grid-beam has it"),
       integer_parameter("max_objects", defaults.max_objects, 0, 1'000'000,
                         "a voxel that refers to more primitives gets a grid of its own"),
-      integer_parameter("max_level", defaults.max_level, 1, kMostLevels,
+      integer_parameter("max_level", defaults.max_level, 1, kMaxLevels,
                         "levels of grids, the grid of the scene being level 1"),
       choice_parameter(
           "divide", "gain", {"gain", "always"},

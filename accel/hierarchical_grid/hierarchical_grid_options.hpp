@@ -10,7 +10,7 @@
 namespace beambench::accel::hierarchical_grid {
 
 /// The levels of grids that there can be.
-inline constexpr int kMostLevels = 5;
+inline constexpr int kMaxLevels = 5;
 
 struct HierarchicalGridOptions : grid::GridLayout {
   HierarchicalGridOptions() { density = 0.2; }

@@ -53,7 +53,7 @@ class Builder {
       : scene_(scene),
         options_(options),
         tolerance_(overlap_tolerance(scene)),
-        pieces_(bvh::collect_pieces(scene)),
+        pieces_(bvh::collect_parts(scene)),
         sides_(pieces_.size()),
         most_splits_(options.depth_for(pieces_.size())),
         most_references_(options.references_for(pieces_.size())),
@@ -107,7 +107,7 @@ class Builder {
     const std::size_t count = 2 * pieces_.size();
     require_events(2 * count);
     for (std::uint32_t item = 0; item < pieces_.size(); ++item) {
-      const scenes::Bounds bounds = bvh::piece_bounds(scene_, pieces_[item]);
+      const scenes::Bounds bounds = bvh::part_bounds(scene_, pieces_[item]);
       for (int axis = 0; axis < 3; ++axis) {
         SplitEvent* const events = list(axis, std::size_t{2} * item);
         events[0] = SplitEvent::begin(float_below(bounds.lower[axis] - tolerance_), item);
@@ -156,7 +156,7 @@ class Builder {
   }
 
   /// A builder for estimates: some of the items of another one, with its root and depth.
-  Builder(const Builder& whole, std::vector<bvh::Piece> pieces)
+  Builder(const Builder& whole, std::vector<bvh::PrimitivePart> pieces)
       : scene_(whole.scene_),
         options_(whole.options_),
         tolerance_(whole.tolerance_),
@@ -208,7 +208,7 @@ class Builder {
   void require_few_references() const {
     if (options_.builder != KdTreeOptions::Builder::kMedian) return;
     const bool exceeds = part_surely_exceeds(
-        most_references_, pieces_, [this](std::vector<bvh::Piece> pieces, Random& random) {
+        most_references_, pieces_, [this](std::vector<bvh::PrimitivePart> pieces, Random& random) {
           Builder builder(*this, std::move(pieces));
           return builder.estimate()(random).leaves;
         });
@@ -366,7 +366,7 @@ class Builder {
     float extent = 0.0F;
     for (const std::uint32_t item : leaf_items_) {
       leaf_pieces_.push_back(pieces_[item]);
-      const glm::vec3 sides = bvh::piece_bounds(scene_, pieces_[item]).extent();
+      const glm::vec3 sides = bvh::part_bounds(scene_, pieces_[item]).extent();
       extent = std::max({extent, sides.x, sides.y, sides.z});
     }
     const std::size_t first = tree_.blocks.size();
@@ -389,7 +389,7 @@ class Builder {
   const scenes::Scene& scene_;
   const KdTreeOptions& options_;
   double tolerance_;
-  std::vector<bvh::Piece> pieces_;
+  std::vector<bvh::PrimitivePart> pieces_;
   std::array<LargePageVector<SplitEvent>, 3> events_;  ///< of each axis
   std::size_t end_ = 0;                                ///< of the events in use
   std::vector<std::uint8_t> sides_;                    ///< of items, at the split being made
@@ -397,7 +397,7 @@ class Builder {
   EventLists events_below_;                            ///< of their parts
   EventLists events_above_;
   std::vector<std::uint32_t> leaf_items_;  ///< of the leaf being made
-  std::vector<bvh::Piece> leaf_pieces_;
+  std::vector<bvh::PrimitivePart> leaf_pieces_;
   int most_splits_;
   std::uint64_t most_references_;
   ReferenceLimit limit_;

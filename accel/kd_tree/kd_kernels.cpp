@@ -40,7 +40,7 @@ HWY_FLATTEN auto traverse(const KdTree& tree, const scenes::Scene& scene, const 
   KdRay::Interval inside = planes.clip(tree.root, ray.t_min, ray.t_max);
   if (inside.empty()) return confirm.result();
   const bvh::ProbeRay probe_ray(ray, tree.scene_bounds);
-  std::array<Waiting, kMostSplits> waiting;
+  std::array<Waiting, kMaxSplits> waiting;
   std::size_t waiting_count = 0;
   const KdNode* const nodes = tree.nodes.data();
   std::uint32_t at = 0;

@@ -8,7 +8,7 @@ namespace beambench::accel::kd_tree {
 std::vector<ParameterInfo> KdTreeOptions::parameters() {
   const KdTreeOptions defaults;
   ParameterInfo depth = integer_or_auto_parameter(
-      "max_depth", 0, 0, kMostSplits,
+      "max_depth", 0, 0, kMaxSplits,
       "most splits on the way from the root to a leaf; auto: 8 + 1.3 log2 of the primitives, or 15 "
       "with builder=median (the cells of an octree of level 6)");
   depth.default_value = "auto";
@@ -60,7 +60,7 @@ int KdTreeOptions::depth_for(std::size_t primitives) const {
   if (max_depth) return *max_depth;
   if (builder == Builder::kMedian) return 15;
   const double doublings = std::log2(static_cast<double>(std::max<std::size_t>(primitives, 1)));
-  return std::min(kMostSplits, static_cast<int>(8.0 + 1.3 * doublings));
+  return std::min(kMaxSplits, static_cast<int>(8.0 + 1.3 * doublings));
 }
 
 std::uint64_t KdTreeOptions::references_for(std::size_t primitives) const {

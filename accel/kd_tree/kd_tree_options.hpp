@@ -11,7 +11,7 @@
 namespace beambench::accel::kd_tree {
 
 /// The most splits on the way from the root to a leaf; a traversal's stack has as many entries.
-inline constexpr int kMostSplits = 64;
+inline constexpr int kMaxSplits = 64;
 
 struct KdTreeOptions {
   enum class Builder { kSah, kMedian };

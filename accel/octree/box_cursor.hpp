@@ -5,8 +5,6 @@
 
 #include <glm/vec3.hpp>
 
-#include "accel/core/cell_ray.hpp"
-#include "accel/octree/descend.hpp"
 #include "accel/octree/node_division.hpp"
 #include "accel/octree/octree.hpp"
 
@@ -36,8 +34,6 @@ class BoxCursor {
     cell_ = cell_.child(split(), octant);
     index_ = node().first + octant;
   }
-  /// As `descend_to_leaf`.
-  int descend(const CellRay& ray, double t) { return descend_to_leaf(*this, ray, t); }
 
  private:
   const Octree* octree_;

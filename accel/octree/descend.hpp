@@ -12,7 +12,7 @@ namespace beambench::accel::octree {
 /// Goes down to the leaf that the ray is in at parameter t (a point on a boundary belongs to the
 /// side the ray is going to). Returns the number of levels descended.
 template <class Cursor>
-int descend_to_leaf(Cursor& cursor, const CellRay& ray, double t) {
+[[gnu::always_inline]] inline int descend_to_leaf(Cursor& cursor, const CellRay& ray, double t) {
   int levels = 0;
   for (; !cursor.is_leaf(); ++levels) {
     const glm::ivec3 split = cursor.split();

@@ -6,6 +6,7 @@
 
 #include "accel/core/cell_ray.hpp"
 #include "accel/core/work_counters.hpp"
+#include "accel/octree/descend.hpp"
 #include "accel/octree/enter_leaf.hpp"
 
 namespace beambench::accel::octree {
@@ -22,18 +23,19 @@ inline constexpr std::string_view kNeighborStepsMeaning =
 /// exit point of a leaf is computed, and the leaf behind it is found. A ray that leaves through an
 /// edge or a vertex goes to the edge or vertex neighbor.
 ///
-/// `neighbors.move(cursor, step)` moves the cursor from a leaf to a node behind the face, edge or
+/// `search.move(cursor, step)` moves the cursor from a leaf to a node behind the face, edge or
 /// vertex that `step` (-1, 0 or 1 for each axis) points at, in which the search for the next leaf
 /// goes on downward; it returns the number of nodes passed, the last one included, and 0 where the
-/// root ends. `Neighbors::Cursor` is a place in the octree; `Neighbors::kNeighborSteps` says
+/// root ends. `Search::Cursor` is a place in the octree; `Search::kNeighborSteps` says
 /// whether that node is the neighbor of equal or larger size, so that the nodes passed are neighbor
-/// steps.
-template <class Neighbors>
+/// steps. `Search::count_last_climb(level, counting)` counts what a search does that leaves the
+/// root from a leaf of that level, beyond the nodes passed.
+template <class Search>
 struct LeafWalk {
-  using Cursor = typename Neighbors::Cursor;
+  using Cursor = typename Search::Cursor;
 
   const typename Cursor::Tree& octree;
-  const Neighbors& neighbors;
+  const Search& search;
   const Ray& ray;
   const CellRay& planes;  ///< of `ray` and the octree's grid
 
@@ -44,15 +46,15 @@ struct LeafWalk {
   [[gnu::always_inline]] int from(Cursor cursor, double t, int passed, Counting& counting,
                                   Visit visit) const {
     while (true) {
-      passed += cursor.descend(planes, t);
+      passed += descend_to_leaf(cursor, planes, t);
       counting.add(Counter::kTraversalSteps, static_cast<std::uint64_t>(passed));
       const LeafExit exit = leaf_exit(planes, cursor);
       enter_leaf(cursor, ray, t, exit.t, octree, counting);
       if (visit(cursor.node(), exit.t)) return 0;
       t = exit.t;
-      passed = neighbors.move(cursor, exit.step);
+      passed = search.move(cursor, exit.step);
       if (passed == 0) return cursor.level();
-      if constexpr (Neighbors::kNeighborSteps) {
+      if constexpr (Search::kNeighborSteps) {
         counting.add(kNeighborSteps, static_cast<std::uint64_t>(passed));
       }
     }
@@ -62,9 +64,9 @@ struct LeafWalk {
   template <class Counting, class Visit>
   [[gnu::always_inline]] void behind(Cursor leaf, Counting& counting, Visit visit) const {
     const LeafExit exit = leaf_exit(planes, leaf);
-    const int passed = neighbors.move(leaf, exit.step);
+    const int passed = search.move(leaf, exit.step);
     if (passed == 0) return;
-    if constexpr (Neighbors::kNeighborSteps) {
+    if constexpr (Search::kNeighborSteps) {
       counting.add(kNeighborSteps, static_cast<std::uint64_t>(passed));
     }
     from(leaf, exit.t, passed, counting, visit);
@@ -72,23 +74,21 @@ struct LeafWalk {
 };
 
 // Clang before version 17 does not deduce the arguments of aggregates.
-template <class Neighbors>
-LeafWalk(const typename Neighbors::Cursor::Tree&, const Neighbors&, const Ray&, const CellRay&)
-    -> LeafWalk<Neighbors>;
+template <class Search>
+LeafWalk(const typename Search::Cursor::Tree&, const Search&, const Ray&, const CellRay&)
+    -> LeafWalk<Search>;
 
 /// Calls `visit(leaf, exit_t)` for the leaves that the ray passes through, from t_min on, until it
 /// returns true or the ray leaves the root.
-template <class Neighbors, class Counting, class Visit>
-void walk_leaves(const typename Neighbors::Cursor::Tree& octree, const Neighbors& neighbors,
-                 const Ray& ray, Counting& counting, Visit visit) {
+template <class Search, class Counting, class Visit>
+void walk_leaves(const typename Search::Cursor::Tree& octree, const Search& search, const Ray& ray,
+                 Counting& counting, Visit visit) {
   const CellRay planes(octree.grid(), ray);
   const double t = planes.enter(ray.t_min);
   if (!(t < kInfinity)) return;
-  const int left = LeafWalk<Neighbors>{octree, neighbors, ray, planes}.from(
-      typename Neighbors::Cursor(octree), t, 1, counting, visit);
-  if constexpr (requires { Neighbors::count_last_climb(left, counting); }) {
-    if (left > 0) Neighbors::count_last_climb(left, counting);
-  }
+  const int left = LeafWalk<Search>{octree, search, ray, planes}.from(
+      typename Search::Cursor(octree), t, 1, counting, visit);
+  if (left > 0) Search::count_last_climb(left, counting);
 }
 
 }  // namespace beambench::accel::octree

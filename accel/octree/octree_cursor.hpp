@@ -6,7 +6,6 @@
 
 #include <glm/vec3.hpp>
 
-#include "accel/core/cell_ray.hpp"
 #include "accel/octree/octree.hpp"
 
 namespace beambench::accel::octree {
@@ -39,24 +38,6 @@ class OctreeCursor {
     for (int axis = 0; axis < 3; ++axis) {
       if ((octant >> static_cast<unsigned>(axis) & 1U) != 0) corner_[axis] += size_;
     }
-  }
-
-  /// Goes down to the leaf that the ray is in at parameter t (a point on a boundary belongs to the
-  /// side the ray is going to). Returns the number of levels descended.
-  [[gnu::always_inline]] int descend(const CellRay& ray, double t) {
-    int levels = 0;
-    for (; !node().is_leaf(); ++levels) {
-      const std::int32_t half = size_ / 2;
-      std::uint32_t octant = 0;
-      for (int axis = 0; axis < 3; ++axis) {
-        if (!ray.above(axis, corner_[axis] + half, t)) continue;
-        octant |= 1U << static_cast<unsigned>(axis);
-        corner_[axis] += half;
-      }
-      index_ = node().first + octant;
-      size_ = half;
-    }
-    return levels;
   }
 
   /// Goes down to the child whose lowest finest cell is `corner`. Not from a leaf.

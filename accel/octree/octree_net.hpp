@@ -42,6 +42,8 @@ class OctreeNet {
   }
   static constexpr std::uint32_t kOutside = 0xFFFFFFFFU;
 
+  template <class Counting>
+  static void count_last_climb(int, Counting&) {}
   /// Adds the memory of the links.
   void describe(Statistics& statistics) const;
 

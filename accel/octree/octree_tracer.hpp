@@ -20,9 +20,8 @@
 
 namespace beambench::accel::octree {
 
-/// The octree of the thesis (section 3.3) for individual rays. `Search`, made from the octree,
-/// finds the leaves along a ray by `walk_leaves(octree, search, ray, counting, visit)`; it changes
-/// no leaf, no order and no hit.
+/// The octree of the thesis (section 3.3) for individual rays. `Search`, made from the
+/// octree, finds the leaves along a ray (leaf_walk.hpp); it changes no leaf, no order and no hit.
 template <class Search>
 class OctreeTracer : public TraversalAccelerator<OctreeTracer<Search>> {
  public:
@@ -38,8 +37,8 @@ class OctreeTracer : public TraversalAccelerator<OctreeTracer<Search>> {
   }
 
   const Tree& octree() const { return octree_; }
-  /// What finds the leaf behind a leaf.
-  const Search& neighbors() const { return search_; }
+  /// Returns what finds the leaves along a ray.
+  const Search& search() const { return search_; }
 
   Statistics statistics() const override {
     Statistics statistics = octree_.statistics();
@@ -49,7 +48,7 @@ class OctreeTracer : public TraversalAccelerator<OctreeTracer<Search>> {
 
   std::vector<Box> occupied_cells() const override { return octree_.occupied_cells(); }
 
-  /// Of searches that name leaves by the numbers of their nodes.
+  /// For searches that name leaves by the numbers of their nodes.
   std::vector<NodeFacts> nodes() const override {
     std::vector<NodeFacts> facts;
     if constexpr (requires { requires Search::kNeighborSteps; }) {

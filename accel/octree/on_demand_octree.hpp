@@ -13,11 +13,9 @@
 #include <glm/vec3.hpp>
 
 #include "accel/core/cell_grid.hpp"
-#include "accel/core/cell_ray.hpp"
 #include "accel/core/least_references.hpp"
 #include "accel/core/overlap.hpp"
 #include "accel/core/statistics.hpp"
-#include "accel/octree/descend.hpp"
 #include "accel/octree/node_division.hpp"
 #include "accel/octree/octree.hpp"
 #include "scenes/primitive.hpp"
@@ -124,8 +122,6 @@ class OnDemandCursor {
     children_ = octree_->children(*node_, cell_);
     code_ = code_ * 8 + octant;
   }
-  /// As `descend_to_leaf`.
-  int descend(const CellRay& ray, double t) { return descend_to_leaf(*this, ray, t); }
 
  private:
   const OnDemandOctree* octree_;

@@ -6,7 +6,7 @@
 
 #include "accel/core/registry.hpp"
 #include "accel/octree/choose_octree.hpp"
-#include "accel/octree/glassner.hpp"
+#include "accel/octree/from_root.hpp"
 #include "accel/octree/samet.hpp"
 #include "scenes/base/error.hpp"
 

@@ -37,6 +37,8 @@ class RootSearch {
     return 1;
   }
   static void describe(Statistics&) {}
+  template <class Counting>
+  static void count_last_climb(int, Counting&) {}
 
  private:
   const typename Cursor::Tree* octree_;

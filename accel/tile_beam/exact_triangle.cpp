@@ -86,7 +86,7 @@ Eye place_of_eye(const std::array<glm::dvec3, 3>& from_eye) {
 
 /// The size of a plane's numbers, by the largest t of its triangle, from which on rounding may
 /// place a hit farther from the triangle than two hits at one place are apart along a ray.
-constexpr double kLeastAngle = 0x1p11;
+constexpr double kMinAngle = 0x1p11;
 
 /// Of edges seen from an apex, relative to their numbers: those in float err by less.
 constexpr double kApexWidening = 2e-7;
@@ -144,7 +144,7 @@ std::optional<ExactTriangle> exact_triangle(const TileView& view,
   const double size =
       std::abs(plane.x) * view.width + std::abs(plane.y) * view.height + std::abs(plane.z);
   const double farthest = std::max({projected[0].z, projected[1].z, projected[2].z});
-  if (size * farthest > kLeastAngle) return left_to_rays(*box);
+  if (size * farthest > kMinAngle) return left_to_rays(*box);
   triangle.plane = rounded(plane);
   return triangle;
 }

@@ -127,14 +127,14 @@ AnsweredRays closest_hits(const PencilRays& pencil, PencilUnit& unit, const HitS
             t[i] = hit ? from_origin / std::abs(ray.direction[z]) : kInfinity;
             if (hit && is_far(ray, t[i], depth)) [[unlikely]] {
               const float exact = intersect(CanonicalRay(ray), pencil.scene, primitive[i]);
-              t[i] = is_hit(exact) ? exact : kNaN;
+              t[i] = is_hit(exact) ? exact : kUndecidedT;
               some_missed = some_missed || !is_hit(exact);
               counting.add_tests(pencil.scene.primitives[primitive[i]].kind);
             }
           }
         }
       },
-      [&](std::size_t i) { t[i] = kNaN; });
+      [&](std::size_t i) { t[i] = kUndecidedT; });
   answered.some_undecided = answered.some_undecided || some_missed;
   return answered;
 }

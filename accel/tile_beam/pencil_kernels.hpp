@@ -56,6 +56,8 @@ struct PencilRays {
 /// The result of a ray that is left to the query of single rays: its line is too long for float, or
 /// has no direction from the apex.
 inline constexpr std::uint8_t kUndecided = 2;
+/// The same as the t of a closest hit; no ray has one there.
+inline constexpr float kUndecidedT = -kInfinity;
 
 /// How many rays were answered, and whether some of them are undecided.
 struct AnsweredRays {
@@ -71,7 +73,7 @@ struct PencilQueries {
   /// Rays toward the apex: 1, 0 or kUndecided for each.
   AnsweredRays (*any_hits)(const PencilRays&, PencilUnit& unit, std::span<std::uint8_t> hits,
                            Counting&);
-  /// Rays away from it: their hits from `first` of the buffer on; t is NaN where undecided.
+  /// Rays away from it: their hits from `first` of the buffer on; t is kUndecidedT where undecided.
   AnsweredRays (*closest_hits)(const PencilRays&, PencilUnit& unit, const HitSpan& buffer,
                                std::size_t first, Counting&);
 };

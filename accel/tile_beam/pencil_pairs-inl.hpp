@@ -53,7 +53,7 @@ class PencilPairs {
     list_candidates(bounds, groups, count);
     test_blocks<kTriangles>(count);
   }
-  /// Those found last: place of the block * SeenShapes::kMost + shape.
+  /// Those found last: place of the block * SeenShapes::kMax + shape.
   std::span<const std::uint32_t> found() const { return {pairs_.data(), count_}; }
 
  private:
@@ -101,7 +101,7 @@ class PencilPairs {
       }
       for (std::size_t lane = 0; lane < count; lane += kLanes) {
         by_shape_count +=
-            append(hn::Iota(d, static_cast<std::uint32_t>(group * SeenShapes::kMost + lane)),
+            append(hn::Iota(d, static_cast<std::uint32_t>(group * SeenShapes::kMax + lane)),
                    lanes_of(some_shapes, lane), &by_shape_[by_shape_count]);
       }
     }
@@ -155,10 +155,10 @@ class PencilPairs {
     std::size_t count = 0;
     const std::size_t by_shapes = by_shape_count_;
     const std::size_t by_blocks = by_block_count_;
-    constexpr auto kMost = static_cast<std::uint32_t>(SeenShapes::kMost);
+    constexpr auto kMax = static_cast<std::uint32_t>(SeenShapes::kMax);
     for (std::size_t i = 0; i < by_shapes; ++i) {
-      const std::size_t shape = by_shape_[i] % kMost;
-      const std::size_t first = by_shape_[i] / kMost * 16;
+      const std::size_t shape = by_shape_[i] % kMax;
+      const std::size_t first = by_shape_[i] / kMax * 16;
       for (std::size_t lane = 0; lane < 16; lane += kLanes) {
         const Mask hit = hn::Not(
             is_negative(misses<kTriangles>(OneShape{*shapes_, shape}, SomeBlocks{first + lane})));
@@ -173,7 +173,7 @@ class PencilPairs {
         const Mask hit =
             hn::AndNot(is_negative(misses<kTriangles>(SomeShapes{*shapes_, lane}, OneBlock{place})),
                        lanes_of(shapes_->present >> lane, 0));
-        count += append(hn::Iota(d, place * kMost + static_cast<std::uint32_t>(lane)), hit,
+        count += append(hn::Iota(d, place * kMax + static_cast<std::uint32_t>(lane)), hit,
                         &pairs_[count]);
       }
     }
@@ -187,9 +187,9 @@ class PencilPairs {
   std::size_t by_block_count_ = 0;
   std::size_t count_ = 0;
   /// Room for a register behind the last.
-  std::array<std::uint32_t, PencilUnit::kGroups * SeenShapes::kMost + 16> by_shape_;
+  std::array<std::uint32_t, PencilUnit::kGroups * SeenShapes::kMax + 16> by_shape_;
   std::array<std::uint32_t, PencilUnit::kPlaces + 16> by_block_;
-  std::array<std::uint32_t, PencilUnit::kPlaces * SeenShapes::kMost + 16> pairs_;
+  std::array<std::uint32_t, PencilUnit::kPlaces * SeenShapes::kMax + 16> pairs_;
 };
 
 }  // namespace beambench::accel::tile_beam::HWY_NAMESPACE

@@ -140,7 +140,7 @@ class PencilProjection {
         find_others(seen, size, largest, wanted);
       }
       const Mask to_end =
-          kToward ? hn::And(hn::Ge(ray.t_max, all(kLeastEnd)), hn::Le(ray.t_max, all(1.0F)))
+          kToward ? hn::And(hn::Ge(ray.t_max, all(kMinEnd)), hn::Le(ray.t_max, all(1.0F)))
                   : hn::Eq(ray.t_max, infinity);
       const Mask whole = hn::And(hn::Eq(ray.t_min, hn::Zero(Tag())), to_end);
       const Mask in = hn::And(
@@ -199,7 +199,7 @@ class PencilProjection {
   static constexpr float kNearest = 0x1p-59F;
   /// Rays that end farther before the apex, as those of points close to a light, are traced one by
   /// one.
-  static constexpr float kLeastEnd = 0.5F;
+  static constexpr float kMinEnd = 0.5F;
 
   Floats end_depth_ = hn::Zero(Tag());
   const PencilPart* part_;

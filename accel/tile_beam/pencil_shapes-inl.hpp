@@ -107,14 +107,14 @@ struct SeenShapes {
     kCenter = kEdge0,
     kRadius = kCenter + 3
   };
-  static constexpr std::size_t kMost = 32;
+  static constexpr std::size_t kMax = 32;
 
-  alignas(64) std::array<std::array<float, kMost>, kRows> rows;
+  alignas(64) std::array<std::array<float, kMax>, kRows> rows;
   LaneBits present;  ///< shapes that may be seen at all
   LaneBits exact;    ///< triangles whose tests are `exact_triangle`'s
   LaneBits by_rays;  ///< that the canonical test decides, ray by ray
   LaneBits around;   ///< spheres that contain the apex
-  std::array<ExactApexTriangle, kMost> exact_triangle;
+  std::array<ExactApexTriangle, kMax> exact_triangle;
 
   HWY_INLINE Floats at(std::size_t row, std::size_t lane) const { return load(&rows[row][lane]); }
   HWY_INLINE void set(std::size_t row, std::size_t lane, Floats values) {

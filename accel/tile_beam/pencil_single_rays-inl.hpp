@@ -129,7 +129,7 @@ class PencilSingleRays {
 
   /// What bounds of boxes and places may be wrong by: a few roundings of places |u| <= 1.
   static constexpr float kPlacePad = 3e-7F;
-  static constexpr std::size_t kMost = PencilUnit::kPlaces * PencilUnit::kBlock;
+  static constexpr std::size_t kMax = PencilUnit::kPlaces * PencilUnit::kBlock;
 
   const TileHierarchy* hierarchy_;
   const scenes::Scene* scene_;
@@ -139,8 +139,8 @@ class PencilSingleRays {
   PencilGroups<Policy>* groups_;
   Counting* counting_;
   std::size_t count_ = 0;
-  std::array<std::uint16_t, kMost> listed_;  ///< places and lanes of the rays to be traced
-  std::array<std::uint8_t, kMost> is_hit_;
+  std::array<std::uint16_t, kMax> listed_;  ///< places and lanes of the rays to be traced
+  std::array<std::uint8_t, kMax> is_hit_;
 };
 
 }  // namespace beambench::accel::tile_beam::HWY_NAMESPACE

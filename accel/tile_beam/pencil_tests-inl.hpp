@@ -44,8 +44,8 @@ class PencilTests {
     const LaneBits special = shapes_->exact | shapes_->by_rays;
     std::uint32_t changed = 0;  // in a register: the next test would wait for it in memory
     for (const std::uint32_t pair : pairs) {
-      const std::size_t place = pair / SeenShapes::kMost;
-      const std::size_t shape = pair % SeenShapes::kMost;
+      const std::size_t place = pair / SeenShapes::kMax;
+      const std::size_t shape = pair % SeenShapes::kMax;
       if ((special >> shape & 1U) != 0) [[unlikely]] {
         changed |= test_specially(place, shape, meshlet);
       } else {
@@ -67,8 +67,8 @@ class PencilTests {
                                         const SphereBlock& block) {
     std::uint32_t changed = 0;
     for (const std::uint32_t pair : pairs) {
-      const std::size_t place = pair / SeenShapes::kMost;
-      const std::size_t shape = pair % SeenShapes::kMost;
+      const std::size_t place = pair / SeenShapes::kMax;
+      const std::size_t shape = pair % SeenShapes::kMax;
       const scenes::PrimitiveId id = block.primitives[shape];
       const scenes::Sphere& sphere = scene_->spheres[scene_->primitives[id].index];
       const auto t_of = [&](const Ray& ray) {
@@ -94,9 +94,9 @@ class PencilTests {
                                       const ConeBlock& block) {
     std::uint32_t changed = 0;
     for (const std::uint32_t pair : pairs) {
-      const scenes::PrimitiveId id = block.primitives[pair % SeenShapes::kMost];
+      const scenes::PrimitiveId id = block.primitives[pair % SeenShapes::kMax];
       const scenes::Cone& cone = scene_->cones[scene_->primitives[id].index];
-      changed |= test_by_rays(pair / SeenShapes::kMost, id, [&](const Ray& ray) {
+      changed |= test_by_rays(pair / SeenShapes::kMax, id, [&](const Ray& ray) {
         return intersect_cone(CanonicalRay(ray), cone);
       });
     }

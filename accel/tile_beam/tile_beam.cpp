@@ -1,7 +1,6 @@
 #include "accel/tile_beam/tile_beam.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -117,8 +116,8 @@ struct RayRange {
   const Pencil* pencil;  ///< or null
 };
 
-/// All rays of a batch in its order. Pencils that do not run `toward` their apex, or do, are no
-/// pencils here.
+/// All rays of a batch in its order. Pencils that run in the other direction than `toward` says are
+/// traced as single rays.
 std::vector<RayRange> ranges_of(const RayBatch& batch, bool toward) {
   std::vector<RayRange> ranges;
   std::size_t next = 0;
@@ -174,43 +173,89 @@ struct QueryState {
   Counting counting;
 };
 
-/// Answers the rays of a batch. `some(rays, first, unit, counting)` answers the first rays of those
-/// of a pencil, and `single(i, counting)` those of them of which `is_undecided(i)` holds then;
-/// `list(range, counting)` answers all other rays but those that ProbeRay cannot probe, and returns
-/// whether there are some, which `single` answers. `parallel`: parts are distributed among all
-/// cores; answers and counts are the same.
-template <class Counting, class Some, class Undecided, class List, class Single>
-void answer(const SeenBatch& seen, bool toward, bool parallel, Counting& counting, Some some,
-            Undecided is_undecided, List list, Single single) {
+/// The query for closest hits of a batch, part by part. Away from an apex, as mirrors send rays.
+template <class Counting>
+struct ClosestOfBatch {
+  static constexpr bool kToward = false;
+  const TileBeam& structure;
+  const TileKernels& kernels;
+  const SeenBatch& seen;
+  const HitSpan& hits;
+
+  AnsweredRays pencil(const PencilRays& rays, std::size_t first, PencilUnit& unit,
+                      Counting& counting) const {
+    return seen.kernels.queries<Counting>().closest_hits(rays, unit, hits, first, counting);
+  }
+  bool is_undecided(std::size_t i) const { return hits.t()[i] == kUndecidedT; }
+  bool list(const RayRange& range, Counting& counting) const {
+    return kernels.lists<Counting>().closest_hits(seen.hierarchy, seen.scene,
+                                                  seen.batch.rays.subspan(range.first, range.count),
+                                                  hits, range.first, counting);
+  }
+  void single(std::size_t i, Counting& counting) const {
+    hits.set(i, structure.find_closest(seen.batch.rays[i], counting));
+  }
+};
+
+/// The query for any hits of a batch, part by part. Toward an apex, as shadow rays run.
+template <class Counting>
+struct AnyOfBatch {
+  static constexpr bool kToward = true;
+  const TileBeam& structure;
+  const TileKernels& kernels;
+  const SeenBatch& seen;
+  std::span<std::uint8_t> hits;
+
+  AnsweredRays pencil(const PencilRays& rays, std::size_t first, PencilUnit& unit,
+                      Counting& counting) const {
+    return seen.kernels.queries<Counting>().any_hits(
+        rays, unit, hits.subspan(first, rays.rays.size()), counting);
+  }
+  bool is_undecided(std::size_t i) const { return hits[i] == kUndecided; }
+  bool list(const RayRange& range, Counting& counting) const {
+    return kernels.lists<Counting>().any_hits(seen.hierarchy, seen.scene,
+                                              seen.batch.rays.subspan(range.first, range.count),
+                                              hits.subspan(range.first, range.count), counting);
+  }
+  void single(std::size_t i, Counting& counting) const {
+    hits[i] = structure.find_any(seen.batch.rays[i], counting) ? 1 : 0;
+  }
+};
+
+/// Traces a batch: its pencils by `query.pencil`, and what that leaves undecided as single rays;
+/// all other rays by `query.list`, except those that ProbeRay cannot probe, which are single rays
+/// too. `parallel`: parts are distributed among all cores; hits and counts are the same.
+template <class Query, class Counting>
+void trace_parts(const SeenBatch& seen, const Query& query, bool parallel, Counting& counting) {
   using State = QueryState<Counting>;
-  const auto answer_pencil = [&](RayRange left, State& state) {
+  const auto trace_pencil = [&](RayRange left, State& state) {
     if (!state.unit) state.unit = std::make_unique_for_overwrite<PencilUnit>();
     while (left.count > 0) {
       const AnsweredRays answered =
-          some(seen.pencil_rays(left), left.first, *state.unit, state.counting);
+          query.pencil(seen.pencil_rays(left), left.first, *state.unit, state.counting);
       const std::size_t end = left.first + answered.count;
       for (std::size_t i = left.first; answered.some_undecided && i < end; ++i) {
-        if (is_undecided(i)) single(i, state.counting);
+        if (query.is_undecided(i)) query.single(i, state.counting);
       }
       left.first = end;
       left.count -= answered.count;
     }
   };
-  const auto answer_range = [&](const RayRange& range, State& state) {
-    if (range.pencil != nullptr) return answer_pencil(range, state);
-    if (!list(range, state.counting)) return;
+  const auto trace_range = [&](const RayRange& range, State& state) {
+    if (range.pencil != nullptr) return trace_pencil(range, state);
+    if (!query.list(range, state.counting)) return;
     for (std::size_t i = range.first; i < range.first + range.count; ++i) {
-      if (!bvh::ProbeRay::can_probe(seen.batch.rays[i])) single(i, state.counting);
+      if (!bvh::ProbeRay::can_probe(seen.batch.rays[i])) query.single(i, state.counting);
     }
   };
-  const std::vector<RayRange> ranges = ranges_of(seen.batch, toward);
+  const std::vector<RayRange> ranges = ranges_of(seen.batch, Query::kToward);
   tbb::enumerable_thread_specific<State> states;
   if (parallel) {
     const std::vector<RayRange> parts = seen.parts_of(ranges);
     tbb::parallel_for(std::size_t{0}, parts.size(),
-                      [&](std::size_t i) { answer_range(parts[i], states.local()); });
+                      [&](std::size_t i) { trace_range(parts[i], states.local()); });
   } else {
-    for (const RayRange& range : ranges) answer_range(range, states.local());
+    for (const RayRange& range : ranges) trace_range(range, states.local());
   }
   for (const State& state : states) counting.add(state.counting);
 }
@@ -227,28 +272,12 @@ std::size_t solid_bytes(const TileHierarchy& hierarchy) {
 void TileBeam::closest_hits(const RaySource& rays, const HitSpan& hits,
                             const QueryContext& context) const {
   if (const PrimaryRays* image = rays.image()) return trace_image(*image, hits, context);
-  if (rays.batch() != nullptr && !hierarchy_.empty()) {
-    return trace_batch(*rays.batch(), hits, context.counters);
+  if (rays.batch() == nullptr || hierarchy_.empty()) {
+    return TraversalAccelerator::closest_hits(rays, hits, context);
   }
-  TraversalAccelerator::closest_hits(rays, hits, context);
-}
-
-void TileBeam::trace_batch(const RayBatch& batch, const HitSpan& buffer,
-                           WorkCounters* counters) const {
-  const SeenBatch seen{hierarchy_, *scene_, *pencil_kernels_, batch};
-  with_counting(counters, [&]<class Counting>(Counting& counting) {
-    answer(
-        seen, false, parallel_, counting,
-        [&](const PencilRays& rays, std::size_t first, PencilUnit& unit, Counting& own) {
-          return pencil_kernels_->queries<Counting>().closest_hits(rays, unit, buffer, first, own);
-        },
-        [&](std::size_t i) { return std::isnan(buffer.t()[i]); },
-        [&](const RayRange& range, Counting& own) {
-          return kernels_->lists<Counting>().closest_hits(
-              hierarchy_, *scene_, batch.rays.subspan(range.first, range.count), buffer,
-              range.first, own);
-        },
-        [&](std::size_t i, Counting& own) { buffer.set(i, find_closest(batch.rays[i], own)); });
+  const SeenBatch seen{hierarchy_, *scene_, *pencil_kernels_, *rays.batch()};
+  with_counting(context.counters, [&]<class Counting>(Counting& counting) {
+    trace_parts(seen, ClosestOfBatch<Counting>{*this, *kernels_, seen, hits}, parallel_, counting);
   });
 }
 
@@ -257,22 +286,9 @@ void TileBeam::any_hits(const RaySource& rays, std::span<std::uint8_t> hits,
   if (rays.batch() == nullptr || hierarchy_.empty()) {
     return TraversalAccelerator::any_hits(rays, hits, context);
   }
-  const RayBatch& batch = *rays.batch();
-  const SeenBatch seen{hierarchy_, *scene_, *pencil_kernels_, batch};
+  const SeenBatch seen{hierarchy_, *scene_, *pencil_kernels_, *rays.batch()};
   with_counting(context.counters, [&]<class Counting>(Counting& counting) {
-    answer(
-        seen, true, parallel_, counting,
-        [&](const PencilRays& rays, std::size_t first, PencilUnit& unit, Counting& own) {
-          return pencil_kernels_->queries<Counting>().any_hits(
-              rays, unit, hits.subspan(first, rays.rays.size()), own);
-        },
-        [&](std::size_t i) { return hits[i] == kUndecided; },
-        [&](const RayRange& range, Counting& own) {
-          return kernels_->lists<Counting>().any_hits(hierarchy_, *scene_,
-                                                      batch.rays.subspan(range.first, range.count),
-                                                      hits.subspan(range.first, range.count), own);
-        },
-        [&](std::size_t i, Counting& own) { hits[i] = find_any(batch.rays[i], own) ? 1 : 0; });
+    trace_parts(seen, AnyOfBatch<Counting>{*this, *kernels_, seen, hits}, parallel_, counting);
   });
 }
 

@@ -71,7 +71,6 @@ class TileBeam : public TraversalAccelerator<TileBeam> {
 
  private:
   void trace_image(const PrimaryRays& rays, const HitSpan& hits, const QueryContext& context) const;
-  void trace_batch(const RayBatch& batch, const HitSpan& hits, WorkCounters* counters) const;
   std::vector<BeamPlace> places_in_image(const PrimaryRays& rays) const;
   std::vector<BeamPlace> places_in_batch(const RayBatch& batch) const;
 

@@ -226,11 +226,11 @@ class Builder {
 void TileCones::set(std::size_t lane, const glm::dvec3& along, double half_angle) {
   // By more than the rounding of the test, so that what is left out is turned away beyond doubt.
   constexpr double kWider = 1.001;
-  constexpr double kLeast = 1e-6;
+  constexpr double kMin = 1e-6;
   for (int i = 0; i < 3; ++i)
     axis[static_cast<std::size_t>(i)][lane] = static_cast<float>(along[i]);
   const double sine = std::sin(half_angle);
-  sine_squared[lane] = static_cast<float>(kWider * sine * sine + kLeast);
+  sine_squared[lane] = static_cast<float>(kWider * sine * sine + kMin);
 }
 
 TileHierarchy build_tile_hierarchy(const scenes::Scene& scene,

@@ -108,8 +108,8 @@ inline bool hides(TileImage& image, const SampleRectangle& where, float inverse_
   const unsigned right = where.right >> 3U;
   const unsigned top = where.top >> 3U;
   const unsigned bottom = where.bottom >> 3U;
-  constexpr unsigned kMostCells = 40;  // the test of more would cost more than it saves
-  if ((right - left + 1) * (bottom - top + 1) > kMostCells) return false;
+  constexpr unsigned kMaxCells = 40;  // the test of more would cost more than it saves
+  if ((right - left + 1) * (bottom - top + 1) > kMaxCells) return false;
   for (unsigned row = top; row <= bottom; ++row) {
     for (unsigned column = left; column <= right; ++column) {
       if (!HzCell(image, column, row).hides(inverse_t)) return false;

@@ -109,14 +109,14 @@ std::vector<Overhead> largest_overheads(std::span<const CellRecord> cells) {
 }
 
 std::vector<std::string> reasons_for_care(const measure::Run& run) {
-  constexpr double kMostArePrecise = 0.8;
-  constexpr std::size_t kLeastForInterval = 6;
+  constexpr double kPrecisePart = 0.8;
+  constexpr std::size_t kMinForInterval = 6;
   std::size_t timed = 0, imprecise = 0, without_interval = 0;
   for (const CellRecord& cell : run.cells) {
     if (!cell.has_times()) continue;
     ++timed;
     if (cell.stop_reason != measure::StopReason::kPrecision) ++imprecise;
-    if (cell.repetitions.size() < kLeastForInterval) ++without_interval;
+    if (cell.repetitions.size() < kMinForInterval) ++without_interval;
   }
   const Conditions conditions = measure::conditions_of(run.manifest);
   std::vector<std::string> reasons;
@@ -129,14 +129,14 @@ std::vector<std::string> reasons_for_care(const measure::Run& run) {
   }
   if (const auto throttled = measure::describe(conditions.throttling))
     reasons.push_back(*throttled);
-  if (static_cast<double>(timed - imprecise) < kMostArePrecise * static_cast<double>(timed)) {
+  if (static_cast<double>(timed - imprecise) < kPrecisePart * static_cast<double>(timed)) {
     reasons.push_back(fmt::format("{} of {} less precise than wanted", imprecise,
                                   base::counted(timed, "timed cell")));
   }
   if (without_interval > 0) {
     reasons.push_back(fmt::format("{} of {} repeated fewer than {} times, so without intervals",
                                   without_interval, base::counted(timed, "timed cell"),
-                                  kLeastForInterval));
+                                  kMinForInterval));
   }
   if (!run.is_ended()) reasons.emplace_back("the run was cut off");
   return reasons;

@@ -54,16 +54,16 @@ constexpr std::string_view kAuto = "auto";
 
 /// Nothing for `auto`.
 std::optional<double> parse_exposure(std::string_view text) {
-  constexpr double kMostStops = 32.0;
+  constexpr double kMaxStops = 32.0;
   if (text == kAuto) return std::nullopt;
   double stops = 0.0;
   const char* const stop = text.data() + text.size();
   const char* const start = text.starts_with('+') ? text.data() + 1 : text.data();
   const auto [at, error] = std::from_chars(start, stop, stops);
-  if (error == std::errc() && at == stop && std::abs(stops) <= kMostStops) return stops;
+  if (error == std::errc() && at == stop && std::abs(stops) <= kMaxStops) return stops;
   throw InputError(fmt::format(
       "--exposure '{}' is neither '{}' nor a number of stops from -{} to {}; write it as -0.5",
-      text, kAuto, kMostStops, kMostStops));
+      text, kAuto, kMaxStops, kMaxStops));
 }
 
 /// The shadings that show light, not numbers as colors.

@@ -26,7 +26,7 @@ namespace beambench::cli {
 namespace {
 
 /// As in the default sweep: beyond, `exhaustive` would take all the time there is.
-constexpr int kMostForExhaustive = 1000;
+constexpr int kMaxForExhaustive = 1000;
 
 struct TimeRequest {
   std::vector<std::string> scenes;
@@ -94,7 +94,7 @@ nlohmann::json sweep_of(const TimeRequest& request) {
           {"precision", 0.02},
           {"repetitions", {{"minimum", 6}, {"maximum", 200}}},
           {"budget_seconds", request.seconds},
-          {"exclude", {{{"structure", "exhaustive"}, {"primitives_above", kMostForExhaustive}}}}};
+          {"exclude", {{{"structure", "exhaustive"}, {"primitives_above", kMaxForExhaustive}}}}};
 }
 
 /// The sweep is JSON, whose texts are UTF-8.

@@ -140,7 +140,7 @@ Repetition Contender::time_once(const Instruments& instruments,
           });
         });
         HardwareCounts trace_counts = instruments.counters.count([&] {
-          trace = time_phase([&] { task_->ask(*structure); }, cpu_clock(instruments.threads));
+          trace = time_phase([&] { task_->trace(*structure); }, cpu_clock(instruments.threads));
         });
         if (instruments.threads > 1) trace_counts = {};  // they are of the calling thread alone
         state.SetIterationTime(1e-3 * (build.wall_ms + trace.wall_ms));
@@ -164,7 +164,7 @@ Repetition Contender::time_once(const Instruments& instruments,
 void Contender::trace_warm(const accel::Accelerator& structure) {
   const MeasuringFloatMode mode;
   task_->poison();
-  const PhaseTime again = time_phase([&] { task_->ask(structure); });
+  const PhaseTime again = time_phase([&] { task_->trace(structure); });
   record_.repetitions.back().warm_trace_ms = again.wall_ms;
   spent_ms_ += again.wall_ms;
   if (task_->fingerprint() == record_.hits_hash) return;

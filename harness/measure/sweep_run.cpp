@@ -98,15 +98,15 @@ struct OpenGroup {
 /// rays fit into memory and that an interrupted run has little to repeat. One that is larger is
 /// measured alone, and one whose rays are in a file, since their number is not known yet.
 std::size_t batch_size(std::span<const CellGroup> groups, std::size_t first) {
-  constexpr double kMostRays = 4e6;
-  constexpr std::size_t kMostGroups = 8;
+  constexpr double kMaxRays = 4e6;
+  constexpr std::size_t kMaxGroups = 8;
   double rays = 0.0;
   std::size_t end = first;
-  for (; end < groups.size() && end - first < kMostGroups; ++end) {
+  for (; end < groups.size() && end - first < kMaxGroups; ++end) {
     const CellGroup& group = groups[end];
     if (group.scene != groups[first].scene || !group.rays.file.empty()) break;
     rays += estimated_rays(group);
-    if (rays > kMostRays) break;
+    if (rays > kMaxRays) break;
   }
   return std::max<std::size_t>(end - first, 1);
 }

@@ -52,7 +52,7 @@ class RaysTask : public Task {
   void require_support(const accel::StructureChoice& choice) const override {
     rays::require_support(choice, input());
   }
-  void ask(const accel::Accelerator& structure) override {
+  void trace(const accel::Accelerator& structure) override {
     rays::trace(structure, input(), results_, nullptr, group_.threads);
   }
   CountedWork count(const accel::Accelerator& structure) override {
@@ -94,7 +94,7 @@ class RaysTask : public Task {
     const bool is_simd = path == QueryPath::kImageSimd || path == QueryPath::kListPacked;
     const char* const rays = is_simd ? "simd" : "single";
     const auto null = accel::registry().choose({"null", {{"rays", rays}}}).build(scene());
-    return harness_ms(core_, [&] { ask(*null); });
+    return harness_ms(core_, [&] { trace(*null); });
   }
   const rays::TraceInput& input() const { return reference_.input(); }
 
@@ -151,7 +151,7 @@ class PictureTask : public Task {
   void require_support(const accel::StructureChoice& choice) const override {
     render::require_support(choice);
   }
-  void ask(const accel::Accelerator& structure) override {
+  void trace(const accel::Accelerator& structure) override {
     structure.closest_hits(rays_, hits_, {});
     draw({&structure, &structure, &structure});
   }
@@ -212,9 +212,9 @@ class PictureTask : public Task {
                              census.eye + census.reflected + census.refracted);
     if (census.shadow > 0) facts_.occluded_share = share(census.shadow_hidden, census.shadow);
   }
-  render::RayCensus draw(const render::Answerers& answerers) {
+  render::RayCensus draw(const render::RayStructures& structures) {
     return render::draw_in_order(
-        render::Whitted(shaded_, answerers, options_, rays::HitCheck(scene())), rays_, hits_,
+        render::Whitted(shaded_, structures, options_, rays::HitCheck(scene())), rays_, hits_,
         image_);
   }
 

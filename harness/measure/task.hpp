@@ -43,7 +43,7 @@ class Task {
   /// Throws UnsupportedError where a structure does not take these rays.
   virtual void require_support(const accel::StructureChoice& choice) const = 0;
   /// Traces with a structure. This is what is timed.
-  virtual void ask(const accel::Accelerator& structure) = 0;
+  virtual void trace(const accel::Accelerator& structure) = 0;
   /// The same, counting work.
   virtual CountedWork count(const accel::Accelerator& structure) = 0;
   /// Of all results, bit for bit.

@@ -102,8 +102,8 @@ void run_apart(std::function<void(const StopRequest&)> work) {
 void PartSize::adapt(double seconds) {
   constexpr double kShort = 0.05;  // seconds
   constexpr double kLong = 0.2;
-  constexpr std::size_t kMost = std::size_t{1} << 18U;
-  if (seconds < kShort) rays_ = std::min(2 * rays_, kMost);
+  constexpr std::size_t kMax = std::size_t{1} << 18U;
+  if (seconds < kShort) rays_ = std::min(2 * rays_, kMax);
   if (seconds > kLong) rays_ = std::max<std::size_t>(rays_ / 2, 1);
 }
 

@@ -86,9 +86,9 @@ void trace_in_parts(std::span<const accel::Ray> rays, const Trace& trace) {
 
 /// A hit buffer is as wide as an int.
 void require_count(std::size_t rays) {
-  constexpr std::size_t kMost = std::numeric_limits<int>::max();
-  if (rays <= kMost) return;
-  throw InputError(fmt::format("there are {} rays; give at most {} at once", rays, kMost));
+  constexpr std::size_t kMax = std::numeric_limits<int>::max();
+  if (rays <= kMax) return;
+  throw InputError(fmt::format("there are {} rays; give at most {} at once", rays, kMax));
 }
 
 Hits closest_hits(const StructureHandle& structure, const RaysIn& given, bool counting) {

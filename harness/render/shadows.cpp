@@ -145,20 +145,21 @@ std::size_t LightBuffer::cell_of(const dvec3& direction) const {
                     cell_at(direction[(axis + 2) % 3] / depth, cells_), cells_);
 }
 
-LightBuffer::Answer LightBuffer::ask(const accel::Ray& to_light, std::uint64_t& tests) const {
+LightBuffer::Visibility LightBuffer::visibility(const accel::Ray& to_light,
+                                                std::uint64_t& tests) const {
   const dvec3 from_light = dvec3(to_light.origin) - light_;
   const double distance = glm::length(from_light);
   const std::size_t cell = cell_of(from_light);
   const accel::CanonicalRay ray(to_light);
-  Answer answer = Answer::kFree;
+  Visibility found = Visibility::kFree;
   for (std::size_t i = first_[cell]; i < first_[cell + 1] && entries_[i].near <= distance; ++i) {
     ++tests;
     const scenes::PrimitiveId id = entries_[i].primitive;
     if (!accel::is_hit(accel::intersect(ray, *scene_, id))) continue;
-    if (transmittance_of(*scene_, id) <= 0.0F) return Answer::kHidden;
-    answer = Answer::kTransparent;
+    if (transmittance_of(*scene_, id) <= 0.0F) return Visibility::kHidden;
+    found = Visibility::kTransparent;
   }
-  return answer;
+  return found;
 }
 
 std::size_t LightBuffer::memory_bytes() const {
@@ -244,13 +245,13 @@ double Shadows::asked_by_cache(const accel::Ray& to_light, scenes::PrimitiveId& 
 
 double Shadows::asked_by_buffer(const accel::Ray& to_light, std::size_t light,
                                 RayCensus& census) const {
-  const LightBuffer::Answer answer = buffers_[light].ask(to_light, census.shadow_tests);
-  if (answer == LightBuffer::Answer::kTransparent) {
+  const LightBuffer::Visibility found = buffers_[light].visibility(to_light, census.shadow_tests);
+  if (found == LightBuffer::Visibility::kTransparent) {
     scenes::PrimitiveId unused = scenes::kNoPrimitive;
     return followed(to_light, unused, census);
   }
   ++census.shadow_listed;
-  return answer == LightBuffer::Answer::kHidden ? 0.0 : 1.0;
+  return found == LightBuffer::Visibility::kHidden ? 0.0 : 1.0;
 }
 
 /// Goes from surface to surface, each time from a little behind it, as all rays begin a little

@@ -24,8 +24,8 @@ constexpr std::array<std::string_view, 3> kOverlayNames{"beams", "cells", "penci
 
 std::vector<ParameterInfo> parameters_of(Overlay overlay) {
   if (overlay != Overlay::kPencils) return {};
-  constexpr int kMostLights = 1'000'000;
-  return {integer_parameter("light", 1, 1, kMostLights, "whose shadow rays; the first is 1")};
+  constexpr int kMaxLights = 1'000'000;
+  return {integer_parameter("light", 1, 1, kMaxLights, "whose shadow rays; the first is 1")};
 }
 
 /// Whether a structure has what the overlay draws, tried over a scene where it would show it.

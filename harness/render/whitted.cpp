@@ -126,14 +126,14 @@ struct Whitted::Spawned {
   std::vector<rays::VirtualEye> eyes;
 };
 
-Whitted::Whitted(std::shared_ptr<const ShadedScene> scene, const Answerers& answerers,
+Whitted::Whitted(std::shared_ptr<const ShadedScene> scene, const RayStructures& structures,
                  const WhittedOptions& options, rays::HitCheck check)
     : shaded_(std::move(scene)),
       scene_(&shaded_->scene()),
-      answerers_(answerers),
+      structures_(structures),
       check_(std::move(check)),
       options_(options),
-      shadows_(*scene_, *answerers.shadow, options, check_),
+      shadows_(*scene_, *structures.shadow, options, check_),
       kernels_(&place_kernels(accel::targets_of("best"))) {}
 
 Whitted::Progress Whitted::begin() const {
@@ -311,11 +311,11 @@ Whitted::Spawned Whitted::spawned(const Found& found, const Part& part, Progress
     glass_samples.push_back(found.sample[i]);
     is_glass.push_back(true);
   }
-  const accel::HitBuffer mirror_hits =
-      traced(*answerers_.reflected, pencils.arranged({mirror_rays, {}, mirror_samples, part.image}),
-             progress.census.reflected);
+  const accel::HitBuffer mirror_hits = traced(
+      *structures_.reflected, pencils.arranged({mirror_rays, {}, mirror_samples, part.image}),
+      progress.census.reflected);
   const accel::HitBuffer glass_hits =
-      traced(*answerers_.refracted, {glass_rays, {}, glass_samples, part.image},
+      traced(*structures_.refracted, {glass_rays, {}, glass_samples, part.image},
              progress.census.refracted);
   next.hits.reserve(is_glass.size());
   std::size_t mirrors = 0, glasses = 0;

@@ -22,7 +22,7 @@
 namespace beambench::render {
 
 /// The structure for each kind of rays: one for all, or others that watch its queries.
-struct Answerers {
+struct RayStructures {
   const accel::Accelerator* reflected;
   const accel::Accelerator* refracted;
   const accel::Accelerator* shadow;
@@ -63,7 +63,7 @@ class Whitted {
           const WhittedOptions& options, rays::HitCheck check)
       : Whitted(std::make_shared<const ShadedScene>(scene), {&structure, &structure, &structure},
                 options, std::move(check)) {}
-  Whitted(std::shared_ptr<const ShadedScene> scene, const Answerers& answerers,
+  Whitted(std::shared_ptr<const ShadedScene> scene, const RayStructures& structures,
           const WhittedOptions& options, rays::HitCheck check);
 
   /// What a part of a picture, made by one thread in one order, remembers and counts.
@@ -103,7 +103,7 @@ class Whitted {
 
   std::shared_ptr<const ShadedScene> shaded_;
   const scenes::Scene* scene_;
-  Answerers answerers_;
+  RayStructures structures_;
   rays::HitCheck check_;
   WhittedOptions options_;
   Shadows shadows_;

@@ -24,7 +24,7 @@ constexpr Real kFar = std::numeric_limits<Real>::infinity();
 
 /// The least distance that the arithmetic of the tests in double can resolve, as a part of the
 /// distance to the farthest point of a primitive.
-constexpr double kLeastPart = 0x1p-50;
+constexpr double kMinPart = 0x1p-50;
 
 /// The line of a ray, with a direction of unit length.
 struct RayLine {
@@ -286,7 +286,7 @@ double tolerance_in(const scenes::Bounds& box, const accel::Ray& ray, double t) 
   const glm::dvec3 origin(ray.origin);
   const glm::dvec3 reach =
       glm::max(glm::abs(glm::dvec3(box.lower) - origin), glm::abs(glm::dvec3(box.upper) - origin));
-  return std::max(tolerance(ray, t), kLeastPart * glm::length(reach));
+  return std::max(tolerance(ray, t), kMinPart * glm::length(reach));
 }
 
 }  // namespace

@@ -86,14 +86,14 @@ ControlGroups control_groups(std::string_view controller, const fs::path& root) 
   // group, the mount point, and after a dash the type, the source and the options.
   constexpr std::size_t kMounted = 3;
   constexpr std::size_t kPoint = 4;
-  constexpr std::size_t kLeastBeforeDash = 6;
+  constexpr std::size_t kMinBeforeDash = 6;
   ControlGroups groups;
   const Membership own = membership(controller, root);
   const std::string mounts = kernel_text(root / "proc/self/mountinfo");
   for (const std::string_view line : split(mounts, '\n')) {
     const std::vector<std::string_view> words = split(line, ' ');
-    if (words.size() < kLeastBeforeDash) continue;
-    const auto dash = std::find(words.begin() + kLeastBeforeDash, words.end(), "-");
+    if (words.size() < kMinBeforeDash) continue;
+    const auto dash = std::find(words.begin() + kMinBeforeDash, words.end(), "-");
     if (words.end() - dash < 4) continue;
     const fs::path mount = root / fs::path(unescaped(words[kPoint])).relative_path();
     const std::string mounted = unescaped(words[kMounted]);

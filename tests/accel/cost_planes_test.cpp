@@ -18,7 +18,7 @@
 #include "accel/core/tolerance.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
 #include "accel/octree/for_each_node.hpp"
-#include "accel/octree/glassner.hpp"
+#include "accel/octree/from_root.hpp"
 #include "accel/octree/samet.hpp"
 #include "scenes/base/error.hpp"
 #include "scenes/base/random.hpp"

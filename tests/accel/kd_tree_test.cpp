@@ -277,7 +277,7 @@ TEST(KdTreeClip, KeepsThePartOfATriangle) {
   scenes::SceneBuilder builder("triangle");
   builder.add_polygon(std::array<glm::dvec3, 3>{{{0, 0, 0}, {4, 0, 0}, {0, 4, 4}}});
   const scenes::Scene scene = std::move(builder).build();
-  const bvh::Piece piece{0, 0};
+  const bvh::PrimitivePart piece{0, 0};
   expect_box(bvh::clipped_bounds(scene, piece, {{-1, -1, -1}, {5, 5, 5}}), {0, 0, 0}, {4, 4, 4});
   expect_box(bvh::clipped_bounds(scene, piece, {{1, -1, -1}, {2, 5, 5}}), {1, 0, 0}, {2, 3, 3});
   expect_box(bvh::clipped_bounds(scene, piece, {{2, 1, -1}, {5, 5, 5}}), {2, 1, 1}, {3, 2, 2});
@@ -289,7 +289,7 @@ TEST(KdTreeClip, KeepsThePartOfASphere) {
   scenes::SceneBuilder builder("sphere");
   builder.add_sphere(glm::dvec3(0.0), 1.0);
   const scenes::Scene scene = std::move(builder).build();
-  const bvh::Piece piece{0, 0};
+  const bvh::PrimitivePart piece{0, 0};
   expect_box(bvh::clipped_bounds(scene, piece, {{0.6, -2, -2}, {2, 2, 2}}), {0.6, -0.8, -0.8},
              {1, 0.8, 0.8});
   EXPECT_FALSE(bvh::clipped_bounds(scene, piece, {{-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}}))

@@ -24,16 +24,16 @@ namespace {
 /// A hierarchy over a scene by either builder.
 struct Built {
   explicit Built(const scenes::Scene& scene)
-      : pieces(bvh::collect_pieces(scene)),
+      : pieces(bvh::collect_parts(scene)),
         spatial(bvh::build_spatial_bvh(scene, pieces, overlap_tolerance(scene), {})) {
     std::vector<scenes::Bounds> boxes;
-    for (const bvh::Piece& piece : pieces) {
-      boxes.push_back(padded(bvh::piece_bounds(scene, piece), overlap_tolerance(scene)));
+    for (const bvh::PrimitivePart& piece : pieces) {
+      boxes.push_back(padded(bvh::part_bounds(scene, piece), overlap_tolerance(scene)));
     }
     binned = bvh::build_bvh(boxes, {});
   }
 
-  std::vector<bvh::Piece> pieces;
+  std::vector<bvh::PrimitivePart> pieces;
   bvh::BinaryBvh spatial;
   bvh::BinaryBvh binned;
 };
@@ -134,7 +134,7 @@ TEST(SpatialBuilder, EachPointOfASphereOrConeIsInALeafThatRefersToIt) {
   EXPECT_GT(built.spatial.items.size(), built.pieces.size()) << "nothing is divided";
   const LeavesOfPieces leaves = leaves_of_pieces(built);
   for (std::size_t item = 0; item < built.pieces.size(); ++item) {
-    const bvh::Piece& piece = built.pieces[item];
+    const bvh::PrimitivePart& piece = built.pieces[item];
     const bool is_sphere = scene.primitives[piece.primitive].kind == scenes::PrimitiveKind::kSphere;
     for (int i = 0; i < 100; ++i) {
       const glm::dvec3 direction = random_direction(random);

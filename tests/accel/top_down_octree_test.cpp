@@ -8,7 +8,7 @@
 
 #include "accel/core/work_counters.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
-#include "accel/octree/glassner.hpp"
+#include "accel/octree/from_root.hpp"
 #include "accel/octree/samet.hpp"
 #include "scenes/base/random.hpp"
 #include "tests/random_scene.hpp"

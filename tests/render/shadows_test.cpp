@@ -67,8 +67,8 @@ TEST(LightBuffer, AnswersAsASearchOfAllPrimitives) {
       std::uint64_t tests = 0;
       const bool expected = structure->any_hit(ray, nullptr);
       hidden += expected ? 1 : 0;
-      ASSERT_EQ(buffer.ask(ray, tests),
-                expected ? LightBuffer::Answer::kHidden : LightBuffer::Answer::kFree)
+      ASSERT_EQ(buffer.visibility(ray, tests),
+                expected ? LightBuffer::Visibility::kHidden : LightBuffer::Visibility::kFree)
           << "ray " << i;
     }
   }

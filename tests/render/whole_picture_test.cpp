@@ -37,7 +37,7 @@ accel::StructureChoice choice(const std::string& spec) {
 verify::DiffReport verified(measure::Task& task, const std::string& spec) {
   const auto structure = choice(spec).build(task.scene());
   task.poison();
-  task.ask(*structure);
+  task.trace(*structure);
   const std::uint64_t timed = task.fingerprint();
   verify::DiffReport report = task.verify_results(*structure, choice(spec)).report;
   EXPECT_EQ(task.fingerprint(), timed) << "what is verified is what was timed";
@@ -73,7 +73,7 @@ TEST(WholePicture, CountsWorkByKindOfRays) {
   const measure::CellGroup group = group_of(scene_of_all_surfaces(2));  // with glass
   const auto task = measure::make_task(group, -1);
   const auto structure = choice("exhaustive").build(task->scene());
-  task->ask(*structure);
+  task->trace(*structure);
   const std::uint64_t timed = task->fingerprint();
   const measure::CountedWork work = task->count(*structure);
   EXPECT_EQ(task->fingerprint(), timed);
@@ -148,7 +148,7 @@ TEST(WholePicture, AWrongRayThatFollowsIsFoundAndNamed) {
   for (const auto& [in, name] : {std::pair{WrongAlone::In::kClosest, "reflected rays, ray "},
                                  std::pair{WrongAlone::In::kAny, "shadow rays, ray "}}) {
     const WrongAlone structure(task->scene(), in);
-    task->ask(structure);
+    task->trace(structure);
     const measure::Verification found = task->verify_results(structure, choice("exhaustive"));
     EXPECT_EQ(found.report.verdict, verify::Verdict::kMismatch);
     EXPECT_GT(found.report.count(verify::DiffClass::kStructureError), 0U);

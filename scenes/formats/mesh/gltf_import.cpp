@@ -40,7 +40,7 @@ constexpr int kOwnVersion = 1;
 /// A short file may place a mesh many times: more triangles than this, or vertices of the
 /// primitives that have them, are refused before any is made. As a scene, so many need more than 20
 /// GB.
-constexpr std::size_t kMostTriangles = std::size_t{1} << 28U;
+constexpr std::size_t kMaxTriangles = std::size_t{1} << 28U;
 
 constexpr const char* kPosition = "POSITION";
 
@@ -106,14 +106,14 @@ std::optional<PlacedPrimitive> look_at(const tinygltf::Model& model,
   return PlacedPrimitive{&primitive, positions->second, corners, triangles};
 }
 
-/// Adds to a sum that must not exceed `kMostTriangles`.
+/// Adds to a sum that must not exceed `kMaxTriangles`.
 void add_bounded(std::size_t& sum, std::size_t more, std::string_view what) {
-  if (more <= kMostTriangles && sum + more <= kMostTriangles) {
+  if (more <= kMaxTriangles && sum + more <= kMaxTriangles) {
     sum += more;
     return;
   }
   throw InputError(fmt::format("its nodes place more than {} {}; split it, or reduce its triangles",
-                               kMostTriangles, what));
+                               kMaxTriangles, what));
 }
 
 /// The meshes of the nodes, as triangles in the scene's coordinates.

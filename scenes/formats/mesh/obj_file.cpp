@@ -24,7 +24,7 @@ namespace {
 }
 
 void read_vertex(const ObjStatement& statement, ObjFile& file) {
-  constexpr int kMost = 7;  // x y z, and r g b a
+  constexpr int kMax = 7;  // x y z, and r g b a
   glm::vec3 place(0.0F);
   std::string_view rest = statement.rest;
   int count = 0;
@@ -37,7 +37,7 @@ void read_vertex(const ObjStatement& statement, ObjFile& file) {
                                             excerpt(word)));
   }
   if (count < 3) refuse_line(statement.line, "a vertex has fewer than three coordinates");
-  if (count > kMost) {
+  if (count > kMax) {
     refuse_line(statement.line,
                 fmt::format("a vertex has {} numbers, but must have 3 coordinates and at most a "
                             "color of 4 numbers",

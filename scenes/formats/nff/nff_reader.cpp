@@ -431,7 +431,8 @@ NffResult read_nff(const std::filesystem::path& path, ReadOptions options) {
 void register_nff(Catalogue& catalogue) {
   catalogue.add_format(
       {[](std::string_view spec) {
-         return spec.find('/') != std::string_view::npos || spec.ends_with(".nff");
+         const std::filesystem::path path(spec);
+         return path.extension() == ".nff" || (path.has_parent_path() && !path.has_extension());
        },
        [](std::string_view spec, ReadOptions options, std::vector<std::string>& warnings) {
          NffResult result = read_nff(spec, options);

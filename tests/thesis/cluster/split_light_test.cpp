@@ -350,7 +350,7 @@ TEST(LightExchange, GivesEachThreadTheHitsOfItsRays) {
         for (std::size_t i = 0; i < rays.size(); ++i) {
           rays[i].ray.t_min = static_cast<float>(1000 * thread + 10 * round + i);
         }
-        const std::vector<accel::Hit> hits = exchange.ask(rays);
+        const std::vector<accel::Hit> hits = exchange.nearest_hits(rays);
         ASSERT_EQ(hits.size(), rays.size());
         for (std::size_t i = 0; i < rays.size(); ++i) EXPECT_EQ(hits[i].t, rays[i].ray.t_min);
       }
@@ -369,7 +369,7 @@ TEST(LightExchange, GivesEachThreadTheHitsOfItsRays) {
 TEST(LightExchange, RefusesAnAnswerThatNoRayWaitsFor) {
   LightExchange exchange;
   EXPECT_THROW(exchange.answer({0, kNoHit}), ProtocolError);
-  std::jthread asking([&] { exchange.ask(std::vector<LightRay>(1)); });
+  std::jthread asking([&] { exchange.nearest_hits(std::vector<LightRay>(1)); });
   std::vector<LightRay> rays;
   while (rays.empty()) rays = exchange.take(std::chrono::milliseconds(1));
   exchange.answer({rays.front().number, kNoHit});
@@ -379,7 +379,7 @@ TEST(LightExchange, RefusesAnAnswerThatNoRayWaitsFor) {
 TEST(LightExchange, LetsNoThreadWaitOnceItIsClosed) {
   LightExchange exchange;
   std::jthread asking(
-      [&] { EXPECT_THROW(exchange.ask(std::vector<LightRay>(3)), std::runtime_error); });
+      [&] { EXPECT_THROW(exchange.nearest_hits(std::vector<LightRay>(3)), std::runtime_error); });
   while (exchange.take(std::chrono::milliseconds(1)).empty()) {
   }
   exchange.close();

@@ -38,7 +38,7 @@ std::vector<accel::Hit> DividedScene::hits_of(const accel::RaySource& rays,
     crossing.push_back(light);
     places.push_back(i);
   });
-  const std::vector<accel::Hit> answers = exchange_->ask(std::move(crossing));
+  const std::vector<accel::Hit> answers = exchange_->nearest_hits(std::move(crossing));
   for (std::size_t i = 0; i < answers.size(); ++i) hits[places[i]] = answers[i];
   return hits;
 }

@@ -5,7 +5,7 @@
 
 namespace beambench::cluster {
 
-std::vector<accel::Hit> LightExchange::ask(std::vector<LightRay> rays) {
+std::vector<accel::Hit> LightExchange::nearest_hits(std::vector<LightRay> rays) {
   if (rays.empty()) return {};
   Round round{std::vector<accel::Hit>(rays.size()), rays.size()};
   std::unique_lock lock(mutex_);

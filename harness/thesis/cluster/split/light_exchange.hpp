@@ -18,7 +18,7 @@ class LightExchange {
  public:
   /// Waits until all rays are answered; returns their hits. Gives each ray its number. Throws
   /// std::runtime_error once the exchange is closed.
-  std::vector<accel::Hit> ask(std::vector<LightRay> rays);
+  std::vector<accel::Hit> nearest_hits(std::vector<LightRay> rays);
 
   /// The rays that were left since the last call. Waits a moment for some.
   std::vector<LightRay> take(std::chrono::microseconds moment);

@@ -44,7 +44,7 @@ std::optional<PartTracer::Exit> PartTracer::walk(const accel::Ray& ray, const Pl
   accel::NoCounting none;
   std::optional<Exit> exit;
   double t = from.t;
-  accel::octree::LeafWalk{octree, tracer_->neighbors(), ray, planes}.from(
+  accel::octree::LeafWalk{octree, tracer_->search(), ray, planes}.from(
       from.cursor, from.t, 0, none, [&](const accel::octree::OctreeNode& leaf, double exit_t) {
         if (const auto cell = foreign_->cell_at(static_cast<std::uint32_t>(&leaf - nodes))) {
           exit = Exit{*cell, t};

@@ -10,15 +10,15 @@ namespace beambench::accel::bvh {
 
 /// A triangle of a polygon, or a whole sphere or cone. The nearest hit of a polygon's triangles is
 /// the polygon's hit.
-struct Piece {
+struct PrimitivePart {
   scenes::PrimitiveId primitive;
   std::uint32_t index;  ///< into the scene's triangles, spheres or cones
 };
 
-/// The pieces of all primitives, in increasing id.
-std::vector<Piece> collect_pieces(const scenes::Scene& scene);
+/// The parts of all primitives, in increasing id.
+std::vector<PrimitivePart> collect_parts(const scenes::Scene& scene);
 
-/// The box of a piece, not widened.
-scenes::Bounds piece_bounds(const scenes::Scene& scene, const Piece& piece);
+/// The box of a part, not widened.
+scenes::Bounds part_bounds(const scenes::Scene& scene, const PrimitivePart& part);
 
 }  // namespace beambench::accel::bvh
