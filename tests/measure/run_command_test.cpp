@@ -134,7 +134,7 @@ TEST_F(RunCommand, WrongRequestsGetOneSentence) {
   write_sweep({"null"});
   folder_.write("broken.json", "{\n  \"name\": oops\n}");
   folder_.write("file", "");
-  expect_refused("", {"no configuration", "--resume"});
+  expect_refused("", {"no sweep given", "--resume"});
   expect_refused("missing.json", {"missing.json: cannot be read: No such file"});
   expect_refused("broken.json", {"broken.json:2:11", "not JSON"});
   expect_refused("tiny.json -o file/record", {"cannot make the folder", "file/record"});
