@@ -48,7 +48,7 @@ struct OffHeader {
 
 bool is_decimal_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Notes what the letters before `OFF` say.
+/// Records the letters before `OFF`.
 void read_letters(std::string_view letters, OffHeader& header, const TextLines& lines) {
   while (!letters.empty()) {
     std::size_t length = 1;
@@ -71,8 +71,9 @@ void read_letters(std::string_view letters, OffHeader& header, const TextLines& 
   }
 }
 
-/// Takes the keyword. Returns the first count where it stands in the same word, as in a keyword's
-/// place and, a known fault of files of ModelNet, after it ("OFF490"); else nothing.
+/// Takes the keyword. Returns the first count if it is in the same word: in place of the keyword
+/// or, as in some faulty files of ModelNet, directly after it ("OFF490"). Otherwise returns
+/// nothing.
 std::string_view take_off_keyword(OffHeader& header, TextLines& lines) {
   const std::string_view word = lines.word();
   constexpr std::string_view kKeyword = "OFF";
@@ -126,7 +127,7 @@ void next_row(TextLines& lines, std::string_view what, std::uint64_t row, std::u
                   count, what, row));
 }
 
-/// Takes what is left of the line. Returns how many numbers it was.
+/// Takes the rest of the line. Returns the number of its numbers.
 std::size_t skip_numbers(TextLines& lines, std::string_view what, std::uint64_t row) {
   std::size_t count = 0;
   for (auto word = lines.word(); !word.empty(); word = lines.word()) {

@@ -54,7 +54,7 @@ void require_end_of_line(TextLines& lines) {
   }
 }
 
-/// Refuses a name that is in the set, into which it goes.
+/// Adds a name to the set; refuses it if it is already there.
 void require_new(std::string_view name, std::set<std::string_view>& names, std::string_view what,
                  const TextLines& lines) {
   if (names.insert(name).second) return;

@@ -26,8 +26,8 @@ std::optional<double> integer_within(std::string_view word) {
   return static_cast<double>(*number);
 }
 
-/// Returns the number that a word of the type stands for: what a binary file with this type would
-/// hold, so that both give the same mesh. A double is exact for every type.
+/// Returns the value of a word of the type: the same as in a binary file with this type, so that
+/// both give the same mesh. A double represents every type exactly.
 std::optional<double> ply_number(std::string_view word, PlyType type) {
   switch (type) {
     case PlyType::kInt8:
