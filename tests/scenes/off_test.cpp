@@ -130,9 +130,9 @@ TEST(Off, APointCloudIsRefusedInWordsOfOurOwn) {
 TEST(Off, WhatIsNoNumberIsRefusedWithItsLine) {
   for (const char* word : {"1,5", "x", "1e", "0x1"}) {
     EXPECT_TRUE(says(off_refusal(triangle_off(fmt::format("0 {} 0", word))),
-                     {"a.off: line 3: vertex 0: ", fmt::format("'{}' is no number", word)}));
+                     {"a.off: line 3: vertex 0: ", fmt::format("'{}' is not a number", word)}));
     EXPECT_TRUE(says(off_refusal(triangle_off("0 0 0", fmt::format("3 0 1 2 {}", word))),
-                     {"a.off: line 6: face 0: ", fmt::format("'{}' is no number", word)}));
+                     {"a.off: line 6: face 0: ", fmt::format("'{}' is not a number", word)}));
   }
   EXPECT_TRUE(says(off_refusal(triangle_off("0 1.#QNAN 0")), {"line 3: vertex 0 has fewer"}))
       << "# begins a comment";

@@ -60,7 +60,7 @@ TEST(PlyRows, VerticesThatAreNotThereAreRefused) {
   const std::string real = ply_file("ascii", vertices(3) + faces(1, "uchar float"), {});
   for (const char* index : {"1.5", "nan", "inf", "1e30"}) {
     EXPECT_TRUE(says(ply_refusal(real + "0 0 0\n1 0 0\n0 1 0\n3 0 1 " + index + "\n"),
-                     {"line 13: face 0: ", "no number of a vertex"}));
+                     {"line 13: face 0: ", "not the number of a vertex"}));
   }
   for (const std::string_view encoding : {kPlyEncodings[1], kPlyEncodings[2]}) {
     const std::string bytes = ply_file(

@@ -76,7 +76,7 @@ std::size_t triangle_count(int mode, std::size_t corners, std::string_view name)
   if (mode != TINYGLTF_MODE_TRIANGLES) return corners < 3 ? 0 : corners - 2;
   if (corners % 3 != 0) {
     refuse_gltf(
-        fmt::format("{} has triangles of {} corners, which is no multiple of 3", name, corners));
+        fmt::format("{} has triangles of {} corners, which is not a multiple of 3", name, corners));
   }
   return corners / 3;
 }

@@ -88,7 +88,7 @@ std::vector<PlacedNode> placed_nodes(const tinygltf::Model& model) {
     const tinygltf::Node& node = element_of(model.nodes, next.node, "node", "a node or scene");
     if (reached[static_cast<std::size_t>(next.node)]) {
       refuse_gltf(
-          fmt::format("node {} is in its scene twice, so its nodes are no tree", next.node));
+          fmt::format("node {} is in its scene twice, so the nodes do not form a tree", next.node));
     }
     reached[static_cast<std::size_t>(next.node)] = true;
     const glm::dmat4 to_world = next.parent * local_matrix(node, next.node);

@@ -68,7 +68,7 @@ ImportedMesh cached_import(const fs::path& path, const std::string& ending,
   if (cached.state == CachedMesh::State::kFound) return std::move(cached.mesh);
   if (cached.state == CachedMesh::State::kDamaged) {
     notes.push_back(
-        fmt::format("its copy in the cache {} was damaged and is made anew", folder.string()));
+        fmt::format("its copy in the cache {} was damaged and is made again", folder.string()));
   }
   ImportedMesh imported = import();
   if (!cache_mesh(folder, key, imported)) {

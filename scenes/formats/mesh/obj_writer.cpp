@@ -12,7 +12,7 @@ namespace beambench::scenes::mesh {
 void write_obj(const Scene& scene, std::ostream& stream) {
   if (!scene.spheres.empty() || !scene.cones.empty()) {
     throw InputError(fmt::format(
-        "'{}' has {} spheres and {} cones, which OBJ has no words for; write it as .nff",
+        "'{}' has {} spheres and {} cones, which OBJ cannot express; write it as .nff",
         scene.name, scene.spheres.size(), scene.cones.size()));
   }
   constexpr std::size_t kBlock = 1U << 16U;  // bytes passed to the stream at a time

@@ -75,7 +75,7 @@ void require_vertex_list(const PlyElement& element) {
     if (!is_vertex_list(property)) continue;
     ++lists;
     if (!property.length_type) {
-      refuse_property(element, fmt::format("with '{}' that is no list", property.name));
+      refuse_property(element, fmt::format("with '{}' that is not a list", property.name));
     }
   }
   if (lists != 1) {
@@ -220,7 +220,7 @@ class PlyBody {
     const double number = rows_.number(type);
     constexpr double kLargest = 0x1p53;
     if (!(std::abs(number) <= kLargest) || number != std::floor(number)) {
-      rows_.refuse(fmt::format("'{}' is no number of a vertex", number));
+      rows_.refuse(fmt::format("'{}' is not the number of a vertex", number));
     }
     return static_cast<std::int64_t>(number);
   }

@@ -76,7 +76,7 @@ double PlyTextRows::number(PlyType type) {
   const std::string_view text = word();
   const auto number = ply_number(text, type);
   if (!number) {
-    refuse(fmt::format("'{}' is no number of the type {}", excerpt(text), name_of(type)));
+    refuse(fmt::format("'{}' is not a number of the type {}", excerpt(text), name_of(type)));
   }
   return *number;
 }
