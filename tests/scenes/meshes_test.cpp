@@ -304,7 +304,7 @@ TEST_F(Meshes, DamagedCacheFilesAreNoticedAndMadeAnew) {
     std::vector<std::string> warnings;
     EXPECT_EQ(scene_hash(load_scene(path, &warnings)), hash);
     ASSERT_EQ(warnings.size(), 1U);
-    EXPECT_TRUE(says(warnings[0], {"a.obj", "damaged", "made anew"}));
+    EXPECT_TRUE(says(warnings[0], {"a.obj", "damaged", "made again"}));
     EXPECT_EQ(read_text(file), good);
   };
   for (std::size_t size = 0; size < good.size(); size += 7) expect_repair(good.substr(0, size));

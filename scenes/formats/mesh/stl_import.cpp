@@ -165,8 +165,8 @@ ImportedMesh read_stl(std::string_view bytes) {
   if (is_text_stl(bytes)) return read_text_stl(bytes);
   if (!size) {
     throw InputError(
-        "it is not an STL file: text must begin with 'solid', and a binary file has 84 bytes or "
-        "more; "
+        "it is not an STL file: text must begin with 'solid', and a binary file has at least 84 "
+        "bytes; "
         "export it again");
   }
   throw InputError(
