@@ -1,4 +1,4 @@
-// What must be true of the census of a picture's rays, and of a scene's growth.
+// Properties of the census of a picture's rays, and of a scene's growth.
 
 #include "harness/experiments/census.hpp"
 

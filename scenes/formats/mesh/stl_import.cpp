@@ -166,8 +166,7 @@ ImportedMesh read_stl(std::string_view bytes) {
   if (!size) {
     throw InputError(
         "it is not an STL file: text must begin with 'solid', and a binary file has at least 84 "
-        "bytes; "
-        "export it again");
+        "bytes; export it again");
   }
   throw InputError(
       fmt::format("the number of its facets, {}, gives it {} bytes, but it has {}: it is cut off, "
