@@ -52,8 +52,8 @@ const SceneFormat* find_format(std::string_view spec) {
   return found == formats.end() ? nullptr : &*found;
 }
 
-/// Every structure agrees on a scene without primitives, so that a comparison says nothing: of a
-/// file, the first remark says what became of those that were meant.
+/// A scene without primitives would make every structure agree and a comparison meaningless. For a
+/// file, the first warning says why its primitives were skipped.
 void require_primitives(const Scene& scene, const std::vector<std::string>& noticed) {
   if (!scene.primitives.empty()) return;
   throw InputError(

@@ -12,8 +12,9 @@ namespace {
 
 constexpr std::uint32_t kWordBits = 64;
 
-/// Can a point of the rectangle lie on the left of the line from a to b, or on it? `signed_area` is
-/// monotonic, so that no rounding makes this false for a point whose own area is not negative.
+/// Returns whether a point of the rectangle can lie on the left of the line from a to b, or on it.
+/// `signed_area` is monotonic, so rounding never makes this false for a point whose own area is not
+/// negative.
 template <class Rectangle>
 bool may_be_left(const glm::dvec2& a, const glm::dvec2& b, const Rectangle& box) {
   const glm::dvec2 most_left{b.y - a.y >= 0.0 ? box.lower.x : box.upper.x,
@@ -78,7 +79,7 @@ CornerTree::CornerTree(std::span<const glm::dvec2> points, std::vector<std::uint
 }
 
 std::pair<std::size_t, std::size_t> CornerTree::slots_of(std::size_t node) const {
-  const std::size_t level = std::bit_floor(node);  // its first node, and how many it has
+  const std::size_t level = std::bit_floor(node);  // the level's first node and node count
   const std::size_t place = node - level;
   return {slots_.size() * place / level, slots_.size() * (place + 1) / level};
 }

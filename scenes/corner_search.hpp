@@ -1,5 +1,5 @@
 #pragma once
-// How ear clipping finds its next corner, and a corner in its way, without looking at all of them.
+// Finds the next corner for ear clipping, and a corner in its way, without looking at all of them.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,15 +19,15 @@ inline double signed_area(const glm::dvec2& a, const glm::dvec2& b, const glm::d
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// A set of the numbers 0 ... size - 1. A bit for each number, a bit for each 64 of them that holds
-/// whether there is one, and so on: each call takes time in proportion to log size.
+/// A set of numbers in 0 ... size - 1. It has a bit for each number, a bit for each group of 64
+/// that holds whether the group has a member, and so on: each call takes O(log size).
 class CornerSet {
  public:
   explicit CornerSet(std::uint32_t size);
 
   /// Puts a number in or takes it out.
   void assign(std::uint32_t number, bool member);
-  /// The first member from `number` on, and from 0 on after the last; nothing when there is none.
+  /// Returns the first member from `number` on, wrapping around to 0; nothing if the set is empty.
   std::optional<std::uint32_t> next(std::uint32_t number) const;
 
  private:
@@ -41,7 +41,7 @@ class CornerSet {
   std::vector<std::uint64_t> words_;
 };
 
-/// A k-d tree over some points of the plane, from which points are taken away (Bentley 1975).
+/// A k-d tree over points of the plane from which points are removed (Bentley 1975).
 class CornerTree {
  public:
   /// `corners` are numbers of `points`, which must outlive the tree.
@@ -49,11 +49,11 @@ class CornerTree {
 
   bool empty() const { return nodes_.empty() || nodes_[kRoot].left == 0; }
   bool has(std::uint32_t corner) const { return !empty() && leaf_of_[corner] != kNoLeaf; }
-  /// A corner that is left and lies in the closed triangle, by the signs of `signed_area`, and not
-  /// at the place of one of its own corners; nothing when there is none.
+  /// Returns a remaining corner that lies in the closed triangle, by the signs of `signed_area`,
+  /// but not at the place of one of the triangle's own corners; nothing if there is none.
   std::optional<std::uint32_t> find_in_triangle(const glm::dvec2& a, const glm::dvec2& b,
                                                 const glm::dvec2& c) const;
-  /// Takes a corner away that is in the tree.
+  /// Removes a corner that is in the tree.
   void remove(std::uint32_t corner);
 
  private:
@@ -63,7 +63,7 @@ class CornerTree {
   };
   struct Node {
     Rectangle box;           ///< of all corners that were ever below it
-    std::uint32_t left = 0;  ///< corners that are left below it; in a leaf, its first slots
+    std::uint32_t left = 0;  ///< corners remaining below it; in a leaf, its first slots
   };
   static constexpr std::uint32_t kNoLeaf = 0;
   static constexpr std::size_t kRoot = 1;  ///< the children of node n are 2n and 2n + 1

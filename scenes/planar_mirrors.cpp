@@ -40,7 +40,8 @@ bool reflects(const Scene& scene, const Primitive& primitive) {
          scene.surfaces[primitive.surface].specular > 0.0F;
 }
 
-/// Corners and triangles, whose own normals are those that rays are reflected by.
+/// Returns whether corners and triangles lie in the mirror's plane; rays are reflected by the
+/// triangles' own normals.
 bool lies_in(const Scene& scene, const Polygon& polygon, const PlanarMirror& mirror) {
   constexpr double kTolerance = 0x1p-22;
   const double distance = kTolerance * double{scene.bounds.largest_coordinate()};
@@ -57,16 +58,18 @@ bool lies_in(const Scene& scene, const Polygon& polygon, const PlanarMirror& mir
   });
 }
 
-/// A cell of the space of planes: normal and distance, rounded.
+/// A cell of the space of planes: rounded normal and distance.
 using PlaneCell = std::array<std::int64_t, 4>;
 
-/// Only planes in one cell are compared, so that a million small mirrors take little time. Two
-/// halves of a plane that fall into neighboring cells are two mirrors, which show the same.
+/// Only planes in the same cell are compared, so that a million small mirrors take little time. If
+/// two halves of a plane fall into neighboring cells, they are two mirrors that show the same
+/// image.
 PlaneCell cell_of(const Scene& scene, const PlanarMirror& mirror) {
   constexpr double kNormals = 0x1p8;
   constexpr double kDistances = 0x1p10;
   dvec3 normal = mirror.normal;
-  for (int axis = 0; axis < 3; ++axis) {  // a plane has two normals: the one whose first axis is up
+  // A plane has two normals; use the one whose first nonzero component is positive.
+  for (int axis = 0; axis < 3; ++axis) {
     if (std::abs(normal[axis]) < 0.5 / kNormals) continue;
     normal *= normal[axis] < 0.0 ? -1.0 : 1.0;
     break;

@@ -10,7 +10,7 @@
 
 namespace beambench::scenes {
 
-/// Flat-shaded polygons of one plane whose surfaces reflect.
+/// Coplanar flat-shaded polygons whose surfaces reflect.
 struct PlanarMirror {
   glm::dvec3 point;   ///< of the plane
   glm::dvec3 normal;  ///< of the plane, unit length
@@ -18,11 +18,11 @@ struct PlanarMirror {
   Bounds bounds{};  ///< of the polygons
 };
 
-/// A scene's planar mirrors, by the lowest primitive id: flat-shaded polygons whose surface has a
-/// specular factor, those of one plane together. Plane and polygons agree to the rounding of floats
-/// (their normals, and their distances as parts of the scene's largest coordinate, to 2^-22), so
-/// that all rays from one point are reflected as if they came from its image behind the mirror. A
-/// polygon whose corners do not lie in a plane is none.
+/// Returns a scene's planar mirrors, ordered by their lowest primitive ids. Each combines all
+/// coplanar flat-shaded polygons whose surface has a specular factor. Plane and polygons agree to
+/// the rounding of floats (2^-22 for their normals, and for their distances relative to the scene's
+/// largest coordinate), so that all rays from one point are reflected as if they came from its
+/// image behind the mirror. A polygon whose corners are not coplanar is not a mirror.
 std::vector<PlanarMirror> planar_mirrors(const Scene& scene);
 
 }  // namespace beambench::scenes

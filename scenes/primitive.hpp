@@ -14,7 +14,7 @@ inline constexpr PrimitiveId kNoPrimitive = 0xFFFFFFFFU;
 
 enum class PrimitiveKind : std::uint32_t { kSphere, kCone, kPolygon };
 
-/// What stands at a primitive id: the kind, the index in that kind's array of the scene, and the
+/// The entry of a primitive id: the kind, the index in the scene's array of that kind, and the
 /// index of its surface.
 struct Primitive {
   PrimitiveKind kind;

@@ -70,7 +70,8 @@ std::size_t bytes_of(const std::vector<T>& list) {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// The largest float that is not above a + b. Knuth's two-sum gives what the sum in double lost.
+/// Returns the largest float that is not above a + b. Knuth's two-sum yields the rounding error of
+/// the sum in double.
 float sum_rounded_down(double a, double b) {
   const double sum = a + b;
   const double part = sum - a;

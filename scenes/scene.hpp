@@ -1,5 +1,5 @@
 #pragma once
-// The scene: what structures are built over and rays are traced against.
+// The scene over which structures are built and against which rays are traced.
 
 #include <cstddef>
 #include <cstdint>
@@ -22,11 +22,11 @@ struct Light {
   glm::vec3 color{1.0F};
 };
 
-/// A scene in single precision, rounded once, the same bits for everyone. Made by `SceneBuilder`,
-/// which checks all of it: no NaN, no infinity, no coordinate beyond 1e9, no degenerate primitive.
-/// Everything is indexed by 32 bits. Treat it as read-only once built.
+/// A scene in single precision, rounded once, so that all structures receive the same bits. Made by
+/// `SceneBuilder`, which checks all of it: no NaN, no infinity, no coordinate beyond 1e9, no
+/// degenerate primitive. Everything is indexed by 32 bits. Treat it as read-only once built.
 struct Scene {
-  std::string name;             ///< printable; of a file, `path_of_name` leads back to its path
+  std::string name;             ///< printable; for a file, `path_of_name` restores the path
   std::vector<Camera> cameras;  ///< never empty; the first is the default
   glm::vec3 background{0.0F};
   std::vector<Light> lights;
@@ -44,18 +44,18 @@ struct Scene {
   Bounds bounds;  ///< of all primitives; empty for an empty scene
 };
 
-/// The tight bounds of one primitive, rounded outward to float (a sphere's c + r may not be
+/// Returns the tight bounds of one primitive, rounded outward to float (a sphere's c + r may not be
 /// representable). For a cone: the box of its two end discs.
 Bounds primitive_bounds(const Scene& scene, PrimitiveId id);
 
-/// Bytes of the scene's arrays, their spare capacity included.
+/// Returns the bytes of the scene's arrays, including spare capacity.
 std::size_t memory_bytes(const Scene& scene);
 
-/// A 64-bit hash of what rays can hit: primitives, their coordinates and order (XXH3 over the bits;
-/// not surfaces, lights or cameras). Equal on every machine.
+/// Returns a 64-bit hash of what rays can hit: primitives, their coordinates and order (XXH3 over
+/// the bits; not surfaces, lights or cameras). Equal on every machine.
 std::uint64_t scene_hash(const Scene& scene);
 
-/// The camera of that name. Throws InputError that lists the scene's cameras.
+/// Returns the camera of that name. Throws InputError with a list of the scene's cameras.
 const Camera& find_camera(const Scene& scene, std::string_view name);
 
 }  // namespace beambench::scenes

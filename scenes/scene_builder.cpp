@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kLargestResolution = 65535;
 
-/// What is being added, for messages; formatted only when there is one.
+/// The subject of error messages; formatted only if there is an error.
 struct Subject {
   const char* words;  // "sphere (primitive {})"
   std::size_t number;
@@ -37,7 +37,7 @@ std::string message(const Subject& subject, const std::string& why) {
   throw DegeneratePrimitive(message(subject, why));
 }
 
-/// The one rounding to float; -0 becomes 0, so that equal scenes have equal bits.
+/// Rounds to float, once; -0 becomes 0, so that equal scenes have equal bits.
 float rounded(double number, const Subject& subject, const char* what) {
   if (!(std::abs(number) <= kLargestNumber)) {  // catches NaN too
     refuse(subject,
@@ -100,7 +100,7 @@ glm::dvec3 polygon_normal(std::span<const glm::vec3> corners) {
   return glm::normalize(normal);
 }
 
-/// The merged corners' normals; `replaced` counts those of length 0.
+/// Returns the merged corners' normals; `replaced` counts those of length 0.
 std::vector<glm::vec3> corner_normals(const MergedCorners& corners,
                                       std::span<const glm::dvec3> normals, const Subject& subject,
                                       std::size_t& replaced) {
@@ -117,7 +117,7 @@ std::vector<glm::vec3> corner_normals(const MergedCorners& corners,
   return kept;
 }
 
-/// Camera names are typed on command lines and stand in a line of NFF.
+/// Camera names are typed on command lines and written on a line of NFF.
 void require_plain_name(const std::string& name, const Subject& subject) {
   const bool plain = std::none_of(
       name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == '\x7F' || c == '#'; });
@@ -133,8 +133,8 @@ void append(std::vector<T>& list, const std::vector<T>& more) {
   list.insert(list.end(), more.begin(), more.end());
 }
 
-/// The eye that far from the center, but no coordinate beyond the limit: where there is no room, it
-/// is put on the origin's side or nearer.
+/// Returns the eye at that distance from the center, without exceeding the coordinate limit: if
+/// there is not enough room, the eye is moved to the origin's side or nearer.
 glm::dvec3 fitted_eye(const glm::dvec3& center, double distance) {
   glm::dvec3 direction = glm::normalize(glm::dvec3(1.0, 0.8, 1.3));
   double room = distance;
@@ -323,7 +323,7 @@ void SceneBuilder::add_polygon(std::span<const std::uint32_t> vertices,
 bool SceneBuilder::add_flat_triangle(std::span<const std::uint32_t> vertices) {
   const std::array<std::uint32_t, 3> corners{vertices[0], vertices[1], vertices[2]};
   if (*std::max_element(corners.begin(), corners.end()) >= scene_.vertices.size()) return false;
-  // Three corners of which two are at the same place have no area, either.
+  // Three corners, two of which are at the same place, have no area either.
   const auto at = [&](std::size_t i) { return scene_.vertices[corners[i]]; };
   if (!has_area(at(0), at(1), at(2))) return false;
   const std::size_t first_corner = scene_.corners.size();
@@ -360,7 +360,7 @@ void SceneBuilder::add_polygon(std::span<const glm::dvec3> vertices,
 
 std::uint32_t SceneBuilder::current_surface() {
   if (surface_index_) return *surface_index_;
-  // Generators cycle through a few surfaces, millions of times; an older one is added again.
+  // Generators cycle through a few surfaces, millions of times; older ones are added again.
   constexpr std::size_t kRemembered = 64;
   auto& surfaces = scene_.surfaces;
   const auto oldest =

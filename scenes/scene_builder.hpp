@@ -28,28 +28,27 @@ class DegeneratePrimitive : public InputError {
 /// No coordinate, radius or factor of a scene may be larger than this in size.
 inline constexpr double kLargestNumber = 1e9;
 
-/// How often a builder repaired something instead of refusing it.
+/// Counts of what a builder repaired instead of refusing it.
 struct Repairs {
-  std::size_t merged_corners = 0;    ///< of polygons: at the place of the corner before
-  std::size_t replaced_normals = 0;  ///< of length 0, by the polygon's own
+  std::size_t merged_corners = 0;    ///< polygon corners at the place of the preceding corner
+  std::size_t replaced_normals = 0;  ///< normals of length 0, replaced by the polygon's own
 };
 
 /// Collects primitives into a `Scene`. Each add_* rounds its numbers to float, checks them and
 /// throws `InputError` naming the primitive (by kind and the id it would have had) when a number is
-/// NaN, infinite or beyond 1e9 in size, or the primitive is degenerate. Callers that know a file
-/// and line put them in front of the message.
+/// NaN, infinite or beyond 1e9 in size, or the primitive is degenerate. Callers that read a file
+/// put its name and line in front of the message.
 class SceneBuilder {
  public:
   explicit SceneBuilder(std::string_view name);
 
-  /// Primitives added from now on have this surface. The first default is a white matte one.
+  /// Sets the surface of primitives added from now on. The default is matte white.
   void set_surface(const Surface& surface);
   void set_background(const glm::dvec3& color);
   void add_light(const glm::dvec3& position, const glm::dvec3& color = glm::dvec3(1.0));
-  /// Throws when the angle is not in (0, 180), from == at, up is parallel to the view, or the
-  /// resolution is not from 1x1 to 65535x65535, or the name is not one line of text without '#' and
-  /// without blanks at its ends. The
-  /// scene has the name as `printable` shows it.
+  /// Throws if the angle is not in (0, 180), from == at, up is parallel to the view, the resolution
+  /// is not from 1x1 to 65535x65535, or the name is not one line of text without '#' and without
+  /// blanks at its ends. The scene has the name as `printable` shows it.
   void add_camera(const Camera& camera);
 
   /// A negative radius means seen from the inside only; 0 is refused.
@@ -59,48 +58,48 @@ class SceneBuilder {
   void add_cone(const glm::dvec3& base, double base_radius, const glm::dvec3& apex,
                 double apex_radius);
 
-  /// Makes room for so many vertices and flat triangles more, which spares growing.
+  /// Reserves memory for additional vertices and flat triangles.
   void reserve_triangles(std::size_t vertices, std::size_t triangles);
   /// Adds a vertex that polygons can share; returns its index.
   std::uint32_t add_vertex(const glm::dvec3& position);
-  /// A polygon over shared vertices. `normals` is empty (flat) or one per corner; a normal of
+  /// Adds a polygon over shared vertices. `normals` is empty (flat) or one per corner; a normal of
   /// length 0 is replaced by the polygon's own. Consecutive corners at the same place are merged; a
   /// polygon with fewer than three distinct corners, or with no area, is refused.
   void add_polygon(std::span<const std::uint32_t> vertices,
                    std::span<const glm::dvec3> normals = {});
-  /// The same with vertices of its own. A refused primitive leaves the builder as it was.
+  /// Adds a polygon with its own vertices. A refused primitive leaves the builder as it was.
   void add_polygon(std::span<const glm::dvec3> vertices, std::span<const glm::dvec3> normals = {});
 
   std::size_t primitive_count() const { return scene_.primitives.size(); }
   const Repairs& repairs() const { return repairs_; }
 
-  /// The finished scene. Throws when its box is smaller than `kMinExtent`. Without a camera, one
-  /// is fitted to the bounds: from (1, 0.8, 1.3), up +z as in most NFF files, angle 45, the whole
-  /// scene in view as far as the eye can be moved back within the limit of coordinates.
+  /// Returns the finished scene. Throws if its box is smaller than `kMinExtent`. Without a camera,
+  /// one is fitted to the bounds: from (1, 0.8, 1.3), up +z as in most NFF files, angle 45, the
+  /// whole scene in view as far as the eye can be moved back within the limit of coordinates.
   Scene build() &&;
 
  private:
   std::uint32_t current_surface();
   void add_primitive(PrimitiveKind kind, std::size_t index);
-  /// The fast path for flat triangles, without allocations. False, and nothing is added, when the
+  /// Adds a flat triangle without allocations. Returns false, without adding anything, if the
   /// triangle is not valid.
   bool add_flat_triangle(std::span<const std::uint32_t> vertices);
 
   Scene scene_;
   Surface surface_;
-  std::optional<std::uint32_t> surface_index_;  ///< of surface_, once a primitive has it
+  std::optional<std::uint32_t> surface_index_;  ///< of surface_, once a primitive uses it
   Repairs repairs_;
 };
 
 /// The smallest diagonal of a scene's box. Rounding is relative, so that a scene may have any size
 /// until products of its lengths leave the range of float. By experiment (`finishes`, triangles,
-/// spheres and cones, scaled down): everything is right at diagonals of 3e-12; Embree loses
+/// spheres and cones, scaled down): everything is correct at diagonals of 3e-12; Embree loses
 /// triangles from 3e-13 on down, and cones, spheres, tile beams and the boxes of sah-bvh fail
 /// between 1e-18 and 1e-21. The limit leaves a factor of a thousand.
 inline constexpr double kMinExtent = 1e-9;
 
-/// Why a scene with these bounds is too small, as a clause that says what to do; empty when it is
-/// not, or has no primitives.
+/// Returns why a scene with these bounds is too small, as a clause that includes the remedy; empty
+/// if it is large enough or has no primitives.
 std::string extent_fault(const Bounds& bounds);
 
 }  // namespace beambench::scenes

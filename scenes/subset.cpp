@@ -5,7 +5,7 @@
 namespace beambench::scenes {
 namespace {
 
-/// Copies primitives with all that they refer to, each vertex once.
+/// Copies primitives with everything that they refer to, each vertex once.
 class Selection {
  public:
   Selection(const Scene& whole, Scene& part) : whole_(whole), part_(part) {}

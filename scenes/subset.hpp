@@ -1,5 +1,5 @@
 #pragma once
-// A scene of some primitives of another.
+// Makes a scene of some of another scene's primitives.
 
 #include <span>
 
@@ -7,8 +7,8 @@
 
 namespace beambench::scenes {
 
-/// The primitives with these ids, in their order, bit for bit, each vertex once, with all surfaces,
-/// lights and cameras. Bounds are those of the chosen primitives.
+/// Returns the primitives with these ids, in their order, bit for bit, each vertex once, with all
+/// surfaces, lights and cameras. The bounds are those of the chosen primitives.
 Scene subset(const Scene& scene, std::span<const PrimitiveId> ids);
 
 }  // namespace beambench::scenes

@@ -12,7 +12,8 @@ struct FinishEntry {
   Surface surface;
 };
 
-/// By `Finish`: the word, then color, diffuse, specular, shine, transmittance, index.
+/// The finishes, indexed by `Finish`: the word, then color, diffuse, specular, shine,
+/// transmittance, index.
 constexpr std::array<FinishEntry, 13> kFinishes = {{
     {"f", {}},
     {"surfreflect", {{1.0F, 1.0F, 1.0F}, 0.1F, 0.9F, 200, 0, 1, Finish::kReflect}},

@@ -1,5 +1,5 @@
 #pragma once
-// What a primitive's surface is made of.
+// The material of a primitive's surface.
 
 #include <cstdint>
 #include <optional>
@@ -10,7 +10,7 @@
 namespace beambench::scenes {
 
 /// The surfaces and textures that the thesis adds to NFF (annex A, "Extensiones"). `kPlain` is
-/// everything that NFF's `f` can say by itself.
+/// anything that NFF's `f` can express by itself.
 enum class Finish : std::uint8_t {
   kPlain,
   kReflect,
@@ -27,8 +27,8 @@ enum class Finish : std::uint8_t {
   kWhiteMarble,
 };
 
-/// NFF's `f`: color, diffuse and specular factors, Phong exponent, transmittance, index; and a
-/// finish. Code that draws no textures uses the numbers alone.
+/// NFF's `f` (color, diffuse and specular factors, Phong exponent, transmittance, index) and a
+/// finish. Code that does not draw textures uses only the numbers.
 struct Surface {
   glm::vec3 color{1.0F};
   float diffuse = 1.0F;
@@ -41,14 +41,15 @@ struct Surface {
   bool operator==(const Surface&) const = default;
 };
 
-/// The NFF word of a finish: `surfglass`, `texredmarble`...; `f` of a plain one.
+/// Returns the NFF word of a finish: `surfglass`, `texredmarble`...; `f` for a plain one.
 std::string_view finish_word(Finish finish);
 
-/// The finish that an NFF word of the thesis names; none for any other word, `f` included.
+/// Returns the finish that an NFF word of the thesis names; nothing for any other word, including
+/// `f`.
 std::optional<Finish> find_finish(std::string_view word);
 
-/// The surface that a finish's word stands for. The thesis gives no numbers: a texture has its mean
-/// color, a mirror reflects nearly all, glass transmits nearly all. Plain is white and matte.
+/// Returns the surface of a finish. The thesis gives no numbers: a texture has its mean color, a
+/// mirror reflects nearly all light, glass transmits nearly all. Plain is white and matte.
 Surface finished_surface(Finish finish);
 
 }  // namespace beambench::scenes

@@ -13,9 +13,9 @@
 namespace beambench::scenes {
 namespace {
 
-/// The corners projected along the largest axis of the polygon's normal, mirrored where needed so
-/// that the polygon runs counter-clockwise; nothing when it has no area. Differences to the first
-/// corner keep their bits far from the origin.
+/// Projects the corners along the largest axis of the polygon's normal, mirrored if needed so that
+/// the polygon runs counter-clockwise; nothing if it has no area. Differences to the first corner
+/// keep their precision far from the origin.
 std::optional<std::vector<glm::dvec2>> project(std::span<const glm::vec3> corners) {
   std::vector<glm::dvec3> relative;
   relative.reserve(corners.size());
@@ -40,8 +40,8 @@ std::optional<std::vector<glm::dvec2>> project(std::span<const glm::vec3> corner
   return points;
 }
 
-/// What is left of a polygon while ears are clipped off it: a ring of corner numbers. What is known
-/// of each corner is kept, and only that of a corner's neighbors changes when it goes.
+/// The remaining polygon while ears are clipped off: a ring of corner numbers. Facts about each
+/// corner are kept; when a corner is removed, only those of its neighbors change.
 class Ring {
  public:
   explicit Ring(std::vector<glm::dvec2> points)
@@ -60,15 +60,15 @@ class Ring {
   std::uint32_t next(std::uint32_t i) const { return next_[i]; }
   std::uint32_t previous(std::uint32_t i) const { return previous_[i]; }
 
-  /// Twice the area of the triangle that would go with corner i.
+  /// Returns twice the area of the triangle that would be removed with corner i.
   double ear_area(std::uint32_t i) const {
     return signed_area(points_[previous_[i]], points_[i], points_[next_[i]]);
   }
 
-  /// The corner to clip next, the first of its kind from `start` on: an ear; failing that, a corner
-  /// without area, so that corners on a straight edge are kept as long as another triangle can use
-  /// them (neighbors that share such a corner then meet without a crack); failing that, the polygon
-  /// crosses itself and any convex corner will do.
+  /// Returns the corner to clip next, the first of its kind from `start` on: an ear; failing that,
+  /// a corner without area, so that corners on a straight edge are kept as long as another triangle
+  /// can use them (neighbors that share such a corner then meet without a crack); failing that, the
+  /// polygon crosses itself and any convex corner will do.
   std::optional<std::uint32_t> next_to_clip(std::uint32_t start) {
     while (const auto corner = may_be_ear_.next(start)) {
       if (is_ear(*corner)) return corner;
@@ -114,9 +114,10 @@ class Ring {
     return area;
   }
 
-  /// Is a convex corner an ear, because no other lies in its closed triangle? It is enough to look
-  /// at corners that are not convex, and a convex corner stays convex (Eberly 2002); a corner at
-  /// the very place of one of the triangle's own (a bridge to a hole) does not count.
+  /// Returns whether a convex corner is an ear, that is, whether its closed triangle contains no
+  /// other corner. It suffices to look at corners that are not convex, and a convex corner stays
+  /// convex (Eberly 2002). A corner at exactly the place of one of the triangle's own (a bridge to
+  /// a hole) does not count.
   bool is_ear(std::uint32_t i) {
     const auto found =
         not_convex_.find_in_triangle(points_[previous_[i]], points_[i], points_[next_[i]]);
@@ -126,13 +127,13 @@ class Ring {
     return false;
   }
 
-  /// Corner i has other neighbors.
+  /// Updates corner i after a change of its neighbors.
   void take_new_neighbors(std::uint32_t i) {
     if (classify(i) > 0.0) is_out_of_the_way(i);
     if (!in_its_way_.empty()) in_its_way_[i] = kNone;
   }
 
-  /// Corner i has gone or become convex: corners for which it was found may be ears now.
+  /// Updates the corners that corner i blocked, which may be ears now that it is gone or convex.
   void is_out_of_the_way(std::uint32_t i) {
     if (!not_convex_.has(i)) return;
     not_convex_.remove(i);
@@ -146,10 +147,10 @@ class Ring {
   std::vector<std::uint32_t> previous_;
   CornerSet convex_;
   CornerSet without_area_;
-  CornerSet may_be_ear_;  ///< convex, and no corner is known that is in its way
+  CornerSet may_be_ear_;  ///< convex, and not known to be blocked
   CornerTree not_convex_;
-  std::vector<std::uint32_t> in_its_way_;                  ///< by corner that is no ear
-  std::vector<std::vector<std::uint32_t>> in_the_way_of_;  ///< the other way around
+  std::vector<std::uint32_t> in_its_way_;                  ///< by corner that is not an ear
+  std::vector<std::vector<std::uint32_t>> in_the_way_of_;  ///< the inverse
 };
 
 }  // namespace

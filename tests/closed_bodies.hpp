@@ -46,7 +46,7 @@ inline scenes::modelling::PolygonMesh bumpy(const char* name) {
 
 inline constexpr int kTorusSlices = 24;
 
-/// On a ring about z of radius 1, itself of radius `thickness`.
+/// Returns a point on the ring of radius 1 about z whose tube has the radius `thickness`.
 inline glm::dvec3 torus_point(double u, double v, double thickness) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
   const double radius = 1.0 + thickness * portable_cos(kTurn * v);
@@ -89,7 +89,7 @@ inline glm::dvec3 direction_from(Random& random) {
   return glm::normalize(verify::point_in_cube(random));
 }
 
-/// Turned, scaled and moved; now and then only moved, so that faces have the world's axes.
+/// Turned, scaled and moved; sometimes only moved, so that faces are parallel to the world's axes.
 struct Placement {
   explicit Placement(Random& random) {
     if (random.below(4) == 0) return;

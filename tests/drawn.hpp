@@ -1,5 +1,5 @@
 #pragma once
-// What tests of the whole ray tracer share: rays and pictures drawn, colors by hand.
+// Shared by the tests of the whole ray tracer: rays and pictures drawn, colors by hand.
 
 #include <array>
 #include <cstddef>
@@ -23,7 +23,7 @@ inline std::unique_ptr<accel::Accelerator> built(const scenes::Scene& scene,
   return accel::registry().choose(parse_spec(spec)).build(scene);
 }
 
-/// The light along one camera ray, the only one of its image.
+/// Returns the light along one camera ray, the only one of its image.
 inline glm::dvec3 light_along(const render::Whitted& tracer, const accel::Ray& ray,
                               const std::optional<accel::Hit>& hit,
                               render::Whitted::Progress& progress) {
@@ -37,7 +37,7 @@ inline glm::dvec3 light_along(const render::Whitted& tracer, const accel::Ray& r
   return color;
 }
 
-/// What an eye sees along one ray.
+/// Returns the light seen along one ray.
 inline glm::dvec3 seen(const scenes::Scene& scene, const glm::dvec3& origin,
                        const glm::dvec3& direction, const render::WhittedOptions& options = {}) {
   const auto structure = built(scene, "exhaustive");
@@ -49,7 +49,7 @@ inline glm::dvec3 seen(const scenes::Scene& scene, const glm::dvec3& origin,
   return light_along(tracer, ray, structure->closest_hit(ray, nullptr), progress);
 }
 
-/// But for the little by which rays begin beside surfaces.
+/// Compares colors with a tolerance for the small distance between surfaces and ray origins.
 inline void expect_color(const glm::dvec3& color, const glm::dvec3& expected) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(color[i], expected[i], 2e-5) << "component " << i;
 }
@@ -74,7 +74,7 @@ inline scenes::SceneBuilder with_light(const glm::dvec3& position,
   return builder;
 }
 
-/// A random scene with lights and mirrors, and with glass where the seed is even.
+/// A random scene with lights and mirrors, and with glass if the seed is even.
 inline scenes::Scene scene_of_all_surfaces(std::uint64_t seed) {
   scenes::Scene scene = tests::random_scene(seed, 60);
   Random random(seed);

@@ -1,5 +1,5 @@
 #pragma once
-// The modes of the Embree that is built in: version 4 has one less.
+// The modes of the installed Embree; version 4 has one less.
 
 #include <algorithm>
 #include <string>

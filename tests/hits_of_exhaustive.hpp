@@ -1,5 +1,5 @@
 #pragma once
-// A structure beside exhaustive search, ray by ray.
+// Compares a structure with exhaustive search, ray by ray.
 
 #include <cstdint>
 
@@ -12,7 +12,8 @@
 
 namespace beambench::tests {
 
-/// Expects the hits of exhaustive search of `rays` difficult rays, and of the same rays any hit.
+/// Expects the hits of exhaustive search for `rays` difficult rays, and the same for any-hit
+/// queries.
 inline void expect_hits_of_exhaustive(const scenes::Scene& scene,
                                       const accel::Accelerator& structure, std::uint64_t seed,
                                       int rays) {

@@ -1,5 +1,5 @@
 #pragma once
-// Tests of every instruction set that this machine has.
+// Runs tests on every instruction set of this machine.
 
 #include <cstdint>
 

@@ -1,5 +1,6 @@
 #pragma once
-// Images by beams, sample by sample: each belongs to one beam, whatever the beams are cut by.
+// Checks images by beams, sample by sample: each sample belongs to one beam, whatever the beams are
+// cut by.
 
 #include <array>
 #include <cmath>
@@ -21,7 +22,7 @@
 
 namespace beambench::tests {
 
-/// How often each place of the hit buffer was painted, and what became of samples.
+/// Counts how often each place of the hit buffer was painted, and how samples ended.
 class PaintWatch : public accel::beam::NoBeamWatch {
  public:
   static constexpr bool kPaintsLeaving = true;
@@ -40,9 +41,9 @@ class PaintWatch : public accel::beam::NoBeamWatch {
   std::array<std::uint64_t, 3> reasons_{};
 };
 
-/// Traces an image and checks that each sample whose ray `meets` the structure is painted once,
-/// every other never, that none was left over by a cell too crowded, and that hits are those of
-/// `exhaustive`, of all samples or of one in `stride`. Returns what became of samples.
+/// Traces an image and checks that each sample whose ray `meets` the structure is painted once and
+/// every other sample never, that no cell was too crowded to paint a sample, and that the hits of
+/// all samples, or of every `stride`-th, are those of `exhaustive`. Returns how samples ended.
 template <class Tracer, class Meets>
 PaintWatch expect_painted_once(const scenes::Scene& scene, const Tracer& tracer, const Meets& meets,
                                const accel::PrimaryRays& rays, std::size_t stride = 1) {

@@ -1,5 +1,5 @@
 #pragma once
-// What is true of the pencils of a batch.
+// Properties of the pencils of a batch.
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,8 @@
 
 namespace beambench::tests {
 
-/// By how much a ray passes beside a point, in units of what floats round of the numbers involved.
+/// Returns the distance at which a ray passes a point, in units of the float rounding of the
+/// numbers involved.
 inline double roundings_beside(const accel::Ray& ray, const glm::dvec3& apex, double extent) {
   const glm::dvec3 origin(ray.origin);
   const glm::dvec3 direction = glm::normalize(glm::dvec3(ray.direction));
@@ -27,18 +28,18 @@ inline double roundings_beside(const accel::Ray& ray, const glm::dvec3& apex, do
   return beside / (0x1p-24 * (extent + glm::length(away)));
 }
 
-/// Counts the rays that are in pencils, and checks that they are what they are marked as.
+/// Counts the rays in pencils, and checks that they match their marks.
 class CheckedPencils {
  public:
-  /// `image` is that of the camera; `roundings` are allowed. Both must outlive this.
+  /// `image` is the camera's image; `roundings` is the tolerance. Both must outlive this object.
   CheckedPencils(const scenes::Scene& scene, const accel::PrimaryRays& image, double roundings)
       : extent_(scene.bounds.largest_coordinate()),
         lift_(accel::mirror_lift(scene.bounds)),
         image_(&image),
         roundings_(roundings) {}
 
-  /// Pencils are in order; their rays run toward the apex and end there, or away from it, and then
-  /// the view shows the same at their samples.
+  /// Checks that pencils are in order, that their rays either run toward the apex and end there, or
+  /// away from it, and in the latter case that the view shows the same at their samples.
   void add(const accel::RayBatch& batch) {
     ASSERT_TRUE(batch.samples.empty() || batch.samples.size() == batch.rays.size());
     for (const std::uint32_t sample : batch.samples) ASSERT_LT(sample, image_->count());
@@ -80,7 +81,7 @@ class CheckedPencils {
     const glm::dvec3 from_apex = glm::dvec3(ray.origin) - pencil.apex;
     EXPECT_GT(glm::dot(from_apex, glm::dvec3(ray.direction)), 0.0);
     EXPECT_EQ(ray.t_min, 0.0F);
-    // The view's eye is not moved by the lift of each mirror.
+    // The view's eye is not moved by each mirror's lift.
     const accel::Ray seen = rays::ray_at(*pencil.view, sample);
     const glm::dvec3 line = glm::normalize(glm::dvec3(seen.direction));
     const glm::dvec3 offset = glm::dvec3(ray.origin) - glm::dvec3(seen.origin);

@@ -1,5 +1,5 @@
 #pragma once
-// PLY files of tests, in each encoding from one description.
+// PLY files for tests, in each encoding from one description.
 
 #include <algorithm>
 #include <array>
@@ -16,8 +16,8 @@ namespace beambench::tests {
 inline constexpr std::array<std::string_view, 3> kPlyEncodings = {"ascii", "binary_little_endian",
                                                                   "binary_big_endian"};
 
-/// A number with its type in the words of the header. `text` stands in a text file, if it is given;
-/// else the shortest decimal that leads back to the number.
+/// A number with its type, as spelled in the header. In a text file it is written as `text` if
+/// given, else as the shortest decimal that restores the number.
 struct PlyNumber {
   std::string_view type;
   double value = 0.0;
@@ -26,7 +26,7 @@ struct PlyNumber {
 
 using PlyRow = std::vector<PlyNumber>;
 
-/// Appends the bytes of a number of this type; on a big-endian machine, this would not be right.
+/// Appends the bytes of a number of this type; would be wrong on a big-endian machine.
 template <typename Number>
 void put_ply(std::string& bytes, double value, bool big_endian) {
   const auto number = static_cast<Number>(value);
@@ -66,7 +66,7 @@ inline void put_ply_number(std::string& bytes, const PlyNumber& number, std::str
   }
 }
 
-/// Returns the rows as they stand after the header.
+/// Returns the rows as they appear after the header.
 inline std::string ply_rows(const std::vector<PlyRow>& rows, std::string_view encoding,
                             std::string_view line_end = "\n") {
   std::string bytes;

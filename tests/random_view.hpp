@@ -1,5 +1,5 @@
 #pragma once
-// Random places of eyes, for tests of images.
+// Random eye positions for tests of images.
 
 #include <algorithm>
 
@@ -8,8 +8,8 @@
 
 namespace beambench::tests {
 
-/// A camera outside, inside or in the middle planes of the scene's box, in a random direction: its
-/// `from` and `at`.
+/// Sets `from` and `at` of a camera outside, inside or in the middle planes of the scene's box,
+/// with a random direction.
 inline scenes::Camera random_view(const scenes::Scene& scene, Random& random) {
   const glm::vec3 middle = 0.5F * (scene.bounds.lower + scene.bounds.upper);
   const glm::vec3 size = scene.bounds.upper - scene.bounds.lower;

@@ -1,5 +1,5 @@
 #pragma once
-// The rays that published counts of the Standard Procedural Databases were made with.
+// The rays with which the published counts of the Standard Procedural Databases were made.
 
 #include <cstdint>
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace beambench::tests {
 
-/// Rays through the corners of 512 x 512 pixels, 513 x 513 of them, and from where they hit a
-/// shadow ray to each light that the seen side of the polygon faces.
+/// Rays through the corners of 512 x 512 pixels, that is 513 x 513 rays, and for each of their hits
+/// a shadow ray to each light that the visible side of the polygon faces.
 struct SpdRays {
   std::vector<accel::Ray> eye;
-  std::vector<accel::Ray> shadow;  ///< t_max = 1 is the light
+  std::vector<accel::Ray> shadow;  ///< the light is at t_max = 1
   std::uint64_t eye_hits = 0;
 
   std::size_t size() const { return eye.size() + shadow.size(); }

@@ -10,7 +10,7 @@
 
 namespace beambench {
 
-/// An empty folder for the running test, gone with it.
+/// An empty folder for the running test, removed with this object.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

@@ -66,8 +66,7 @@ Membership membership(std::string_view controller, const fs::path& root) {
   return found;
 }
 
-/// The path of a group below the group that is mounted; empty where the mount is all that can be
-/// seen of the hierarchy.
+/// Returns the path of a group below the mounted group; empty if only the mount is visible.
 fs::path below_mount(const std::string& group, const std::string& mounted) {
   const fs::path relative = fs::path(group).lexically_relative(mounted);
   const bool is_below = !relative.empty() && std::ranges::find(relative, "..") == relative.end();

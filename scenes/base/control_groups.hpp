@@ -8,7 +8,7 @@
 namespace beambench {
 
 /// The folders of the groups whose limits apply to this process: the innermost group first, then
-/// the groups above it, as far as they are mounted. The files of the two versions have other names.
+/// its mounted ancestors. The two versions name their files differently.
 struct ControlGroups {
   std::vector<std::filesystem::path> version1;
   std::vector<std::filesystem::path> version2;
@@ -16,8 +16,8 @@ struct ControlGroups {
 
 /// Returns the groups of a controller, such as "cpu" or "memory". Both versions may be in use at
 /// once, with each controller in one of them; a folder may lack the controller's files. In a
-/// container, whose own group is all that is mounted, that is the mount. `root` is the folder that
-/// holds /proc and the mounts.
+/// container, only the container's own group is mounted, and the mount is returned. `root` is the
+/// folder that holds /proc and the mounts.
 ControlGroups control_groups(std::string_view controller, const std::filesystem::path& root = "/");
 
 }  // namespace beambench

@@ -9,37 +9,36 @@
 
 namespace beambench {
 
-/// Returns how many processors' time the process may use: the least quota of its control group and
-/// those above it, over the period (usually 100 ms) in which it is granted. Nothing where time is
-/// not limited. `root` as for `control_groups`.
+/// Returns how many processors' worth of time the process may use: the smallest quota of its
+/// control group and the groups above it, divided by the period (usually 100 ms) for which it is
+/// granted. Nothing if time is not limited. `root` as for `control_groups`.
 std::optional<double> cpu_quota(const std::filesystem::path& root = "/");
 
-/// Returns how many threads to use by default on so many cores: no more than the quota, rounded up,
-/// keeps busy, and at least one.
+/// Returns how many threads to use by default on this many cores: at most the quota, rounded up,
+/// and at least one.
 int threads_within(int cores, const std::optional<double>& quota);
 
 /// A control group's periods under a quota, and its waits for the next period.
 struct Throttling {
   std::uint64_t periods = 0;    ///< in which the group ran
-  std::uint64_t throttled = 0;  ///< of these, periods whose quota did not suffice
+  std::uint64_t throttled = 0;  ///< periods in which the quota was used up
   double seconds = 0.0;         ///< waited, by all processors together
 
   bool operator==(const Throttling&) const = default;
 };
 
-/// Returns the throttling in two stretches of time together; nothing where no quota was in force in
-/// either.
+/// Returns the combined throttling of two time spans; nothing if no quota was in force in either.
 std::optional<Throttling> added_up(const std::optional<Throttling>& first,
                                    const std::optional<Throttling>& second);
 
-/// The kernel's counts for each control group of the process so far, by the group's folder.
+/// The kernel's counts so far for each control group of the process, keyed by the group's folder.
 using ThrottlingByGroup = std::map<std::filesystem::path, Throttling>;
 
 /// Reads the counts; there are none without control groups. `root` as for `control_groups`.
 ThrottlingByGroup read_throttling(const std::filesystem::path& root = "/");
 
-/// Returns the growth of the counts in the group that was throttled most. Nothing where no group
-/// ran under a quota meanwhile.
+/// Returns the growth of the counts in the most throttled group. Nothing if no group ran under a
+/// quota in between.
 std::optional<Throttling> throttling_between(const ThrottlingByGroup& before,
                                              const ThrottlingByGroup& after);
 

@@ -8,7 +8,7 @@
 namespace beambench {
 namespace {
 
-/// Removes a plus sign, which neither fast_float nor std::from_chars takes; "+-1" stays no number.
+/// Removes a plus sign, which neither fast_float nor std::from_chars accepts; "+-1" stays invalid.
 std::string_view without_plus(std::string_view word) {
   if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
   return word;
@@ -22,7 +22,7 @@ std::optional<Number> number_of(std::string_view word) {
   Number number = 0;
   const char* const end = word.data() + word.size();
   const auto [stop, error] = fast_float::from_chars(word.data(), end, number);
-  // Newer versions report what is beyond the range, with the same value.
+  // Newer versions report out-of-range numbers as errors, but return the same value.
   if (error != std::errc() && error != std::errc::result_out_of_range) return std::nullopt;
   if (stop != end || word.empty()) return std::nullopt;
   return number;

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers as texts write them.
+// Parses numbers in text.
 
 #include <cstdint>
 #include <optional>
@@ -7,17 +7,17 @@
 
 namespace beambench {
 
-/// Returns the number nearest to a decimal one, rounded once: by way of double, 7.038531e-26 would
-/// become another float. Nothing where the word is anything else. A sign of either kind, `nan`,
-/// `inf` and an exponent are part of a number; a comma is not. What is larger than every number of
-/// the type becomes infinite, as IEEE 754 rounds it. Float and double.
+/// Returns the nearest representable number, rounded once: going through double would turn
+/// 7.038531e-26 into a different float. Returns nothing if the word is anything else. Either sign,
+/// `nan`, `inf` and an exponent are part of a number; a comma is not. Numbers too large for the
+/// type become infinite, as IEEE 754 rounds them. For float and double.
 template <typename Number>
 std::optional<Number> number_of(std::string_view word);
 
 extern template std::optional<float> number_of<float>(std::string_view word);
 extern template std::optional<double> number_of<double>(std::string_view word);
 
-/// Returns a whole number that is written without point and exponent, and fits.
+/// Returns the whole number if the word is written without point and exponent, and fits.
 std::optional<std::int64_t> integer_of(std::string_view word);
 
 }  // namespace beambench

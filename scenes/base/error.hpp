@@ -11,8 +11,8 @@ namespace beambench {
 /// remedy; the command line prints it and exits with 2.
 class InputError : public std::runtime_error {
  public:
-  /// Keeps the message as one printable line, however long and whatever is quoted in it
-  /// (`message_line`): it goes to terminals, records and pages.
+  /// Keeps the message as one printable line, whatever its length and whatever it quotes
+  /// (`message_line`), because it goes to terminals, records and pages.
   explicit InputError(const std::string& message);
 };
 

@@ -46,7 +46,7 @@ class Descriptor {
 
 // Input
 
-constexpr std::size_t kFirstBlock = std::size_t{1} << 16U;   // of what has no length of its own
+constexpr std::size_t kFirstBlock = std::size_t{1} << 16U;   // for inputs of unknown length
 constexpr std::size_t kLargestRead = std::size_t{1} << 30U;  // one call reads no more than 2 GiB
 constexpr std::size_t kStreamBlock = std::size_t{1} << 18U;
 constexpr std::size_t kLongestLine = std::size_t{1} << 28U;
@@ -79,8 +79,8 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
                "start the program that writes into it first");
 }
 
-/// A path opened for reading. Without O_NONBLOCK, opening a named pipe would wait for a writer.
-/// Reads may wait for one that is there.
+/// A path opened for reading. O_NONBLOCK keeps the opening of a named pipe from waiting for a
+/// writer; reads may wait for an existing one.
 struct OpenInput {
   explicit OpenInput(const fs::path& path)
       : descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
@@ -96,8 +96,8 @@ struct OpenInput {
   bool is_pipe = false;
 };
 
-/// How many bytes are left of a regular file; 0 of whatever has no length (a pipe, a file of
-/// /proc).
+/// Returns how many bytes are left of a regular file; 0 for anything without a length (a pipe, a
+/// file of /proc).
 std::uint64_t known_length(int descriptor, const std::string& name) {
   struct stat status {};
   if (::fstat(descriptor, &status) != 0) refuse_input_error(name, errno);
@@ -108,7 +108,7 @@ std::uint64_t known_length(int descriptor, const std::string& name) {
       std::max<off_t>(status.st_size - std::max<off_t>(position, 0), 0));
 }
 
-/// Whether it is a device, such as /dev/zero, of which nobody means to read gigabytes.
+/// Returns whether it is a device, such as /dev/zero, of which nobody means to read gigabytes.
 bool is_device(int descriptor) {
   struct stat status {};
   return ::fstat(descriptor, &status) == 0 && S_ISCHR(status.st_mode);
@@ -118,7 +118,7 @@ std::string read_whole(int descriptor, const std::string& name, std::uint64_t ma
   const std::uint64_t length = known_length(descriptor, name);
   if (is_device(descriptor)) max_bytes = std::min(max_bytes, kLargestDocument);
   if (length > max_bytes) refuse_size(name, max_bytes);
-  // One byte more than is known of: the end is seen without growing.
+  // One byte more than the known length: the end is detected without growing the buffer.
   std::string bytes(length > 0 ? length + 1 : kFirstBlock, '\0');
   std::size_t used = 0;
   for (;;) {
@@ -140,17 +140,17 @@ std::string read_whole(int descriptor, const std::string& name, std::uint64_t ma
 
 constexpr const char* kPartial = ".partial";  // in the names of files that are being written
 
-/// What a path given for output stands for.
+/// The kind of target that an output path refers to.
 struct OutputTarget {
   enum class Kind {
     kFile,    ///< a regular file, there or to be made: written aside and renamed onto
     kFolder,  ///< cannot be written
-    kNode,    ///< a device, a pipe or a socket: written into, never replaced
-    kOpen     ///< what the standard output or error already goes to: written behind it
+    kNode,    ///< a device, a pipe or a socket: written to, never replaced
+    kOpen     ///< where standard output or error already goes: appended to
   };
   Kind kind;
-  fs::path path;        ///< with symbolic links followed to their end; of a kNode as given
-  int descriptor = -1;  ///< of a kOpen
+  fs::path path;        ///< with symbolic links followed to their end; for a kNode, as given
+  int descriptor = -1;  ///< for a kOpen
 };
 
 constexpr int kMaxLinks = 40;  // the kernel's own limit
@@ -163,8 +163,8 @@ bool is_same(const struct stat& a, const struct stat& b) {
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
-/// The descriptor, standard output or error, that goes where the path leads; -1 when neither does.
-/// A file put in its place would be one that the rest of the output does not reach.
+/// Returns the descriptor, standard output or error, that goes to the same place as the path; -1 if
+/// neither does. If the file were replaced, the rest of the output would not reach the new one.
 int open_descriptor_of(const struct stat& status) {
   for (const int descriptor : {STDOUT_FILENO, STDERR_FILENO}) {
     struct stat open {};
@@ -173,18 +173,18 @@ int open_descriptor_of(const struct stat& status) {
   return -1;
 }
 
-/// Where a link leads whose end is not there yet.
+/// Returns the target of a dangling link.
 fs::path end_of_dangling(const fs::path& path) {
   fs::path end = path;
   for (int links = 0; fs::is_symlink(fs::symlink_status(end)); ++links) {
     if (links == kMaxLinks) fail(path, ELOOP);
-    end = end.parent_path() / fs::read_symlink(end);  // an absolute one replaces the folder
+    end = end.parent_path() / fs::read_symlink(end);  // an absolute link replaces the folder
   }
   return end;
 }
 
-/// The path of an existing regular file without links; the path itself when the file is open
-/// somewhere but has no name any more (`/dev/fd/3` of a deleted file).
+/// Returns the path of an existing regular file without links; the path itself if the file is open
+/// somewhere but no longer has a name (`/dev/fd/3` of a deleted file).
 OutputTarget file_target(const fs::path& path, const struct stat& status) {
   std::error_code no_name;
   const fs::path real = fs::canonical(path, no_name);
@@ -194,8 +194,8 @@ OutputTarget file_target(const fs::path& path, const struct stat& status) {
   return {OutputTarget::Kind::kFile, real};
 }
 
-/// Follows symbolic links, dangling ones too. Throws std::filesystem::filesystem_error when that
-/// cannot be done, as for links that form a cycle.
+/// Follows symbolic links, dangling ones too. Throws std::filesystem::filesystem_error when that is
+/// impossible, for example when links form a cycle.
 OutputTarget find_output_target(const fs::path& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) {
@@ -219,7 +219,7 @@ fs::path folder_of(const fs::path& target) {
   return target.has_parent_path() ? target.parent_path() : fs::path(".");
 }
 
-/// The system's error, and what to do about it.
+/// Throws the system's error with a suggestion of what to do about it.
 [[noreturn]] void refuse_output_error(const fs::path& target, int error) {
   if (error == ENOSPC || error == EDQUOT) {
     refuse_output(target,
@@ -246,15 +246,15 @@ OutputTarget target_of(const fs::path& target) {
   refuse_output(target, "it is a folder", "add a file name");
 }
 
-/// Sends what a std::ostream is given to a descriptor. The stream must be flushed at the end, and
-/// is bad once a write has failed.
+/// Sends everything written to a std::ostream to a descriptor. The stream must be flushed at the
+/// end, and is bad once a write has failed.
 class DescriptorBuffer : public std::streambuf {
  public:
   explicit DescriptorBuffer(int descriptor) : descriptor_(descriptor) {
     setp(buffer_.data(), buffer_.data() + buffer_.size());
   }
 
-  /// errno of the write that failed; 0 when none has.
+  /// Returns errno of the failed write; 0 if none failed.
   int error() const { return error_; }
 
  private:
@@ -287,7 +287,7 @@ class DescriptorBuffer : public std::streambuf {
   std::array<char, 1U << 16U> buffer_{};
 };
 
-/// errno of the write that failed (0 when the stream went bad by itself); nothing when none has.
+/// Returns errno of the failed write (0 if the stream went bad by itself); nothing if none failed.
 std::optional<int> write_into(int descriptor, const std::function<void(std::ostream&)>& write) {
   DescriptorBuffer buffer(descriptor);
   std::ostream stream(&buffer);
@@ -296,14 +296,14 @@ std::optional<int> write_into(int descriptor, const std::function<void(std::ostr
   return stream ? std::nullopt : std::optional(buffer.error());
 }
 
-/// Waits until what a file or folder holds is on the disk; false, with errno set, when it cannot be
-/// brought there.
+/// Waits until the contents of a file or folder are on the disk. Returns false, with errno set, on
+/// failure.
 bool reaches_disk(int descriptor) {
-  // Some file systems have nothing to sync for a folder and say EINVAL.
+  // Some file systems have nothing to sync for a folder and return EINVAL.
   return descriptor >= 0 && (::fsync(descriptor) == 0 || errno == EINVAL);
 }
 
-/// Writes a regular file aside and renames it; a power loss later does not bring back the old one.
+/// Writes a regular file aside and renames it; a later power loss does not bring back the old one.
 void replace_file(const fs::path& target, const fs::path& named,
                   const std::function<void(std::ostream&)>& write) {
   const fs::path folder = folder_of(target);
@@ -322,17 +322,17 @@ void replace_file(const fs::path& target, const fs::path& named,
     fs::remove(beside, ignored);
     throw;
   }
-  // The new name is the folder's contents.
+  // Sync the folder too: it holds the new name.
   const Descriptor place(::open(folder.c_str(), O_RDONLY | O_CLOEXEC));
   if (!reaches_disk(place.number())) refuse_output_error(named, errno);
 }
 
-/// Writes into what is not replaced. What has gone into it cannot be taken back.
+/// Writes into a target that is not replaced. What has been written cannot be taken back.
 void write_through(const fs::path& target, const OutputTarget& found,
                    const std::function<void(std::ostream&)>& write) {
   std::optional<int> error;
   if (found.kind == OutputTarget::Kind::kOpen) {
-    std::fflush(nullptr);  // what was printed before comes first
+    std::fflush(nullptr);  // earlier output comes first
     error = write_into(found.descriptor, write);
   } else {
     const Descriptor node(::open(target.c_str(), O_WRONLY | O_TRUNC | O_NOCTTY | O_CLOEXEC));
@@ -372,7 +372,7 @@ struct InputStream::State {
   explicit State(const fs::path& path)
       : file(path), name(path.string()), length(known_length(file.descriptor.number(), name)) {}
 
-  /// Appends to what is buffered; false at the end of the input.
+  /// Appends to the buffer; false at the end of the input.
   bool fill() {
     buffer.erase(0, begin);
     begin = 0;
@@ -401,10 +401,10 @@ struct InputStream::State {
 
   OpenInput file;
   std::string name;
-  std::uint64_t length;     ///< 0 where it is not known
-  std::uint64_t taken = 0;  ///< from the file
+  std::uint64_t length;     ///< 0 if unknown
+  std::uint64_t taken = 0;  ///< bytes read from the file
   std::string buffer{};
-  std::size_t begin = 0;  ///< of what was not returned yet, in `buffer`
+  std::size_t begin = 0;  ///< start of what was not returned yet, in `buffer`
 };
 
 InputStream::InputStream(const fs::path& path) : state_(std::make_unique<State>(path)) {}
@@ -427,7 +427,7 @@ std::optional<std::string_view> InputStream::line() {
       }
       continue;
     }
-    // At the end of the input `fill` has moved what is left to the front.
+    // At the end of the input, `fill` has moved the remainder to the front.
     std::string_view line = std::string_view(state.buffer).substr(state.begin);
     line = line.substr(0, end);
     state.begin += line.size() + (ended ? 0 : 1);
@@ -518,7 +518,7 @@ void GrowingFile::add_line(std::string_view line) {
     bytes_ += whole.size();
     return;
   }
-  // Half a line would be lost with whatever is added to it.
+  // Otherwise the next line would be appended to half a line, and both would be lost.
   if (::ftruncate(descriptor_, static_cast<off_t>(bytes_)) != 0) { /* the reader leaves it out */
   }
   refuse_output_error(path_, *error);

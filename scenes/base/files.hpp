@@ -1,6 +1,5 @@
 #pragma once
-// The one function that opens input, the one that writes output, logs that grow, and locks of
-// folders.
+// Opens input, writes output, and provides growing logs and folder locks.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,32 +14,31 @@
 
 namespace beambench {
 
-/// What people write (a sweep, an entry of the cache, the index of a kit) is at most so long: 64
+/// The size limit of documents that people write (a sweep, a cache entry, the index of a kit): 64
 /// MiB.
 inline constexpr std::uint64_t kLargestDocument = std::uint64_t{64} << 20U;
-/// And what programs write in one piece: 4 GiB.
+/// The size limit of files that programs write in one piece: 4 GiB.
 inline constexpr std::uint64_t kLargestFile = std::uint64_t{4} << 30U;
 
-/// Reads a whole input: a file, or what comes through a pipe or a device until its end
-/// (`/dev/stdin` is the standard input). Opening never waits: a named pipe into which nothing is
-/// written is refused. Where a program has the pipe open but does not write, it is waited for, as
-/// anywhere in a shell. No part of an input that is incomplete is ever returned: throws InputError
-/// naming the path and the reason when it cannot be opened, is a folder, holds more than
-/// `max_bytes` (64 MiB of a device, which may have no end), does not fit into memory, when the
-/// system reports an error while it is read, or when it ends before the length that it had at the
-/// beginning.
+/// Reads a whole input: a file, or a pipe or device until its end (`/dev/stdin` is the standard
+/// input). Opening never waits: a named pipe without a writer is refused. If a program has the pipe
+/// open but does not write, reading waits for it, as anywhere in a shell. An incomplete input is
+/// never returned. Throws InputError with the path and the reason if the input cannot be opened, is
+/// a folder, holds more than `max_bytes` (64 MiB for a device, which may have no end), does not fit
+/// into memory, ends before the length that it had at the beginning, or if the system reports an
+/// error during reading.
 std::string read_input(const std::filesystem::path& path, std::uint64_t max_bytes);
 
-/// The same for an open descriptor, read from its current position; `name` stands for it in
-/// messages. It stays open.
+/// Reads an open descriptor in the same way from its current position, and leaves it open. Messages
+/// call it `name`.
 std::string read_input(int descriptor, const std::string& name, std::uint64_t max_bytes);
 
 /// Reads a text as `read_input` does. A byte order mark of UTF-8 at its beginning, which some
 /// editors write, is skipped, and UTF-16 is refused (`plain_text`).
 std::string read_text_input(const std::filesystem::path& path, std::uint64_t max_bytes);
 
-/// An input that is read part by part, for what may be larger than memory. Opened, read and refused
-/// by the rules of `read_input`; a file that ends early is found when its end is reached.
+/// An input read in parts, for inputs that may be larger than memory. Opened, read and refused by
+/// the rules of `read_input`; a premature end of a file is detected when it is reached.
 class InputStream {
  public:
   explicit InputStream(const std::filesystem::path& path);
@@ -48,15 +46,15 @@ class InputStream {
   InputStream(InputStream&&) noexcept;
   InputStream& operator=(InputStream&&) = delete;
 
-  /// The next line without its end, "\n" or "\r\n"; nothing at the end of the input. A byte order
-  /// mark before the first line is skipped. The line stays until the next call. Throws InputError
-  /// for a line of more than 256 MiB.
+  /// Returns the next line without its end, "\n" or "\r\n"; nothing at the end of the input. A byte
+  /// order mark before the first line is skipped. The line is valid until the next call. Throws
+  /// InputError for a line of more than 256 MiB.
   std::optional<std::string_view> line();
   /// Fills the buffer and returns how many bytes it got: fewer only at the end of the input.
   std::size_t read(std::span<char> buffer);
-  /// How many bytes follow; nothing for a pipe or a device.
+  /// Returns the number of bytes left; nothing for a pipe or a device.
   std::optional<std::uint64_t> remaining() const;
-  /// How many bytes came before: of lines and of `read`.
+  /// Returns the number of bytes taken so far by `line` and `read`.
   std::uint64_t position() const;
 
  private:
@@ -64,27 +62,27 @@ class InputStream {
   std::unique_ptr<State> state_;
 };
 
-/// Throws InputError when output cannot go there: the folder is missing or not writable, a folder
-/// stands in the file's place, a device is not writable, symbolic links lead nowhere. For refusing
-/// a request before the long work starts.
+/// Throws InputError if output cannot be written there: the folder is missing or not writable, a
+/// folder has the file's name, a device is not writable, or symbolic links are broken. Used to
+/// refuse a request before the long work starts.
 void require_writable(const std::filesystem::path& target);
 
-/// Writes an output. A file is written completely or not at all: beside its place (under a name
-/// with its ending), synced to the disk, and renamed onto it; through a symbolic link, the file
-/// that it leads to. What is not a regular file (a device, a named pipe, the standard output) is
-/// never replaced but written into; a named pipe waits for its reader. Throws InputError when that
-/// cannot be done.
+/// Writes an output. A file is written completely or not at all: under a temporary name in the same
+/// folder (with the same ending), synced to the disk, and renamed. If the path is a symbolic link,
+/// its target is replaced. Anything other than a regular file (a device, a named pipe, the standard
+/// output) is written to, never replaced; a named pipe waits for its reader. Throws InputError on
+/// failure.
 void write_file(const std::filesystem::path& target, std::string_view text);
-/// The same, for what is too long to be built in memory first: `write` puts it into the stream. If
-/// it throws, the file stays as it was.
+/// Writes an output that is too long to be built in memory first: `write` puts it into the stream.
+/// If `write` throws, the file stays as it was.
 void write_file(const std::filesystem::path& target,
                 const std::function<void(std::ostream&)>& write);
 
-/// A file to which lines are added, such as a log. A line is given to the system at once, in one
-/// piece: it is there whatever happens to this process. Nothing waits for the disk.
+/// A file to which lines are added, such as a log. Each line is passed to the system at once, in
+/// one piece, so it survives the end of this process. Nothing waits for the disk.
 class GrowingFile {
  public:
-  /// Opens or makes the file; what follows its first `bytes` is cut off. Throws InputError when it
+  /// Opens or creates the file and truncates it to its first `bytes`. Throws InputError if it
   /// cannot be written.
   explicit GrowingFile(const std::filesystem::path& path, std::uint64_t bytes = 0);
   ~GrowingFile();
@@ -101,20 +99,20 @@ class GrowingFile {
   std::uint64_t bytes_;
 };
 
-/// Makes a folder and those above it, unless it is there. Throws InputError, with what to do about
-/// it.
+/// Creates a folder and its parents if necessary. Throws InputError with a suggestion of what to
+/// do.
 void make_folder(const std::filesystem::path& folder,
                  std::string_view remedy = "choose another place");
 
-/// Whether this is the file beside its place that a killed process was writing.
+/// Returns whether this is the temporary file of a killed process.
 bool is_left_behind(const std::filesystem::path& path);
 
-/// Holds a folder while it lives: one process at a time. The system releases it when the process
-/// ends, however it ends.
+/// Holds a folder during its lifetime, for one process at a time. The system releases it when the
+/// process ends, however it ends.
 class FolderLock {
  public:
-  /// Throws InputError when another process holds the folder. Where the file system has no locks,
-  /// nothing is held.
+  /// Throws InputError if another process holds the folder. On a file system without locks, nothing
+  /// is held.
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();
   FolderLock(FolderLock&& other) noexcept;

@@ -18,7 +18,7 @@ using nlohmann::json;
 
 constexpr int kMaxDepth = 64;
 
-/// Is a comma right before the end of a list or object there?
+/// Returns whether a comma directly precedes the end of a list or object there.
 bool comma_is_last(std::string_view text, std::size_t at) {
   if (at >= text.size() || (text[at] != ']' && text[at] != '}')) return false;
   const std::size_t before = text.substr(0, at).find_last_not_of(" \t\r\n");
@@ -32,8 +32,8 @@ std::string_view plain_message(std::string_view what) {
   return start == std::string_view::npos ? what : what.substr(start + 2);
 }
 
-/// Reads a text without keeping anything, and refuses what is not JSON, nests too deep, or gives a
-/// key twice in one object, which nlohmann would accept and let the last one win.
+/// Reads a text without keeping anything. Refuses invalid JSON, deep nesting and duplicate keys in
+/// one object, which nlohmann would accept, letting the last one win.
 class Checks : public nlohmann::json_sax<json> {
  public:
   Checks(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {}
@@ -89,7 +89,7 @@ class Checks : public nlohmann::json_sax<json> {
 
   std::string problem(std::size_t at, const std::string& token,
                       const json::exception& error) const {
-    constexpr int kNumberOverflow = 406;  // of nlohmann's numbers of exceptions
+    constexpr int kNumberOverflow = 406;  // in nlohmann's numbering of exceptions
     if (error.id == kNumberOverflow) {
       return fmt::format("the number {} is too large; write one up to 1e308", excerpt(token));
     }
@@ -104,7 +104,7 @@ class Checks : public nlohmann::json_sax<json> {
   std::string_view text_;
   std::string file_;
   int depth_ = 0;
-  std::vector<std::set<std::string>> keys_{};  // of the objects that are open
+  std::vector<std::set<std::string>> keys_{};  // of the open objects
 };
 
 template <class Json>

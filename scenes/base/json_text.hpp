@@ -1,5 +1,5 @@
 #pragma once
-// The one way in which JSON is read, and the one in which it is written.
+// The only functions that read and write JSON.
 
 #include <filesystem>
 #include <functional>
@@ -13,25 +13,26 @@
 
 namespace beambench {
 
-/// What a JSON text holds. `Json` is nlohmann::json or nlohmann::ordered_json; `file` names the
-/// text in messages. Throws InputError, with line and column, when it is not JSON, nests more than
-/// 64 levels deep (deeper ones overflow the stack of whoever walks through them), gives a key twice
-/// in one object or holds a number that is too large for a double.
+/// Parses a JSON text. `Json` is nlohmann::json or nlohmann::ordered_json; `file` names the text in
+/// messages. Throws InputError, with line and column, if the text is not JSON, nests more than 64
+/// levels deep (deeper documents overflow the stack of whoever walks through them), has a duplicate
+/// key in one object or holds a number that is too large for a double.
 template <class Json>
 Json parse_json(std::string_view text, const std::string& file);
 
-/// What a JSON file of at most 64 MiB holds; a byte order mark is skipped. Throws InputError as
+/// Reads a JSON file of at most 64 MiB; a byte order mark is skipped. Throws InputError as
 /// `read_text_input` and `parse_json` do.
 template <class Json>
 Json read_json_file(const std::filesystem::path& path);
 
-/// A document as text, an element a line, each level indented by so many blanks; with -1 in one
-/// line. Bytes of its strings that are not UTF-8 become the replacement character.
+/// Returns a document as text, one element per line, each level indented by `indent` blanks; -1
+/// puts everything on one line. Bytes of strings that are not UTF-8 become the replacement
+/// character.
 std::string json_text(const nlohmann::json& document, int indent = 2);
 std::string json_text(const nlohmann::ordered_json& document, int indent = 2);
 
-/// Runs `read`, which takes values out of a document of `file` that beambench wrote. Where a value
-/// is missing or of another type, throws InputError naming the file and what to do.
+/// Runs `read`, which takes values out of a document of `file` that beambench wrote. If a value is
+/// missing or of another type, throws InputError with the file name and a suggestion of what to do.
 template <class Read>
 std::invoke_result_t<Read> read_as_written(const std::string& file, std::string_view remedy,
                                            Read&& read) {

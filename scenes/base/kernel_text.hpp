@@ -1,5 +1,5 @@
 #pragma once
-// Texts that the kernel writes in /proc and /sys.
+// Reads texts that the kernel writes in /proc and /sys.
 
 #include <cstdint>
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace beambench {
 
-/// Returns the text of a file of the kernel; an empty one where the file is not there.
+/// Returns the text of a kernel file; empty if the file does not exist.
 std::string kernel_text(const std::filesystem::path& path);
 
 /// Returns the whole number at the start of a text, after blanks; nothing for `max` and `-1`.

@@ -11,9 +11,9 @@
 namespace beambench {
 namespace {
 
-/// What something is called elsewhere, and here. A word may have several meanings: the one that is
-/// among the names in question counts, so that structures, parameters, scenes, commands and options
-/// share this table.
+/// A foreign name and the name used here. If a word has several meanings, the one among the
+/// candidate names counts, so that structures, parameters, scenes, commands and options can share
+/// this table.
 struct Alias {
   std::string_view word;
   std::string_view name;
@@ -97,7 +97,7 @@ std::string alias_of(std::string_view word, std::span<const std::string> names) 
   return "";
 }
 
-/// Is the word one of those that a name consists of: `bvh` of sah-bvh, `level` of max_level?
+/// Returns whether the word is one of the parts of a name: `bvh` of sah-bvh, `level` of max_level.
 bool is_part_of(std::string_view word, std::string_view name) {
   constexpr std::string_view kJoints = "-_";
   while (true) {
@@ -108,7 +108,7 @@ bool is_part_of(std::string_view word, std::string_view name) {
   }
 }
 
-/// The only name that the word is a part of; empty for none and for several.
+/// Returns the only name that contains the word as a part; empty if none or several do.
 std::string only_whole_of(std::string_view word, std::span<const std::string> names) {
   std::string whole;
   for (const std::string& name : names) {
@@ -138,7 +138,7 @@ std::string similar_name(std::string_view word, std::span<const std::string> nam
   std::string nearest;
   std::size_t least = std::numeric_limits<std::size_t>::max();
   for (const std::string& name : names) {
-    if (word.size() > 2 * name.size()) continue;  // more than half of it would have to go
+    if (word.size() > 2 * name.size()) continue;  // more than half of it would have to be deleted
     const std::size_t distance = edit_distance(word, name);
     if (distance < least) {
       least = distance;

@@ -19,10 +19,10 @@ namespace {
 using Type = ParameterInfo::Type;
 using Given = std::pair<std::string, std::string>;
 
-// Numbers are held as doubles, which are exact for integers up to this size.
+// Numbers are stored as doubles, which represent integers up to this size exactly.
 constexpr double kLargestInteger = 0x1p53;
 
-/// Parses the whole text as a number, or gives nothing.
+/// Parses the whole text as a number; nothing on failure.
 template <typename Number>
 std::optional<Number> parse_number(std::string_view text) {
   Number number{};
@@ -160,7 +160,7 @@ ParameterInfo plain_info(std::string name, Type type, std::string default_value,
       fmt::format("'{}': {}; write a name, or name:key=value,key=value", excerpt(text), why));
 }
 
-/// Takes the text up to the first comma off the front of `text`, and the comma with it.
+/// Takes the text before the first comma, and the comma, off the front of `text`.
 std::string_view take_piece(std::string_view& text) {
   const std::size_t comma = std::min(text.find(','), text.size());
   const std::string_view piece = text.substr(0, comma);
@@ -168,9 +168,9 @@ std::string_view take_piece(std::string_view& text) {
   return piece;
 }
 
-/// Whether a piece between commas is a further `key=value`, not the start of a spec.
+/// Returns whether a piece between commas continues the spec with a further `key=value`.
 bool continues_spec(std::string_view piece) {
-  return piece.find('=') < piece.find(':');  // npos, when there is none, is the largest number
+  return piece.find('=') < piece.find(':');  // npos (not found) is the largest number
 }
 
 }  // namespace
@@ -282,7 +282,7 @@ const std::string& Parameters::choice(std::string_view name) const {
 }
 
 std::optional<std::array<std::int32_t, 3>> Parameters::cells(std::string_view name) const {
-  return parse_cells(find(name, Type::kCells).text);  // gives nothing for `auto`
+  return parse_cells(find(name, Type::kCells).text);  // nothing for `auto`
 }
 
 void Parameters::require_given_were_read() const {

@@ -21,8 +21,8 @@ struct Spec {
 /// Throws InputError when the text is not of that form or gives a key twice.
 Spec parse_spec(std::string_view text);
 
-/// Splits `a:x=1,y=2,b` into the specs `a:x=1,y=2` and `b`: a comma starts a new spec when what
-/// follows it has no `=` before the next comma or colon. Throws as parse_spec.
+/// Splits `a:x=1,y=2,b` into the specs `a:x=1,y=2` and `b`: a comma starts a new spec unless an `=`
+/// follows before the next comma or colon. Throws as parse_spec.
 std::vector<Spec> parse_spec_list(std::string_view text);
 
 /// The declaration of a parameter of a structure or a generator; printed by `beambench list`.
@@ -36,7 +36,7 @@ struct ParameterInfo {
   double maximum = 0.0;
   std::vector<std::string> choices;  ///< of a choice
   std::string description;           ///< one sentence, units included
-  bool changes_hits = false;  ///< what is not the default may give wrong hits: not self-tested
+  bool changes_hits = false;         ///< other values may give wrong hits: not self-tested
 };
 
 ParameterInfo integer_parameter(std::string name, std::int64_t default_value, std::int64_t minimum,
@@ -54,7 +54,7 @@ ParameterInfo choice_parameter(std::string name, std::string default_value,
 ParameterInfo cells_parameter(std::string name, std::string default_value, std::int64_t maximum,
                               std::string description);
 
-/// The values of one owner's parameters: those given, defaults for the rest.
+/// The values of one owner's parameters: the given values, and defaults for the rest.
 class Parameters {
  public:
   /// Checks every given value against `infos`. Throws InputError naming `owner`, the parameter, the
@@ -72,8 +72,8 @@ class Parameters {
   /// Nothing for `auto`.
   std::optional<std::array<std::int32_t, 3>> cells(std::string_view name) const;
 
-  /// Throws std::logic_error naming a parameter that was given and never read: its owner declares
-  /// it and then ignores it.
+  /// Throws std::logic_error with the name of a parameter that was given but never read: its owner
+  /// declares it and then ignores it.
   void require_given_were_read() const;
 
   /// All parameters with their values in declared order, `max_level=6,max_objects=0`; numbers in

@@ -1,12 +1,12 @@
 #pragma once
-// Texts in which every character of the formats that are read here is one byte.
+// Prepares texts whose relevant characters are single bytes.
 
 #include <string_view>
 
 namespace beambench {
 
-/// Returns the text without the byte order mark of UTF-8 that some editors write before it. Throws
-/// InputError naming the file when it is UTF-16: it begins with that byte order mark, or one of its
+/// Returns the text without the UTF-8 byte order mark that some editors write. Throws InputError
+/// with the file name if the text is UTF-16: it begins with that byte order mark, or one of its
 /// first two bytes is 0.
 std::string_view plain_text(std::string_view bytes, std::string_view file);
 

@@ -12,7 +12,7 @@ constexpr double kHalfPiLow = 0x1.0b4611a626331p-34;
 constexpr double kLn2High = 0x1.62e42feep-1;
 constexpr double kLn2Low = 0x1.a39ef35793c76p-33;
 
-/// x less the nearest multiple of (high + low), and that multiple.
+/// x minus the nearest multiple of (high + low), and that multiple.
 struct Reduced {
   double rest;
   long multiple;

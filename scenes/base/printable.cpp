@@ -73,7 +73,7 @@ void append_escaped(std::string& text, std::string_view bytes) {
   }
 }
 
-/// Where to cut a text at `at` or a little before, between two characters.
+/// Returns a place at or shortly before `at` where the text can be cut between two characters.
 std::size_t cut_near(std::string_view text, std::size_t at) {
   constexpr std::size_t kLongestCharacter = 4;
   for (std::size_t back = 0; back < std::min(at, kLongestCharacter); ++back) {
@@ -82,7 +82,7 @@ std::size_t cut_near(std::string_view text, std::size_t at) {
   return at;
 }
 
-/// `text[at...]` is the `\x1b` of an escaped byte: the byte.
+/// Reads the escaped byte whose `\x1b` is at `text[at...]`.
 bool read_escaped(std::string_view text, std::size_t at, char& byte) {
   if (text.size() < at + 4 || text[at + 1] != 'x') return false;
   unsigned int value = 0;

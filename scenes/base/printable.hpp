@@ -1,35 +1,34 @@
 #pragma once
-// Text from outside (names, tokens, paths) as messages, terminals and records show it.
+// Shows text from outside (names, tokens, paths) in messages, terminals and records.
 
 #include <string>
 #include <string_view>
 
 namespace beambench {
 
-/// Any bytes as UTF-8 without control characters: a byte that is not UTF-8, and each byte of a
-/// control character (C0, DEL, C1), a line or paragraph separator, a byte order mark or a mark that
-/// changes the direction of writing, becomes `\x1b`. All else, backslashes too, stays, so that what
-/// is printable already stays as it is.
+/// Returns any bytes as UTF-8 without control characters. A byte that is not UTF-8, and each byte
+/// of a control character (C0, DEL, C1), a line or paragraph separator, a byte order mark or a mark
+/// that changes the direction of writing, becomes `\x1b`. Everything else, including backslashes,
+/// stays, so printable text is unchanged.
 std::string printable(std::string_view bytes);
 
-/// The beginning of a token that a message quotes: `printable`, with "..." in place of what goes
-/// beyond 80 bytes.
+/// Returns the beginning of a token for quotation in a message: `printable`, with "..." in place of
+/// everything beyond 80 bytes.
 std::string excerpt(std::string_view token);
 
-/// A message as one printable line of at most some 4,000 bytes: line ends and tabs become blanks,
-/// and "..." stands for the middle of what is longer, so that the place at its beginning and the
-/// remedy at its end remain.
+/// Returns a message as one printable line of at most about 4,000 bytes: line ends and tabs become
+/// blanks, and "..." replaces the middle of a longer message, so that the place at its beginning
+/// and the remedy at its end remain.
 std::string message_line(std::string_view message);
 
-/// The name that records and messages have for a file that is opened by a path: `printable`, with
-/// backslashes doubled, so that `path_of_name` leads back to the same bytes. Most paths are their
-/// own names.
+/// Returns the name of a file path in records and messages: `printable`, with backslashes doubled
+/// so that `path_of_name` restores the same bytes. Most paths are their own names.
 std::string name_of_path(std::string_view path);
 
-/// The path, byte for byte, of a name that `name_of_path` made.
+/// Returns the original path, byte for byte, of a name made by `name_of_path`.
 std::string path_of_name(std::string_view name);
 
-/// Whether the bytes are UTF-8, which texts of JSON have to be.
+/// Returns whether the bytes are valid UTF-8, which JSON requires.
 bool is_utf8(std::string_view bytes);
 
 }  // namespace beambench

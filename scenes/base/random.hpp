@@ -6,8 +6,8 @@
 
 namespace beambench {
 
-/// std::mt19937_64, whose sequence the C++ standard fixes, with distributions of our own (those of
-/// the standard library differ between libraries).
+/// A generator based on std::mt19937_64, whose sequence the C++ standard fixes, with our own
+/// distributions (those of the standard library differ between implementations).
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}

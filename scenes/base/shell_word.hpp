@@ -1,13 +1,13 @@
 #pragma once
-// Words of command lines that are printed to be pasted.
+// Quotes words of command lines that are printed for pasting.
 
 #include <string>
 #include <string_view>
 
 namespace beambench {
 
-/// A word as a shell must be given it, and printable: as it is where that is safe, otherwise in
-/// single quotes, or where some of it is not printable as bash, ksh and zsh read it, `$'esc\x1b'`.
+/// Returns a word quoted for a shell, and printable: unchanged if that is safe, otherwise in single
+/// quotes, or in the form `$'esc\x1b'` of bash, ksh and zsh if some of it is not printable.
 std::string shell_quoted(std::string_view word);
 
 }  // namespace beambench

@@ -1,5 +1,5 @@
 #pragma once
-// A mesh into the scene.
+// Adds a mesh to the scene.
 
 #include <cstddef>
 #include <functional>
@@ -9,17 +9,17 @@
 
 namespace beambench::scenes::modelling {
 
-/// Adds every polygon, over shared vertices, with the builder's current surface.
+/// Adds all polygons, over shared vertices, with the builder's current surface.
 void add_flat(SceneBuilder& builder, const PolygonMesh& mesh);
 
-/// How polygons are smoothed and colored.
+/// Options for smoothing and coloring polygons.
 struct SmoothOptions {
   double crease = 50.0;                                 ///< degrees; sharper edges stay sharp
-  std::function<Surface(std::size_t polygon)> paint{};  ///< if any: the surface of each polygon
+  std::function<Surface(std::size_t polygon)> paint{};  ///< if given: the surface of each polygon
 };
 
-/// The same as smooth polygons: a corner's normal is the mean, weighted by area, of the polygons at
-/// that vertex whose own normals differ by less than the crease angle from this polygon's.
+/// Adds smooth polygons: a corner's normal is the mean, weighted by area, of the polygons at that
+/// vertex whose own normals differ by less than the crease angle from this polygon's.
 void add_smooth(SceneBuilder& builder, const PolygonMesh& mesh, const SmoothOptions& options = {});
 
 }  // namespace beambench::scenes::modelling

@@ -41,7 +41,7 @@ PolygonMesh box_without_bottom(const glm::dvec3& lower, const glm::dvec3& upper)
 }
 
 PolygonMesh beveled_box(const glm::dvec3& lower, const glm::dvec3& upper, double bevel) {
-  // Each corner becomes three vertices, 3 * corner + axis: the one that lies on the face of `axis`.
+  // Each corner becomes three vertices, 3 * corner + axis, one on the face of each axis.
   PolygonMesh mesh;
   const auto outer = corners_of(lower, upper);
   const auto inner = corners_of(lower + bevel, upper - bevel);

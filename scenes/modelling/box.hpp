@@ -10,7 +10,7 @@ namespace beambench::scenes::modelling {
 /// The six faces of the box between two corners, in the order -x, +x, -y, +y, -z, +z.
 PolygonMesh box(const glm::dvec3& lower, const glm::dvec3& upper);
 
-/// The box without its lower face (-z): for what stands on something.
+/// The box without its lower face (-z), for pieces that stand on something.
 PolygonMesh box_without_bottom(const glm::dvec3& lower, const glm::dvec3& upper);
 
 /// The box with its edges cut off by `bevel` on both sides: 6 faces, 12 edges, 8 corner triangles.
@@ -18,17 +18,17 @@ PolygonMesh box_without_bottom(const glm::dvec3& lower, const glm::dvec3& upper)
 PolygonMesh beveled_box(const glm::dvec3& lower, const glm::dvec3& upper, double bevel);
 
 /// The square plate |x|, |y| <= half between two heights, with the hole |x|, |y| < hole: 16 quads,
-/// four of them on each of outside, top, hole and bottom, in that order for every side.
+/// four on each side, in the order outside, top, hole, bottom.
 PolygonMesh square_ring(double half, double hole, double bottom, double top);
 
-/// A square bar of four sides between two places, two of its sides facing along `outward`. Its
-/// ends are open: they are inside what it is fixed to.
+/// A four-sided bar between two places, with two sides facing along `outward`. Its open ends are
+/// inside the pieces that it is fixed to.
 PolygonMesh bar(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& outward,
                 double thickness);
 
 /// The bracing of a face between two posts, whose places are listed level by level from below: a
 /// crossbar at every level and two diagonals in every panel. Crossing bars differ in thickness, so
-/// that no two of them have a plane in common.
+/// that none of their faces are coplanar.
 struct Bracing {
   double crossbar;
   double diagonal;

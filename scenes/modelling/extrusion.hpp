@@ -20,11 +20,11 @@ struct FlatShape {
 /// One polygon.
 FlatShape flat_polygon(std::vector<glm::dvec2> points);
 
-/// The ends of an extrusion that are there.
+/// The ends that an extrusion has.
 enum class Ends : std::uint8_t { kBoth, kFront, kNone };
 
-/// The shape from z = 0 (back) to z = depth (front), with a wall on every edge of the outline and
-/// of holes, and none on the seams.
+/// The shape from z = 0 (back) to z = depth (front), with a wall along every edge of the outline
+/// and the holes, but not along the seams.
 PolygonMesh extruded(const FlatShape& shape, double depth, Ends ends = Ends::kBoth);
 
 }  // namespace beambench::scenes::modelling

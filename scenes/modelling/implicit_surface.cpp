@@ -23,7 +23,7 @@ glm::dvec3 gradient(const Field& field, const glm::dvec3& place, double step) {
   return result;
 }
 
-/// Newton's steps along the gradient, none longer than half a `reach`.
+/// Newton steps along the gradient, none longer than half a `reach`.
 glm::dvec3 onto_surface(const Field& field, glm::dvec3 place, double reach) {
   for (int i = 0; i < 4; ++i) {
     const glm::dvec3 slope = gradient(field, place, 1e-4 * reach);
@@ -36,7 +36,8 @@ glm::dvec3 onto_surface(const Field& field, glm::dvec3 place, double reach) {
   return place;
 }
 
-/// The field on a grid, a vertex in every cell that the surface crosses, a quad at every edge.
+/// The field on a grid, with a vertex in every cell that the surface crosses and a quad at every
+/// edge.
 class SurfaceNet {
  public:
   SurfaceNet(const Field& field, const glm::dvec3& lower, const glm::dvec3& upper, double cell)
@@ -80,7 +81,8 @@ class SurfaceNet {
     return lower_ + cell_ * glm::dvec3(x, y, z);
   }
 
-  /// The mean of the places where the surface crosses the cell's twelve edges, then onto it.
+  /// Adds the mean of the places where the surface crosses the cell's twelve edges, moved onto the
+  /// surface.
   void add_vertex(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
     glm::dvec3 sum(0.0);
     int crossings = 0;
@@ -103,7 +105,7 @@ class SurfaceNet {
     mesh_.vertices.push_back(onto_surface(field_, sum / static_cast<double>(crossings), cell_));
   }
 
-  /// The quad of the four cells around the edge from a point along an axis.
+  /// Adds the quad of the four cells around the edge from a point along an axis.
   void add_quad(const Point& from, int axis) {
     const auto a = static_cast<std::size_t>(axis);
     const std::size_t b = (a + 1) % 3;
@@ -119,7 +121,7 @@ class SurfaceNet {
       cell[b] -= down_b;
       cell[c] -= down_c;
       corners.push_back(vertex_of_[index(cell[0], cell[1], cell[2])]);
-      if (corners.back() == kNone) return;  // at the box's rim
+      if (corners.back() == kNone) return;  // at the edge of the box
     }
     if (!starts_inside) std::reverse(corners.begin(), corners.end());
     mesh_.polygons.push_back(std::move(corners));
@@ -130,11 +132,11 @@ class SurfaceNet {
   double cell_;
   Point points_{};
   std::vector<double> values_;
-  std::vector<std::uint32_t> vertex_of_;  ///< of the cell above and beyond each point
+  std::vector<std::uint32_t> vertex_of_;  ///< of the cell with this point as its lower corner
   PolygonMesh mesh_;
 };
 
-/// Moves vertices one by one and takes back what would turn a triangle over.
+/// Moves vertices one by one, undoing moves that would flip a triangle.
 class BorderDrawing {
  public:
   BorderDrawing(PolygonMesh mesh, const Field& surface, const Region& region)
@@ -174,7 +176,8 @@ class BorderDrawing {
     if (move(vertex, onto_surface(surface_, nearest, edge_length))) region_of_[vertex] = kBorder;
   }
 
-  /// Where between two vertices, from 0 to 1, the first one's region ends.
+  /// Returns the parameter, from 0 to 1, at which the first vertex's region ends on the way to the
+  /// second.
   double border(std::uint32_t from, std::uint32_t to) const {
     double inside = 0.0;
     double outside = 1.0;

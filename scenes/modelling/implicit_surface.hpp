@@ -7,7 +7,7 @@
 
 namespace beambench::scenes::modelling {
 
-/// About the distance to a body, negative inside.
+/// The approximate distance to a body, negative inside.
 using Field = std::function<double(const glm::dvec3&)>;
 
 /// The field of an ellipsoid along the axes, exact on its surface.
@@ -21,23 +21,23 @@ struct Limb {
   double to_radius;
 };
 double limb_field(const glm::dvec3& place, const Limb& limb);
-/// Two bodies in one, their seam filled in over a distance of about `blend`.
+/// The union of two bodies, with the seam filled in over a distance of about `blend`.
 double joined(double a, double b, double blend);
 
-/// The surface of the field inside a box, of quads whose corners lie on it, one for each cube of
-/// side `cell` that it crosses (surface nets: Gibson 1998), facing where the field is positive. The
-/// body must end inside the box and be thicker than a cell.
+/// The surface of the field inside a box, as quads whose corners lie on it, one for each cube of
+/// side `cell` that it crosses (surface nets: Gibson 1998). It faces the positive side of the
+/// field. The body must end inside the box and be thicker than a cell.
 PolygonMesh implicit_surface(const Field& field, const glm::dvec3& lower, const glm::dvec3& upper,
                              double cell);
 
-/// Which of several colors a place of the surface has.
+/// Returns the number of the color region that a place of the surface belongs to.
 using Region = std::function<int(const glm::dvec3&)>;
 
 /// Moves vertices of triangles over the surface onto the borders between regions, so that a border
-/// is a line of edges wherever that turns no triangle over.
+/// is a line of edges wherever that does not flip a triangle.
 PolygonMesh drawn_to_borders(PolygonMesh mesh, const Field& surface, const Region& region);
 
-/// Without the polygons that have all corners inside the body: for what grows out of it.
+/// Removes the polygons with all corners inside the body, for parts that grow out of it.
 PolygonMesh outside(const PolygonMesh& mesh, const Field& body);
 
 /// The mean of a polygon's corners.

@@ -10,17 +10,18 @@
 
 namespace beambench::scenes::modelling {
 
-/// A line of points (radius, height), drawn from where it starts.
+/// A line of points (radius, height), drawn from its start.
 class Profile {
  public:
   explicit Profile(const glm::dvec2& start) : points_{start} {}
 
   Profile& line(const glm::dvec2& to);
-  /// A parabola in `steps` pieces whose middle is `bulge` outside the straight line (to the right
-  /// of its direction, upward), inside where it is negative.
+  /// Adds a parabola in `steps` pieces whose middle is `bulge` outside the straight line (to the
+  /// right of its direction, upward); a negative bulge is inside.
   Profile& curve(const glm::dvec2& to, double bulge, int steps);
-  /// A ball around a place on the axis, from where its surface has the present point's radius to
-  /// its top, in `steps` pieces. The present point must be at or below that place.
+  /// Adds a ball around a place on the axis, from the height at which its surface has the present
+  /// point's radius to its top, in `steps` pieces. The present point must be at or below that
+  /// height.
   Profile& ball(double center, double radius, int steps);
 
   const std::vector<glm::dvec2>& points() const { return points_; }
@@ -32,7 +33,7 @@ class Profile {
 /// The profile's points (radius, height) revolved in `sides` steps, the first at `first_turn` of a
 /// full turn. Drawn upward on the outside, the surface faces outward. Each piece of the profile
 /// gives a ring of flat quads, of triangles where one end has radius 0; a piece with both ends on
-/// the axis gives none. Ends with a radius stay open.
+/// the axis gives none. Ends whose radius is not 0 stay open.
 PolygonMesh lathe(std::span<const glm::dvec2> profile, int sides, double first_turn = 0.0);
 
 }  // namespace beambench::scenes::modelling

@@ -12,8 +12,8 @@ namespace {
 constexpr double kGap = 0.14;    // between two letters
 constexpr double kBlank = 0.45;  // a blank's width
 
-/// A ring between an outer and an inner outline (counter-clockwise, with as many points each): two
-/// concave halves with seams from outer to inner at point 0 and at point `half`.
+/// A ring between an outer and an inner outline (counter-clockwise, with equal numbers of points):
+/// two concave halves with seams from outer to inner at point 0 and at point `half`.
 FlatShape ring(const std::vector<glm::dvec2>& outer, const std::vector<glm::dvec2>& inner,
                std::uint32_t half) {
   const auto n = static_cast<std::uint32_t>(outer.size());
@@ -40,7 +40,7 @@ Letter letter_a() {
   return {shape, 0.80};
 }
 
-/// B: a ring around both holes and the bar between them, split in a left and two right parts.
+/// B: a ring around both holes and the bar between them, split into a left and two right parts.
 Letter letter_b() {
   FlatShape shape;
   shape.points = {{0.00, 0.00}, {0.50, 0.00}, {0.66, 0.14}, {0.66, 0.40}, {0.54, 0.51},

@@ -10,7 +10,7 @@ namespace beambench::scenes::modelling {
 /// A point for (u, v) in [0, 1]^2; the surface faces du x dv.
 using SurfaceFunction = std::function<glm::dvec3(double u, double v)>;
 
-/// A grid of u_steps x v_steps quads over the function; closed where it comes back to itself, with
+/// A grid of u_steps x v_steps quads over the function; closed where opposite edges coincide, with
 /// triangles where a row shrinks to a point (the grid is welded).
 PolygonMesh parametric_surface(const SurfaceFunction& surface, int u_steps, int v_steps);
 

@@ -12,10 +12,10 @@
 //   parametric_surface.hpp  a grid of quads over a function of two parameters; ellipsoid
 //   implicit_surface.hpp    the zero set of a field
 //   subdivide.hpp           triangulated; subdivided_to: exactly n polygons
-//   add_mesh.hpp            into the scene, flat or smooth
-// Meshes face outward (counter-clockwise seen from outside) and hold only surfaces that can be
-// seen: caps and bottoms are left out where the caller says so. A scene counts its polygons at the
-// end: model with a few polygons fewer than wanted, then `subdivided_to(mesh, n)`.
+//   add_mesh.hpp            into the scene, flat or smooth Meshes face outward (counter-clockwise
+//   seen from outside) and hold only visible surfaces: callers can leave out caps and bottoms. To
+//   reach an exact number of polygons, model with slightly fewer, then call `subdivided_to(mesh,
+//   n)`.
 
 #include <cstddef>
 #include <cstdint>
@@ -37,7 +37,7 @@ struct PolygonMesh {
   std::size_t size() const { return polygons.size(); }
 };
 
-/// Adds all of `more`; its vertices stay its own.
+/// Adds all of `more`, with separate vertices.
 void append(PolygonMesh& mesh, const PolygonMesh& more);
 
 /// The mesh moved by an affine transform; windings are reversed where it mirrors.
@@ -49,13 +49,13 @@ PolygonMesh turned_inside_out(PolygonMesh mesh);
 /// Newell's normal of a polygon, its length being twice the polygon's area.
 glm::dvec3 area_normal(const PolygonMesh& mesh, const PolygonMesh::Corners& corners);
 
-/// Counter-clockwise about the x (0), y (1) or z (2) axis, seen from its positive end. Use this
-/// rather than glm::rotate, whose sine is the library's.
+/// A rotation counter-clockwise about the x (0), y (1) or z (2) axis, seen from its positive end.
+/// Use this rather than glm::rotate, whose sine comes from the library.
 glm::dmat4 rotation(int axis, double degrees);
 
-/// Vertices nearer to each other than 1e-9 of the mesh's largest coordinate become one (the first),
-/// so that edges are shared. Corners that coincide with the one before are dropped, and polygons
-/// left with fewer than three.
+/// Merges vertices that are nearer to each other than 1e-9 of the mesh's largest coordinate into
+/// the first of them, so that edges are shared. Corners that coincide with the one before are
+/// dropped, and so are polygons left with fewer than three.
 PolygonMesh welded(const PolygonMesh& mesh);
 
 }  // namespace beambench::scenes::modelling

@@ -112,7 +112,7 @@ class Subdivider {
     note(static_cast<std::uint32_t>(mesh_.size() - 1));
   }
 
-  /// How even the two parts of a cut are: the smaller one's area.
+  /// Returns how even a cut is: the area of the smaller part.
   double evenness(const Corners& corners, std::size_t from, std::size_t to) const {
     return std::min(area(mesh_, part(corners, from, to)), area(mesh_, part(corners, to, from)));
   }
@@ -155,7 +155,8 @@ class Subdivider {
     }
   }
 
-  /// Puts a vertex on a polygon's edge; then cuts from there to the corner that divides it best.
+  /// Inserts a vertex on a polygon's edge; then cuts from there to the corner that divides the
+  /// polygon most evenly.
   void insert_corner(std::uint32_t polygon, const Edge& at, std::uint32_t vertex, bool and_cut) {
     Corners corners = mesh_.polygons[polygon];
     std::size_t i = 0;

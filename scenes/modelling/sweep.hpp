@@ -10,7 +10,7 @@
 
 namespace beambench::scenes::modelling {
 
-/// Which ends of a sweep are closed by a polygon. An end of size 0 is a tip and needs none.
+/// The ends of a sweep that are closed by a polygon. An end of size 0 is a tip and needs none.
 enum class Caps : std::uint8_t { kNone, kStart, kEnd, kBoth };
 
 /// A regular polygon of radius 1, counter-clockwise.
@@ -18,9 +18,9 @@ std::vector<glm::dvec2> circle(int sides);
 
 /// The outline (counter-clockwise, its x along `side` at the start) swept along the path without
 /// twist (rotation-minimizing frames by double reflection: Wang, Juettler, Zheng and Liu 2008) and
-/// scaled by `scales`, one for each path point. Gives a ring of quads between two path points,
-/// triangles at a tip. `side` is made perpendicular to the path; it must not be parallel to its
-/// start.
+/// scaled by `scales`, one for each path point. Gives a ring of quads between consecutive path
+/// points, or of triangles at a tip. `side` is made perpendicular to the path; it must not be
+/// parallel to its start.
 PolygonMesh sweep(std::span<const glm::dvec2> outline, std::span<const glm::dvec3> path,
                   std::span<const double> scales, const glm::dvec3& side, Caps caps);
 

@@ -15,15 +15,15 @@ struct Rectangle {
   glm::dvec2 lower, upper;
 };
 
-/// The rectangle from (0, 0) to `size` in the plane z = 0, facing +z, without the openings, and
-/// the openings' sides down to z = -depth. The openings do not touch one another; one that reaches
+/// The rectangle from (0, 0) to `size` in the plane z = 0, facing +z, without the openings, and the
+/// openings' sides down to z = -depth. Openings must not touch one another; an opening that reaches
 /// the wall's edge has no side there.
 PolygonMesh recessed(const glm::dvec2& size, std::span<const Rectangle> openings, double depth);
 
-/// What closes the openings: a quad at z = -depth in each.
+/// Quads that close the openings, at z = -depth.
 PolygonMesh openings_filled(std::span<const Rectangle> openings, double depth);
 
-/// columns x rows equal openings in the rectangle, bars of the same width around all of them.
+/// columns x rows equal openings in the rectangle, with bars of the same width around all of them.
 std::vector<Rectangle> panes(const glm::dvec2& size, int columns, int rows, double bar);
 
 /// A profile of points (inset, z) swept around the rectangle from (0, 0) to `size`, with mitered
@@ -31,7 +31,7 @@ std::vector<Rectangle> panes(const glm::dvec2& size, int columns, int rows, doub
 /// in that order. It faces up where the profile goes inward.
 PolygonMesh molding(const glm::dvec2& size, std::span<const glm::dvec2> profile);
 
-/// Without one of the rectangle's sides (0 ... 3, in the order above).
+/// Removes one of the rectangle's sides (0 ... 3, in the order above).
 PolygonMesh without_side(const PolygonMesh& molding, std::size_t side);
 
 }  // namespace beambench::scenes::modelling

@@ -1,4 +1,4 @@
-// Where tile-beam says that rays are in its beams: each of them once, as they are traced.
+// The beams in which tile-beam reports rays: each ray once, in the beam that traces it.
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@ std::size_t count(const std::vector<BeamPlace>& places, Way way) {
   return static_cast<std::size_t>(std::ranges::count(places, way, &BeamPlace::way));
 }
 
-/// The rays of each block, which all lie in one beam and pass one side.
+/// The rays of each block, all of which lie in one beam and pass one side.
 std::map<std::uint32_t, std::vector<std::size_t>> blocks_of(const std::vector<BeamPlace>& places) {
   std::map<std::uint32_t, std::vector<std::size_t>> blocks;
   for (std::size_t i = 0; i < places.size(); ++i) {

@@ -1,4 +1,4 @@
-// What must be true of beams: every sample belongs to one of them, whatever they are cut by.
+// Properties of beams: every sample belongs to exactly one, whatever they are cut by.
 
 #include <array>
 #include <cstdint>
@@ -22,7 +22,7 @@ namespace {
 
 using tests::random_scene;
 
-/// Does the ray of a sample pass through the root cell?
+/// Returns whether the ray of a sample passes through the root cell.
 bool meets_root(const beam::BeamTracer& tracer, const Ray& ray) {
   return CellRay(tracer.octree().grid(), ray).enter(0.0F) < std::numeric_limits<double>::infinity();
 }
@@ -175,7 +175,7 @@ TEST(Beam, CountsABeamWhenItIsMade) {
     EXPECT_EQ(beams.at("beams_nonterminal"),
               beams.at("beams_divided") + beams.at("beams_passed_whole"));
     EXPECT_GE(beams.at("beams"), beams.at("beams_made"));
-    // One that is divided gives two at least, and all but the first come from one.
+    // A division yields at least two beams, and all beams except the first come from one.
     EXPECT_GT(beams.at("beams_made"), 2 * beams.at("beams_divided"));
   }
 }
@@ -222,7 +222,7 @@ TEST(Beam, MakesRaysOnlyBehindOccupiedLeaves) {
   EXPECT_EQ(counters.at("rays_by_crowding"), 0U);
   EXPECT_GT(counters.at("rays_after_leaf"), 0U);
   EXPECT_LE(counters.at("rays_after_leaf"), counters.at("samples_in_leaves"));
-  // What leaves with a beam costs no ray and no test.
+  // Samples that leave with a beam cost neither a ray nor a test.
   EXPECT_GT(counters.at("samples_leaving"), 0U);
   EXPECT_LE(counters.at("samples_leaving") + counters.at("samples_in_leaves"), rays.count());
 
@@ -240,7 +240,7 @@ TEST(Beam, SharesCornersBetweenPixels) {
   shared.share_corners = true;
   const auto apart = counters_of(scene, options_with(5), rays);
   const auto together = counters_of(scene, shared, rays);
-  // (w + 1)(h + 1) corners in place of 4 w h.
+  // (w + 1)(h + 1) corners instead of 4 w h.
   EXPECT_LT(together.at("samples_in_leaves") * 2, apart.at("samples_in_leaves"));
   expect_painted_once(scene, shared, rays);
 }

@@ -1,5 +1,6 @@
 #pragma once
-// Hits bit by bit, and the structures whose single rays must return those of exhaustive search.
+// Compares hits bit by bit, and lists the structures whose single rays must match exhaustive
+// search.
 
 #include <algorithm>
 #include <bit>
@@ -23,7 +24,7 @@ inline std::optional<std::pair<std::uint32_t, scenes::PrimitiveId>> bits_of(
   return std::pair{std::bit_cast<std::uint32_t>(hit->t), hit->primitive};
 }
 
-/// All that are bit-exact, and `tile-beam`, whose single rays are.
+/// All bit-exact structures, and `tile-beam`, whose single rays are bit-exact.
 inline std::vector<std::string> exact_structures() {
   std::vector<std::string> names{"tile-beam"};
   for (const accel::StructureInfo& info : accel::registry().structures()) {

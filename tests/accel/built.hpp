@@ -1,5 +1,5 @@
 #pragma once
-// Structures by their specification, and why one is refused.
+// Builds structures from specifications, and reports why one is refused.
 
 #include <memory>
 #include <string>
@@ -16,7 +16,7 @@ inline std::unique_ptr<accel::Accelerator> build(const std::string& spec,
   return accel::registry().choose(parse_spec(spec)).build(scene);
 }
 
-/// The message of the InputError by which it is refused.
+/// Returns the message of the InputError that refuses the structure.
 inline std::string refusal(const std::string& spec, const scenes::Scene& scene) {
   try {
     build(spec, scene);

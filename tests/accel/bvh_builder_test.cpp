@@ -1,4 +1,4 @@
-// The SAH builder by itself: what any user of it relies on.
+// The SAH builder by itself: the properties that all its users rely on.
 
 #include "accel/bvh/bvh_builder.hpp"
 
@@ -24,8 +24,8 @@ std::vector<scenes::Bounds> random_boxes(std::size_t count, std::uint64_t seed) 
   return boxes;
 }
 
-/// Every box once, in a leaf of a size that is allowed; every node's box the union of what is
-/// below.
+/// Expects every box once, in a leaf of an allowed size, and every node's box to be the union of
+/// the boxes below.
 void expect_valid(const bvh::BinaryBvh& bvh, const std::vector<scenes::Bounds>& boxes,
                   const bvh::BvhOptions& options) {
   ASSERT_EQ(bvh.items.size(), boxes.size());
@@ -95,7 +95,7 @@ TEST(BvhBuilder, IsTheSameBuiltInParallel) {
   }
 }
 
-// One library forgot the bins of two axes for two years, with every hit correct.
+// One library ignored the bins of two axes for two years, with every hit correct.
 TEST(BvhBuilder, NoAxisIsPreferred) {
   const auto boxes = random_boxes(3000, 4);
   std::vector<double> costs;

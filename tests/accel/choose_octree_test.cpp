@@ -1,4 +1,4 @@
-// What must be true of octrees whose level is chosen automatically.
+// Properties of octrees whose level is chosen automatically.
 
 #include "accel/octree/choose_octree.hpp"
 
@@ -119,7 +119,7 @@ TEST(CountBeams, EstimatesWhatTheTracerCounts) {
     const octree::OctreeWork truth = traced_beams(tracer, camera);
     octree::OctreeWork work{};
     beam::count_beams(tracer.octree(), {camera, 64'000}, {}, work);
-    // Beams crowd together at some edges, which a window shows or not.
+    // Beams crowd together at some edges, which may or may not be in a window.
     EXPECT_NEAR(work.nonterminal, truth.nonterminal, 0.5 * truth.nonterminal);
     EXPECT_NEAR(work.occupied, truth.occupied, 0.5 * truth.occupied);
     traced.nonterminal += truth.nonterminal;

@@ -6,7 +6,7 @@
 
 namespace beambench::tests {
 
-/// Whether no point of the inner box is outside the outer one.
+/// Returns whether all points of the inner box are in the outer one.
 inline bool contains(const scenes::Bounds& outer, const scenes::Bounds& inner) {
   return glm::all(glm::lessThanEqual(outer.lower, inner.lower)) &&
          glm::all(glm::lessThanEqual(inner.upper, outer.upper));

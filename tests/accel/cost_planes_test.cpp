@@ -1,4 +1,4 @@
-// Octrees with planes where a cost is least, and octrees divided on demand.
+// Octrees with planes at the least cost, and octrees divided on demand.
 
 #include "accel/octree/cost_planes.hpp"
 
@@ -99,7 +99,7 @@ TEST(CostPlanes, HitsAreThoseOfExhaustive) {
   }
 }
 
-// What the option is for.
+// The purpose of the option.
 TEST(CostPlanes, SaveTests) {
   const scenes::Scene scene = scenes::load_scene("balls:n=3");
   const auto work = [&](const char* spec) {
@@ -171,7 +171,7 @@ TEST(OnDemandOctree, WorkAndHitsAreThoseOfTheCompleteOctree) {
   }
 }
 
-// Without rays only the high levels are there; with all leaves entered, the complete octree.
+// Without rays, only the high levels exist; with all leaves entered, the octree is complete.
 TEST(OnDemandOctree, DividesWhereRaysCome) {
   const scenes::Scene scene = scenes::load_scene("balls:n=2");
   OctreeOptions options;
@@ -222,7 +222,7 @@ TEST(OnDemandOctree, RefusesWhatItCannotDo) {
   EXPECT_TRUE(scenes::says(
       tests::refusal("glassner:build=on-demand,max_level=auto", scenes::load_scene("tetra:n=2")),
       {"build=on-demand", "max_level", "a number from 1 to 16"}));
-  // The cap counts the lists that rays have made.
+  // The cap applies to the lists created by rays.
   const scenes::Scene scene = scenes::load_scene("escena1");
   const auto structure =
       registry()

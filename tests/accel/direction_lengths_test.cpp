@@ -1,4 +1,4 @@
-// Directions of all lengths that rays may have: the hits are the same, and t scales with them.
+// Directions of all allowed lengths: the hits are the same, and t scales with the length.
 
 #include <algorithm>
 #include <bit>
@@ -23,13 +23,13 @@
 namespace beambench::accel {
 namespace {
 
-/// Of which power of two the longest component is a multiple below 2.
+/// Returns the exponent of the power of two of the longest component.
 int exponent_of(const glm::vec3& direction) {
   const glm::vec3 size = glm::abs(direction);
   return std::ilogb(std::max({size.x, size.y, size.z}));
 }
 
-/// Are the numbers those of `ray` times a power of two, so that no digit was lost?
+/// Returns whether the components are those of `ray` times a power of two, without loss of digits.
 bool is_exactly_scaled(const Ray& scaled, const Ray& ray, float factor) {
   return scaled.direction / factor == ray.direction;
 }

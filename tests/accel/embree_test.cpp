@@ -1,4 +1,4 @@
-// Embree as oracle and as contender: what the adapter must get right on top of Embree.
+// Embree as oracle and as contender: the parts that the adapter adds to Embree.
 
 #include <algorithm>
 #include <cmath>
@@ -112,8 +112,8 @@ TEST(EmbreeOracle, LosesNoRayAtTheVerticesOfAClosedMesh) {
   }
 }
 
-// Five in a million of these were lost where doubles decided on which side of the ray edges pass:
-// at a vertex they may put all of them on one side.
+// Five in a million of these were lost when doubles decided the side of the ray on which edges
+// pass: at a vertex, they may put all edges on one side.
 TEST(EmbreeOracle, LosesNoRayFromAnywhereAtTheVerticesOfAClosedMesh) {
   for (const char* name : {"bumpy:triangles=1000", "bumpy:triangles=20000"}) {
     const scenes::Scene scene = scenes::load_scene(name);
@@ -176,7 +176,7 @@ TEST_P(EmbreeModes, WriteEverySampleOfAnImageOfAnySize) {
             ASSERT_EQ(buffer.t()[index], kInfinity);
             continue;
           }
-          // The twin polygons at one place may come in either order.
+          // The coincident polygons may come in either order.
           ASSERT_EQ(std::min(traced->primitive, 4U), std::min(single->primitive, 4U));
           ASSERT_NEAR(traced->t, single->t, 1e-5F * single->t);
         }
@@ -238,7 +238,7 @@ TEST_P(EmbreeModes, TraceTheVeryRaysOfTheImageOnEveryInstructionSet) {
   }
 }
 
-// Packets and streams may be cut off anywhere, and rays end where they end.
+// Packets and streams may be truncated anywhere, and rays end at their t_max.
 TEST_P(EmbreeModes, TraceListsOfAnyLengthOnEveryInstructionSet) {
   Random random(11);
   const scenes::Scene scene = user_primitives(random);
@@ -274,8 +274,8 @@ TEST_P(EmbreeModes, TraceListsOfAnyLengthOnEveryInstructionSet) {
   }
 }
 
-/// As the curves of cones are, in single precision: t to some roundings of the ray's way, and
-/// another primitive where two are that near.
+/// Expects the exact hit within the single precision of curves for cones: t to several roundings of
+/// the ray's length, and another primitive if the two are that close.
 void expect_as_exact(const Accelerator& exact, const Ray& ray, const std::optional<Hit>& hit,
                      std::size_t& unlike) {
   const auto expected = exact.closest_hit(ray, nullptr);
@@ -285,7 +285,7 @@ void expect_as_exact(const Accelerator& exact, const Ray& ray, const std::option
   }
 }
 
-// Curves presume directions of unit length, and those of images and lists have any length.
+// Curves require directions of unit length, but images and lists have directions of any length.
 TEST_P(EmbreeModes, ConesAsCurvesAreHitWhereTheyAreByRaysOfAnyLength) {
   const scenes::Scene scene = scenes::load_scene("rings:n=2");
   const auto structure = embree(mode() + ",cones=curves", scene);
@@ -372,7 +372,7 @@ TEST(Embree, RefusesAnUnknownMode) {
   EXPECT_THROW(embree("mode=packet32", scene), InputError);
 }
 
-// What Embree 3.13.5 prints on a machine with AVX-512 and when it was built for less.
+// The output of Embree 3.13.5 on a machine with AVX-512, and of a build for less.
 constexpr const char* kPrinted = R"(
    Targets  : SSE SSE2 SSE3 SSSE3 SSE4.1 SSE4.2 AVX AVXI AVX2 AVX512
   Config
@@ -442,7 +442,7 @@ TEST(Embree, NamesTheTypesOfItsGeometry) {
   EXPECT_EQ(types(row_of_primitives()), "triangles+points+callbacks");
 }
 
-// What is subtracted from Embree's times is the time of making the same rays, with a miss for each.
+// The time of making the same rays, with a miss for each, is subtracted from Embree's times.
 TEST(Embree, NullWithSimdRaysWritesAMissForEveryRayOfAnImage) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=1");
   const auto null = registry().choose({"null", {{"rays", "simd"}}}).build(scene);

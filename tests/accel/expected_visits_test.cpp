@@ -1,4 +1,4 @@
-// The surface area heuristic's estimate: by hand, and against random lines that are traced.
+// The surface area heuristic's estimate: checked by hand, and against traced random lines.
 
 #include "accel/core/expected_visits.hpp"
 
@@ -28,7 +28,7 @@ std::map<std::string, double> figures(const Statistics& statistics) {
 
 TEST(ExpectedVisits, AreSumsOfAreas) {
   ExpectedVisits visits({{0, 0, 0}, {2, 2, 2}});
-  visits.add_node(scenes::Bounds{{-1, -1, -1}, {3, 3, 3}});  // only what is in the scene's box
+  visits.add_node(scenes::Bounds{{-1, -1, -1}, {3, 3, 3}});  // only the part inside the scene's box
   visits.add_leaf(scenes::Bounds{{0, 0, 0}, {1, 1, 1}}, 3);
   visits.add_leaf(scenes::Bounds{{4, 4, 4}, {5, 5, 5}}, 3);
   Statistics statistics;
@@ -44,7 +44,7 @@ TEST(ExpectedVisits, AreUnknownOfAFlatSceneWithoutArea) {
   EXPECT_TRUE(statistics.more.empty());
 }
 
-/// A line through two random points of a sphere about the scene, which lines meet evenly.
+/// A line through two random points of a sphere around the scene: lines are uniformly distributed.
 Ray random_line(const glm::dvec3& center, double radius, Random& random) {
   const auto on_sphere = [&] {
     const double z = random.uniform(-1.0, 1.0);
@@ -59,7 +59,8 @@ Ray random_line(const glm::dvec3& center, double radius, Random& random) {
   return ray;
 }
 
-/// Triangles so small that hardly a line hits one: lines that hit nothing visit all that they meet.
+/// Triangles so small that lines hardly ever hit one: lines without hits visit every node that they
+/// intersect.
 scenes::Scene small_triangles() {
   scenes::SceneBuilder builder("small triangles");
   Random random(9);

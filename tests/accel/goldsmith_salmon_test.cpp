@@ -1,5 +1,4 @@
-// Goldsmith and Salmon's hierarchy: what it must hold, what its cost is, and how much work it takes
-// to build.
+// Goldsmith and Salmon's hierarchy: its invariants, its cost, and the work of building it.
 
 #include "accel/bvh/goldsmith_salmon.hpp"
 
@@ -150,8 +149,8 @@ TEST(GoldsmithSalmon, ChoosesBesideTheTerminalNodeByHand) {
   EXPECT_DOUBLE_EQ(two.cost, 2.0 + 3.0 * 12.0 / 300.0 + 2.0 * 6.75 / 300.0);
 }
 
-// What the thesis prints: bola-espacial 1,154 boxes, cost 372; tetera 731 and 130; escena1 cost
-// 4.64 (section 5.4.2).
+// The thesis prints: bola-espacial 1,154 boxes, cost 372; tetera 731 and 130; escena1 cost 4.64
+// (section 5.4.2).
 TEST(GoldsmithSalmon, HasTheseSizesInScenesOfTheThesis) {
   struct Sizes {
     const char* scene;

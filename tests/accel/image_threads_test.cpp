@@ -1,4 +1,4 @@
-// An image on several threads: the same hits and the same counts, whoever found them.
+// An image on several threads: the same hits and the same counts, whichever thread found them.
 
 #include <algorithm>
 #include <chrono>
@@ -28,14 +28,14 @@ namespace {
 
 constexpr int kThreads[] = {1, 2, 3, 8};
 
-/// All counters but those of time, which is never the same.
+/// All counters except times, which always differ.
 std::map<std::string, std::uint64_t, std::less<>> counts(const WorkCounters& counters) {
   auto all = counters.by_name();
   std::erase_if(all, [](const auto& counter) { return counter.first.ends_with("_ns"); });
   return all;
 }
 
-/// What `trace` finds and counts must come from any number of threads.
+/// Expects the same hits and counts from `trace` with any number of threads.
 void expect_same_on_threads(const StructureChoice& choice, const scenes::Scene& scene,
                             const PrimaryRays& rays) {
   SCOPED_TRACE(choice.label() + " over " + scene.name);
@@ -86,8 +86,9 @@ std::string name_of_case(const ::testing::TestParamInfo<std::string>& info) {
 
 INSTANTIATE_TEST_SUITE_P(All, Threads, ::testing::ValuesIn(all_names()), name_of_case);
 
-// Where threads share more than the buffer: beams that continue behind leaves, corners of many
-// pixels, packets across the borders of what a thread gets, lists that are filled on first use.
+// Cases in which threads share more than the buffer: beams that continue behind leaves, corners of
+// several pixels, packets across the borders of threads' shares, lists that are filled on first
+// use.
 TEST(ThreadsOf, EveryModeChangeNoHitAndNoCount) {
   for (const char* spec :
        {"beam:continue=beams", "beam:handover=48", "beam:share_corners=true,continue=beams",
@@ -100,8 +101,8 @@ TEST(ThreadsOf, EveryModeChangeNoHitAndNoCount) {
   }
 }
 
-/// Notes which threads called it, and in which floating-point mode they were; makes each wait until
-/// as many as are expected have come.
+/// Records which threads called it and their floating-point mode; each waits until the expected
+/// number has arrived.
 class Meeting : public TraversalAccelerator<Meeting> {
  public:
   explicit Meeting(std::size_t expected) : expected_(expected) {}

@@ -1,5 +1,5 @@
-// tile-beam's lists of rays, several of which are on their way at once in large hierarchies: the
-// answers and the work are those of one ray after the other.
+// Lists of rays in tile-beam, several of which are in flight at once in large hierarchies: results
+// and work are the same as for one ray after the other.
 
 #include <algorithm>
 #include <cstddef>
@@ -25,7 +25,7 @@ namespace {
 
 constexpr float kUntouched = -7.0F;
 
-/// What a list's kernels wrote for rays that are asked for both, and what they counted.
+/// The results and the counts of a list's kernels for closest-hit and any-hit queries.
 struct Answers {
   std::vector<float> t;
   std::vector<scenes::PrimitiveId> primitive;
@@ -70,7 +70,7 @@ void expect_right(const Answers& answers, const scenes::Scene& scene, std::span<
   EXPECT_EQ(answers.some_left_any, some_left);
 }
 
-/// Lists shorter than what goes at once, and longer; among them rays that are left out.
+/// Lists shorter and longer than the number of rays in flight, some of which are left out.
 std::vector<Ray> some_rays(const scenes::Scene& scene, std::uint64_t seed, std::size_t count) {
   Random random(seed);
   std::vector<Ray> rays = verify::random_rays(scene, count, random);
@@ -106,7 +106,7 @@ TEST(InterleavedRays, AreNotForSmallHierarchies) {
   EXPECT_FALSE(build_tile_hierarchy(scene, {}).interleaves_rays);
 }
 
-/// What an image and a pencil hand over to single rays, where there are more triangles than rays.
+/// Rays passed on from an image and a pencil to single rays, with more triangles than rays.
 TEST(InterleavedRays, ContinueImagesAndPencils) {
   const scenes::Scene large = scenes::load_scene("soup:triangles=250000");
   const TileBeam structure(large, {});
@@ -146,7 +146,8 @@ TEST(InterleavedRays, ContinueImagesAndPencils) {
     different += (any[i] == 1) == structure.any_hit(rays[i], nullptr) ? 0U : 1U;
     occluded += any[i];
   }
-  EXPECT_LE(different, 1U);  // by less than a rounding: the others of a pencil are tested in float
+  EXPECT_LE(different, 1U);  // by less than a rounding: the other rays of a pencil are tested in
+                             // float
   EXPECT_GT(occluded, 100U);
   EXPECT_LT(occluded, 900U);
 }

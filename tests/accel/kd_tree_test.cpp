@@ -1,4 +1,4 @@
-// The kd-tree: what its leaves must hold, what clipping saves, and trees computed by hand.
+// The kd-tree: the contents of its leaves, the savings by clipping, and trees computed by hand.
 
 #include "accel/kd_tree/kd_tree.hpp"
 
@@ -141,7 +141,7 @@ TEST(KdTree, TheHeuristicCostsLessThanTheMedian) {
             kd_tree::build_kd_tree(scene, median).cost);
 }
 
-/// Small triangles in opposite corners of the cube [0, 4]^3, so many in each.
+/// Small triangles in opposite corners of the cube [0, 4]^3, `triangles` in each.
 scenes::Scene two_corners(int triangles = 1) {
   scenes::SceneBuilder builder("two corners");
   for (int i = 0; i < triangles; ++i) {

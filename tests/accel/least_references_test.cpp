@@ -1,4 +1,4 @@
-// References predicted while they are made: never more than there are, and in time.
+// References predicted during construction: never more than there are, and in time.
 
 #include "accel/core/least_references.hpp"
 
@@ -37,7 +37,7 @@ scenes::Scene one_sphere() {
   return std::move(builder).build();
 }
 
-/// Two spheres so close to each other that the finest cells on them hold both.
+/// Two spheres so close to each other that the finest cells on them contain both.
 scenes::Scene two_spheres() {
   scenes::SceneBuilder builder("two spheres");
   builder.add_sphere({1.0, 2.0, 3.0}, 2.0);
@@ -51,7 +51,7 @@ std::uint64_t references_in(const scenes::Scene& scene, const CellGrid& grid) {
   return statistics.references;
 }
 
-/// Cells that are long along each axis in turn, so that every projection counts once.
+/// Checks cells that are long along each axis in turn, so that every projection is decisive once.
 void expect_no_more_than_there_are(const scenes::Scene& scene) {
   for (const auto& cells : std::vector<std::array<int, 3>>{
            {9, 9, 9}, {40, 7, 3}, {3, 40, 7}, {7, 3, 40}, {64, 64, 64}}) {
@@ -101,7 +101,7 @@ TEST(LeastReferences, AreOfTheRightSize) {
             static_cast<double>(references_in(quad, over_quad)));
 }
 
-/// The octree's own count, of which nothing more than the limit is refused.
+/// The octree's own count, which refuses nothing within the limit.
 TEST(ReferenceLimit, RefusesNothingThatFits) {
   for (const char* name : {"escena1", "tetra:n=2", "jacks:n=1"}) {
     const scenes::Scene scene = scenes::load_scene(name);
@@ -115,7 +115,7 @@ TEST(ReferenceLimit, RefusesNothingThatFits) {
   }
 }
 
-/// So many references are made that they are estimated, and as many as there are may be there.
+/// There are so many references that they are estimated, and the actual number is allowed.
 TEST(ReferenceLimit, RefusesNothingThatFitsByEstimates) {
   const scenes::Scene spheres = two_spheres();
   for (const std::string tree :
@@ -157,7 +157,7 @@ TEST(ExpectedReferences, AreRightOnAverage) {
   }
 }
 
-/// Of estimates that differ as much as they can: one in a thousand has all.
+/// Estimates that vary as much as they can: one in a thousand has the whole sum.
 TEST(SurelyMoreThan, IsNotDeceivedByFewLargeEstimates) {
   for (const std::uint64_t most : {1'000, 1'000'000}) {
     const auto all = static_cast<double>(most);
@@ -177,8 +177,8 @@ std::pair<double, std::string> seconds_to_build(const std::string& spec,
 }
 
 /// The spheres have hundreds of millions of references in the finest cells, and 50 million are made
-/// before a structure is refused for those that it has. Beside each stands one of its kind over the
-/// same scene that fits, with some hundred thousand.
+/// before a structure is refused for those that it has. Each is paired with a smaller structure
+/// over the same scene that fits, with about a hundred thousand.
 TEST(ReferenceLimit, IsKnownToBeExceededEarly) {
   const scenes::Scene sphere = one_sphere();
   const scenes::Scene spheres = two_spheres();
@@ -234,7 +234,7 @@ scenes::Scene alike(int count, bool cones) {
 }
 
 /// Seventy thousand primitives that no plane divides have a hundred times the references of seven
-/// hundred, which fit, and are refused in a fifth of the time that these would take.
+/// hundred, which fit. They are refused in a fifth of the time that building would take.
 TEST(ReferenceLimit, IsKnownToBeExceededEarlyByPrimitivesInOnePlace) {
   for (const auto& [spec, cones] : std::vector<std::pair<std::string, bool>>{
            {"kd-tree:builder=median", false},
@@ -271,8 +271,8 @@ TEST(ReferenceLimit, IsKnownToBeExceededEarlyByASceneOfNeedles) {
   EXPECT_LT(seconds, 15.0 * enough);
 }
 
-/// Many primitives, of which a part is looked at before the tree is built: as many references as
-/// there are may be there.
+/// Many primitives, some of which are sampled before the tree is built: their actual number of
+/// references is allowed.
 TEST(ReferenceLimit, RefusesNothingThatFitsByParts) {
   for (const scenes::Scene& scene :
        {alike(5000, false), scenes::load_scene("bumpy:triangles=20000")}) {

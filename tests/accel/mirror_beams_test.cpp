@@ -27,7 +27,7 @@ namespace {
 
 using glm::dvec3;
 
-/// What a mirror sends on of rays that all seem to come from one point: as its pencil.
+/// The rays that a mirror sends on, given rays that all seem to come from one point: a pencil.
 struct Reflected {
   PrimaryRays image;
   dvec3 apex;
@@ -47,7 +47,7 @@ Reflected seen_directly(const PrimaryRays& image) {
   return seen;
 }
 
-/// Of rays that hit a mirror from one side.
+/// Returns the reflections of the rays that hit a mirror from one side.
 Reflected reflected(const Reflected& from, const HitBuffer& hits,
                     const scenes::PlanarMirror& mirror, double side, double lift) {
   const dvec3 lifted = side * lift * mirror.normal;
@@ -68,8 +68,8 @@ Reflected reflected(const Reflected& from, const HitBuffer& hits,
   return next;
 }
 
-/// The same rays, turned and moved by up to a part of a pixel: far more than rounding does, so that
-/// it shows where beams keep too little margin.
+/// Returns the same rays, turned and moved by up to a part of a pixel. This is far more than
+/// rounding, so it reveals beams with too small a margin.
 Reflected shaken(Reflected seen, double part, Random& random) {
   const double pixel = std::min(glm::length(seen.image.right()), glm::length(seen.image.down()));
   for (Ray& ray : seen.rays) {
@@ -80,7 +80,7 @@ Reflected shaken(Reflected seen, double part, Random& random) {
   return seen;
 }
 
-/// How much was compared.
+/// The number of comparisons.
 struct Compared {
   std::size_t pencils = 0;  ///< that were traced in beams
   std::size_t rays = 0;
@@ -93,8 +93,8 @@ HitBuffer hits_of(const Accelerator& structure, const RayBatch& batch) {
   return hits;
 }
 
-/// Each ray of all mirrors' pencils by beams and singly, bit for bit, then of the mirrors that
-/// these see, `depth` in a row.
+/// Compares each ray of all mirrors' pencils, traced in beams and singly, bit for bit; then those
+/// of the mirrors that these see, `depth` in a row.
 void compare(const scenes::Scene& scene, const beam::BeamTracer& tracer, const Reflected& from,
              int depth, double shake, Compared& compared) {
   Random random(1);
@@ -129,8 +129,8 @@ scenes::Scene mirrors(std::uint64_t seed) {
   return scene;
 }
 
-/// The scene's camera, or one in the middle planes of the scene, which are those of cells, as are
-/// those that the virtual eyes of many mirrors then lie in.
+/// The scene's camera, or one in the middle planes of the scene. These are also planes of cells,
+/// and then the virtual eyes of many mirrors lie in such planes, too.
 scenes::Camera camera_of(const scenes::Scene& scene, Random& random) {
   scenes::Camera camera = scene.cameras.front();
   const glm::vec3 middle = 0.5F * (scene.bounds.lower + scene.bounds.upper);
@@ -178,7 +178,7 @@ TEST(MirrorBeams, FindWhatSingleRaysFindInScenes) {
   }
 }
 
-/// The floor of a scene and what it sends on.
+/// The floor of a scene and the rays that it reflects.
 struct Floor {
   explicit Floor(const char* name)
       : scene(scenes::load_scene(name)),
@@ -222,7 +222,7 @@ TEST(MirrorBeams, RaysThatAreNotThoseOfTheirSamplesAreTracedSingly) {
   for (std::size_t i = 0; i < floor.seen.rays.size(); ++i) {
     Ray& ray = floor.seen.rays[i];
     switch (random.below(12)) {
-      case 0:  // of another sample, perhaps of one that has a ray
+      case 0:  // of another sample, which may have a ray
         floor.seen.samples[i] = floor.seen.samples[random.below(floor.seen.samples.size())];
         break;
       case 1:
@@ -293,7 +293,7 @@ TEST(MirrorBeams, RaysOfAMirrorAreReflectedRays) {
   HitBuffer hits(50, 50, 1);
   registry().choose({"samet", {}}).build(scene)->closest_hits(rays, hits, {});
   const auto mirrors = scenes::planar_mirrors(scene);
-  ASSERT_EQ(mirrors.size(), 1U);  // the checkerboard, all squares of it
+  ASSERT_EQ(mirrors.size(), 1U);  // the checkerboard, with all its squares
   const auto view = beam::view_in(mirrors[0], rays, hits);
   ASSERT_TRUE(view.has_value());
   EXPECT_GT(view->rays.size(), 200U);

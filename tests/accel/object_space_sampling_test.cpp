@@ -1,4 +1,4 @@
-// What must be true of samples whose number the leaf chooses.
+// Properties of samples whose number is chosen by the leaf.
 
 #include "accel/beam/object_space_sampling.hpp"
 

@@ -14,7 +14,7 @@
 namespace beambench::accel {
 namespace {
 
-/// A row of the tables: what the thesis prints, and what our scene has.
+/// A row of the tables: the thesis's figures, and our scene's.
 struct OctreeRow {
   const char* scene;
   int max_level;
@@ -57,8 +57,8 @@ octree::Octree octree_of(const OctreeRow& row) {
   return octree::Octree(scene_of_row(row), options);
 }
 
-/// The pixels that a beam takes out of the root without an occupied leaf on its path: their ray
-/// crosses the root cube through empty leaves only.
+/// Returns the pixels of beams that leave the root without an occupied leaf on their path: the
+/// pixel's ray crosses the root cube through empty leaves only.
 std::int64_t exit_pixels(const octree::Octree& octree, const scenes::Camera& camera) {
   const PrimaryRays rays(camera, 1280, 1024, 1);
   const octree::AncestorNeighbors neighbors(octree);
@@ -90,8 +90,8 @@ TEST_P(OctreeCounts, OccupiedLeavesAreWithinAQuarterOfTheThesis) {
   EXPECT_LE(4 * std::abs(leaves - row.thesis_leaves), row.thesis_leaves);
 }
 
-// Required with max_objects = 0: from level 5 up within a quarter, at level 4 of the same order
-// (a corner of the image more or less). The other rows are pinned to be reported.
+// Required with max_objects = 0: from level 5 up within a quarter, at level 4 of the same order (a
+// corner of the image more or less). The other rows are pinned only so that they are reported.
 TEST_P(OctreeCounts, PixelsOfExitBeamsAreThoseReported) {
   const OctreeRow& row = GetParam();
   const std::int64_t pixels = exit_pixels(octree_of(row), scene_of_row(row).cameras[0]);

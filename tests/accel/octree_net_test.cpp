@@ -104,7 +104,7 @@ TEST(OctreeNet, OneStepForEachNeighborWhereSametClimbs) {
     EXPECT_LE(net["neighbor_steps"], net["leaves"]);
     EXPECT_GT(net["neighbor_steps"], net["leaves"] / 2);
     EXPECT_GT(samet["neighbor_steps"], 2 * net["neighbor_steps"]);
-    // What is saved is the search for the neighbor, and nothing else.
+    // The search for the neighbor is saved, and nothing else.
     EXPECT_EQ(samet["traversal_steps"] - net["traversal_steps"],
               samet["neighbor_steps"] - net["neighbor_steps"]);
   }

@@ -1,4 +1,4 @@
-// Box-primitive overlap: never false where a hit can be, and not true for much more.
+// Box-primitive overlap: no false negatives where a hit is possible, and few false positives.
 
 #include "accel/core/overlap.hpp"
 
@@ -85,7 +85,8 @@ RC_GTEST_PROP(Overlap, NeverFalseWhereAHitIs, (std::uint32_t seed)) {
     for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
       const float t = intersect(canonical, scene, id);
       if (!is_hit(t)) continue;
-      // The point at the rounded t: widen by that rounding, as the traversal has the unrounded t.
+      // The point at the rounded t: widen by that rounding, because the traversal uses the
+      // unrounded t.
       const double rounding = 0x1p-24 * t * glm::length(canonical.direction);
       const Box box = box_with(canonical.at(t), random);
       RC_ASSERT(surface_overlaps(scene, id, box, tolerance + rounding));
@@ -93,8 +94,8 @@ RC_GTEST_PROP(Overlap, NeverFalseWhereAHitIs, (std::uint32_t seed)) {
   }
 }
 
-/// The part of a triangle inside a box, by clipping against its six planes (Sutherland and Hodgman
-/// 1974): is any left?
+/// Clips a triangle against the six planes of a box (Sutherland and Hodgman 1974). Returns whether
+/// any of it remains.
 bool clipped_triangle_remains(const std::array<glm::dvec3, 3>& corners, const Box& box) {
   std::vector<glm::dvec3> polygon(corners.begin(), corners.end());
   for (int plane = 0; plane < 6 && !polygon.empty(); ++plane) {
@@ -124,7 +125,7 @@ RC_GTEST_PROP(OverlapTriangle, AgreesWithClipping, (std::uint32_t seed)) {
   for (int i = 0; i < 200; ++i) {
     const std::array<glm::dvec3, 3> corners{point(), point(), point()};
     const Box box = box_with(point(), random);
-    constexpr double kBand = 1e-9;  // where clipping itself may be wrong
+    constexpr double kBand = 1e-9;  // width in which clipping itself may be wrong
     Box smaller{box.lower + kBand, box.upper - kBand};
     if (clipped_triangle_remains(corners, smaller)) {
       RC_ASSERT(triangle_overlaps(corners, box, 0.0));

@@ -1,4 +1,4 @@
-// Pencils of which rays begin on surfaces: tile-beam hits these at t = 0, as single rays do.
+// Pencils whose rays begin on surfaces: tile-beam hits these at t = 0, as single rays do.
 
 #include <algorithm>
 #include <array>
@@ -40,7 +40,7 @@ scenes::Scene wall() {
   return std::move(builder).build();
 }
 
-/// A prism over a triangle, turned by some angles, none of which leaves a face in a plane of axes.
+/// A prism over a triangle, turned so that no face lies in a plane of the axes.
 scenes::Scene prism() {
   scenes::SceneBuilder builder("prism");
   const auto corner = [](int i, double height) {
@@ -57,7 +57,7 @@ scenes::Scene prism() {
   return std::move(builder).build();
 }
 
-/// Spheres of radii and centers that leave their points along the axes exact.
+/// Spheres whose radii and centers make their points along the axes exact.
 scenes::Scene spheres() {
   scenes::SceneBuilder builder("spheres");
   add_floor(builder);
@@ -67,9 +67,9 @@ scenes::Scene spheres() {
   return std::move(builder).build();
 }
 
-/// Places on the surfaces of a scene, as exactly as floats can say: corners and faces of triangles,
-/// and the ends of spheres along the axes. Not on edges: rounded, they lie beside the faces, and
-/// whether these are hit there is for neither to say.
+/// Places on the surfaces of a scene, as exactly as floats allow: corners and faces of triangles,
+/// and the ends of spheres along the axes. Not on edges: rounded, they lie beside the faces, where
+/// neither outcome is required.
 std::vector<glm::vec3> places_on(const scenes::Scene& scene, Random& random, int of_each) {
   std::vector<glm::vec3> places;
   for (const scenes::Triangle& triangle : scene.triangles) {
@@ -95,18 +95,18 @@ std::vector<glm::vec3> places_on(const scenes::Scene& scene, Random& random, int
 }
 
 struct Counts {
-  std::size_t at_origin = 0;  ///< rays whose first hit is at t = 0, but for a rounding
+  std::size_t at_origin = 0;  ///< rays whose first hit is at t = 0, up to rounding
   std::size_t beams = 0;      ///< parts of pencils that were traced together
 };
 
 bool is_at_origin(const std::optional<Hit>& hit) { return hit && hit->t < 1e-6F; }
 
-/// Shadow rays from the places toward a light: each is hit if exhaustive search says so, except
-/// at the very edge of a triangle.
+/// Casts shadow rays from the places toward a light: each must be hit if it is in exhaustive
+/// search, except at the very edge of a triangle.
 Counts expect_shadows_of_exhaustive(const scenes::Scene& scene, const TileBeam& structure,
                                     const std::vector<glm::vec3>& places, const glm::vec3& light) {
   std::vector<Ray> rays;
-  // So many of each that the pencil is not handed over to single rays.
+  // Enough of each that the pencil is not passed on to single rays.
   for (int i = 0; i < 1 + 2000 / static_cast<int>(places.size()); ++i) {
     for (const glm::vec3& place : places) rays.push_back({place, 0.0F, light - place, 1.0F});
   }
@@ -162,13 +162,13 @@ void expect_shadows_at_zero(const scenes::Scene& scene) {
   }
 }
 
-// Of 3,055 shadow rays 25 were lost, whose origins lie in the plane of the wall.
+// Of 3,055 shadow rays whose origins lie in the plane of the wall, 25 were lost.
 TEST(PencilsAtZero, HaveTheShadowsOfRaysFromAWall) { expect_shadows_at_zero(wall()); }
 TEST(PencilsAtZero, HaveTheShadowsOfRaysFromAPrism) { expect_shadows_at_zero(prism()); }
 TEST(PencilsAtZero, HaveTheShadowsOfRaysFromSpheres) { expect_shadows_at_zero(spheres()); }
 
-/// Rays from the places away from an apex: the first hit of each is that of exhaustive search, at
-/// t = 0 where that is, as far as float can say elsewhere.
+/// Casts rays from the places away from an apex: the first hit of each must be that of exhaustive
+/// search, exactly at t = 0 and to the precision of float elsewhere.
 Counts expect_reflections_of_exhaustive(const scenes::Scene& scene, const TileBeam& structure,
                                         const std::vector<glm::vec3>& places,
                                         const glm::vec3& apex) {

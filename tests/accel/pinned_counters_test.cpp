@@ -1,5 +1,5 @@
-// The work of each structure, pinned: one that gets worse fails here even when its hits stay right.
-// Better is fine, once: then pin the new figures.
+// The pinned work of each structure: a structure that gets worse fails here even if its hits stay
+// correct. An improvement fails once: then pin the new figures.
 
 #include <algorithm>
 #include <cctype>
@@ -17,7 +17,7 @@
 namespace beambench::accel {
 namespace {
 
-/// Without the tests by kind of primitive, which add up to all
+/// Returns the counters without the tests by kind of primitive, which are a breakdown of the tests
 /// (tests/accel/expected_visits_test.cpp).
 std::map<std::string, std::uint64_t> work_of(const WorkCounters& counters) {
   std::map<std::string, std::uint64_t> work;
@@ -27,7 +27,7 @@ std::map<std::string, std::uint64_t> work_of(const WorkCounters& counters) {
   return work;
 }
 
-/// What 64x64 primary rays cost.
+/// The work for 64x64 primary rays.
 struct PinnedRow {
   const char* structure;
   const char* scene;
@@ -122,8 +122,9 @@ INSTANTIATE_TEST_SUITE_P(Structures, PinnedWork, ::testing::Values(
   ), row_name);
 // clang-format on
 
-/// What tile-beam's pencils cost that 128x128 primary rays send on. With SSE4, which every machine
-/// has: others multiply and add with one rounding, which decides some bounds the other way.
+/// The work of tile-beam's pencils for the rays that follow from 128x128 primary rays. Uses SSE4,
+/// which every machine has: other instruction sets multiply and add with one rounding, which
+/// changes some comparisons.
 struct PencilRow {
   const char* kind;
   const char* scene;

@@ -1,4 +1,4 @@
-// Primary rays: where samples lie, and that t is view depth.
+// Primary rays: the positions of samples, and that t is view depth.
 
 #include "accel/core/primary_rays.hpp"
 

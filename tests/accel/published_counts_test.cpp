@@ -1,16 +1,16 @@
 // Havran's published counts for Samet's traversal ("A Summary of Octree Ray Traversal Algorithms",
-// Ray Tracing News 12(2), 1999; TETRA at n = 6), ours beside them.
+// Ray Tracing News 12(2), 1999; TETRA at n = 6), compared with ours.
 //
 // What the comparison showed. Leaves and empty leaves per ray agree within 1%, and so do the other
 // two once they are counted alike:
-// - Traversal steps: ours end with the leaf in which a ray leaves the root, for integer coordinates
-//   show that there is no neighbor. Samet's search climbs to the root before it knows. With these
-//   climbs, which are counted here apart, the steps agree within 1%; without them ours are 4 to 7%
-//   fewer.
+// - Traversal steps: ours end with the leaf in which a ray leaves the root, because integer
+//   coordinates show that there is no neighbor; Samet's search climbs to the root first. With these
+//   climbs, which are counted separately here, the steps agree within 1%; without them ours are 4
+//   to 7% fewer.
 // - Intersection tests: his are not an average over the rays. Divided by the rays that hit (eye
 //   rays that see something, shadow rays that are blocked), ours are his within 1%; the average
-//   per ray is 5.6 times smaller at every depth. So his figure must be the ratio of the tests made
-//   to the least that must be made.
+//   per ray is 5.6 times smaller at every depth. So his figure must be the ratio of the actual to
+//   the minimum number of tests.
 
 #include <cmath>
 
@@ -29,7 +29,7 @@ struct Averages {
   double tests, steps, leaves, empty_leaves;
 };
 
-/// What is counted over all rays.
+/// Counts summed over all rays.
 struct Totals {
   std::uint64_t tests = 0, steps = 0, leaves = 0, empty_leaves = 0;
   std::uint64_t climbs = 0;  ///< levels from the leaf in which a ray leaves the root up to the root
@@ -51,7 +51,7 @@ struct PublishedRow {
 
 void PrintTo(const PublishedRow& row, std::ostream* out) { *out << "depth " << row.depth; }
 
-/// Havran's octree: the root being depth 0, a leaf at one object, objects by their bounding box, in
+/// Havran's octree: depth 0 at the root, leaves of one object, objects by their bounding box, in
 /// the scene's own box (as in octree_test.cpp, where its size is compared).
 octree::OctreeOptions octree_of_depth(int depth) {
   octree::OctreeOptions options;

@@ -1,4 +1,4 @@
-// Rays that begin on triangles or beside them: what float tests may reject there, and what not.
+// Rays that begin on triangles or beside them: the hits that float tests may reject there.
 
 #include <array>
 #include <string>
@@ -20,7 +20,7 @@
 namespace beambench::accel {
 namespace {
 
-/// Triangles of all shapes, needles among them, in a box of that size.
+/// Triangles of all shapes, including needles, in a box of that size.
 scenes::Scene triangles_of_size(double size, std::uint64_t seed) {
   scenes::SceneBuilder builder("triangles");
   Random random(seed);
@@ -36,7 +36,8 @@ scenes::Scene triangles_of_size(double size, std::uint64_t seed) {
   return std::move(builder).build();
 }
 
-/// From a point of a triangle, rounded to float, and from one moved along the normal by `lift`.
+/// Rays from a point of a triangle, rounded to float, and from one moved along the normal by
+/// `lift`.
 std::vector<Ray> rays_from(const scenes::Scene& scene, double lift, Random& random) {
   std::vector<Ray> rays;
   for (const scenes::Triangle& triangle : scene.triangles) {

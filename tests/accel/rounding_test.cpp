@@ -9,8 +9,8 @@
 namespace beambench::accel {
 namespace {
 
-// Not inlined, so that the two conversions stay side by side: GCC 12.2 at -O2 and above gives the
-// sums back unrounded, unless its SLP vectorizer is off (as our build has it).
+// Not inlined, so that the two conversions stay adjacent: GCC 12.2 at -O2 and above returns the
+// sums unrounded, unless its SLP vectorizer is off (as in our build).
 __attribute__((noinline)) glm::dvec2 through_float(const glm::dvec2& a, const glm::dvec2& b) {
   const auto x = static_cast<float>(a.x + b.x);
   const auto y = static_cast<float>(a.y + b.y);
@@ -23,8 +23,8 @@ TEST(Rounding, ToFloatAndBackLosesBits) {
   EXPECT_EQ(rounded.y, 0x1.c21c22p-3);
 }
 
-// The same where it hurt: inlined into a structure's loop over pixels, rays kept unrounded
-// directions, and 7% of the hits of this scene had other bits than those of the rays traced alone.
+// The same where it did damage: inlined into a structure's loop over pixels, rays kept unrounded
+// directions, and 7% of the hits of this scene differed from those of the rays traced alone.
 TEST(Rounding, ATraceShootsTheVeryRaysOfTheCamera) {
   const scenes::Scene scene = scenes::load_scene("escena1");
   const PrimaryRays rays(scene.cameras.front(), 64, 48, 4);

@@ -1,4 +1,4 @@
-// The eight-wide hierarchy: what it must hold, and the same hits from every instruction set.
+// The eight-wide hierarchy: its invariants, and the same hits from every instruction set.
 
 #include "accel/bvh/sah_bvh.hpp"
 
@@ -67,7 +67,7 @@ TEST_P(SahBvhBuilders, LoseNothingOnMeshes) {
   }
 }
 
-// Slivers seen from eight scene sizes away: where float tests err most.
+// Slivers seen from eight scene sizes away, where float tests have the largest errors.
 TEST_P(SahBvhBuilders, LoseNoSliverSeenFromAfar) {
   scenes::SceneBuilder builder("slivers");
   Random random(7);
@@ -107,7 +107,7 @@ TEST_P(SahBvhBuilders, LoseNoSliverSeenFromAfar) {
   EXPECT_GT(hits, 1000);
 }
 
-/// Checks a child's box against all that is below it and counts what is met.
+/// Checks a child's box against everything below it and counts the nodes.
 class WideBvhCheck {
  public:
   WideBvhCheck(const bvh::WideBvh& bvh, const scenes::Scene& scene) : bvh_(bvh), scene_(scene) {}
@@ -230,7 +230,7 @@ TEST(SahBvh, ReportsWhatItDid) {
   EXPECT_TRUE(found);
 }
 
-// The float tests leave little to the canonical one.
+// The float tests leave few candidates to the canonical one.
 TEST(SahBvh, ConfirmsAboutOncePerHit) {
   const scenes::Scene scene = scenes::load_scene("bumpy:triangles=20000");
   const bvh::SahBvh structure(scene, {});

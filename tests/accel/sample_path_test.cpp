@@ -1,4 +1,4 @@
-// The beams of one sample: those that the image's samples are in, and the same hit.
+// The beams of one sample: those that contain the image's samples, and the same hit.
 
 #include "accel/beam/sample_path.hpp"
 
@@ -21,7 +21,7 @@ beam::BeamOptions options_of_level(int level) {
   return options;
 }
 
-/// Which beam, in which leaf: what it meets, the leaf and the outline name it.
+/// Identifies a beam in a leaf by its kind, the leaf and the outline.
 using Name = std::tuple<BeamKind, std::uint32_t, std::vector<std::pair<double, double>>>;
 
 Name name_of(const BeamPassage& passage) {
@@ -103,14 +103,14 @@ TEST_P(SamplePaths, GiveTheImagesHitsAndEndWhereTheBeamEnds) {
   }
   EXPECT_FALSE(samples.empty());
   for (const auto& [name, counts] : samples) {
-    if (shared) continue;  // a corner is one sample of the beam, and found from four pixels
+    if (shared) continue;  // a corner is one sample of the beam but is found from four pixels
     EXPECT_EQ(counts.first, counts.second) << "leaf " << std::get<1>(name);
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SamplePaths, ::testing::ValuesIn(cases()));
 
-// A beam that continues undivided has no new cut and the same outline; one that is cut has both.
+// A beam that continues undivided has no new cut and the same outline; a divided one has both.
 TEST(SamplePath, NamesTheCutsOfADividedBeamOnly) {
   const scenes::Scene scene = scenes::load_scene("escena2");
   const beam::BeamTracer tracer(scene, options_of_level(6));

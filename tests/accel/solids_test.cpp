@@ -1,4 +1,4 @@
-// Which surfaces are proven to hide their backs, and from where.
+// The surfaces that are proven to hide their backs, and the places from which they do.
 
 #include "accel/tile_beam/solids.hpp"
 
@@ -36,7 +36,7 @@ PolygonMesh moved(PolygonMesh mesh, const dvec3& shift, const dvec3& scale = dve
   return mesh;
 }
 
-/// The solids of some meshes: how many triangles each has.
+/// The number of triangles of each solid in some meshes.
 std::vector<std::uint32_t> sizes(const std::vector<PolygonMesh>& meshes) {
   std::vector<std::uint32_t> counts;
   for (const Solid& solid : find_solids(scene_of(meshes)).solids) {
@@ -63,7 +63,7 @@ TEST(Solids, ListTheirTriangles) {
   const Solids found = find_solids(scene);
   ASSERT_EQ(found.solids.size(), 3U);
   for (std::uint32_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(found.solids[i].inward, i == 2);  // mirrored, the corners go round the other way
+    EXPECT_EQ(found.solids[i].inward, i == 2);  // mirrored, the corners have the opposite winding
     for (const std::uint32_t triangle : found.triangles_of(found.solids[i])) {
       EXPECT_EQ(triangle / 4, i);
       EXPECT_EQ(found.of_triangle[triangle], i);
@@ -82,7 +82,7 @@ TEST(Solids, AreNotOpenNorTwistedNorFlat) {
   PolygonMesh flat = whole;  // folded paper: the same triangle from both sides
   flat.polygons = {{0, 1, 2}, {2, 1, 0}};
   EXPECT_EQ(sizes({flat}), Sizes{});
-  // One is sound, whatever lies beside it.
+  // The first is valid, whatever lies beside it.
   EXPECT_EQ(sizes({open, moved(whole, dvec3(4.0)), moved(twisted, dvec3(8.0))}), Sizes{4});
 }
 
@@ -128,7 +128,7 @@ TEST(Solids, MayHaveAFinOnAnEdge) {
   PolygonMesh mesh = tests::tetrahedron();
   mesh.vertices.emplace_back(3.0, 3.0, 3.0);
   mesh.polygons.push_back({0, 1, 4});
-  EXPECT_LE(sizes({mesh}).size(), 1U);  // the fin itself is none
+  EXPECT_LE(sizes({mesh}).size(), 1U);  // the fin itself is not one
   for (const std::uint32_t size : sizes({mesh})) EXPECT_EQ(size, 4U);
 }
 
@@ -136,7 +136,7 @@ TEST(Solids, DoNotCareForTheSignOfZero) {
   PolygonMesh mesh = moved(tests::tetrahedron(), dvec3(1.0));
   const auto origin = std::ranges::find(mesh.vertices, dvec3(2.0, 0.0, 0.0));
   ASSERT_NE(origin, mesh.vertices.end());
-  // A second vertex at the same place, of the other zeros, for one triangle.
+  // For one triangle, a second vertex at the same place, with zeros of the other sign.
   mesh.vertices.emplace_back(2.0, -0.0, -0.0);
   auto& corners = mesh.polygons.front();
   std::ranges::replace(corners, static_cast<std::uint32_t>(origin - mesh.vertices.begin()),
@@ -149,8 +149,7 @@ TEST(Solids, OfAnEmptySceneAreNone) {
   EXPECT_TRUE(find_solids(scenes::load_scene("balls:n=1")).solids.empty());
 }
 
-/// Of a star-shaped body: an eye is inside if what lies behind it, seen from the center, is
-/// surface.
+/// Checks a star-shaped body: an eye is inside if the surface lies behind it, seen from the center.
 TEST(Solids, AreLeftByEyesOutside) {
   Random random(3);
   for (const Body& body : tests::bodies()) {

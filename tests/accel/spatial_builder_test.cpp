@@ -1,4 +1,4 @@
-// Splits that divide primitives: what the hierarchy must hold, and what it saves.
+// Splits that divide primitives: the invariants of the hierarchy, and its savings.
 
 #include "accel/bvh/spatial_builder.hpp"
 
@@ -21,7 +21,7 @@
 namespace beambench::accel {
 namespace {
 
-/// A hierarchy over a scene by either builder.
+/// A hierarchy built over a scene by either builder.
 struct Built {
   explicit Built(const scenes::Scene& scene)
       : pieces(bvh::collect_parts(scene)),
@@ -186,7 +186,7 @@ TEST(SpatialBuilder, CostsLess) {
   EXPECT_LT(spatial_over_binned("bumpy:triangles=5000"), 1.005) << "there is little to gain";
 }
 
-// Triangles that do not overlap give no reason to divide one.
+// Triangles that do not overlap are never worth dividing.
 TEST(SpatialBuilder, DividesNothingWithoutAReason) {
   scenes::SceneBuilder builder("apart");
   for (int i = 0; i < 64; ++i) {

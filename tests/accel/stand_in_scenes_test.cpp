@@ -1,4 +1,4 @@
-// The stand-ins for the thesis's scenes: no primitive is there only to reach a count.
+// The stand-ins for the thesis's scenes: no primitive serves only to reach a count.
 
 #include <algorithm>
 #include <array>
@@ -72,7 +72,7 @@ TEST_P(StandIns, RepeatNoPrimitive) {
   }
 }
 
-/// No sliver: every polygon has an area that is not tiny compared with its longest side.
+/// Expects no slivers: every polygon has an area that is not tiny compared with its longest side.
 TEST_P(StandIns, HaveNoPolygonWithoutArea) {
   const scenes::Scene scene = scenes::load_scene(GetParam().name);
   for (std::size_t id = 0; id < scene.polygons.size(); ++id) {
@@ -91,7 +91,7 @@ TEST_P(StandIns, HaveNoPolygonWithoutArea) {
   }
 }
 
-/// Looks for a free line of sight from a polygon to where somebody can see it from.
+/// Looks for an unobstructed line of sight from a polygon to a plausible viewpoint.
 class Onlooker {
  public:
   Onlooker(const scenes::Scene& scene, bool inside)
@@ -141,7 +141,7 @@ class Onlooker {
     return a + u * (b - a) + v * (c - a);
   }
 
-  /// Whether anything is in between, other than what it starts from.
+  /// Returns whether anything lies in between, other than the starting polygon.
   bool blocked(const glm::dvec3& from, const glm::dvec3& path, double end) const {
     Ray ray;
     ray.origin = glm::vec3(from);
@@ -191,7 +191,7 @@ TEST(Onlooker, SeesNothingOfABoxInABoxButFromInside) {
   }
 }
 
-// Whole images are verified by `beambench verify`; this holds for scenes too large for that, too.
+// Whole images are verified by `beambench verify`; this test covers scenes too large for that.
 TEST_P(StandIns, GiveASampleOfRaysTheHitsOfExhaustiveSearch) {
   const scenes::Scene scene = scenes::load_scene(GetParam().name);
   const auto exhaustive = registry().choose({"exhaustive", {}}).build(scene);
@@ -224,7 +224,7 @@ TEST(Habitacion, IsClosed) {
   }
 }
 
-// Section 5.4.2: when a beam comes to an occupied leaf, nearly all of its rays hit there. Section
+// Section 5.4.2: when a beam reaches an occupied leaf, nearly all of its rays hit there. Section
 // 5.3.3: 63% of the beams are at occupied leaves.
 TEST(BolaEspacial, LetsMostRaysHitWhereTheirBeamEnds) {
   const scenes::Scene scene = scenes::load_scene("bola-espacial");
@@ -239,7 +239,7 @@ TEST(BolaEspacial, LetsMostRaysHitWhereTheirBeamEnds) {
     structure->closest_hits(rays, buffer, {&work});
     const auto counters = work.by_name();
     const auto count = [&](const char* name) { return static_cast<double>(counters.at(name)); };
-    // Hardly a ray leaves the root without an occupied leaf on its path.
+    // Hardly any ray leaves the root without an occupied leaf on its path.
     EXPECT_LT(count("samples_leaving"), 0.01 * samples);
     EXPECT_GT(count("samples_in_leaves"), 0.9 * samples);
     const double first = 1.0 - count("rays_after_leaf") / count("samples_in_leaves");

@@ -1,4 +1,4 @@
-// What must be true of every structure in the registry: a new one is tested by being registered.
+// Properties of every structure in the registry: a new one is tested by being registered.
 
 #include <algorithm>
 #include <cstdint>
@@ -17,7 +17,7 @@
 namespace beambench::accel {
 namespace {
 
-/// A check of the self-test, and the structure that it is made of.
+/// A check of the self-test, and the structure to which it is applied.
 struct CheckOfStructure {
   std::string structure;
   const verify::Check* check;
@@ -48,8 +48,8 @@ std::string name_of_check(const ::testing::TestParamInfo<CheckOfStructure>& info
 
 class Contract : public ::testing::TestWithParam<CheckOfStructure> {};
 
-/// Returns the number of random scenes of each check: more than `beambench selftest` has. A
-/// sanitizer requests few, because it finds as much in them (.ci/run).
+/// Returns the number of random scenes of each check: more than in `beambench selftest`. A
+/// sanitizer uses few, because it finds just as much in them (.ci/run).
 std::uint64_t random_scenes() {
   return tests::number_from("BEAMBENCH_CONTRACT_SCENES", tests::in_full(240, 80));
 }

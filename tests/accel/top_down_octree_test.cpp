@@ -1,4 +1,4 @@
-// The traversals of the octree from the root: they find the leaves that Samet's finds.
+// The traversals of the octree from the root: they find the same leaves as Samet's.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The grid of voxels: its lists, its two ways to fill them, its caps, its mailboxes, its threads.
+// The voxel grid: its lists, its two ways to fill them, its caps, its mailboxes, its threads.
 
 #include "accel/grid/voxel_grid.hpp"
 
@@ -56,8 +56,8 @@ TEST(VoxelGrid, ListsHoldExactlyWhatOverlapsTheVoxel) {
         for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
           const bool listed = std::binary_search(references.begin(), references.end(), id);
           if (listed == surface_overlaps(scene, id, box, overlap_tolerance(scene))) continue;
-          // Other than the definition only within rounding of the boundary; the overlap of cones is
-          // conservative, and a voxel's may say yes where that of a block around it says no.
+          // Differs from the definition only within rounding of the boundary. The overlap of cones
+          // is conservative, and may be true for a voxel where it is false for a surrounding block.
           if (scene.primitives[id].kind == scenes::PrimitiveKind::kCone) continue;
           EXPECT_TRUE(listed && surface_overlaps(scene, id, box, 3.0 * overlap_tolerance(scene)))
               << "primitive " << id << " voxel " << voxel;
@@ -138,7 +138,7 @@ TEST(VoxelGrid, LazyIsRightOnManyThreadsAtOnce) {
     }
     const grid::VoxelGrid<grid::LazyVoxels, grid::Mailboxes> grid(scene,
                                                                   with_resolution(12, 12, 12));
-    // All query all: the same voxels are needed at the same time.
+    // All threads query all rays: the same voxels are needed at the same time.
     std::vector<std::vector<std::optional<Hit>>> found(4);
     {
       std::vector<std::jthread> threads;

@@ -1,4 +1,4 @@
-// What a run comes to: what its times are worth, the exit code, the harness's own time, the JSON.
+// The analysis of a run: reasons for care, the exit code, the harness's share, the JSON.
 
 #include "harness/analysis/analysis.hpp"
 
@@ -109,7 +109,7 @@ TEST(ExitCode, OfAWholeSweepWithoutRaysIsInvalidInput) {
   EXPECT_EQ(exit_code_of(analyze(run)), base::kSuccess);
 }
 
-/// A cell of that camera, for its name, by a query path with that share of the harness.
+/// A cell of that camera, to give it a name, traced by a query path with that harness share.
 CellRecord with_share(const char* camera, QueryPath path, double harness_ms, double trace_ms) {
   CellRecord cell = cell_of({"samet", {trace_ms}});
   cell.id.camera = camera;
@@ -196,7 +196,8 @@ TEST(AnalysisJson, HasEachViewWithItsRatios) {
 }
 
 TEST(AnalysisJson, HasNoNumberForABuildThatNeverPaysOff) {
-  // Round by round samet is faster, by its median time as slow: no ray makes up for its build.
+  // samet is faster in each round, but as slow by its median time: no number of rays makes up for
+  // its build.
   const measure::Run run = run_of(
       {cell_of({"samet", {1, 1, 1, 1, 1, 1}, 9.0}), cell_of({"embree", {2, 2, 2, 2, 2, 2}})});
   Analysis analysis = analyze(run);

@@ -1,4 +1,4 @@
-// results.csv: a row of each cell, and the columns that scripts and people rely on.
+// results.csv: a row for each cell, and the columns that scripts and people rely on.
 
 #include "harness/analysis/results_csv.hpp"
 
@@ -178,7 +178,7 @@ TEST(CellRow, TheHarnesssShareIsThatOfItsOwnPath) {
   row = to_row(kRun, cell);
   EXPECT_EQ(row.at("query_path"), "image-own");
   EXPECT_EQ(row.at("trace_net_ms_median"), 10.0);
-  cell.harness = std::nullopt;  // as of a structure that could not be built
+  cell.harness = std::nullopt;  // as for a structure that could not be built
   EXPECT_TRUE(to_row(kRun, cell).at("query_path").is_null());
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Runs with given times, as their logs would have them.
+// Runs with given times, in the form of their logs.
 
 #include <cstddef>
 #include <cstdint>
@@ -65,7 +65,7 @@ inline nlohmann::ordered_json quiet_manifest() {
           {"uncontrolled", nlohmann::ordered_json::array()}};
 }
 
-/// A run of these cells, in this order; they are all that its sweep has.
+/// A run of exactly these cells, in this order.
 inline measure::Run run_of(std::vector<measure::CellRecord> cells,
                            nlohmann::json config = nlohmann::json::object()) {
   measure::Run run{quiet_manifest(), std::move(config), {}, std::move(cells)};
@@ -76,7 +76,7 @@ inline measure::Run run_of(std::vector<measure::CellRecord> cells,
   return run;
 }
 
-/// Eight repetitions, all but equal.
+/// Eight nearly equal repetitions.
 inline std::vector<double> rounds(double ms) {
   return {ms, ms * 1.01, ms * 0.99, ms, ms * 1.02, ms, ms, ms * 0.98};
 }

@@ -1,4 +1,4 @@
-// Who is fastest: ties, ratios round by round, references, reasons, break-even, means.
+// Rankings: ties, ratios round by round, references, reasons, break-even, means.
 
 #include "harness/analysis/standings.hpp"
 
@@ -31,7 +31,7 @@ TEST(Standings, TheFastestContenderLeadsWhateverTheOrderOfTheCells) {
 }
 
 TEST(Standings, RatiosArePairedRoundByRound) {
-  // Both are twice as slow in half of the rounds: the ratio does not see it.
+  // Both are twice as slow in half of the rounds, which does not affect the ratio.
   const std::vector<double> slow_machine{1, 2, 1, 2, 1, 2, 1, 2};
   std::vector<double> other;
   for (const double ms : slow_machine) other.push_back(1.1 * ms);
@@ -119,14 +119,14 @@ TEST(Standings, MeansAreGeometricAndCountVictories) {
   EXPECT_EQ(all.views, 2);
 }
 
-/// The cell as the shard of that number measured it.
+/// The cell as measured by the shard of that number.
 CellRecord of_shard(int shard, CellRecord cell) {
   cell.shard = shard;
   return cell;
 }
 
 TEST(Standings, TimesOfTwoMachinesAreNotCompared) {
-  // At 1000 rays one machine, at 4000 another, where the order is the other one.
+  // At 1000 rays on one machine, at 4000 on another, with the opposite order.
   measure::Run run = run_of({of_shard(1, cell_of({"samet", rounds(1.0)})),
                              of_shard(1, cell_of({"embree", rounds(2.0)})),
                              of_shard(2, cell_of({"samet", rounds(9.0)}, "escena1", 4000)),
@@ -157,7 +157,7 @@ TEST(Standings, AViewWithoutTimesSaysSo) {
   EXPECT_NE(describe_contenders(views).find("error: two hits are wrong"), std::string::npos);
 }
 
-/// The sweep may name a scene as its user does, the record has all of its parameters.
+/// The sweep may name a scene as its user does, but the record has all parameters.
 TEST(Standings, ASceneIsExcludedInWhicheverFormTheSweepNamesIt) {
   const std::string whole = "escena1:seed=1999,spheres=430";
   const measure::Run run =

@@ -1,6 +1,6 @@
-// The formats that Assimp reads, in a process of its own each, as the program does it: slow, and
-// what the importer did is not seen, so that inputs are mutated blindly. The first line of an input
-// is the ending, the rest the file.
+// The formats that Assimp reads, each input in its own process, as in the program. This is slow,
+// and the importer's coverage is not recorded, so inputs are mutated blindly. The first line of an
+// input is the ending, the rest the file.
 
 #include <csignal>
 #include <cstdlib>
@@ -14,15 +14,15 @@
 #include "tests/fuzz/scratch_folder.hpp"
 #include "tests/fuzz/target.hpp"
 
-/// Of a sanitizer, where the program was built with one.
+/// Provided by a sanitizer, if the program was built with one.
 extern "C" void __sanitizer_set_death_callback(void (*callback)()) __attribute__((weak));
 
 namespace {
 
 using namespace beambench;
 
-/// An importer may crash: the parent says so, and libFuzzer, of which the child is a copy, must not
-/// take it for a fault.
+/// Handles a crash of the importer: the parent reports it, and libFuzzer, of which the child is a
+/// copy, must not treat it as a fault.
 void forget_fuzzer() {
   for (const int signal : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGXCPU, SIGALRM}) {
     std::signal(signal, SIG_DFL);
@@ -30,7 +30,7 @@ void forget_fuzzer() {
   if (__sanitizer_set_death_callback != nullptr) __sanitizer_set_death_callback(nullptr);
 }
 
-/// Once in a process. Without a place for the cache, each input is imported.
+/// Runs once per process. Without a place for the cache, each input is imported.
 bool prepare() {
   for (const char* place : {"BEAMBENCH_CACHE", "XDG_CACHE_HOME", "HOME"}) ::unsetenv(place);
   return ::pthread_atfork(nullptr, nullptr, forget_fuzzer) == 0;
@@ -48,7 +48,9 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string name = "input." + std::string(text.substr(0, line));
   const std::string ending = scenes::mesh::mesh_ending(name);
   if (ending.empty() || name != "input." + ending) return 0;
-  if (!scenes::mesh::importer_of(ending).starts_with("assimp")) return 0;  // of another target
+  if (!scenes::mesh::importer_of(ending).starts_with("assimp"))
+    return 0;  // belongs to another
+               // target
   const auto file = folder.write(name, text.substr(line + 1));
   fuzz::accepted([&] {
     return scenes::mesh::load_mesh({file, name, scenes::mesh::usual_orientation(ending)});

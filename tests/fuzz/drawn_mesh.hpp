@@ -1,6 +1,6 @@
 #pragma once
-// Meshes that are drawn from the bytes of an input, their numbers as text, and the scene that each
-// must become. Nothing here calls a reader or what readers share.
+// Meshes drawn from the bytes of an input, their numbers as text, and the scene that each must
+// become. Nothing here calls a reader or shares code with the readers.
 
 #include <algorithm>
 #include <array>
@@ -27,8 +27,8 @@
 
 namespace beambench::fuzz {
 
-/// Draws numbers: from the bytes of an input, then at random, seeded with all of them, so that
-/// every input, however short, is a file of its own.
+/// Draws numbers: from the bytes of an input, then at random, seeded with all of the bytes, so that
+/// every input, however short, yields a different file.
 class Draw {
  public:
   explicit Draw(std::string_view bytes) : bytes_(bytes), state_(0xcbf29ce484222325U) {
@@ -42,7 +42,7 @@ class Draw {
     for (int i = 0; i < 4; ++i) result = result << 8U | byte();
     return result;
   }
-  /// Less than `count`, which is at most 256.
+  /// Returns a number less than `count`, which is at most 256.
   std::size_t below(std::size_t count) { return byte() % count; }
   bool once_in(std::size_t count) { return below(count) == 0; }
   template <typename List>
@@ -67,19 +67,19 @@ class Draw {
   std::uint64_t state_;
 };
 
-/// A coordinate: the number that a file has, its text, and the float that it must become.
+/// A coordinate: the number in the file, its text, and the float that it must become.
 struct DrawnNumber {
   double value = 0.0;
   std::string text;
   float expected = 0.0F;
 };
 
-/// Returns a number as text, with all of its digits, of which a double has at most 767.
+/// Returns a number as text, with all of its digits (a double has at most 767).
 inline std::string exact_text(double value) {
   int exponent = 0;
   const double mantissa = std::frexp(value, &exponent);
   const auto whole = static_cast<std::int64_t>(std::ldexp(mantissa, 53));
-  // The number is a multiple of two to the power of `lowest`: as many digits are behind its point.
+  // The number is a multiple of two to the power of `lowest`: it has that many decimal places.
   const int lowest =
       exponent - 53 + (whole == 0 ? 53 : std::countr_zero(static_cast<std::uint64_t>(whole)));
   constexpr int kBeforePoint = 10;
@@ -102,7 +102,8 @@ inline float drawn_float(Draw& draw) {
   return draw.once_in(2) ? size : -size;
 }
 
-/// A double around a float: it, another one near it, or the middle between it and the next.
+/// A double near a float: the float itself, a double close to it, or the midpoint between it and
+/// the next.
 inline double drawn_double(Draw& draw) {
   const float base = drawn_float(draw);
   const double value = base;
@@ -120,9 +121,9 @@ inline double drawn_double(Draw& draw) {
   }
 }
 
-/// Returns the float nearest to a number whose magnitude is greater than that of `value`, by far
-/// less than the distance between two doubles. Where `value` is the middle between two floats, that
-/// is the one of the greater magnitude.
+/// Returns the float nearest to a number whose magnitude is slightly greater than that of `value`,
+/// by far less than the distance between two doubles. If `value` is the midpoint between two
+/// floats, that is the float with the greater magnitude.
 inline float rounded_beyond(double value) {
   const auto nearest = static_cast<float>(value);
   const double rest = value - static_cast<double>(nearest);
@@ -147,7 +148,7 @@ inline DrawnNumber drawn_decimal(Draw& draw) {
       return {value, exact_text(value), nearest};
     case 4: {
       std::string text = exact_text(value);
-      if (value == 0.0) return {value, text, nearest};  // what is beyond 0 has no sign
+      if (value == 0.0) return {value, text, nearest};  // an excess beyond 0 has no sign
       text.insert(text.find('e'), "00000000000000000000000000000000000000001");
       return {value, text, rounded_beyond(value)};
     }
@@ -159,7 +160,7 @@ inline DrawnNumber drawn_decimal(Draw& draw) {
 
 using Corners = std::array<glm::vec3, 3>;
 
-/// Adds the triangles of a face, as the scene must have them.
+/// Adds the triangles of a face, as they must be in the scene.
 inline void expect_face(std::vector<Corners>& triangles, const std::vector<glm::vec3>& vertices,
                         const std::vector<std::uint32_t>& face) {
   std::vector<glm::vec3> places;
@@ -182,8 +183,8 @@ inline std::vector<std::vector<std::uint32_t>> drawn_faces(Draw& draw, std::size
   return faces;
 }
 
-/// Returns the hash of a scene of these triangles; nothing where there is none, or where it is too
-/// small for a scene.
+/// Returns the hash of a scene of these triangles; nothing if there are none, or if it is too small
+/// for a scene.
 inline std::optional<std::uint64_t> hash_of(const std::vector<Corners>& triangles) {
   if (triangles.empty()) return std::nullopt;
   return accepted([&] {
@@ -197,7 +198,7 @@ inline std::optional<std::uint64_t> hash_of(const std::vector<Corners>& triangle
 }
 
 /// Throws std::logic_error, with the file, unless reading gives the scene of these triangles, or is
-/// refused where there are none. `read` returns an imported mesh.
+/// refused if there are none. `read` returns an imported mesh.
 template <class Read>
 void check_scene(const std::vector<Corners>& expected, std::string_view file, Read&& read) {
   const auto fail = [&](std::string_view how) {

@@ -1,4 +1,4 @@
-// Files of hits, binary and CSV, read part by part.
+// Files of hits, binary and CSV, read in parts.
 
 #include <cstddef>
 
@@ -11,7 +11,7 @@ namespace {
 
 using namespace beambench;
 
-/// All hits of a file, in parts of odd size; how many.
+/// Reads all hits of a file, in parts of odd size. Returns their number.
 std::size_t read_all(const std::filesystem::path& file) {
   constexpr std::size_t kPart = 7;
   rays::HitReader reader(file);

@@ -1,5 +1,5 @@
 #pragma once
-// What must be true of every mesh that an importer accepts.
+// Properties of every mesh that an importer accepts.
 
 #include <string>
 
@@ -10,7 +10,7 @@
 
 namespace beambench::fuzz {
 
-/// A scene can be made of it or is refused, and it is the same when it comes out of the cache.
+/// Checks that a scene can be made of it or is refused, and that the cache returns the same mesh.
 inline void check_imported(const scenes::mesh::ImportedMesh& imported) {
   const std::string bytes = encode(imported);
   require(encode(scenes::mesh::decode(bytes)) == bytes, "a mesh is another one in the cache");

@@ -1,5 +1,5 @@
-// The manifest of a run that is to be resumed: is it the same run? An input is what differs (RFC
-// 7396) from the manifest that this program would write, or else the whole one.
+// Checks whether the manifest of a run to be resumed belongs to the same run. An input is either
+// the difference (RFC 7396) from the manifest that this program would write, or a whole manifest.
 
 #include "harness/measure/record/manifest.hpp"
 
@@ -25,7 +25,7 @@ std::string changed(const nlohmann::ordered_json& manifest, std::string_view inp
   return result.dump();
 }
 
-/// A log of its header alone.
+/// A log with only a header.
 std::string header_with(const std::string& manifest) {
   return R"({"event":"header","schema_version":1,"manifest":)" + manifest +
          R"(,"config":{},"plan":[]})" + '\n';

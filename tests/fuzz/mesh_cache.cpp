@@ -1,4 +1,4 @@
-// The mesh cache: a file of it never does more harm than a file that is missing.
+// The mesh cache: a damaged file does no more harm than a missing one.
 
 #include "scenes/formats/mesh/mesh_cache.hpp"
 
@@ -15,7 +15,8 @@ namespace {
 
 using namespace beambench;
 
-/// The bytes behind a header, which a mutated file never gets past: its checksum is wrong.
+/// Decodes the bytes after a header, which a mutated file never reaches because its checksum is
+/// wrong.
 std::optional<scenes::mesh::ImportedMesh> decoded(std::string_view bytes) {
   try {
     return scenes::mesh::decode(bytes);

@@ -1,4 +1,4 @@
-// NFF: what is read can be written, and is the same when it is read again.
+// NFF: a scene that was read can be written, and is the same when read again.
 
 #include <sstream>
 #include <string>

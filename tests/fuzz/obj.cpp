@@ -1,4 +1,4 @@
-// OBJ and its material libraries: an input that names `self.mtl` is its own.
+// OBJ and its material libraries: an input that names `self.mtl` is also its own library.
 
 #include "scenes/formats/mesh/mesh_import.hpp"
 #include "tests/fuzz/imported_mesh.hpp"

@@ -1,4 +1,4 @@
-// OFF files: an input as it is, and a valid file of a mesh and a layout that are drawn from it.
+// OFF files: the input itself, and a valid file whose mesh and layout are drawn from it.
 
 #include <array>
 #include <string>

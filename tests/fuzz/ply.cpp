@@ -1,5 +1,4 @@
-// PLY files: an input as it is, and a valid file of a mesh, an encoding and a layout that are drawn
-// from it.
+// PLY files: the input itself, and a valid file whose mesh, encoding and layout are drawn from it.
 
 #include <algorithm>
 #include <array>
@@ -35,7 +34,7 @@ constexpr std::array<std::string_view, 16> kTypes = {
 constexpr std::array<std::string_view, 10> kSigned = {
     "char", "int8", "short", "int16", "int", "int32", "float", "float32", "double", "float64"};
 
-/// An element of a file: what the header says of it, and its rows.
+/// An element of a file: its lines in the header, and its rows.
 struct Element {
   std::string name;
   std::vector<std::string> properties;
@@ -44,7 +43,7 @@ struct Element {
 
 bool is_real(std::string_view type) { return type.starts_with("float") || type == "double"; }
 
-/// Draws a number of a type, and what it becomes as a coordinate.
+/// Draws a number of a type, and the coordinate that it becomes.
 std::pair<PlyNumber, float> drawn_number(Draw& draw, std::string_view type) {
   if (type == "double" || type == "float64") {
     const double value = fuzz::drawn_double(draw);
@@ -71,7 +70,7 @@ void put_number(Draw& draw, PlyRow& row, std::string_view type) {
   row.push_back(drawn_number(draw, type).first);
 }
 
-/// A property that is read by nobody: a number or a list.
+/// A property that is not used: a number or a list.
 struct Extra {
   std::string_view length_type;  ///< empty: a number
   std::string_view type;
@@ -175,7 +174,7 @@ void add_faces(Draw& draw, const std::vector<glm::vec3>& vertices, DrawnPly& ply
   ply.elements.push_back(listed(draw, "face", lists, draw.of(kTypes)));
 }
 
-/// Strips, some of which -1 divides.
+/// Adds strips, some of which are divided by -1.
 void add_strips(Draw& draw, const std::vector<glm::vec3>& vertices, DrawnPly& ply) {
   std::vector<std::vector<double>> lists(draw.below(3));
   for (auto& list : lists) {
@@ -222,7 +221,7 @@ DrawnPly drawn_ply(Draw& draw) {
   return ply;
 }
 
-/// Writes a line of the header, in any layout, with lines without meaning after it.
+/// Writes a line of the header, in any layout, followed by meaningless lines.
 void write_line(Draw& draw, std::string& header, std::string_view line) {
   constexpr std::array<std::string_view, 6> kBetween = {
       "comment", "comment element face 3", "obj_info  property float x", "",

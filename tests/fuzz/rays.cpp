@@ -1,5 +1,5 @@
-// Files of rays, binary and CSV: what is read can be written, and has the same bits when read
-// again.
+// Files of rays, binary and CSV: rays that were read can be written, and have the same bits when
+// read again.
 
 #include <algorithm>
 #include <cstring>

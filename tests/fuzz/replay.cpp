@@ -1,5 +1,5 @@
-// Runs a target over files or over random inputs, where no libFuzzer is there: corpora and
-// regressions are ordinary tests.
+// Runs a target over files or over random inputs without libFuzzer: corpora and regressions are
+// ordinary tests.
 
 #include <algorithm>
 #include <array>
@@ -26,10 +26,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// No input may take longer: SIGALRM ends the process then. Generous, for the sanitizers.
+/// The time limit for an input, after which SIGALRM ends the process. Generous, for the sanitizers.
 constexpr unsigned kSecondsForOne = 60;
 
-/// A file, or all files of a folder, sorted; none of what is not there: no fault was found yet.
+/// Returns a file, or all files of a folder, sorted; nothing for a missing path, because no fault
+/// has been found yet.
 std::vector<fs::path> files_of(const fs::path& path) {
   if (!fs::exists(path)) return {};
   if (!fs::is_directory(path)) return {path};
@@ -44,7 +45,7 @@ std::vector<char> bytes_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// Whether the target holds for an input.
+/// Returns whether the target holds for an input.
 bool holds(std::span<const char> input) {
   ::alarm(kSecondsForOne);
   try {
@@ -61,8 +62,8 @@ struct Result {
   std::size_t faults = 0;
 };
 
-/// Names each file on standard error before it is read, so that the last line names it where the
-/// process ends.
+/// Names each file on standard error before it is read, so that if the process ends, the last line
+/// names the cause.
 Result replay(std::span<char*> arguments) {
   Result result;
   for (const char* argument : arguments) {
@@ -75,8 +76,8 @@ Result replay(std::span<char*> arguments) {
   return result;
 }
 
-/// Runs over as many inputs of eight random bytes, the same each time. They decide what is drawn
-/// (`Draw`): all of a valid file, in targets that write some.
+/// Runs over that many inputs of eight random bytes, the same each time. In targets that write
+/// valid files, they determine the whole file (`Draw`).
 Result run_over_random_inputs(std::size_t count) {
   Result result;
   Random random(1);
@@ -94,8 +95,8 @@ Result run_over_random_inputs(std::size_t count) {
 }  // namespace
 }  // namespace beambench::fuzz
 
-/// Takes files and folders, or --random COUNT. Exits with 1 where the target fails for one input,
-/// or there is none, with 2 where COUNT is not a number.
+/// Takes files and folders, or --random COUNT. Exits with 1 if the target fails for an input, or if
+/// there are no inputs, and with 2 if COUNT is not a number.
 int main(int count, char** arguments) {
   const std::span given(arguments + 1, static_cast<std::size_t>(count - 1));
   beambench::fuzz::Result result;

@@ -1,5 +1,5 @@
 #pragma once
-// A folder for readers that take the path of a file.
+// A folder for readers that require the path of a file.
 
 #include <filesystem>
 #include <fstream>
@@ -12,8 +12,8 @@
 
 namespace beambench::fuzz {
 
-/// An empty folder in $TMPDIR that is gone with this object. A target writes its input into it
-/// thousands of times a second: scripts/campaign names a folder in memory there.
+/// An empty folder in $TMPDIR that is removed with this object. A target writes its input into it
+/// thousands of times a second, so scripts/campaign sets a folder in memory.
 class ScratchFolder {
  public:
   ScratchFolder() {
@@ -30,7 +30,7 @@ class ScratchFolder {
 
   const std::filesystem::path& path() const { return path_; }
 
-  /// Writes a file in place of what was there; returns its path.
+  /// Writes a file, replacing the previous one; returns its path.
   std::filesystem::path write(std::string_view name, std::string_view bytes) const {
     const std::filesystem::path file = path_ / name;
     std::filesystem::create_directories(file.parent_path());

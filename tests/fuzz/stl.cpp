@@ -1,4 +1,4 @@
-// STL files: an input as it is, and a valid file of facets and a layout that are drawn from it.
+// STL files: the input itself, and a valid file whose facets and layout are drawn from it.
 
 #include <array>
 #include <cctype>

@@ -15,7 +15,7 @@ namespace {
 
 using namespace beambench;
 
-/// A plan makes its scenes: only these, which take no time, and no files of this machine.
+/// Returns whether the plan's scenes are quick to make and need no files of this machine.
 bool has_small_scenes(const measure::SweepConfig& config) {
   constexpr std::array<std::string_view, 3> kSmall{"tetra:n=1", "balls:n=1", "stetra"};
   return std::ranges::all_of(config.scenes, [&](const measure::SceneEntry& entry) {
@@ -23,7 +23,7 @@ bool has_small_scenes(const measure::SweepConfig& config) {
   });
 }
 
-/// Cells are made one by one, each with its names.
+/// Returns whether there are few cells: they are made one by one, each with its names.
 bool has_few_cells(const measure::SweepConfig& config) {
   constexpr std::size_t kFew = 2000;
   return config.scenes.size() * config.structures.size() * config.resolutions.size() *

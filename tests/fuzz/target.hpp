@@ -1,5 +1,5 @@
 #pragma once
-// What every fuzz target consists of, and the two answers that a reader may give.
+// The parts of every fuzz target, and the two allowed outcomes of a reader.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,19 +12,19 @@
 
 #include "scenes/base/error.hpp"
 
-/// The entry of a target: libFuzzer calls it with inputs of its own, replay.cpp with those of
-/// files. Returns 0. Whatever ends the process or throws is a fault of the reader.
+/// The entry point of a target: libFuzzer calls it with its own inputs, replay.cpp with those of
+/// files. Returns 0. Anything that ends the process or throws is a fault of the reader.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace beambench::fuzz {
 
-/// The input as text.
+/// Returns the input as text.
 inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// What a reader makes of an input; nothing where it refuses it by InputError, the only way in
-/// which it may. Passes on whatever else it throws.
+/// Returns the result of a reader for an input; nothing if the reader refuses it with InputError,
+/// the only allowed way. Passes on anything else that it throws.
 template <class Read>
 std::optional<std::invoke_result_t<Read>> accepted(Read&& read) {
   try {
@@ -34,7 +34,7 @@ std::optional<std::invoke_result_t<Read>> accepted(Read&& read) {
   }
 }
 
-/// Throws std::logic_error unless what must be true of every input is.
+/// Throws std::logic_error unless the property holds that must be true of every input.
 inline void require(bool holds, const char* claim) {
   if (!holds) throw std::logic_error(claim);
 }

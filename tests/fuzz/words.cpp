@@ -15,7 +15,7 @@ namespace {
 
 using namespace beambench;
 
-/// A choice's label names the same choice.
+/// Checks that a choice's label names the same choice.
 void check_structures(std::string_view text) {
   const auto choices = fuzz::accepted([&] { return accel::registry().choose_list(text); });
   if (!choices) return;
@@ -27,7 +27,8 @@ void check_structures(std::string_view text) {
   }
 }
 
-/// The parameters of a generated scene, which is not made: it may be as large as they say.
+/// Parses the parameters of a generated scene without generating it, because it may be arbitrarily
+/// large.
 void check_scenes(std::string_view text) {
   const auto specs = fuzz::accepted([&] { return parse_spec_list(text); });
   if (!specs) return;
@@ -44,7 +45,7 @@ void check_rays(std::string_view text) {
   const auto choices = fuzz::accepted([&] { return rays::parse_ray_choices(text); });
   if (!choices) return;
   for (const rays::RayChoice& choice : *choices) {
-    if (!choice.file.empty()) continue;  // its label is the file's name as it is shown
+    if (!choice.file.empty()) continue;  // its label is the file's name in printable form
     fuzz::require(rays::parse_ray_choice(choice.label) == choice, "a label stands for other rays");
   }
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Texts in all layouts that mean the same: their blanks, line ends and byte order marks.
+// Equivalent layouts of a text: blanks, line ends and byte order marks.
 
 #include <array>
 #include <string>
@@ -17,7 +17,7 @@ inline std::string_view drawn_blank(Draw& draw) {
   return draw.once_in(8) ? draw.of(kBlanks) : " ";
 }
 
-/// Returns the text with each LF written as the line end, and with the mark or without it.
+/// Returns the text with each LF replaced by the line end, with or without a byte order mark.
 inline std::string laid_out(Draw& draw, std::string_view text, std::string_view line_end) {
   std::string result = draw.once_in(4) ? "\xEF\xBB\xBF" : "";
   for (const char c : text) {

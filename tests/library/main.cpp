@@ -1,5 +1,4 @@
-// A ray tracer of one function, and a program that verifies its hits: exit code 0 where all are
-// right.
+// A one-function ray tracer, and a program that verifies its hits: exit code 0 if all are correct.
 
 #include <cstdio>
 #include <string_view>
@@ -10,7 +9,8 @@
 
 using namespace beambench;
 
-/// Where the ray hits the triangle, in float; infinity for a miss (Moeller and Trumbore 1997).
+/// Returns the t at which the ray hits the triangle, in float; infinity for a miss (Moeller and
+/// Trumbore 1997).
 float hit_triangle(const accel::Ray& ray, const glm::vec3& a, const glm::vec3& b,
                    const glm::vec3& c) {
   const glm::vec3 ab = b - a, ac = c - a, offset = ray.origin - a;

@@ -1,4 +1,4 @@
-// The configuration of a sweep: what is read, what is planned, and what is refused where.
+// The configuration of a sweep: parsing, planning, and the places of errors.
 
 #include "harness/measure/config.hpp"
 
@@ -23,7 +23,7 @@ namespace {
 
 using nlohmann::json;
 
-/// A valid sweep; tests change one thing.
+/// A valid sweep, in which each test changes one thing.
 json fine() {
   return json::parse(R"({
     "name": "test",
@@ -51,7 +51,7 @@ class Config : public testing::Test {
   TemporaryFolder folder_;
 };
 
-/// One wrong value: where it is put, and what the message must say.
+/// One wrong value: its place in the sweep, and the expected message.
 struct Wrong {
   const char* pointer;
   json value;
@@ -338,7 +338,7 @@ TEST(Stopping, ContinuesUntilOneReasonHolds) {
   EXPECT_EQ(reason_to_stop(wild, 900.0, 1e9, rule), StopReason::kRepetitions);
 }
 
-/// Half of the repetitions take half as long again: no median is precise, the minimum is.
+/// Half of the repetitions take 1.5 times as long: no median is precise, but the minimum is.
 TEST(Stopping, AMinimumIsPreciseWhereOtherWorkDisturbsEverySecondRepetition) {
   const std::vector<double> disturbed{100, 150, 101, 151, 102, 150, 100, 152, 101, 150, 100, 151};
   const auto reason = [&](Figure figure, std::size_t repetitions) {

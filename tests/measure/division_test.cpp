@@ -1,4 +1,4 @@
-// How a sweep is divided: every group in one shard as a whole, and the work in even parts.
+// The division of a sweep: every group is in one shard as a whole, and the work in even parts.
 
 #include "harness/measure/division.hpp"
 
@@ -68,7 +68,7 @@ TEST_P(Divided, EveryCellIsInOneShardAndGroupsAreWhole) {
   EXPECT_EQ(found, wanted);
 }
 
-/// The largest part of the estimated work that one of `count` shards has.
+/// The largest share of the estimated work among `count` shards.
 double largest_share(const SweepConfig& config, int count) {
   double most = 0.0;
   for (int number = 1; number <= count; ++number) {
@@ -86,8 +86,8 @@ TEST_P(Divided, TheEstimatedWorkIsEven) {
     sum += keep_shard(plan, config, {number, GetParam()}).share;
   }
   EXPECT_NEAR(sum, 1.0, 1e-9);
-  // No division is better than an even one, nor than the largest group alone; handing out the most
-  // expensive first is a third above the best at most (Graham 1969).
+  // The optimum is at least an even share, and at least the largest group; assigning the most
+  // expensive group first is at most a third above it (Graham 1969).
   const double group = largest_share(config, static_cast<int>(make_plan(config).groups.size()));
   EXPECT_LE(largest_share(config, GetParam()), 4.0 / 3.0 * std::max(1.0 / GetParam(), group));
 }

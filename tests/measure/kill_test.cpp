@@ -1,4 +1,4 @@
-// A run that is cut off, at whatever moment, keeps every repetition and is resumed.
+// A run interrupted at any moment keeps every repetition and can be resumed.
 
 #include <algorithm>
 #include <chrono>
@@ -32,9 +32,9 @@ using Clock = std::chrono::steady_clock;
 using nlohmann::json;
 
 constexpr int kCells = 12;
-constexpr int kRepetitions = 2;  ///< of each
+constexpr int kRepetitions = 2;  ///< of each cell
 
-/// `beambench run` in a process of its own, messages to a file.
+/// `beambench run` in its own process, with its messages in a file.
 class Process {
  public:
   Process(const fs::path& folder, std::vector<std::string> arguments) : id_(::fork()) {
@@ -42,7 +42,7 @@ class Process {
   }
 
   void send(int signal) const { ::kill(id_, signal); }
-  /// The status as waitpid reports it, once the process has ended.
+  /// Returns the status as reported by waitpid, once the process has ended.
   int wait() const {
     int status = 0;
     ::waitpid(id_, &status, 0);
@@ -69,7 +69,7 @@ class Process {
   pid_t id_;
 };
 
-/// Does a line of CSV have a field of this value? The JSON may write the same number longer.
+/// Returns whether a line of CSV has a field with this value. The JSON may have more digits of it.
 bool has_number(const std::string& line, double number) {
   std::istringstream fields(line);
   for (std::string field; std::getline(fields, field, ',');) {
@@ -133,7 +133,7 @@ class Kill : public testing::Test {
     return lines;
   }
 
-  /// What was in the log is still there, and no repetition was made again.
+  /// Expects the log to be preserved, and no repetition to have been repeated.
   void expect_kept(const std::string& before, const std::string& name) {
     EXPECT_TRUE(log(name).starts_with(before)) << before << "became\n" << log(name);
     std::map<int, std::set<int>> rounds;
@@ -144,7 +144,8 @@ class Kill : public testing::Test {
     }
   }
 
-  /// Every cell once, every verdict right, every row that of its cell, nothing left over.
+  /// Expects every cell once, every verdict right, each row to match its cell, and nothing left
+  /// over.
   void expect_complete(const std::string& name) {
     EXPECT_EQ(rows(name).size(), kCells);
     for (const std::string& row : rows(name)) {
@@ -170,7 +171,7 @@ class Kill : public testing::Test {
     EXPECT_FALSE(manifest["finished_utc"].is_null());
   }
 
-  /// Makes the sweep one that has a first cell at once, and works at the next for a while.
+  /// Makes the first cell of the sweep quick and the next one slow.
   void make_second_cell_long() const {
     json sweep = json::parse(read_text(folder_.path() / "tiny.json"));
     sweep["resolutions"] = {"8x8", "2000x2000"};
@@ -217,7 +218,7 @@ TEST_F(Kill, AtRandomMomentsLosesNothing) {
       continue;
     }
     ++killed;
-    // Before it has taken over the signal, SIGINT ends it as it ends any program.
+    // Before the handler is installed, SIGINT ends the program as usual.
     const bool ended_by_itself = signal == SIGINT && WIFEXITED(status);
     EXPECT_EQ(ended_by_itself ? WEXITSTATUS(status) : WTERMSIG(status),
               ended_by_itself ? 130 : signal)
@@ -305,7 +306,7 @@ class TinyDisk {
   bool mounted_ = false;
 };
 
-/// What a full disk does not hold any more, and how many cells it has then.
+/// What a full disk could not store, and the number of cells at that time.
 struct FullDisk {
   const char* name;
   const char* size;

@@ -117,7 +117,7 @@ TEST(Statistics, TheSpreadOfTheMinimumReachesToTheFifthOfFifteen) {
 }
 
 TEST(Statistics, SpreadOfTheMinimumCoversTheNextMinimum) {
-  // A machine that is disturbed in six of ten repetitions, by up to 60%; the rest differ by 1%.
+  // On a machine disturbed in six of ten repetitions, by up to 60%; the others differ by 1%.
   std::mt19937_64 engine(3);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   const auto sample = [&] {
@@ -197,7 +197,7 @@ TEST(Preflight, ShowsTheMachineAndEachWarning) {
   EXPECT_FALSE(noise_warning(std::nullopt));
 }
 
-/// As Linux writes it, of a machine with two cores.
+/// The text that Linux writes for a machine with two cores.
 std::string cpuinfo(std::string_view maker, int model, double mhz) {
   const std::string core = fmt::format(
       "vendor_id\t: {}\ncpu family\t: 6\nmodel\t\t: {}\nmodel name\t: Processor\n"

@@ -1,4 +1,4 @@
-// The log of a run: its events come back as they were written, however it was cut off.
+// The log of a run: its events are read back as written, however it was interrupted.
 
 #include "harness/measure/record/run_log.hpp"
 
@@ -313,7 +313,7 @@ class WrittenLog : public testing::Test {
   std::filesystem::path folder() const { return folder_.path() / "run"; }
   std::filesystem::path file() const { return folder() / kLogName; }
   void write(const std::string& text) const { folder_.write("run/run.jsonl", text); }
-  /// The message with which a log of that text is refused.
+  /// Returns the message that refuses a log with that text.
   std::string refusal(const std::string& text) const {
     write(text);
     return thrown_message([&] { read_run(folder()); });

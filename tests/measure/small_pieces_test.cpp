@@ -61,7 +61,7 @@ TEST(RayKinds, AreReadFromAListEachOnce) {
   }
 }
 
-/// What a progress writes into a stream that is, or is not, taken for a terminal.
+/// Returns what a progress writes to a stream that is, or is not, regarded as a terminal.
 template <class Work>
 std::string written(bool terminal, Work work) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::tmpfile(), &std::fclose);

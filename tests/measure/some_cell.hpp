@@ -1,5 +1,5 @@
 #pragma once
-// A finished cell with figures that are easily summed up.
+// A finished cell whose figures have simple sums.
 
 #include "harness/measure/record/cell_record.hpp"
 

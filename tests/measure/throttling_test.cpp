@@ -1,4 +1,4 @@
-// A CPU quota: what the record of a run states of it, and what its times are then worth.
+// A CPU quota: its entry in the record of a run, and the resulting warnings.
 
 #include <algorithm>
 #include <chrono>
@@ -73,7 +73,7 @@ TEST(Throttling, OfShardsIsAddedUp) {
             std::nullopt);
 }
 
-/// Ends a run as Ctrl-C does.
+/// Ends a run like Ctrl-C.
 struct CutOff : std::runtime_error {
   CutOff() : std::runtime_error("cut off") {}
 };
@@ -84,7 +84,7 @@ class ThrottledSweep : public testing::Test {
  protected:
   ThrottledSweep() { system_.join_group("/a"); }
 
-  /// Nothing is concluded from a run that is cut off.
+  /// Runs the sweep. An interrupted run is not analyzed.
   analysis::Analysis run(bool resume, std::optional<int> last_piece = std::nullopt) {
     const std::filesystem::path file = system_.root() / "sweep.json";
     system_.write("sweep.json",
@@ -110,7 +110,7 @@ class ThrottledSweep : public testing::Test {
 
   std::filesystem::path folder() const { return system_.root() / "run"; }
   Json manifest() const { return Json::parse(read_text(folder() / "manifest.json")); }
-  /// The periods by the log, which a run that is cut off has, too.
+  /// Returns the periods in the log, which an interrupted run has, too.
   int recorded() const {
     return static_cast<int>(
         conditions_of(read_run(folder()).manifest).throttling.value().throttled);

@@ -23,7 +23,7 @@
 namespace beambench::plugin {
 namespace {
 
-// Plug-ins that were made with other types are refused; the version's number says why.
+// Plug-ins compiled with other types are refused; the version number explains why.
 TEST(PluginStamp, TheInterfaceVersionChangesWithTheTypes) {
 #if defined(__x86_64__) && defined(__GLIBCXX__) && !defined(_GLIBCXX_DEBUG)
   constexpr std::uint64_t kLayoutOfVersion7 = 0x4CD8AC0B1D33ED9E;
@@ -54,7 +54,7 @@ TEST(PluginStamp, TheLayoutIsThatOfAllTypes) {
   EXPECT_EQ((plugin_stamp::layout_of<Small, Large>()), (plugin_stamp::layout_of<Small, Large>()));
 }
 
-// With an adapter that knew only the older one, every closest hit was the last of its leaf.
+// With an adapter for only the older interface, every closest hit was the last of its leaf.
 TEST(Madmann91Adapter, TakesTFromTheHitOrFindsItInTheRay) {
   struct {
     float tmax = 2.0F;

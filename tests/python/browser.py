@@ -1,4 +1,4 @@
-"""Headless Chromium, spoken to through the pipe of its DevTools protocol: no driver, no network.
+"""Headless Chromium, controlled through the pipe of its DevTools protocol: no driver, no network.
 
 https://chromedevtools.github.io/devtools-protocol
 """
@@ -27,18 +27,18 @@ _OPTIONS = (
 
 
 def find_browser() -> str | None:
-    """The program, if this machine has one."""
+    """Returns the program, if it is installed."""
     return next(filter(None, map(shutil.which, _PROGRAMS)), None)
 
 
 class Browser:
-    """A browser with one page; its complaints and requests are collected."""
+    """A browser with one page. Records console messages and requests."""
 
     def __init__(self, program: str, profile: Path) -> None:
-        """Starts it; `profile` is a folder of its own."""
+        """Starts the browser; `profile` is its own folder."""
         to_browser, self._requests = os.pipe()
         self._replies, from_browser = os.pipe()
-        # The browser reads from descriptor 3 and writes to 4; what is there must not be in the way.
+        # The browser reads from descriptor 3 and writes to 4; they must be free.
         ends = [fcntl.fcntl(end, fcntl.F_DUPFD, 10) for end in (to_browser, from_browser)]
         self._process = subprocess.Popen(
             [program, *_OPTIONS, f"--user-data-dir={profile}"],
@@ -106,14 +106,14 @@ class Browser:
         while not any(event.get("method") == "Page.loadEventFired" for event in self.events):
             self.events.append(self._receive())
 
-    def evaluate(self, expression: str) -> Any:  # noqa: ANN401 (whatever JSON can say)
-        """The value of an expression of JavaScript."""
+    def evaluate(self, expression: str) -> Any:  # noqa: ANN401 (any JSON value)
+        """Returns the value of a JavaScript expression."""
         reply = self.call("Runtime.evaluate", expression=expression, returnByValue=True)
         assert "exceptionDetails" not in reply, reply["exceptionDetails"]
         return reply["result"].get("value")
 
     def press(self, key: str, code: int, text: str = "") -> None:
-        """Presses a key, as a hand does."""
+        """Presses a key as a user does."""
         for kind in ("keyDown", "keyUp"):
             self.call(
                 "Input.dispatchKeyEvent",
@@ -122,20 +122,20 @@ class Browser:
             )
 
     def screenshot(self, file: Path) -> None:
-        """The whole page, however long."""
+        """Returns a screenshot of the whole page, whatever its length."""
         size = self.call("Page.getLayoutMetrics")["cssContentSize"]
         clip = {"x": 0, "y": 0, "width": size["width"], "height": size["height"], "scale": 1}
         shot = self.call("Page.captureScreenshot", clip=clip, captureBeyondViewport=True)
         file.write_bytes(base64.b64decode(shot["data"]))
 
     def pdf(self, file: Path) -> None:
-        """What a printer would get."""
+        """Returns the page as printed."""
         printed = self.call("Page.printToPDF", preferCSSPageSize=True, printBackground=True)
         file.write_bytes(base64.b64decode(printed["data"]))
 
     @property
     def complaints(self) -> list[str]:
-        """Errors and warnings of the page's scripts, and of the browser about the page."""
+        """Returns errors and warnings of the page's scripts, and of the browser about the page."""
         found = []
         for event in self.events:
             told = event.get("params", {})
@@ -149,7 +149,7 @@ class Browser:
 
     @property
     def requests(self) -> list[str]:
-        """The addresses that were asked for."""
+        """Returns the requested addresses."""
         sent = (e for e in self.events if e.get("method") == "Network.requestWillBeSent")
         return [event["params"]["request"]["url"] for event in sent]
 

@@ -21,18 +21,18 @@ needs_mpi = pytest.mark.skipif(
 
 
 def skip_where_mpirun_starts_one_program_only() -> None:
-    """Open MPI 5.0.7, which Debian 13 has, crashes where it is to start two, whatever they are."""
+    """Skips a test if mpirun crashes on starting two programs: Open MPI 5.0.7 of Debian 13 does."""
     if mpirun("-n", 1, "true", ":", "-n", 1, "true").returncode != 0:
         pytest.skip("mpirun cannot start two programs")
 
 
-# mpirun gives the processes of a run that failed time to end; tests of failures are done without it
-# in a third of theirs.
+# mpirun waits for the processes of a failed run to end; without the wait, tests of failures take in
+# a third of theirs.
 ENVIRONMENT = {**os.environ, **OPEN_MPI, "OMPI_MCA_odls_base_sigkill_timeout": "0"}
 
 
 def start(*arguments: str | Path, cwd: Path | None = None) -> subprocess.Popen[str]:
-    """What stands after mpirun."""
+    """Starts mpirun with the given arguments."""
     return subprocess.Popen(
         ["mpirun", *map(str, arguments)],
         cwd=cwd,
@@ -53,7 +53,7 @@ def mpirun(*arguments: str | Path, cwd: Path | None = None) -> subprocess.Comple
 
 
 def processes_of(run: subprocess.Popen[str]) -> dict[int, int]:
-    """The pids of the run's processes that have begun, by their number."""
+    """Returns the pids of the run's processes that have started, by rank."""
     children = Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split()
     found = {}
     for child in map(int, children):

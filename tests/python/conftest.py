@@ -1,4 +1,4 @@
-"""What the tests of scripts/ share."""
+"""Fixtures shared by the tests of scripts/."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from synthetic_run import synthetic_rows, write_full_run, write_run
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """A shell has what it starts in the background ignore Ctrl-C, and its children inherit that."""
+    """Restores Ctrl-C: a shell makes background jobs ignore it, and their children inherit that."""
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
     config.addinivalue_line("markers", "full: takes long; runs only where BEAMBENCH_FULL is set")
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Deselects the tests marked `full`, except where BEAMBENCH_FULL is set."""
+    """Deselects the tests marked `full`, unless BEAMBENCH_FULL is set."""
     if "BEAMBENCH_FULL" in os.environ:
         return
     left_out = [item for item in items if item.get_closest_marker("full")]
@@ -32,13 +32,13 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 @pytest.fixture
 def run_folder(tmp_path: Path) -> Path:
-    """A folder with the results of a run in which every verdict was right."""
+    """A folder with the results of a run in which every verdict was correct."""
     return write_run(tmp_path, synthetic_rows())
 
 
 @pytest.fixture(scope="session")
 def full_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with all that scripts/run leaves but the page; one structure was wrong."""
+    """A folder with everything that scripts/run writes except the page; one structure was wrong."""
     return write_full_run(tmp_path_factory.mktemp("full-run"))
 
 
@@ -50,7 +50,7 @@ def repository() -> Path:
 
 @pytest.fixture(scope="session")
 def prefix(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Where the program is installed with its CMake package."""
+    """The folder in which the program is installed with its CMake package."""
     return installed(tmp_path_factory.mktemp("prefix"))
 
 

@@ -1,4 +1,4 @@
-"""Writes a wavy height field as glTF, as large as is asked for.
+"""Writes a wavy height field of any size as glTF.
 
 usage: .venv/bin/python tests/python/large_glb.py SQUARES OUTPUT.glb
 

@@ -1,4 +1,4 @@
-"""The Python module that was built beside the program."""
+"""Imports the Python module that was built with the program."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Outside projects for the tests, built as their authors build them: with the package alone."""
+"""Builds outside projects for the tests as their authors do: with only the package."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def run(*command: str | Path, cwd: Path | None = None) -> None:
 
 
 def installed(prefix: Path) -> Path:
-    """What `cmake --install` brings; skips the test where the build folder is not complete."""
+    """Returns the output of `cmake --install`; skips the test if the build folder is incomplete."""
     if not (BUILD / "beambenchConfig.cmake").exists():
         pytest.skip("the program is not in its build folder")
     run("cmake", "--install", BUILD, "--prefix", prefix)
@@ -32,7 +32,7 @@ def installed(prefix: Path) -> Path:
 
 
 def configured(source: Path, folder: Path, package: Path, *options: str) -> set[str]:
-    """Makes the build folder of an outside project, and tells the shared objects to be built."""
+    """Configures the build folder of an outside project. Returns the shared objects to be built."""
     launcher = shutil.which("ccache")
     speed = [f"-DCMAKE_CXX_COMPILER_LAUNCHER={launcher}"] if launcher else []
     found = f"-DCMAKE_PREFIX_PATH={package}"
@@ -42,14 +42,14 @@ def configured(source: Path, folder: Path, package: Path, *options: str) -> set[
 
 
 def built(source: Path, folder: Path, package: Path, *options: str) -> Path:
-    """The folder with the shared objects of an outside project, found by the package alone."""
+    """Returns the folder with an outside project's shared objects, built with only the package."""
     configured(source, folder, package, *options)
     run("cmake", "--build", folder)
     return folder
 
 
 def reached_headers(prefix: Path, *names: str) -> set[str]:
-    """The installed headers that these include, by any number of steps, and themselves."""
+    """Returns these files' installed headers, including indirect ones, and the files themselves."""
     reached: set[str] = set()
     waiting = list(names)
     while waiting:

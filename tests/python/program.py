@@ -1,4 +1,4 @@
-"""The program as a user calls it."""
+"""Runs the program as a user does."""
 
 from __future__ import annotations
 
@@ -40,14 +40,14 @@ def shell(line: str, cwd: Path, timeout: float = 300) -> subprocess.CompletedPro
 
 
 def output_of(*arguments: str | Path) -> str:
-    """The standard output of a command that must succeed."""
+    """Returns the standard output of a command that must succeed."""
     done = beambench(*arguments)
     assert done.returncode == 0, done.stderr
     return done.stdout
 
 
 def refused(done: subprocess.CompletedProcess[str], words: list[str]) -> None:
-    """Exit code 2, nothing on stdout, one sentence on stderr that holds the words."""
+    """Expects exit code 2, nothing on stdout, and a sentence on stderr with the words."""
     assert done.returncode == 2, (done.returncode, done.stdout, done.stderr)
     assert done.stdout == ""
     lines = done.stderr.splitlines()

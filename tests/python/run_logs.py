@@ -1,4 +1,4 @@
-"""Reads and changes run.jsonl, the log of a run, as a person with an editor could."""
+"""Reads and changes run.jsonl, the log of a run, like a person with an editor."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ Event = dict[str, Any]
 
 
 def events(run: Path) -> list[Event]:
-    """All events of a log."""
+    """Returns all events of a log."""
     return [json.loads(line) for line in (run / "run.jsonl").read_text().splitlines()]
 
 
@@ -27,7 +27,7 @@ def change_events(run: Path, change: Callable[[Event], Event | None]) -> None:
 
 
 def begun_cells(run: Path) -> list[Event]:
-    """The event with which each cell begins."""
+    """Returns the event with which each cell begins."""
     return [event for event in events(run) if event["event"] == "cell"]
 
 
@@ -47,13 +47,13 @@ def change_manifest(run: Path, changes: dict[str, Any]) -> None:
 
 
 def cut_off(run: Path) -> None:
-    """Takes the end from a log, and the results that were made from it."""
+    """Truncates a log and removes the results made from it."""
     change_events(run, lambda event: None if event["event"] == "end" else event)
     for name in ("results.csv", "manifest.json", "analysis.json", "summary.txt"):
         (run / name).unlink(missing_ok=True)
 
 
 def forget_cell(run: Path, index: int) -> None:
-    """Leaves out what a log has of a cell, and its end."""
+    """Removes the events of a cell, and the end of the log."""
     change_events(run, lambda event: None if event.get("index") == index else event)
     cut_off(run)

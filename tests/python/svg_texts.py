@@ -1,4 +1,4 @@
-"""The texts of a plot's SVG file, and which axis of which panel they belong to.
+"""Reads the texts of a plot's SVG file, and finds the axis and panel to which they belong.
 
 The files do not keep matplotlib's ids, so a text belongs to an axis by its place: tick labels of
 the horizontal axis are centered below the panel, those of the vertical axis end left of it. Some
@@ -33,7 +33,7 @@ _NEAR = 2.0
 
 @dataclass(frozen=True)
 class Text:
-    """One text: its words, where it starts, is centered or ends, and how it is written."""
+    """A text: its words, its start, center or end, and its style."""
 
     words: str
     x: float
@@ -44,18 +44,18 @@ class Text:
 
     @property
     def is_upright(self) -> bool:
-        """Is it turned by a right angle, as the label of a vertical axis is?"""
+        """Returns whether the text is rotated by a right angle, as labels of vertical axes are."""
         return abs(self.degrees) == 90
 
     @property
     def is_number(self) -> bool:
-        """Is it nothing but a number, which means nothing without the label of its axis?"""
+        """Returns whether the text is only a number, which is meaningless without an axis label."""
         number = r"[-\N{MINUS SIGN}]?[\d,.]+(\N{MINUS SIGN}\d+|e[-+]?\d+)?%?"
         return re.fullmatch(number, self.words) is not None
 
     @property
     def is_size(self) -> bool:
-        """Is it a number, a resolution, or a number of thousands or millions?"""
+        """Returns whether the text is a number, perhaps of thousands, or a resolution."""
         return self.is_number or re.fullmatch(r"\d+x\d+|[\d.]+ ?[kM]", self.words) is not None
 
 
@@ -69,15 +69,15 @@ class Panel:
     bottom: float
 
     def holds(self, x: float, y: float) -> bool:
-        """Does a place lie within it?"""
+        """Returns whether a place lies within the panel."""
         return self.left < x < self.right and self.top < y < self.bottom
 
     def is_above(self, other: Panel) -> bool:
-        """Is it the same column?"""
+        """Returns whether the other panel is below this one, in the same column."""
         return abs(self.left - other.left) < _NEAR and abs(self.right - other.right) < _NEAR
 
     def is_beside(self, other: Panel) -> bool:
-        """Is it the same row?"""
+        """Returns whether both panels are in the same row."""
         return abs(self.top - other.top) < _NEAR and abs(self.bottom - other.bottom) < _NEAR
 
 
@@ -123,7 +123,7 @@ def missing_texts(svg: str, *, is_named_by_title: bool = False) -> list[str]:
 
 
 def _unnamed(root: Element, texts: Sequence[Text], panels: Sequence[Panel]) -> list[str]:
-    """The colors of data that no legend, no label in that color and no row of names explains."""
+    """Returns the data colors without a legend, a label in that color or a row of names."""
     marks = list(_marks(root))
     colors = dict.fromkeys(c for c, x, y in marks if any(panel.holds(x, y) for panel in panels))
     named = {text.color for text in texts}
@@ -141,7 +141,7 @@ def _unnamed(root: Element, texts: Sequence[Text], panels: Sequence[Panel]) -> l
 
 
 def _marks(root: Element) -> Iterator[tuple[str, float, float]]:
-    """The color and the right end of each marker and line that is not gray."""
+    """Returns the color and the right end of each marker and line that is not gray."""
     parents = {child: parent for parent in root.iter() for child in parent}
     for element in root.iter():
         if element.tag == f"{_SVG}use":
@@ -157,7 +157,7 @@ def _marks(root: Element) -> Iterator[tuple[str, float, float]]:
 
 
 def texts_of(root: Element) -> Iterator[Text]:
-    """All texts, in the order of the file; characters of one text are not separated."""
+    """Returns all texts, in the order of the file; the characters of one text are combined."""
     parents = {child: parent for parent in root.iter() for child in parent}
     for element in root.iter(f"{_SVG}text"):
         x, y = _place(element)
@@ -173,13 +173,13 @@ def texts_of(root: Element) -> Iterator[Text]:
 
 
 def _colors(element: Element, parents: Mapping[Element, Element]) -> list[str]:
-    """Those it is drawn in: its own or else its group's."""
+    """Returns the colors of a text: its own or else its group's."""
     styles = (one.get("style", "") for one in (element, parents.get(element, element)))
     return next(filter(None, (re.findall("(?:fill|stroke):(#\\w+)", one) for one in styles)), [])
 
 
 def _place(element: Element) -> tuple[float, float]:
-    """Where a text stands, or the first of its characters."""
+    """Returns the position of a text, or of the first of its characters."""
     named = next((one for one in element.iter() if "x" in one.attrib), None)
     return (0.0, 0.0) if named is None else tuple(float(named.get(name, "0")) for name in "xy")
 
@@ -190,7 +190,7 @@ def _empty(root: Element) -> list[Element]:
 
 
 def _panels(root: Element) -> list[Panel]:
-    """The white rectangles after the first one, which is the paper."""
+    """Returns the white rectangles after the first one, which is the paper."""
     shapes = [
         _RECTANGLE.fullmatch(path.get("d", ""))
         for path in root.iter(f"{_SVG}path")
@@ -201,7 +201,7 @@ def _panels(root: Element) -> list[Panel]:
 
 
 def _across(texts: Sequence[Text], column: Sequence[Panel]) -> tuple[list[Text], list[Text]]:
-    """Tick labels and labels of the horizontal axes of a column."""
+    """Returns the tick labels and labels of the horizontal axes of a column."""
     ticks, labels = [], []
     for panel in column:
         below = [
@@ -222,7 +222,7 @@ def _across(texts: Sequence[Text], column: Sequence[Panel]) -> tuple[list[Text],
 
 
 def _up(texts: Sequence[Text], row: Sequence[Panel]) -> tuple[list[Text], list[Text]]:
-    """Tick labels and labels of the vertical axes of a row."""
+    """Returns the tick labels and labels of the vertical axes of a row."""
     ticks, labels = [], []
     for panel in row:
         for text in texts:

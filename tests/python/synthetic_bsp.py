@@ -1,4 +1,4 @@
-"""A small map of Quake 3 that tests write: a wall, a curved arch, a mesh, a lamp and the sky."""
+"""Builds a small Quake 3 map for tests: a wall, a curved arch, a mesh, a lamp and the sky."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ Point = tuple[float, float, float]
 
 @dataclass
 class Bsp:
-    """Lumps as lists; `bytes` puts them together as the game's tools do."""
+    """Lumps as lists; `bytes` assembles them like the game's tools."""
 
     entities: str = ""
     textures: list[tuple[str, int]] = field(default_factory=list)

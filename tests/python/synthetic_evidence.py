@@ -1,4 +1,4 @@
-"""Figures that nobody measured, by which every claim of the ledger holds."""
+"""Invented figures for which every claim of the ledger holds."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Row = dict[str, object]
 RAYS = dict(zip(RESOLUTIONS, (64000, 307200, 480000, 786432, 1310720), strict=True))
 SCENES = tuple(primitives_by_scene())
 
-# Seconds that do not grow with the rays, and those for each 10,000 rays, by level.
+# Seconds independent of the rays, and seconds for each 10,000 rays, by level.
 _BASE = {4: 0.5, 5: 0.6, 6: 1.0, 7: 60.0}
 _SLOPE = {4: 0.8, 5: 0.4, 6: 0.2, 7: 0.15}
 _SCENE_BASE = {"escena2": 1.5, "bola-espacial": 0.5, "caracol": 0.5, "tetera": 2, "torre-eiffel": 2}
@@ -42,14 +42,14 @@ _GRIDS = {
 def holding(
     spoil: Callable[[Row], Row] = dict, only: Callable[[Row], bool] = lambda row: True
 ) -> Evidence:
-    """Evidence for every claim, but for the rows that `spoil` changes: those that `only` names."""
+    """Returns evidence for every claim, with the rows named by `only` changed by `spoil`."""
     rows = (_times(), _work(), published_evidence().octrees.to_dict("records"))
     tables = [[spoil(dict(row)) if only(row) else row for row in table] for table in rows]
     return _evidence(*tables)
 
 
 def without(only: Callable[[Row], bool]) -> Evidence:
-    """Evidence for every claim, but for the rows that are named."""
+    """Returns evidence for every claim, without the named rows."""
     rows = (_times(), _work(), published_evidence().octrees.to_dict("records"))
     return _evidence(*([row for row in table if not only(row)] for table in rows))
 
@@ -146,7 +146,7 @@ def _work() -> list[Row]:
 
 
 def _pictures() -> list[Row]:
-    """Rays of whole pictures by kind."""
+    """Returns the rays of whole pictures by kind."""
     counts = {
         "eye_rays": 262144,
         "secondary_rays": 100000,

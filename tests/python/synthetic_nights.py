@@ -1,4 +1,4 @@
-"""Nights that never happened: runs of one sweep, night after night, with noise and with plants."""
+"""Invented nights: runs of one sweep, night after night, with noise and planted changes."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ Plant = Callable[[int, Row], Row]
 
 
 def nothing(_night: int, row: Row) -> Row:
-    """No plant."""
+    """Plants nothing."""
     return row
 
 
 def slower(structure: str, scene: str, factor: float, since: int) -> Plant:
-    """One structure gets slower in one scene, from one night on."""
+    """Slows down one structure in one scene, from one night on."""
 
     def plant(night: int, row: Row) -> Row:
         hit = row["structure"] == structure and row["scene"] == scene and night >= since
@@ -38,7 +38,7 @@ def slower(structure: str, scene: str, factor: float, since: int) -> Plant:
 
 
 def wrong(structure: str, scene: str, since: int) -> Plant:
-    """One structure's hits are wrong in one scene."""
+    """Makes one structure's hits wrong in one scene."""
 
     def plant(night: int, row: Row) -> Row:
         hit = row["structure"] == structure and row["scene"] == scene and night >= since
@@ -48,7 +48,7 @@ def wrong(structure: str, scene: str, since: int) -> Plant:
 
 
 def counting(structure: str, scene: str, factors: Iterable[float]) -> Plant:
-    """One structure needs more or less steps in one scene: a factor for each night."""
+    """Changes the steps of one structure in one scene: a factor for each night."""
     known = list(factors)
 
     def plant(night: int, row: Row) -> Row:
@@ -66,7 +66,7 @@ def write_nights(home: Home, count: int, plant: Plant = nothing, seed: int = 7) 
 
 
 def write_night(home: Home, night: int, random: np.random.Generator, plant: Plant) -> Path:
-    """Writes one run that ended."""
+    """Writes one completed run."""
     run_id = f"2026{1 + night // 28:02d}{1 + night % 28:02d}T030000Z"
     folder = home.folder / run_id
     folder.mkdir(parents=True)
@@ -88,7 +88,7 @@ def write_night(home: Home, night: int, random: np.random.Generator, plant: Plan
 
 
 def add_all(home: Home, folders: Iterable[Path]) -> list[list]:
-    """Adds runs to the history, judging each; the alarms of each."""
+    """Adds runs to the history, judging each; returns the alarms of each."""
     with History(home.history) as history:
         numbers = [
             history.add(night_of(read_run(folder)), folder, find_alarms) for folder in folders

@@ -1,4 +1,4 @@
-"""Runs that never happened: folders with a results.csv as `beambench run` writes it."""
+"""Invented runs: folders with a results.csv as written by `beambench run`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from beambench_report.run.plots import write_plots
 
 COLUMNS = [column.name for column in dictionary().columns if not column.is_pattern]
 
-# build ms, trace ms a ray, bytes, traversal steps a ray
+# build ms, trace ms per ray, bytes, traversal steps per ray
 _STRUCTURES = {
     ("exhaustive", ""): (0.001, 2e-3, 64, 0),
     ("samet", "max_level=5,max_objects=0"): (1.5, 2.2e-4, 200_000, 11.5),
@@ -25,7 +25,7 @@ _STRUCTURES = {
 _RESOLUTIONS = ((320, 200), (640, 480), (1280, 1024))
 _SCENES = ("escena1", "tetra:n=6")
 
-# What a file of a cell tells of a ray whose hit was wrong.
+# The entry of a cell's file for a ray whose hit was wrong.
 EXAMPLE = (
     "pixel (3, 4) sample 0: structure_error, another primitive\n"
     "  structure miss\n"
@@ -34,7 +34,7 @@ EXAMPLE = (
 
 
 def synthetic_rows() -> list[dict[str, object]]:
-    """Two scenes, five contenders, three resolutions; times in proportion to the rays."""
+    """Returns rows of two scenes, five contenders, three resolutions; time follows rays."""
     return [
         _row(scene, structure, parameters, width, height)
         for scene in _SCENES
@@ -44,7 +44,7 @@ def synthetic_rows() -> list[dict[str, object]]:
 
 
 def write_run(folder: Path, rows: list[dict[str, object]], without: tuple[str, ...] = ()) -> Path:
-    """Writes rows (fields not given stay empty) into FOLDER/results.csv; returns FOLDER."""
+    """Writes rows into FOLDER/results.csv (missing fields stay empty); returns FOLDER."""
     columns = [name for name in COLUMNS if name not in without]
     columns += [name for name in rows[0] if name not in COLUMNS] if rows else []
     with (folder / "results.csv").open("w", newline="", encoding="utf-8") as file:
@@ -55,7 +55,7 @@ def write_run(folder: Path, rows: list[dict[str, object]], without: tuple[str, .
 
 
 def without_times(row: dict[str, object], verdict: str) -> dict[str, object]:
-    """The row as beambench writes it for wrong hits."""
+    """Returns the row as beambench writes it for wrong hits."""
     times = {name: "" for name in COLUMNS if dictionary().find(name).group in ("times", "hardware")}
     return {**row, **times, "verdict": verdict}
 
@@ -78,7 +78,7 @@ def write_cell(
 def write_trace_cell(
     folder: Path, row: dict[str, object], trace: Sequence[float], warm: Sequence[float]
 ) -> None:
-    """Adds a cell by its first traces, and by the second ones of the first rounds."""
+    """Adds a cell with the given first traces, and second traces for the first rounds."""
     repetitions: list[dict[str, float]] = [
         {"round": turn, "position": 0, "build_ms": 1.0, "trace_ms": time}
         for turn, time in enumerate(trace)
@@ -122,7 +122,7 @@ def write_manifest(folder: Path, **changes: object) -> None:
 
 
 def write_full_run(folder: Path) -> Path:
-    """A run with everything that scripts/run leaves, and one structure that was wrong."""
+    """Writes a run with everything that scripts/run produces, and one wrong structure."""
     rows = [
         without_times(row, "mismatch")
         if row["parameters"] == "max_level=6,max_objects=0" and row["scene"] == "tetra:n=6"

@@ -1,4 +1,4 @@
-"""Runs of several sweeps and machines that never happened, small ones, for the site over them."""
+"""Invented small runs of several sweeps and machines, for the site over them."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def write_small_run(
 
 
 def break_run(folder: Path) -> Path:
-    """A record of another version."""
+    """Turns a record into one of another version."""
     folder.mkdir(parents=True)
     (folder / "results.csv").write_text("no,columns\n1,2\n")
     (folder / "manifest.json").write_text(json.dumps({"run_id": "broken"}))

@@ -1,4 +1,4 @@
-"""Runs of the thesis's sweeps that never happened: every cell by a formula, right or spoilt."""
+"""Invented runs of the thesis's sweeps: every cell by a formula, correct or corrupted."""
 
 from __future__ import annotations
 
@@ -53,14 +53,14 @@ def write_runs(
 
 
 def canonical(cell: PlannedCell) -> dict[str, str]:
-    """All parameters of a cell, as the program would tell them."""
+    """Returns all parameters of a cell, as the program prints them."""
     defaults = dict(item.split("=") for item in CANONICAL[cell.structure].split(","))
     assert defaults.keys() >= dict(cell.parameters).keys(), cell
     return defaults | dict(cell.parameters)
 
 
 def row_of(cell: PlannedCell) -> Row:
-    """A row as `beambench run` would write it; level 6 and 24 voxels suit best."""
+    """Returns a row as written by `beambench run`; level 6 and 24 voxels are the best."""
     given = canonical(cell)
     width, height = cell.resolution.split("x")
     count = rays(cell.resolution) * cell.samples

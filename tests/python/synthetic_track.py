@@ -1,4 +1,4 @@
-"""A small file of AC3D: a road of a strip and a polygon, turned and moved, and a triangle."""
+"""Builds a small AC3D file: a road of a strip and a polygon, rotated and moved, and a triangle."""
 
 TRACK = """AC3Db
 MATERIAL "" rgb 0.4 0.4 0.4 amb 0.8 0.8 0.8 emis 0 0 0 spec 0.5 0.5 0.5 shi 50 trans 0

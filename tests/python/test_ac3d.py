@@ -1,4 +1,4 @@
-"""The converter of AC3D's files, on a file that the tests write."""
+"""The converter of AC3D files, on a generated file."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tile beams against Embree: ratios, intervals and outcomes worked out by hand."""
+"""Tile beams compared with Embree: ratios, intervals and outcomes worked out by hand."""
 
 from __future__ import annotations
 
@@ -144,7 +144,7 @@ def test_without_an_interval_nothing_is_decided(tmp_path: Path) -> None:
 
 
 def test_with_single_repetitions_the_ratio_is_paired_by_rounds(tmp_path: Path) -> None:
-    """Rounds in which the machine was three times slower are not in the ratio."""
+    """Rounds in which the machine was three times slower do not affect the ratio."""
     tile, embree = row("tile-beam", 2), row("embree", 12, mode="single")
     slow = [3.0 if turn in (1, 4, 5) else 1.0 for turn in range(7)]
     first = [2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 1.5]

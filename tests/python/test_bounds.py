@@ -1,4 +1,4 @@
-"""Work and input are bounded: what is too much is refused in a sentence, and before it is made."""
+"""Limits on work and input: excessive requests are refused before the work begins."""
 
 from __future__ import annotations
 

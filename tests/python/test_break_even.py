@@ -14,7 +14,7 @@ from synthetic_run import synthetic_rows, write_run
 @pytest.mark.parametrize(
     ("times", "rays", "words"),
     [
-        # build, trace a ray, and the baseline's
+        # build, trace per ray, and the baseline's
         ((10.0, 1e-3, 0.0, 2e-3), 10_000, "from 10.0 k"),
         ((0.0, 2e-3, 10.0, 1e-3), 10_000, "up to 10.0 k"),
         ((1.0, 1e-3, 0.5, 3e-3), 250, "from 250"),

@@ -1,4 +1,4 @@
-"""scripts/campaign: what it records, keeps and reports, and that each command works for seconds."""
+"""scripts/campaign: its records, kept findings and reports, and a short run of each command."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def test_a_piece_that_is_cut_off_is_not_counted(record: Record) -> None:
     programs = Programs()
 
     def begun() -> Piece:
-        # As Ctrl-C of the user does, once the piece is under way.
+        # Like the user's Ctrl-C, once the piece is under way.
         threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
         programs.run(["sleep", "60"])
         return piece("samet", 99)
@@ -220,7 +220,7 @@ def test_a_planted_fault_is_found_and_kept(
 
 
 def test_an_input_that_was_slow_only_once_is_no_finding(record: Record, tmp_path: Path) -> None:
-    """By a program that leaves inputs as libFuzzer does, and fails on none when given one again."""
+    """Uses a program that leaves inputs like libFuzzer, but does not fail when given one again."""
     program = tmp_path / "fuzz_slow"
     program.write_text(
         """#!/bin/sh
@@ -287,7 +287,7 @@ def test_rays_are_counted_with_new_seeds(record: Record, monkeypatch: pytest.Mon
 
 
 def test_a_wrong_hit_is_kept_as_it_was_reduced(record: Record, tmp_path: Path) -> None:
-    """By a program that reports what `beambench selftest --minimize` does."""
+    """Uses a program that reports like `beambench selftest --minimize`."""
     program = tmp_path / "beambench"
     program.write_text(
         """#!/bin/sh
@@ -323,7 +323,7 @@ def test_kills_lose_nothing(record: Record, kind: str, monkeypatch: pytest.Monke
 
 
 def faulty_program(folder: Path) -> Path:
-    """Its runs end at once, and hold the same cell twice unless nothing disturbed them."""
+    """Its runs end at once, and hold the same cell twice unless nothing interrupted them."""
     path = folder / "beambench"
     path.write_text(
         "#!/bin/sh\n"

@@ -1,4 +1,4 @@
-"""Command lines as users type them: what they print, what they write, what they refuse."""
+"""Command lines as users type them: output, written files, refusals."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def count_colors(picture: Image.Image) -> int:
     return len(picture.getcolors(picture.width * picture.height) or [])
 
 
-# What can be asked for
+# Lists and help
 
 
 def test_list_names_structures_scenes_and_rays_with_their_parameters() -> None:
@@ -189,7 +189,7 @@ def test_equal_scenes_have_equal_hashes_and_a_seed_changes_them() -> None:
 
 
 def facts_of(scene: str | Path) -> dict:
-    """What `scene --json` says of a scene, but for its name and the sharing of vertices."""
+    """Returns the facts of `scene --json`, except the scene's name and the sharing of vertices."""
     facts = json.loads(output_of("scene", scene, "--json"))
     del facts["name"], facts["vertices"]
     return facts
@@ -292,7 +292,7 @@ def test_a_renamed_option_works_with_a_warning() -> None:
 
 
 def test_the_hint_to_resume_can_be_pasted(tmp_path: Path) -> None:
-    """As it was called: by a path, from another folder, without the program on the PATH."""
+    """Called as the user did: by a path, from another folder, without the program on the PATH."""
     sweep = {
         "name": "s",
         "scenes": ["tetra:n=4"],
@@ -409,7 +409,7 @@ def test_the_camera_says_the_size_where_nobody_else_does(tmp_path: Path) -> None
         assert picture.size == (8, 8)
 
 
-# Every wall of this room is a mirror, and so the light goes from wall to wall as often as it may.
+# Every wall of this room is a mirror, so the light is reflected between walls to the maximum depth.
 def test_a_whole_picture_by_beams_is_that_of_single_rays(tmp_path: Path) -> None:
     render = ("render", "closed-room", "--shade", "whitted", "--resolution", "160x120")
     pictures = {}
@@ -638,7 +638,7 @@ def test_a_census_tells_what_faint_rays_save_and_cost() -> None:
         assert result["too_faint"] > 0
     assert rays(much) < rays(little) < rays(whole)
     assert 0 < little["error"] < much["error"] < 20
-    # A part that no ray can have less of leaves nothing out.
+    # A share that no ray can be below leaves nothing out.
     assert scene("--min-weight", "1e-9")["error"] == 0
     text = output_of("census", "mount:n=3", "--resolution", "64x64", "--min-weight", "0.01")
     for word in ["too faint", "of the rays", "error"]:
@@ -769,7 +769,7 @@ def test_verify_goes_on_past_a_structure_that_cannot_be_built(tmp_path: Path) ->
 
 
 def write_dark_sphere(folder: Path) -> Path:
-    """A scene without lights, and so without shadow rays."""
+    """Writes a scene without lights, and therefore without shadow rays."""
     file = folder / "dark.nff"
     file.write_text(
         "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 0\nresolution 8 8\ns 0 0 0 1\n"
@@ -963,7 +963,7 @@ def test_verify_leaves_exhaustive_out_of_all_over_many_primitives() -> None:
     assert "samet" in done.stdout
 
 
-# What is refused
+# Refusals
 
 
 WRONG_FILES = {

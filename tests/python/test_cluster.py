@@ -1,4 +1,4 @@
-"""One image on several processes: what must be true when mpirun starts them."""
+"""One image on several processes, started by mpirun."""
 
 from __future__ import annotations
 
@@ -114,7 +114,8 @@ def test_the_record_adds_up(tmp_path: Path) -> None:
         own = [row for row in tasks if int(row["process"]) == process["process"]]
         assert process["tasks"] == len(own)
         assert process["samples"] == sum(int(row["samples"]) for row in own)
-    # Each task is a message out and one back; an end out; ready and farewell back.
+    # Each task is a message out and one back; each consumer receives an end and sends ready and
+    # farewell.
     assert report["from_producer"]["messages"] == len(tasks) + 2
     assert report["to_producer"]["messages"] == len(tasks) + 4
     assert 0.0 < report["producer_busy_share"] < 1.0
@@ -154,7 +155,7 @@ def test_the_same_tasks_whoever_does_them(tmp_path: Path) -> None:
 
 
 def consumer_at_work(run: subprocess.Popen[str], process: int) -> int:
-    """The pid of a consumer, once all of them have joined and received tasks."""
+    """Returns the pid of a consumer, once all of them have joined and received tasks."""
     assert run.stderr is not None
     for line in run.stderr:
         if line.strip() == READY:
@@ -163,7 +164,7 @@ def consumer_at_work(run: subprocess.Popen[str], process: int) -> int:
 
 
 def state_of(pid: int) -> str:
-    """As ps has it; empty for a process that is gone."""
+    """Returns the state shown by ps; empty for a process that has ended."""
     try:
         return Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0]
     except OSError:
@@ -171,8 +172,9 @@ def state_of(pid: int) -> str:
 
 
 def finish_aborted(run: subprocess.Popen[str]) -> subprocess.CompletedProcess[str]:
-    """After MPI_Abort mpirun of Open MPI 4.1 crashed in 2 of 110 runs, when all processes had
-    ended, and waited in PMIx_server_finalize for a lock for ever in another one."""
+    """Ends an aborted run. After MPI_Abort, mpirun of Open MPI 4.1 crashed in 2 of 110 runs when
+    all processes had ended; in another run it waited forever for a lock in PMIx_server_finalize.
+    """
     pids = processes_of(run).values()
     try:
         return finish(run, timeout=60)
@@ -193,7 +195,7 @@ def test_a_killed_consumer_ends_the_run_without_a_picture(tmp_path: Path) -> Non
     os.kill(consumer_at_work(run, 2), signal.SIGKILL)
     done = finish_aborted(run)
     assert done.returncode != 0
-    assert "rank 2" in done.stderr  # mpirun says who it was
+    assert "rank 2" in done.stderr  # mpirun names the process
     assert file.read_text() == "the picture before"
     assert names_in(tmp_path) <= {file.name, f"{file.name}.kept"}
 
@@ -228,7 +230,7 @@ def test_a_killed_run_is_resumed_with_the_same_picture(
     pids = {"consumer": consumer, "producer": producer, "mpirun": run.pid}
     os.kill(pids[victim], signal.SIGKILL)
     finish_aborted(run)
-    # Either one may outlive mpirun for a moment, and the producer locks the folder of results.
+    # Each may outlive mpirun for a moment, and the producer locks the folder of results.
     wait_until(lambda: not any(Path(f"/proc/{pid}").exists() for pid in (producer, consumer)))
     assert not file.exists()
     other = ["balls:n=1", *asked[1:]]
@@ -254,7 +256,7 @@ def test_without_resume_a_run_begins_anew(tmp_path: Path) -> None:
     kept = tmp_path / "tetra.png.kept"
     kept.mkdir()
     (kept / "results-0-0").write_bytes(b"not results")
-    # Where other work wants the processors, each message waits until its receiver has one.
+    # If other programs use the processors, each message waits until its receiver gets one.
     run = mpirun("-n", 2, CLUSTER, "tetra:n=1", *SMALL, "--batch", "64", "-o", file)
     assert run.returncode == 0, run.stderr
     assert names_in(tmp_path) == {"tetra.png"}
@@ -265,7 +267,8 @@ def test_a_consumer_that_hangs_is_done_without(tmp_path: Path) -> None:
     run = start("-n", 3, CLUSTER, *LONG, "-o", several, "--timeout", "2")
     os.kill(consumer_at_work(run, 2), signal.SIGSTOP)
     done = finish_aborted(run)
-    # On a busy machine it may be stopped when its work is done, and only MPI cannot end.
+    # On a busy machine the process may be stopped after its work is done, when only MPI has not
+    # ended.
     if "did not end within 2 s" not in done.stderr:
         assert done.returncode in (0, *MPIRUN_FAULTS), done.stderr
         assert "process 2 was silent for 2 s" in done.stderr
@@ -274,7 +277,7 @@ def test_a_consumer_that_hangs_is_done_without(tmp_path: Path) -> None:
 
 
 def when_begun(run: subprocess.Popen[str], process: int) -> int:
-    """The pid of a process as soon as it is there: MPI has hardly started."""
+    """Returns the pid of a process as soon as it exists: MPI has hardly started."""
     while run.poll() is None:
         if process in (found := processes_of(run)):
             return found[process]
@@ -298,7 +301,7 @@ def test_a_process_stopped_at_any_moment_ends_in_a_picture_or_a_message(
 ) -> None:
     file = tmp_path / "picture.png"
     file.write_text("the picture before")
-    # Open MPI 5 may end before it has passed on what the processes wrote; a file loses nothing.
+    # Open MPI 5 may end before it has forwarded the output of the processes; a file loses nothing.
     messages = tmp_path / "messages"
     to_file = ["bash", "-c", 'exec 2>>"$0" "$@"', messages]
     run = start("-n", 3, *to_file, CLUSTER, *asked, "-o", file, "--timeout", "1.5")
@@ -359,7 +362,7 @@ def test_wrong_requests_are_refused_in_one_sentence(arguments: list[str], words:
 
 
 def test_another_scene_on_one_process_is_refused(tmp_path: Path) -> None:
-    """The same name, read in two folders."""
+    """Reads the same name in two folders."""
     skip_where_mpirun_starts_one_program_only()
     file = tmp_path / "picture.png"
     for folder, size in (("a", 1), ("b", 2)):
@@ -377,7 +380,7 @@ def test_another_scene_on_one_process_is_refused(tmp_path: Path) -> None:
 
 
 def test_another_version_on_one_process_is_refused(tmp_path: Path) -> None:
-    """The same program, built from a commit that there is not."""
+    """Runs the same program, built from a commit that does not exist."""
     skip_where_mpirun_starts_one_program_only()
     report = tmp_path / "run.json"
     assert mpirun("-n", 1, CLUSTER, "tetra:n=1", "--report", report).returncode == 0
@@ -395,7 +398,7 @@ def test_another_version_on_one_process_is_refused(tmp_path: Path) -> None:
 
 @pytest.fixture
 def full_disk(tmp_path: Path) -> Iterator[Path]:
-    """A file that leaves no room beside it."""
+    """A device without free space for another file."""
     folder = tmp_path / "full"
     folder.mkdir()
     mount = ["mount", "-t", "tmpfs", "-o", "size=64k", "none", folder]

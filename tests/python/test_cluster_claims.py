@@ -1,4 +1,4 @@
-"""The ledger's rules of chapter 6, by figures that nobody measured."""
+"""The ledger's rules of chapter 6, with invented figures."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from beambench_report.thesis.paper.evidence import FIGURES, NOTHING, ClusterEvid
 CLAIMS = {claim.name: claim for claim in CLUSTER_CLAIMS}
 CAT, TOWER = "gato-bill", "torre-eiffel"
 
-# By these every claim holds.
+# With these, every claim holds.
 HOLDING = {
     CAT: {
         "best_processors": 11,
@@ -48,7 +48,7 @@ HOLDING = {
     },
 }
 
-# What makes each claim fail in part: a figure of a scene with another value.
+# Changes that make each claim fail in part: another value for a figure of one scene.
 PART = {
     "C22": [
         (CAT, "best_processors", 4),
@@ -123,7 +123,7 @@ def test_the_ledger_has_all_claims() -> None:
 
 
 def answer(scene: str, consumers: int, seconds: float, busy: float, **more: object) -> dict:
-    """What the simulator says, made up."""
+    """Returns an invented result of the simulator."""
     processes = [
         {
             "process": number,

@@ -84,7 +84,7 @@ def test_a_cluster_of_one_takes_the_sum(tmp_path: Path) -> None:
 def test_short_tasks_take_their_time(tmp_path: Path) -> None:
     path = tasks(tmp_path / "t.csv", [4e-7] * 1000, walk=2e-7)
     run = simulated(path, "--consumers", "0", "--look-seconds", "3e-7")
-    # Walking, work, 1e-5 to accept each, and a look between them.
+    # Traversal, work, 1e-5 to accept each, and a look between them.
     assert run["seconds"] > 1000 * (2e-7 + 4e-7 + 1e-5 + 3e-7)
     assert run["seconds"] == pytest.approx(1000 * 1.09e-5, rel=0.05)
 
@@ -99,7 +99,7 @@ def test_consumers_share_the_work_and_every_task_is_done_once(tmp_path: Path) ->
         assert sum(one["tasks"] for one in each) == run["tasks"] == 200
         assert sum(one["samples"] for one in each) == 200 * 100
         assert sum(one["busy_seconds"] for one in each) == pytest.approx(run["work_seconds"])
-        # A parcel a task, a greeting, an end and a farewell for everyone.
+        # One parcel per task, and a greeting, an end and a farewell for each process.
         assert run["messages_from_producer"] == 200 + consumers
         assert run["messages_to_producer"] == 200 + 2 * consumers
         seconds.append(run["seconds"])
@@ -146,7 +146,7 @@ def test_every_option_does_every_task(tmp_path: Path, arguments: tuple[str, ...]
 
 
 def shares(path: Path, division: str, *arguments: str) -> list[int]:
-    """How many tasks each of four consumers did, all being done."""
+    """Returns how many tasks each of four consumers did, expecting all to be done."""
     run = simulated(path, "--consumers", "4", "--division", division, *arguments)
     each = [one["tasks"] for one in run["processes"][1:]]
     assert run["messages_from_producer"] == 4 + 4
@@ -248,7 +248,7 @@ def test_the_plan_asks_nothing_twice() -> None:
 
 
 def recorded_tasks(folder: Path) -> None:
-    """As `cluster record` leaves them."""
+    """The files that `cluster record` writes."""
     (folder / "tasks").mkdir()
     recorded = {}
     for scene in (*SCENES, LARGE):
@@ -264,7 +264,7 @@ def recorded_tasks(folder: Path) -> None:
 
 
 def counting_simulator(folder: Path) -> tuple[Path, Path]:
-    """A program that answers anything with the same, and a file with a line for each call."""
+    """A program that always returns the same result, and a file with a line for each call."""
     zeros = dict.fromkeys(
         "tasks traced_seconds build_seconds walk_seconds work_seconds accept_seconds producer_busy "
         "messages_from_producer bytes_from_producer messages_to_producer bytes_to_producer".split(),
@@ -284,7 +284,7 @@ def test_an_interrupted_simulation_goes_on_where_it_was(tmp_path: Path, jobs: in
     plan = simulations(SCENES, most=5)[:6]
     simulate(tmp_path, program, plan[:4], jobs)
     answers = tmp_path / "answers.jsonl"
-    answers.write_text(answers.read_text("utf-8")[:-40], "utf-8")  # killed while it wrote
+    answers.write_text(answers.read_text("utf-8")[:-40], "utf-8")  # killed during writing
     simulate(tmp_path, program, plan, jobs)
     assert len(calls.read_text("utf-8").splitlines()) == 4 + 1 + 2
     assert list(read_simulations(tmp_path)["consumers"]) == [each.consumers for each in plan]
@@ -338,7 +338,7 @@ def test_figures_6_3_and_6_4_name_each_panel_and_show_the_thesis(repository: Pat
 
 
 def test_a_line_of_many_processes_has_one_network() -> None:
-    """Two networks have other speed-ups for as many processes: as one line they would zigzag."""
+    """Two networks have different speed-ups for the same size: a common line would zigzag."""
     rows = [
         {"scene": "s", "era": "1999", "options": options, "machines": "equal", "network": network,
          "consumers": consumers, "speed_up": speed_up, "producer_busy": 0.5}

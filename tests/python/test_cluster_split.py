@@ -58,7 +58,7 @@ def test_parts_give_the_picture_of_the_whole() -> None:
 @needs_simulator
 @pytest.mark.parametrize("level", ["2", "4", "6"])
 def test_every_division_gives_the_picture_of_the_whole(level: str) -> None:
-    """Most of a tetrahedron's cells are empty: beams and rays pass them in any process."""
+    """Most of a tetrahedron's cells are empty: beams and rays pass through them in any process."""
     whole = simulated(1)["result_hash"]
     for division in DIVISIONS:
         run = simulated(6, "--division", division, level=level)
@@ -110,7 +110,7 @@ def test_its_light_is_that_of_one_process(tmp_path: Path, scene: str) -> None:
         assert record["rays"]["shadow"] > 0
         # The whole scene is on process 0 alone, once.
         assert record["shading_bytes"] == record["whole_scene_bytes"]
-        # What was sent are rays, which came, and answers of 12 bytes.
+        # Rays were sent and received, and answers of 12 bytes.
         received = sum(light["rays_in"]["bytes"] for light in lights)
         answered = sum(light["answers_out"] for light in lights)
         assert sum(light["out"]["bytes"] for light in lights) == received + 12 * answered
@@ -148,7 +148,7 @@ def test_time_is_what_work_and_messages_take() -> None:
     expected = 1e5 * each["build_seconds"] + 1e4 * walked + 1e3 * rest
     assert run["seconds"] == pytest.approx(expected, rel=1e-3)
     assert run["traced_seconds"] == pytest.approx(1e4 * walked + 1e3 * rest, rel=1e-3)
-    # Where messages take long, nothing else matters.
+    # If messages take long, nothing else matters.
     slow = simulated(2, "--latency", "1000")
     assert slow["seconds"] > 5000
 
@@ -174,7 +174,7 @@ def test_wrong_requests_are_refused() -> None:
 
 
 def pretended_simulator(folder: Path, wrong_picture_of: int = 0) -> Path:
-    """Takes 8 s for one part, and is twice as fast by twice as many."""
+    """Returns a simulator that takes 8 s for one part, and half as long for twice as many."""
     program = folder / "simulator"
     program.write_text(
         f"""#!/usr/bin/env python3
@@ -229,7 +229,7 @@ def assert_divisions_are_compared(folder: Path) -> None:
         *((division, 4) for division in DIVISIONS),
     ]
     assert (rows["speed_up"] == rows["processes"]).all()
-    # 1 s of work in each process, of 6 s that one of them takes.
+    # 1 s of work in each process; one process alone takes 6 s.
     assert list(of_scene["busy_share"]) == pytest.approx([1 / 6] + [4 / 6] * len(DIVISIONS), 1e-5)
     page = scene_divisions.scene_divisions_section(rows)
     assert "| tetra:n=8 | scattered | 4 | 1500.0 | 4.0 | 1.00 | 1.00 | 0.67 |" in page

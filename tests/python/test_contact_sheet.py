@@ -1,4 +1,4 @@
-"""The contact sheet: which scenes stand on it, how they look, and what happens when one fails."""
+"""The contact sheet: its scenes, their appearance, and its behavior when a scene fails."""
 
 from __future__ import annotations
 
@@ -50,11 +50,11 @@ def test_two_scenes_stand_side_by_side(tmp_path: Path, capsys: pytest.CaptureFix
     height, width, _ = pixels.shape
     assert width == 1400
     assert 340 < height < 460
-    # The sky of tetra is a square: as wide as high.
+    # The sky of tetra is square.
     sky = np.abs(pixels - (0.078, 0.361, 0.753)).max(axis=2) < 0.01
     rows, columns = np.nonzero(sky)
     assert np.ptp(columns) == pytest.approx(np.ptp(rows), abs=2)
-    # Beside it the yellow floor of balls, and nothing beyond.
+    # Next to it is the yellow floor of balls, and nothing beyond.
     assert not np.array_equal(pixels[200, np.max(columns) + 50], (1, 1, 1))
     assert (pixels[:, 2 * np.max(columns) + 50 :] == 1).all()
 

@@ -1,4 +1,4 @@
-"""The data dictionary says what every column means, and knows no column that there is not."""
+"""The data dictionary explains every column, and lists no other columns."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def test_what_plots_and_pages_need_is_known() -> None:
 
 
 @pytest.mark.parametrize("column", dictionary().columns, ids=lambda column: column.name)
-def test_each_entry_says_all_there_is_to_say(column) -> None:  # noqa: ANN001 (the id shows it)
+def test_each_entry_says_all_there_is_to_say(column) -> None:  # noqa: ANN001 (shown by the id)
     assert column.meaning.endswith(".")
     assert column.measured.endswith(".")
     assert column.type in ("text", "flag", "integer", "number")
@@ -116,7 +116,7 @@ def test_a_kind_of_rays_of_a_whole_picture_has_patterns_of_its_own() -> None:
 
 
 def examples(text: str) -> list[str]:
-    """The Python examples of a text in Markdown."""
+    """Returns the Python examples of a Markdown text."""
     return re.findall(r"^```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
 
 
@@ -135,11 +135,11 @@ def test_the_example_of_reading_draws_a_plot_and_keeps_the_rows_of_null(
     by_default = example.replace(', keep_default_na=False, na_values=[""]', "")
     assert by_default != example
     program = by_default + 'assert not (rows["structure"] == "null").any()'
-    subprocess.run([sys.executable, "-c", program], cwd=run_folder, check=True)  # what was wrong
+    subprocess.run([sys.executable, "-c", program], cwd=run_folder, check=True)  # the former error
 
 
 def test_every_example_and_reader_of_results_keeps_the_name_null(repository: Path) -> None:
-    """Only results.csv has that name in it; other CSVs are read as pandas does."""
+    """Only results.csv contains that name; other CSV files are read with pandas's defaults."""
     texts = subprocess.run(
         ["git", "ls-files", "*.md", "*.j2", "tests/python/*.py", "scripts/*.py"],
         cwd=repository,

@@ -1,4 +1,4 @@
-"""Help, completion, the manual page, READMEs: what they state works, and they are complete."""
+"""Help, completion, manual page, READMEs: their statements are true and complete."""
 
 from __future__ import annotations
 
@@ -16,19 +16,19 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 
 
 def commands() -> list[str]:
-    """The subcommands, as --help lists them."""
+    """Returns the subcommands listed by --help."""
     listed = output_of("--help").split("Subcommands:")[1].split("Examples:")[0]
     return re.findall(r"^  (\w+) ", listed, re.MULTILINE)
 
 
 def options(command: str) -> list[str]:
-    """The options that a command's --help lists."""
+    """Returns the options listed by a command's --help."""
     listed = output_of(command, "--help").split("Examples:")[0]
     return re.findall(r"^  (?:-\w,)?(--?[\w-]+)", listed, re.MULTILINE)
 
 
 def examples(*command: str) -> list[str]:
-    """The example lines of a --help."""
+    """Returns the example lines of a --help."""
     text = output_of(*command, "--help")
     assert "Examples:" in text
     return re.findall(r"^  (beambench .*)$", text.split("Examples:")[1], re.MULTILINE)
@@ -61,7 +61,7 @@ def bash_words() -> str:
 
 
 def completed(script: str, *words: str) -> list[str]:
-    """What bash offers for the last of the words."""
+    """Returns bash's completions of the last of the words."""
     line = f'{script}\nCOMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _beambench; printf "%s\\n" '
     done = subprocess.run(
         ["bash", "-c", line + '"${COMPREPLY[@]}"', "bash", "beambench", *words],
@@ -176,7 +176,7 @@ def test_version_of_the_manual_is_that_of_the_program() -> None:
 
 
 def anchors(text: str) -> set[str]:
-    """The headings of a text, as GitHub turns them into anchors."""
+    """Returns the headings of a text, as GitHub turns them into anchors."""
     headings = re.findall(r"^#+ (.*)$", text, re.MULTILINE)
     return {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings}
 

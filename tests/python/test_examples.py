@@ -37,7 +37,7 @@ def ran(*command: str | Path, **environment: str) -> subprocess.CompletedProcess
 
 
 def trimesh_folder() -> Path:
-    """Where pip has put trimesh; made once, and skips the test where that does not work."""
+    """The folder in which pip installed trimesh, once; skips the test if pip fails."""
     folder, wanted = CACHE / "trimesh", EXAMPLES / "requirements.txt"
     stamp = folder / "requirements.txt"
     if stamp.exists() and stamp.read_text() == wanted.read_text():
@@ -52,7 +52,7 @@ def trimesh_folder() -> Path:
 
 
 def cgal_program() -> Path:
-    """The example with CGAL; built once, and skips the test where there is no CGAL."""
+    """The example with CGAL, built once; skips the test without CGAL."""
     folder = CACHE / "cgal"
     done = ran("cmake", "-G", "Ninja", "-S", EXAMPLES / "cgal", "-B", folder)
     if "CGALConfig.cmake" in done.stderr:
@@ -84,7 +84,7 @@ def mesh(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def random_hits(program: Program, mesh: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """What the program wrote for random rays, beside the rays."""
+    """Returns the hits that the program wrote for random rays, and the rays."""
     rays = make_rays(tmp_path_factory.mktemp("random") / "r.rays", "random")
     return traced(program, mesh, rays)
 
@@ -95,7 +95,7 @@ def make_rays(path: Path, kind: str = "random") -> Path:
 
 
 def traced(program: Program, mesh: Path, rays: Path) -> Path:
-    """The file of hits that the program wrote."""
+    """The file of hits written by the program."""
     hits = rays.with_suffix(".hits")
     done = program(mesh, rays, "-o", hits)
     assert done.returncode == 0, done.stderr
@@ -104,14 +104,14 @@ def traced(program: Program, mesh: Path, rays: Path) -> Path:
 
 
 def verified(rays: Path, hits: Path) -> tuple[int, dict]:
-    """The exit code and what was found."""
+    """Returns the exit code and the findings."""
     report = hits.with_suffix(".json")
     done = beambench("verify", SCENE, "--rays", rays, "--hits", hits, "--json", report)
     return done.returncode, json.loads(report.read_text())["cases"][0]
 
 
 def body(path: Path, kind: np.dtype | str) -> tuple[bytes, np.ndarray]:
-    """The two lines at the beginning of a file, and the rest as numbers."""
+    """Returns the first two lines of a file, and the rest as numbers."""
     with path.open("rb") as file:
         return file.readline() + file.readline(), np.fromfile(file, kind)
 
@@ -201,7 +201,7 @@ def test_invalid_input_is_refused_in_a_sentence(
         assert not hits.exists()
 
 
-# The table, and the fewest triangles of a wrong hit
+# The table, and the fewest triangles with a wrong hit
 
 
 def measured(tmp_path: Path, script: str, *words: str | Path) -> subprocess.CompletedProcess[str]:

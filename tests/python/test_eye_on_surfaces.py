@@ -1,4 +1,4 @@
-"""Scenes whose eye touches what it looks at: no structure errs, and no command ends by a signal."""
+"""Scenes whose eye touches a surface: no structure fails, and no command is ended by a signal."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def test_pictures_are_drawn(place: str, tmp_path: Path) -> None:
 
 
 def find_cells(node: object) -> list[dict]:
-    """Every object of the document that has a verdict."""
+    """Returns every object of the document that has a verdict."""
     if isinstance(node, list):
         return [cell for each in node for cell in find_cells(each)]
     if not isinstance(node, dict):

@@ -1,4 +1,4 @@
-"""The fastest repetitions of a cell: their cycles, and how far those of a further run may lie."""
+"""The fastest repetitions of a cell: their cycles, and the expected range in a further run."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ PUBLISHED = ROOT / "results" / "published" / "thesis"
 
 
 def repeated(*repetitions: tuple[float, float]) -> CellFile:
-    """A cell by milliseconds and gigahertz of each repetition."""
+    """Returns a cell with the given milliseconds and gigahertz of each repetition."""
     times, clocks = zip(*repetitions, strict=True)
     total = dict(enumerate(times))
     trace = {turn: 0.75 * ms for turn, ms in total.items()}
@@ -31,7 +31,7 @@ def test_of_ten_repetitions_the_five_fastest_count() -> None:
 
 
 def test_a_clock_that_was_read_in_a_disturbed_moment_makes_no_repetition_cheaper() -> None:
-    """A third of the readings says two gigahertz where there were three."""
+    """A third of the readings shows two gigahertz instead of three."""
     quiet = [(100.0, 3.0), (101.0, 2.0), (102.0, 3.0), (103.0, 3.0), (104.0, 2.0), (105.0, 3.0)]
     found = fastest_of([repeated(*quiet)])
     assert found is not None
@@ -68,7 +68,7 @@ def test_the_repetitions_of_several_runs_count_together() -> None:
 
 @pytest.mark.parametrize("repetitions", [6, 10, 20])
 def test_a_further_run_lies_within_the_error_in_nine_of_ten_cases(repetitions: int) -> None:
-    """A third of the repetitions is disturbed, and one reading of the clock in ten."""
+    """A third of the repetitions is disturbed, and one in ten clock readings."""
     random = Random(1999)
 
     def repetition() -> tuple[float, float]:

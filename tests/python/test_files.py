@@ -1,4 +1,4 @@
-"""Files that cannot be read whole, and output that goes onto links, pipes and devices."""
+"""Files that cannot be read completely, and output to links, pipes and devices."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ RENDER = ["render", "balls:n=1", "--accel", "samet", "--resolution", "8x8", "-o"
 EXPORT = ["export", "balls:n=1", "-o"]
 RAYS = ["rays", "balls:n=1", "--resolution", "8x8", "-o"]
 
-# A disk that gives up: read() of the file FAULTY fails with EIO once 20 kB have come.
+# A failing disk: read() of the file FAULTY fails with EIO after 20 kB.
 FAULTY_READ = r"""
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -55,7 +55,7 @@ ssize_t read(int file, void* buffer, size_t size) {
 
 @pytest.fixture(scope="module")
 def faulty_disk(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A library to be loaded before the program's own."""
+    """A library to be loaded before the program's own libraries."""
     compiler = shutil.which("cc")
     if compiler is None:
         pytest.skip("no C compiler")
@@ -71,7 +71,7 @@ def faulty_disk(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def read_from_faulty_disk(
     library: Path, file: Path, *arguments: str
 ) -> subprocess.CompletedProcess[str]:
-    """Runs the program while reading the file fails half-way."""
+    """Runs the program while reading the file fails halfway."""
     return subprocess.run(
         [BINARY, *arguments],
         env={**os.environ, "LD_PRELOAD": str(library), "FAULTY": str(file)},
@@ -222,7 +222,7 @@ def test_output_to_a_named_pipe_reaches_its_reader(
 
 
 def device_node(path: Path, minor: int) -> Path:
-    """A memory device in the test's own folder: a program at fault would replace the system's."""
+    """Creates a memory device in the test's folder: a fault would replace the system's."""
     try:
         os.mknod(path, 0o666 | stat.S_IFCHR, os.makedev(1, minor))
         path.open("w").close()

@@ -1,4 +1,4 @@
-"""Scenes that grow: the command, and the plot of what it wrote."""
+"""Scenes that grow: the command, and the plot of its output."""
 
 from __future__ import annotations
 

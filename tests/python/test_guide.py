@@ -18,7 +18,7 @@ SETTINGS = r"^((?:BEAMBENCH_|CMAKE_BUILD_TYPE|CMAKE_CXX_COMPILER:|CMAKE_CXX_FLAG
 
 
 def checked(*command: str | Path, cwd: Path) -> str:
-    """The standard output of a command that must succeed."""
+    """Returns the standard output of a command that must succeed."""
     done = subprocess.run(
         command, cwd=cwd, capture_output=True, text=True, timeout=600, check=False
     )
@@ -27,7 +27,7 @@ def checked(*command: str | Path, cwd: Path) -> str:
 
 
 def follow_guide(folder: str, section: str, tree: Path) -> Path:
-    """Does in a copy of the tree what a guide says: adds its file and its line of CMake."""
+    """Follows a guide in a copy of the tree: adds its file and its line of CMake."""
     guide = (REPOSITORY / folder / "README.md").read_text().split(f"\n## {section}\n")[1]
     source = re.search(r"```cpp\n// (\S+\.cpp)\n(.*?)```", guide, re.S)
     line = re.search(r"```cmake\n((\w+)\(.*\)\n)```", guide)
@@ -45,8 +45,9 @@ def follow_guide(folder: str, section: str, tree: Path) -> Path:
 
 @pytest.fixture(scope="module")
 def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The program with both examples. CMake configures the tree with the two files and lines; their
-    objects and those of the generated registrations are compiled, the rest is the build's own."""
+    """The program with both examples. CMake configures the tree with the two files and lines; only
+    their objects and those of the generated registrations are compiled.
+    """
     tree = tmp_path_factory.mktemp("tree")
     shutil.copy(REPOSITORY / "CMakeLists.txt", tree)
     for folder in ("scenes", "accel", "harness"):
@@ -65,7 +66,7 @@ def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
     objects = [object_of[tree / file] for file in files]
     checked("cmake", "--build", "build", "--target", *objects, cwd=tree)
 
-    # The command that links the program, with ours in place of the objects of the same names.
+    # The command that links the program, with our objects in place of those with the same names.
     link = checked("ninja", "-t", "commands", "bin/beambench", cwd=BUILD).splitlines()[-1]
     words = [word for word in link.split(" && ")[1].split() if word not in objects]
     result = tree / "beambench"

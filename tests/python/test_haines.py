@@ -1,4 +1,4 @@
-"""Haines's tests by kind of primitive: how they are counted and shown, and what is committed."""
+"""Haines's tests by kind of primitive: counting, presentation, and committed results."""
 
 import json
 from pathlib import Path
@@ -14,7 +14,7 @@ COMMITTED = ROOT / "results/published/haines"
 
 
 def a_census(scene: str, contender: str) -> str:
-    """What `beambench census --count --json` would print, with half of his tests."""
+    """Returns output like that of `beambench census --count --json`, with half of his tests."""
     work = {f"{kind}_tests": published_tests()[scene][kind] / 2 for kind in KINDS}
     return json.dumps({"structure": contender, "scenes": [{"work": work}]})
 

@@ -1,4 +1,4 @@
-"""Havran's octrees measured again: what is counted, how it is compared, and what is committed."""
+"""Havran's octrees measured again: counting, comparison, and committed results."""
 
 import json
 from itertools import product

@@ -1,4 +1,4 @@
-"""Which module of the package may import which: the order below, and nothing in a circle."""
+"""The import order of the package's modules: as listed below, without cycles."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 PACKAGE = "beambench_report"
-# Each imports only itself and what stands before it.
+# Each imports only itself and modules listed before it.
 ORDER = (
     "base",
     "run",
@@ -39,7 +39,7 @@ class Import(NamedTuple):
 
 
 def modules(scripts: Path) -> dict[str, Path]:
-    """The files of the package by the names of their modules."""
+    """Returns the files of the package by module name."""
     files = sorted((scripts / PACKAGE).rglob("*.py"))
     return {
         ".".join(file.relative_to(scripts).with_suffix("").parts).removesuffix(".__init__"): file
@@ -48,7 +48,7 @@ def modules(scripts: Path) -> dict[str, Path]:
 
 
 def imports(scripts: Path) -> list[Import]:
-    """Every import of one module of the package by another, those inside functions included."""
+    """Returns every import of one module of the package by another, even inside functions."""
     files = modules(scripts)
     found = []
     for importing, file in files.items():
@@ -75,7 +75,7 @@ def imports(scripts: Path) -> list[Import]:
 
 
 def rank(module: str) -> int:
-    """The place of a module in ORDER; the packages that only hold others come first."""
+    """Returns the place of a module in ORDER; packages that only contain others come first."""
     inner = module.removeprefix(PACKAGE).removeprefix(".")
     for place, name in enumerate(ORDER):
         if f"{inner}.".startswith(f"{name}."):
@@ -87,7 +87,7 @@ def rank(module: str) -> int:
 
 
 def faults(scripts: Path) -> list[str]:
-    """A sentence for each import that points upward, and one for a circle."""
+    """Returns a sentence for each import in the wrong direction, and one for a cycle."""
     found = imports(scripts)
     upward = [one for one in found if rank(one.imported) > rank(one.importing)]
     sentences = [f"{one}: {one.imported} stands above {one.importing}" for one in upward]

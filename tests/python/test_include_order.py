@@ -1,4 +1,4 @@
-"""Which module of the C++ sources may include which: the order below, and nothing in a circle."""
+"""The include order of the C++ modules: as listed below, without cycles."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import NamedTuple
 import pytest
 
 REPOSITORY = Path(__file__).resolve().parents[2]
-# Each module includes itself and what stands before it. The namespace is within `beambench`.
+# Each module includes itself and modules listed before it. The namespace is within `beambench`.
 MODULES = {
     "scenes/base": "",
     "scenes": "scenes",
@@ -59,12 +59,12 @@ class Include(NamedTuple):
 
 
 def module_of(file: str) -> str | None:
-    """The module of the longest path that a file stands below."""
+    """Returns the module with the longest path that contains a file."""
     return max((m for m in MODULES if file.startswith(f"{m}/")), key=len, default=None)
 
 
 def sources(root: Path) -> dict[str, str]:
-    """The texts of the program's C++ files, by path; adapters are programs of their own."""
+    """Returns the texts of the program's C++ files, by path; adapters are separate programs."""
     return {
         str(path.relative_to(root)): path.read_text("utf-8")
         for folder in ("scenes", "accel", "harness")
@@ -74,7 +74,7 @@ def sources(root: Path) -> dict[str, str]:
 
 
 def includes(texts: dict[str, str]) -> list[Include]:
-    """Every include of one file of the program by another."""
+    """Returns every include of one file of the program by another."""
     return [
         Include(file, text.count("\n", 0, found.start()) + 1, found[1])
         for file, text in texts.items()
@@ -84,7 +84,7 @@ def includes(texts: dict[str, str]) -> list[Include]:
 
 
 def faults(texts: dict[str, str]) -> list[str]:
-    """What is wrong with the order of modules and of headers; a sentence each."""
+    """Returns a sentence for each violation of the order of modules and headers."""
     found = [
         f"{file}: stands in no module of {list(MODULES)}" for file in texts if not module_of(file)
     ]

@@ -1,4 +1,4 @@
-"""Plots within pages: well formed, in the page's colors, and beside each other."""
+"""Plots within pages: well-formed, in the page's colors, and side by side."""
 
 from __future__ import annotations
 

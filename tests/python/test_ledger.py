@@ -64,12 +64,12 @@ def measured(value: float, half: float = 0.1) -> Measured:
     [
         (measured(1), measured(2), 1, YES),
         (measured(2), measured(1), 1, NO),
-        (measured(1), measured(1.15), 1, YES),  # errors of both at once are unlikely
+        (measured(1), measured(1.15), 1, YES),  # both errors at once are unlikely
         (measured(1), measured(1.13), 1, UNDECIDED),
-        (measured(10), measured(10.1), 1, NO),  # surely alike
+        (measured(10), measured(10.1), 1, NO),  # certainly equal
         (measured(10, 0.3), measured(10.4, 0.3), 1, UNDECIDED),
         (measured(10), measured(20.2), 2, UNDECIDED),
-        (Measured.exact(10), measured(10.1, 0.2), 1, UNDECIDED),  # a bound is met or not
+        (Measured.exact(10), measured(10.1, 0.2), 1, UNDECIDED),  # a bound is met or not met
         (measured(1), measured(2.5), 2, YES),
         (measured(1), measured(2.1), 2, UNDECIDED),
         (measured(1), measured(1.5), 2, NO),
@@ -110,7 +110,7 @@ def test_a_figure_lies_between_bounds_with_all_of_its_interval(
         ([YES, NO], Verdict.IN_PART),
         ([YES, UNDECIDED], Verdict.UNDECIDED),
         ([NO, UNDECIDED], Verdict.UNDECIDED),
-        ([YES, NO, UNDECIDED], Verdict.IN_PART),  # whichever way the third falls
+        ([YES, NO, UNDECIDED], Verdict.IN_PART),  # whatever the third turns out to be
         ([YES, MISSING], Verdict.NOT_TESTED),
         ([], Verdict.NOT_TESTED),
     ],
@@ -187,13 +187,13 @@ def test_costs_that_make_the_times_are_found() -> None:
 
 THESIS = {
     "C19": Verdict.IN_PART,  # flamenco to ajedrez: neither the time grows nor the ratio
-    # What these rest on is in plots that are lost, or was not printed for every scene.
+    # The evidence for these is in lost plots, or was not printed for every scene.
     **dict.fromkeys(("C07", "C08", "C11", "C12", "C16", "C20"), Verdict.NOT_TESTED),
-    # Its text says so without figures.
+    # The text states these without figures.
     **dict.fromkeys(("C25", "C26", "C27", "C28", "C30", "C31"), Verdict.NOT_TESTED),
 }
 
-# What the thesis says beside its claims, or what follows of it, and its own figures.
+# Figures that the thesis states besides its claims, or that follow from it.
 BESIDE = {
     "C11": YES,  # the part of the time that grows with the rays leaves room for the claim
     "C12": NO,  # a non-terminal beam of maceta costs 5.8 times as much at level 7 as at level 6
@@ -233,7 +233,7 @@ LAZY = "resolution=32x32x32,density=4,fill=lazy,mailboxes=false"
 
 
 def row_of(structure: str, parameters: str, **changes: object) -> dict[str, object]:
-    """A row of escena1 as `beambench run` writes it."""
+    """Returns a row of escena1 as written by `beambench run`."""
     row = {"scene": "escena1:seed=1999,spheres=430", "primitives": 430}
     return synthetic_rows()[0] | row | {"structure": structure, "parameters": parameters} | changes
 
@@ -251,7 +251,7 @@ def test_seconds_are_those_of_build_and_trace_with_the_interval_of_a_repeat(
 
 
 def test_the_interval_of_cycles_goes_before_that_of_milliseconds(tmp_path: Path) -> None:
-    """A clock of two rates doubles the spread of milliseconds and leaves that of cycles alone."""
+    """Changes of the clock rate double the spread of milliseconds, but not that of cycles."""
     times = {"total_ms_median": 200, "total_ms_ci_low": 150, "total_ms_ci_high": 300}
     cycles = {"total_mcycles_ci_low": 594, "total_mcycles_ci_high": 612}
     write_run(tmp_path, [row_of("beam", BEAM, total_mcycles_median=600, **times, **cycles)])
@@ -265,7 +265,7 @@ def test_the_interval_of_cycles_goes_before_that_of_milliseconds(tmp_path: Path)
 def write_repeated(
     folder: Path, row: dict[str, object], repetitions: Sequence[tuple[float, float]]
 ) -> Path:
-    """A run of one cell and its repetitions: milliseconds of the trace, and gigahertz."""
+    """Writes a run of one cell and its repetitions: milliseconds of the trace, and gigahertz."""
     folder.mkdir(exist_ok=True)
     trace = [ms for ms, _ in repetitions]
     write_run(folder, [row | {"trace_ms_median": median(trace), "trace_ms_min": min(trace)}])
@@ -275,14 +275,14 @@ def write_repeated(
     return folder
 
 
-# Five repetitions that took 200 to 204 ms of 600 million cycles, and four that others disturbed.
+# Five repetitions that took 200 to 204 ms for 600 million cycles, and four disturbed ones.
 QUIET = [(200.0, 3.0), (201.0, 2.985), (202.0, 2.97), (203.0, 2.956), (204.0, 2.94)]
 DISTURBED = [(300.0, 3.0), (310.0, 2.1), (320.0, 3.0), (330.0, 2.9)]
 MEDIANS = {"total_ms_median": 204, "total_mcycles_median": 612}
 
 
 def test_the_fastest_repetitions_go_before_the_median(tmp_path: Path) -> None:
-    """Other work beside most of the repetitions moves the median, not the fastest."""
+    """Other work during most of the repetitions moves the median, but not the fastest."""
     write_repeated(tmp_path, row_of("beam", BEAM, **MEDIANS), [*DISTURBED, *QUIET])
     time = measured_evidence([tmp_path]).time("escena1", "beam", COARSEST)
     assert time is not None
@@ -309,7 +309,7 @@ def test_of_three_repetitions_the_fastest_counts_and_is_taken_to_be_vague(tmp_pa
 
 
 def test_a_clock_that_slows_down_makes_no_structure_slower(tmp_path: Path) -> None:
-    """Of one work, a run at 2 GHz takes longer than one at 3; in cycles both take the same."""
+    """The same work takes longer at 2 GHz than at 3; in cycles both take the same."""
     for name, clock in (("first", 3.0), ("second", 2.0)):
         times = {"total_ms_median": 600 / clock, "total_ms_ci_low": "", "total_ms_ci_high": ""}
         levels = BEAM if name == "first" else BEAM.replace("max_level=6", "max_level=5")
@@ -414,7 +414,7 @@ def test_other_work_that_lengthens_the_counting_pass_changes_no_time_of_a_task(
 
 
 def test_of_several_runs_the_repetitions_of_a_cell_count_together(tmp_path: Path) -> None:
-    """The first run was disturbed in all of its repetitions, the second had too few of its own."""
+    """The first run was disturbed in all of its repetitions; the second alone had too few."""
     row = row_of("beam", BEAM, **MEDIANS)
     first = write_repeated(tmp_path / "first", row, [(ms * 1.5, ghz) for ms, ghz in QUIET])
     second = write_repeated(tmp_path / "second", row, QUIET[:3])
@@ -451,7 +451,7 @@ def test_only_inserting_at_terminal_nodes_is_the_thesis_s(tmp_path: Path, insert
 
 
 def write_censuses(folder: Path, **changes: object) -> Path:
-    """What `beambench census --json` prints of two scenes, one of them none of the thesis's."""
+    """Writes the output of `beambench census --json` for one scene of the thesis and another."""
     folder.mkdir()
     counts = {"eye_rays": 900, "reflected_rays": 70, "refracted_rays": 5, "shadow_hidden": 40}
     for order, cached in (("scan", 10), ("beams", 30)):

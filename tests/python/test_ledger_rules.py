@@ -1,4 +1,4 @@
-"""Each rule of the ledger comes to each verdict, by figures that were made up for it."""
+"""Each rule of the ledger can reach each verdict, with figures invented for it."""
 
 from __future__ import annotations
 
@@ -19,26 +19,26 @@ Only = Callable[[Row], bool]
 
 
 def scaled(row: Row, factor: float) -> Row:
-    """The row with all its figures so many times as large."""
+    """Returns the row with all its figures multiplied by a factor."""
     figures = [name for name in ("seconds", "value", "low", "high") if name in row]
     return row | {name: float(str(row[name])) * factor for name in figures}
 
 
 def set_to(row: Row, figure: float) -> Row:
-    """The row with another figure, known exactly."""
+    """Returns the row with another figure, known exactly."""
     name = "seconds" if "seconds" in row else "value"
     return row | {name: figure, "low": figure, "high": figure}
 
 
 def times(contender: str, factor: float) -> Callable[[Row], Row]:
-    """One contender's times are so many times as long."""
+    """Multiplies one contender's times by a factor."""
     return lambda row: (
         scaled(row, factor) if "seconds" in row and row["contender"] == contender else row
     )
 
 
 def counted_backwards(row: Row) -> Row:
-    """What was many is few, in the counts of octrees."""
+    """Reverses the counts of octrees: large ones become small."""
     names = [name for name in ("occupied_leaves", "exit_pixels") if name in row]
     return row | {name: 1e6 - float(str(row[name])) for name in names}
 
@@ -48,7 +48,7 @@ def quick_with_many_objects(row: Row) -> Row:
 
 
 def slow_by_level(row: Row) -> Row:
-    """Steeper with each level, but 7 quicker than 6."""
+    """Makes times steeper with each level, except that 7 is faster than 6."""
     if "seconds" not in row or row["contender"] != "beam":
         return row
     return set_to(row, {4: 20, 5: 40, 6: 60, 7: 50}[int(str(row["level"]))])
@@ -61,7 +61,7 @@ def steep_by_level(row: Row) -> Row:
 
 
 def crooked(row: Row) -> Row:
-    """No line: up and down, escena2 growing more."""
+    """Replaces the line by ups and downs, growing more for escena2."""
     if "seconds" not in row or row["scene"] not in ("escena1", "escena2"):
         return row
     heights = {"escena1": (10, 1, 9, 1, 8), "escena2": (1, 100, 3, 100, 50)}[str(row["scene"])]
@@ -69,13 +69,13 @@ def crooked(row: Row) -> Row:
 
 
 def flat(row: Row, samples: int) -> Row:
-    """Crowded scenes take as long for many pixels as for few."""
+    """Makes crowded scenes take as long for many pixels as for few."""
     crowded = row["scene"] in ("bola-espacial", "caracol")
     return set_to(row, 5) if "seconds" in row and crowded and row["samples"] == samples else row
 
 
 def work(quantity: str, factor: float | None) -> Callable[[Row], Row]:
-    """A quantity of the beams' work so many times as large; by the resolution if not told."""
+    """Multiplies a quantity of the beams' work by a factor, by default the resolution's."""
 
     def change(row: Row) -> Row:
         if row.get("quantity") != quantity or row["contender"] not in ("beam", PICTURE):
@@ -95,7 +95,7 @@ def both(*changes: Callable[[Row], Row]) -> Callable[[Row], Row]:
 
 
 def erratic() -> Callable[[Row], Row]:
-    """Times of tasks that no count explains."""
+    """Makes times of tasks that no count explains."""
     random = Random(7)
 
     def change(row: Row) -> Row:
@@ -107,7 +107,7 @@ def erratic() -> Callable[[Row], Row]:
 
 
 def gains_that_shrink(row: Row) -> Row:
-    """Samet's time does not grow with the rays, that of Samet-Net comes near it."""
+    """Makes Samet's time independent of the rays, and that of Samet-Net approach it."""
     if "seconds" not in row or row["contender"] not in ("samet", "samet-net"):
         return row
     growing = 90 + 9 * RAYS[str(row["resolution"])] / RAYS["1280x1024"]
@@ -135,7 +135,7 @@ def scene(*names: str) -> Only:
 
 @dataclass(frozen=True)
 class Spoiling:
-    """What makes a claim fail, and which rows are enough for it to hold in part only."""
+    """A change that makes a claim fail, and the rows for which it then holds only in part."""
 
     fails: Callable[[Row], Row]
     part: Only
@@ -185,7 +185,7 @@ SPOILED = {
     "C31": Spoiling(work("shadow_cached_beams", 0.1), scene("stetra")),
 }
 
-# The rules that claims had before they were amended.
+# The rules of claims before they were amended.
 FORMERLY_SPOILED = {
     "C10": Spoiling(
         both(
@@ -206,7 +206,7 @@ FORMERLY_SPOILED = {
 
 
 def claims_but(*names: str) -> pytest.MarkDecorator:
-    """Makes a test one of every claim, but for those named."""
+    """Turns a test into one per claim, except those named."""
     claims = [claim for claim in SWEPT_CLAIMS if claim.name not in names]
     return pytest.mark.parametrize("claim", claims, ids=lambda claim: claim.name)
 
@@ -240,14 +240,14 @@ def test_a_claim_holds_in_part_where_some_scene_says_otherwise(claim: Claim) -> 
 
 
 def vague(row: Row) -> Row:
-    """Intervals that say nothing."""
+    """Makes intervals too wide to decide anything."""
     if "occupied_leaves" in row:
         return row
     figure = float(str(row.get("seconds", row.get("value"))))
     return row | {"low": figure / 1e6, "high": figure * 1e6}
 
 
-# C02 and C05 are of counts of octrees, which are exact.
+# C02 and C05 concern counts of octrees, which are exact.
 @claims_but("C02", "C05")
 def test_a_claim_is_undecided_where_differences_are_within_the_intervals(claim: Claim) -> None:
     found = judge(claim, holding(vague))
@@ -276,7 +276,7 @@ def test_a_claim_is_not_tested_without_any_figures(claim: Claim) -> None:
 
 
 def amended_claims() -> pytest.MarkDecorator:
-    """Makes a test one of every claim whose rule was amended."""
+    """Turns a test into one per claim whose rule was amended."""
     claims = [claim for claim in SWEPT_CLAIMS if claim.amendment is not None]
     return pytest.mark.parametrize("claim", claims, ids=lambda claim: claim.name)
 
@@ -355,7 +355,7 @@ def test_a_scene_without_hidden_shadow_rays_says_nothing_of_the_cache() -> None:
     assert not any("stetra" in check.cell for check in found.checks)
 
 
-@claims_but("C09")  # which asks whatever scenes were measured
+@claims_but("C09")  # which applies to any set of scenes
 def test_a_claim_is_not_tested_where_rows_are_missing(claim: Claim) -> None:
     part = SPOILED[claim.name].part
     assert judge(claim, without(part)).verdict is Verdict.NOT_TESTED

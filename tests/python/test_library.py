@@ -1,4 +1,4 @@
-"""The libraries, linked by another project that verifies hits of its own."""
+"""The libraries, linked by another project that verifies its own hits."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ EXAMPLE = REPOSITORY / "tests/library"
 
 @pytest.fixture(scope="module")
 def example(prefix: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The program of the example, built with what is installed."""
+    """The example program, built with the installed libraries."""
     return built(EXAMPLE, tmp_path_factory.mktemp("example"), prefix) / "my_tracer_hits"
 
 
@@ -61,7 +61,7 @@ def test_one_wrong_hit_is_found_and_described(example: Path, fault: str, reporte
 
 
 def test_the_build_folder_gives_the_same(prefix: Path, example: Path, tmp_path: Path) -> None:
-    del prefix  # it skips the test where there is none
+    del prefix  # the fixture skips the test without an installation
     configured(EXAMPLE, tmp_path, BUILD)
     other = built(EXAMPLE, tmp_path, BUILD) / "my_tracer_hits"  # configured twice: from its cache
     assert output_of(other, code=0) == output_of(example, code=0)

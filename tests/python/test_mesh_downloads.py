@@ -1,4 +1,4 @@
-"""`scripts/meshes --from`, with small files of the structure of those that users download."""
+"""`scripts/meshes --from`, with small files structured like users' downloads."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from beambench_meshes.downloads import DOWNLOADS, Version
 from beambench_meshes.problem import Problem
 from program import BINARY, beambench
 
-# As Crytek's: a library beside it, groups, quads with texture coordinates, centimeters, y up.
+# Like Crytek's: a library beside it, groups, quads with texture coordinates, centimeters, y up.
 SPONZA = """# The atrium, cut down to a floor and a wall
 mtllib sponza.mtl
 g floor
@@ -38,7 +38,7 @@ f 4/1 5/1 6/1
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """An unpacked archive with the scene in a folder of its own."""
+    """An unpacked archive with the scene in its own folder."""
     monkeypatch.setenv("BEAMBENCH_CACHE", str(tmp_path / "cache"))
     place = tmp_path / "downloads/crytek_sponza"
     place.mkdir(parents=True)

@@ -1,4 +1,4 @@
-"""The recipes of scripts/meshes: complete, documented, and converted where that is needed."""
+"""The recipes of scripts/meshes: complete, documented, and converted if necessary."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ def test_list_needs_nothing(repository: Path) -> None:
 
 @pytest.fixture
 def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A cache with a package that was fetched."""
+    """A cache with a downloaded package."""
     for name in ("packages/maps", "converted", "registered"):
         (tmp_path / name).mkdir(parents=True)
     monkeypatch.setenv("BEAMBENCH_CACHE", str(tmp_path))
@@ -168,6 +168,7 @@ def test_what_cannot_be_converted_is_named_and_not_registered(
 def test_a_package_that_cannot_be_unpacked_is_not_there(tmp_path: Path) -> None:
     package = Package("none", "Debian", 1, "", "", unpacked=("data.tar.gz", ("a.off",)))
     packages = Packages(tmp_path)
-    packages._debian = lambda *_: True  # type: ignore[method-assign] # fetched, but without the archive
+    packages._debian = lambda *_: True  # type: ignore[method-assign] # without using the Debian
+    # archive
     packages.fetch(package)
     assert list(tmp_path.iterdir()) == []

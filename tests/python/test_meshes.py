@@ -155,7 +155,7 @@ def test_an_unregistered_mesh_names_the_script(tmp_path: Path) -> None:
 
 
 def bare_tools(folder: Path) -> Path:
-    """A PATH with no more than what the script itself needs."""
+    """A PATH with only the tools that the script itself needs."""
     folder.mkdir()
     for name in ("bash", "dirname", "realpath", "env", "python3"):
         (folder / name).symlink_to(Path("/usr/bin") / name)
@@ -176,7 +176,7 @@ def test_where_no_package_can_be_fetched_the_script_says_so(
     assert list((tmp_path / "registered").iterdir()) == []
 
 
-# Puts files of the right names where those of glmark2-data are, and has no other package.
+# Installs files with the names of those in glmark2-data, and has no other package.
 FAKE_APT = """#!/bin/bash
 [[ $* == *download* && ${*: -1} == glmark2-data ]] || { echo "E: $*" >&2; exit 100; }
 > glmark2-data.deb

@@ -332,7 +332,7 @@ def trace(rays: object) -> bb.Hits:
 
 
 def row(**changed: float) -> list[float]:
-    """A valid ray but for what is changed."""
+    """Returns a valid ray with the given changes."""
     values = dict(
         zip("ox oy oz t_min dx dy dz t_max".split(), [0, 0, 0, 0, 0, 0, 1, np.inf], strict=True)
     )

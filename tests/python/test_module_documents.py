@@ -21,7 +21,7 @@ SOURCE = Path(__file__).resolve().parents[2] / "harness/python"
 
 
 def public_members(owner: object) -> list[tuple[str, object]]:
-    """Functions, classes, methods and properties that users see."""
+    """Returns the public functions, classes, methods and properties."""
     return [
         (name, member)
         for name, member in vars(owner).items()
@@ -30,7 +30,7 @@ def public_members(owner: object) -> list[tuple[str, object]]:
 
 
 def callables() -> dict[str, object]:
-    """Every public function, method and property getter by its dotted name."""
+    """Returns every public function, method and property getter by its dotted name."""
     found: dict[str, object] = {}
     for name in bb.__all__:
         thing = getattr(bb, name)
@@ -123,7 +123,7 @@ def snippet() -> str:
 
 
 def write_arrays(file: Path, mistake: float) -> None:
-    """Random triangles, rays at them, and hits; t of one ray is off by `mistake`."""
+    """Writes random triangles, rays at them, and hits; the t of one ray is off by `mistake`."""
     random = np.random.default_rng(4)
     vertices = random.random((300, 3))
     triangles = np.arange(300).reshape(-1, 3)

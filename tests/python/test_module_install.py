@@ -1,4 +1,4 @@
-"""`pip install .` of the top folder makes the Python module."""
+"""`pip install .` in the root folder builds and installs the Python module."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from module import PACKAGE
 REPOSITORY = Path(__file__).resolve().parents[2]
 CACHE = PACKAGE.parent / "CMakeCache.txt"
 
-# To the verdict on one's own arrays in less than ten lines.
+# Obtains the verdict on one's own arrays in less than ten lines.
 PROGRAM = """
 import numpy as np
 import beambench as bb
@@ -29,7 +29,7 @@ print(report.verdict, report.classes.tolist(), bb.__version__, bb.__file__)
 
 
 def cached(name: str) -> str:
-    """What the build of the program was configured with."""
+    """Returns the configuration of the program's build."""
     found = re.search(rf"^{name}:\w+=(.*)$", CACHE.read_text("utf-8"), re.MULTILINE)
     return found[1] if found else ""
 
@@ -42,7 +42,7 @@ def test_pip_installs_a_module_that_verifies_arrays(tmp_path: Path) -> None:
         pytest.skip(
             "the program is not a release build, which shares its compiled files with pip's"
         )
-    # The same compiler and options, so that ccache has everything.
+    # The same compiler and options, so that ccache has all objects.
     environment = {
         **os.environ,
         "CXX": cached("CMAKE_CXX_COMPILER"),
@@ -71,7 +71,7 @@ def test_pip_installs_a_module_that_verifies_arrays(tmp_path: Path) -> None:
     assert strange == set(), "the program and its manual are not Python's"
     assert len([line for line in PROGRAM.splitlines() if line]) < 10
     done = subprocess.run(
-        # Not this environment's own packages but numpy: a .pth file may bring another beambench.
+        # Only numpy of this environment's packages: a .pth file could add another beambench.
         [sys.executable, "-S", "-c", PROGRAM],
         env={
             **environment,

@@ -1,4 +1,4 @@
-"""The Python module: Ctrl-C ends whatever takes long, and nothing is broken after it."""
+"""The Python module: Ctrl-C ends any long call, and everything works afterwards."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import pytest
 from module import ENVIRONMENT, bb
 from run_logs import events
 
-# Each defines `work`, which would take minutes, or for those that go on unseen several seconds.
+# Each defines `work`, which would take minutes, or several seconds where it cannot be interrupted.
 WORK = {
     "list of closest hits": """
 structure = bb.Structure(bb.Scene("tetra:n=8"), "exhaustive")

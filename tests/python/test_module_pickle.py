@@ -26,7 +26,7 @@ def _array_scene() -> bb.Scene:
 
 
 def _file_scene(folder: Path) -> bb.Scene:
-    """All kinds of primitives, surfaces, lights and several cameras; a reader that warns."""
+    """Returns a scene with every kind of primitive, light and camera; its reader warns."""
     path = folder / "scene.nff"
     output_of("export", "escena1", "-o", path)
     path.write_text(
@@ -72,7 +72,7 @@ def _require_same(one: bb.Scene, other: bb.Scene) -> None:
 def test_a_pickled_scene_is_the_same_scene(what: str, protocol: int, tmp_path: Path) -> None:
     scene = SCENES[what](tmp_path)
     with warnings.catch_warnings():
-        warnings.simplefilter("error")  # it was warned of when the scene was read
+        warnings.simplefilter("error")  # the warning was given when the scene was read
         restored = pickle.loads(pickle.dumps(scene, protocol))
     _require_same(scene, restored)
     image = {"resolution": (32, 24), "shading": "whitted"}
@@ -118,7 +118,7 @@ def test_a_damaged_pickle_is_refused() -> None:
 
 @pytest.fixture
 def awkward(tmp_path: Path) -> Path:
-    """A scene in a folder, neither of them with a name of UTF-8."""
+    """A scene in a folder, both with names that are not UTF-8."""
     folder = tmp_path / os.fsdecode(b"\xfe")
     folder.mkdir()
     output_of("export", "balls:n=1", "-o", tmp_path / "scene.nff")
@@ -126,7 +126,7 @@ def awkward(tmp_path: Path) -> Path:
 
 
 def _forms(path: Path) -> tuple[bytes, str, Path]:
-    """All forms of a path."""
+    """Returns all forms of a path."""
     return os.fsencode(path), str(path), path
 
 

@@ -16,7 +16,7 @@ from module import bb
 Arrays = dict[str, NDArray]
 
 SIZE = 20  # squares along each side of the mesh, each of two triangles
-K_U = 16 * 2.0**-24 * (SIZE + 3)  # or more: the largest coordinate and the distance of the origins
+K_U = 16 * 2.0**-24 * (SIZE + 3)  # lower bound; the sum: largest coordinate, distance
 
 
 def mesh() -> bb.Scene:
@@ -35,7 +35,7 @@ WRONG = 137  # the ray whose claim is changed
 
 
 def vertical_rays() -> NDArray[np.float32]:
-    """Down into the lower triangle of each square, and beside the mesh."""
+    """Returns rays down into the lower triangle of each square, and beside the mesh."""
     i, j = (a.ravel() for a in np.meshgrid(np.arange(SIZE), np.arange(SIZE), indexing="ij"))
     origins = np.stack([i + 0.6, j + 0.25, np.full(i.shape, 2.0)], axis=-1)
     origins[::7, 0] += SIZE
@@ -66,7 +66,7 @@ ALL = [*CLOSEST, "occluded"]
 
 
 def move(claims: Arrays) -> None:
-    """By ten units of the differ, along the ray."""
+    """Moves a hit by ten units of the differ, along the ray."""
     if "t" in claims:
         claims["t"][WRONG] += 10 * K_U
     else:
@@ -74,18 +74,18 @@ def move(claims: Arrays) -> None:
 
 
 def move_aside(claims: Arrays) -> None:
-    """By ten units of the differ, across the ray: to another place of the same triangle."""
+    """Moves a hit across the ray by ten units of the differ, within the same triangle."""
     claims["point"][WRONG, 0] += 10 * K_U
 
 
 def exchange(claims: Arrays) -> None:
-    """Two ids, each that of the other."""
+    """Exchanges two ids."""
     name = "primitive" if "primitive" in claims else "triangle"
     claims[name][[WRONG, WRONG + 1]] = claims[name][[WRONG + 1, WRONG]]
 
 
 def leave_out(claims: Arrays) -> None:
-    """One hit."""
+    """Leaves out one hit."""
     for name, array in claims.items():
         array[WRONG] = {
             "t": np.inf,
@@ -97,7 +97,7 @@ def leave_out(claims: Arrays) -> None:
 
 
 def invent(claims: Arrays) -> None:
-    """One hit where there is none."""
+    """Invents a hit where there is none."""
     miss = int(np.argmin(HIT))
     for name, array in claims.items():
         array[miss] = {"t": 2, "point": RAYS[miss, 0:3], "occluded": True}.get(name, 5)
@@ -232,7 +232,7 @@ def test_a_polygon_of_several_triangles_is_named_by_either_id() -> None:
     scene = bb.Scene("tetra:n=2")
     rays = scene.rays(resolution=(32, 32))
     hits = bb.Structure(scene, "exhaustive").closest_hits(rays)
-    triangle = np.where(hits.hit, hits.primitive, -1)  # here each polygon is one triangle
+    triangle = np.where(hits.hit, hits.primitive, -1)  # each polygon here is one triangle
     assert np.array_equal(scene.triangle_primitives, np.arange(len(scene.triangles)))
     assert bb.verify(scene, rays, t=hits.t, triangle=triangle).ok
 

@@ -1,4 +1,4 @@
-"""What a night raises its voice about: planted regressions, and nothing else."""
+"""The alarms of a night: planted regressions trigger them, and nothing else does."""
 
 from __future__ import annotations
 
@@ -82,10 +82,10 @@ def test_a_wrong_hit_is_found_and_named(home: Home) -> None:
         ([1, 1.02], [0, 6]),
         ([1, 1.0005], [0, 0]),
         ([1, 0.9], [0, 0]),
-        ([1, 1.02, 1.02], [0, 6, 0]),  # told once
+        ([1, 1.02, 1.02], [0, 6, 0]),  # reported once
         ([1, 1.02, 1.05], [0, 6, 6]),
         ([1, 1.0007, 1.0014], [0, 0, 6]),  # small steps add up
-        ([1, 0.9, 1], [0, 0, 6]),  # what was won must not be lost
+        ([1, 0.9, 1], [0, 0, 6]),  # an improvement must not be lost again
     ],
 )
 def test_more_work_is_found(home: Home, factors: list[float], alarms: list[int]) -> None:
@@ -163,7 +163,7 @@ def test_trials_end_when_the_time_is_up() -> None:
 
 
 def test_a_larger_slow_down_is_never_found_less_often() -> None:
-    """Every size is planted into the same noise: with few trials of their own, chance decided."""
+    """Every size is planted into the same noise: with few separate trials, chance would decide."""
     told = calibrate(noise(), 24, (0.01, 0.02, 0.03, 0.04), Effort(precision=0.01, trials=25))
     found = [one.found for one in told.power]
     assert found == sorted(found)

@@ -1,4 +1,4 @@
-"""scripts/nightly, scripts/compare, diff and the exports, as a user calls them."""
+"""scripts/nightly, scripts/compare, diff and the exports, run as by a user."""
 
 from __future__ import annotations
 
@@ -117,7 +117,7 @@ def test_two_nights_in_a_row(
     assert "(0 nights)" in capsys.readouterr().out
     assert not home.exists()
     assert night(home, sweep) == 0
-    (home / "20250101T000000Z").mkdir()  # as a killed run leaves it
+    (home / "20250101T000000Z").mkdir()  # as left by a killed run
     assert night(home, sweep) == 0
     assert not (home / "20250101T000000Z").exists()
     [page] = (home / "site/history").glob("tiny-*.html")
@@ -218,7 +218,7 @@ def test_turns_without_noise_leave_nothing_open(tmp_path: Path) -> None:
 
 
 def test_ratios_on_one_side_by_a_common_cause_are_no_verdict(tmp_path: Path) -> None:
-    """As the same program against itself gave: all ratios below 1, for a turn is one event."""
+    """Comparing a program with itself gave only ratios below 1, because a turn is one event."""
 
     def moment(night: int, row: dict) -> dict:
         factor = (0.97, 1.02, 0.95, 0.96, 1.01, 0.98)[night]
@@ -271,7 +271,7 @@ def test_diff_puts_two_files_beside_each_other(
 
 
 def elsewhere(_night: int, row: dict) -> dict:
-    """On a machine that takes three times as long."""
+    """Simulates a machine that takes three times as long."""
     times = {name: 3 * row[name] for name in row if "_ms_" in name and row[name] != ""}
     return {**row, **times, "machine_id": "b"}
 
@@ -298,7 +298,7 @@ def processor(folder: Path, name: str) -> None:
 
 
 def test_one_id_and_two_processors_are_two_machines(tmp_path: Path) -> None:
-    """A Xeon and an EPYC shared an id that was of the host's name."""
+    """A Xeon and an EPYC shared an id that came from the host's name."""
     [a] = write_nights(Home(tmp_path / "a"), 1, nothing)
     [b] = write_nights(Home(tmp_path / "b"), 1, nothing)
     assert diff(a, b).warning == ""
@@ -347,7 +347,7 @@ def test_exports_hold_every_timed_cell(tmp_path: Path, capsys: pytest.CaptureFix
     google = json.loads(capsys.readouterr().out)
     frame = pd.DataFrame(google["benchmarks"])
     assert len(frame) == len(timed)
-    # What compare.py reads of each entry.
+    # The members of each entry that compare.py reads.
     needed = {"name", "run_type", "real_time", "cpu_time", "time_unit", "repetitions"}
     assert needed <= set(frame.columns)
     assert set(frame["run_type"]) == {"iteration"}
@@ -356,12 +356,12 @@ def test_exports_hold_every_timed_cell(tmp_path: Path, capsys: pytest.CaptureFix
 def test_compare_builds_each_commit_and_measures_in_turns(
     repository: Path, tmp_path: Path, sweep: Path
 ) -> None:
-    """In a clone, by a cmake that only puts the program there: building takes minutes."""
+    """Runs in a clone, with a cmake that only copies the program: building would take minutes."""
     if not BINARY.exists() or not (repository / ".git").exists():
         pytest.skip("beambench is not built, or this is no repository")
     clone = tmp_path / "clone"
     call("git", "clone", "-q", "--shared", repository, clone, directory=tmp_path)
-    for script in ("compare", "beambench_report"):  # what is being tested, committed or not
+    for script in ("compare", "beambench_report"):  # the code under test, committed or not
         call("cp", "-r", repository / "scripts" / script, clone / "scripts/", directory=tmp_path)
     tools = tmp_path / "tools"
     tools.mkdir()
@@ -382,7 +382,7 @@ def test_compare_builds_each_commit_and_measures_in_turns(
         text=True,
         check=False,
     )
-    assert done.returncode in (0, 1), done.stderr  # times of a busy machine are not judged here
+    assert done.returncode in (0, 1), done.stderr  # times on a busy machine are not judged here
     assert done.stdout.startswith("    B/A  95% interval")
     assert "samet in stetra at 32x20" in done.stdout
     assert done.stdout.splitlines()[-1].startswith(("No cell is slower", "SLOWER"))

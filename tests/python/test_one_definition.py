@@ -1,4 +1,4 @@
-"""The one definition rule: no type of the program has the name of another.
+"""The one definition rule: no two types of the program share a name.
 
 A type that is defined twice, differently, in one program is undefined behavior that no compiler
 reports: the linker keeps one of the two sets of inline functions. Types in anonymous namespaces
@@ -13,7 +13,7 @@ from pathlib import Path
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 FOLDERS = ("accel", "harness", "scenes", "tests")
-# Definitions of which the preprocessor takes one.
+# Alternative definitions, of which the preprocessor selects one.
 ALTERNATIVES = {
     "beambench::accel::embree::Context": {"accel/embree_api/api3.hpp", "accel/embree_api/api4.hpp"}
 }
@@ -33,9 +33,10 @@ TEMPLATE = re.compile(r"\btemplate\s*<(?:[^<>]|<[^<>]*>)*>")
 
 
 def defined_types(source: str) -> set[str]:
-    """The types that a C++ source defines at the scope of named namespaces, with their scope."""
+    """Returns the types that a C++ source defines in named namespaces, with their scopes."""
     found: set[str] = set()
-    scopes: list[str | None] = []  # names of namespaces; None for all else, the anonymous included
+    scopes: list[str | None] = []  # names of namespaces; None for everything else, including
+    # anonymous ones
     head = ""
     for piece in re.split(r"([{};])", NOT_CODE.sub(" ", source)):
         if piece == "{":
@@ -56,7 +57,7 @@ def defined_types(source: str) -> set[str]:
 
 
 def clashes(sources: dict[str, str]) -> dict[str, set[str]]:
-    """The types that several of the sources (by their paths) define, and which."""
+    """Returns the types defined in several of the sources (by path)."""
     files: dict[str, set[str]] = defaultdict(set)
     for path, source in sources.items():
         for name in defined_types(source):

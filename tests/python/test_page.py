@@ -1,4 +1,4 @@
-"""The page of a run, read as a program reads it; test_page_in_browser.py reads it as people do."""
+"""The page of a run, parsed by a program; test_page_in_browser.py uses a browser."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from beambench_report.run.standings import standings
 from synthetic_run import synthetic_rows, without_times, write_cell, write_manifest, write_run
 
 VOID = {"meta", "link", "img", "input", "br", "wbr", "hr"}
-# These end where the next of their kind begins.
+# These elements end where the next of their kind begins.
 OPEN_ENDED = {"option"}
 
 
 class Reader(HTMLParser):
-    """Checks that elements are closed as they were opened, and gathers what tests ask for."""
+    """Checks that elements are properly nested, and collects what the tests need."""
 
     def __init__(self, text: str) -> None:
         super().__init__()
@@ -52,23 +52,23 @@ class Reader(HTMLParser):
 
     @property
     def text(self) -> str:
-        """What is written on the page."""
+        """Returns the text of the page."""
         return " ".join(" ".join(self.words).split())
 
 
 def page_of(folder: Path, *options: str) -> Reader:
-    """Writes the page of a run as users do and reads it."""
+    """Writes the page of a run as users do, and parses it."""
     assert main(["page", str(folder), *options]) == 0
     return Reader((folder / "report.html").read_text("utf-8"))
 
 
 def text_of(folder: Path) -> str:
-    """What is written on the page of a run, without its figures: they take most of the time."""
+    """Returns the text of a run's page without figures, which take most of the time."""
     return Reader(render(read_run(folder), drawn_kinds=())).text
 
 
 def links_of(reader: Reader) -> set[str]:
-    """The places on the page that it links to; those of single cells are opened by a script."""
+    """Returns the links within the page; a script opens those of single cells."""
     here = {at[1:] for at in reader.addresses if at.startswith("#")}
     return {place for place in here if not place.startswith("cell-")}
 
@@ -100,7 +100,7 @@ def test_a_build_pays_off_over_a_contender_that_is_named(run_folder: Path) -> No
         if row["structure"] == "embree":
             row["build_ms_median"] = 2.5
     text = text_of(write_run(run_folder, rows))
-    # 1 ms more than samet max_level=5 to build, 160 ns less for a ray.
+    # samet max_level=5 takes 1 ms more to build, and 160 ns less per ray.
     assert "6.25 k rays (samet max_level=5)" in text
     assert "Its build pays off from 6.25 k rays (samet max_level=5) on." in text
     rows = [{**row, "build_ms_median": 0.0} for row in rows]
@@ -294,7 +294,7 @@ def test_what_is_not_there_is_left_out(run_folder: Path) -> None:
 
 
 def figures_of_page(folder: Path) -> list[str]:
-    """What the figures of a page are called for people who do not see them."""
+    """Returns the accessible names of a page's figures."""
     text = (folder / "report.html").read_text("utf-8")
     return re.findall(r'<div role="img" aria-label="([^"]*)"><svg', text)
 
@@ -338,7 +338,7 @@ def test_of_a_folder_with_intervals_but_no_repetitions_the_page_has_intervals(
     text = page_of(write_run(tmp_path, rows)).text
     assert "The repetitions of the cells are not in this folder" in text
     assert "has no 95% intervals" not in text
-    assert "95% interval of the median trace" in text  # below the figures of what a trace costs
+    assert "95% interval of the median trace" in text  # below the figures of the trace times
     assert "geometric mean with its 95% interval" in text
 
 
@@ -461,7 +461,7 @@ def test_names_from_a_record_cannot_become_part_of_the_page(tmp_path: Path) -> N
     rows[0]["parameters"] = f"a={evil}"
     folder = write_run(tmp_path, rows)
     write_manifest(folder, sweep=evil, uncontrolled=[evil])
-    assert "alert(1)" in page_of(folder).text  # Reader has found every element closed
+    assert "alert(1)" in page_of(folder).text  # Reader has checked that every element is closed
     assert "<script>alert" not in (folder / "report.html").read_text("utf-8")
 
 
@@ -540,7 +540,7 @@ def test_packed_rows_say_what_the_file_says(run_folder: Path) -> None:
 
 
 def test_the_work_of_a_page_grows_little_with_its_rows(tmp_path: Path) -> None:
-    """In calls: in seconds of one and the same machine it varies by a factor of two."""
+    """Counts calls, because seconds vary by a factor of two even on one machine."""
     rows = synthetic_rows()
     lines = write_run(tmp_path, rows).joinpath("results.csv").read_text().splitlines()
     pages: list[str] = []

@@ -1,4 +1,4 @@
-"""The page of a run in headless Chromium: it sorts, filters, prints, and complains of nothing."""
+"""The page of a run in headless Chromium: it sorts, filters, prints, and reports no errors."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ CELLS = "#cells-table"
 
 @pytest.fixture(scope="module")
 def page(full_run: Path) -> Path:
-    """The page of a made-up run."""
+    """The page of an invented run."""
     return write_page(full_run)[0]
 
 
 def column(browser: Browser, table: str, place: int) -> list[str]:
-    """The texts of one column of a table, top down."""
+    """Returns the texts of one column of a table, from top to bottom."""
     return browser.evaluate(COLUMN.format(table, place))
 
 
 def type_filter(browser: Browser, text: str) -> str:
-    """Types into the filter; returns what is said of the number of rows."""
+    """Types into the filter; returns the displayed number of rows."""
     browser.evaluate("document.querySelector('[name=filter]').select()")
     if text:
         browser.call("Input.insertText", text=text)
@@ -96,7 +96,7 @@ def test_the_filter_reports_what_it_does_not_understand(opened: Browser) -> None
     assert "holds texts" in opened.evaluate(problem)
     assert type_filter(opened, "verdict=mismatch") != everything
     assert opened.evaluate("document.getElementById('filter-problem').hidden")
-    assert type_filter(opened, "max_level=6") != everything  # a text that stands in the row
+    assert type_filter(opened, "max_level=6") != everything  # a text in the row
 
 
 def test_what_was_not_measured_stays_last(opened: Browser) -> None:

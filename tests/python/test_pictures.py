@@ -1,4 +1,4 @@
-"""Rendering the scenes of a run, with a stand-in for beambench that notes how it was called."""
+"""Rendering the scenes of a run, with a stand-in for beambench that records its calls."""
 
 from __future__ import annotations
 

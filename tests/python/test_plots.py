@@ -1,4 +1,4 @@
-"""Drawing a whole run, as a user calls it."""
+"""Drawing a whole run, called as by a user."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def svg_text(path: Path) -> str:
 
 @pytest.fixture(scope="module")
 def drawn(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
-    """A run with all of its plots, and what was printed meanwhile."""
+    """A run with all of its plots, and the printed messages."""
     run = write_run(tmp_path_factory.mktemp("drawn"), synthetic_rows())
     printed = StringIO()
     with redirect_stdout(printed):
@@ -98,12 +98,12 @@ def test_only_the_kinds_that_are_named_are_drawn(
 
 
 def titles(path: Path) -> list[str]:
-    """What the mouse shows in a plot's SVG."""
+    """Returns the tooltips of a plot's SVG."""
     return [text.text or "" for text in ElementTree.parse(path).iter(f"{SVG}title")]
 
 
 def with_cells(folder: Path, rows: list[dict[str, object]]) -> Path:
-    """A run with nine repetitions of every cell, 1% apart."""
+    """Adds nine repetitions of every cell, 1% apart, to a run."""
     write_run(folder, rows)
     for row in rows:
         median = float(str(row["trace_ms_median"]))
@@ -112,7 +112,7 @@ def with_cells(folder: Path, rows: list[dict[str, object]]) -> Path:
 
 
 def many_rows(scenes: int, variants: int, kind: str = "primary") -> list[dict[str, object]]:
-    """Of two resolutions: views and contenders in any number."""
+    """Returns rows of two resolutions, with any number of views and contenders."""
     first = [row for row in synthetic_rows() if row["scene"] == "escena1" and row["width"] != 640]
     samet = [row for row in first if row["parameters"] == "max_level=5,max_objects=0"]
     return [
@@ -331,7 +331,7 @@ def test_names_lie_off_slanting_lines_and_have_their_colors() -> None:
     figure, panel = plt.subplots(dpi=100)
     points = [(0.2, 0.2), (0.8, 0.8)]
     panel.set(xlim=(0, 1), ylim=(0, 1))
-    # The line goes on beyond the points, where a name would stand first.
+    # The line extends beyond the points, where a name would otherwise be placed.
     lines = [[(0.0, 0.2), (1.0, 0.2)], [(0.0, 0.0), (1.0, 1.0)]]
     assert (
         place_labels(panel, points, ["lower", "upper"], ["l", "u"], lines, ["#111111", "#222222"])

@@ -1,4 +1,4 @@
-"""Structures and scenes of one's own, in shared objects: taken in, measured, refused, survived."""
+"""User structures and scenes in shared objects: loading, measuring, refusals, and crashes."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ SWEEP = {
 
 @pytest.fixture(scope="module")
 def template(prefix: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The template, built with what is installed."""
+    """The template, built with the installed package."""
     return built(SOURCES / "template", tmp_path_factory.mktemp("template"), prefix) / "libmine.so"
 
 
 @pytest.fixture(scope="module")
 def faulty_folder(prefix: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Built with the package of the build folder."""
-    del prefix  # it skips the tests where there is none
+    """The faulty plug-in, built with the build folder's package."""
+    del prefix  # the fixture skips the tests without an installation
     return built(SOURCES / "faulty", tmp_path_factory.mktemp("faulty"), BUILD)
 
 
@@ -49,7 +49,7 @@ def faulty(faulty_folder: Path) -> Path:
 def sweep(
     tmp_path: Path, plugin: Path, fault: str, **changes: object
 ) -> tuple[int, list[dict], str]:
-    """Exit code, rows and messages of a small sweep."""
+    """Returns the exit code, rows and messages of a small sweep."""
     config = tmp_path / "sweep.json"
     config.write_text(json.dumps({**SWEEP, **changes}))
     done = call("--plugin", plugin, "run", config, "-o", tmp_path / "run", fault=fault)
@@ -58,7 +58,7 @@ def sweep(
     return done.returncode, rows, done.stderr
 
 
-# What is installed
+# Installation
 
 
 def test_headers_of_plug_ins_need_no_others(prefix: Path) -> None:
@@ -137,7 +137,7 @@ def test_an_adapter_is_built_where_its_headers_are(
 
 
 def test_an_adapter_states_the_commit_of_its_library_alone(prefix: Path, tmp_path: Path) -> None:
-    """Not that of a checkout in which the library's folder happens to lie."""
+    """Not the commit of a checkout that happens to contain the library's folder."""
     adapters = SOURCES.parents[1] / "harness/plugin/adapters"
     library = tmp_path / "library"
     library.mkdir()
@@ -162,7 +162,7 @@ def test_an_adapter_states_the_commit_of_its_library_alone(prefix: Path, tmp_pat
     assert stated().endswith("-dirty")
 
 
-# What is taken in
+# Loading
 
 
 def test_list_says_what_is_brought_and_by_whom(template: Path, faulty: Path) -> None:
@@ -256,7 +256,7 @@ def test_a_scene_is_named_as_it_is_asked_for_and_a_file_by_its_path(
     refused(call("--plugin", faulty, "scene", file, fault="reader refuses"), ["holds no spheres"])
 
 
-# What is refused
+# Refusals
 
 
 @pytest.mark.parametrize(
@@ -345,7 +345,7 @@ def test_another_interface_is_refused_by_its_stamp(
     refusal_of(16, code[stamp + 16] ^ 2, ["other types", "build it again"])
 
 
-# What is survived
+# Crashes
 
 
 @pytest.mark.parametrize(
@@ -402,7 +402,7 @@ def test_a_sweep_that_is_interrupted_in_a_plug_in_says_how_to_go_on(
             if (folder / "manifest.json").exists():
                 break
             time.sleep(0.1)
-        time.sleep(0.5)  # the manifest comes first, then the plug-in is asked
+        time.sleep(0.5)  # the manifest comes first, then the plug-in is called
         running.send_signal(signal.SIGINT)
         _, messages = running.communicate(timeout=60)
     assert running.returncode == 130
@@ -442,7 +442,7 @@ def test_other_commands_end_by_name_when_it_crashes(faulty: Path, command: list[
 
 
 def failure_of_picture(faulty: Path, tmp_path: Path, fault: str, *options: str) -> str:
-    """The last line of the error output of a picture that is not written."""
+    """Returns the last line of the error output when a picture cannot be written."""
     picture = tmp_path / "out.png"
     done = call("--plugin", faulty, "render", "row", "--accel", "faulty", "-o", picture,
                 *options, fault=fault)  # fmt: skip
@@ -507,5 +507,5 @@ def test_nothing_is_made_of_hits_that_cannot_be(
     assert f"the plug-in {faulty}: structure 'faulty' returned an invalid hit: " in message
     assert ("t = nan" if fault == "t is no number" else "primitive 4000000000") in message
     assert not (tmp_path / "out.png").exists()
-    if command[0] == "verify":  # the others are judged all the same
+    if command[0] == "verify":  # the other structures are still judged
         assert "exhaustive over row:n=3, whitted rays: ok" in done.stderr

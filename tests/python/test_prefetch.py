@@ -1,8 +1,8 @@
-"""The compiled traversals ask the memory for what they need next.
+"""The compiled traversals prefetch the memory that they need next.
 
-GCC takes a function that does nothing but prefetch for one without effect and removes calls of it,
-unless it is inlined before: the loops of tiles and pencils once had no prefetch left, and an
-image of a million triangles took far longer.
+GCC treats a function that only prefetches as one without effect and removes calls to it, unless it
+has been inlined before: the loops of tiles and pencils once had no prefetch left, and an image of a
+million triangles took far longer.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _FUNCTION = re.compile(r"^[0-9a-f]+ <(.*)>:$")
 
 @pytest.fixture(scope="module")
 def prefetches() -> Counter[str]:
-    """The number of prefetch instructions in each function of the program."""
+    """Returns the number of prefetch instructions in each function of the program."""
     if platform.machine() != "x86_64" or not shutil.which("objdump"):
         pytest.skip("the instruction is looked for on x86-64, by objdump")
     counts: Counter[str] = Counter()

@@ -1,4 +1,4 @@
-"""scripts/publish: folder by folder, resumed where it was cut off, whole or not at all."""
+"""scripts/publish: folder by folder, resumed after an interruption, complete or not at all."""
 
 from __future__ import annotations
 
@@ -149,7 +149,7 @@ def test_what_a_folder_took_is_known_from_its_record_or_manifests(tmp_path: Path
 
 @dataclass
 class Fake:
-    """In place of beambench: writes a run, or stops at a call."""
+    """Replaces beambench: writes a run, or stops at a call."""
 
     stops_at: int | None = None
     fails_at: int | None = None
@@ -276,7 +276,7 @@ def test_a_command_that_resumes_is_resumed(place: Place) -> None:
 
 @needs_binary
 def test_a_folder_that_is_new_gets_its_page(place: Place) -> None:
-    """By a real run, as short as its page allows: it has intervals, and two groups of scenes."""
+    """Uses a real run, as short as its page allows: it has intervals, and two groups of scenes."""
     (folder,) = read_plan().only(["embree-4"]).folders
     (sweep,) = folder.steps
     assert isinstance(sweep, Sweep)
@@ -295,7 +295,7 @@ def test_a_folder_that_is_new_gets_its_page(place: Place) -> None:
     assert list(bare_figures(published / "README.md.j2")) == []
 
 
-# What it needs
+# Requirements
 
 
 def test_a_folder_that_lacks_something_says_so() -> None:
@@ -370,7 +370,7 @@ def test_a_program_of_another_commit_is_refused(tree: Path) -> None:
 
 
 def test_what_is_published_changes_no_sources(tree: Path) -> None:
-    """Or every folder that is committed would make all others anew."""
+    """Otherwise every committed folder would require all others to be remade."""
     setting = of_head(tree)
     (tree / "results/published/rows.csv").write_text("2")
     require_clean(setting, tree)

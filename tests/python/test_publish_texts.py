@@ -1,4 +1,4 @@
-"""What the texts of results/published state is what their committed rows give."""
+"""The texts of results/published agree with their committed rows."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from synthetic_run import synthetic_rows, write_manifest, write_run
 
 @pytest.fixture
 def copied(tmp_path: Path) -> Path:
-    """A folder of published runs with one of them, which may be spoiled."""
+    """A folder of published runs with one of them, which may be corrupted."""
     shutil.copytree(PUBLISHED / "structures", tmp_path / "structures")
     return tmp_path
 
@@ -60,7 +60,7 @@ def test_two_runs_of_the_thesis_are_compared_by_the_claims_that_both_decide() ->
 
 
 def test_times_are_found_again_where_a_second_run_lies_in_their_intervals(tmp_path: Path) -> None:
-    """Of 30 cells one is out of its interval, and one has none; 4% below is as far as 4% above."""
+    """One of 30 cells is outside its interval, and one has none; -4% counts like +4%."""
     changes = [1.06, 1.5, *(14 * [0.96]), *(14 * [1.04])]
     runs = []
     for name in ("first", "second"):
@@ -101,7 +101,7 @@ def test_more_repetitions_count_if_they_are_of_the_same_commit_and_machine(tmp_p
 
 
 def test_every_published_table_of_results_is_that_of_a_run() -> None:
-    """The site lists all others as not readable."""
+    """The site lists all others as unreadable."""
     tables = sorted(PUBLISHED.rglob("results.csv"))
     assert len(tables) > 50
     for table in tables:
@@ -141,7 +141,7 @@ def test_a_wrong_digit_in_the_rows_is_found(copied: Path) -> None:
     table.write_text("\n".join([head, *rows]) + "\n", "utf-8")
     with pytest.raises(Problem, match="the repetitions of kd-tree are not those of its row"):
         differences(copied)
-    # Wrong in the repetitions, too, it is in the texts.
+    # If it is wrong in the repetitions, too, the texts are wrong.
     repetitions = copied / "structures/repetitions.csv"
     times = pd.read_csv(repetitions)
     times.loc[times["line"] == row + 2, "trace_ms"] *= 10
@@ -187,7 +187,7 @@ def test_lines_are_broken_anew() -> None:
     assert lines[-5:] == ["- b", "```", words.rstrip(), "```", "# T"]
 
 
-# What has no row is not stated
+# Without a row, nothing is stated
 
 
 def templates() -> list[Path]:

@@ -1,4 +1,4 @@
-"""What the READMEs state of the published runs."""
+"""Statements of the READMEs about the published runs."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def published(repository: Path) -> Path:
 
 
 def rows_of_folders(published: Path) -> dict[str, str]:
-    """The README's row of each folder."""
+    """Returns the README's row for each folder."""
     rows = {}
     for line in (published / "README.md").read_text("utf-8").splitlines():
         if line.startswith("| `"):
@@ -42,7 +42,7 @@ def test_the_row_states_the_commit_of_each_run(published: Path) -> None:
 
 
 def test_the_finding_of_the_root_readme(repository: Path, published: Path) -> None:
-    """The octree is that of `max_level=6`, and times include the build."""
+    """The octree has `max_level=6`, and times include the build."""
     with (published / "default/results.csv").open(encoding="utf-8") as table:
         total = {
             (row["structure"], row["width"]): float(row["total_ms_median"])
@@ -94,13 +94,13 @@ def test_what_is_published_is_small(published: Path) -> None:
 
 
 def test_no_plot_is_there_twice(published: Path) -> None:
-    """Of a plot the SVG is committed, which is a fifth of the PNG."""
+    """Each plot is committed only as SVG, which is a fifth of the size of the PNG."""
     twice = [plot for plot in published.rglob("*.png") if plot.with_suffix(".svg").is_file()]
     assert twice == []
 
 
 def test_a_report_shows_the_plots_beside_it(published: Path) -> None:
-    """One that was written anew from too few of its tables would lack a section."""
+    """A page rewritten from too few of its tables would lack a section."""
     for report in published.rglob("report.md"):
         texts = "".join(text.read_text("utf-8") for text in report.parent.glob("*.md"))
         unshown = [plot for plot in report.parent.glob("*.svg") if plot.name not in texts]

@@ -1,4 +1,4 @@
-"""The converter of maps of Quake 3, on maps that the tests write."""
+"""The converter of Quake 3 maps, on generated maps."""
 
 from __future__ import annotations
 
@@ -158,7 +158,7 @@ def wrong(change: Callable[[Bsp], None]) -> bytes:
 )
 def test_a_malformed_map_is_refused(data: bytes, why: str) -> None:
     if not why:
-        assert convert(data).mesh.faces  # a model that no entity names is not read
+        assert convert(data).mesh.faces  # a model that no entity refers to is not read
         return
     with pytest.raises(Problem) as caught:
         convert(data)

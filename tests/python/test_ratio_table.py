@@ -1,4 +1,4 @@
-"""Every contender of a run over one of them: what the table says."""
+"""The table of every contender of a run relative to one of them."""
 
 from pathlib import Path
 
@@ -9,7 +9,7 @@ from synthetic_run import synthetic_rows, write_run
 
 
 def a_run(folder: Path) -> Path:
-    """Two scenes; samet at two levels, one of them wrong in a scene, and Embree."""
+    """Returns a run: two scenes, Embree, and samet at two levels, one of them wrong in a scene."""
     example = synthetic_rows()[0]
     times = {
         ("one", "embree", "mode=single"): 2.0,

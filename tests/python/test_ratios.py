@@ -1,4 +1,4 @@
-"""Ratios to the reference: paired by round, with an interval where there are rounds enough."""
+"""Ratios to the reference: paired by round, with an interval if there are enough rounds."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def test_the_interval_has_the_tabulated_ranks(count: int, rank: int) -> None:
 
 
 def test_intervals_may_overlap_and_the_paired_ratio_be_clear_of_1() -> None:
-    """Times of both range from 10 to 20 ms; in each round one is 5% above the other."""
+    """Both times range from 10 to 20 ms; in each round one is 5% above the other."""
     under = {turn: 10.0 + turn for turn in range(10)}
     over = {turn: 1.05 * time for turn, time in under.items()}
     ratio = paired_ratio(over, under)
@@ -54,11 +54,11 @@ def test_only_rounds_that_both_have_are_paired() -> None:
 
 
 def test_the_paired_interval_covers_what_it_says() -> None:
-    """Of 2,000 comparisons of twelve rounds with skewed noise, 96.1% by the binomial tables."""
+    """Compares twelve rounds 2,000 times, with skewed noise: 96.1% by the binomial tables."""
     random = np.random.default_rng(5)
     covered = 0
     for _ in range(2000):
-        common = random.exponential(1.0, 12) + 1  # what both contenders suffer
+        common = random.exponential(1.0, 12) + 1  # affects both contenders
         over = dict(enumerate(common * random.lognormal(0, 0.02, 12)))
         ratio = paired_ratio(over, dict(enumerate(common)))
         covered += ratio.low <= 1.0 <= ratio.high
@@ -124,7 +124,7 @@ def test_a_wanted_reference_that_is_not_there_is_refused(run_folder: Path) -> No
 
 
 def test_rounds_are_paired(tmp_path: Path) -> None:
-    """A moment in which all were ten times slower must not be seen in the ratio."""
+    """A moment in which all were ten times slower must not affect the ratio."""
     rows = [row for row in synthetic_rows() if row["structure"] in ("embree", "samet")]
     folder = write_run(tmp_path, rows)
     slowness = {turn: 10.0 if turn in (1, 2, 5) else 1.0 for turn in range(8)}

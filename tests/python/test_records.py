@@ -1,4 +1,4 @@
-"""Reading results.csv: what is understood, and what is refused in which words."""
+"""Reading results.csv: accepted input, and the messages for refused input."""
 
 from __future__ import annotations
 

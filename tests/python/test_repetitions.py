@@ -1,4 +1,4 @@
-"""The repetitions of a run in one file, and what is read of it where there are no cells."""
+"""The repetitions of a run in one file, and reading them without the cells."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from synthetic_run import synthetic_rows, write_run
 
 
 def published(run: Path, folder: Path) -> Path:
-    """The run as it is published: without its log."""
+    """A run as published: without its log."""
     assert main(["repetitions", str(run)]) == 0
     shutil.copytree(
         run, folder, ignore=shutil.ignore_patterns("run.jsonl", "google-benchmark.json")
@@ -67,7 +67,7 @@ def test_a_published_run_has_paired_ratios(real_run: Path, tmp_path: Path) -> No
 def test_noise_can_be_drawn_from_a_published_run(real_run: Path, tmp_path: Path) -> None:
     [mine] = noise_of_samples([real_run]).scenes
     [theirs] = noise_of_samples([published(real_run, tmp_path / "published")]).scenes
-    # The same nights; contenders may stand in another order.
+    # The same nights; the order of contenders may differ.
     assert np.sort(theirs.std(axis=0)) == pytest.approx(np.sort(mine.std(axis=0)), rel=0.3)
 
 

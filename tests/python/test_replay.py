@@ -1,4 +1,4 @@
-"""Looking at one ray again, and at pictures of what differs."""
+"""Examining one ray again, and pictures of differences."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from run_logs import events
 
 TRACE = ("trace", "tetra:n=3", "--resolution", "64x64", "--pixel", "32,40")
 
-# Four triangles whose long edges pass through the middle of pixels, seen from fifty times their
-# size: Embree, in float, misjudges many a ray there, more than the differ's budget for grazes.
+# Four triangles whose long edges pass through the centers of pixels, seen from fifty times their
+# size: Embree, in float, misjudges many rays there, more than the differ's budget for grazes.
 FAR_AWAY = f"""v
 from 0 0 100
 at 0 0 0
@@ -31,7 +31,7 @@ s 0 0 0 1
 
 @pytest.fixture
 def far_away(tmp_path: Path) -> Path:
-    """A folder with a scene that embree is not right over."""
+    """A folder with a scene in which embree is wrong."""
     (tmp_path / "it's $far.nff").write_text(FAR_AWAY)
     asked = ("--accel", "embree", "--resolution", "64x64")
     if beambench("verify", "it's $far.nff", *asked, cwd=tmp_path).returncode == 0:

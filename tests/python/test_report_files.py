@@ -1,4 +1,4 @@
-"""What the reports' writers do with links, pipes and folders."""
+"""The report writers' handling of links, pipes and folders."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def test_a_link_stays_and_what_it_leads_to_is_replaced(tmp_path: Path) -> None:
     folder.mkdir()
     link = tmp_path / "a.txt"
     link.symlink_to("elsewhere/b.txt")
-    for text in ("new", "newer"):  # first the link dangles
+    for text in ("new", "newer"):  # first the link is dangling
         assert write_text(link, text) == link
         assert link.is_symlink()
         assert (folder / "b.txt").read_text() == text

@@ -41,7 +41,7 @@ def test_a_scene_tells_all_of_itself(name: str) -> None:
     assert about["lights"]
     assert about["surfaces"] > 0
     assert re.fullmatch(r"[0-9a-f]{16}", about["hash"])
-    # The name that it gives leads back to it.
+    # The printed name loads the same scene.
     assert scene(about["name"])["hash"] == about["hash"]
 
 

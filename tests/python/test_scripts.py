@@ -1,4 +1,4 @@
-"""The scripts as a user calls them."""
+"""The scripts, called as by a user."""
 
 from __future__ import annotations
 
@@ -175,7 +175,7 @@ def test_ctrl_c_ends_the_tests_instead_of_going_on_with_the_next_check(
     for path in (tree / "scripts/setup", tools / "ctest"):
         path.write_text("#!/bin/sh\n")
         path.chmod(0o755)
-    # As pytest does: ends by itself on SIGINT, with an exit code of its own.
+    # Like pytest: ends by itself on SIGINT, with its own exit code.
     python = tree / ".venv/bin/python"
     python.parent.mkdir(parents=True)
     python.write_text(
@@ -194,7 +194,7 @@ def test_ctrl_c_ends_the_tests_instead_of_going_on_with_the_next_check(
     for line in tests.stdout:
         if line == "started\n":
             break
-    os.killpg(tests.pid, signal.SIGINT)  # as a terminal sends it, to the whole group
+    os.killpg(tests.pid, signal.SIGINT)  # like a terminal: to the whole group
     rest = tests.stdout.read()
     assert tests.wait(timeout=30) == 130
     assert "interrupted" in rest
@@ -229,7 +229,7 @@ def test_an_interrupted_run_is_resumed_and_leaves_records_pictures_plots_and_a_p
     picture = repository / "results/runs/first-picture.png"
     picture.unlink(missing_ok=True)
     begun = subprocess.Popen(
-        # Relative names are the caller's, whatever folder the script works in.
+        # Relative names are relative to the caller's folder, whatever folder the script works in.
         [repository / "scripts/run", "--sweep", "small.json", "--output", "a run"],
         cwd=tmp_path,
         stdout=subprocess.PIPE,

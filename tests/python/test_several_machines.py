@@ -1,4 +1,4 @@
-"""Rows of several machines in one record: their times are never divided by one another."""
+"""Rows of several machines in one record: times are never divided across machines."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ SLOWER = 10.0
 
 
 def on_two_machines() -> list[dict[str, object]]:
-    """The largest images are of the second machine, which is slow; the others of the first."""
+    """Assigns the largest images to the second machine, which is slow; the others to the first."""
     rows = synthetic_rows()
     for row in rows:
         is_large = row["width"] == 1280
@@ -69,7 +69,7 @@ def test_means_are_over_the_highest_resolution_of_each_view(folder: Path) -> Non
 
 
 def test_ratios_are_those_of_one_machine(folder: Path, tmp_path: Path) -> None:
-    """The same ones as where one machine measured everything."""
+    """The same ratios as if one machine had measured everything."""
     alone = tmp_path / "alone"
     alone.mkdir()
     write_run(alone, synthetic_rows())

@@ -1,4 +1,4 @@
-"""A sweep in shards as a user types it: the rows are those of one run, wrong requests refused."""
+"""A sweep in shards: the rows are those of one run; wrong requests are refused."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def measured(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def copy(measured: Path, tmp_path: Path) -> Path:
-    """The same, to be changed."""
+    """A copy of that folder for changes."""
     return Path(shutil.copytree(measured, tmp_path / "copy"))
 
 
@@ -124,7 +124,7 @@ def test_a_dry_run_names_the_cells_of_a_shard(measured: Path) -> None:
 
 
 def test_rows_keep_their_machines(copy: Path) -> None:
-    """The third shard is said to be of another machine."""
+    """The third shard claims to be from another machine."""
     change_manifest(copy / "3", {"machine/id": "fedcba9876543210", "machine/cpu": "B"})
     done = beambench("merge", *shards(copy), "-o", copy / "merged")
     assert done.returncode == 0, done.stderr
@@ -134,7 +134,7 @@ def test_rows_keep_their_machines(copy: Path) -> None:
     manifest = json.loads((copy / "merged/manifest.json").read_text())
     assert "fedcba9876543210" in manifest["machine"]["id"]
     assert manifest["machine"]["cpu"].endswith(" and B")
-    # The program compares as the pages do.
+    # The program compares in the same way as the pages.
     summary = (copy / "merged/summary.txt").read_text()
     for view in merged.views:
         assert ", machine " in view
@@ -145,7 +145,7 @@ def test_rows_keep_their_machines(copy: Path) -> None:
 
 @pytest.mark.parametrize("seed", range(3))
 def test_a_killed_shard_is_resumed_and_merged(measured: Path, tmp_path: Path, seed: int) -> None:
-    """Until it is complete; the moments of the kills are random."""
+    """Repeats this until the run is complete; the moments of the kills are random."""
     random, tally, programs = Random(seed), Tally(), Programs()
     number = random.randint(1, COUNT)
     lost = tmp_path / "lost"
@@ -166,7 +166,7 @@ def test_a_killed_shard_is_resumed_and_merged(measured: Path, tmp_path: Path, se
             if merged.returncode != 0:
                 refused(merged, words)
                 continue
-            same_rows(measured / "whole", tmp_path / "early")  # killed behind its last cell
+            same_rows(measured / "whole", tmp_path / "early")  # killed after its last cell
             shutil.rmtree(tmp_path / "early")
     others = [path for path in shards(measured) if path.name != str(number)]
     done = beambench("merge", lost, *others, "-o", tmp_path / "merged")
@@ -214,7 +214,7 @@ def test_the_shard_of_a_run_to_be_resumed_is_that_of_its_manifest(measured: Path
 
 
 def refused_after(done: subprocess.CompletedProcess[str], words: list[str]) -> None:
-    """As `refused`, where lines on the request came before."""
+    """Expects a refusal as in `refused`, possibly after lines about the request."""
     *before, last = done.stderr.splitlines()
     assert all(line.startswith("shard ") for line in before)
     done.stderr = last + "\n"
@@ -285,7 +285,7 @@ def test_a_shard_that_does_not_fit_is_named(copy: Path, change: dict, words: lis
 
 
 def test_a_scene_that_changed_between_machines_is_named(tmp_path: Path) -> None:
-    """As where each machine has a file of its own under one path."""
+    """Simulates machines with different files under the same path."""
     scene = tmp_path / "scene.nff"
     text = (
         "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 0.1\nresolution 8 8\n"
@@ -354,7 +354,7 @@ def test_a_shard_that_is_being_measured_is_refused(measured: Path, tmp_path: Pat
 
 
 def test_a_shard_without_rays_is_no_failure(tmp_path: Path) -> None:
-    """Another shard may have them all."""
+    """Another shard may have rays."""
     sweep = write_sweep(tmp_path, scenes=["tetra:n=1"], rays=["primary", "mirror"])
     codes = []
     for number in range(1, 5):
@@ -380,7 +380,7 @@ def script(name: str, *arguments: str | Path, **variables: str) -> subprocess.Co
 
 
 def test_each_process_of_a_job_measures_its_shard(tmp_path: Path) -> None:
-    """As mpirun and srun state which one it is."""
+    """mpirun and srun set the rank of each process."""
     request = ["--sweep", write_sweep(tmp_path), "--output", tmp_path / "job"]
     ranks = [
         {"OMPI_COMM_WORLD_RANK": "0", "OMPI_COMM_WORLD_SIZE": "4", "SLURM_PROCID": "0"},
@@ -403,7 +403,7 @@ def test_each_process_of_a_job_measures_its_shard(tmp_path: Path) -> None:
 
 
 def test_a_job_array_is_submitted_merged_and_resumed(tmp_path: Path) -> None:
-    """With a Slurm that runs each task at once; the real one is in scripts/README.md."""
+    """Uses a Slurm that runs each task at once; the real one is in scripts/README.md."""
     tools = tmp_path / "bin"
     tools.mkdir()
     (tools / "sbatch").write_text(

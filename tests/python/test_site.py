@@ -1,4 +1,4 @@
-"""The site over all runs, as files: what is in it, what it refuses, and how much work it is."""
+"""The site over all runs, as files: its contents, its refusals, and its amount of work."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ HREF = re.compile(r'(?:href|src)="([^"]*)"')
 
 
 def broken_links(site: Path) -> list[str]:
-    """Relative links of any page that lead nowhere, and links that do not begin here."""
+    """Returns relative links on any page that are broken, and links that are not relative."""
     found = []
     for page in site.rglob("*.html"):
         for address in HREF.findall(page.read_text("utf-8")):
@@ -311,12 +311,12 @@ def test_changes_are_told_by_git(tmp_path: Path) -> None:
 def test_the_work_of_a_site_grows_with_its_runs(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """In calls: in seconds of one and the same machine it varies by a factor of two."""
+    """Counts calls, because seconds vary by a factor of two even on one machine."""
     counts: Counter[str] = Counter()
     count_calls_of(monkeypatch, counts, write, "read_run")
     count_calls_of(monkeypatch, counts, write, "render")
     calls = {}
-    for turn, runs in enumerate((8, 8, 16)):  # the first time more is imported
+    for turn, runs in enumerate((8, 8, 16)):  # the first time imports more modules
         folder = tmp_path / f"{turn}"
         for place in range(runs):
             sweep, machine = ("quick", "slow")[place % 2], "ab"[2 * place // runs]

@@ -26,7 +26,7 @@ DOT = base64.b64decode(
 
 
 def a_program_that_renders(folder: Path) -> Path:
-    """Stands in for beambench: draws one dot, and writes down what it was asked."""
+    """A stand-in for beambench that draws one dot and records its arguments."""
     dot = folder / "dot.png"
     dot.write_bytes(DOT)
     program = folder / "beambench"
@@ -46,7 +46,7 @@ def history_of(home: Home) -> Path:
 
 @pytest.fixture(scope="module")
 def home(tmp_path_factory: pytest.TempPathFactory) -> Home:
-    """Three nights; in the last one a structure was wrong, and another counted more."""
+    """Three nights; in the last one, one structure was wrong and another counted more."""
     folder = tmp_path_factory.mktemp("nightly")
     home = Home(folder / "home")
     more = counting("samet", "escena1", [1, 1, 1.5])

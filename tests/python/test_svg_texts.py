@@ -1,4 +1,4 @@
-"""The texts of plots: every one that was drawn is in the SVG, and no axis or color is unnamed."""
+"""The texts of plots: all drawn texts are in the SVG, and all axes and colors are named."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from svg_texts import missing_in, missing_texts
 
 
 def drawn(change: Callable[[Axes], object]) -> str:
-    """A plot of two lines on logarithmic axes, with a change to its panel."""
+    """Draws a plot of two lines on logarithmic axes, with a change to its panel."""
     with house_style():
         figure, (panel,) = new_figure(2.5)
         for line, color in zip(("first <&> line", "second line"), LINE_COLORS, strict=False):

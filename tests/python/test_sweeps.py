@@ -1,4 +1,4 @@
-"""Every committed sweep keeps to the committed schema, and the schema refuses what it should."""
+"""Every committed sweep conforms to the committed schema, which refuses invalid sweeps."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ LIBRARIES = REPOSITORY / "harness" / "plugin" / "adapters" / "libraries.json"
 
 @pytest.fixture(scope="module")
 def validator() -> jsonschema.Draft202012Validator:
-    """The schema, itself checked."""
+    """The schema, itself validated."""
     schema = json.loads((REPOSITORY / "harness" / "measure" / "sweep.schema.json").read_text())
     jsonschema.Draft202012Validator.check_schema(schema)
     return jsonschema.Draft202012Validator(schema)
 
 
 def structures_of(sweep: dict) -> dict[str, list[dict]]:
-    """The bare names of a sweep's structures, each with the parameters of its entries."""
+    """Returns the bare names of a sweep's structures, each with the parameters of its entries."""
     found: dict[str, list[dict]] = {}
     for entry in sweep["structures"]:
         if isinstance(entry, str):
@@ -75,13 +75,13 @@ def test_the_schema_refuses(change: dict, validator: jsonschema.Draft202012Valid
 
 
 def values_of(parameters: dict, name: str, default: object) -> list:
-    """What a parameter takes in turn."""
+    """Returns the values that a parameter takes."""
     value = parameters.get(name, default)
     return value if isinstance(value, list) else [value]
 
 
 def embree_modes(sweep: dict) -> set[tuple]:
-    """The modes of Embree in a sweep, each with its coherence flag."""
+    """Returns the modes of Embree in a sweep, each with its coherence flag."""
     return {
         (mode, coherent)
         for parameters in structures_of(sweep).get("embree", [])

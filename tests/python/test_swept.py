@@ -1,4 +1,4 @@
-"""A parameter that a run sweeps: which plots there are, and ratios worked out by hand."""
+"""A parameter swept by a run: the resulting plots, and ratios worked out by hand."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Row = dict[str, object]
 
 
 def swept_rows(scenes: int, times: dict[tuple[str, str], dict[int, float]]) -> list[Row]:
-    """Of two resolutions: the trace ms of structures, other parameters and levels."""
+    """Returns rows of two resolutions: the trace ms of structures, other parameters and levels."""
     sizes = [row for row in synthetic_rows() if row["structure"] == "null" and row["width"] != 640]
     return [
         row
@@ -53,7 +53,7 @@ def test_the_others_are_divided_by_the_structure_that_sweeps_nothing_else(tmp_pa
             for line in axes.lines
             if line.get_marker() in ("o", "s")
         }
-        # 8 / 4, 6 / 12; 8 / 2, 6 / 3: of samet-net there is one level, which makes no line.
+        # 8 / 4, 6 / 12; 8 / 2, 6 / 3: samet-net has only one level, which does not make a line.
         assert set(joined) == {(2.0, 0.5), (4.0, 2.0)}
         assert {line.get_color() for line in joined.values()} == {structure_color("beam")}
         assert {line.get_marker() for line in joined.values()} == {"o", "s"}

@@ -1,4 +1,4 @@
-"""Names and texts from files that are no plain text: in messages, records, tables and pages."""
+"""Unusual names and texts from files: in messages, records, tables and pages."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ LATIN = "bad\udcff.nff"  # the byte FF, as Python names it
 def run_bytes(
     *arguments: str | bytes | Path, cwd: Path, **options: object
 ) -> subprocess.CompletedProcess[bytes]:
-    """The program, whose output need not be UTF-8."""
+    """Runs the program, whose output need not be UTF-8."""
     return subprocess.run(
         [BINARY, *arguments], cwd=cwd, capture_output=True, check=False, timeout=120, **options
     )
@@ -63,7 +63,7 @@ def sweep_of(*scenes: str, **more: object) -> str:
 
 
 def is_plain(output: bytes) -> bool:
-    """UTF-8 without control characters but ends of lines."""
+    """Returns whether a text is UTF-8 without control characters except line ends."""
     return all(c == "\n" or c.isprintable() for c in output.decode("utf-8"))
 
 

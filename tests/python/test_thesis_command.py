@@ -1,4 +1,4 @@
-"""scripts/thesis and `python -m beambench_report thesis` as a user calls them."""
+"""scripts/thesis and `python -m beambench_report thesis`, called as by a user."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from beambench_report.thesis.report.plan import make_plan, quick, read_sweep
 from program import BINARY
 from synthetic_thesis import write_runs
 
-# In place of the program: notes how it was called, and leaves what a run leaves.
+# Replaces the program: records its arguments, and writes the files of a run.
 STAND_IN = """#!/usr/bin/env bash
 echo "$*" >>"$(dirname "$0")/calls"
 folder="${@: -1}"
@@ -85,13 +85,13 @@ def test_each_sweep_is_run_once_and_a_finished_one_never_again(
         f"run {run}/sweeps/{name}.json -o {run}/{name}" for name in ("synthetic", "best-synthetic")
     ]
     assert "== run 1 of 2: synthetic: 80 cells" in capsys.readouterr().err
-    # Cut off in its middle: that one goes on, the finished one is left alone.
+    # A run interrupted in the middle continues; the finished one is left alone.
     (run / "best-synthetic" / "manifest.json").write_text('{"finished_utc": null}')
     assert run_thesis("--resume", run, "--dry-run") == 0
     assert "finished" in capsys.readouterr().out.splitlines()[0]
     assert run_thesis("--resume", run, *options) == 0
     assert calls(stand_in)[2:] == [f"run --resume {run}/best-synthetic"]
-    # The levels may be asked for later.
+    # The levels may be requested later.
     assert run_thesis("--resume", run, "--levels", *options) == 0
     assert calls(stand_in)[3:] == [f"run {run}/sweeps/levels.json -o {run}/levels"]
     assert run_thesis("--resume", run, *options) == 0
@@ -115,7 +115,7 @@ def test_the_exit_code_tells_what_went_wrong(
 ) -> None:
     run = tmp_path / name
     assert run_thesis("--table", "5.4", "-o", run, "--beambench", stand_in) == code
-    assert len(calls(stand_in)) == 2  # the second is run all the same
+    assert len(calls(stand_in)) == 2  # the second is run nevertheless
     assert (run / "report.html").exists()
 
 

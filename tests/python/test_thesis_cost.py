@@ -1,4 +1,4 @@
-"""The cost formulas of section 5.3.3: known costs come back, and what cannot be fitted is not."""
+"""The cost formulas of section 5.3.3: known costs are recovered, and unfittable ones are not."""
 
 from __future__ import annotations
 
@@ -30,7 +30,8 @@ RANDOM = np.random.default_rng(7)
 
 
 def synthetic_cells(tmp_path: Path, spoil: float = 0.0) -> list[Cell]:
-    """Samet and beams whose times are exactly the sums, or `spoil` of them off at random.
+    """Returns cells of Samet and beams whose times are exactly the sums, or off at random by
+    `spoil`.
 
     Build 80 ns a node and 180 a reference; rays 5 + 9 a leaf + 13 a test; beams 250 and 350, 7 a
     leaf and 20 a test of half of the rays.
@@ -74,8 +75,8 @@ def synthetic_cells(tmp_path: Path, spoil: float = 0.0) -> list[Cell]:
 
 
 def tasks(beams: float, ends: float, rays: float) -> Row:
-    """Non-terminal beams cost 100 each, 8 an edge, 60 a clip, 30 a search; 200 a beam at a leaf,
-    40 a sample, 12 a test, 15 a ray that goes on, 9 a leaf on its path.
+    """Returns tasks. Non-terminal beams cost 100 each, 8 an edge, 60 a clip, 30 a search; beams at
+    leaves cost 200 each, 40 a sample, 12 a test, 15 a ray that continues, 9 a leaf on its path.
     """
     edges, clips, searches, samples, tests, after, steps = RANDOM.uniform(1, 9, 7)
     passing = beams * (100 + 8 * edges + 60 * clips + 30 * searches)
@@ -103,9 +104,9 @@ def test_known_costs_come_back() -> None:
 
 
 def test_a_cost_that_would_be_negative_is_zero_and_the_others_make_the_best_of_it() -> None:
-    # One term alone: the least sum of (a x / t - 1)^2 is at sum(x/t) / sum((x/t)^2).
+    # With one term alone, the least sum of (a x / t - 1)^2 is at sum(x/t) / sum((x/t)^2).
     counts = np.array([[1.0, 1.0], [1.0, 2.0], [1.0, 3.0]])
-    times = np.array([3.0, 2.0, 1.0])  # falling: the second cost would be -1
+    times = np.array([3.0, 2.0, 1.0])  # decreasing: the second cost would be -1
     shares = counts[:, 0] / times
     assert fit_costs(counts, times) == pytest.approx([shares.sum() / (shares**2).sum(), 0.0])
 
@@ -174,7 +175,8 @@ def test_cells_that_the_formulas_do_not_speak_of_are_left_out(tmp_path: Path) ->
         rows.append(row)
     write_run(tmp_path, rows)
     cells = read_cells(tmp_path.parent, [tmp_path.name]).cells
-    # 48 samples are not the thesis's; 64,000 thousandths of a nanosecond are nothing to measure.
+    # 48 samples differ from the thesis; 64,000 thousandths of a nanosecond are too short to
+    # measure.
     assert [one.cell.line for one in thesis_formulas()[0].observe(cells)] == [2]
 
 

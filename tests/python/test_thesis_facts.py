@@ -1,4 +1,4 @@
-"""What the report states beside the sweeps, from commands that a stand-in answers."""
+"""The report's facts other than the sweeps, from commands of a stand-in."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from beambench_report.thesis.report.write import write_report
 from program import BINARY
 from synthetic_thesis import Row, write_runs
 
-# In place of the program: notes how it was called and prints what that command would.
+# Replaces the program: records its arguments and prints the output of that command.
 STAND_IN = """#!/usr/bin/env python3
 import json, pathlib, sys
 arguments = sys.argv[1:]
@@ -61,7 +61,7 @@ else:
 
 @pytest.fixture
 def stand_in(tmp_path: Path) -> Path:
-    """A program that knows no scene."""
+    """A program that has no scenes."""
     path = tmp_path / "program" / "beambench"
     path.parent.mkdir()
     path.write_text(STAND_IN)
@@ -70,7 +70,7 @@ def stand_in(tmp_path: Path) -> Path:
 
 
 def sections(directory: Path) -> dict[str, str]:
-    """The sections of the report that need no cells, by their anchors."""
+    """Returns the sections of the report that need no cells, by their anchors."""
     found, unread = sections_of(directory, Cells(directory, (), ()))
     assert not unread
     return {section.anchor: section_as_markdown(section) for section in found}
@@ -129,7 +129,7 @@ def test_a_camera_is_turned_around_the_point_it_looks_at() -> None:
 
 
 def with_times_of_tasks(row: Row) -> Row:
-    """As a real row of the beams has them."""
+    """Adds times of tasks, as in a real row of the beams."""
     names = ("beams_nonterminal_ns", "beams_occupied_ns", "beams_leaving_ns", "beam_clips")
     names = (*names, "neighbor_searches", "samples_in_leaves", "rays_after_leaf")
     return row | {f"{name}_per_ray": 50 if row["structure"] == "beam" else "" for name in names}

@@ -1,4 +1,4 @@
-"""Beams through grids, in the thesis report: of the run of a sweep."""
+"""Beams through grids in the thesis report, from the run of a sweep."""
 
 from __future__ import annotations
 

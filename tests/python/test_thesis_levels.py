@@ -1,4 +1,4 @@
-"""The level chosen automatically beside the best level: losses worked out by hand."""
+"""The automatically chosen level compared with the best level: losses worked out by hand."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def row(
     structure: str = "beam",
     cycles: float | None = None,
 ) -> Row:
-    """A cell at 320x200; 3 GHz if not given."""
+    """Returns a cell at 320x200; at 3 GHz by default."""
     made = row_of(PlannedCell(scene, structure, (), "320x200", 1))
     parameters = str(made["parameters"]).replace("max_level=6", f"max_level={level}")
     return made | {
@@ -117,7 +117,7 @@ def test_a_choice_without_two_levels_beside_it_is_none(tmp_path: Path) -> None:
 
 
 def synthetic_levels(folder: Path) -> list[Cell]:
-    """Ten scenes: losses of 0, 1, ... 8 and 30% for beams, 25% less for samet."""
+    """Returns ten scenes: losses of 0, 1, ... 8 and 30% for beams, 25% less for samet."""
     rows = []
     for number, scene in enumerate(list(primitives_by_scene())[:10]):
         loss = 0.01 * number if number < 9 else 0.3

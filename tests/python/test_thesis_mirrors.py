@@ -1,4 +1,4 @@
-"""Beams of what mirrors show, in the thesis report: of what `beambench mirrors --json` prints."""
+"""Beams of mirror images in the thesis report, from the output of `beambench mirrors --json`."""
 
 from __future__ import annotations
 

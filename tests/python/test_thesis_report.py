@@ -1,4 +1,4 @@
-"""The report on the thesis, from runs that never happened."""
+"""The report on the thesis, from invented runs."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ PLAN = make_plan([], [], False)
 
 @pytest.fixture(scope="module")
 def everything(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """All runs, all right."""
+    """All runs, all correct."""
     return write_runs(tmp_path_factory.mktemp("thesis") / "run", PLAN)
 
 
@@ -143,7 +143,7 @@ def test_seconds_decide_only_where_no_cycles_were_counted(tmp_path: Path) -> Non
     plan = make_plan(["5.5"], [], False)
 
     def slow_clock(row: Row) -> Row:
-        """Level 6 met a slow clock: more milliseconds, as few cycles as ever."""
+        """Simulates a slow clock at level 6: more milliseconds, but the same cycles."""
         if "max_level=6" not in str(row["parameters"]):
             return row
         return row | {"total_ms_median": 3 * float(str(row["total_ms_median"]))}

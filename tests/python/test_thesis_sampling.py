@@ -1,4 +1,4 @@
-"""Object-space sampling beside the thesis's five samples, from comparisons that never ran."""
+"""Object-space sampling compared with the thesis's five samples, from invented comparisons."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def test_settings_between_two_that_were_tried_lie_on_the_line_that_is_drawn(
     comparison = read_comparison(write_comparison(tmp_path / "a.json"))
     assert comparison.methods == ["uniform", "object-space", "image-space"]
     assert comparison.thesis.milliseconds == 200
-    # From 40 ms and 8 to 160 ms and 2: an error of 4 is halfway for logarithms.
+    # From 40 ms and 8 to 160 ms and 2: on logarithmic scales, an error of 4 is halfway.
     assert comparison.time_at_error("object-space", 4.0) == pytest.approx(80)
     assert comparison.error_at_time("object-space", 80.0) == pytest.approx(4)
     assert comparison.error_at_time("uniform", 100.0) == pytest.approx(math.sqrt(32))
@@ -81,7 +81,7 @@ def test_the_section_compares_with_five_samples_in_every_pixel(tmp_path: Path) -
     ]
     assert "|  | object-space | – | – | 80.0 ms | 40% | – |" in text  # noqa: RUF001
     assert "|  | object-space | – | – | 200 ms | 100% | 4.00 |" in text  # noqa: RUF001
-    # 40% in delfines and 100% in escena1; tetra has no uniform samples to be compared with.
+    # 40% in delfines and 100% in escena1; tetra has no uniform samples for comparison.
     assert (
         "less time in 1 of the 2 scenes that were tried, by the median of 2 in 70% of it." in text
     )
@@ -103,7 +103,7 @@ def test_a_method_whose_settings_all_have_a_smaller_error_is_better_and_no_failu
         write_comparison(tmp_path / "b.json", "maceta", worse),
     ]
     comparison = read_comparison(files[0])
-    assert comparison.time_at_error("image-space", 4.0) is None  # they do not come to it
+    assert comparison.time_at_error("image-space", 4.0) is None  # they do not reach that error
     assert comparison.reached("image-space", 4.0) == (100.0, False)
     assert read_comparison(files[1]).reached("image-space", 4.0) is None
     section = sampling_section(read_comparisons(files)[0])
@@ -200,7 +200,7 @@ def test_the_report_has_the_section_where_there_are_comparisons(tmp_path: Path) 
     run = write_runs(tmp_path / "run", plan)
     (run / "sampling").mkdir()
     write_comparison(run / "sampling/delfines.json")
-    (run / "sampling/maceta.json").write_text("cut o")  # costs its scene, not the report
+    (run / "sampling/maceta.json").write_text("cut o")  # affects its scene, not the report
     write_report(run, plan)
     page = (run / "report.html").read_text()
     assert "sampling/maceta.json: is not what" in page

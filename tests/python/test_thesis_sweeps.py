@@ -109,7 +109,7 @@ def test_no_cell_is_measured_twice() -> None:
 
 
 def test_the_best_levels_of_figure_5_14_and_the_grids_of_5_17_are_swept() -> None:
-    # Level 4 takes a minute for a picture of gato-bill at 1280x1024.
+    # Level 4 takes a minute per picture of gato-bill at 1280x1024.
     wanted = (("casa-de-campo", "1280x1024", "45678"), ("gato-bill", "320x200", "45678"))
     for scene, resolution, least in (*wanted, ("gato-bill", "1280x1024", "5678")):
         for structure in ("beam", "samet", "samet-net"):

@@ -1,4 +1,4 @@
-"""`beambench time`, and who won by the program and by the pages."""
+"""`beambench time`, and the winner according to the program and the pages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Published rows, verified again by the present program."""
+"""Published rows, verified again by the current program."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Hits of any program, verified by the command line: files, commands, kits."""
+"""Hits of any program, verified on the command line: files, commands, kits."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ NONE = 0xFFFFFFFF
 
 @dataclass
 class Traced:
-    """Rays over a scene and what exhaustive search hits, in a folder."""
+    """Rays over a scene and the hits of exhaustive search, in a folder."""
 
     folder: Path
     rays: NDArray[np.float32]  # (N, 8)
@@ -74,7 +74,7 @@ def write_hits(path: Path, columns: dict[str, NDArray]) -> None:
 
 
 def columns_of(form: str, traced: Traced, t: NDArray, ids: NDArray) -> dict[str, NDArray]:
-    """The hits in one of the forms; the triangles of this scene are its primitives."""
+    """Returns the hits in one of the forms; the triangles of this scene are its primitives."""
     moved = Traced(traced.folder, traced.rays, t, ids)
     x, y, z = moved.points().T
     place = {"x": x, "y": y, "z": z} if "point" in form else {"t": t}
@@ -86,7 +86,7 @@ def columns_of(form: str, traced: Traced, t: NDArray, ids: NDArray) -> dict[str,
 
 
 def verify(traced: Traced, hits: Path, *more: str | Path, rays: str = "a.rays") -> dict:
-    """The JSON of a verification that must end with exit code 0 or 1."""
+    """Returns the JSON of a verification that must end with exit code 0 or 1."""
     out = hits.with_suffix(".json")
     done = beambench(
         "verify", SCENE, "--rays", traced.folder / rays, "--hits", hits, "--json", out, *more
@@ -128,7 +128,7 @@ def test_rays_as_csv_are_exact_for_readers_of_double(traced: Traced) -> None:
 
 
 def clear_hit(traced: Traced) -> int:
-    """A ray whose neighbors in the picture all hit the same triangle."""
+    """Returns a ray whose neighbors in the picture all hit the same triangle."""
     picture = traced.primitive.reshape(50, 60)
     for y in range(1, 49):
         for x in range(1, 59):
@@ -209,7 +209,7 @@ def test_any_hits_answer_rays_of_any_kind(tmp_path: Path) -> None:
         assert "  any  " in done.stdout
 
 
-# What is refused
+# Refusals
 
 
 def write_spoiled(traced: Traced, path: Path, fault: str) -> None:
@@ -270,7 +270,7 @@ def test_other_files_are_refused_with_one_sentence(traced: Traced, tmp_path: Pat
     ]:
         done = beambench("verify", scene, "--rays", rays_file, "--hits", hits_file)
         refused(done, words)
-    # A damaged file shows at its end, after the progress line has begun.
+    # Damage to a file is found at its end, after the progress line has begun.
     done = beambench("verify", SCENE, "--rays", tmp_path / "damaged.rays", "--hits", hits)
     assert done.returncode == 2
     assert "hash differs" in done.stderr.splitlines()[-1]
@@ -433,7 +433,7 @@ def test_a_program_is_run_over_a_kit_and_its_fault_reduced(kit: Path, tmp_path: 
         assert len(case["primitives"]) == case["rays"] == 1
         assert (folder / "scene.obj").read_text().count("f ") == 1
     for folder in folders[:3]:
-        # The case is wrong by itself, and right for a program that is.
+        # The case itself is wrong, but a correct program passes.
         files = ("verify", folder / "scene.nff", "--rays", folder / "ray.rays")
         assert beambench(*files, "--command", command).returncode == 1
         assert beambench(*files, "--command", tracer(kit, "none")).returncode == 0
@@ -470,7 +470,7 @@ def test_a_fault_of_files_is_reduced_to_what_the_answers_name(
 
 
 def test_many_hits_are_verified_in_little_memory(tmp_path: Path) -> None:
-    """Files of 80 MB take no more than blocks of them."""
+    """Files of 80 MB need no more memory than a few blocks."""
     count = 2_000_000
     output_of("rays", SCENE, "--resolution", "1x1", "-o", tmp_path / "one.rays")
     (ray,) = read_binary(tmp_path / "one.rays", "<f4").reshape(-1, 8)
@@ -486,7 +486,7 @@ def test_many_hits_are_verified_in_little_memory(tmp_path: Path) -> None:
         file.write(b"beambench-hits 1\n" + json.dumps(header).encode() + b"\n" + hit * count)
 
     def peak(rays: str, hits: str) -> int:
-        """Kilobytes."""
+        """Returns the peak memory in kilobytes."""
         measured = (
             "import resource, subprocess, sys;"
             "done = subprocess.run(sys.argv[1:], capture_output=True);"

@@ -1,4 +1,4 @@
-"""Which structure wins where: each structure counts once, with its own best parameters."""
+"""The winning structures: each counts once, with its own best parameters."""
 
 from pathlib import Path
 
@@ -12,7 +12,7 @@ from synthetic_run import synthetic_rows, write_run
 
 
 def a_run(folder: Path, times: dict[tuple[str, str], tuple[float, float, float]]) -> Path:
-    """One view, with the median of each contender's trace time and its interval."""
+    """Returns one view, with the median of each contender's trace time and its interval."""
     example = synthetic_rows()[0]
     rows = [
         example
@@ -65,7 +65,7 @@ def test_intervals_of_medians_may_overlap_without_a_tie(tmp_path: Path) -> None:
 
 
 def test_a_ratio_is_that_of_the_rounds_where_repetitions_are_known(tmp_path: Path) -> None:
-    """A slow round is in both times, and in the medians of one alone."""
+    """A slow round affects both times; in the medians, it affects only one."""
     run = read_run(a_run(tmp_path, {("samet", ""): (12, 9, 20), ("sah-bvh", ""): (10, 8, 18)}))
     rounds = {"sah-bvh": [8, 9, 10, 10, 10, 17, 18], "samet": [8.8, 9.9, 11, 11, 12, 18.7, 19.8]}
     files = {

@@ -1,4 +1,4 @@
-"""The work that a call does in Python: counted, so the same on every machine, however busy."""
+"""The work of a call in Python, counted, so that it is the same on every machine, however busy."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import pytest
 
 
 def calls_during(work: Callable[[], object]) -> int:
-    """How many calls of Python functions the work makes, those of libraries among them."""
+    """Returns how many calls of Python functions the work makes, including those of libraries."""
     count = 0
 
     def on_event(_frame: FrameType, event: str, _argument: object) -> None:
@@ -30,7 +30,7 @@ def calls_during(work: Callable[[], object]) -> int:
 def count_calls_of(
     monkeypatch: pytest.MonkeyPatch, counts: Counter[str], owner: object, name: str
 ) -> None:
-    """Has the function `name` of `owner` (a module or class) count its calls in `counts`."""
+    """Makes the function `name` of `owner` (a module or class) count its calls in `counts`."""
     original = getattr(owner, name)
 
     def counting(*arguments: object, **keywords: object) -> object:

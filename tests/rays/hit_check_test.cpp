@@ -1,4 +1,4 @@
-// What a structure returns is checked before anything is made of it.
+// Hits returned by a structure are checked before they are used.
 
 #include "harness/rays/hit_check.hpp"
 
@@ -23,7 +23,7 @@ namespace {
 
 constexpr float kNoNumber = std::numeric_limits<float>::quiet_NaN();
 
-/// Hits that no ray with the interval [0.5, 2] can have, of a scene of three primitives.
+/// Hits that are impossible for rays with the interval [0.5, 2] in a scene of three primitives.
 std::vector<accel::Hit> impossible_hits() {
   return {{1.0F, 3},
           {1.0F, 4'000'000'000U},
@@ -57,7 +57,8 @@ TEST(HitCheck, KnowsWhatARayCanHit) {
   for (const accel::Hit& hit : impossible_hits()) EXPECT_FALSE(check.passes(ray, hit)) << hit.t;
 }
 
-/// The hits of exhaustive search; those of rays from `origin` on that `chosen` picks are replaced.
+/// The hits of exhaustive search, except that those of rays from `origin` that `chosen` picks are
+/// replaced.
 class Planted : public accel::TraversalAccelerator<Planted> {
  public:
   using Chosen = std::function<bool(const accel::Ray&)>;
@@ -80,7 +81,7 @@ class Planted : public accel::TraversalAccelerator<Planted> {
   Chosen chosen_;
 };
 
-/// What is thrown while a picture is drawn by a structure with a fault, alone and recorded.
+/// Returns the errors thrown while a picture is drawn by a faulty structure, alone and recorded.
 std::vector<std::string> complaints(const scenes::Scene& scene, const accel::Hit& fault,
                                     const Planted::Chosen& chosen) {
   scenes::Camera camera;
@@ -153,7 +154,7 @@ TEST(HitCheck, NamesThePixel) {
   }
 }
 
-/// Primitives so small that t is rounded to their very middle, where no normal is.
+/// Primitives so small that t is rounded to their very center, where there is no normal.
 TEST(HitCheck, RaysFromTheSmallestThingsAreFinite) {
   scenes::SceneBuilder builder = with_light({4.0, 6.0, 8.0});
   builder.set_surface({.diffuse = 0.2F, .specular = 0.5F, .transmittance = 0.3F});

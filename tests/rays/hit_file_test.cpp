@@ -1,5 +1,5 @@
-// Files of hits, and rays as CSV: what is written reads back, and what is malformed is refused with
-// its place.
+// Files of hits, and rays as CSV: written files read back, and malformed ones are refused with the
+// place of the error.
 
 #include "harness/rays/hit_file.hpp"
 

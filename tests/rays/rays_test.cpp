@@ -1,4 +1,4 @@
-// Rays beside the primary ones: made, verified, saved and loaded.
+// Rays other than primary rays: made, verified, saved and loaded.
 
 #include <chrono>
 #include <cmath>
@@ -69,7 +69,7 @@ TEST(ShadowRays, LeadFromFacedSurfacesToTheLight) {
   const auto points = points_of(scene);
   ASSERT_GT(points.size(), 100U);
   const auto rays = shadow_rays(scene, points).rays;
-  ASSERT_EQ(rays.size(), points.size());  // the light behind is faced by no point that is seen
+  ASSERT_EQ(rays.size(), points.size());  // no visible point faces the light behind
   for (std::size_t i = 0; i < rays.size(); ++i) {
     EXPECT_NEAR(glm::length(dvec3(rays[i].origin) - points[i].point), 0.0, 1e-3);
     const dvec3 end = dvec3(rays[i].origin) + dvec3(rays[i].direction);
@@ -208,7 +208,7 @@ TEST(OcclusionRays, AreMeasuredInDiagonalsOfTheScene) {
   EXPECT_FLOAT_EQ(input.ray(0).t_max, static_cast<float>(0.5 * std::sqrt(2 * 18.0 * 18.0 + 9.0)));
 }
 
-// In a closed room no path ends early, and each ray begins where the one before it hit.
+// In a closed room no path ends early, and each ray begins at the previous hit.
 TEST(PathRays, GoOnFromWhereTheyHit) {
   const scenes::Scene scene = scenes::load_scene("closed-room");
   const auto points = points_of(scene);
@@ -242,7 +242,7 @@ TEST(PathRays, EndWhereNothingIsHit) {
 
 TEST(MakeInput, RefusesListsThatWouldFillTheMemory) {
   const scenes::Scene scene = floor_and_ceiling(1.0);
-  // Each has little more than 2^28 rays: the places are found before they are counted.
+  // Each has slightly more than 2^28 rays: the sizes are checked before the rays are counted.
   const auto refusal = [&](const char* kind, const Resolution& resolution) {
     return scenes::thrown_message([&] { input_over(scene, kind, resolution); });
   };
@@ -348,7 +348,7 @@ TEST(EveryKindOfRays, FindsExhaustiveAndEmbreeRight) {
   }
 }
 
-/// A right answer to shadow rays, to be spoilt.
+/// A correct result for shadow rays, to be corrupted by the tests.
 class AnyHitAnswers : public ::testing::Test {
  protected:
   AnyHitAnswers() {
@@ -427,7 +427,7 @@ TEST(AnyHitOfAGrazingRay, MayBeEither) {
   const auto class_of = [](const std::vector<verify::Mismatch>& examples) {
     return examples.empty() ? verify::DiffClass::kAgree : examples[0].diff_class;
   };
-  // Along the near triangle's edge: either answer will do, unless the far one is in reach.
+  // Along the near triangle's edge: either result is allowed, unless the far one is in reach.
   for (const std::uint8_t answer : {std::uint8_t{0}, std::uint8_t{1}}) {
     EXPECT_NE(class_of(verdict_on(0.0F, 6.0F, answer)), verify::DiffClass::kStructureError);
     EXPECT_NE(class_of(verdict_on(-1e-7F, 6.0F, answer)), verify::DiffClass::kStructureError);

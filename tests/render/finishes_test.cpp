@@ -1,4 +1,4 @@
-// Noise, textures, and a pixel by hand of each of the thesis's surfaces.
+// Noise, textures, and one hand-computed pixel for each of the thesis's surfaces.
 
 #include <cmath>
 
@@ -62,8 +62,8 @@ TEST(Texture, VariesAboutTheColorOfItsSurface) {
   }
 }
 
-/// The color of a finish at the middle of its scene, where all noise is 0: veins of marble are 1/2
-/// to the power of 6 of it, wood begins a ring, clouds are a smooth step, granite shows no grain.
+/// The color of a finish at the middle of its scene, where all noise is 0: marble has veins of
+/// (1/2)^6 of the color, wood begins a ring, clouds are a smooth step, granite shows no grain.
 dvec3 color_in_the_middle(scenes::Finish finish) {
   const dvec3 own(scenes::finished_surface(finish).color);
   const auto marble = [&](const dvec3& vein) { return own + (vein - own) / 64.0; };
@@ -101,8 +101,8 @@ TEST(Finishes, HaveTheColorsComputedByHand) {
     const scenes::Scene scene = std::move(builder).build();
     const dvec3 color = color_in_the_middle(surface.finish);
     const dvec3 sky = linear(0.2, 0.4, 0.8);
-    // The light stands straight above, the eye 45 degrees aside. A mirror ray and what glass lets
-    // through see the sky.
+    // The light is directly above, the eye at 45 degrees. The mirror ray and the ray through glass
+    // reach the sky.
     const double highlight = std::pow(0.5, 0.5 * std::max(surface.shine, 1.0F));
     const dvec3 expected =
         double{surface.diffuse} * (0.06 + 1.0) * linear(color.x, color.y, color.z) +

@@ -1,4 +1,4 @@
-// Whole pictures: golden ones, and the counts of rays that Haines published.
+// Whole pictures: golden ones, and Haines's published counts of rays.
 
 #include <array>
 #include <cmath>
@@ -82,8 +82,9 @@ INSTANTIATE_TEST_SUITE_P(
       return scene.substr(0, scene.find(':'));
     });
 
-// Why ours are up to 0.4% above his: his 513 rays a row seem to be spread over 513 pixels, not over
-// the 512 of the frame. Made so, the eye rays that hit are his but for one in 5,000.
+// The reason why our counts are up to 0.4% above his: his 513 rays per row seem to be spread over
+// 513 pixels, not over the 512 of the frame. With that spread, the number of eye rays that hit
+// agrees with his to one in 5,000.
 TEST(PublishedCounts, AreThoseOfRaysSpreadOverOnePixelMore) {
   for (const PublishedCounts& published : kPublishedSpdCounts) {
     SCOPED_TRACE(published.scene);
@@ -105,7 +106,7 @@ TEST(PublishedCounts, AreThoseOfSevenScenes) {
   EXPECT_EQ(find_published_counts("lattice:n=12"), nullptr);
 }
 
-/// A picture of 64 x 64 pixels, as a PNG keeps it.
+/// Returns a picture of 64 x 64 pixels as stored in a PNG file.
 OIIO::ImageBuf as_png(const Image& image) {
   OIIO::ImageBuf buffer(OIIO::ImageSpec(image.width(), image.height(), 3, OIIO::TypeDesc::UINT8));
   for (int y = 0; y < image.height(); ++y) {
@@ -132,7 +133,7 @@ TEST(Whitted, GoldenPictures) {
         BEAMBENCH_TEST_FILES "/golden/whitted/" + name.substr(0, name.find(':')) + ".png";
     const OIIO::ImageBuf golden(file);
     ASSERT_TRUE(golden.initialized()) << golden.geterror();
-    // Another libm may round pow another way, and a ray along an edge may go the other way.
+    // Another libm may round pow differently, and a ray along an edge may change sides.
     const auto difference = OIIO::ImageBufAlgo::compare(found, golden, 3.0F / 255.0F, 0.0F);
     EXPECT_LE(difference.nfail, 40U) << "of 64 x 64 pixels";
     EXPECT_LT(difference.meanerror, 0.002);

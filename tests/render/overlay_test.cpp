@@ -1,4 +1,4 @@
-// Overlays: lines lie where they should, boxes hide what is behind them, legends count.
+// Overlays: lines are in the right place, boxes hide what is behind them, legends count.
 
 #include "harness/render/picture/overlay.hpp"
 
@@ -21,7 +21,7 @@ namespace {
 
 const glm::vec3 kGround(0.2F);
 
-/// An eye in the origin that looks along +x with y to the left and z up. A point (x, y, z) appears
+/// An eye at the origin that looks along +x with y to the left and z up. A point (x, y, z) appears
 /// at 50 - 50 y / x, 50 - 50 z / x.
 accel::PrimaryRays view_along_x() {
   scenes::Camera camera;
@@ -34,12 +34,13 @@ accel::PrimaryRays view_along_x() {
 bool is_ground(const Image& image, int x, int y) {
   return glm::distance(image.at(x, y), dimmed(kGround)) < 1e-6F;
 }
-/// How much of a color is mixed with the dimmed ground.
+/// Returns the share of a color mixed with the dimmed background.
 float share_of(const glm::vec3& color, const Image& image, int x, int y) {
   const glm::vec3 ground = dimmed(kGround);
   return (image.at(x, y).x - ground.x) / (color.x - ground.x);
 }
-/// The sum of a line's shares across a horizontal row of pixels: its thickness, if it is upright.
+/// Returns the sum of a line's shares across a horizontal row of pixels: its thickness, if
+/// vertical.
 float yellow_across(const Image& image, int y, int first, int last) {
   float sum = 0.0F;
   for (int x = first; x <= last; ++x) sum += share_of(okabe_ito::kYellow, image, x, y);
@@ -195,7 +196,7 @@ TEST(OverlayCells, NearerCellsHideFartherOnes) {
   EXPECT_LT(yellow_across(apart, 50, 85, 99), 0.9F) << "but paler, being farther";
 }
 
-// Neighbors that are flush with each other: the edges between them lie in both, none hides them.
+// Adjacent cells: the edges between them belong to both, and neither hides them.
 TEST(OverlayCells, TouchingCellsDoNotHideTheirCommonEdges) {
   const Image image = picture_of({{{2, -1, -1}, {4, 0, 1}}, {{2, 0, -1}, {4, 1, 1}}});
   for (int y = 27; y < 73; ++y) EXPECT_NEAR(yellow_across(image, y, 46, 53), 1.0F, 0.01F) << y;
@@ -213,8 +214,8 @@ TEST(OverlayCells, ACellAroundTheEyeShowsItsEdgesAndHidesNothing) {
   EXPECT_TRUE(is_ground(image, 10, 50));
 }
 
-// A beam of a box, from behind the eye to before it, passing on the left below: what lies behind
-// the camera plane must not be mirrored into the image.
+// A beam through a box, from behind the eye to in front of it, passing on the lower left: parts
+// behind the camera plane must not be mirrored into the image.
 TEST(OverlayCells, EdgesAreCutOffAtTheEye) {
   const Image image = picture_of({{{-5, 1, -2}, {4, 2, -1}}});
   for (int y = 0; y < 50; ++y) {
@@ -238,7 +239,7 @@ TEST(OverlayCells, CountsAllCells) {
   EXPECT_EQ(legend[0].count, 2U);
 }
 
-// Any eye, near faces and edges of cells as well: nothing is drawn where no cell can be.
+// Any eye, including near faces and edges of cells: nothing is drawn where no cell can be.
 TEST(OverlayCells, WhereRaysMissAllCellsNothingIsDrawnButNextToThem) {
   const scenes::Scene scene = scenes::load_scene("balls:n=1");
   const auto cells = accel::registry()

@@ -1,4 +1,5 @@
-// The pencils of whole pictures: all their rays pass through the apex, and nothing depends on them.
+// The pencils of whole pictures: all their rays pass through the apex, and results do not depend on
+// them.
 
 #include "harness/render/pencils.hpp"
 
@@ -42,7 +43,7 @@ class Unmarked : public accel::ForwardingAccelerator {
   }
 };
 
-/// Checks what is marked, and forwards it.
+/// Checks the marked rays, and forwards them.
 class Checked : public Unmarked {
  public:
   Checked(const accel::Accelerator& structure, tests::CheckedPencils& pencils)
@@ -77,7 +78,7 @@ RecordedPicture recorded(const scenes::Scene& scene, const accel::Accelerator& s
                         std::move(hits), options, rays::HitCheck(scene));
 }
 
-/// A room of planar mirrors with a ball in it, turned against the axes.
+/// A room of planar mirrors with a ball in it, rotated against the axes.
 scenes::Scene mirror_room() {
   scenes::SceneBuilder builder = with_light({0.3, 0.2, 0.4});
   builder.set_surface({.diffuse = 0.3F, .specular = 0.7F});
@@ -142,7 +143,8 @@ TEST(Pencils, PassThroughTheirApexInRandomScenes) {
   EXPECT_GT(away, 1'000U);
 }
 
-// Where all mirrors are planar, almost all rays come through virtual eyes, however often reflected.
+// If all mirrors are planar, almost all rays come from virtual eyes, however often they are
+// reflected.
 TEST(Pencils, AreOfAnyDepth) {
   const scenes::Scene scene = mirror_room();
   const accel::PrimaryRays image(scene.cameras.front(), 128, 128, 1);
@@ -163,7 +165,7 @@ TEST(Pencils, AreNotOfCurvedMirrors) {
   EXPECT_EQ(pencils.away, 0U);
 }
 
-// Rounding decides on which side such a mirror is seen.
+// Rounding decides which side of such a mirror is seen.
 TEST(Pencils, AreNotOfMirrorsSeenFromTheirEdge) {
   const scenes::PlanarMirror mirror{
       {0.0, 0.0, 1.0}, {0.0, 0.0, 1.0}, {0}, {{-4.0F, -4.0F, 1.0F}, {4.0F, 4.0F, 1.0F}}};
@@ -180,7 +182,7 @@ TEST(Pencils, AreNotOfMirrorsSeenFromTheirEdge) {
   EXPECT_EQ(behind(0.5F)->place, dvec3(5.0, 0.0, 1.5 - lift));
 }
 
-// A structure that uses marks and is bit-exact finds the same hits, so the same rays follow.
+// A bit-exact structure that uses the marks finds the same hits, so the same rays follow.
 TEST(Pencils, ChangeNothingThatAPictureDependsOn) {
   std::vector<scenes::Scene> all;
   all.push_back(mirror_room());
@@ -202,7 +204,7 @@ TEST(Pencils, ChangeNothingThatAPictureDependsOn) {
   }
 }
 
-/// A picture by a structure, and the work of the rays that follow camera rays.
+/// A structure's picture, and the work of the rays that follow camera rays.
 struct Worked {
   WhittedPicture picture;
   std::map<std::string, std::uint64_t, std::less<>> work;
@@ -219,7 +221,7 @@ Worked drawn(const scenes::Scene& scene, const char* spec, const WhittedOptions&
   return {std::move(picture), counted.work().counters.by_name()};
 }
 
-// The thesis's beams through mirrors that mirrors show: the picture of single rays, bit for bit.
+// The thesis's beams through mirrors seen in mirrors: the picture of single rays, bit for bit.
 TEST(Pencils, AreBeamsOfAnyDepth) {
   const scenes::Scene scene = mirror_room();
   std::uint64_t beams_before = 0;
@@ -237,7 +239,7 @@ TEST(Pencils, AreBeamsOfAnyDepth) {
   }
 }
 
-/// How many pixels a viewer could distinguish.
+/// Returns the number of pixels that a viewer could distinguish.
 int visibly_different(const Image& a, const Image& b) {
   int count = 0;
   for (int y = 0; y < a.height(); ++y) {
@@ -249,8 +251,8 @@ int visibly_different(const Image& a, const Image& b) {
   return count;
 }
 
-// A structure whose pencils are right within tolerance sends other rays on, and so each of its
-// pictures is verified by its own rays. They differ where rays graze edges, here and there.
+// If a structure's pencils are correct within tolerance, other rays follow, so each of its pictures
+// is verified with its own rays. The pictures differ in a few places where rays graze edges.
 TEST(Pencils, OfTolerantStructuresGiveTheSamePictureButForGrazes) {
   std::vector<scenes::Scene> all;
   all.push_back(mirror_room());
@@ -280,7 +282,7 @@ TEST(Pencils, OfTolerantStructuresGiveTheSamePictureButForGrazes) {
   EXPECT_GE(scenes_with_beams, 6);
 }
 
-// Nor do they change the order in which the light of a sample is summed.
+// The order in which a sample's light is summed does not change either.
 TEST(Pencils, DoNotChangeAPictureOfManySamples) {
   const scenes::Scene scene = mirror_room();
   const auto structure = built(scene, "sah-bvh");

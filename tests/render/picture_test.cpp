@@ -1,4 +1,4 @@
-// Pictures: what is written can be read back, and heat maps say what their colors mean.
+// Pictures: written pictures can be read back, and heat maps state the meaning of their colors.
 
 #include <algorithm>
 #include <chrono>
@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A picture whose every pixel is another color.
+/// A picture in which every pixel has a different color.
 Image colorful(int width, int height) {
   Image image(width, height);
   for (int y = 0; y < height; ++y) {
@@ -136,7 +136,7 @@ TEST(Exr, HoldsLinearColorsDepthsAndIdsExactly) {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "hits.exr";
   Image image(2, 1);
-  image.at(0, 0) = {0.1F, 2.5F, 0.0F};  // beyond 1 stays beyond 1
+  image.at(0, 0) = {0.1F, 2.5F, 0.0F};  // values beyond 1 are kept
   image.at(1, 0) = {1e-6F, 0.5F, 1.0F};
   const std::vector<float> depths{0.1F, INFINITY};
   const std::vector<std::uint32_t> ids{16777217U, 0xFFFFFFFFU};  // not representable in float
@@ -185,7 +185,7 @@ TEST(HeatColor, GetsLighterWithEveryStepAndStaysInsideSrgb) {
   for (int i = 0; i < 1000; ++i) {
     const glm::vec3 color = heat_color(static_cast<float>(i) / 1000.0F);
     EXPECT_GT(luminance(heat_color(static_cast<float>(i + 1) / 1000.0F)), luminance(color)) << i;
-    // A color outside sRGB would have been cut off at 0.
+    // A color outside sRGB would have been clipped at 0.
     EXPECT_GT(std::min({color.x, color.y, color.z}), 0.0F) << i;
     EXPECT_LT(std::max({color.x, color.y, color.z}), 1.0F) << i;
   }

@@ -1,4 +1,4 @@
-// Overlays of tiles and pencils: outlines, mesh, colors, legends; what a user may ask for.
+// Overlays of tiles and pencils: outlines, mesh, colors, legends; valid requests.
 
 #include "harness/render/picture/place_overlay.hpp"
 
@@ -24,7 +24,7 @@ using Way = BeamPlace::Way;
 
 const glm::vec3 kBackground(0.2F);
 
-/// Two tiles side by side of 8 x 4 pixels each, in blocks of 4 x 4.
+/// Two adjacent tiles of 8 x 4 pixels each, in blocks of 4 x 4.
 std::vector<BeamPlace> two_tiles() {
   std::vector<BeamPlace> places;
   for (int y = 0; y < 4; ++y) {
@@ -107,7 +107,7 @@ TEST(OverlayPencil, APixelShowsItsFirstSampleThatHasARay) {
   EXPECT_EQ(image.at(1, 0), okabe_ito::kVermillion);
 }
 
-// ---- what a user asks for -----------------------------------------------------------------------
+// ---- requests -----------------------------------------------------------------------------------
 
 const accel::StructureInfo& structure(const std::string& name) {
   return accel::registry().choose({name, {}}).info();

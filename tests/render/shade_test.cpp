@@ -1,4 +1,4 @@
-// Normals are perpendicular to what was hit, and pictures tell hits from misses.
+// Normals are perpendicular to the surface that was hit, and pictures distinguish hits from misses.
 
 #include <cmath>
 
@@ -22,7 +22,7 @@ glm::dvec3 arbitrary_point(double size) {
   return {x, y, coordinate()};
 }
 
-/// The hit of a ray from `origin` toward `target`, by exhaustive search.
+/// Returns the hit of a ray from `origin` toward `target`, by exhaustive search.
 std::optional<accel::Hit> shoot(const scenes::Scene& scene, const accel::Ray& ray) {
   return accel::registry().choose({"exhaustive", {}}).build(scene)->closest_hit(ray, nullptr);
 }
@@ -38,7 +38,7 @@ glm::dvec3 point_at(const accel::Ray& ray, const accel::Hit& hit) {
   return glm::dvec3(ray.origin) + double{hit.t} * glm::dvec3(ray.direction);
 }
 
-/// Whether a vector is perpendicular to a direction, to float accuracy of the hit.
+/// Requires a vector to be perpendicular to a direction, to float accuracy of the hit.
 void require_upright(const glm::dvec3& normal, const glm::dvec3& tangent) {
   RC_ASSERT(std::abs(glm::dot(normal, glm::normalize(tangent))) < 1e-4);
 }
@@ -119,13 +119,13 @@ TEST(ShadingNormal, OfASmoothPolygonRunsBetweenItsCorners) {
   const accel::Hit hit = shoot(scene, ray).value();
   EXPECT_NEAR(glm::length(rays::geometric_normal(scene, ray, hit) - glm::dvec3(0, 0, 1)), 0.0,
               1e-6);
-  // Half of the way to the corner whose normal leans by 45 degrees.
+  // Halfway to the corner whose normal leans by 45 degrees.
   const double s = std::sqrt(0.5);
   const glm::dvec3 expected = glm::normalize(glm::dvec3(0.5 * s, 0.0, 0.5 + 0.5 * s));
   EXPECT_NEAR(glm::length(rays::shading_normal(scene, ray, hit) - expected), 0.0, 1e-6);
 }
 
-/// A red sphere before a blue sky, looked at down the z axis.
+/// A red sphere in front of a blue sky, seen down the z axis.
 scenes::Scene red_ball() {
   scenes::SceneBuilder builder("red ball");
   builder.set_background({0.0, 0.0, 1.0});

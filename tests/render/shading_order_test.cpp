@@ -1,4 +1,5 @@
-// The order in which samples are shaded changes what a shadow cache knows, and no picture.
+// The order in which samples are shaded affects the contents of a shadow cache, but not the
+// picture.
 
 #include <algorithm>
 
@@ -27,8 +28,9 @@ TEST(ShadingOrder, HoldsEverySampleOnce) {
 }
 
 TEST(ShadingOrder, KeepsTheSamplesOfABeamTogether) {
-  // In each beam the samples run along the rows, so a place before its predecessor begins another
-  // beam; there are no more such places than beams at occupied leaves, and the rest behind them.
+  // Within a beam the samples are in row order, so a place that precedes its predecessor begins
+  // another beam. There are at most as many such places as beams at occupied leaves, plus the rest
+  // behind them.
   const scenes::Scene scene = scenes::load_scene("maceta");
   const accel::PrimaryRays rays(scene.cameras.front(), 160, 128, 1);
   const auto beam = built(scene, "beam:max_level=5");

@@ -29,7 +29,7 @@ TEST(Whitted, AllWaysOfFindingShadowsGiveTheSameBits) {
     SCOPED_TRACE(seed);
     compare(scene_of_all_surfaces(seed));
   }
-  for (const char* name : {"mount:n=3", "finishes"}) {  // with glass, and nothing touches it
+  for (const char* name : {"mount:n=3", "finishes"}) {  // with glass that nothing touches
     SCOPED_TRACE(name);
     compare(scenes::load_scene(name));
   }

@@ -1,5 +1,5 @@
-// The tone curve that a picture chooses for itself: what it keeps, what it bounds, and what it does
-// to pictures that need none.
+// The tone curve chosen for a picture: what it preserves, what it bounds, and its effect on
+// pictures that need none.
 
 #include "harness/render/picture/tone.hpp"
 
@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kSize = 100;
 
-/// In many hues, a ramp of the brightest component: over `stops` stops around `middle`.
+/// A ramp of the brightest component in many hues, over `stops` stops around `middle`.
 Image ramp(double middle, double stops) {
   Image image(kSize, kSize);
   for (int y = 0; y < kSize; ++y) {
@@ -40,7 +40,7 @@ Image toned(Image image) {
   return image;
 }
 
-/// Of a PNG's pixels, those with a channel at 255.
+/// Returns the share of a PNG's pixels that have a channel at 255.
 double share_clipped(const Image& image) {
   const auto clipped = std::ranges::count_if(image.pixels(), [](const glm::vec3& pixel) {
     return std::lround(255.0F * srgb_from_linear(brightest(pixel))) == 255;

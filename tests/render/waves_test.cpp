@@ -1,4 +1,4 @@
-// Pictures in waves: structures are given batches, and nothing depends on how rays are divided.
+// Pictures in waves: structures receive batches, and results do not depend on how rays are divided.
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -93,7 +93,7 @@ TEST(Waves, AskInBatchesAlone) {
 
 TEST(Waves, GiveTheSameBitsHoweverRaysAreDivided) {
   for (const ShadowMethod shadows : {ShadowMethod::kRays, ShadowMethod::kCache}) {
-    const scenes::Scene scene = scene_of_all_surfaces(4);  // with glass: two rays from a place
+    const scenes::Scene scene = scene_of_all_surfaces(4);  // with glass: two rays from one place
     const auto structure = built(scene, "samet");
     const Listed camera(*structure, {scene.cameras.front(), 90, 70, 1});
     const Whitted tracer(scene, *structure, {.max_depth = 7, .shadows = shadows});
@@ -107,7 +107,7 @@ TEST(Waves, GiveTheSameBitsHoweverRaysAreDivided) {
   }
 }
 
-// Every part of a wave has at most some thousand rays, however many are spawned.
+// Every part of a wave has at most a few thousand rays, however many are spawned.
 TEST(Waves, KeepBatchesSmall) {
   scenes::SceneBuilder builder = with_light({0.0, 0.0, 50.0});
   builder.set_surface({.specular = 0.9F, .transmittance = 0.9F, .refraction_index = 1.01F});
@@ -135,7 +135,7 @@ TEST(Waves, KeepBatchesSmall) {
   for (const glm::dvec3& color : colors) ASSERT_EQ(color, colors.front());
 }
 
-// By SIMD the same bits as by glm, on every instruction set.
+// SIMD gives the same bits as glm, on every instruction set.
 TEST(Places, AreThoseOfSingleRays) {
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     SCOPED_TRACE(hwy::TargetName(target));

@@ -1,4 +1,4 @@
-// The whole ray tracer: hand-computed colors, the same bits from all classic structures and on any
+// The whole ray tracer: hand-computed colors, and the same bits from all classic structures and any
 // number of threads.
 
 #include <array>
@@ -24,14 +24,14 @@ TEST(Whitted, AMatteFloorHasTheCosineOfTheLight) {
   builder.set_surface({.color = {0.5F, 0.25F, 1.0F}, .diffuse = 0.8F});
   add_floor(builder, 0.0);
   const scenes::Scene scene = std::move(builder).build();
-  // The light is 3 aside and 4 above: the cosine is 4/5.
+  // The light is 3 to the side and 4 above: the cosine is 4/5.
   expect_color(seen(scene, {0, 0, 5}, {0, 0, -1}), 0.8 * linear(0.5, 0.25, 1.0) * (kAmbient + 0.8));
 }
 
 TEST(Whitted, LightsWithoutAColorShareOneOverTheRootOfTheirNumber) {
   scenes::SceneBuilder builder = with_light({0.0, 0.0, 4.0});
   builder.add_light({0.0, 0.0, 9.0});
-  builder.add_light({0.0, 0.0, 6.0}, {0.1, 0.2, 0.3});  // said, so taken as it is
+  builder.add_light({0.0, 0.0, 6.0}, {0.1, 0.2, 0.3});  // an explicit color is taken as it is
   builder.set_surface({.color = {1, 1, 1}, .diffuse = 1.0F});
   add_floor(builder, 0.0);
   const scenes::Scene scene = std::move(builder).build();
@@ -133,7 +133,7 @@ TEST(Whitted, AHighlightIsBrightestWhereAMirrorWouldSendTheLight) {
   add_floor(builder, 0.0);
   const scenes::Scene scene = std::move(builder).build();
   expect_color(seen(scene, {-3, 0, 3}, {1, 0, -1}), dvec3(0.5));
-  // From straight above, 45 degrees off: half of the square, to the power of 3.
+  // Seen from directly above, 45 degrees off: half of the square, to the power of 3.
   expect_color(seen(scene, {0, 0, 3}, {0, 0, -1}), dvec3(0.5 / 8.0));
 }
 
@@ -164,8 +164,8 @@ scenes::Scene slab_above_two_floors(double edge) {
 }
 
 TEST(Whitted, ASlabOfGlassMovesARayAside) {
-  // In at x = 0 and 45 degrees; in the slab the sine is sqrt(1/2) / 1.5, so 2 deep is 1.06904
-  // aside; out at 45 degrees again, 1 more. Through air it would be 3.
+  // Enters at x = 0 at 45 degrees; in the slab the sine is sqrt(1/2) / 1.5, so a depth of 2 moves
+  // the ray 1.06904 sideways; it leaves at 45 degrees again, for 1 more. Through air it would be 3.
   const double aside = 2.0 * std::tan(std::asin(std::sqrt(0.5) / 1.5)) + 1.0;
   for (const double beside : {-1e-3, 1e-3}) {
     const dvec3 color = seen(slab_above_two_floors(aside + beside), {-3, 0, 5}, {1, 0, -1});
@@ -194,7 +194,7 @@ scenes::Scene prism_below_a_ceiling(float index) {
 
 TEST(Whitted, APrismTurnsARayByTotalReflection) {
   // In at right angles at x = 0, onto the long side at 45 degrees, up and out at right angles at z
-  // = 2: three rays follow the camera ray. The light stands straight below what they see.
+  // = 2: three rays follow the camera ray. The light is directly below the place they hit.
   expect_color(seen(prism_below_a_ceiling(1.5F), {-5, 0, 1}, {1, 0, 0}), dvec3(kAmbient + 1.0));
   expect_color(seen(prism_below_a_ceiling(1.5F), {-5, 0, 1}, {1, 0, 0}, {.max_depth = 3}),
                dvec3(0.0));
@@ -202,8 +202,8 @@ TEST(Whitted, APrismTurnsARayByTotalReflection) {
   expect_color(seen(prism_below_a_ceiling(1.2F), {-5, 0, 1}, {1, 0, 0}), linear(0.2, 0.4, 0.8));
 }
 
-/// Of a ray that meets a plane at 60 degrees, behind which light is 1.5 times as fast: past the
-/// critical angle of 41.8.
+/// Returns the census of a ray that meets a plane at 60 degrees, behind which light is 1.5 times as
+/// fast: past the critical angle of 41.8.
 RayCensus census_at_total_reflection(double specular, const WhittedOptions& options) {
   scenes::SceneBuilder builder = with_light({0.0, 0.0, -50.0});
   builder.set_background({1, 1, 1});
@@ -267,8 +267,8 @@ TEST(Whitted, AShadingNormalSendsNoRefractedRayBackThroughItsSurface) {
   const dvec3 leaning(-0.6, 0.0, 0.8);
   builder.add_polygon(corners, std::array<dvec3, 3>{leaning, leaning, leaning});
   const scenes::Scene scene = std::move(builder).build();
-  // 75 degrees from the plane's normal, 38 from the shading normal, about which Snell's law has a
-  // way out, upward. By the plane's own it has none: all is reflected.
+  // 75 degrees from the plane's normal, 38 from the shading normal, about which Snell's law gives
+  // an upward direction. About the plane's own normal it gives none: all light is reflected.
   const auto structure = built(scene, "exhaustive");
   const Whitted tracer(scene, *structure, WhittedOptions{});
   Whitted::Progress progress = tracer.begin();

@@ -1,4 +1,4 @@
-// Whole pictures as a task of sweeps: every ray that follows a camera ray is counted and verified.
+// Whole pictures as a task of sweeps: every ray after the camera rays is counted and verified.
 
 #include <memory>
 #include <string>
@@ -33,7 +33,7 @@ accel::StructureChoice choice(const std::string& spec) {
   return accel::registry().choose(parse_spec(spec));
 }
 
-/// Traces a structure as a contender does; the verification of its answers.
+/// Traces a structure as a contender does; returns the verification of its results.
 verify::DiffReport verified(measure::Task& task, const std::string& spec) {
   const auto structure = choice(spec).build(task.scene());
   task.poison();
@@ -115,7 +115,7 @@ TEST(WholePicture, ItsFactsAreThoseOfTheOraclesPicture) {
   EXPECT_NE(measure::make_task(shallow, -1)->facts().rays_hash, facts.rays_hash);
 }
 
-/// `exhaustive`, wrong only where it traces single rays, and there now and then.
+/// `exhaustive`, with occasional errors, but only when it traces single rays.
 class WrongAlone : public accel::TraversalAccelerator<WrongAlone> {
  public:
   enum class In { kClosest, kAny };

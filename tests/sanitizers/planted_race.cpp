@@ -1,5 +1,5 @@
-// A race between two tasks of TBB, which the thread sanitizer must find; and sums that TBB orders,
-// in which it must find none.
+// A race between two TBB tasks, which the thread sanitizer must find; and sums ordered by TBB, in
+// which it must find none.
 
 #include <cstddef>
 #include <cstdio>

@@ -19,7 +19,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 const Points kTriangle = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
 
-/// The message of the refusal of what the call adds to a builder that holds one sphere already.
+/// Returns the message with which a builder that already holds one sphere refuses an addition.
 template <typename Add>
 std::string refusal(Add add) {
   SceneBuilder builder("test");
@@ -228,7 +228,7 @@ TEST(SceneBuilder, RefusesAScenesExtentBelowTheLimit) {
                    {"'small'", "7.07e-10", "at least 1e-09", "scale it up"}));
   EXPECT_TRUE(says(thrown_message([&] { built(1e-16); }), {"1.41e-16", "scale it up"}));
 
-  // Small primitives of a scene that is large enough are no fault.
+  // Small primitives are valid in a scene that is large enough.
   SceneBuilder builder("mixed");
   builder.add_sphere({0, 0, 0}, 1e-12);
   builder.add_sphere({0, 0, 0}, 1.0);

@@ -22,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A terminal of our own: what is written at its one end can be read at the other, and when the
-/// first end is closed, reading on is an input error (EIO), as of a disk that gives up.
+/// A pseudoterminal: text written at one end can be read at the other, and when the first end is
+/// closed, reading fails with an input error (EIO), as with a failing disk.
 class HungUpTerminal {
  public:
   explicit HungUpTerminal(const std::string& text) : reader_(::posix_openpt(O_RDWR | O_NOCTTY)) {
@@ -31,7 +31,7 @@ class HungUpTerminal {
     const int writer = ::open(::ptsname(reader_), O_RDWR | O_NOCTTY);
     termios settings{};
     works_ = writer >= 0 && ::tcgetattr(writer, &settings) == 0;
-    ::cfmakeraw(&settings);  // ends of lines stay as they are
+    ::cfmakeraw(&settings);  // line ends are not converted
     works_ = works_ && ::tcsetattr(writer, TCSANOW, &settings) == 0 &&
              ::write(writer, text.data(), text.size()) == static_cast<ssize_t>(text.size());
     ::close(writer);

@@ -137,7 +137,7 @@ TEST(Catalogue, StetraIsTetraOfFourLevels) {
   EXPECT_EQ(scene_hash(load_scene("stetra")), scene_hash(load_scene("tetra:n=4")));
 }
 
-/// Whether the point is in the camera's frustum.
+/// Returns whether the point is in the camera's frustum.
 bool sees(const Camera& camera, const glm::dvec3& point) {
   const glm::dvec3 forward = glm::normalize(glm::dvec3(camera.at) - glm::dvec3(camera.from));
   const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(camera.up)));
@@ -164,7 +164,7 @@ TEST(Catalogue, CamerasSeeTheirScenes) {
 
 using Corner = std::array<double, 3>;
 
-/// All points c +- w with signs whose product is +1: a tetrahedron of half-size w.
+/// Returns the points c +- w with signs whose product is +1: a tetrahedron of half-size w.
 std::set<Corner> tetrahedron(const Corner& c, double w) {
   std::set<Corner> corners;
   for (const double x : {-w, w}) {
@@ -210,7 +210,7 @@ TEST(Tetra, FacesLookOutward) {
 }
 
 /// Calls check(parent, child, number of the child) for every parent and child of a sphereflake of
-/// `depth` levels, whose spheres stand parents first.
+/// `depth` levels, whose spheres are listed parents first.
 template <typename Check>
 void for_each_child(const std::vector<Sphere>& spheres, std::size_t& next, int depth, Check check) {
   const std::size_t parent = next++;
@@ -284,7 +284,7 @@ TEST(Escena1, FillsItsVolumeEvenlyWithSpheresThatDoNotMeet) {
   EXPECT_GT(largest->radius, 2.0F * least->radius);
 }
 
-// As the plain search for the nearest of all balls placed them, before a grid did.
+// The positions found by the plain search for the nearest of all balls, before a grid was used.
 TEST(Escena1, StandsWhereItStoodBeforeItsGrid) {
   EXPECT_EQ(scene_hash(load_scene("escena1:spheres=7")), 0x2a7353dd7127c1eaU);
   EXPECT_EQ(scene_hash(load_scene("escena1:spheres=2000")), 0xc0a046104b83e4feU);
@@ -308,7 +308,8 @@ TEST(Escena2, FlakeIsTinyInAHugeVolume) {
   EXPECT_LT(flake.upper.y, scene.bounds.upper.y) << "the polygon stands behind";
 }
 
-/// Of triangles over shared vertices: edges that do not belong to two, once in each direction.
+/// Returns the number of edges, of triangles over shared vertices, that do not belong to two
+/// triangles, once in each direction.
 std::size_t count_open_edges(std::span<const Triangle> triangles) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
   for (const Triangle& t : triangles) {
@@ -319,7 +320,8 @@ std::size_t count_open_edges(std::span<const Triangle> triangles) {
   }));
 }
 
-/// Every edge belongs to exactly two triangles, once in each direction: closed and oriented.
+/// Expects every edge to belong to exactly two triangles, once in each direction: closed and
+/// oriented.
 void expect_closed(const Scene& scene) {
   RC_ASSERT(count_open_edges(scene.triangles) == 0);
   RC_ASSERT(scene.vertices.size() == scene.triangles.size() / 2 + 2);  // Euler
@@ -335,7 +337,7 @@ TEST(ClosedRoom, HasNoGapInItsShell) {
     const Scene scene = load_scene("closed-room:detail=" + std::to_string(detail));
     const auto shell = static_cast<std::size_t>(44 * detail * detail);
     EXPECT_EQ(count_open_edges(std::span(scene.triangles).first(shell)), 0U);
-    for (std::size_t i = 0; i < shell; ++i) {  // they look at the middle of the room
+    for (std::size_t i = 0; i < shell; ++i) {  // they face the middle of the room
       const glm::dvec3 a(scene.vertices[scene.triangles[i].vertex[0]]);
       const glm::dvec3 b(scene.vertices[scene.triangles[i].vertex[1]]);
       const glm::dvec3 c(scene.vertices[scene.triangles[i].vertex[2]]);

@@ -14,18 +14,18 @@ namespace beambench::scenes {
 /// glTF's numbers for the types of components.
 enum class GltfType { kByte = 5120, kUByte, kShort, kUShort, kUInt = 5125, kFloat };
 
-/// A file in the making: its JSON, and one buffer. Begins with a default scene of no nodes.
+/// A file under construction: its JSON, and one buffer. Begins with a default scene without nodes.
 struct GltfFile {
   GltfFile();
 
-  /// Each returns the index of what it added.
+  /// Each function returns the index of what it added.
   int add_view(const std::string& bytes, std::size_t stride = 0);
   int add_accessor(int view, GltfType type, std::size_t count, const char* shape);
   int add_positions(const std::vector<glm::vec3>& positions, std::size_t stride = 0);
   int add_indices(const std::vector<std::uint32_t>& indices, GltfType type);
-  /// A mesh of one primitive, which needs no indices when `indices` is -1.
+  /// Adds a mesh of one primitive, without indices if `indices` is -1.
   int add_mesh(int positions, int indices, int mode = 4);
-  /// A node of the default scene.
+  /// Adds a node to the default scene.
   int add_node(const nlohmann::json& node);
 
   nlohmann::json json;

@@ -69,7 +69,7 @@ std::vector<TriangleCorners> triangles_of(const ImportedMesh& mesh) {
   return triangles;
 }
 
-/// What glTF 2.0, 3.7.2.1, says of lists, strips and fans.
+/// The triangles of lists, strips and fans according to glTF 2.0, 3.7.2.1.
 std::vector<TriangleCorners> triangles_by_the_book(const std::vector<glm::vec3>& p, int mode) {
   std::vector<TriangleCorners> triangles;
   if (mode == 4) {
@@ -391,7 +391,7 @@ TEST_F(Gltf, PointsAndLinesAreCounted) {
   EXPECT_EQ(mesh.warnings[0], "9 points and lines were left out");
 }
 
-// What is refused
+// Refused files
 
 TEST_F(Gltf, ARefusedOneSaysWhy) {
   const auto with = [](const auto& change) {
@@ -574,7 +574,7 @@ TEST_F(Gltf, IsReadAgainWhenABufferChanges) {
 
 // Malformed files
 
-/// Reads in this process, so that a sanitizer sees what is wrong.
+/// Reads in this process, so that a sanitizer detects faults.
 void expect_mesh_or_refusal(const std::string& bytes, const fs::path& path) {
   try {
     EXPECT_FALSE(mesh::import_mesh(bytes, "glb", path).mesh.triangles.empty());
@@ -585,7 +585,7 @@ void expect_mesh_or_refusal(const std::string& bytes, const fs::path& path) {
   }
 }
 
-/// A file with all that is read of glTF.
+/// A file that uses every feature of glTF that is read.
 GltfFile rich_file() {
   GltfFile file = with_camera({{"name", "eye"}, {"camera", 0}}, {{"yfov", 0.5}, {"znear", 0.1}});
   const int strip = file.add_indices({0, 1, 2, 0}, GltfType::kUByte);
@@ -621,7 +621,7 @@ TEST_F(Gltf, ADamagedOneIsReadOrRefused) {
     std::string damaged = files[random.below(2)];
     for (auto changes = 1 + random.below(4); changes > 0; --changes) {
       char& c = damaged[random.below(damaged.size())];
-      // Digits as often as bytes: they make other indices and counts.
+      // Digits as often as bytes: they change indices and counts.
       c = random.unit() < 0.5 ? static_cast<char>('0' + random.below(10))
                               : static_cast<char>(random.below(256));
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Meshes of files that are in memory.
+// Imports mesh files in memory.
 
 #include <array>
 #include <cstdint>
@@ -16,12 +16,12 @@
 
 namespace beambench::scenes {
 
-/// Reads a file of the ending, known as `a.` and it.
+/// Reads a file of the given ending, under the name `a.` and that ending.
 inline mesh::ImportedMesh imported(const std::string& bytes, const std::string& ending) {
   return mesh::import_mesh(bytes, ending, "a." + ending);
 }
 
-/// The message with which the file is refused; "(nothing thrown)" where it is not.
+/// Returns the message that refuses the file; "(nothing thrown)" if it is accepted.
 inline std::string refusal(const std::string& bytes, const std::string& ending) {
   return thrown_message([&] { imported(bytes, ending); });
 }
@@ -30,7 +30,7 @@ inline std::uint64_t imported_hash(const std::string& bytes, const std::string& 
   return scene_hash(mesh::mesh_scene(imported(bytes, ending).mesh, "a", {}));
 }
 
-/// The corners of each triangle.
+/// Returns the corners of each triangle.
 inline std::vector<std::array<glm::vec3, 3>> triangles_of(const mesh::ImportedMesh& imported) {
   std::vector<std::array<glm::vec3, 3>> triangles;
   for (const auto& [a, b, c] : imported.mesh.triangles) {

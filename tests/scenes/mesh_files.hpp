@@ -1,5 +1,5 @@
 #pragma once
-// One tetrahedron, in the words of several formats.
+// One tetrahedron in several formats.
 
 #include <string>
 #include <utility>
@@ -17,14 +17,14 @@ std::string tetrahedron_binary_stl();
 std::string tetrahedron_gltf();
 std::string tetrahedron_ac();
 
-/// All of them, with file names.
+/// Returns all of them, with file names.
 std::vector<std::pair<std::string, std::string>> tetrahedron_files();
 
 std::string base64(const std::string& bytes);
 
-/// The text with another first coordinate in the place of the corner (1, 0, 0).
+/// Returns the text with another first coordinate for the corner (1, 0, 0).
 std::string with_coordinate(std::string text, const std::string& number);
-/// The text with its first `old` replaced.
+/// Returns the text with its first `old` replaced.
 std::string with_count(std::string text, const std::string& old, const std::string& by);
 
 }  // namespace beambench::scenes

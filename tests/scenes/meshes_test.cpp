@@ -136,7 +136,7 @@ TEST_F(Meshes, WhatHasNoAreaIsLeftOutAndCounted) {
                    {"some.obj", "without area", "--strict"}));
 }
 
-// What is refused, and why
+// Refused files, and the reasons
 
 TEST_F(Meshes, ARefusedOneSaysWhy) {
   EXPECT_TRUE(says(message("empty.obj", ""), {"empty.obj", "the file is empty"}));
@@ -187,7 +187,7 @@ TEST_F(Meshes, AFileThatIsCutOffIsRefused) {
                    {"4000000000", "cut off"}));
 }
 
-// What is packed
+// Compressed files
 
 TEST_F(Meshes, NothingUnpacksToNothing) {
   EXPECT_TRUE(says(thrown_message([] { mesh::gunzip("", "empty.ply.gz"); }),
@@ -212,7 +212,7 @@ TEST_F(Meshes, WhatUnpacksToFarMoreThanItIsIsRefusedEarly) {
   EXPECT_LT(growth.value_or(0), std::uint64_t{256} << 20U);
 }
 
-/// Numbers in a row pack well, as vertices of a regular grid do.
+/// Numbers in sequence compress well, as do the vertices of a regular grid.
 TEST_F(Meshes, WhatPacksWellIsRead) {
   std::string text;
   while (text.size() < (std::size_t{70} << 20U)) {
@@ -245,8 +245,8 @@ TEST(ImportLimits, GrowWithTheFileAndEndAtTheMemoryThereIs) {
   ::unsetenv("BEAMBENCH_MEMORY");
 }
 
-/// Whatever is in a file, it becomes a scene or is refused; Assimp's own end is not ours. Seeded,
-/// not by RapidCheck: some damage keeps Assimp busy until its time is over.
+/// Any file becomes a scene or is refused, even if Assimp crashes. Seeded, without RapidCheck: some
+/// damage keeps Assimp busy until its time is up.
 TEST_F(Meshes, DamagedFilesAreRefusedOrRead) {
   const auto files = tetrahedron_files();
   Random random(1999);
@@ -304,7 +304,7 @@ TEST_F(Meshes, DamagedCacheFilesAreNoticedAndMadeAnew) {
     std::vector<std::string> warnings;
     EXPECT_EQ(scene_hash(load_scene(path, &warnings)), hash);
     ASSERT_EQ(warnings.size(), 1U);
-    EXPECT_TRUE(says(warnings[0], {"a.obj", "damaged", "made anew"}));
+    EXPECT_TRUE(says(warnings[0], {"a.obj", "damaged", "made again"}));
     EXPECT_EQ(read_text(file), good);
   };
   for (std::size_t size = 0; size < good.size(); size += 7) expect_repair(good.substr(0, size));
@@ -475,7 +475,7 @@ TEST_F(Meshes, AMalformedEntryIsNamed) {
   }
 }
 
-// The pieces
+// Parts
 
 TEST(MeshFormat, IsRecognizedByTheEnding) {
   EXPECT_EQ(mesh::mesh_ending("a/b.PLY"), "ply");

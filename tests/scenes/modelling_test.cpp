@@ -1,4 +1,4 @@
-// The modelling kit: closed pieces look outward, and subdivision hits its count.
+// The modelling functions: closed pieces face outward, and subdivision reaches its count.
 
 #include <cmath>
 #include <map>
@@ -24,7 +24,7 @@
 namespace beambench::scenes {
 namespace {
 
-/// The volume that a closed mesh encloses, positive when it looks outward.
+/// Returns the volume enclosed by a closed mesh, positive if it faces outward.
 double volume(const modelling::PolygonMesh& mesh) {
   double sum = 0.0;
   for (const auto& corners : mesh.polygons) {
@@ -43,7 +43,7 @@ double surface_area(const modelling::PolygonMesh& mesh) {
   return sum;
 }
 
-/// Every edge has one polygon on each side, which traverse it in opposite directions.
+/// Returns whether every edge has one polygon on each side, with opposite directions.
 bool is_closed(const modelling::PolygonMesh& mesh) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
   for (const auto& corners : mesh.polygons) {
@@ -71,8 +71,8 @@ TEST(BeveledBox, IsClosedAndLosesItsEdges) {
   const modelling::PolygonMesh mesh = modelling::beveled_box({0, 0, 0}, {2, 2, 2}, 0.1);
   EXPECT_EQ(mesh.size(), 26U);
   EXPECT_TRUE(is_closed(mesh));
-  // 12 prisms of half a square's area over the inner length, and at each corner a cube of the
-  // bevel less the tetrahedron that stays.
+  // 12 prisms of half a square's area over the inner length, and at each corner a cube of the bevel
+  // without the tetrahedron that remains.
   const double edges = 12.0 * 0.5 * 0.01 * 1.8;
   const double corners = 8.0 * 0.001 * (5.0 / 6.0);
   EXPECT_NEAR(volume(mesh), 8.0 - edges - corners, 1e-12);
@@ -236,7 +236,7 @@ TEST(Subdivided, RefusesFewerThanThereAre) {
   EXPECT_THROW(modelling::subdivided_to(modelling::box({0, 0, 0}, {1, 1, 1}), 5),
                std::invalid_argument);
   EXPECT_THROW(modelling::subdivided_to(modelling::PolygonMesh{}, 1), std::invalid_argument);
-  // What a difference below zero becomes.
+  // The value that a negative difference becomes.
   EXPECT_THROW(modelling::subdivided_to(modelling::box({0, 0, 0}, {1, 1, 1}), std::size_t{0} - 1),
                std::invalid_argument);
 }

@@ -140,7 +140,7 @@ TEST(Finish, EachHasItsWordAndItsNumbers) {
   EXPECT_GT(finished_surface(Finish::kGlass).refraction_index, 1.0F);
 }
 
-/// Words of other programs before, between and after commands that must be read all the same.
+/// Words of other programs before, between and after commands that must still be read.
 class PrivateWord : public testing::TestWithParam<const char*> {};
 
 TEST_P(PrivateWord, IsSkippedAndReportedOnce) {
@@ -422,7 +422,7 @@ TEST(NffReader, UnreadableFilesAreRefused) {
   EXPECT_TRUE(says(thrown_message([] { nff::read_nff(kFolder); }), {kFolder, "folder"}));
 }
 
-/// Parses text that may be anything: it gives a scene or an InputError that names the place.
+/// Parses arbitrary text: it gives a scene or an InputError that names the place.
 void expect_scene_or_refusal(const std::string& text) {
   try {
     const Scene scene = parse(text).scene;
@@ -487,7 +487,7 @@ TEST(NffReader, TenMegabytesTakeWellUnderASecond) {
   }
   const auto start = std::chrono::steady_clock::now();
   EXPECT_EQ(parse(text.str()).scene.polygons.size(), 120000U);
-  // Some 100 ms in a release build; the bound only catches work that grows with the square.
+  // About 100 ms in a release build; the bound only catches quadratic work.
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
 }
 

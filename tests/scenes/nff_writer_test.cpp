@@ -22,8 +22,8 @@ std::string written(const Scene& scene) {
   return stream.str();
 }
 
-/// Everything that NFF is to keep, as words whose equality is that of bits. Polygons by the places
-/// of their vertices: which of them are shared is not kept.
+/// Everything that NFF must preserve, as words that are equal if the bits are. Polygons are
+/// represented by the places of their vertices, because the sharing of vertices is not preserved.
 class Contents {
  public:
   explicit Contents(const Scene& scene) : scene_(scene) {
@@ -90,7 +90,7 @@ class Contents {
   std::vector<std::uint32_t> words_;
 };
 
-/// Whether the written scene reads back the same, without a warning.
+/// Returns whether the written scene reads back the same, without a warning.
 testing::AssertionResult survives(const Scene& scene) {
   const nff::NffResult result = nff::parse_nff(written(scene), "test.nff", {.strict = true});
   if (Contents(result.scene) != Contents(scene)) {
@@ -121,7 +121,7 @@ TEST(NffWriter, ANameCannotLeaveItsComment) {
   EXPECT_TRUE(survives(std::move(builder).build()));
 }
 
-/// Numbers of all sizes that a scene may hold; now and then a special one.
+/// Numbers of all sizes that a scene may hold; sometimes a special one.
 class Numbers {
  public:
   explicit Numbers(std::uint64_t seed) : random_(seed) {}
@@ -211,7 +211,8 @@ RC_GTEST_PROP(NffWriter, AnySceneReadsBackTheSame, (std::uint64_t seed)) {
     try {
       add_something(builder, numbers);
     } catch (const InputError&) {
-      // Numbers that give no camera or primitive; the builder refuses them, and so do we.
+      // Numbers that do not give a camera or primitive are refused by the builder; skip them here,
+      // too.
     }
   }
   std::optional<Scene> built;
@@ -222,7 +223,7 @@ RC_GTEST_PROP(NffWriter, AnySceneReadsBackTheSame, (std::uint64_t seed)) {
   }
   const Scene& scene = *built;
   RC_ASSERT(survives(scene));
-  // The same but for the name of the first, which is in a comment.
+  // The same except for the name of the first, which is in a comment.
   const Scene again = nff::parse_nff(written(scene), "random").scene;
   RC_ASSERT(written(again) == written(scene));
 }

@@ -1,4 +1,4 @@
-// Scenes without primitives are refused, wherever they come from.
+// Scenes without primitives are refused, whatever their source.
 
 #include <cstdio>
 #include <cstdlib>
@@ -74,7 +74,7 @@ TEST_F(NoPrimitives, Utf16IsNamedAsSuch) {
   }
 }
 
-/// Loads a scene of a plug-in in a process of its own, whose catalogue alone has it.
+/// Loads a scene of a plug-in in a separate process, because only the catalogue there has it.
 void load_plugin_scene(const std::string& spec) {
   const auto nothing = [] { return SceneBuilder("nothing").build(); };
   register_plugin_scenes(

@@ -55,7 +55,7 @@ double area_of(const ImportedMesh& mesh) {
   return area;
 }
 
-/// Any number that a scene can hold, by its bits.
+/// Returns any number that a scene can hold, drawn by its bits.
 float drawn_float(Random& random) {
   for (;;) {
     const auto number = std::bit_cast<float>(static_cast<std::uint32_t>(random.below(1ULL << 32U)));
@@ -102,7 +102,7 @@ TEST_F(Obj, NumbersAreExactHoweverTheyAreWritten) {
   }
 }
 
-/// A star: its corners at rising angles, at any distances, so that it may be concave.
+/// Stars, with corners at rising angles and arbitrary distances, so that they may be concave.
 RC_GTEST_FIXTURE_PROP(Obj, ConcavePolygonsKeepTheirArea, ()) {
   const int count = *rc::gen::inRange(4, 14);
   std::string text;
@@ -369,7 +369,7 @@ TEST_F(Obj, LibrariesOutsideOfItsFolderAreNotRead) {
   EXPECT_TRUE(says(mesh.warnings[0], {"its materials were left out", "none.mtl", "No such file"}));
 }
 
-/// Reads in this process, so that a sanitizer sees what is wrong.
+/// Reads in this process, so that a sanitizer detects faults.
 TEST_F(Obj, ADamagedOneIsReadOrRefused) {
   folder_.write("m.mtl", "newmtl m\nKd 1 0 0\n");
   const std::string whole = "mtllib m.mtl\no name\ng a b\n" + tetrahedron_obj() +

@@ -19,7 +19,7 @@ std::string off_refusal(const std::string& text) { return refusal(text, "off"); 
 
 std::uint64_t tetrahedron_hash() { return imported_hash(tetrahedron_ply(), "ply"); }
 
-/// A tetrahedron after the header, with a text at the end of each vertex and of each face.
+/// A tetrahedron after the header, with a text at the end of each vertex and each face.
 std::string tetrahedron_rows(std::string_view of_vertex, std::string_view of_face) {
   std::string text;
   for (const char* vertex : {"0 0 0", "1 0 0", "0 2 0", "0 0 3"}) {
@@ -130,9 +130,9 @@ TEST(Off, APointCloudIsRefusedInWordsOfOurOwn) {
 TEST(Off, WhatIsNoNumberIsRefusedWithItsLine) {
   for (const char* word : {"1,5", "x", "1e", "0x1"}) {
     EXPECT_TRUE(says(off_refusal(triangle_off(fmt::format("0 {} 0", word))),
-                     {"a.off: line 3: vertex 0: ", fmt::format("'{}' is no number", word)}));
+                     {"a.off: line 3: vertex 0: ", fmt::format("'{}' is not a number", word)}));
     EXPECT_TRUE(says(off_refusal(triangle_off("0 0 0", fmt::format("3 0 1 2 {}", word))),
-                     {"a.off: line 6: face 0: ", fmt::format("'{}' is no number", word)}));
+                     {"a.off: line 6: face 0: ", fmt::format("'{}' is not a number", word)}));
   }
   EXPECT_TRUE(says(off_refusal(triangle_off("0 1.#QNAN 0")), {"line 3: vertex 0 has fewer"}))
       << "# begins a comment";

@@ -1,4 +1,4 @@
-// The planes in which a scene reflects.
+// The planes of a scene's mirrors.
 
 #include "scenes/planar_mirrors.hpp"
 
@@ -62,7 +62,7 @@ TEST(PlanarMirrors, AreNoBentPolygonsAndNoSmoothOnes) {
   EXPECT_TRUE(planar_mirrors(load_scene("escena1")).empty());    // spheres
 }
 
-// However a plane lies, the rounding of the corners of large polygons does not bend it.
+// However a plane is tilted, rounding the corners of large polygons does not bend it.
 TEST(PlanarMirrors, OfTiltedPlanesAreWhole) {
   for (int turn = 1; turn < 40; ++turn) {
     const double angle = 0.1 * turn;
@@ -75,7 +75,7 @@ TEST(PlanarMirrors, OfTiltedPlanesAreWhole) {
     std::size_t polygons = 0;
     for (const PlanarMirror& each : mirrors) polygons += each.polygons.size();
     EXPECT_EQ(polygons, 2U) << turn;
-    EXPECT_LE(mirrors.size(), 2U) << turn;  // two where it lies between cells of planes
+    EXPECT_LE(mirrors.size(), 2U) << turn;  // two if it lies between cells of planes
   }
 }
 

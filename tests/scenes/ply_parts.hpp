@@ -1,5 +1,5 @@
 #pragma once
-// Parts of PLY files, with a tetrahedron in them.
+// Parts of PLY files that contain a tetrahedron.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,13 +17,13 @@ namespace beambench::scenes::ply_parts {
 using tests::ply_file;
 using tests::PlyRow;
 
-/// The lines of the header for vertices.
+/// The header lines for vertices.
 inline std::string vertices(std::size_t count, std::string_view type = "float") {
   return fmt::format("element vertex {}\nproperty {} x\nproperty {} y\nproperty {} z\n", count,
                      type, type, type);
 }
 
-/// The lines of the header for faces.
+/// The header lines for faces.
 inline std::string faces(std::size_t count, std::string_view types = "uchar int") {
   return fmt::format("element face {}\nproperty list {} vertex_indices\n", count, types);
 }
@@ -54,13 +54,13 @@ inline std::vector<PlyRow> tetrahedron_faces(std::string_view length_type = "uch
   return rows;
 }
 
-/// Rows after each other.
+/// Concatenates rows.
 inline std::vector<PlyRow> operator+(std::vector<PlyRow> rows, const std::vector<PlyRow>& more) {
   rows.insert(rows.end(), more.begin(), more.end());
   return rows;
 }
 
-/// A text file of three vertices, the first of which is given, and a triangle.
+/// A text file with three vertices, the first of which is given, and a triangle.
 inline std::string triangle_ply(const std::string& first, const std::string& face = "3 0 1 2") {
   return ply_file("ascii", vertices(3) + faces(1), {}) + first + "\n1 0 0\n0 1 0\n" + face + "\n";
 }

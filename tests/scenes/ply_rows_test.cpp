@@ -60,7 +60,7 @@ TEST(PlyRows, VerticesThatAreNotThereAreRefused) {
   const std::string real = ply_file("ascii", vertices(3) + faces(1, "uchar float"), {});
   for (const char* index : {"1.5", "nan", "inf", "1e30"}) {
     EXPECT_TRUE(says(ply_refusal(real + "0 0 0\n1 0 0\n0 1 0\n3 0 1 " + index + "\n"),
-                     {"line 13: face 0: ", "no number of a vertex"}));
+                     {"line 13: face 0: ", "not the number of a vertex"}));
   }
   for (const std::string_view encoding : {kPlyEncodings[1], kPlyEncodings[2]}) {
     const std::string bytes = ply_file(
@@ -135,7 +135,7 @@ TEST(PlyRows, CoordinatesAreTheNearestFloats) {
   }
 }
 
-/// A decimal that is rounded to double first becomes the even one of two floats.
+/// A decimal that is first rounded to double becomes the even one of two floats.
 TEST(PlyRows, AFloatIsRoundedOnce) {
   const auto x = [](const std::string& text) {
     return triangles_of(imported(triangle_ply(text + " 0 0"), "ply"))[0][0].x;
@@ -145,7 +145,7 @@ TEST(PlyRows, AFloatIsRoundedOnce) {
   EXPECT_EQ(x("0.50000002980232238769531249999999999999999"), 0.5F);
 }
 
-/// Doubles that lie in the middle of two floats among them.
+/// Includes doubles halfway between two floats.
 TEST(PlyRows, DoublesAreTheSameInTextAndInBinary) {
   Random random(17);
   const auto drawn = [&] {

@@ -8,7 +8,8 @@
 namespace beambench::scenes {
 namespace {
 
-// Against the library's own, which is correct to one unit in the last place where we build.
+// Compared with the library's own functions, which are correct to one unit in the last place on our
+// build machines.
 
 TEST(PortableMath, SineAndCosine) {
   for (int i = -6000; i <= 6000; ++i) {

@@ -54,10 +54,10 @@ TEST(Excerpt, IsTheBeginningOfALongToken) {
 
 TEST(MessageLine, KeepsBothEndsOfALongMessage) {
   const std::string line =
-      message_line("a.nff:7: '" + std::string(1'000'000, 'x') + "' is no number;\ncorrect it\n");
+      message_line("a.nff:7: '" + std::string(1'000'000, 'x') + "' is not a number;\ncorrect it\n");
   EXPECT_LT(line.size(), 5000U);
   EXPECT_TRUE(line.starts_with("a.nff:7: 'xxx"));
-  EXPECT_TRUE(line.ends_with("x' is no number; correct it"));
+  EXPECT_TRUE(line.ends_with("x' is not a number; correct it"));
   EXPECT_NE(line.find(" ... "), std::string::npos);
 }
 

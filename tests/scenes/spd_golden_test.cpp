@@ -1,5 +1,5 @@
-// The SPD's own output (tests/golden/spd) against ours, coordinate by coordinate to the six digits
-// that were printed.
+// The SPD's own output (tests/golden/spd) compared with ours, coordinate by coordinate, to the six
+// printed digits.
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@
 namespace beambench::scenes {
 namespace {
 
-/// What NFF prints of a primitive, in one list.
+/// Returns the numbers that NFF prints of a primitive, in one list.
 std::vector<float> numbers(const Scene& scene, PrimitiveId id, bool sorted_corners) {
   const Primitive& primitive = scene.primitives[id];
   if (primitive.kind == PrimitiveKind::kSphere) {
@@ -39,8 +39,8 @@ std::vector<float> numbers(const Scene& scene, PrimitiveId id, bool sorted_corne
   return all;
 }
 
-/// Whether ours would be printed as that number: within half a unit of its sixth digit and the
-/// rounding of both to float. What the SPD printed as 1e-15 or so is 0.
+/// Returns whether ours would be printed as that number: within half a unit of its sixth digit and
+/// the rounding of both to float. Numbers that the SPD printed as about 1e-15 count as 0.
 bool agrees(float ours, float printed) {
   const double size = std::abs(double{printed});
   if (size < 1e-13) return std::abs(ours) < 1e-12F;
@@ -62,7 +62,7 @@ struct Golden {
   const char* file;
   const char* spec;
   bool whole;     ///< the file has all primitives
-  bool in_order;  ///< ours come in the SPD's order, and polygons begin at the same corner
+  bool in_order;  ///< ours are in the SPD's order, and polygons begin at the same corner
 };
 
 void PrintTo(const Golden& golden, std::ostream* stream) { *stream << golden.file; }
@@ -102,7 +102,7 @@ TEST_P(SpdOutput, HasOurPrimitives) {
       EXPECT_TRUE(same_surface(surface(ours_, ours), surface(printed_, id))) << id;
     }
     next = ours + 1;
-    found->clear();  // each of ours answers for one
+    found->clear();  // each of ours matches only one
   }
 }
 

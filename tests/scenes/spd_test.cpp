@@ -377,7 +377,7 @@ std::vector<std::array<float, 3>> places(const Scene& scene, PrimitiveId id) {
   return all;
 }
 
-/// At small sizes where the scene has one.
+/// Uses a small size if the scene has a size parameter.
 std::vector<std::string> small_specs() {
   std::vector<std::string> specs;
   for (const SceneInfo& info : scene_catalogue()) {

@@ -167,7 +167,7 @@ TEST(Stl, AFileWithoutFacetsIsRefusedInWordsOfOurOwn) {
   for (const std::string& none : {bytes, std::string("solid a\nendsolid a\n")}) {
     EXPECT_TRUE(says(stl_refusal(none), {"a.stl: ", "no triangle is in it", "no faces at all"}));
   }
-  EXPECT_TRUE(says(stl_refusal("These are no triangles."), {"a.stl: ", "no STL", "'solid'"}));
+  EXPECT_TRUE(says(stl_refusal("These are no triangles."), {"a.stl: ", "not an STL", "'solid'"}));
 }
 
 TEST(Stl, FacetsWithoutAreaAreLeftOutAndCounted) {

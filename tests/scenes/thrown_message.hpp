@@ -10,7 +10,8 @@
 
 namespace beambench::scenes {
 
-/// The message of the InputError that the call throws; "(nothing thrown)" when it throws none.
+/// Returns the message of the InputError that the call throws; "(nothing thrown)" if it throws
+/// none.
 template <typename Call>
 std::string thrown_message(Call call) {
   try {
@@ -21,7 +22,7 @@ std::string thrown_message(Call call) {
   return "(nothing thrown)";
 }
 
-/// Whether the message contains each of the words.
+/// Returns whether the message contains each of the words.
 inline ::testing::AssertionResult says(std::string_view message,
                                        std::initializer_list<std::string_view> words) {
   for (const std::string_view word : words) {

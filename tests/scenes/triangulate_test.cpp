@@ -23,7 +23,7 @@ namespace {
 using Corners = std::vector<glm::vec3>;
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-/// Twice the vector area (Newell).
+/// Returns twice the vector area (Newell).
 glm::dvec3 vector_area(const Corners& corners) {
   glm::dvec3 sum(0.0);
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -37,8 +37,8 @@ glm::dvec3 vector_area(const Corners& corners, const std::array<std::uint32_t, 3
   return vector_area({corners[a], corners[b], corners[c]});
 }
 
-/// A star-shaped polygon, concave as a rule, in a random plane at a random place; with `ratio` 1
-/// the corners lie on a circle and the polygon is convex.
+/// Returns a star-shaped polygon, usually concave, in a random plane at a random place; with
+/// `ratio` 1 the corners lie on a circle and the polygon is convex.
 Corners star(Random& random, std::size_t count, double ratio) {
   const auto direction = [&] {
     return glm::normalize(
@@ -59,8 +59,9 @@ Corners star(Random& random, std::size_t count, double ratio) {
   return corners;
 }
 
-/// The triangles tile the polygon: n - 2 of them, each with the polygon's winding, areas that sum
-/// to the polygon's (with equal windings, an overlap or an overhang would make the sum larger).
+/// Expects the triangles to tile the polygon: n - 2 triangles, each with the polygon's winding,
+/// whose areas sum to the polygon's (with equal windings, any overlap or overhang would make the
+/// sum larger).
 void expect_tiling(const Corners& corners) {
   const Triangles triangles = triangulate(corners);
   const glm::dvec3 whole = vector_area(corners);
@@ -111,7 +112,7 @@ TEST(Triangulate, ConcaveQuadIsCutAtItsReflexCorner) {
 }
 
 TEST(Triangulate, CornersOnAStraightEdgeAreKept) {
-  // A neighbor may share such a corner; without it in a triangle there would be a crack.
+  // A neighbor may share such a corner; if no triangle had it, there would be a crack.
   const Corners corners = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 2, 0}, {0, 2, 0}};
   const Triangles triangles = triangulate(corners);
   EXPECT_EQ(triangles.size(), 4U);
@@ -155,7 +156,7 @@ TEST(Triangulate, PolygonThatCrossesItselfStillEnds) {
 }
 
 /// The same clipping by looking at all corners at each step, for polygons in the plane z = 0 that
-/// run counter-clockwise: what the search for the next corner must not change.
+/// run counter-clockwise: the search for the next corner must not change the result.
 Triangles triangulate_by_looking_at_all(const Corners& corners) {
   struct Corner {
     std::uint32_t number;
@@ -213,7 +214,7 @@ TEST(Triangulate, TheSearchForEarsChangesNoTriangle) {
     SCOPED_TRACE(seed);
     Random random(seed);
     const std::size_t count = 3 + random.below(seed % 10 == 0 ? 300 : 40);
-    // Places of a small lattice give straight edges, equal corners and crossings; others do not.
+    // Places on a small lattice give straight edges, equal corners and crossings; others do not.
     const std::uint64_t lattice = std::array<std::uint64_t, 4>{4, 12, 100, 1U << 20U}[seed % 4];
     const bool crosses_itself = seed % 3 == 0;
     Corners corners;

@@ -1,4 +1,8 @@
+<<<<<<< HEAD:tests/thesis/census_test.cpp
 // What must be true of the census of a picture's rays.
+=======
+// Properties of the census of a picture's rays, and of a scene's growth.
+>>>>>>> main:tests/experiments/census_test.cpp
 
 #include "harness/thesis/census.hpp"
 

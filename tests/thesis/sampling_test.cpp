@@ -1,4 +1,4 @@
-// What must be true of the methods of sampling an image.
+// Properties of the methods of sampling an image.
 
 #include "harness/thesis/sampling.hpp"
 

@@ -1,4 +1,4 @@
-// tile-beam leaves out the backs of closed surfaces: no image may show it.
+// tile-beam leaves out the backs of closed surfaces: no image may reveal it.
 
 #include <algorithm>
 #include <cmath>
@@ -38,8 +38,7 @@ void turn_inside_out(PolygonMesh& mesh) {
   for (auto& corners : mesh.polygons) std::ranges::reverse(corners);
 }
 
-/// One to four bodies: apart, overlapping, in each other, touching, mirrored, inside out, with a
-/// hole.
+/// One to four bodies: apart, overlapping, nested, touching, mirrored, inside out, or with a hole.
 class Exhibit {
  public:
   Exhibit(const std::vector<Body>& bodies, std::uint64_t seed) : random_(seed) {
@@ -57,7 +56,7 @@ class Exhibit {
 
   const scenes::Scene& scene() const { return scene_; }
 
-  /// An eye anywhere around, in the middle of things, on a surface, or a little beside one.
+  /// Returns an eye anywhere around, in the middle, on a surface, or slightly beside one.
   PrimaryRays view() {
     const double extent = glm::length(dvec3(scene_.bounds.extent()));
     scenes::Camera camera;
@@ -106,7 +105,7 @@ class Exhibit {
     if (random_.below(6) == 0) mesh.polygons.pop_back();
   }
 
-  /// A place on a triangle, at times on its edge or corner, and the triangle's normal.
+  /// Returns a place on a triangle, sometimes on its edge or corner, and the triangle's normal.
   std::pair<dvec3, dvec3> on_surface() {
     const scenes::Triangle& triangle = scene_.triangles[random_.below(scene_.triangles.size())];
     const auto corner = [&](std::size_t i) { return dvec3(scene_.vertices[triangle.vertex[i]]); };
@@ -164,7 +163,7 @@ void add(Found& found, const scenes::Scene& scene, const TileBeam& structure,
   }
 }
 
-/// Of 25 views for each of as many scenes.
+/// Checks 25 views of each of `exhibits` scenes.
 void expect_right_views(std::uint64_t exhibits) {
   constexpr int kViews = 25;
   const std::vector<Body> bodies = tests::bodies();
@@ -188,7 +187,7 @@ void expect_right_views(std::uint64_t exhibits) {
   EXPECT_GT(solids, exhibits);  // otherwise nothing was tested
   EXPECT_EQ(culled.errors, 0U) << culled.first;
   EXPECT_EQ(whole.errors, 0U) << whole.first;
-  // What shows at silhouettes where a sample falls between two triangles is rounding either way.
+  // At silhouettes, a sample between two triangles may show either side due to rounding.
   EXPECT_LE(culled.grazes, whole.grazes + culled.rays / 100'000 + 2);
 }
 

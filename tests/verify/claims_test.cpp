@@ -1,5 +1,5 @@
-// Hits that a program reports, in every form: right ones pass, planted faults are found, and what
-// no hit can be is refused.
+// Hits that a program reports, in every form: correct ones pass, planted faults are found, and
+// impossible ones are refused.
 
 #include <cmath>
 #include <functional>
@@ -26,7 +26,7 @@ namespace {
 using rays::ClaimedHits;
 using rays::HitTable;
 
-/// A scene, rays, and the right hits in every form.
+/// A scene, rays, and the correct hits in every form.
 struct Traced {
   explicit Traced(scenes::Scene s) : scene(std::move(s)) {
     Random random(7);
@@ -49,7 +49,7 @@ struct Traced {
     }
   }
 
-  /// Any triangle of the polygon that is hit.
+  /// Returns any triangle of the polygon that is hit.
   std::uint32_t triangle_at(const accel::Hit& hit) const {
     const scenes::Primitive& primitive = scene.primitives[hit.primitive];
     if (primitive.kind != scenes::PrimitiveKind::kPolygon) return scenes::kNoPrimitive;
@@ -104,7 +104,7 @@ TEST(Claims, RightHitsPassInEveryForm) {
       }
       const DiffReport report = traced.verify(form.claims(traced.hits));
       EXPECT_EQ(report.count(DiffClass::kStructureError), 0U) << name << ", " << form.name;
-      // Rays aimed at edges graze, in whatever form their hits come.
+      // Rays aimed at edges graze, whatever the form of their hits.
       EXPECT_LE(report.count(DiffClass::kGraze), 20U) << name << ", " << form.name;
       EXPECT_EQ(report.rays, traced.rays.size());
       EXPECT_GT(report.hits, 100U);
@@ -231,7 +231,7 @@ TEST(Claims, WhatNoHitCanBeIsRefusedWithItsIndex) {
     HitTable table = traced.hits;
     spoil(table);
     ClaimVerifier verifier(traced.scene);
-    // The index counts over all parts, and a part that is refused does not count.
+    // The index counts over all parts, and a refused part does not count.
     verifier.add(std::span(traced.rays).first(2),
                  {.t = std::span(traced.hits.t).first(2),
                   .primitives = std::span(traced.hits.primitives).first(2)});
@@ -290,8 +290,8 @@ TEST(Claims, ArraysThatDoNotGoTogetherAreRefused) {
   }
 }
 
-// The ray just misses an upright triangle, which the program hits. Behind, at a grazing incidence,
-// it meets a level one, in whose plane the claimed place nearly lies.
+// The ray just misses an upright triangle, which the program reports. Behind it, at grazing
+// incidence, the ray meets a level one, whose plane nearly contains the claimed place.
 TEST(Claims, APlaceFarBesideThePrimitiveInItsPlaneIsNotOnIt) {
   scenes::SceneBuilder builder("level and upright");
   const glm::dvec3 level[] = {{5, 0, -2}, {9, 0, 0}, {5, 0, 2}};
@@ -309,7 +309,7 @@ TEST(Claims, APlaceFarBesideThePrimitiveInItsPlaneIsNotOnIt) {
   EXPECT_EQ(report.examples.front().answer->primitive, 1U);
 }
 
-// A program that computes points in double may put them a rounding before t_min.
+// A program that computes points in double may place them one rounding before t_min.
 TEST(Claims, APointAtTheBeginningOfTheRayIsInTheInterval) {
   const Traced traced(scenes::load_scene("tetra:n=2"));
   const std::size_t i = clear_hit(traced);

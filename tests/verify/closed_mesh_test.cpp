@@ -1,4 +1,5 @@
-// Closed meshes leak no light: each shadow ray between inside and outside is stopped, as a pencil.
+// Closed meshes do not leak light: each shadow ray between inside and outside is stopped, as a
+// pencil.
 
 #include <algorithm>
 #include <cstdint>
@@ -30,14 +31,14 @@ using tests::Body;
 using tests::direction_from;
 using tests::Placement;
 
-/// Rays between a light and points: one of them is inside of a body, the other outside.
+/// Rays between a light and points, one of which is inside a body and the other outside.
 class Sealed {
  public:
   Sealed(const Body& body, std::uint64_t seed)
       : body_(&body), random_(seed), placement_(random_), scene_(placed()) {}
 
   static constexpr std::size_t kRays = TileBeam::least_pencil(true);
-  /// Where half of the rays to a light inside pass; all others run anywhere.
+  /// The targets of half of the rays to a light inside; all others go anywhere.
   enum class Aim { kNearEdges, kAtEdgesAndCorners };
 
   const scenes::Scene& scene() const { return scene_; }
@@ -77,7 +78,7 @@ class Sealed {
   }
   dvec3 outside() { return random_.uniform(1.05, 4.0) * body_->reach * direction_from(random_); }
 
-  /// A corner of the mesh or a place between two of them.
+  /// Returns a corner of the mesh or a place between two of them.
   dvec3 on_edge() {
     const PolygonMesh::Corners& corners =
         body_->mesh.polygons[random_.below(body_->mesh.polygons.size())];
@@ -86,9 +87,9 @@ class Sealed {
     const dvec3& b = body_->mesh.vertices[corners[(first + 1) % 3]];
     return random_.below(3) == 0 ? a : a + random_.unit() * (b - a);
   }
-  /// As near as a few dozen roundings.
+  /// Returns a place within a few dozen roundings of an edge.
   dvec3 near_edge() { return on_edge() + 4e-6 * body_->reach * point_in_cube(random_); }
-  /// Outside, behind a place that hides the light inside.
+  /// Returns a place outside, behind one that hides the light inside.
   dvec3 beyond(const dvec3& place, const dvec3& light) const {
     return light + 2.1 * body_->reach * glm::normalize(place - light);
   }
@@ -99,7 +100,7 @@ class Sealed {
   scenes::Scene scene_;
 };
 
-/// Of as many random placements, by turns with the light inside and outside.
+/// Checks `placements` random placements, with the light alternately inside and outside.
 void expect_no_leak(std::uint64_t placements, Sealed::Aim aim = Sealed::Aim::kNearEdges) {
   const std::vector<Body> all = bodies();
   std::vector<std::uint8_t> hits(Sealed::kRays);
@@ -141,12 +142,12 @@ TEST(ClosedMeshes, LeakNoLightOnAnyInstructionSet) {
   }
 }
 
-/// Where edges meet, each triangle must cover what the others leave.
+/// Along common edges, each triangle must cover the rays that the others leave.
 TEST(ClosedMeshes, LeakNoLightAtEdgesAndCorners) {
   expect_no_leak(10'000, Sealed::Aim::kAtEdgesAndCorners);
 }
 
-/// More rays, so that pencils have several parts, and more triangles, so that they are small.
+/// Uses more rays, so that pencils have several parts, and more triangles, so that they are small.
 TEST(ClosedMeshes, LeakNoLightInLargePencils) {
   for (const char* name : {"bumpy:triangles=3072", "bumpy:triangles=48"}) {
     const scenes::Scene scene = scenes::load_scene(name);

@@ -1,4 +1,4 @@
-// tile-beam's images of cones of every shape, seen from everywhere, by the differ and on every
+// tile-beam's images of cones of every shape, from all viewpoints, checked by the differ on every
 // instruction set; and how rarely they need the canonical test.
 
 #include <algorithm>
@@ -30,7 +30,7 @@ namespace {
 using glm::dvec3;
 using tests::random_direction;
 
-/// 10 to a random power.
+/// Returns 10 to a random power.
 double magnitude(Random& random, double lowest, double highest) {
   return std::pow(10.0, random.uniform(lowest, highest));
 }
@@ -66,7 +66,7 @@ const std::vector<Shape>& shapes() {
   return kShapes;
 }
 
-/// A few cones of one shape about a place, some of them seen from the inside only.
+/// A few cones of one shape around a place, some of them visible only from the inside.
 scenes::Scene cones_of(const Shape& shape, double scale, const dvec3& place, Random& random) {
   scenes::SceneBuilder builder("cones");
   const auto count = 1 + random.below(8);
@@ -79,7 +79,7 @@ scenes::Scene cones_of(const Shape& shape, double scale, const dvec3& place, Ran
     try {
       builder.add_cone(base, sign * radius, base + scale * length * random_direction(random),
                        sign * apex_radius);
-    } catch (const InputError&) {  // far from the origin, a flat one may have no height in float
+    } catch (const InputError&) {  // far from the origin, a flat cone may have no height in float
     }
   }
   builder.add_sphere(place, 0.3 * scale);
@@ -89,8 +89,8 @@ scenes::Scene cones_of(const Shape& shape, double scale, const dvec3& place, Ran
 /// The eye and what it looks at.
 using View = std::pair<dvec3, dvec3>;
 
-/// Where cones are difficult: in and on the axis, beyond the tip, in the continued surface, at the
-/// continued tip, next to the surface.
+/// Views in which cones are difficult: in and on the axis, beyond the tip, in the continued
+/// surface, at the continued tip, next to the surface.
 std::vector<View> views_of(const scenes::Cone& cone, Random& random) {
   const dvec3 base(cone.base);
   const dvec3 axis = dvec3(cone.apex) - base;
@@ -120,7 +120,7 @@ std::vector<View> views_of(const scenes::Cone& cone, Random& random) {
   return views;
 }
 
-/// What was found over many images.
+/// Counts summed over many images.
 struct Tally {
   std::uint64_t rays = 0;
   std::uint64_t hits = 0;

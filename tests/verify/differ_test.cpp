@@ -1,4 +1,4 @@
-// The differ: right structures pass, planted faults do not.
+// The differ: correct structures pass, planted faults do not.
 
 #include <cmath>
 #include <limits>
@@ -51,7 +51,7 @@ TEST(Oracle, GivesTheExactAnswer) {
                       std::abs(found->t - exact->t) <= 1e-9 * (1.0 + exact->t)))) {
         continue;
       }
-      // What is left must be a tie or a graze.
+      // The remaining differences must be ties or grazes.
       ++not_equal;
       std::optional<accel::Hit> rounded;
       if (found) rounded = accel::Hit{static_cast<float>(found->t), found->primitive};
@@ -95,8 +95,7 @@ TEST(Differ, AcceptsEveryModeOfEmbree) {
 
 TEST(Differ, AcceptsEmbreesOwnConesAndInsideSpheres) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const scenes::Scene scene =
-        random_scene(4 * seed + 3, 40);  // neither snapped, repeated nor remote
+    const scenes::Scene scene = random_scene(4 * seed + 3, 40);  // not snapped, repeated or remote
     const accel::PrimaryRays rays(scene.cameras.front(), 64, 64, 1);
     const ReferenceHits reference(scene, rays);
     for (const std::string& mode : tests::embree_modes()) {
@@ -137,7 +136,7 @@ class FaultyBuffer : public ::testing::Test {
     builder.add_polygon(corners);
   }
 
-  /// The index of a pixel that sees the point.
+  /// Returns the index of a pixel that sees the point.
   std::size_t seeing(double x, double y, double z) const {
     const double scale = 0.5 * 65.0 / std::tan(25.0 * 3.14159265358979 / 180.0) / (4.0 - z);
     return buffer_.index(static_cast<int>(32.5 + x * scale), static_cast<int>(32.5 - y * scale), 0);
@@ -225,7 +224,7 @@ TEST_F(FaultyBuffer, RightPlaceWithTheWrongPrimitive) {
 }
 
 TEST_F(FaultyBuffer, FarSideOfTheSphereAndTheCone) {
-  // Both far points lie on the surface to the last bit, and are wrong all the same.
+  // Both far points lie on the surface to the last bit, but are nevertheless wrong.
   for (const auto& [index, id] : {std::pair(on_sphere(), kSphere), std::pair(on_cone(), kCone)}) {
     const accel::Hit before = *buffer_.get(index);
     accel::Ray ray = rays_.ray(static_cast<int>(index % 65), static_cast<int>(index / 65), 0);
@@ -333,7 +332,7 @@ class Grazing : public ::testing::Test {
     EXPECT_TRUE(exact && exact->primitive == id) << x << " " << y;
     return tests::class_of(scene_, ray, std::nullopt);
   }
-  /// K u near a place that a ray from 2 before it passes.
+  /// Returns K u near a place that is passed by a ray from 2 in front of it.
   static double unit(double x, double y) {
     const accel::Ray ray{{static_cast<float>(x), static_cast<float>(y), 2.0F}};
     return tolerance(ray, glm::dvec3(x, y, 0.0));
@@ -362,14 +361,14 @@ TEST_F(Grazing, IsWithinOneToleranceOfARim) {
 /// Rays that begin or end at a chosen distance from a surface's tangent plane, in units of K u.
 class EndsAtASurface : public ::testing::Test {
  protected:
-  /// Of each kind of primitive, a place on it where its normal is +z.
+  /// A place on a primitive of each kind where its normal is +z.
   struct Place {
     const char* kind;
     glm::dvec3 point;
   };
   static constexpr Place kPlaces[] = {
       {"triangle", {0.25, 0.125, 0.0}}, {"sphere", {-2.0, 0.0, 1.0}}, {"cone", {4.0, 0.25, 1.0}}};
-  /// Where a ray begins or ends, and how.
+  /// The end of the ray that is near the surface.
   enum class End { kOrigin, kTMin, kTMax };
 
   static scenes::Scene make_scene() {
@@ -381,8 +380,9 @@ class EndsAtASurface : public ::testing::Test {
     return std::move(builder).build();
   }
 
-  /// A ray above the surface but for one of its ends, at a plane distance (in K u, upward) from the
-  /// place, sloping so that it ends at twice the distance along its line.
+  /// Returns a ray above the surface except for one of its ends, which is at a plane distance (in K
+  /// u, upward) from the place; the ray slopes so that it ends at twice the distance along its
+  /// line.
   accel::Ray ray_at(const Place& place, End end, double tolerances, double length = 0.5) const {
     const glm::dvec3 slope(std::sqrt(0.75), 0.0, 0.5);
     const glm::dvec3 above = place.point + length * slope;
@@ -417,7 +417,7 @@ class EndsAtASurface : public ::testing::Test {
     return found;
   }
 
-  /// At some distance, with a structure that answers wrongly.
+  /// Expects a class for a structure with wrong results at that distance.
   void expect_class(double tolerances, DiffClass expected) const {
     for (const Place& place : kPlaces) {
       for (const End end : {End::kOrigin, End::kTMin, End::kTMax}) {
@@ -455,7 +455,7 @@ TEST_F(EndsAtASurface, AnyHitLostFartherBeforeIsAnError) {
   expect_class(-10.0, DiffClass::kStructureError);
 }
 
-// What is beyond an end excuses no hit on the way, nor does what is beyond the other end.
+// Surfaces beyond one end excuse neither a hit on the way nor one beyond the other end.
 TEST_F(EndsAtASurface, AnotherHitThatIsLostIsAnError) {
   for (const Place& place : kPlaces) {
     SCOPED_TRACE(place.kind);
@@ -482,7 +482,7 @@ TEST_F(EndsAtASurface, AnyHitReportedBesideATriangleIsAnError) {
 
 TEST(GrazeBudget, IsTwoForASmallImage) {
   // The middle column of pixels looks exactly along an edge of a triangle: a structure may see it
-  // there or not.
+  // or not.
   scenes::SceneBuilder builder("edge");
   const glm::dvec3 corners[] = {{0.0, -1.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
   builder.add_polygon(corners);

@@ -1,5 +1,5 @@
 #pragma once
-// The exact answers to closest-hit queries, and the classes of others.
+// Exact results of closest-hit queries, and the classes of other results.
 
 #include <optional>
 #include <vector>
@@ -17,7 +17,7 @@ inline std::optional<accel::oracle::ExactHit> exact_closest_hit(const scenes::Sc
   return found.empty() ? std::nullopt : std::optional(found.front().hit());
 }
 
-/// Returns kAgree, kTie or kGraze by exact arithmetic, or nullopt where the answer is wrong.
+/// Returns kAgree, kTie or kGraze by exact arithmetic, or nullopt for a wrong result.
 inline std::optional<verify::DiffClass> class_of(const scenes::Scene& scene, const accel::Ray& ray,
                                                  const std::optional<accel::Hit>& answer) {
   verify::Mismatch found{};

@@ -53,7 +53,7 @@ const Family kFamilies[] = {
     {"GeneralPosition", general, {}},
 };
 
-/// A result claimed for one ray, a closest hit or an occlusion, and whether it is right.
+/// A result claimed for one ray, a closest hit or an occlusion, and whether it is correct.
 struct Claim {
   accel::Ray ray;
   rays::Query query;
@@ -62,7 +62,8 @@ struct Claim {
   bool right;
 };
 
-/// The claims about one scene, and how many are neither right nor wrong clearly.
+/// The claims about one scene, and the number of those that are neither clearly correct nor clearly
+/// wrong.
 struct Claims {
   std::vector<Claim> decided;
   std::size_t undecided = 0;
@@ -123,7 +124,7 @@ Claims make_claims(const std::vector<Solid>& solids, const std::vector<accel::Ra
   return claims;
 }
 
-/// The judge's classes for claims of one query.
+/// Returns the judge's classes for claims of one query.
 std::vector<DiffClass> judged(const scenes::Scene& scene, const std::vector<const Claim*>& claims) {
   rays::RaySet set;
   set.query = claims.front()->query;
@@ -153,8 +154,8 @@ class Comparison {
     const std::vector<Solid> solids = solids_of(scene);
     const Claims claims = make_claims(solids, all_rays, random);
     undecided_ += claims.undecided;
-    // The judge counts disputes as errors after the 64th one: right claims come apart, wrong ones
-    // in small parts.
+    // The judge counts disputes as errors after the 64th one, so correct claims are kept separate
+    // and wrong ones come in small parts.
     constexpr std::size_t kPart = 48;
     for (const rays::Query query : {rays::Query::kClosestHit, rays::Query::kAnyHit}) {
       for (const bool right : {true, false}) {

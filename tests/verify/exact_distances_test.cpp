@@ -1,4 +1,4 @@
-// The distances that the judge's test compares, against the same in doubles and by trial.
+// The distances used by the judge's test, compared with doubles and with trials.
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,8 @@
 namespace beambench::exact {
 namespace {
 
-/// The unit normal of a surface at a point of it, in doubles; nothing at the apex of a cone.
+/// Returns the unit normal of a surface at one of its points, in doubles; nothing at the apex of a
+/// cone.
 std::optional<glm::dvec3> normal_at(const Solid& solid, const glm::dvec3& x) {
   if (const auto* sphere = std::get_if<Sphere>(&solid.shape)) {
     return glm::normalize(x - sphere->center.rounded());
@@ -68,7 +69,7 @@ TEST(ExactDistances, AcrossASurfaceTheyAreMeasuredAlongItsNormal) {
   EXPECT_GT(compared, 1000);
 }
 
-/// Whether some of many rays shifted by up to `within` crosses the cone otherwise.
+/// Returns whether any of many rays shifted by up to `within` crosses the cone differently.
 bool is_near_by_trial(const Cone& cone, const ExactRay& ray, double within, Random& random) {
   const std::array<int, 2> here = crossing_counts(cone, ray);
   for (int i = 0; i < 40; ++i) {

@@ -1,4 +1,4 @@
-// The exact crossings and decisions of the judge's test, on configurations whose answers are known.
+// The exact crossings and decisions of the judge's test, on configurations with known results.
 
 #include <cmath>
 #include <limits>
@@ -46,7 +46,7 @@ class ExactGeometry : public ::testing::Test {
   bool wrong(const accel::Ray& of, const std::optional<accel::Hit>& claim) const {
     return !Acceptance(traced(of), kGenerous).accepts(claim);
   }
-  /// The tolerance K u where the ray is at distance 1 of the origin of the coordinates.
+  /// Moves t by the tolerance K u at distance 1 from the coordinate origin.
   static float moved(float t, double units) {
     return static_cast<float>(t + units * 16.0 * 0x1p-24 * 8.0);
   }
@@ -106,7 +106,7 @@ TEST_F(ExactGeometry, IntervalTakesTheNearestFloat) {
   // Half of the smallest float rounds to zero, the even one.
   EXPECT_TRUE(met(0.0F, 1.0F, {0.25F, 0x1p-149F, 0.125F}, {0.0F, 2.0F, 0.0F}));
   EXPECT_FALSE(met(0.0F, 1.0F, {0.25F, 0x1p-148F, 0.125F}, {0.0F, 2.0F, 0.0F}));
-  // Beyond the largest float there is no hit.
+  // Beyond the largest float there are no hits.
   const glm::vec3 far(0.25F, 1e9F, 0.125F);
   EXPECT_TRUE(met(0.0F, accel::kInfinity, far, {0.0F, -3e-30F, 0.0F}));
   EXPECT_FALSE(met(0.0F, accel::kInfinity, far, {0.0F, -2e-30F, 0.0F}));
@@ -200,7 +200,7 @@ TEST_F(ExactGeometry, BoundariesAreFoundAtTheirDistance) {
     }
     EXPECT_FALSE(near(2, 0x1p-12, 0x1p-14, doubt)) << "the apex";
   }
-  // Rays on both sides of an apex that is seen from above cross the cone alike.
+  // Rays on both sides of an apex seen from above cross the cone in the same way.
   EXPECT_TRUE(near(2, 0x1p-12, 0x1.1p-12, Doubt::kFavors)) << "the apex";
   EXPECT_FALSE(near(2, 0x1p-12, 0x1.1p-12, Doubt::kOpposes)) << "the apex";
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What a failed verification shows.
+// Output of a failed verification.
 
 #include <string>
 
@@ -8,7 +8,7 @@
 
 namespace beambench::tests {
 
-/// The first disputed ray, described; empty where there is none.
+/// Describes the first disputed ray; empty if there is none.
 inline std::string first_example(const verify::ReferenceHits& reference,
                                  const verify::DiffReport& report) {
   return report.examples.empty()

@@ -1,4 +1,4 @@
-// Cones of hardly any height, down to rings: hits are right, and verified right.
+// Cones of nearly zero height, down to rings: hits are correct, and verified as such.
 
 #include <cmath>
 #include <optional>
@@ -48,8 +48,9 @@ accel::HitBuffer traced(const std::string& structure, const scenes::Scene& scene
   return std::get<accel::HitBuffer>(std::move(results));
 }
 
-/// Where the ray meets the ring that the cone is, near enough; nothing beside it. `unsure` when it
-/// passes within `margin` of a rim, or so nearly in the ring's plane that its height counts.
+/// The expected hit with the ring that the cone resembles, to sufficient accuracy; nothing beside
+/// it. `unsure` if the ray passes within `margin` of a rim, or so nearly in the ring's plane that
+/// the cone's height matters.
 struct Expected {
   std::optional<double> t;
   bool unsure;

@@ -1,6 +1,6 @@
-// The judge in the situations in which it was found wrong: ends of rays on surfaces, huge floors
-// beside small objects, crossings behind grazed ones, short directions. Then all structures over
-// random scenes: BEAMBENCH_JUDGE_SCENES=N in the environment requests that many.
+// The judge in situations in which it was once wrong: ends of rays on surfaces, huge floors beside
+// small objects, crossings behind grazed ones, short directions. Then all structures over random
+// scenes: BEAMBENCH_JUDGE_SCENES=N in the environment requests that many.
 
 #include <algorithm>
 #include <cmath>
@@ -114,7 +114,7 @@ TEST(EndsOfRays, StructuresAreRightAboutALightOnASurface) {
   expect_right(scene, rays, {"embree", "tile-beam"}, 2);
 }
 
-// t_max is the float of the ray's own t, which is closed.
+// t_max is the float of the ray's own t, and the interval is closed.
 TEST(EndsOfRays, ARayThatEndsAtItsOwnHitHasIt) {
   std::uint64_t ended = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
@@ -161,7 +161,7 @@ TEST(EndsOfRays, AnEyeOnASphereSeesItOrLooksAway) {
   expect_right(scene, made_rays(scene, "primary", 33), {"exhaustive", "samet", "sah-bvh"});
 }
 
-/// Claims of closest hits, each judged alone.
+/// Returns the classes of closest-hit claims, each judged separately.
 DiffClass judged(const scenes::Scene& scene, const Ray& ray, const std::optional<Hit>& claim) {
   rays::RaySet set;
   set.rays = {ray};
@@ -191,7 +191,7 @@ TEST(Ties, AreNotFarBehindTheNearerSurface) {
   }
 }
 
-// The other way round: what stands behind the floor that a ray sinks into at a grazing incidence.
+// The reverse: an object behind a floor that the ray sinks into at grazing incidence.
 TEST(Ties, AreNotFarBehindAGrazingSurfaceEither) {
   scenes::SceneBuilder builder("sinking");
   const dvec3 floor[] = {{-900.0, 0.0, -900.0}, {900.0, 0.0, -900.0}, {0.0, 0.0, 900.0}};
@@ -283,8 +283,8 @@ TEST(ShortAndLongDirections, AreJudgedAlike) {
   }
 }
 
-// Embree flushes denormals while it builds, and leaves that mode to the parallel loops of a thread
-// whose first one is its own: the judge's are not to inherit it.
+// Embree flushes denormals during its builds, and parallel loops inherit that mode from a thread
+// whose first loop was Embree's. The judge's loops must not.
 TEST(ShortAndLongDirections, DenormalComponentsCount) {
   scenes::SceneBuilder builder("ceiling");
   add_level(builder, 1.5, 3.0);
@@ -299,7 +299,7 @@ TEST(ShortAndLongDirections, DenormalComponentsCount) {
       .join();
 }
 
-// A t that no float can hold is not a hit, whatever t_max is.
+// A t that is too large for float is not a hit, whatever t_max is.
 TEST(ShortAndLongDirections, HitsBeyondTheLargestFloatAreMisses) {
   scenes::SceneBuilder builder("far");
   add_rectangle(builder, {-1e9, -1e9, -1e9}, {2e9, 0.0, 0.0}, {0.0, 2e9, 0.0});
@@ -317,7 +317,7 @@ TEST(ShortAndLongDirections, HitsBeyondTheLargestFloatAreMisses) {
   expect_right(scene, input, {"exhaustive", "samet", "sah-bvh", "kd-tree"});
 }
 
-// An exact answer that the oracle lacks is right, and not a graze.
+// An exact hit that the oracle misses is correct, and not a graze.
 TEST(Disputes, ExactAnswersAreNeverGrazes) {
   const scenes::Scene scene = stack_of_triangles();
   rays::RaySet set;

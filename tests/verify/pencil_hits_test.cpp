@@ -1,5 +1,5 @@
-// tile-beam's hits of pencils, by the differ: shadow rays toward lights anywhere, what planar
-// mirrors show, on every instruction set and on several threads.
+// tile-beam's hits of pencils, checked by the differ: shadow rays toward lights anywhere, and
+// reflections in planar mirrors, on every instruction set and on several threads.
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +36,7 @@ using tests::random_direction;
 
 struct Outcome {
   DiffReport report;
-  DiffReport single;            ///< of the same rays, not marked
+  DiffReport single;            ///< of the same rays, unmarked
   std::uint64_t differing = 0;  ///< rays that hit in one and miss in the other
   std::uint64_t beams = 0;      ///< parts of pencils that were traced together
 };
@@ -80,7 +80,7 @@ void expect_right(const Outcome& outcome) {
     }
     break;
   }
-  // Whether a ray hits at all is the same as of single rays, except where the differ says graze.
+  // Hits and misses are the same as for single rays, except where the differ reports a graze.
   EXPECT_LE(outcome.differing,
             outcome.report.count(DiffClass::kGraze) + outcome.single.count(DiffClass::kGraze));
 }
@@ -89,8 +89,8 @@ rays::ImageOfRays image_over(const scenes::Scene& scene, int width, int height, 
   return rays::image_of(scene.cameras.front(), rays::Resolution{width, height}, samples);
 }
 
-/// Returns how many parts of pencils there were: tests whose rays are too few for pencils must not
-/// pass unseen.
+/// Returns the number of parts of pencils: tests with too few rays for pencils must not pass
+/// unnoticed.
 std::uint64_t expect_right_over(const scenes::Scene& scene, const rays::ImageOfRays& image,
                                 const char* kind) {
   try {
@@ -98,7 +98,7 @@ std::uint64_t expect_right_over(const scenes::Scene& scene, const rays::ImageOfR
         verified(scene, rays::make_trace_input(scene, image, rays::parse_ray_choice(kind)));
     expect_right(outcome);
     return outcome.beams;
-  } catch (const rays::NoRaysError&) {  // of some random scenes the camera sees nothing
+  } catch (const rays::NoRaysError&) {  // in some random scenes the camera sees nothing
     return 0;
   }
 }
@@ -113,8 +113,8 @@ double size_of(const scenes::Scene& scene) {
   return glm::length(dvec3(scene.bounds.upper) - dvec3(scene.bounds.lower)) + 1e-3;
 }
 
-/// Anywhere about a scene, on and near its surfaces, in the planes of its faces, close to it and
-/// far away.
+/// Lights anywhere around a scene, on and near its surfaces, in the planes of its faces, close to
+/// it and far away.
 std::vector<scenes::Light> awkward_lights(const scenes::Scene& scene, Random& random) {
   const dvec3 middle = 0.5 * (dvec3(scene.bounds.lower) + dvec3(scene.bounds.upper));
   const double size = size_of(scene);
@@ -155,8 +155,8 @@ TEST(PencilHits, OfRandomScenesAndAwkwardLightsAreRight) {
   EXPECT_GT(beams, 1500U);
 }
 
-/// From 1e-6 to 1e6 scene sizes away, each power of ten: from the scene's middle, from a triangle
-/// on both of its sides, and from a sphere and a cone, inside and outside.
+/// Lights at every power of ten from 1e-6 to 1e6 scene sizes: from the scene's center, from a
+/// triangle on both of its sides, and from a sphere and a cone, inside and outside.
 std::vector<scenes::Light> lights_at_every_distance(const scenes::Scene& scene, Random& random) {
   const dvec3 middle = 0.5 * (dvec3(scene.bounds.lower) + dvec3(scene.bounds.upper));
   std::vector<scenes::Light> lights;
@@ -191,7 +191,8 @@ std::vector<scenes::Light> lights_at_every_distance(const scenes::Scene& scene, 
   return lights;
 }
 
-/// Of every four seeds this one gives a scene whose coordinates are much larger than its size.
+/// Returns whether the seed gives a scene whose coordinates are much larger than its size: one in
+/// four.
 bool is_remote(std::uint64_t seed) { return seed % 4 == 2; }
 
 TEST(PencilHits, OfLightsAtEveryDistanceAreRight) {
@@ -227,7 +228,8 @@ TEST(PencilHits, OfLightsAtEveryDistanceFromRemoteScenesAreRight) {
   EXPECT_GT(beams, 2000U);
 }
 
-/// Leaves of grass before the camera, on a ground of four kilometers under a light as far away.
+/// Blades of grass in front of the camera, on four kilometers of ground under an equally distant
+/// light.
 scenes::Scene grass(std::uint64_t seed) {
   scenes::SceneBuilder builder("grass");
   const auto ground = [](double x, double z) { return dvec3(x, 0.0, z); };
@@ -247,9 +249,9 @@ scenes::Scene grass(std::uint64_t seed) {
   return std::move(builder).build();
 }
 
-// Float rounds places on the side of the cube about the light to a quarter of a millimeter here,
-// and rays that pass a leaf by as much were called shadowed: 14 with the first seed. Of needles
-// some are still.
+// Here, float rounds places on the side of the cube around the light to a quarter of a millimeter,
+// and rays that missed a blade by that distance were reported as shadowed: 14 with the first seed.
+// For needles, a few still are.
 TEST(PencilHits, OfSmallDetailsInLargeScenesAreRight) {
   for (const std::uint64_t seed : {1, 2}) {
     const scenes::Scene scene = grass(seed);
@@ -262,8 +264,8 @@ TEST(PencilHits, OfSmallDetailsInLargeScenesAreRight) {
   }
 }
 
-// A triangle that a light sees at a ten-thousandth of its extent is narrower, seen from there, than
-// its edges are moved outward: two rays of 34,011 were called shadowed by it.
+// A triangle that a light sees almost edge-on, at a ten-thousandth of its extent, is narrower from
+// there than the margin of its edges: two of 34,011 rays were reported as shadowed by it.
 TEST(PencilHits, OfTrianglesSeenEdgeOnAreRight) {
   const scenes::Scene scene = scenes::load_scene("delfines");
   const Outcome outcome = verified(scene, rays::make_trace_input(scene, image_over(scene, 320, 240),
@@ -272,11 +274,11 @@ TEST(PencilHits, OfTrianglesSeenEdgeOnAreRight) {
   EXPECT_EQ(outcome.differing, 0U);
 }
 
-/// Corners of the octree's cells, places on their edges and faces, and the same of the boxes of the
-/// hierarchy that the pencils traverse; both also beyond the scene.
+/// Corners of the octree's cells, places on their edges and faces, and the same for the boxes of
+/// the hierarchy that the pencils traverse; both also beyond the scene.
 std::vector<scenes::Light> lights_on_borders(const scenes::Scene& scene, Random& random) {
   std::vector<scenes::Light> lights;
-  // Of one axis on a border, two, or all three.
+  // Puts one, two or all three axes on a border.
   const auto add = [&](auto border, const dvec3& elsewhere) {
     for (int borders = 1; borders <= 3; ++borders) {
       dvec3 place = elsewhere;
@@ -416,7 +418,7 @@ TEST(PencilHits, CountingChangesNoHit) {
   }
 }
 
-/// What a structure finds for rays; it may count its work.
+/// Returns the hits that a structure finds for rays; it may count its work.
 rays::TraceResults found_by(const TileBeam& structure, const rays::TraceInput& input,
                             accel::WorkCounters* counters) {
   rays::TraceResults results = rays::make_results(input);
@@ -455,9 +457,9 @@ TEST(PencilHits, DoNotDependOnTheThreads) {
   }
 }
 
-/// Shadow rays that pass edges of triangles within some roundings of a place, seen from a light
-/// several times as far away as the triangles are from the origin of the coordinates: there these
-/// roundings are more than K u.
+/// Shadow rays that pass edges of triangles within several roundings, seen from a light several
+/// times as far away as the triangles are from the coordinate origin, where these roundings exceed
+/// K u.
 TEST(PencilHits, PassEdgesFarFromTheLightAsSingleRaysDo) {
   constexpr int kScenes = 60;
   constexpr std::size_t kRays = 4096;

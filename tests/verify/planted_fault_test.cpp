@@ -1,4 +1,4 @@
-// A fault planted in a structure turns the verdict, however small it is.
+// A fault planted in a structure changes the verdict, however small it is.
 
 #include <cstdint>
 #include <optional>
@@ -14,20 +14,20 @@
 namespace beambench::verify {
 namespace {
 
-/// A scene, and the level at which some leaf is the only one to know what is hit in it: spheres,
-/// being found again where the ray leaves them, need large leaves.
+/// A scene, and the level at which some leaf is the only one that finds the primitive hit in it. A
+/// sphere is also found where the ray leaves it, so it needs large leaves.
 struct SceneAndLevel {
   const char* scene;
   int max_level;
 };
 
-/// What is wrong with a `FaultySamet`. Leaves are named by their index among the nodes.
+/// The fault of a `FaultySamet`. Leaves are identified by their index among the nodes.
 struct SametFault {
   std::optional<std::size_t> skipped_leaf;
   std::optional<std::uint32_t> dropped_reference;  ///< index into the octree's references
 };
 
-/// Samet's structure, but for one fault.
+/// Samet's structure with one fault.
 class FaultySamet : public accel::TraversalAccelerator<FaultySamet> {
  public:
   FaultySamet(const scenes::Scene& scene, const accel::octree::OctreeOptions& options,
@@ -80,7 +80,7 @@ class PlantedFault : public ::testing::TestWithParam<SceneAndLevel> {
     return verify_results(reference_, buffer, accel::Conformance::kBitExact);
   }
 
-  /// The leaf in which some ray finds its hit, and the reference that is hit there.
+  /// Returns the leaf in which some ray finds its hit, and the reference that is hit there.
   SametFault where_a_hit_is_found(bool whole_leaf) const {
     const FaultySamet sound(scene_, options_, {});
     const accel::octree::Octree& octree = sound.octree();
@@ -104,7 +104,7 @@ class PlantedFault : public ::testing::TestWithParam<SceneAndLevel> {
       };
       accel::octree::walk_leaves(octree, accel::octree::AncestorNeighbors(octree), ray, none,
                                  look_for_hit);
-      if (leaves == 1) return fault;  // no other leaf on the whole path knows the primitive
+      if (leaves == 1) return fault;  // no other leaf on the whole path refers to the primitive
     }
     ADD_FAILURE() << "no ray finds its hit in one leaf alone";
     return fault;

@@ -1,4 +1,4 @@
-// A mismatch can be looked at again: its report holds a command that works when it is pasted.
+// A mismatch can be examined again: its report contains a command that works when pasted.
 
 #include <algorithm>
 #include <cstdlib>
@@ -93,7 +93,7 @@ TEST(ReplayCommand, NamesWhatIsNotTheDefault) {
             "--resolution 32x20");
 }
 
-/// The line of a text that begins with `beginning`.
+/// Returns the line of a text that begins with `beginning`.
 std::string line_of(const std::string& text, const std::string& beginning) {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
@@ -102,7 +102,7 @@ std::string line_of(const std::string& text, const std::string& beginning) {
   return "no line begins with '" + beginning + "' in: " + text;
 }
 
-/// A scene whose name a shell would take apart, and hits that a test makes wrong.
+/// A scene whose name a shell would split, and hits that a test corrupts.
 class PlantedMismatch : public ::testing::Test {
  protected:
   static constexpr int kSamples = 4;
@@ -114,7 +114,7 @@ class PlantedMismatch : public ::testing::Test {
     scene_ = scenes::load_scene((folder_.path() / "it's $one.nff").string());
   }
 
-  /// Runs a command as it would be pasted, with the real program on PATH.
+  /// Runs a command as pasted, with the real program on PATH.
   std::string paste(const std::string& command, int expected_exit_code) const {
     const std::string bin = std::filesystem::path(BEAMBENCH_BINARY).parent_path().string();
     const std::string file = (folder_.path() / "out").string();

@@ -1,4 +1,4 @@
-// Awkward scenes: no structure errs on them, by any kind of rays, on any instruction set.
+// Awkward scenes: no structure fails on them, with any kind of rays, on any instruction set.
 //
 // BEAMBENCH_FAMILY_SCENES=1000 in the environment requests more of them, BEAMBENCH_FAMILY_SEED=N
 // for others.
@@ -29,15 +29,15 @@
 namespace beambench::verify {
 namespace {
 
-/// A structure held to one instruction set.
+/// A structure restricted to one instruction set.
 struct Contender {
   std::string label;
   accel::Conformance conformance;
   std::unique_ptr<accel::Accelerator> structure;
 };
 
-/// Every structure, with its defaults or with random parameters, on every instruction set that it
-/// can be held to.
+/// Returns every structure, with its defaults or with random parameters, on every instruction set
+/// to which it can be restricted.
 std::vector<Contender> contenders_over(const scenes::Scene& scene, Random& random) {
   std::vector<Contender> all;
   for (const accel::StructureInfo& info : accel::registry().structures()) {
@@ -78,7 +78,7 @@ std::string first_error(const scenes::Scene& scene, const rays::TraceInput& inpu
 constexpr const char* kKinds[] = {"primary", "shadow",       "reflection",     "mirror",
                                   "diffuse", "ao:samples=4", "path:bounces=3", "random"};
 
-/// One scene with its rays, and how the structures do.
+/// One scene with its rays, and the results of the structures.
 class Trial {
  public:
   explicit Trial(std::uint64_t seed) : scene_(family_scene(seed)), random_(seed) {
@@ -90,7 +90,7 @@ class Trial {
       try {
         references_.emplace_back(
             scene_, rays::make_trace_input(scene_, image, rays::parse_ray_choice(kind)));
-      } catch (const InputError&) {  // nothing is hit for rays to start from
+      } catch (const InputError&) {  // there are no hits for rays to start from
       }
     }
   }
@@ -177,8 +177,8 @@ accel::HitBuffer image_on(std::int64_t target, const std::string& name, const sc
   return image;
 }
 
-/// Sample for sample, every instruction set against every other: equal bits where structures are
-/// bit-exact, otherwise both right by the exact crossings.
+/// Compares every instruction set with every other, sample by sample: equal bits for bit-exact
+/// structures, otherwise both correct by the exact crossings.
 TEST(SceneFamilies, EveryInstructionSetReturnsTheSame) {
   const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
   ASSERT_GE(targets.size(), 2U);

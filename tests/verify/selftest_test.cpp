@@ -1,4 +1,4 @@
-// The self-test can fail: for each of its checks there is a fault that it finds.
+// The self-test can fail: each of its checks detects a fault.
 
 #include "harness/verify/selftest/selftest.hpp"
 
@@ -114,7 +114,7 @@ Subject subject_of(const accel::StructureInfo& info) {
   return Subject(accel::StructureChoice(info, Parameters(info.name, info.parameters, {})));
 }
 
-/// `info` must outlive what failed.
+/// Runs a check. `info` must outlive a failure.
 CheckOutcome outcome_of(std::string_view name, const accel::StructureInfo& info) {
   const Subject subject = subject_of(info);
   for (const Check& check : selftest_checks()) {
@@ -135,7 +135,7 @@ TEST(Selftest, PassesWhatIsRight) {
   }
 }
 
-/// Exhaustive search that refuses all but some kinds of primitives.
+/// Exhaustive search that refuses most kinds of primitives.
 accel::StructureInfo picky(PrimitiveKinds takes) {
   return {"picky",
           "not everything",
@@ -166,7 +166,7 @@ TEST(Selftest, TracesThePrimitivesThatAreTaken) {
   }
 }
 
-/// Snapping leaves one primitive in a hundred degenerate. Over an empty scene, places are not
+/// Snapping makes one primitive in a hundred degenerate. Over an empty scene, places would not be
 /// numbers.
 TEST(Selftest, RandomScenesAreNotEmptyAndTheirRaysAreNumbers) {
   for (std::uint64_t seed = 102'500; seed < 104'500; ++seed) {

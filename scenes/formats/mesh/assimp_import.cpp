@@ -30,12 +30,12 @@
 namespace beambench::scenes::mesh {
 namespace {
 
-/// Serves the mesh file from memory and its companions, read-only. Outlives what Assimp reads with
-/// it.
+/// Serves the mesh file from memory and its companions, read-only. Outlives everything that Assimp
+/// reads through it.
 class AssimpFiles : public Assimp::IOSystem {
  public:
-  /// The mesh is known as `name`, in the folder of the companions, and has these bytes; they and
-  /// the companions must outlive this object.
+  /// Serves `bytes` as the mesh `name` in the folder of the companions. The bytes and the
+  /// companions must outlive this object.
   AssimpFiles(std::string name, std::string_view bytes, MeshCompanions& companions)
       : name_(std::move(name)), bytes_(bytes), companions_(&companions) {}
 
@@ -53,8 +53,8 @@ class AssimpFiles : public Assimp::IOSystem {
   std::filesystem::path relative(const std::filesystem::path& name) const {
     return name.lexically_relative(companions_->folder());
   }
-  /// None of a companion that cannot or must not be read; how that matters depends on Assimp's
-  /// importer.
+  /// Returns nothing for a companion that cannot or must not be read; the effect of that depends on
+  /// Assimp's importer.
   std::string_view companion_bytes(const char* name) {
     try {
       return companions_->read(relative(name));
@@ -95,8 +95,8 @@ bool is_default(const aiMaterial& material) {
          std::string_view(name.C_Str()) == AI_DEFAULT_MATERIAL_NAME;
 }
 
-/// Color and transparency of a material. A black one with a texture is as gray as textures are on
-/// average.
+/// Color and transparency of a material. A black material with a texture gets the gray of an
+/// average texture.
 Surface surface_of(const aiMaterial& material) {
   Surface surface = clay();
   aiColor3D color;
@@ -114,7 +114,7 @@ Surface surface_of(const aiMaterial& material) {
   return surface;
 }
 
-/// Moves one of Assimp's meshes over; how many of its faces are points and lines.
+/// Moves one of Assimp's meshes over. Returns how many of its faces are points or lines.
 std::size_t collect(const aiMesh& mesh, MeshCollector& collector) {
   std::size_t others = 0;
   for (const aiFace& face : std::span(mesh.mFaces, mesh.mNumFaces)) {
@@ -138,7 +138,7 @@ std::size_t collect(const aiMesh& mesh, MeshCollector& collector) {
   return others;
 }
 
-/// What Assimp makes of the file. Throws InputError with Assimp's message where that is nothing.
+/// Reads the file with Assimp. Throws InputError with Assimp's message on failure.
 const aiScene& read_scene(Assimp::Importer& importer, const std::string& name,
                           const std::filesystem::path& path) {
   constexpr const char* kRemedy = "export it again, or convert it to another format";
@@ -153,7 +153,7 @@ const aiScene& read_scene(Assimp::Importer& importer, const std::string& name,
 
 ImportedMesh import_by_assimp(std::string_view bytes, const std::string& ending,
                               const std::filesystem::path& path) {
-  // Assimp learns the format from the name; a packed file's would say .gz.
+  // Assimp derives the format from the name; the name of a packed file would end with .gz.
   MeshCompanions companions(path, bytes.size());
   const std::string name = (companions.folder() / ("mesh." + ending)).string();
   Assimp::Importer importer;

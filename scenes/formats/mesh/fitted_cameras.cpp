@@ -17,8 +17,8 @@ namespace beambench::scenes::mesh {
 namespace {
 
 constexpr double kMargin = 1.08;
-/// The smallest distance of an eye from what it looks at, relative to the size of the coordinates:
-/// nearer, both might be the same place in float.
+/// The smallest distance between an eye and what it looks at, relative to the size of the
+/// coordinates: any nearer, the two might be the same place in float.
 constexpr double kMinDistance = 1e-5;
 
 /// A direction by its parts to the right, to the top and to the front of the mesh.
@@ -54,9 +54,9 @@ ImageAxes image_axes(const View& view, const Orientation& mesh) {
   return axes;
 }
 
-/// How far an eye at (u, v, distance) must be shifted and moved back, so that all points lie within
-/// `slope` to all sides: a point (x, z) does where x - u and u - x are at most slope (distance -
-/// z).
+/// The necessary shift of an eye at (u, v, distance), sideways and back, so that all points lie
+/// within `slope` on all sides. For a point (x, z) this means that x - u and u - x are at most
+/// slope (distance - z).
 struct Fit {
   double u = 0.0;
   double v = 0.0;

@@ -12,10 +12,10 @@
 
 namespace beambench::scenes::mesh {
 
-/// Standard views of these points, as in modelling programs: `three-quarter` (from in front, the
-/// right and above), `front`, `side` (from the right) and `top`. Each sees all points and fills the
-/// frustum of 45 degrees with them, but for a small margin. None where there is no point, or where
-/// an eye would be beyond the limit of coordinates.
+/// Returns standard views of these points, as in modelling programs: `three-quarter` (from the
+/// front, the right and above), `front`, `side` (from the right) and `top`. Each shows all points
+/// and fills a frustum of 45 degrees with them, except for a small margin. Returns no views if
+/// there are no points, or if an eye would be beyond the limit of coordinates.
 std::vector<Camera> fitted_cameras(std::span<const glm::vec3> points,
                                    const Orientation& orientation);
 

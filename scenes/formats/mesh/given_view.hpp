@@ -1,5 +1,5 @@
 #pragma once
-// Cameras and lights that a mesh comes with.
+// Cameras and lights supplied with a mesh.
 
 #include <vector>
 
@@ -8,8 +8,8 @@
 
 namespace beambench::scenes::mesh {
 
-/// How a mesh is looked at, as a person chose or its file says. Of a closed interior, everything
-/// that is fitted to the mesh would be outside of its walls.
+/// The view of a mesh chosen by a person or stated in its file. For a closed interior, anything
+/// fitted to the mesh would lie outside its walls.
 struct GivenView {
   std::vector<Camera> cameras;
   std::vector<Light> lights;

@@ -15,7 +15,7 @@
 namespace beambench::scenes::mesh {
 namespace {
 
-/// What the elements of an accessor without a buffer are.
+/// The elements of an accessor without a buffer.
 constexpr std::array<unsigned char, 64> kZeros{};
 
 std::string name_of(int accessor) { return fmt::format("accessor {}", accessor); }
@@ -34,7 +34,7 @@ std::span<const unsigned char> bytes_of_view(const tinygltf::Model& model, int v
   return std::span(buffer.data).subspan(found.byteOffset, found.byteLength);
 }
 
-/// The part of a view in which `count` elements lie. Throws InputError when they do not.
+/// Returns the part of a view that holds `count` elements. Throws InputError if it does not.
 const unsigned char* elements_in(std::span<const unsigned char> view, std::size_t offset,
                                  std::size_t count, std::size_t size, std::size_t stride,
                                  std::string_view user) {
@@ -76,7 +76,7 @@ bool is_index_type(int component) {
          component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
 }
 
-/// Three integers; a normalized one is from -1 to 1, or from 0.
+/// Returns three integers; normalized ones range from -1 (signed) or 0 to 1.
 template <typename T>
 glm::dvec3 integers_at(const unsigned char* bytes, bool normalized) {
   glm::dvec3 place(0.0);

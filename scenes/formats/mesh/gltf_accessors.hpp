@@ -11,12 +11,12 @@
 
 namespace beambench::scenes::mesh {
 
-/// The elements of an accessor, where they lie in the buffers, sparse ones included. Lives no
-/// longer than the model.
+/// The elements of an accessor, read in place from the buffers, including sparse ones. Must not
+/// outlive the model.
 class GltfElements {
  public:
-  /// Throws InputError naming the accessor when it is not there or not wholly within its buffer, or
-  /// when nothing says what its elements are. Reserves no memory but for sparse elements, which are
+  /// Throws InputError with the accessor's name if it does not exist, is not wholly within its
+  /// buffer, or does not define its elements. Allocates memory only for sparse elements, which are
   /// in the file.
   GltfElements(const tinygltf::Model& model, int accessor);
 
@@ -29,10 +29,10 @@ class GltfElements {
   void read_sparse(const tinygltf::Model& model, int number);
 
   const tinygltf::Accessor* accessor_;
-  const unsigned char* first_ = nullptr;  ///< null: all are 0, but for the sparse ones
+  const unsigned char* first_ = nullptr;  ///< null: all are 0, except the sparse ones
   std::size_t stride_ = 0;
   std::size_t count_ = 0;
-  std::vector<std::uint32_t> sparse_;  ///< indices, rising
+  std::vector<std::uint32_t> sparse_;  ///< indices, ascending
   const unsigned char* sparse_first_ = nullptr;
   std::size_t sparse_stride_ = 0;
 };

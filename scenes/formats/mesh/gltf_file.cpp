@@ -25,8 +25,8 @@
 namespace beambench::scenes::mesh {
 namespace {
 
-/// How the names begin of extensions that concern looks, or are supported. A file that requires
-/// another one would be another shape without it.
+/// Prefixes of extensions that only concern appearance, or are supported. Without any other
+/// required extension, the file would describe a different shape.
 constexpr std::array<std::string_view, 9> kHarmless = {
     "KHR_materials_", "KHR_texture_",          "EXT_texture_",
     "MSFT_texture_",  "KHR_lights_",           "EXT_lights_",
@@ -99,7 +99,7 @@ std::string percent_decoded(std::string_view text) {
 }
 
 /// The state of the callbacks with which tinygltf reads files: the file itself, its companions, how
-/// many buffers it has read, and why one of them was refused.
+/// many buffers were read, and why one of them was refused.
 struct Buffers {
   std::string_view file;
   MeshCompanions* companions;
@@ -107,8 +107,9 @@ struct Buffers {
   std::size_t read = 0;
   std::optional<std::string> refusal{};
 
-  /// Returns the name of the next buffer's file. tinygltf says it, too, but with blanks for '+' and
-  /// bytes for what follows any '%'. Some exporters write a name as it is: Blender its '%'.
+  /// Returns the name of the next buffer's file. tinygltf provides it too, but replaces '+' with a
+  /// blank and whatever follows a '%' with a byte. Some exporters write names unencoded, such as
+  /// Blender's '%'.
   std::string next_name() {
     if (read == 0) uris = uris_of_buffer_files(file);
     const std::string& uri = uris.at(read++);
@@ -133,7 +134,8 @@ bool read_buffer(std::vector<unsigned char>* bytes, std::string* error, const st
   }
 }
 
-/// Whether a file is there is seen when it is read, and only the file's own folder is looked at.
+/// Returns the callbacks. Files are tested for existence only when they are read, and only in the
+/// mesh file's own folder.
 tinygltf::FsCallbacks callbacks(Buffers& buffers) {
   tinygltf::FsCallbacks files{};
   files.FileExists = [](const std::string& name, void*) { return !name.empty(); };
@@ -145,18 +147,18 @@ tinygltf::FsCallbacks callbacks(Buffers& buffers) {
   return files;
 }
 
-/// Newer versions of tinygltf ask for the size before they read.
+/// Newer versions of tinygltf request the size before they read.
 template <typename Callbacks>
 void add_size_callback(Callbacks& files) {
   if constexpr (requires { files.GetFileSizeInBytes; }) {
     files.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string&, void*) {
-      *size = 1;  // the companions have a limit of their own
+      *size = 1;  // the companions have their own limit
       return true;
     };
   }
 }
 
-/// Buffers in a .gltf file's text; a .glb's own is part of the file.
+/// Returns the size of the buffers in a .gltf file's text; a .glb's own buffer is part of the file.
 std::size_t decoded_bytes(const tinygltf::Model& model) {
   std::size_t total = 0;
   for (const tinygltf::Buffer& buffer : model.buffers) {
@@ -201,10 +203,10 @@ tinygltf::Model read_gltf(std::string_view bytes, MeshCompanions& companions) {
                : reader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, "");
   } catch (const std::bad_alloc&) {
     throw;
-  } catch (const std::exception& thrown) {  // of the JSON library, or a list's range
+  } catch (const std::exception& thrown) {  // from the JSON library, or a list index out of range
     error = thrown.what();
   }
-  require_known_extensions(model);  // before an error that only follows from one
+  require_known_extensions(model);  // before an error that is only a consequence
   if (buffers.refusal) throw InputError(*buffers.refusal);
   if (!done) refuse_gltf(one_line(error));
   if (!model.asset.version.starts_with("2")) {

@@ -1,5 +1,5 @@
 #pragma once
-// glTF files as tinygltf reads them.
+// Reads glTF files with tinygltf.
 
 #include <cstddef>
 #include <string>
@@ -12,21 +12,21 @@
 
 namespace beambench::scenes::mesh {
 
-/// Reads a .gltf or .glb file and its buffers, but no images. Throws InputError, without the
-/// file's name: malformed; requires an extension that changes its geometry and is not supported,
-/// which is named; a buffer that cannot be read, or that is not in the file's folder.
+/// Reads a .gltf or .glb file and its buffers, but no images. Throws InputError, without the file's
+/// name, if the file is malformed, if it requires an unsupported extension that changes its
+/// geometry (the message names it), or if a buffer cannot be read or is not in the file's folder.
 tinygltf::Model read_gltf(std::string_view bytes, MeshCompanions& companions);
 
-/// Throws InputError: the file, which was read, contradicts itself or glTF.
+/// Throws InputError: the file is readable but contradicts itself or glTF.
 [[noreturn]] void refuse_gltf(std::string_view why);
 
-/// The element of a list of the file that an index names; `what` and `user` are for the message:
-/// "node", "scene 0". Throws InputError when there is none.
+/// Returns the list element that an index of the file refers to; `what` and `user` are for the
+/// message: "node", "scene 0". Throws InputError if there is none.
 template <typename T>
 const T& element_of(const std::vector<T>& list, int index, std::string_view what,
                     std::string_view user);
 
-/// Throws InputError: `user` names an element that is not there.
+/// Throws InputError: `user` refers to an element that does not exist.
 [[noreturn]] void refuse_index(int index, std::size_t size, std::string_view what,
                                std::string_view user);
 

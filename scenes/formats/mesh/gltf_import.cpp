@@ -37,9 +37,9 @@ namespace {
 /// Incremented whenever this file, or what it calls, reads a mesh differently.
 constexpr int kOwnVersion = 1;
 
-/// A short file may place a mesh many times: more triangles than this, or vertices of the
-/// primitives that have them, are refused before any is made. As a scene, so many need more than 20
-/// GB.
+/// A short file may place a mesh many times. If it would have more triangles than this, or more
+/// vertices of the primitives that have them, it is refused before any are made: as a scene, it
+/// would need more than 20 GB.
 constexpr std::size_t kMaxTriangles = std::size_t{1} << 28U;
 
 constexpr const char* kPosition = "POSITION";
@@ -52,7 +52,7 @@ struct PlacedPrimitive {
   std::size_t triangles;  ///< 0 for points and lines
 };
 
-/// What is left out of the file, or is in the scene otherwise than in the file.
+/// Parts of the file that are left out, or that differ in the scene.
 struct Notes {
   std::size_t points_and_lines = 0;
   std::size_t masked_triangles = 0;
@@ -65,7 +65,7 @@ bool has_triangles(int mode) {
          mode == TINYGLTF_MODE_TRIANGLE_FAN;
 }
 
-/// How many primitives a list of points, lines, a line strip or a loop has.
+/// Returns the number of primitives in a list of points, lines, a line strip or a loop.
 std::size_t points_or_lines(int mode, std::size_t corners) {
   if (mode == TINYGLTF_MODE_LINE) return corners / 2;
   if (mode == TINYGLTF_MODE_LINE_STRIP) return corners > 0 ? corners - 1 : 0;
@@ -76,7 +76,7 @@ std::size_t triangle_count(int mode, std::size_t corners, std::string_view name)
   if (mode != TINYGLTF_MODE_TRIANGLES) return corners < 3 ? 0 : corners - 2;
   if (corners % 3 != 0) {
     refuse_gltf(
-        fmt::format("{} has triangles of {} corners, which is no multiple of 3", name, corners));
+        fmt::format("{} has triangles of {} corners, which is not a multiple of 3", name, corners));
   }
   return corners / 3;
 }
@@ -89,7 +89,8 @@ std::array<std::size_t, 3> corners_of(int mode, std::size_t triangle) {
   return {triangle, triangle + 1 + odd, triangle + 2 - odd};
 }
 
-/// Looks at a primitive without reading it; nothing for one that has no positions, and so no shape.
+/// Inspects a primitive without reading it. Returns nothing for one that has no positions and so no
+/// shape.
 std::optional<PlacedPrimitive> look_at(const tinygltf::Model& model,
                                        const tinygltf::Primitive& primitive,
                                        std::string_view name) {
@@ -106,7 +107,7 @@ std::optional<PlacedPrimitive> look_at(const tinygltf::Model& model,
   return PlacedPrimitive{&primitive, positions->second, corners, triangles};
 }
 
-/// Adds to a sum that must not exceed `kMaxTriangles`.
+/// Adds to a sum and throws if it then exceeds `kMaxTriangles`.
 void add_bounded(std::size_t& sum, std::size_t more, std::string_view what) {
   if (more <= kMaxTriangles && sum + more <= kMaxTriangles) {
     sum += more;
@@ -116,12 +117,12 @@ void add_bounded(std::size_t& sum, std::size_t more, std::string_view what) {
                                kMaxTriangles, what));
 }
 
-/// The meshes of the nodes, as triangles in the scene's coordinates.
+/// Collects the meshes of the nodes as triangles in the scene's coordinates.
 class GltfCollector {
  public:
   explicit GltfCollector(const tinygltf::Model& model) : model_(&model) {}
 
-  /// Throws InputError when there would be too much; reads no positions.
+  /// Throws InputError if there would be too many triangles; reads no positions.
   void add(const PlacedNode& node) {
     if (node.node->mesh < 0) return;
     if (node.node->skin >= 0 || !node.node->weights.empty()) ++notes_.moved_nodes;

@@ -7,7 +7,7 @@
 
 namespace beambench::scenes::mesh {
 
-/// What a material is in a scene, and whether that leaves out holes.
+/// A material as a surface of a scene, and whether that ignores holes.
 struct GltfSurface {
   Surface surface;
   bool has_mask = false;  ///< its alpha, which is not read, cuts out or fades parts of the surface
@@ -19,8 +19,8 @@ struct GltfSurface {
 ///   are not read: one counts as a mean gray, which the factor tints.
 /// - Highlights and reflections: (1 - roughness) (0.2 + 0.6 metalness), with the exponent
 ///   2 / roughness^4 - 2 between 1 and 1000; the rest is diffuse. A texture halves both factors.
-/// - What is seen through it: KHR_materials_transmission, or with alphaMode BLEND 1 - alpha; that
-///   share is taken from what is diffuse. It refracts only with KHR_materials_volume; else the
+/// - Transparency: KHR_materials_transmission, or with alphaMode BLEND 1 - alpha; that
+///   share is taken from the diffuse part. It refracts only with KHR_materials_volume; else the
 ///   surface is thin.
 GltfSurface gltf_surface(const tinygltf::Model& model, int material);
 

@@ -13,7 +13,7 @@
 namespace beambench::scenes::mesh {
 namespace {
 
-/// A list of numbers that glTF fixes the length of, or no list.
+/// Requires the length that glTF prescribes for a list of numbers, or no list.
 void require_length(const std::vector<double>& list, std::size_t length, int node,
                     const char* name) {
   if (list.empty() || list.size() == length) return;
@@ -44,7 +44,7 @@ glm::dmat4 local_matrix(const tinygltf::Node& node, int number) {
   return matrix;
 }
 
-/// The nodes that a scene starts from; without scenes, those that are no node's child.
+/// Returns the nodes at the root of a scene; in a file without scenes, those without a parent.
 std::vector<int> root_nodes(const tinygltf::Model& model) {
   std::vector<int> roots;
   if (!model.scenes.empty()) {
@@ -65,7 +65,7 @@ std::vector<int> root_nodes(const tinygltf::Model& model) {
   return roots;
 }
 
-/// A node that is still to be placed.
+/// A node still to be placed.
 struct Pending {
   int node;
   glm::dmat4 parent;
@@ -82,13 +82,13 @@ std::vector<PlacedNode> placed_nodes(const tinygltf::Model& model) {
       pending.push_back({*node, parent});
   };
   add(root_nodes(model), glm::dmat4(1.0));
-  while (!pending.empty()) {  // not by recursion: a file may nest its nodes as deeply as it likes
+  while (!pending.empty()) {  // no recursion: a file may nest its nodes arbitrarily deep
     const Pending next = pending.back();
     pending.pop_back();
     const tinygltf::Node& node = element_of(model.nodes, next.node, "node", "a node or scene");
     if (reached[static_cast<std::size_t>(next.node)]) {
       refuse_gltf(
-          fmt::format("node {} is in its scene twice, so its nodes are no tree", next.node));
+          fmt::format("node {} is in its scene twice, so the nodes do not form a tree", next.node));
     }
     reached[static_cast<std::size_t>(next.node)] = true;
     const glm::dmat4 to_world = next.parent * local_matrix(node, next.node);

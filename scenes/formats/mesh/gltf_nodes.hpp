@@ -14,9 +14,9 @@ struct PlacedNode {
   glm::dmat4 to_world;
 };
 
-/// All nodes of the file's default scene (its first where it names none, all nodes where it has no
-/// scenes), parents before children, in the order of the file. Live no longer than the model.
-/// Throws InputError when a node is not there, or is reached twice: a cycle, or two parents.
+/// Returns all nodes of the file's default scene (its first if it names none, all nodes if it has
+/// no scenes), parents before children, in the order of the file. They must not outlive the model.
+/// Throws InputError if a node does not exist or is reached twice: a cycle, or two parents.
 std::vector<PlacedNode> placed_nodes(const tinygltf::Model& model);
 
 }  // namespace beambench::scenes::mesh

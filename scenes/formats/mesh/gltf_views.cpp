@@ -27,7 +27,8 @@ double radius_of(const Bounds& bounds) {
   return 0.5 * glm::length(glm::dvec3(bounds.upper) - glm::dvec3(bounds.lower));
 }
 
-/// The text as a camera's name may be (see `SceneBuilder::add_camera`).
+/// Returns the text with only the characters that a camera's name may have (see
+/// `SceneBuilder::add_camera`).
 std::string plain_name(std::string name) {
   std::replace_if(
       name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == '\x7F' || c == '#'; },
@@ -37,7 +38,7 @@ std::string plain_name(std::string name) {
   return name.substr(first, name.find_last_not_of(' ') - first + 1);
 }
 
-/// The name, with the first number after it that makes it another than those before.
+/// Returns the name, followed if necessary by the first number that makes it unique.
 std::string distinct_name(const std::string& name, const std::vector<Camera>& before) {
   const auto fitted = fitted_camera_names();
   const auto is_taken = [&](const std::string& text) {
@@ -50,7 +51,7 @@ std::string distinct_name(const std::string& name, const std::vector<Camera>& be
   return distinct;
 }
 
-/// Why a scene cannot hold the camera; empty when it can.
+/// Returns why a scene cannot hold the camera; empty if it can.
 std::string fault_of(const Camera& camera) {
   try {
     SceneBuilder("").add_camera(camera);
@@ -65,7 +66,7 @@ Camera placed_camera(const tinygltf::PerspectiveCamera& lens, const PlacedNode& 
                      const Bounds& bounds) {
   const glm::dvec3 eye(node.to_world[3]);
   const glm::dvec3 forward = glm::normalize(-glm::dvec3(node.to_world[2]));
-  // What is looked at is as far as the scene's center, but never so near that it is the eye in
+  // The target is as far away as the scene's center, but far enough to differ from the eye in
   // float.
   const double least = std::max(1e-3 * radius_of(bounds), 1e-4 * glm::length(eye));
   const double depth = std::max(glm::dot(center_of(bounds) - eye, forward), least);
@@ -82,7 +83,7 @@ Camera placed_camera(const tinygltf::PerspectiveCamera& lens, const PlacedNode& 
   return camera;
 }
 
-/// A light where it stands, with its linear light at the scene's center.
+/// A light in its place, with its linear brightness at the scene's center.
 struct PlacedLight {
   glm::dvec3 position;
   glm::dvec3 color;

@@ -25,7 +25,7 @@
 namespace beambench::scenes::mesh {
 namespace {
 
-// The first byte of what the child sends.
+// The first byte that the child sends.
 constexpr char kMesh = 'm';
 constexpr char kRefusal = 'r';
 
@@ -46,7 +46,7 @@ std::string out_of_memory(const std::filesystem::path& path, const ImportLimits&
 /// The mesh did not come in time.
 struct TooLate {};
 
-/// A mesh that claims to be larger than this was sent by a process that had gone wrong.
+/// A process that claims to send a larger mesh than this has gone wrong.
 constexpr std::uint64_t kLargestReply = std::uint64_t{1} << 37U;
 
 /// The two ends of a pipe, closed at destruction.
@@ -54,7 +54,7 @@ class Pipe {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Reading throws TooLate where nothing comes until the deadline.
+  /// Reading throws TooLate if nothing arrives until the deadline.
   Pipe(const std::filesystem::path& path, Clock::time_point deadline) : deadline_(deadline) {
     if (::pipe2(ends_.data(), O_CLOEXEC) != 0) refuse_by_errno(path, "making a pipe");
   }
@@ -76,7 +76,7 @@ class Pipe {
     }
   }
 
-  /// Fills a buffer; throws std::out_of_range when the other side closes its end before.
+  /// Fills a buffer; throws std::out_of_range if the other side closes its end early.
   void read(char* buffer, std::size_t size) const {
     while (size > 0) {
       const std::size_t count = read_some(buffer, size);
@@ -86,7 +86,7 @@ class Pipe {
     }
   }
 
-  /// All that comes until the other side has closed its end.
+  /// Returns everything that arrives until the other side closes its end.
   std::string read_rest() const {
     std::string text;
     std::array<char, 4096> block{};
@@ -97,7 +97,7 @@ class Pipe {
   }
 
  private:
-  /// Waits for some bytes; 0 at their end.
+  /// Waits for bytes and returns how many arrived; 0 at the end.
   std::size_t read_some(char* buffer, std::size_t size) const {
     for (;;) {
       wait_for_bytes();
@@ -129,31 +129,30 @@ class Pipe {
   Clock::time_point deadline_;
 };
 
-/// Limits this process. What it has of its parent does not count: of that, as much as both had
-/// mapped by then is known.
+/// Limits this process. Memory that is already mapped, inherited from the parent, does not count.
 void keep_within(const ImportLimits& limits) {
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
   const auto seconds = static_cast<rlim_t>(limits.processor.count());
   const rlimit time{seconds, seconds + 1};
   ::setrlimit(RLIMIT_CPU, &time);
-  // Not the address space, of which a sanitizer reserves terabytes; those count here, and are there
-  // before the limit is set.
+  // Not the address space, because a sanitizer reserves terabytes of it; here, such reservations
+  // count, but exist before the limit is set.
   if (const auto used = mapped_data_bytes()) {
     const rlimit memory{*used + limits.memory, RLIM_INFINITY};
     ::setrlimit(RLIMIT_DATA, &memory);
   }
 }
 
-/// What the child does: it sends the mesh, or why there is none, and ends.
+/// Runs in the child: sends the mesh, or why there is none, and exits.
 [[noreturn]] void import_and_send(const Pipe& pipe, pid_t parent, std::string_view bytes,
                                   const std::string& ending, const std::filesystem::path& path,
                                   const ImportLimits& limits) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);  // it has gone already
+  if (::getppid() != parent) ::_exit(1);  // the parent has already exited
   keep_within(limits);
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
-  // A library's last messages are for its developers, and what is in a buffer of stdout is the
+  // A library's last messages are for its developers, and the contents of stdout's buffer are the
   // parent's to write.
   ::dup2(nowhere, STDERR_FILENO);
   ::dup2(nowhere, STDOUT_FILENO);
@@ -172,7 +171,7 @@ void keep_within(const ImportLimits& limits) {
   ::_exit(0);
 }
 
-/// A process that is waited for, and ended when its reply is no longer wanted.
+/// A process that is waited for, and killed when its reply is no longer wanted.
 class Child {
  public:
   explicit Child(pid_t id) : id_(id) {}
@@ -203,15 +202,15 @@ class Child {
                   path.string(), importer_of(ending), end));
 }
 
-/// How a child ended that sent no mesh.
+/// Describes how a child ended that did not send a mesh.
 std::string end_of(int status, const ImportLimits& limits) {
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   if (signal != SIGXCPU && signal != SIGKILL) return "crashed";
   return fmt::format("needed more than {} s or all of the memory", limits.processor.count());
 }
 
-/// What the child sent: a mesh. Throws InputError with the child's reason when that is none, and
-/// std::out_of_range when the child ended before.
+/// Receives the mesh from the child. Throws InputError with the child's reason if it sent none, and
+/// std::out_of_range if the child ended early.
 ImportedMesh receive(const Pipe& pipe) {
   char kind = 0;
   pipe.read(&kind, 1);
@@ -244,9 +243,9 @@ ImportedMesh guarded_import(std::string_view bytes, const std::string& ending,
   } catch (const std::bad_alloc&) {
     throw InputError(out_of_memory(path, limits));
   } catch (const std::out_of_range&) {
-    pipe.close_reading_end();  // what more the child might send would keep it waiting
+    pipe.close_reading_end();  // otherwise the child might wait to send more
     refuse_no_reply(ending, path, end_of(child.wait(), limits));
-  } catch (const TooLate&) {  // the child is ended as this is left
+  } catch (const TooLate&) {  // the child is killed on leaving
     refuse_no_reply(ending, path,
                     fmt::format("took more than {} s by the clock",
                                 std::chrono::duration<double>(limits.elapsed).count()));

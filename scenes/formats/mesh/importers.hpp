@@ -1,5 +1,5 @@
 #pragma once
-// The ways in which mesh files are read, and what they share.
+// The importers of mesh files, and their common parts.
 
 #include <cstddef>
 #include <filesystem>
@@ -14,40 +14,39 @@ namespace beambench::scenes::mesh {
 
 /// Reads files of some formats.
 struct Importer {
-  /// `library-version`, or `format-version` of our own readers; another one for whatever might read
-  /// a file differently. Empty in a build without the library.
+  /// `library-version`, or `format-version` for our own readers; changes whenever a file might be
+  /// read differently. Empty in a build without the library.
   std::string name;
-  /// As `import_mesh`.
+  /// The implementation of `import_mesh`.
   ImportedMesh (*import)(std::string_view bytes, const std::string& ending,
                          const std::filesystem::path& path);
 };
 
-/// glTF 2.0 (`.gltf`, `.glb`), by tinygltf.
+/// Reads glTF 2.0 (`.gltf`, `.glb`), with tinygltf.
 Importer gltf_importer();
-/// OBJ with its material libraries, by a reader of our own.
+/// Reads OBJ with its material libraries, with our own reader.
 Importer obj_importer();
-/// PLY, OFF and STL, by readers of our own, which are in every build.
+/// Read PLY, OFF and STL, with our own readers, which are in every build.
 Importer ply_importer();
 Importer off_importer();
 Importer stl_importer();
-/// All other formats, by Assimp.
+/// Reads all other formats, with Assimp.
 Importer assimp_importer();
 
-/// Throws InputError: this build cannot read the file, because a library was missing. `package` is
-/// Debian's.
+/// Throws InputError: this build cannot read the file because a library was missing. `package` is
+/// the Debian package.
 [[noreturn]] void refuse_missing_library(const std::filesystem::path& path,
                                          std::string_view library, std::string_view package);
 
-/// Returns what a reader of our own makes of the bytes of a file. Puts the file's name before its
-/// errors.
+/// Runs one of our own readers on the bytes of a file. Puts the file's name before its errors.
 ImportedMesh with_file_name(const std::filesystem::path& path, std::string_view bytes,
                             ImportedMesh (*read)(std::string_view));
 
-/// Of a mesh without materials: unpainted clay.
+/// The surface of a mesh without materials: unpainted clay.
 Surface clay();
 
-/// The collected mesh, with warnings of what was left out. Throws InputError, without the file's
-/// name, when no triangle is in it.
+/// Returns the collected mesh, with warnings about what was left out. Throws InputError, without
+/// the file's name, if it has no triangles.
 ImportedMesh collected_mesh(MeshCollector&& collector, std::size_t points_and_lines);
 
 }  // namespace beambench::scenes::mesh

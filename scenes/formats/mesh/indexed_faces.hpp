@@ -1,5 +1,5 @@
 #pragma once
-// Faces over numbered vertices, as PLY and OFF have them.
+// Faces over numbered vertices, as in PLY and OFF.
 
 #include <cstdint>
 #include <vector>
@@ -13,12 +13,12 @@ namespace beambench::scenes::mesh {
 struct IndexedFaces {
   std::vector<glm::vec3> vertices;
   std::vector<std::uint32_t> corners;  ///< of all faces, one after the other; each a vertex
-  std::vector<std::uint32_t> sizes;    ///< how many of them each face has
+  std::vector<std::uint32_t> sizes;    ///< the number of corners of each face
 };
 
 /// Returns the mesh of these faces, of unpainted clay. A face of one or two vertices is a point or
-/// a line, which is left out with a warning, as in OBJ files; one without vertices is nothing.
-/// Throws InputError as `MeshCollector` and `collected_mesh` do.
+/// a line and is left out with a warning, as in OBJ files; one without vertices is ignored. Throws
+/// InputError as `MeshCollector` and `collected_mesh` do.
 ImportedMesh mesh_of(IndexedFaces&& faces);
 
 }  // namespace beambench::scenes::mesh

@@ -11,9 +11,9 @@
 namespace beambench::scenes::mesh {
 namespace {
 
-constexpr std::size_t kBlock = std::size_t{1} << 16U;  // elements of a list that are read at a time
+constexpr std::size_t kBlock = std::size_t{1} << 16U;  // list elements read at a time
 
-/// Hands numbers, texts and lists to a sink.
+/// Writes numbers, texts and lists to a sink.
 class Writer {
  public:
   explicit Writer(const ByteSink& sink) : sink_(&sink) {}
@@ -46,7 +46,7 @@ class Writer {
   const ByteSink* sink_;
 };
 
-/// Takes them from a source; throws std::out_of_range where they are not there.
+/// Reads them from a source; throws std::out_of_range at its end.
 class Reader {
  public:
   Reader(const ByteSource& source, std::uint64_t at_most) : source_(&source), left_(at_most) {}
@@ -63,7 +63,7 @@ class Reader {
     require(count, sizeof(T));
     std::vector<T> list;
     list.reserve(count);
-    while (list.size() < count) {  // part by part: only memory for what is there is touched
+    while (list.size() < count) {  // in parts: only memory for existing data is touched
       const std::size_t before = list.size();
       list.resize(before + std::min<std::size_t>(count - before, kBlock));
       take_bytes(reinterpret_cast<char*>(list.data() + before), list.size() - before, sizeof(T));

@@ -1,5 +1,5 @@
 #pragma once
-// What a mesh file holds, as far as rays are concerned.
+// The contents of a mesh file, as far as rays are concerned.
 
 #include <array>
 #include <cstddef>
@@ -17,7 +17,7 @@
 
 namespace beambench::scenes::mesh {
 
-/// Triangles in a row that have one surface.
+/// Consecutive triangles that share a surface.
 struct MeshPart {
   Surface surface;
   std::uint32_t triangle_count = 0;
@@ -29,44 +29,44 @@ struct MeshPart {
 struct TriangleMesh {
   std::vector<glm::vec3> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into vertices
-  std::vector<MeshPart> parts;                          ///< together they are all triangles
+  std::vector<MeshPart> parts;                          ///< together they cover all triangles
 };
 
-/// A file that a mesh file brought in (a material library, a glTF buffer): its path, relative to
-/// the mesh's folder, and the hash of its bytes; 0 when there was no such file.
+/// A file that a mesh file refers to (a material library, a glTF buffer): its path, relative to the
+/// mesh's folder, and the hash of its bytes; 0 if there was no such file.
 struct MeshCompanion {
   std::string path;
   std::uint64_t hash = 0;
 };
 
-/// A mesh that a scene can hold, with the cameras and lights of its file, and what was left out of
-/// it (without the file's name).
+/// A mesh that a scene can hold, with the cameras and lights of its file, and warnings about what
+/// was left out (without the file's name).
 struct ImportedMesh {
   TriangleMesh mesh;
-  std::vector<Camera> cameras;  ///< each accepted by a scene builder, no two of one name
+  std::vector<Camera> cameras;  ///< each accepted by a scene builder, with unique names
   std::vector<Light> lights;
   std::vector<std::string> warnings;
   std::vector<MeshCompanion> companions;
 };
 
-// Imported meshes as bytes, for the cache and from one process to another.
+// Imported meshes as bytes, for the cache and for sending between processes.
 
 /// Takes the next bytes of a mesh.
 using ByteSink = std::function<void(const char* bytes, std::size_t count)>;
 /// Fills a buffer with the next bytes of a mesh; throws std::out_of_range where they end too early.
 using ByteSource = std::function<void(char* buffer, std::size_t count)>;
 
-/// Part by part, so that a large mesh is not in memory twice. The same bytes only on machines of
-/// one kind: numbers are as in memory.
+/// Encodes in parts, so that a large mesh is not in memory twice. Machines with different number
+/// formats produce different bytes: numbers are as in memory.
 void encode(const ImportedMesh& imported, const ByteSink& sink);
-/// The same, as one text.
+/// Encodes to one text.
 std::string encode(const ImportedMesh& imported);
 
-/// Throws std::out_of_range when the bytes end too early, or a list claims more than `at_most`
-/// bytes, and std::bad_alloc when memory does not suffice. Bytes that `encode` did not make may
-/// give any mesh; a scene builder refuses an invalid one.
+/// Throws std::out_of_range if the bytes end early or a list claims more than `at_most` bytes, and
+/// std::bad_alloc if memory runs out. Bytes that `encode` did not make may give any mesh; a scene
+/// builder refuses an invalid one.
 ImportedMesh decode(const ByteSource& source, std::uint64_t at_most);
-/// The same, from one text.
+/// Decodes from one text.
 ImportedMesh decode(std::string_view bytes);
 
 }  // namespace beambench::scenes::mesh

@@ -20,7 +20,7 @@
 namespace beambench::scenes::mesh {
 namespace {
 
-/// An environment variable that names a place; one that is empty counts as not set.
+/// Returns the path in an environment variable; an empty one counts as unset.
 std::optional<std::filesystem::path> place(const char* variable) {
   const char* value = std::getenv(variable);
   if (value == nullptr || *value == '\0') return std::nullopt;
@@ -29,21 +29,21 @@ std::optional<std::filesystem::path> place(const char* variable) {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kMagic = "beambench mesh 2";  // counts up with the layout
+constexpr std::string_view kMagic = "beambench mesh 2";  // incremented with the layout
 
-/// The start of a file: what it is, and what must follow.
+/// The start of a file: its kind, and what must follow.
 struct Header {
   char magic[16];
   std::uint64_t size;
   std::uint64_t hash;
 };
 
-/// Whether a companion is still what it was when the mesh was read.
+/// Returns whether a companion is the same as when the mesh was read.
 bool is_unchanged(const MeshCompanion& companion, const fs::path& mesh_folder) {
   std::uint64_t hash = 0;
   try {
     hash = content_hash(read_bytes(mesh_folder / companion.path));
-  } catch (const InputError&) {  // it is not there; perhaps it was not then, either
+  } catch (const InputError&) {  // it does not exist; perhaps it did not then, either
   }
   return hash == companion.hash;
 }
@@ -58,7 +58,7 @@ fs::path file_of(const fs::path& folder, const std::string& key) {
   return folder / (key + ".mesh");
 }
 
-/// XXH3 of bytes that come part by part.
+/// Computes XXH3 of bytes that arrive in parts.
 class RunningHash {
  public:
   RunningHash() : state_(XXH3_createState()) {
@@ -79,7 +79,7 @@ void read_fully(InputStream& file, char* into, std::size_t count) {
   if (file.read({into, count}) < count) throw std::out_of_range("the file ends too early");
 }
 
-/// The mesh in a file, once the file was found to be what was written.
+/// Reads the mesh in a file after verifying that the file is as it was written.
 ImportedMesh read_mesh(const fs::path& path) {
   InputStream file(path);
   Header header{};
@@ -101,7 +101,7 @@ ImportedMesh read_mesh(const fs::path& path) {
   return mesh;
 }
 
-/// What comes before a mesh in its file.
+/// Returns what precedes a mesh in its file.
 Header header_of(const ImportedMesh& mesh) {
   Header header{};
   std::copy(kMagic.begin(), kMagic.end(), header.magic);

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint32_t kFree = std::numeric_limits<std::uint32_t>::max();
 
-/// -0 becomes 0, so that equal places have equal bits; throws for what no scene can hold.
+/// Turns -0 into 0, so that equal places have equal bits; throws if no scene can hold the position.
 glm::vec3 checked(const glm::vec3& position, std::size_t triangle) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!(std::abs(position[axis]) <= static_cast<float>(kLargestNumber))) {  // catches NaN too

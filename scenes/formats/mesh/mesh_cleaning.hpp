@@ -1,5 +1,5 @@
 #pragma once
-// From the triangles of a file to triangles that a scene can hold.
+// Turns the triangles of a file into triangles that a scene can hold.
 
 #include <array>
 #include <cstddef>
@@ -14,7 +14,7 @@
 namespace beambench::scenes::mesh {
 
 /// Vertices of a file that its triangles share by index. Remembers which vertex of the collected
-/// mesh each became, so that equal places are looked for once a vertex, not once a corner.
+/// mesh each became, so that equal places are looked up once per vertex, not once per corner.
 class SharedVertices {
  public:
   explicit SharedVertices(std::vector<glm::vec3> places);
@@ -28,24 +28,24 @@ class SharedVertices {
   std::vector<std::uint32_t> collected_;
 };
 
-/// Collects triangles as a file has them: vertices at the same place become one, unused ones go,
+/// Collects triangles from a file: vertices at the same place are merged, unused ones are dropped,
 /// and triangles without area are left out and counted.
 class MeshCollector {
  public:
-  /// Makes room for as many, which spares growing. Fewer or more may come.
+  /// Reserves memory. Fewer or more triangles may follow.
   void reserve(std::size_t vertices, std::size_t triangles);
-  /// Triangles added from now on have this surface.
+  /// Sets the surface of triangles added from now on.
   void set_surface(const Surface& surface);
-  /// Throws InputError naming the triangle when a coordinate is not a number from -1e9 to 1e9, or
-  /// when there are too many for 32-bit indices.
+  /// Throws InputError with the triangle's number if a coordinate is not a number from -1e9 to 1e9,
+  /// or if there are too many for 32-bit indices.
   void add(const std::array<glm::vec3, 3>& corners);
-  /// The same for corners that are indices, each in range.
+  /// Adds a triangle whose corners are indices, each in range.
   void add(SharedVertices& vertices, const std::array<std::uint32_t, 3>& corners);
-  /// The same for a polygon, convex or concave: its triangles are those of `triangulate`. One
-  /// without area counts as a triangle without area.
+  /// Adds a polygon, convex or concave, as the triangles of `triangulate`. A polygon without area
+  /// counts as a triangle without area.
   void add_polygon(SharedVertices& vertices, std::span<const std::uint32_t> corners);
 
-  /// How many triangles were left out, and which was the first (counted from 0 as they were added).
+  /// The number of triangles left out, and the first of them (counted from 0 as they were added).
   std::size_t degenerate() const { return degenerate_; }
   std::size_t first_degenerate() const { return first_degenerate_; }
   TriangleMesh finish() &&;

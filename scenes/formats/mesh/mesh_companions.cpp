@@ -15,14 +15,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether a path without links and `..` lies in a folder of the same kind.
+/// Returns whether a path lies in a folder; both must be without links and `..`.
 bool lies_in(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
          folder.end();
 }
 
-/// Where a companion lies, links followed; nothing where that is outside of the folder. One that
-/// is not there lies where its name says.
+/// Returns the place of a companion, with links followed; nothing if it is outside of the folder.
+/// The place of a missing companion follows from its name.
 std::optional<fs::path> place_of(const fs::path& name, const fs::path& folder) {
   if (name.is_absolute() || name.empty()) return std::nullopt;
   const fs::path said = (folder / name).lexically_normal();

@@ -1,5 +1,5 @@
 #pragma once
-// The files that a mesh file names: material libraries, glTF buffers.
+// Reads the files that a mesh file refers to: material libraries, glTF buffers.
 
 #include <cstdint>
 #include <filesystem>
@@ -12,30 +12,31 @@
 
 namespace beambench::scenes::mesh {
 
-/// Reads the companions of one mesh file, from its folder and the folders in it alone: a file from
-/// elsewhere must not be able to read what else the user may read. Notes what was asked for.
+/// Reads the companions of one mesh file, only from its folder and subfolders: a file from
+/// elsewhere must not gain access to the user's other files. Keeps a list of the requested files.
 class MeshCompanions {
  public:
-  /// Of the mesh at `mesh`, whose bytes count towards the limit of `kLargestMeshFile`, as do those
-  /// of its companions.
+  /// Reads companions of the mesh at `mesh`. The bytes of the mesh and its companions count towards
+  /// the limit `kLargestMeshFile`.
   MeshCompanions(const std::filesystem::path& mesh, std::uint64_t mesh_bytes);
 
-  /// Where they lie.
+  /// Returns the folder of the companions.
   const std::filesystem::path& folder() const { return folder_; }
 
-  /// Whether a companion is there and may be read. `list` has a missing one, too: the mesh may
-  /// change when that file appears.
+  /// Returns whether a companion exists and may be read. `list` includes missing ones, because the
+  /// mesh may change when such a file appears.
   bool has(const std::filesystem::path& name);
 
-  /// The bytes of a companion, `name` being relative to the folder; they stay as long as this
-  /// object. Throws InputError naming it when it is absolute or leads out of the folder (by `..`
-  /// or a link), cannot be read, is empty, or is too much together with the others.
+  /// Returns the bytes of a companion; `name` is relative to the folder. They live as long as this
+  /// object. Throws InputError with the name if it is absolute or leads out of the folder (by `..`
+  /// or a link), or if the companion cannot be read, is empty, or exceeds the limit together with
+  /// the others.
   std::string_view read(const std::filesystem::path& name);
 
   /// Frees the bytes that `read` returned, but remembers what was read.
   void release(const std::filesystem::path& name);
 
-  /// What was asked for in the folder.
+  /// Returns the files requested from the folder.
   std::vector<MeshCompanion> list() const;
 
  private:

@@ -31,7 +31,7 @@ std::string lower_case(std::string_view text) {
   return lower;
 }
 
-/// What follows the last dot, in lower case; `.gz` at the end does not count.
+/// Returns the text after the last dot, in lower case; a final `.gz` does not count.
 std::string last_ending(std::string_view file_name) {
   if (is_gzipped(file_name)) file_name.remove_suffix(kGzip.size());
   const std::size_t dot = file_name.find_last_of("./");
@@ -64,7 +64,7 @@ class Inflation {
   Inflation(const Inflation&) = delete;
   Inflation& operator=(const Inflation&) = delete;
 
-  /// Fills the buffer as far as possible; how many bytes came.
+  /// Fills the buffer as far as possible. Returns the number of bytes.
   std::size_t fill(char* buffer, std::size_t size) {
     stream_.next_out = reinterpret_cast<Bytef*>(buffer);
     stream_.avail_out = limited(size);
@@ -72,7 +72,7 @@ class Inflation {
     while (usable_ && !done_ && stream_.avail_out > 0) step();
     return wanted - stream_.avail_out;
   }
-  /// How many of the packed bytes are left.
+  /// Returns the number of packed bytes left.
   std::size_t packed_left() const { return packed_.size(); }
   bool done() const { return done_; }
   bool damaged() const { return !usable_; }
@@ -107,7 +107,7 @@ class Inflation {
   bool done_ = false;
 };
 
-/// Unpacks block by block, so that little more than what is accepted is ever there.
+/// Unpacks block by block, so that memory holds little more than what is accepted.
 std::string unpacked(std::string_view packed, const std::filesystem::path& path) {
   constexpr std::size_t kBlock = std::size_t{4} << 20U;
   constexpr std::size_t kSmall = std::size_t{64} << 20U;

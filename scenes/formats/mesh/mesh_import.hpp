@@ -11,35 +11,35 @@
 
 namespace beambench::scenes::mesh {
 
-/// The importer that reads files of an ending, with what distinguishes its versions that might read
-/// one file differently (`tinygltf-1`); part of the key of the cache. Empty in a build without the
-/// library that it needs: tinygltf for glTF, none for OBJ, PLY, OFF and STL, Assimp for the others.
+/// Returns the importer for an ending, with a suffix for each version that might read a file
+/// differently (`tinygltf-1`); part of the cache key. Empty in a build without the library that it
+/// needs: tinygltf for glTF, none for OBJ, PLY, OFF and STL, Assimp for the others.
 std::string importer_of(std::string_view ending);
 
-/// Reads a mesh from the bytes of a file; `ending` says its format. Its polygons become triangles,
-/// in world space, right-handed; points, lines and triangles without area are left out with a
-/// warning. `path` is for messages and for finding companions, which are read from its folder
-/// alone. Throws InputError when the file is malformed, has no triangles, or holds numbers that no
-/// scene can, and in a build without its importer always.
+/// Reads a mesh from the bytes of a file in the format that `ending` stands for. Its polygons
+/// become triangles, in world space, right-handed; points, lines and triangles without area are
+/// left out with a warning. `path` is used in messages and to find companions, which are read only
+/// from its folder. Throws InputError if the file is malformed, has no triangles, or holds numbers
+/// that no scene can, and always in a build without its importer.
 ImportedMesh import_mesh(std::string_view bytes, const std::string& ending,
                          const std::filesystem::path& path);
 
-/// What the import of one file may take.
+/// The resources that the import of one file may use.
 struct ImportLimits {
-  std::chrono::seconds processor;     ///< time of the processor
-  std::chrono::milliseconds elapsed;  ///< until the whole mesh is here
-  std::uint64_t memory;               ///< bytes, beyond what this process has
+  std::chrono::seconds processor;     ///< processor time
+  std::chrono::milliseconds elapsed;  ///< until the whole mesh has arrived
+  std::uint64_t memory;               ///< bytes, in addition to what this process uses
 };
 
-/// What is enough for any valid file of that size: 2 s of processor time and another for each MiB
-/// (for glTF, of which a short file may place a mesh many times, 2 minutes); ten times as long, and
-/// half a minute, by the clock; and 4 GiB of memory and 64 bytes for each byte (glTF: 32 GiB), but
+/// Returns limits that suffice for any valid file of that size. Processor time: 2 s, and 1 s for
+/// each MiB (for glTF, where a short file may place a mesh many times, 2 minutes). Wall time: ten
+/// times as long, and half a minute. Memory: 4 GiB, and 64 bytes for each byte (glTF: 32 GiB), but
 /// no more than is available (`available_memory`).
 ImportLimits import_limits(std::string_view bytes, std::string_view ending);
 
-/// As import_mesh, in a process of its own: for some malformed or truncated files a library ends
-/// the process, never returns, or takes all memory. Throws InputError then, too, and when a limit
-/// is exceeded.
+/// Runs import_mesh in its own process: for some malformed or truncated files a library ends the
+/// process, never returns, or takes all memory. Throws InputError in these cases, too, and if a
+/// limit is exceeded.
 ImportedMesh guarded_import(std::string_view bytes, const std::string& ending,
                             const std::filesystem::path& path, const ImportLimits& limits);
 

@@ -56,7 +56,7 @@ Json read_json(const fs::path& entry) {
   }
 }
 
-/// A text of an entry; the other one where it is not given.
+/// Returns a text of an entry, or `otherwise` if the entry does not have it.
 std::string text_of(const Json& json, const char* key, const std::string& otherwise,
                     const fs::path& entry) {
   if (!json.contains(key)) return otherwise;
@@ -106,7 +106,7 @@ Camera camera_of(const Json& json, const glm::dvec3& up, const fs::path& entry) 
   return camera;
 }
 
-/// The elements of a list; none where it is not given.
+/// Returns the elements of a list; none if it is missing.
 Json list_of(const Json& json, const char* key, const fs::path& entry) {
   Json list = json.value(key, Json::array());
   if (!list.is_array()) refuse_entry(entry, fmt::format("'{}' must be a list", key));
@@ -132,7 +132,8 @@ GivenView read_view(const Json& json, const Orientation& orientation, const fs::
       checked.add_light(place);
       view.lights.push_back({glm::vec3(place)});
     }
-    // Two at full strength light a surface as the fitted ones do; more share that.
+    // Two lights at full strength are as bright as the fitted ones; more lights share that
+    // brightness.
     const std::size_t sharing = std::max<std::size_t>(view.lights.size(), 2);
     for (Light& light : view.lights) light.color = glm::vec3(2.0F / static_cast<float>(sharing));
   } catch (const InputError& error) {

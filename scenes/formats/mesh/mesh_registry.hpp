@@ -1,5 +1,5 @@
 #pragma once
-// Meshes that have a name: `mesh:dragon`.
+// Registered meshes: `mesh:dragon`.
 
 #include <filesystem>
 #include <string>
@@ -11,15 +11,15 @@
 
 namespace beambench::scenes::mesh {
 
-/// How the names of registered meshes begin where a scene is named.
+/// The prefix that marks a scene name as a registered mesh.
 inline constexpr std::string_view kMeshPrefix = "mesh:";
 
 /// A mesh of the registry: the file NAME.json in the folder `registered` of `cache_folder()`,
 /// `{"path": "...", "up": "y", "front": "z", "about": "...", "cameras": [{"name": "hall", "from":
 /// [x, y, z], "at": [x, y, z], "up": [x, y, z], "angle": 60}], "lights": [[x, y, z]]}`. Only the
-/// path is needed; it is relative to that folder. Cameras and lights are in the mesh's coordinates;
-/// of a camera, `up` (if not given, that of the mesh) and `angle` (45) may be left out. Other keys
-/// are skipped. scripts/meshes puts some there, users may add their own.
+/// path is required; it is relative to that folder. Cameras and lights are in the mesh's
+/// coordinates; a camera's `up` (by default that of the mesh) and `angle` (45) are optional. Other
+/// keys are ignored. scripts/meshes adds entries, and users may add their own.
 struct RegisteredMesh {
   std::string name;
   std::filesystem::path path;
@@ -28,10 +28,10 @@ struct RegisteredMesh {
   std::string about;  ///< one sentence; empty if there is none
 };
 
-/// The names of all of them, sorted.
+/// Returns the sorted names of all registered meshes.
 std::vector<std::string> registered_mesh_names();
 
-/// Throws InputError: an unknown name, naming those that are there and how to get more; a
+/// Throws InputError for an unknown name, listing the known ones and how to get more, and for a
 /// malformed entry, naming its file.
 RegisteredMesh find_registered_mesh(std::string_view name);
 

@@ -40,8 +40,8 @@ bool has_camera(const GivenView& view, const std::string& name) {
                      [&](const Camera& camera) { return camera.name == name; });
 }
 
-/// The first view, then what the second has beside it: cameras of other names, and lights where the
-/// first has none.
+/// Returns the first view with additions from the second: cameras with other names, and lights if
+/// the first has none.
 GivenView combined(GivenView first, const GivenView& second) {
   for (const Camera& camera : second.cameras) {
     if (!has_camera(first, camera.name)) first.cameras.push_back(camera);
@@ -50,7 +50,7 @@ GivenView combined(GivenView first, const GivenView& second) {
   return first;
 }
 
-/// Looks into the cache, reads the file where that does not help, and fills the cache then.
+/// Returns the mesh from the cache, or else reads the file and adds it to the cache.
 ImportedMesh cached_import(const fs::path& path, const std::string& ending,
                            std::vector<std::string>& notes) {
   const std::string bytes = read_bytes(path);
@@ -68,7 +68,7 @@ ImportedMesh cached_import(const fs::path& path, const std::string& ending,
   if (cached.state == CachedMesh::State::kFound) return std::move(cached.mesh);
   if (cached.state == CachedMesh::State::kDamaged) {
     notes.push_back(
-        fmt::format("its copy in the cache {} was damaged and is made anew", folder.string()));
+        fmt::format("its copy in the cache {} was damaged and is made again", folder.string()));
   }
   ImportedMesh imported = import();
   if (!cache_mesh(folder, key, imported)) {
@@ -142,7 +142,7 @@ void register_mesh(Catalogue& catalogue) {
                                             usual_orientation(mesh_ending(spec)), options.strict},
                                            &warnings);
                         }});
-  // Its bytes would only be reported as a strange NFF file.
+  // Otherwise its bytes would be reported as a strange NFF file.
   catalogue.add_format(
       {is_foreign_model,
        [](std::string_view spec, ReadOptions, Warnings&) -> Scene { refuse_foreign_model(spec); }});

@@ -16,29 +16,29 @@
 
 namespace beambench::scenes::mesh {
 
-/// The given cameras, then fitted cameras that see these points (`three-quarter`, which is the
-/// first of them, `front`, `side`, `top`) and have none of their names; the given lights, or else
-/// two on the side of the fitted default camera; and a background.
+/// Adds the given cameras, then fitted cameras that show these points (`three-quarter`, which is
+/// the first of them, `front`, `side`, `top`) unless their names are taken; the given lights, or
+/// else two on the side of the fitted default camera; and a background.
 void add_view(SceneBuilder& builder, std::span<const glm::vec3> points,
               const Orientation& orientation, const GivenView& given = {});
 
-/// A scene of a mesh: flat triangles in the order of the file, with the view of `add_view`.
+/// Makes a scene of a mesh: flat triangles in the order of the file, with the view of `add_view`.
 Scene mesh_scene(const TriangleMesh& mesh, const std::string& name, const Orientation& orientation,
                  const GivenView& given = {});
 
-/// What to read, and how.
+/// The mesh file to read, and the options.
 struct MeshRequest {
   std::filesystem::path path;
   std::string name;  ///< of the scene
   Orientation orientation;
-  bool strict = false;  ///< what would be left out of the mesh is an error
+  bool strict = false;  ///< treat anything left out of the mesh as an error
   GivenView view = {};
 };
 
-/// Reads a mesh file, or takes what it held from the cache (`meshes` in `cache_folder()`), where it
-/// is put when it was read. What was noticed is appended to `warnings` when given, as
-/// `file: message`. Throws InputError with the file's name when it cannot be read, is malformed or
-/// has no triangle.
+/// Loads a mesh file, either from the cache (`meshes` in `cache_folder()`) or from the file, in
+/// which case it is added to the cache. Warnings are appended to `warnings` if given, as `file:
+/// message`. Throws InputError with the file's name if it cannot be read, is malformed or has no
+/// triangles.
 Scene load_mesh(const MeshRequest& request, std::vector<std::string>* warnings = nullptr);
 
 }  // namespace beambench::scenes::mesh

@@ -1,4 +1,4 @@
-// Stands for assimp_import.cpp in a build without Assimp.
+// Replaces assimp_import.cpp in a build without Assimp.
 
 #include "scenes/formats/mesh/importers.hpp"
 

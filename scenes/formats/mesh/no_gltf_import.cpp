@@ -1,4 +1,4 @@
-// Stands for gltf_import.cpp in a build without tinygltf.
+// Replaces gltf_import.cpp in a build without tinygltf.
 
 #include "scenes/formats/mesh/importers.hpp"
 

@@ -46,7 +46,7 @@ void read_vertex(const ObjStatement& statement, ObjFile& file) {
   file.vertices.push_back(place);
 }
 
-/// Whether nothing or an integer follows each slash, of at most two.
+/// Returns whether each slash, of at most two, is followed by nothing or an integer.
 bool are_attributes(std::string_view text) {
   for (int count = 0; !text.empty(); ++count) {
     text.remove_prefix(1);
@@ -57,7 +57,8 @@ bool are_attributes(std::string_view text) {
   return true;
 }
 
-/// Returns the vertex of `7`, `7/1`, `7//3` or `-1/-1/-1`, from 0. It may come later in the file.
+/// Returns the vertex index, from 0, of `7`, `7/1`, `7//3` or `-1/-1/-1`. The vertex may come later
+/// in the file.
 std::uint32_t corner_of(std::string_view word, const ObjStatement& statement,
                         std::size_t vertices_before) {
   const std::string_view first = word.substr(0, word.find('/'));
@@ -123,7 +124,7 @@ void read_statement(const ObjStatement& statement, ObjFile& file) {
   }
 }
 
-/// Returns the line of the statement that has the corner of that number, from 0, among all of them.
+/// Returns the line of the statement with the given corner, counted from 0 over the file.
 std::size_t line_of_corner(std::string_view text, std::size_t corner) {
   ObjStatements statements(text);
   std::size_t before = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// What an OBJ file holds.
+// The contents of an OBJ file.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,8 +17,8 @@ namespace beambench::scenes::mesh {
 struct ObjFile {
   std::vector<glm::vec3> vertices;
   std::vector<std::uint32_t> corners;     ///< of all faces: indices into vertices
-  std::vector<std::uint32_t> face_sizes;  ///< how many of the corners each face has
-  /// The materials of `usemtl`, each from a face on.
+  std::vector<std::uint32_t> face_sizes;  ///< the number of corners of each face
+  /// The materials of `usemtl`, each with the first face that it applies to.
   std::vector<std::pair<std::size_t, std::string>> materials;
   std::vector<std::string> libraries;  ///< what follows each `mtllib`
   std::size_t points_and_lines = 0;
@@ -26,9 +26,9 @@ struct ObjFile {
   UnknownLines unknown;
 };
 
-/// Reads the statements of a text. Throws InputError, without the file's name, naming the line,
-/// when a vertex has other than 3 to 7 numbers (a weight or a color may follow the coordinates) or
-/// a coordinate that is not finite, or when a face has a corner that is not a vertex of the file.
+/// Reads the statements of a text. Throws InputError with the line, but without the file's name, if
+/// a vertex does not have 3 to 7 numbers (a weight or a color may follow the coordinates), if a
+/// coordinate is not finite, or if a face refers to a vertex that is not in the file.
 ObjFile read_obj(std::string_view text);
 
 }  // namespace beambench::scenes::mesh

@@ -60,7 +60,7 @@ std::size_t add_faces(ObjFile file, const std::map<std::string, Surface>& surfac
   return others;
 }
 
-/// Returns what of the file is not in the mesh.
+/// Returns warnings about the parts of the file that are not in the mesh.
 std::vector<std::string> left_out(const ObjFile& file) {
   std::vector<std::string> warnings;
   if (!file.unknown.empty()) warnings.push_back(file.unknown.message());

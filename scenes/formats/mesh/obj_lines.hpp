@@ -8,10 +8,10 @@
 
 namespace beambench::scenes::mesh {
 
-/// Returns the next line, which the text loses, without its end: "\n", "\r\n" or "\r".
+/// Removes and returns the next line of a text, without its end: "\n", "\r\n" or "\r".
 std::string_view take_line(std::string_view& text);
 
-/// Returns the next word of a line, which loses it. Empty at the end.
+/// Removes and returns the next word of a line. Empty at the end.
 std::string_view take_word(std::string_view& line);
 
 /// Returns the text without blanks at its ends.
@@ -21,13 +21,13 @@ std::string_view trimmed(std::string_view text);
 /// blank begins a comment.
 std::string_view without_comment(std::string_view name);
 
-/// Counts the lines of a file that are not understood.
+/// Counts the lines of a file that were not understood.
 class UnknownLines {
  public:
   /// Notes a line by its number, from 1, and its first word.
   void add(std::size_t line, std::string_view word);
   bool empty() const { return count_ == 0; }
-  /// Returns how many they are, and the numbers and first words of the first ones.
+  /// Returns their number, and the line numbers and first words of the first few.
   std::string message() const;
 
  private:

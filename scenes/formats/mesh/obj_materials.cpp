@@ -20,10 +20,10 @@ namespace {
 
 struct Material {
   std::string name;
-  glm::vec3 color{0.6F};  ///< where it has none of its own, as Assimp and tinyobjloader have it
+  glm::vec3 color{0.6F};  ///< default, as in Assimp and tinyobjloader
   bool has_texture = false;
   std::optional<float> dissolve{};      ///< `d`: 1 is opaque
-  std::optional<float> transparency{};  ///< `Tr`, of some exporters: 0 is opaque
+  std::optional<float> transparency{};  ///< `Tr`, written by some exporters: 0 is opaque
 };
 
 float in_range(float part) { return part >= 0.0F ? std::min(part, 1.0F) : 0.0F; }
@@ -39,7 +39,7 @@ Surface surface_of(const Material& material) {
   return surface;
 }
 
-/// Returns the numbers of a line; nothing when a word is not a finite number, or there is none.
+/// Returns the numbers of a line; nothing if there are none, or a word is not a finite number.
 std::optional<std::vector<float>> numbers_of(std::string_view rest) {
   rest = rest.substr(0, rest.find('#'));
   std::vector<float> numbers;
@@ -110,7 +110,7 @@ bool has_blank(std::string_view name) {
   return name.find_first_of(" \t") != std::string_view::npos;
 }
 
-/// Returns the files that a line names: one whose name may have blanks, or else several.
+/// Returns the files that a line names: one file whose name may contain blanks, or else several.
 std::vector<std::string> files_of(std::string_view line, MeshCompanions& companions) {
   if (!has_blank(line) || companions.has(line)) return {std::string(line)};
   line = without_comment(line);

@@ -10,11 +10,11 @@
 
 namespace beambench::scenes::mesh {
 
-/// Returns surfaces by the names of their materials, and by what precedes a comment in a name.
-/// Reads the libraries that `mtllib` lines name, each one file or several. A library that cannot be
-/// read, or is not in the mesh's folder, is a warning, and so are lines of `newmtl`, `Kd`, `d` and
-/// `Tr` that are not understood; all others have no part in a surface. Colors are the diffuse ones.
-/// Textures are not read: a black material with one is a mean gray.
+/// Returns surfaces by the names of their materials, both with and without a trailing comment.
+/// Reads the libraries that `mtllib` lines name, one or several each. A library that cannot be
+/// read, or is not in the mesh's folder, causes a warning, and so do `newmtl`, `Kd`, `d` and `Tr`
+/// lines that are not understood; other lines do not affect a surface. Colors are the diffuse ones.
+/// Textures are not read: a black material with a texture becomes a mean gray.
 std::map<std::string, Surface> obj_surfaces(const std::vector<std::string>& libraries,
                                             MeshCompanions& companions,
                                             std::vector<std::string>& warnings);

@@ -13,10 +13,10 @@ struct Keyword {
   ObjKind kind;
 };
 
-/// All of the manual but `call` and `csh`, which bring in other files. `fo`, a face's outline, "is
-/// no longer valid as of version 2.11. You can use f (face) to get the same results. References to
-/// fo in existing .obj files will still be read". The last five are superseded curves and patches,
-/// and their resolution.
+/// All keywords of the manual except `call` and `csh`, which include other files. `fo`, a face's
+/// outline, "is no longer valid as of version 2.11. You can use f (face) to get the same results.
+/// References to fo in existing .obj files will still be read". The last five are superseded curves
+/// and patches, and their resolution.
 constexpr std::array<Keyword, 43> kKeywords = {{
     {"v", ObjKind::kVertex},        {"vn", ObjKind::kAttribute},
     {"vt", ObjKind::kAttribute},    {"f", ObjKind::kFace},
@@ -74,7 +74,7 @@ std::optional<ObjStatement> ObjStatements::next() {
   return statement;
 }
 
-/// Returns the numbers of the line and of those that continue it.
+/// Returns the numbers of the line and of its continuation lines.
 std::string_view ObjStatements::numbers_from(std::string_view line) {
   line = before_comment(line);
   if (!line.ends_with('\\')) return line;

@@ -9,7 +9,7 @@
 
 namespace beambench::scenes::mesh {
 
-/// What a statement is about.
+/// The kind of a statement.
 enum class ObjKind {
   kNothing,  ///< an empty line or a comment
   kVertex,
@@ -25,14 +25,14 @@ enum class ObjKind {
 
 struct ObjStatement {
   ObjKind kind = ObjKind::kNothing;
-  std::size_t line = 0;   ///< where it begins, from 1
-  std::string_view word;  ///< its first one
-  std::string_view rest;  ///< what follows it, until the next call of `next`
+  std::size_t line = 0;   ///< where the statement begins, from 1
+  std::string_view word;  ///< the first word
+  std::string_view rest;  ///< the text after the word, valid until the next call of `next`
 };
 
-/// Iterates over the statements of an OBJ text, one a line. Where numbers follow, a backslash at
-/// the end of a line continues the statement on the next one, as in all examples of the manual, and
-/// a '#' begins a comment. Names and comments have any characters.
+/// Iterates over the statements of an OBJ text, one per line. If numbers follow, a backslash at the
+/// end of a line continues the statement on the next one, as in all examples of the manual, and a
+/// '#' begins a comment. Names and comments may have any characters.
 class ObjStatements {
  public:
   /// The text must outlive this object.

@@ -12,17 +12,17 @@ namespace beambench::scenes::mesh {
 void write_obj(const Scene& scene, std::ostream& stream) {
   if (!scene.spheres.empty() || !scene.cones.empty()) {
     throw InputError(fmt::format(
-        "'{}' has {} spheres and {} cones, which OBJ has no words for; write it as .nff",
+        "'{}' has {} spheres and {} cones, which OBJ cannot express; write it as .nff",
         scene.name, scene.spheres.size(), scene.cones.size()));
   }
-  constexpr std::size_t kBlock = 1U << 16U;  // bytes handed to the stream at a time
+  constexpr std::size_t kBlock = 1U << 16U;  // bytes passed to the stream at a time
   fmt::memory_buffer buffer;
   const auto flush = [&] {
     stream.write(buffer.data(), static_cast<std::streamsize>(buffer.size()));
     buffer.clear();
   };
   for (const glm::vec3& vertex : scene.vertices) {
-    const glm::dvec3 place(vertex);  // the shortest form of a float is another number as double
+    const glm::dvec3 place(vertex);  // a float's shortest text is not the double's
     fmt::format_to(std::back_inserter(buffer), FMT_COMPILE("v {} {} {}\n"), place.x, place.y,
                    place.z);
     if (buffer.size() >= kBlock) flush();

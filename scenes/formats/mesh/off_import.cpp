@@ -48,7 +48,7 @@ struct OffHeader {
 
 bool is_decimal_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Notes what the letters before `OFF` say.
+/// Records the letters before `OFF`.
 void read_letters(std::string_view letters, OffHeader& header, const TextLines& lines) {
   while (!letters.empty()) {
     std::size_t length = 1;
@@ -71,8 +71,9 @@ void read_letters(std::string_view letters, OffHeader& header, const TextLines& 
   }
 }
 
-/// Takes the keyword. Returns the first count where it stands in the same word, as in a keyword's
-/// place and, a known fault of files of ModelNet, after it ("OFF490"); else nothing.
+/// Takes the keyword. Returns the first count if it is in the same word: in place of the keyword
+/// or, as in some faulty files of ModelNet, directly after it ("OFF490"). Otherwise returns
+/// nothing.
 std::string_view take_off_keyword(OffHeader& header, TextLines& lines) {
   const std::string_view word = lines.word();
   constexpr std::string_view kKeyword = "OFF";
@@ -84,7 +85,7 @@ std::string_view take_off_keyword(OffHeader& header, TextLines& lines) {
   read_letters(word.substr(0, at), header, lines);
   const std::string_view count = word.substr(at + kKeyword.size());
   if (!std::all_of(count.begin(), count.end(), is_decimal_digit)) {
-    lines.refuse(fmt::format("'{}' is no keyword of an OFF file", excerpt(word)));
+    lines.refuse(fmt::format("'{}' is not a keyword of OFF files", excerpt(word)));
   }
   return count;
 }
@@ -126,12 +127,12 @@ void next_row(TextLines& lines, std::string_view what, std::uint64_t row, std::u
                   count, what, row));
 }
 
-/// Takes what is left of the line. Returns how many numbers it was.
+/// Takes the rest of the line. Returns the number of its numbers.
 std::size_t skip_numbers(TextLines& lines, std::string_view what, std::uint64_t row) {
   std::size_t count = 0;
   for (auto word = lines.word(); !word.empty(); word = lines.word()) {
     if (!number_of<float>(word)) {
-      lines.refuse(fmt::format("{} {}: '{}' is no number", what, row, excerpt(word)));
+      lines.refuse(fmt::format("{} {}: '{}' is not a number", what, row, excerpt(word)));
     }
     ++count;
   }
@@ -144,7 +145,7 @@ glm::vec3 take_off_vertex(TextLines& lines, const OffHeader& header, std::uint64
     const std::string_view word = lines.word();
     const auto number = number_of<float>(word);
     if (word.empty()) lines.refuse(fmt::format("vertex {} has fewer than three numbers", row));
-    if (!number) lines.refuse(fmt::format("vertex {}: '{}' is no number", row, excerpt(word)));
+    if (!number) lines.refuse(fmt::format("vertex {}: '{}' is not a number", row, excerpt(word)));
     place[axis] = *number;
   }
   const std::size_t others = (header.has_normals ? 3U : 0U) + (header.has_colors ? 4U : 0U) +
@@ -164,7 +165,7 @@ void take_off_face(TextLines& lines, const OffHeader& header, std::uint64_t row,
   const std::string_view size_word = lines.word();
   const auto size = integer_of(size_word);
   if (!size || *size < 0 || *size > std::numeric_limits<std::uint32_t>::max()) {
-    lines.refuse(fmt::format("face {}: '{}' is no number of corners", row, excerpt(size_word)));
+    lines.refuse(fmt::format("face {}: '{}' is not a number of corners", row, excerpt(size_word)));
   }
   for (std::int64_t i = 0; i < *size; ++i) {
     const std::string_view word = lines.word();

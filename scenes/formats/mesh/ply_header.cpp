@@ -38,7 +38,7 @@ PlyType take_type(TextLines& lines) {
                                          [&](const auto& type) { return type.first == word; });
   if (found != kTypes.end()) return found->second;
   lines.refuse(
-      fmt::format("'{}' is no type of a property, such as uchar, int or float", excerpt(word)));
+      fmt::format("'{}' is not a property type, such as uchar, int or float", excerpt(word)));
 }
 
 std::string_view take_name(TextLines& lines, std::string_view what) {
@@ -54,7 +54,7 @@ void require_end_of_line(TextLines& lines) {
   }
 }
 
-/// Refuses a name that is in the set, into which it goes.
+/// Adds a name to the set; refuses it if it is already there.
 void require_new(std::string_view name, std::set<std::string_view>& names, std::string_view what,
                  const TextLines& lines) {
   if (names.insert(name).second) return;
@@ -84,7 +84,7 @@ PlyElement take_element(TextLines& lines) {
   const std::string_view word = lines.word();
   const auto count = integer_of(word);
   if (!count || *count < 0) {
-    lines.refuse(fmt::format("'{}' is no number of rows of the element '{}'", excerpt(word),
+    lines.refuse(fmt::format("'{}' is not a number of rows for the element '{}'", excerpt(word),
                              excerpt(element.name)));
   }
   element.count = static_cast<std::uint64_t>(*count);
@@ -152,7 +152,7 @@ PlyHeader take_ply_header(TextLines& lines) {
       require_properties(header, lines);
       return header;
     } else {
-      lines.refuse(fmt::format("'{}' is no word of a header", excerpt(word)));
+      lines.refuse(fmt::format("'{}' is not a header keyword", excerpt(word)));
     }
     require_end_of_line(lines);
   }

@@ -24,7 +24,7 @@ namespace beambench::scenes::mesh {
 
 enum class PlyType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
 
-/// Returns how many bytes a number of the type takes in binary.
+/// Returns the size of a number of the type in binary, in bytes.
 std::size_t size_of(PlyType type);
 
 struct PlyProperty {
@@ -46,10 +46,9 @@ struct PlyHeader {
   std::vector<PlyElement> elements;
 };
 
-/// Takes the lines of the header, up to `end_header`. Its names are parts of the text. Throws
-/// InputError, with the line, for what the rules above do not allow; so for an element or a
-/// property that is declared twice, and for rows without a property, of which a short file could
-/// declare any number.
+/// Takes the lines of the header, up to `end_header`. Its names are views of the text. Throws
+/// InputError with the line if the rules above are violated, if an element or a property is
+/// declared twice, and for rows without a property, of which a short file could declare any number.
 PlyHeader take_ply_header(TextLines& lines);
 
 }  // namespace beambench::scenes::mesh

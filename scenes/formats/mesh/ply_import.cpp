@@ -48,7 +48,7 @@ bool has_faces(const PlyElement& element) {
       fmt::format("its header declares the element '{}' {}; export it again", element.name, why));
 }
 
-/// Returns the axis whose coordinate it is; 3 for other properties.
+/// Returns the axis that the property is a coordinate of; 3 for other properties.
 glm::length_t axis_of(const PlyProperty& property) {
   const bool is_axis =
       property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z';
@@ -75,7 +75,7 @@ void require_vertex_list(const PlyElement& element) {
     if (!is_vertex_list(property)) continue;
     ++lists;
     if (!property.length_type) {
-      refuse_property(element, fmt::format("with '{}' that is no list", property.name));
+      refuse_property(element, fmt::format("with '{}' that is not a list", property.name));
     }
   }
   if (lists != 1) {
@@ -85,7 +85,7 @@ void require_vertex_list(const PlyElement& element) {
   }
 }
 
-/// Returns how many vertices the header declares. Refuses one that declares no mesh.
+/// Returns the declared number of vertices. Throws unless the header declares a mesh.
 std::uint64_t require_ply_mesh(const PlyHeader& header) {
   std::uint64_t vertices = 0;
   bool any_face = false;
@@ -138,7 +138,7 @@ class PlyBody {
     }
   }
 
-  /// Makes no more room than for the rows that the rest of the file can hold.
+  /// Reserves memory for at most the rows that the rest of the file can hold.
   void reserve(const PlyElement& element) {
     if (element.count == 0) return;
     const std::size_t count =
@@ -220,7 +220,7 @@ class PlyBody {
     const double number = rows_.number(type);
     constexpr double kLargest = 0x1p53;
     if (!(std::abs(number) <= kLargest) || number != std::floor(number)) {
-      rows_.refuse(fmt::format("'{}' is no number of a vertex", number));
+      rows_.refuse(fmt::format("'{}' is not the number of a vertex", number));
     }
     return static_cast<std::int64_t>(number);
   }

@@ -26,8 +26,8 @@ std::optional<double> integer_within(std::string_view word) {
   return static_cast<double>(*number);
 }
 
-/// Returns the number that a word of the type stands for: what a binary file with this type would
-/// hold, so that both give the same mesh. A double is exact for every type.
+/// Returns the value of a word of the type: the same as in a binary file with this type, so that
+/// both give the same mesh. A double represents every type exactly.
 std::optional<double> ply_number(std::string_view word, PlyType type) {
   switch (type) {
     case PlyType::kInt8:
@@ -76,7 +76,7 @@ double PlyTextRows::number(PlyType type) {
   const std::string_view text = word();
   const auto number = ply_number(text, type);
   if (!number) {
-    refuse(fmt::format("'{}' is no number of the type {}", excerpt(text), name_of(type)));
+    refuse(fmt::format("'{}' is not a number of the type {}", excerpt(text), name_of(type)));
   }
   return *number;
 }

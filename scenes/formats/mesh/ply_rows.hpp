@@ -1,11 +1,12 @@
 #pragma once
 // The rows of PLY files, as text and in binary: two classes of one interface.
 //
-// `begin(element, row)` goes to a row, for messages, too; false where the file has ended.
-// `number(type)` takes the next number of the row, `skip(type, count)` as many, and `end()` ends
-// the row. `finish()` must find the file at its end. `at_most(properties)` bounds the rows with as
-// many properties that what is left can hold. `refuse(why)` throws InputError that names the row
-// and where it is. So do the others where a number is missing or none of its type.
+// `begin(element, row)` goes to a row and records it for messages; returns false at the end of the
+// file. `number(type)` takes the next number of the row, `skip(type, count)` takes `count` of them,
+// and `end()` ends the row. `finish()` throws unless the file is at its end. `at_most(properties)`
+// bounds the number of rows with that many properties that the rest of the file can hold.
+// `refuse(why)` throws InputError with the row and its place. The others throw it if a number is
+// missing or not of its type.
 
 #include <cstddef>
 #include <cstdint>
@@ -40,7 +41,7 @@ class PlyTextRows {
 /// Rows without anything between them.
 class PlyBinaryRows {
  public:
-  /// The file holds `bytes`, of which `rest` is what follows the header.
+  /// Reads a file that holds `bytes`, of which `rest` follows the header.
   PlyBinaryRows(std::string_view bytes, std::string_view rest, PlyHeader::Encoding encoding);
 
   bool begin(const PlyElement& element, std::uint64_t row);
@@ -58,7 +59,7 @@ class PlyBinaryRows {
 
   std::size_t size_;
   std::string_view rest_;
-  bool swapped_;  // its bytes are in the other order than those of this machine
+  bool swapped_;  // its byte order differs from this machine's
   std::string_view element_;
   std::uint64_t row_ = 0;
 };

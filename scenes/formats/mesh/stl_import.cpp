@@ -53,7 +53,7 @@ Number little_endian(std::string_view bytes) {
   return number;
 }
 
-/// Returns the length that the number of facets gives a binary file; nothing where there is no
+/// Returns the length of a binary file with the stated number of facets; nothing if there is no
 /// number.
 std::optional<std::uint64_t> binary_stl_size(std::string_view bytes) {
   if (bytes.size() < kStlHeader) return std::nullopt;
@@ -73,7 +73,7 @@ ImportedMesh read_binary_stl(std::string_view bytes) {
 
 // Text
 
-/// Whether a word is a keyword, which is in lower case here.
+/// Returns whether a word is a keyword, ignoring case; `keyword` is in lower case.
 bool is_keyword(std::string_view word, std::string_view keyword) {
   const auto same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; };
   return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(), same);
@@ -102,7 +102,7 @@ glm::vec3 take_corner(TextLines& lines) {
   return place;
 }
 
-/// Takes a facet, of which the first word has been taken.
+/// Takes a facet whose first word has already been taken.
 StlFacet take_facet(TextLines& lines) {
   take_stl_keyword(lines, "normal");
   for (int axis = 0; axis < 3; ++axis) lines.word_anywhere();
@@ -124,7 +124,7 @@ StlFacet take_facet(TextLines& lines) {
   return facet;
 }
 
-/// Takes a solid, of which the first word has been taken.
+/// Takes a solid whose first word has already been taken.
 void take_solid(TextLines& lines, MeshCollector& collector) {
   lines.skip_line();  // its name
   for (;;) {
@@ -153,7 +153,7 @@ ImportedMesh read_text_stl(std::string_view text) {
   return collected_mesh(std::move(collector), 0);
 }
 
-/// Whether a file whose length is not that of a binary one is meant as text.
+/// Returns whether a file is meant as text, given that its length does not match a binary file.
 bool is_text_stl(std::string_view bytes) {
   return is_keyword(TextLines(bytes).word_anywhere(), "solid") &&
          bytes.find('\0') == std::string_view::npos;
@@ -165,8 +165,8 @@ ImportedMesh read_stl(std::string_view bytes) {
   if (is_text_stl(bytes)) return read_text_stl(bytes);
   if (!size) {
     throw InputError(
-        "it is no STL file: text must begin with 'solid', and a binary file has 84 bytes or more; "
-        "export it again");
+        "it is not an STL file: text must begin with 'solid', and a binary file has at least 84 "
+        "bytes; export it again");
   }
   throw InputError(
       fmt::format("the number of its facets, {}, gives it {} bytes, but it has {}: it is cut off, "

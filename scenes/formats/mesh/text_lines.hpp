@@ -1,5 +1,5 @@
 #pragma once
-// The lines of a text, and the words of each.
+// Splits a text into lines and words.
 
 #include <cstddef>
 #include <string>
@@ -11,24 +11,24 @@ namespace beambench::scenes::mesh {
 /// Macintoshes, with CR alone. A byte order mark of UTF-8 before the first is skipped.
 class TextLines {
  public:
-  /// The text must outlive this object. A line ends for its reader where `comment` stands in it;
-  /// without one, nothing is a comment.
+  /// Reads a text, which must outlive this object. `comment` begins a comment that extends to the
+  /// end of the line; by default there are no comments.
   explicit TextLines(std::string_view text, char comment = '\0');
 
   /// Goes to the next line; false at the end of the text.
   bool next();
-  /// Goes to the next line that has a word; false where none has.
+  /// Goes to the next line that contains a word; false if there is none.
   bool next_with_words();
   /// Takes the next word of the line, between blanks; empty at its end.
   std::string_view word();
   /// Takes the next word of this line or of a later one; empty at the end of the text.
   std::string_view word_anywhere();
-  /// Leaves the rest of the line out.
+  /// Skips the rest of the line.
   void skip_line() { line_ = {}; }
-  /// Returns what follows the line, byte for byte.
+  /// Returns the text after the line, byte for byte.
   std::string_view text_after() const { return rest_; }
-  /// Throws InputError: the line's number, what is wrong there, and that the file should be
-  /// exported again.
+  /// Throws InputError with the line number, what is wrong there, and the advice to export the file
+  /// again.
   [[noreturn]] void refuse(std::string_view why) const;
 
  private:

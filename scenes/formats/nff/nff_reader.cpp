@@ -23,14 +23,14 @@
 namespace beambench::scenes::nff {
 namespace {
 
-/// Collects remarks on a file. A file that gives cause for one may do so at each of a million
-/// lines, so remarks with the same cause become one, with the first line and a count.
+/// Collects remarks on a file. The same cause may occur on each of a million lines, so remarks with
+/// the same cause are combined into one, with the first line and a count.
 class NffNotes {
  public:
-  /// `message` is the remark on the first line that has this cause.
+  /// Adds a remark; `message` is the remark on the first line with this cause.
   void add(const std::string& cause, const std::string& message);
 
-  /// The remarks in the order of their first lines.
+  /// Returns the remarks in the order of their first lines.
   std::vector<std::string> messages() const;
 
  private:
@@ -149,7 +149,7 @@ class NffReader {
   void read_smooth_polygon() { read_corners(true); }
   void read_corners(bool smooth);
 
-  /// Runs a call of the builder and puts file and line of the command before its errors.
+  /// Runs a call of the builder and prefixes its errors with the file and line of the command.
   template <typename Add>
   void add(Add call) {
     try {
@@ -159,7 +159,7 @@ class NffReader {
     }
   }
 
-  /// The same for a primitive: a degenerate one is skipped where the options allow it.
+  /// Adds a primitive in the same way; a degenerate one is skipped if the options allow it.
   template <typename Add>
   void add_primitive(Add call) {
     add([&] {
@@ -177,7 +177,7 @@ class NffReader {
   ReadOptions options_;
   NffNotes notes_;
   NffToken command_;          // the one being read
-  bool any_command_ = false;  // what precedes the first command may be the header of an e-mail
+  bool any_command_ = false;  // text before the first command may be an e-mail header
   std::size_t view_count_ = 0;
 };
 
@@ -227,8 +227,8 @@ std::optional<NffReader::Command> NffReader::next_command() const {
 }
 
 /// `fp` has the fields of `f`, of surfaces that are shaded by Phong where those of `f` are flat
-/// (github.com/mfandre/raytracer, Scene.cc). It is read where it has as many numbers as there; cut
-/// off by the end of the file, it has fewer.
+/// (github.com/mfandre/raytracer, Scene.cc). It is accepted with that number of fields; a truncated
+/// file has fewer.
 std::optional<NffReader::Command> NffReader::dialect_command() const {
   constexpr std::size_t kFields = 8;
   const std::string_view word = tokens_.peek().text;
@@ -255,7 +255,7 @@ void NffReader::skip_unknown() {
        ", skipped up to " + end);
 }
 
-/// Reports something in spite of which the file can be read.
+/// Reports a problem that does not prevent the file from being read.
 void NffReader::note(std::size_t line, const std::string& cause, const std::string& more) {
   if (options_.strict) {
     tokens_.refuse(line, cause + "; correct the file, or read it without --strict");
@@ -314,16 +314,16 @@ void NffReader::read_light_of_a_dialect() {
   read_area_light();
 }
 
-/// Nothing moves here, so it stays where it begins.
+/// Nothing moves here, so the light stays at its first position.
 void NffReader::read_animated_light() {
   tokens_.take();  // its name
   note(command_.line, "an animated light is read as one that does not move");
   read_light();
 }
 
-/// Our lights are points. The rectangle of an area light shines to the side of the normal
-/// edge x edge, so the point stands a little on that side of its middle: the ceiling that the
-/// rectangle may lie in does not hide it.
+/// Lights are points here. The rectangle of an area light shines to the side of the normal edge x
+/// edge, so the point is slightly on that side of its center: otherwise the ceiling that contains
+/// the rectangle could hide it.
 void NffReader::read_area_light() {
   constexpr double kOffset = 1e-3;  // of the side of a square of the same area
   const glm::dvec3 corner = tokens_.triple("the area light's corner");
@@ -349,7 +349,7 @@ void NffReader::read_finish() {
   read_surface_fields(finished_surface(*find_finish(command_.text)));
 }
 
-/// Numbers that are given replace the surface's own.
+/// Replaces the surface's own numbers with those given.
 void NffReader::read_surface_fields(Surface surface) {
   if (tokens_.at_number()) surface.color = tokens_.triple("the color");
   for (float* field : {&surface.diffuse, &surface.specular, &surface.shine, &surface.transmittance,

@@ -22,7 +22,7 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 NffTokens::NffTokens(std::string_view text, std::string_view file)
     : file_(printable(file)), position_(text.data()), end_(text.data() + text.size()) {
-  token_.starts_line = true;  // of the nothing before the first token
+  token_.starts_line = true;  // for the empty token before the first one
   advance();
 }
 

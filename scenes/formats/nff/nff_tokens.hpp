@@ -9,8 +9,8 @@
 
 namespace beambench::scenes::nff {
 
-/// Comments that begin with this word on a line of their own, and so mean nothing to other
-/// programs, are read as if the word were not there.
+/// Comments on lines that begin with this word, which other programs ignore, are read as if the
+/// word were not there.
 inline constexpr std::string_view kOwnComment = "#beambench";
 
 /// One word or number. The text is empty at the end of the file.
@@ -20,8 +20,9 @@ struct NffToken {
   bool starts_line = false;
 };
 
-/// Iterates over the tokens of an NFF text: whatever stands between blanks, comments (`#` to the
-/// end of the line) left out, but for `kOwnComment`. Lines end with "\n", "\r\n" or "\r".
+/// Iterates over the tokens of an NFF text: everything between blanks, without comments (`#` to the
+/// end of the line), except those that begin with `kOwnComment`. Lines end with "\n", "\r\n" or
+/// "\r".
 class NffTokens {
  public:
   /// The text must outlive this object; `file` is used in messages.
@@ -30,23 +31,23 @@ class NffTokens {
   const std::string& file() const { return file_; }
   const NffToken& peek() const { return token_; }
   bool at_end() const { return token_.text.empty(); }
-  /// Whether the next token is, or tries to be, a number: `nan` and `1.2.3` count.
+  /// Returns whether the next token is, or is meant as, a number: `nan` and `1.2.3` count.
   bool at_number() const;
-  /// How many numbers the rest of the text can hold at most.
+  /// Returns an upper bound on the numbers in the rest of the text.
   std::size_t max_numbers_left() const;
 
   NffToken take();
-  /// Takes a number, rounded once; `what` names it in messages. Refuses what is not a number from
+  /// Takes a number, rounded once; `what` names it in messages. Throws unless it is a number from
   /// -1e9 to 1e9.
   float number(std::string_view what);
   glm::vec3 triple(std::string_view what);
-  /// Takes a number that must be an integer.
+  /// Takes an integer.
   long integer(std::string_view what);
-  /// Takes the rest of the line after `word`, the last token taken, without a comment and the
-  /// blanks around it. Refuses to take nothing.
+  /// Takes the rest of the line after `word`, the last token taken, without a comment and
+  /// surrounding blanks. Throws if nothing is left.
   std::string_view rest_of_line(const NffToken& word, std::string_view what);
 
-  /// `file:line: message`
+  /// Returns `file:line: message`.
   std::string located(std::size_t line, std::string_view message) const;
   /// Throws InputError with the located message.
   [[noreturn]] void refuse(std::size_t line, std::string_view message) const;

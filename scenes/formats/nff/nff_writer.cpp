@@ -21,7 +21,7 @@ class NffWriter {
   void write(const Scene& scene);
 
  private:
-  static constexpr std::size_t kBlock = 1U << 16U;  // bytes handed to the stream at a time
+  static constexpr std::size_t kBlock = 1U << 16U;  // bytes passed to the stream at a time
 
   void write(const Camera& camera);
   void write(const Surface& surface);
@@ -29,7 +29,7 @@ class NffWriter {
   void write(const Cone& cone);
   void write(const Scene& scene, const Polygon& polygon);
 
-  /// One line: words and numbers with a blank between them.
+  /// Writes one line: words and numbers separated by blanks.
   template <typename... Values>
   void line(const Values&... values) {
     const std::size_t start = buffer_.size();
@@ -58,7 +58,7 @@ class NffWriter {
   fmt::memory_buffer buffer_;
 };
 
-/// A name that stays in its comment.
+/// Returns a name that fits into its one-line comment.
 std::string one_line(std::string name) {
   std::replace_if(
       name.begin(), name.end(), [](unsigned char c) { return c < ' '; }, ' ');
@@ -113,7 +113,7 @@ void NffWriter::write(const Surface& surface) {
        surface.refraction_index);
 }
 
-/// The radius as NFF has it: negative for what is seen from the inside only.
+/// Returns the radius in NFF's convention: negative for surfaces visible only from the inside.
 float signed_radius(float radius, bool inside_only) { return inside_only ? 0.0F - radius : radius; }
 
 void NffWriter::write(const Sphere& sphere) {

@@ -31,7 +31,7 @@ modelling::PolygonMesh shell(int detail) {
     const int u_axis = (axis + 1) % 3;
     const int v_axis = (axis + 2) % 3;
     for (const double level : {0.0, kRoom[axis]}) {
-      // Seen from inside, the lower side of an axis turns one way and the upper one the other.
+      // Seen from inside, the lower and upper sides of an axis have opposite windings.
       const bool upper = level > 0.0;
       const auto surface = [&](double u, double v) {
         glm::dvec3 point;

@@ -27,9 +27,9 @@ Scene generate(const Parameters& parameters) {
   builder.set_surface({.color = {0.75F, 0.80F, 0.35F}, .diffuse = 0.9F});
 
   const std::int64_t count = parameters.integer("triangles");
-  std::int64_t cells = 1;  // on each axis of a grid with a cell for each triangle
+  std::int64_t cells = 1;  // on each axis of a grid with one cell per triangle
   while (cells * cells * cells < count) ++cells;
-  const double reach = 0.6 / static_cast<double>(cells);  // of a corner from its triangle's middle
+  const double reach = 0.6 / static_cast<double>(cells);  // of a corner from its triangle's center
   Random random(static_cast<std::uint64_t>(parameters.integer("seed")));
   for (std::int64_t i = 0; i < count; ++i) {
     const glm::dvec3 middle = point_in_cube(random, 1.0);

@@ -23,7 +23,7 @@ constexpr double kThickness = 0.1;   // at most
 using Outline = std::array<glm::dvec2, kRim>;
 
 Outline outline(double outer_radius, double turned_by) {
-  // Where the corners stand between one tooth's middle and the next.
+  // The positions of the corners between the middle of one tooth and the next.
   constexpr std::array<double, 4> kPlaces = {-0.19, 0.19, 0.3, 0.7};
   constexpr double kPitch = 2.0 * std::numbers::pi / kTeeth;
   Outline corners{};
@@ -51,7 +51,7 @@ void add_gear(SceneBuilder& builder, const Outline& corners, const glm::dvec3& c
     const std::size_t next = (i + 1) % kRim;
     builder.add_polygon(std::array{upper[i], lower[i], lower[next], upper[next]});
   }
-  // The other way around, because the face points down; from the same tooth on.
+  // In reverse, because the face points down; starting at the same tooth.
   std::array<std::uint32_t, kRim> face{};
   for (std::size_t i = 0; i < kRim; ++i) face[i] = lower[(kRim + 1 - i) % kRim];
   builder.add_polygon(face);

@@ -9,7 +9,7 @@
 namespace beambench::scenes::generators {
 namespace {
 
-constexpr double kArm = 0.75;  // of a jack's cube of half-size 1: neighbors keep apart
+constexpr double kArm = 0.75;  // of a jack's cube of half-size 1: neighbors do not touch
 constexpr double kCylinderRadius = 0.1 * kArm;
 constexpr double kSphereRadius = 0.2 * kArm;
 

@@ -21,7 +21,7 @@ const std::array<Surface, 3> kCylinderSurfaces = {
 /// A sphere at each corner of the cells, a cylinder along each edge.
 void add_lattice(SceneBuilder& builder, std::int64_t n) {
   const double edge = 1.0 / static_cast<double>(n);
-  // A cylinder begins inside its sphere, where it is sure to be hidden.
+  // A cylinder begins inside its sphere, where it is certainly hidden.
   const double inset =
       0.99 * kSphereRadius * edge * (1.0 - std::sqrt(kCylinderRadius / kSphereRadius));
   for (std::int64_t x = 0; x <= n; ++x) {

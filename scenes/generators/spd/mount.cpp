@@ -35,7 +35,7 @@ double normal_deviate(std::int64_t seed) {
   }
 }
 
-/// The SPD's hash of a grid point. It repeats itself over the mountain, which belongs to the scene.
+/// The SPD's hash of a grid point. Its repetition over the mountain is part of the scene.
 std::int64_t hash(std::uint64_t x, std::uint64_t y, std::int64_t n) {
   const auto shifted = [n](std::uint64_t value, std::int64_t by) {
     return by < n ? 0 : value << static_cast<std::uint64_t>(by - n);
@@ -69,7 +69,7 @@ class Mountain {
  private:
   std::size_t at(std::size_t x, std::size_t y) const { return y * (cells_ + 1) + x; }
 
-  /// The middles of the sides of all squares of that width, and of the squares.
+  /// Displaces the centers of all squares of that width, and of their sides.
   void displace(std::size_t width) {
     const std::size_t half = width / 2;
     const double rise =
@@ -96,7 +96,7 @@ class Mountain {
     }
   }
 
-  /// Two triangles for each cell of a square, quarter by quarter.
+  /// Adds two triangles for each cell of a square, quarter by quarter.
   void add_section(SceneBuilder& builder, std::size_t x, std::size_t y, std::size_t width) const {
     if (width > 1) {
       const std::size_t half = width / 2;
@@ -118,7 +118,7 @@ class Mountain {
   double roughness_ = 0.0;
 };
 
-/// Four spheres that touch one another, at the corners of a tetrahedron with its tip up.
+/// Adds four spheres that touch one another, at the corners of a tetrahedron with its tip up.
 void add_glass_spheres(SceneBuilder& builder) {
   constexpr glm::dvec3 kCenter(-0.8, 0.8, 1.0);
   constexpr double kRadius = 0.17;

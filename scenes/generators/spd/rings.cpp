@@ -56,7 +56,7 @@ void add_rings(SceneBuilder& builder, const Pentagons& rings, const glm::dvec3& 
   }
 }
 
-/// Layer k away from the eye has k x k objects.
+/// Adds the pyramid: layer k away from the eye has k x k objects.
 void add_pyramid(SceneBuilder& builder, std::int64_t layers, double layer_distance) {
   const Pentagons rings = pentagons();
   for (std::int64_t depth = 0; depth < layers; ++depth) {
@@ -71,7 +71,7 @@ void add_pyramid(SceneBuilder& builder, std::int64_t layers, double layer_distan
   }
 }
 
-/// Behind the pyramid, a hundredth larger than what the eye sees.
+/// Adds a wall behind the pyramid, 1% larger than the field of view.
 void add_wall(SceneBuilder& builder, const glm::dvec3& eye, double y) {
   const double tan_half_view = std::sqrt(2.0) - 1.0;  // of 22.5 degrees
   const double half = 1.01 * (y - eye.y) * tan_half_view;

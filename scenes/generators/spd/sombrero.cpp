@@ -18,9 +18,8 @@ double ripple(double x, double z) {
   return portable_cos(2.0 * std::numbers::pi * r) * portable_exp(-r);
 }
 
-/// A height field of `width` x `width` points. As in the SPD the heights are taken where `width`
-/// cells would put the points, and then stand where `width` - 1 cells put them: the hat lies a
-/// little off the middle.
+/// Adds a height field of `width` x `width` points. As in the SPD, the heights are computed for a
+/// grid of `width` cells but placed on one of `width` - 1 cells, so the hat is slightly off center.
 void add_hat(SceneBuilder& builder, std::uint32_t width) {
   const double sampled = 2.0 * kHalfSize / width;
   const double spaced = 2.0 * kHalfSize / (width - 1);

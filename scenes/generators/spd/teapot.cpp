@@ -22,9 +22,9 @@ struct PatchPoint {
   glm::dvec3 normal;  ///< of any length; 0 where the surface has none
 };
 
-/// Four control points of a quarter circle of that radius at that height. Newell's arcs have their
-/// inner points at 0.56 of the radius, not at the 0.5523 that comes nearest to a circle; those of
-/// the lid's knob at 0.5625.
+/// Four control points of a quarter circle of that radius at that height. The inner points of
+/// Newell's arcs are at 0.56 of the radius (of the lid's knob, 0.5625), not at 0.5523, which
+/// approximates a circle best.
 struct Arc {
   double radius;
   double height;
@@ -40,7 +40,7 @@ constexpr std::array<LatheSection, 3> kBody = {
 constexpr std::array<LatheSection, 2> kLid = {
     {{{{0.0, 3.15}, {0.8, 3.15, 0.5625}, {0.0, 2.85}, {0.2, 2.7}}},
      {{{0.2, 2.7}, {0.4, 2.55}, {1.3, 2.55}, {1.3, 2.4}}}}};
-/// Counter-clockwise: it is seen from below.
+/// The bottom, counter-clockwise because it is seen from below.
 constexpr LatheSection kBottom = {{{0.0, 0.0}, {1.425, 0.0}, {1.5, 0.075}, {1.5, 0.15}}};
 
 /// Four control points around one side of a tube: from a point of the plane y = 0, out to y =
@@ -69,7 +69,7 @@ constexpr std::array<TubeSection, 2> kSpout = {{{{{{1.7, 1.425}, {1.7, 0.6}, 0.6
                                                   {{2.9, 2.475}, {3.45, 2.5125}, 0.15},
                                                   {{2.8, 2.4}, {3.2, 2.4}, 0.15}}}}};
 
-/// Quarter after quarter around z, the first from +x on; `sense` is -1 for clockwise.
+/// Appends the quarters around z, starting at +x; `sense` is -1 for clockwise.
 void append_lathe(std::vector<BezierPatch>& patches, const LatheSection& section, double sense) {
   for (int quarter = 0; quarter < 4; ++quarter) {
     BezierPatch patch;
@@ -86,7 +86,7 @@ void append_lathe(std::vector<BezierPatch>& patches, const LatheSection& section
   }
 }
 
-/// The two sides of a tube: -y from `from` to `to`, then +y back.
+/// Appends the two sides of a tube: -y from `from` to `to`, then back on +y.
 void append_tube(std::vector<BezierPatch>& patches, const TubeSection& section) {
   BezierPatch side;
   BezierPatch other;
@@ -159,7 +159,7 @@ class PatchMesh {
     }
   }
 
-  /// Two triangles for each cell; at a pole, where a side of the cell is a point, one.
+  /// Adds two triangles for each cell; at a pole, where one side of the cell is a point, only one.
   void add_triangles() const {
     for (std::int64_t i = 0; i < n_; ++i) {
       for (std::int64_t j = 0; j < n_; ++j) {

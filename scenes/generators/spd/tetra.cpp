@@ -9,7 +9,7 @@ namespace {
 /// The corners of the cube [-1, 1]^3 whose signs multiply to +1: a regular tetrahedron.
 constexpr std::array<glm::dvec3, 4> kCorners = {
     {{1.0, 1.0, 1.0}, {1.0, -1.0, -1.0}, {-1.0, 1.0, -1.0}, {-1.0, -1.0, 1.0}}};
-/// Its faces, counter-clockwise seen from outside; face i lies opposite corner i.
+/// The tetrahedron's faces, counter-clockwise seen from outside; face i is opposite corner i.
 constexpr std::array<std::array<int, 3>, 4> kFaces = {{{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}}};
 
 void add_tetrahedron(SceneBuilder& builder, const glm::dvec3& center, double half_size) {
@@ -25,7 +25,7 @@ void add_tetrahedron(SceneBuilder& builder, const glm::dvec3& center, double hal
   }
 }
 
-/// 4^levels tetrahedra at the corners of one another.
+/// Adds 4^levels tetrahedra that touch at their corners.
 void add_tetrahedra(SceneBuilder& builder, const glm::dvec3& center, double half_size,
                     std::int64_t levels) {
   if (levels == 0) return add_tetrahedron(builder, center, half_size);

@@ -11,7 +11,7 @@
 namespace beambench::scenes::generators {
 namespace {
 
-constexpr double kWidthOfHeight = 0.15;  // a branch's base radius, of its length before shrinking
+constexpr double kWidthOfHeight = 0.15;  // base radius over a branch's unshrunk length
 constexpr double kTaper = 0.67;          // a branch's upper radius over its lower
 
 /// How a branch grows out of the end of another (Aono and Kunii, IEEE CG&A 4(5), 1984).
@@ -36,7 +36,8 @@ glm::dmat3 relative_axes(const Growth& growth) {
 
 using Branching = std::array<glm::dmat3, 2>;
 
-/// A branch, a sphere on its end, and what grows out of it. `axes` has the branch in its z column.
+/// Adds a branch, a sphere on its end, and everything that grows out of it. The z column of `axes`
+/// is the branch's direction.
 void grow(SceneBuilder& builder, const Branching& branching, const glm::dmat3& axes,
           const glm::dvec3& base, double radius, std::int64_t generations) {
   const glm::dvec3 end = base + axes[2];

@@ -39,7 +39,7 @@ modelling::Profile& collar(modelling::Profile& profile, double stem, double radi
       .line({stem, height + 0.07});
 }
 
-/// Whatever is on the crown's rim: every second vertex of the ring at `height` is raised.
+/// Raises whatever is on the crown's rim: every second vertex of the ring at `height`.
 void raise_points(modelling::PolygonMesh& mesh, double height, double rise) {
   std::size_t nth = 0;
   for (glm::dvec3& vertex : mesh.vertices) {
@@ -97,7 +97,7 @@ double horse(const glm::dvec3& place) {
 }
 
 /// Staunton's pieces, standing at the origin of a board whose squares have side 1, without the
-/// undersides they stand on. The knight faces +y.
+/// undersides. The knight faces +y.
 modelling::PolygonMesh chess_pawn() {
   modelling::Profile profile = foot(0.32);
   profile.curve({0.11, 0.58}, -0.07, 5);
@@ -135,7 +135,7 @@ modelling::PolygonMesh chess_knight() {
       [&](const glm::dvec3& place) { return std::max(horse(place), kTop - place.z); },
       {-0.45, -0.4, 0.2}, {0.5, 0.4, 1.4}, 0.058));
   std::erase_if(head.polygons,
-                [&](const modelling::PolygonMesh::Corners& corners) {  // it stands on its foot
+                [&](const modelling::PolygonMesh::Corners& corners) {  // its foot hides this part
                   return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t corner) {
                     return head.vertices[corner].z < kTop + 1e-6;
                   });
@@ -193,7 +193,7 @@ modelling::PolygonMesh chess_king() {
                                                                               {-0.10, 0.07},
                                                                               {-0.03, 0.09}}),
                                                      0.05);
-  cross.polygons.erase(cross.polygons.begin() + 2);  // the wall that stands in the crown
+  cross.polygons.erase(cross.polygons.begin() + 2);  // the side inside the crown
   modelling::append(
       mesh, modelling::transformed(modelling::triangulated(cross),
                                    glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.025, 1.785)) *
@@ -203,8 +203,8 @@ modelling::PolygonMesh chess_king() {
 
 constexpr std::size_t kPolygons = 19734;
 
-/// The Spanish opening, 1. e4 e5 2. Nf3 Nc6 3. Bb5, seen from White's side: the eighth rank first,
-/// White in capitals.
+/// The Spanish opening, 1. e4 e5 2. Nf3 Nc6 3. Bb5, seen from White's side: the eighth rank comes
+/// first, and White is in capitals.
 constexpr std::array<std::string_view, 8> kPosition = {{"r.bqkbnr", "pppp.ppp", "..n.....",
                                                         ".B..p...", "....P...", ".....N..",
                                                         "PPPP.PPP", "RNBQK..R"}};

@@ -18,7 +18,7 @@ constexpr int kPlatePanels = 4;  // along an edge of a plate of one color
 double power(double base) { return portable_exp(kPower * portable_log(base)); }
 double root(double value) { return portable_exp(portable_log(value) / kPower); }
 
-/// Where the ray from the center through a point meets |x|^5 + |y|^5 + |z|^5 = 1.
+/// Returns the point where the ray from the center through `point` meets |x|^5 + |y|^5 + |z|^5 = 1.
 glm::dvec3 onto_ball(const glm::dvec3& point) {
   double sum = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -28,7 +28,7 @@ glm::dvec3 onto_ball(const glm::dvec3& point) {
   return point / root(sum);
 }
 
-/// A side of a cube, blown up to the ball.
+/// One side of a cube, inflated to the ball.
 modelling::PolygonMesh side(int axis, double direction) {
   return modelling::parametric_surface(
       [axis, direction](double u, double v) {
@@ -79,11 +79,11 @@ Scene generate(const Parameters& parameters) {
 
 // The thesis's own scene is lost. What is known of it: 1,536 polygons that occupy nearly all of the
 // scene's space and leave few gaps, and nearly all rays hit in the leaf where their beam ends
-// (section 5.4.2). No round ball does the last: where its surface is oblique to the cells, a ray
-// passes two or three of them before it hits, and at level 6 little more than a third of the rays
-// hit in the first. So the ball is a superellipsoid (Barr, "Superquadrics and angle-preserving
-// transformations", IEEE Computer Graphics and Applications 1(1), 1981), which fills its cube, seen
-// on a broad side.
+// (section 5.4.2). A round ball cannot meet the last condition: where its surface is oblique to the
+// cells, a ray passes two or three of them before it hits, and at level 6 little more than a third
+// of the rays hit in the first. So the ball is a superellipsoid (Barr, "Superquadrics and
+// angle-preserving transformations", IEEE Computer Graphics and Applications 1(1), 1981), which
+// fills its cube, seen on a broad side.
 void register_bola_espacial(Catalogue& catalogue) {
   catalogue.add({"bola-espacial",
                  "The thesis's Bola espacial: a ball of 1,536 panels that nearly fills its cube",

@@ -25,7 +25,7 @@ namespace {
 /// A slope of the roof: from an eaves corner along the eaves and up to the ridge.
 struct RoofSlope {
   glm::dvec3 corner;
-  glm::dvec3 along;  ///< the eaves, with their length; along x up looks out of the roof
+  glm::dvec3 along;  ///< the eaves, with their length; along x up points out of the roof
   glm::dvec3 up;     ///< to the ridge, with its length
   int tiles;         ///< along the eaves
   int rows;
@@ -33,7 +33,7 @@ struct RoofSlope {
 
 constexpr int kPieces = 6;  // around a tile and the channel beside it
 
-/// A strip of quads between two lines of as many points.
+/// Adds a strip of quads between two lines with equal numbers of points.
 void add_strip(modelling::PolygonMesh& mesh, const std::vector<glm::dvec3>& low,
                const std::vector<glm::dvec3>& high) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -145,7 +145,7 @@ void add(SceneBuilder& builder, const Surface& surface, const modelling::Polygon
   modelling::add_flat(builder, modelling::transformed(mesh, place));
 }
 
-/// A shutter with slats, hung beside a window.
+/// A shutter with slats, mounted beside a window.
 void add_shutter(SceneBuilder& builder, const glm::dmat4& place) {
   constexpr double kThick = 0.06;
   constexpr int kSlats = 9;
@@ -207,7 +207,7 @@ void add_walls(SceneBuilder& builder) {
   add(builder, kPlaster, gables, glm::dmat4(1.0));
 }
 
-/// Without what is under the chimney.
+/// Removes the part under the chimney.
 modelling::PolygonMesh around_chimney(modelling::PolygonMesh roof) {
   std::erase_if(roof.polygons, [&](const modelling::PolygonMesh::Corners& corners) {
     return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t corner) {
@@ -270,8 +270,8 @@ void add_porch(SceneBuilder& builder) {
                       tiled_slope({{-2.25, -2.3, 2.5}, {4.5, 0.0, 0.0}, {0.0, 2.3, 0.5}, 12, 6}));
 }
 
-/// Adds the house: 10 wide (x from -5), 7 deep (y from 0, the front), the ridge 7.6 high; a porch
-/// stands before its door on [-2, 2] x [-2, 0].
+/// Adds the house: 10 wide (x from -5), 7 deep (y from 0, the front), the ridge 7.6 high; with a
+/// porch in front of its door on [-2, 2] x [-2, 0].
 void add_country_house(SceneBuilder& builder) {
   add_walls(builder);
   add_roof(builder);
@@ -281,7 +281,7 @@ void add_country_house(SceneBuilder& builder) {
 
 constexpr std::size_t kPolygons = 12172;
 
-/// Squares of meadow and of the path to the door; none under the house and its porch.
+/// Adds squares of meadow and of the path to the door, except under the house and its porch.
 void add_ground(SceneBuilder& builder) {
   const Surface meadow = {.color = {0.50F, 0.70F, 0.32F}, .diffuse = 0.9F};
   const Surface path = {.color = {0.80F, 0.71F, 0.53F}, .diffuse = 0.9F};

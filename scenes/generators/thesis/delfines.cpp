@@ -16,7 +16,7 @@
 namespace beambench::scenes::generators {
 namespace {
 
-/// How a dolphin holds itself; radians over its length of 1.
+/// A dolphin's pose; radians over its length of 1.
 struct DolphinPose {
   double arch = 0.0;  ///< back bent: head and tail down
   double turn = 0.0;  ///< head and tail to its left
@@ -71,8 +71,8 @@ modelling::PolygonMesh body() {
   return modelling::welded(mesh);
 }
 
-/// A blade across its spine: where it stands, how far it goes before and behind that point along x,
-/// and how thick it is.
+/// A cross-section of a fin: its position on the spine, its extent before and behind that point
+/// along x, and its thickness.
 struct Blade {
   glm::dvec3 spine;
   double front, back, thickness;
@@ -198,8 +198,8 @@ Scene generate(const Parameters& parameters) {
   builder.add_light({2.0, -3.0, 1.0}, glm::dvec3(0.4));
 
   // Places and camera are fitted to the thesis's octree counts
-  // (tests/accel/octree_counts_test.cpp): one behind the other, the line of the three makes the
-  // root cube, the camera looks along it.
+  // (tests/accel/octree_counts_test.cpp): the dolphins are one behind the other, their line
+  // determines the root cube, and the camera looks along it.
   constexpr std::array<Swimmer, 3> kSwimmers = {
       {{{-0.013, -0.356, -0.125}, 186.0, 6.0, 3.0, {0.5, 0.15}},
        {{0.166, 0.012, 0.026}, 28.0, -8.0, 16.0, {0.7, -0.1}},

@@ -15,8 +15,7 @@ namespace {
 
 constexpr double kHalfSize = 10.0;  // the spheres fill the cube [-10, 10]^3
 
-/// The balls by the cell of a grid that holds their center, as lists, so that millions can be
-/// placed.
+/// The balls, listed by the grid cell of their center, so that millions can be placed.
 class BallGrid {
  public:
   /// `cells` on each axis.
@@ -33,9 +32,9 @@ class BallGrid {
     largest_ = std::max(largest_, ball.radius);
   }
 
-  /// Free room around a point: its distance to the nearest ball, at most the cube's edge; or any
-  /// distance that is no more than `wanted`, if there is one. Shell after shell of cells, leaving
-  /// out those too far away to hold a nearer ball.
+  /// Returns the free room around a point: its distance to the nearest ball, at most the cube's
+  /// edge. If that is no more than `wanted`, any distance up to `wanted` may be returned. Searches
+  /// shell after shell of cells, skipping those too far away to hold a nearer ball.
   double gap(const glm::dvec3& point, double wanted) const {
     const Cell middle = cell(point);
     double least = 2.0 * kHalfSize;
@@ -65,8 +64,8 @@ class BallGrid {
     return static_cast<std::size_t>((at[2] * cells_ + at[1]) * cells_ + at[0]);
   }
 
-  /// Whether the layer of cells lies in the grid and near enough for a ball nearer than `least`, or
-  /// very slightly farther, for rounding.
+  /// Returns whether the layer of cells lies in the grid and near enough for a ball nearer than
+  /// `least`, with a slight tolerance for rounding.
   bool may_hold_nearer(double coordinate, std::int64_t layer, double least) const {
     if (layer < 0 || layer >= cells_) return false;
     const double low = static_cast<double>(layer) * width_ - kHalfSize;
@@ -128,7 +127,7 @@ Scene generate(const Parameters& parameters) {
 std::vector<Ball> scattered_balls(std::int64_t count, std::uint64_t seed) {
   Random random(seed);
   constexpr int kCandidates = 16;
-  std::int64_t cells = 1;  // on each axis of a grid with a cell for each ball
+  std::int64_t cells = 1;  // on each axis of a grid with one cell per ball
   while (cells * cells * cells < count) ++cells;
   const double spacing = 2.0 * kHalfSize / static_cast<double>(cells);
   BallGrid grid(cells);

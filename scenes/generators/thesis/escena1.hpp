@@ -1,5 +1,5 @@
 #pragma once
-// The balls of Escena 1, for scenes that make spheres of them and those that make triangles.
+// The balls of Escena 1, used both as spheres and as triangle meshes.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,8 +17,8 @@ struct Ball {
 };
 
 /// Balls of random sizes in the cube [-10, 10]^3, spread evenly by best-candidate sampling
-/// (Mitchell 1991): of several random places each ball takes the one with the most room, and
-/// shrinks where that is too little.
+/// (Mitchell 1991): each ball takes the roomiest of several random places, and shrinks if it does
+/// not fit.
 std::vector<Ball> scattered_balls(std::int64_t count, std::uint64_t seed);
 
 /// Their camera, background and lights.

@@ -16,7 +16,7 @@
 namespace beambench::scenes::generators {
 namespace {
 
-/// What its places are covered with.
+/// The plumage or skin at a place of the bird.
 enum class Plumage : std::uint8_t { kPink, kWing, kFlightFeathers, kLeg, kBill, kBillTip };
 
 /// A chain of limbs has a radius at each joint.
@@ -76,7 +76,7 @@ double neck_and_head(const glm::dvec3& p) {
       d, modelling::ellipsoid_field(p, {0.39, 0.0, 1.705}, {0.085, 0.056, 0.060}), 0.03);
 }
 
-/// The bill is bent down in its middle.
+/// The bill, bent down in the middle.
 double bill(const glm::dvec3& p) {
   const std::array<Joint, 4> joints = {{{{0.44, 0.0, 1.70}, 0.042},
                                         {{0.53, 0.0, 1.675}, 0.034},
@@ -119,7 +119,7 @@ double legs(const glm::dvec3& p) {
   d = modelling::joined(d, modelling::ellipsoid_field(p, {0.0, 0.045, 0.36}, {0.028, 0.026, 0.040}),
                         0.02);
   d = modelling::joined(d, toes(p, foot, {1.0, 0.0, 0.0}), 0.02);
-  // The other leg is drawn up: its heel points back, its foot hangs under the breast.
+  // The other leg is drawn up: its heel points back, its foot is under the breast.
   const glm::dvec3 hanging(0.21, -0.06, 0.52);
   const std::array<Joint, 4> folded = {{{{0.02, -0.06, 0.72}, 0.045},
                                         {{-0.03, -0.06, 0.62}, 0.022},

@@ -35,7 +35,7 @@ const std::array<glm::dvec3, 7> kTail = {{{0.15, 0.25, 0.12},
                                           {1.06, 0.20, 1.12},
                                           {1.26, 0.16, 1.26}}};
 
-/// The place in the cat's left half: all but arms and tail is the same on both sides.
+/// Mirrors a place to the cat's left half: everything except arms and tail is symmetric.
 glm::dvec3 folded(const glm::dvec3& place) { return {std::abs(place.x), place.y, place.z}; }
 
 double head(const glm::dvec3& place) {
@@ -62,7 +62,7 @@ double tail(const glm::dvec3& place) {
   return d;
 }
 
-/// One arm waves, the other hangs down to the knee.
+/// One arm waves, the other reaches down to the knee.
 double arms(const glm::dvec3& place) {
   double d = modelling::limb_field(place, {{-0.30, 0.0, 0.84}, 0.12, {-0.80, -0.12, 0.98}, 0.10});
   d = modelling::joined(
@@ -136,14 +136,15 @@ constexpr glm::dvec3 kNoseSize = {0.085, 0.06, 0.058};
 constexpr glm::dvec3 kTongue = {0.0, -0.47, 1.07};
 constexpr glm::dvec3 kTongueSize = {0.10, 0.17, 0.035};
 
-/// From an eye that looks straight ahead to how the cat's left eye (side 1) or right one looks.
+/// Rotates an eye that looks straight ahead to the direction of the cat's left eye (side 1) or
+/// right one.
 glm::dmat4 eye_turn(double side) {
   const glm::dvec3 center = kEye * glm::dvec3(side, 1.0, 1.0);
   return glm::translate(glm::dmat4(1.0), center) * modelling::rotation(2, -kSquint * side) *
          glm::translate(glm::dmat4(1.0), -center);
 }
 
-/// Eyes, nose and tongue: what hides the fur behind them.
+/// Eyes, nose and tongue, which hide the fur behind them.
 double features(const glm::dvec3& place) {
   const glm::dvec3 straight(glm::inverse(eye_turn(1.0)) * glm::dvec4(folded(place), 1.0));
   return std::min({modelling::ellipsoid_field(straight, kEye, kEyeSize),
@@ -204,7 +205,7 @@ void add_fur(SceneBuilder& builder) {
   modelling::PolygonMesh mesh =
       modelling::drawn_to_borders(modelling::triangulated(rough), cat, region);
   mesh = modelling::outside(mesh, features);
-  // What it sits on is the floor.
+  // The floor hides the underside.
   std::erase_if(mesh.polygons, [&](const modelling::PolygonMesh::Corners& corners) {
     return std::all_of(corners.begin(), corners.end(),
                        [&](std::uint32_t corner) { return mesh.vertices[corner].z < 1e-3; });
@@ -265,8 +266,8 @@ void add_whiskers(SceneBuilder& builder) {
   }
 }
 
-/// Adds a sitting cartoon cat, 2.2 high, its seat and feet on z = 0, facing -y: its fur, then
-/// eyes, nose, tongue and whiskers, each without the polygons that are inside the head.
+/// Adds a sitting cartoon cat, 2.2 high, its seat and feet on z = 0, facing -y: its fur, then eyes,
+/// nose, tongue and whiskers, each without the polygons inside the head.
 void add_cartoon_cat(SceneBuilder& builder) {
   add_fur(builder);
   add_eyes(builder);
@@ -280,7 +281,7 @@ void add_cartoon_cat(SceneBuilder& builder) {
 
 constexpr std::size_t kPolygons = 15128;
 
-/// The name, hanging in the air behind the cat's ears.
+/// The name, floating behind the cat's ears.
 modelling::PolygonMesh name() {
   constexpr double kHeight = 0.76;
   glm::dmat4 place = glm::translate(

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kPolygons = 1284;
 constexpr int kLeaves = 29;
-constexpr double kTop = 0.612;  // of the stem, where the last leaf stands
+constexpr double kTop = 0.612;  // of the stem, at the last leaf
 
 /// The pot without its unseen bottom: wall, rim, and inside down to the soil.
 modelling::PolygonMesh pot() {
@@ -37,7 +37,7 @@ modelling::PolygonMesh stem() {
 }
 
 /// Leaves around the stem in the spiral of phyllotaxis (Vogel 1979): each a golden angle further
-/// than the one below, the lower ones long and hanging, the upper ones steep and short. Sizes and
+/// than the one below, the lower ones long and drooping, the upper ones steep and short. Sizes and
 /// seed are fitted to the thesis's octree counts (tests/accel/octree_counts_test.cpp).
 modelling::PolygonMesh leaves() {
   const double golden = std::numbers::pi * (3.0 - std::sqrt(5.0));

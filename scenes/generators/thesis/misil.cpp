@@ -62,7 +62,7 @@ modelling::PolygonMesh fin(const std::vector<glm::dvec2>& outline, double thickn
                            glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, -0.5 * thickness)));
 }
 
-/// Four of them around the hull, an eighth of a turn from the axes.
+/// Four copies around the hull, an eighth of a turn from the axes.
 modelling::PolygonMesh four(const modelling::PolygonMesh& one) {
   modelling::PolygonMesh mesh;
   for (int i = 0; i < 4; ++i)

@@ -7,13 +7,13 @@
 namespace beambench::scenes::generators {
 namespace {
 
-/// The share of its width that a leaf has, `s` of the way to its tip.
+/// The width of a leaf relative to its full width, `s` of the way to its tip.
 double outline(double s) { return std::sqrt(s + 0.06) * (1.0 - s * s) * 1.32; }
 
 }  // namespace
 
 modelling::PolygonMesh arching_leaf(const ArchingLeaf& leaf, int pieces) {
-  constexpr double kFold = 0.30;  // how much the edges stand above the midrib
+  constexpr double kFold = 0.30;  // height of the edges above the midrib
   const glm::dvec3 out(portable_cos(leaf.azimuth), portable_sin(leaf.azimuth), 0.0);
   const glm::dvec3 across(-out.y, out.x, 0.0);
   modelling::PolygonMesh mesh;

@@ -7,18 +7,18 @@
 
 namespace beambench::scenes::generators {
 
-/// A long arching leaf: it rises from `root`, leans out and hangs down at its tip.
+/// A long arching leaf: it rises from `root`, leans out and droops at its tip.
 struct ArchingLeaf {
   glm::dvec3 root;
-  double azimuth;  ///< where it leans to, radians
+  double azimuth;  ///< the direction in which it leans, radians
   double rise;     ///< angle of its start above the horizontal, radians
   double fall;     ///< angle of its tip below the horizontal, radians
   double length;
   double width;
 };
 
-/// The leaf as `pieces` pairs of quads left and right of its midrib, folded like a gutter, the last
-/// pair triangles at the tip: 2 * pieces polygons.
+/// The leaf as `pieces` pairs of quads left and right of its midrib, folded like a gutter; the last
+/// pair, at the tip, are triangles: 2 * pieces polygons.
 modelling::PolygonMesh arching_leaf(const ArchingLeaf& leaf, int pieces);
 
 }  // namespace beambench::scenes::generators

@@ -20,7 +20,7 @@ Scene generate(const Parameters& parameters) {
   builder.set_surface(
       {.color = {0.80F, 0.84F, 0.90F}, .diffuse = 0.75F, .specular = 0.35F, .shine = 30.0F});
   add_teapot(builder, 4);
-  // The tray stays a little below the pot, so that no side of either is out of sight.
+  // The tray stays slightly below the pot, so that all sides of both are visible.
   builder.set_surface({.color = {0.55F, 0.33F, 0.18F}, .diffuse = 0.85F});
   modelling::add_flat(
       builder, modelling::triangulated(modelling::box({-4.0, -4.0, -0.5}, {4.0, 4.0, -0.1})));

@@ -24,7 +24,7 @@ constexpr double kThirdFloor = 276.0;
 constexpr double kFloorDepth = 4.5;
 constexpr double kClear = 0.5;  // between a floor and the nearest crossbar's axis
 
-/// How far a leg's outer and inner posts are from the middle, on both axes.
+/// The distances of a leg's outer and inner posts from the center, on both axes.
 struct Section {
   double height, outer, inner;
 };
@@ -42,7 +42,7 @@ std::vector<Section> panels(const Section& from, const Section& to, int count) {
   return sections;
 }
 
-/// The shaft narrows as a curve of its own; its panels get lower with its width.
+/// The shaft narrows along its own curve; its panels get lower as it gets narrower.
 std::vector<Section> shaft_sections() {
   constexpr int kPanels = 28;
   constexpr double kFoot = kSecondFloor + kClear;
@@ -60,7 +60,7 @@ std::vector<Section> shaft_sections() {
 
 using Posts = std::vector<glm::dvec3>;
 
-/// A post through the sections; `x` and `y` take a section to a place on the axis.
+/// A post through the sections; `x` and `y` map a section to a place on the axis.
 template <typename X, typename Y>
 Posts post(const std::vector<Section>& sections, X x, Y y) {
   Posts places;
@@ -74,7 +74,7 @@ double inner(const Section& section) { return section.inner; }
 double minus_outer(const Section& section) { return -section.outer; }
 double minus_inner(const Section& section) { return -section.inner; }
 
-/// A post along the places, a meter longer at both ends: into the floors and foundations.
+/// A post along the places, a meter longer at both ends to reach into floors and foundations.
 modelling::PolygonMesh beam(Posts places, double thickness) {
   const std::size_t last = places.size() - 1;
   places[0] += glm::normalize(places[0] - places[1]);
@@ -84,7 +84,7 @@ modelling::PolygonMesh beam(Posts places, double thickness) {
   return modelling::sweep(square, places, scales, {1.0, 0.0, 0.0}, modelling::Caps::kNone);
 }
 
-/// The same in the four corners or on the four sides of the tower.
+/// Four copies, in the corners or on the sides of the tower.
 modelling::PolygonMesh four_times(const modelling::PolygonMesh& one) {
   modelling::PolygonMesh mesh;
   for (int i = 0; i < 4; ++i)
@@ -98,7 +98,7 @@ Posts halfway(const Posts& a, const Posts& b) {
   return places;
 }
 
-/// One side of a leg: a thin post in its middle, bracing on both sides of that.
+/// One side of a leg: a thin post in its middle, with bracing on both sides.
 modelling::PolygonMesh leg_side(const Posts& left, const Posts& right, const glm::dvec3& outward,
                                 const modelling::Bracing& bracing) {
   const Posts center = halfway(left, right);
@@ -183,7 +183,7 @@ modelling::PolygonMesh gallery_side(double height, double half, int posts, doubl
 }
 
 /// The four legs from the ground to the second floor, the shaft above and the arches between the
-/// legs, in meters, the middle of its foot at the origin.
+/// legs, in meters, with the center of the base at the origin.
 modelling::PolygonMesh iron_tower() {
   const Section ground = {3.2 + kClear, 60.8, 36.3};
   const Section below_first = {kFirstFloor - kFloorDepth - kClear, 35.2, 18.2};

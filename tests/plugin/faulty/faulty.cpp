@@ -1,4 +1,4 @@
-// A plug-in that does wrong whatever the environment's FAULT names; nothing, where it is empty.
+// A plug-in with the fault that the environment variable FAULT names; none if it is empty.
 
 #include <csignal>
 #include <cstdlib>
@@ -30,7 +30,7 @@ void hang() {
   }
 }
 
-/// Wrong before anything of it was called.
+/// Faults before any of its functions are called.
 struct AtLoad {
   AtLoad() {
     if (fault_is("crash at load")) crash();
@@ -39,7 +39,7 @@ struct AtLoad {
   }
 } at_load;
 
-/// Right: it tests every primitive. Its faults show in its answers.
+/// Correct: it tests every primitive. Its faults are in its results.
 class Faulty : public TraversalAccelerator<Faulty> {
  public:
   explicit Faulty(const Scene& scene) : scene_(&scene) {

@@ -24,7 +24,7 @@ PHASES = {"build": ["build_ms"], "trace": ["trace_ms"], "total": ["build_ms", "t
 
 
 def cycles(cell: dict, phases: list[str]) -> dict[int, float]:
-    """Cycles of each round."""
+    """Returns the cycles of each round."""
     return {
         repetition["round"]: sum(repetition[phase] for phase in phases) * repetition["clock_ghz"]
         for repetition in cell["repetitions"]
@@ -32,7 +32,7 @@ def cycles(cell: dict, phases: list[str]) -> dict[int, float]:
 
 
 def interval(logs: np.ndarray) -> tuple[float, float]:
-    """95%, of the median, by bootstrap."""
+    """Returns the 95% interval of the median, by bootstrap."""
     drawn = np.random.default_rng(1999).choice(logs, (4000, len(logs)))
     low, high = np.quantile(np.median(drawn, axis=1), (0.025, 0.975))
     return float(np.exp(low)), float(np.exp(high))

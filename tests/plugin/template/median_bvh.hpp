@@ -20,7 +20,7 @@ class MedianBvh : public beambench::accel::TraversalAccelerator<MedianBvh> {
     if (!order_.empty()) build(0, static_cast<std::uint32_t>(order_.size()), max_leaf, 1);
   }
 
-  /// `counting` is given each piece of work; in timed code its calls are empty
+  /// `counting` receives each piece of work; in timed code its calls are empty
   /// (accel/core/work_counters.hpp).
   template <class Counting>
   std::optional<beambench::accel::Hit> find_closest(const beambench::accel::Ray& ray,
@@ -87,7 +87,7 @@ class MedianBvh : public beambench::accel::TraversalAccelerator<MedianBvh> {
   }
 
   /// Depth first; ends early when `test` returns true. `t_max` shrinks while hits are found. A box
-  /// is skipped only where it is entered behind t_max: at the same t a lower id may still be found.
+  /// is skipped only if it is entered beyond t_max: at the same t, a lower id may still be found.
   template <class Counting, class Test>
   bool visit(const beambench::accel::Ray& ray, Counting& counting, Test test,
              const float& t_max) const {
@@ -117,8 +117,7 @@ class MedianBvh : public beambench::accel::TraversalAccelerator<MedianBvh> {
   }
 
   const beambench::scenes::Scene* scene_;
-  std::vector<beambench::scenes::Bounds>
-      boxes_;  ///< of the primitives, as wide as a hit may lie beside one
+  std::vector<beambench::scenes::Bounds> boxes_;  ///< widened for hits beside primitives
   std::vector<std::uint32_t> order_;
   std::vector<Node> nodes_;
   std::uint64_t depth_ = 0;

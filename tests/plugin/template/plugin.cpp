@@ -1,4 +1,4 @@
-// The plug-in's entry point: what it brings, under which names, with which parameters.
+// The plug-in's entry point: its structures, their names and their parameters.
 
 #include <cmath>
 #include <memory>

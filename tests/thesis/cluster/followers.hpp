@@ -10,7 +10,7 @@
 
 namespace beambench::cluster {
 
-/// What `lead` makes of the request on process 0, while all others follow.
+/// Returns the result of `lead` for the request on process 0, while all other processes follow.
 template <class Lead>
 auto led(Lead lead, const ClusterRequest& request, LocalNetwork& network) {
   std::vector<std::jthread> others;

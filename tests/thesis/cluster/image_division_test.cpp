@@ -1,4 +1,4 @@
-// What must be true of divisions: every task is in one share, and every pixel in one tile.
+// Properties of divisions: every task is in one share, and every pixel in one tile.
 
 #include "harness/thesis/cluster/image_division.hpp"
 

@@ -1,5 +1,5 @@
-// What must be true of results that are kept: what was finished is used, what was cut off is not,
-// and the picture is the same.
+// Properties of kept results: finished ones are used, truncated ones are not, and the picture is
+// the same.
 
 #include "harness/thesis/cluster/kept_results.hpp"
 
@@ -30,7 +30,7 @@ Bytes bytes_of(std::string_view text) {
   return bytes;
 }
 
-/// A place for a picture, empty at first.
+/// A place for a picture, initially empty.
 class KeptResults : public ::testing::Test {
  protected:
   static std::size_t count(const KeptFolder& folder, const std::string& key) {
@@ -39,7 +39,7 @@ class KeptResults : public ::testing::Test {
     return found;
   }
 
-  TemporaryFolder folder_;  // of this test alone: others run at the same time
+  TemporaryFolder folder_;  // unique to this test, because others run at the same time
   fs::path place_ = folder_.path();
   fs::path picture_ = place_ / "picture.png";
 };
@@ -114,7 +114,7 @@ TEST_F(KeptResults, GiveTheSamePictureWhereverTheRunWasInterrupted) {
       run(request_for(Work::kBeams, picture_, false, false), 1).result_hash;
   for (const Work work : {Work::kBeams, Work::kBlocks, Work::kTiles, Work::kInterlaced}) {
     for (const bool stored : {false, true}) {
-      // A whole run, whose results stay as there is no picture, and are then cut off.
+      // A whole run, whose results stay because there is no picture, and are then truncated.
       ClusterRequest whole = request_for(work, picture_, false, stored);
       whole.picture = (place_ / "none" / "a.png").string();
       EXPECT_THROW(run(whole, 3), InputError);

@@ -1,5 +1,5 @@
 #pragma once
-// Processes that are threads, and messages that take their time.
+// Threads that act as processes, with delayed messages.
 
 #include <algorithm>
 #include <chrono>
@@ -16,7 +16,7 @@
 
 namespace beambench::cluster {
 
-/// Delivers each message after a random time of its own, so that they overtake each other.
+/// Delivers each message after its own random delay, so that they overtake each other.
 class LocalNetwork {
  public:
   LocalNetwork(int processes, unsigned seed, double longest_delay)
@@ -26,7 +26,7 @@ class LocalNetwork {
 
   Transport& at(ProcessId process) { return *ends_[static_cast<std::size_t>(process)]; }
 
-  /// From now on, `process` sends `count` messages more; the others are lost.
+  /// Loses all messages from `process` after the next `count`.
   void mute_after(ProcessId process, int count) {
     const std::lock_guard lock(mutex_);
     left_[process] = count;
@@ -80,7 +80,7 @@ class LocalNetwork {
     friend class LocalNetwork;
     LocalNetwork* network_;
     ProcessId self_;
-    std::multimap<Clock::time_point, Message> box_;  ///< by when they are there
+    std::multimap<Clock::time_point, Message> box_;  ///< by arrival time
   };
 
   void post(ProcessId to, Message message) {

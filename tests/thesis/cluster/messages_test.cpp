@@ -1,4 +1,4 @@
-// What must be true of messages: they mean the same in every process.
+// Properties of messages: they mean the same in every process.
 
 #include "harness/thesis/cluster/messages.hpp"
 
@@ -124,7 +124,7 @@ TEST(TaskMessage, RefusesWhatIsNoTask) {
     EXPECT_THROW(read_task(std::span(task).first(length), tracer.octree(), view), ProtocolError);
   }
   Random random(1);
-  for (int i = 0; i < 20000; ++i) {  // whatever comes, it is refused or a beam: no crash
+  for (int i = 0; i < 20000; ++i) {  // any input is refused or is a beam: no crash
     Bytes spoilt = task;
     const std::size_t at = random.below(static_cast<std::uint32_t>(task.size()));
     spoilt[at] = static_cast<std::byte>(random.below(256));
@@ -194,7 +194,7 @@ TEST(JobMessage, ComesBack) {
   EXPECT_EQ(read.heartbeat_interval, 0.5);
 }
 
-/// What reading throws; empty: nothing.
+/// Returns the message that reading throws; empty if it does not throw.
 template <class Read>
 std::string problem_of(Read read) {
   try {
@@ -205,7 +205,7 @@ std::string problem_of(Read read) {
   return "";
 }
 
-/// A message of another version: a letter of the version is another one.
+/// Turns a message into one of another version by changing a letter of the version.
 Bytes from_another_version(Bytes bytes) {
   bytes[8] = static_cast<std::byte>('9');
   return bytes;

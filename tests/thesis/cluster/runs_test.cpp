@@ -1,5 +1,5 @@
-// What must be true of whole runs: the image is the sequential one bit for bit, however many
-// processes there are, in whatever order their messages come, and whoever falls silent.
+// Properties of whole runs: the image is the sequential one bit for bit, for any number of
+// processes, any order of messages, and any process that falls silent.
 
 #include <functional>
 #include <optional>
@@ -33,7 +33,7 @@ using tests::random_scene;
 
 void accept_anybody(ProcessId, std::span<const std::byte>) {}
 
-/// An image that all the processes of a network make.
+/// An image made by all processes of a network.
 class Workplace {
  public:
   Workplace(const scenes::Scene& scene, const accel::beam::BeamOptions& options, int samples)

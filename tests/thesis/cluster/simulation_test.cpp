@@ -1,5 +1,5 @@
-// What must be true of a simulation's parts: costs as they were recorded, played in their order,
-// and messages that are paid for.
+// Properties of a simulation's parts: costs as recorded, played in their order, and messages that
+// are paid for.
 
 #include <string>
 #include <vector>
@@ -74,7 +74,7 @@ TEST(Replay, MakesTheTasksInTheirOrderAndTakesTheirTime) {
   EXPECT_TRUE(source.next(second));
   EXPECT_FALSE(source.next(none));
   EXPECT_EQ(first.size(), 150U);
-  EXPECT_EQ(second.size(), 4U);  // its number needs as many
+  EXPECT_EQ(second.size(), 4U);  // its number needs this many bytes
   EXPECT_TRUE(none.empty());
   EXPECT_EQ(purse.spent, (std::vector<double>{0.1, 0.2, 0.4}));
 }
@@ -153,7 +153,7 @@ TEST(ChargedTransport, IsPaidForBySenderAndReceiverAndForLooks) {
   EXPECT_TRUE(to.wait(10.0));
   from.send(1, Tag::kEnd, {});
   EXPECT_TRUE(to.wait(10.0));
-  EXPECT_FALSE(to.wait(0.0));  // who waits does nothing else
+  EXPECT_FALSE(to.wait(0.0));  // a waiting process does nothing else
   EXPECT_EQ(sender.spent, (std::vector<double>{3.0, 1.0}));
   EXPECT_EQ(receiver.spent, (std::vector<double>{0.125, 3.0, 1.0}));
 }

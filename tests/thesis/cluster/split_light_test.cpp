@@ -1,5 +1,5 @@
-// What must be true of light in a divided scene: every ray finds what it finds in one process, and
-// so the picture is that of one process, bit for bit.
+// Properties of light in a divided scene: every ray finds the same hit as in one process, so the
+// picture is the same, bit for bit.
 
 #include <algorithm>
 #include <array>
@@ -34,7 +34,7 @@ using tests::kSceneDivisions;
 using tests::options_with;
 using verify::SceneWithRays;
 
-/// A scene in parts, each as in a process of its own.
+/// A scene in parts, each as in its own process.
 class Parts {
  public:
   Parts(const scenes::Scene& scene, const accel::beam::BeamOptions& options,
@@ -53,7 +53,7 @@ class Parts {
     return *workers_[static_cast<std::size_t>(process)];
   }
 
-  /// Takes a ray from part to part, from where process `first` begins it.
+  /// Takes a ray from part to part, starting in process `first`.
   accel::Hit traced(const accel::Ray& ray, LightQuery query, ProcessId first) const {
     const PartTracer& tracer = at(first).single_rays();
     const auto begin = tracer.beginning(ray);
@@ -92,7 +92,7 @@ void expect_the_hits_of_one_process(const SceneWithRays& given, int level, int p
   }
 }
 
-/// Every fourth scene has primitives twice: the lowest id of the whole scene is hit.
+/// Every fourth scene has duplicate primitives: the lowest id of the whole scene is hit.
 TEST(PartTracer, FindsTheHitsOfOneProcessForAnyRay) {
   for (std::uint64_t seed = 0; seed < 16; ++seed) {
     scenes::Scene scene = verify::random_scene(seed, 80);
@@ -110,8 +110,8 @@ TEST(PartTracer, FindsTheHitsOfOneProcessOnBorders) {
   }
 }
 
-/// Two polygons on both sides of a border, nearer to each other than t is exact: equal hits, found
-/// by different processes.
+/// Two polygons on both sides of a border, closer to each other than the precision of t: equal
+/// hits, found by different processes.
 SceneWithRays ties_across_a_border() {
   constexpr double kAside = 1e-5;
   constexpr float kFar = 1000.0F;
@@ -145,7 +145,7 @@ TEST(PartTracer, FindsTheHitsOfOneProcessForDegenerateRays) {
   expect_the_hits_of_one_process({std::move(scene), std::move(rays)}, 3, 3);
 }
 
-/// Mirrors and glass among the primitives of a scene that has neither.
+/// Adds mirrors and glass to a scene that has neither.
 scenes::Scene with_light(scenes::Scene scene, std::uint64_t seed) {
   Random random(seed);
   scene.surfaces = {
@@ -180,7 +180,8 @@ Drawing drawing_of(scenes::Scene scene, int width, int height, int samples) {
   return {std::move(scene), rays, options, std::move(hits), std::move(picture)};
 }
 
-/// Calls `lead(leader)` on process 0, while all others, threads, trace what enters their parts.
+/// Calls `lead(leader)` on process 0, while all others, as threads, trace the rays that enter their
+/// parts.
 template <class Lead>
 auto led_light(const Parts& parts, LocalNetwork& network, Lead lead) {
   std::vector<std::jthread> others;

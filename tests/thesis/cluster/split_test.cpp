@@ -1,5 +1,5 @@
-// What must be true of a divided scene: its parts hold it all, and together its processes find what
-// one finds.
+// Properties of a divided scene: its parts hold it all, and together its processes find the hits of
+// one process.
 
 #include <algorithm>
 #include <array>
@@ -159,7 +159,7 @@ TEST(SampledCosts, AreWhereTheRaysAre) {
       EXPECT_EQ(found[i], 0.0);
     }
   }
-  // As many rays of the sample, each for four times as many of the image.
+  // The same number of rays in the sample, each standing for four times as many of the image.
   const std::vector<double> finer = costs(400, 400);
   EXPECT_GT(std::accumulate(finer.begin(), finer.end(), 0.0),
             std::accumulate(found.begin(), found.end(), 0.0));
@@ -188,7 +188,7 @@ TEST(ScenePart, IsTheSameGeometryUnderLocalIds) {
   }
 }
 
-/// Traces an image by several processes that are threads.
+/// Traces an image by several processes, run as threads.
 accel::HitBuffer traced_in_parts(const scenes::Scene& scene,
                                  const accel::beam::BeamOptions& options,
                                  const accel::PrimaryRays& rays, int level, int processes,
@@ -304,7 +304,7 @@ TEST(SplitScene, EndsWithAnErrorWhereAProcessIsSilent) {
   const accel::PrimaryRays rays(scene.cameras.front(), 60, 60, 1);
   const SceneSplit split = split_of(scene, 5, 3, SceneDivision::kPrimitives, 2);
   LocalNetwork network(2, 1, 0.0);
-  network.mute_after(1, 1);  // it says that it is ready
+  network.mute_after(1, 1);  // it reports that it is ready
   std::jthread other([&] {
     Outbox outbox(network.at(1), split);
     PartWorker worker(part_of(scene, split, 1), split, 1, options, rays, outbox);

@@ -13,7 +13,7 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-/// How a process ended that runs `program`, and after which time.
+/// How a process that runs `program` ended, and after how long.
 struct Ended {
   int status;
   double seconds;
@@ -57,7 +57,7 @@ TEST(Watchdog, LeavesAProcessAloneThatEndsInTime) {
 TEST(Watchdog, LeavesAProcessAloneThatIsNotToEndYet) {
   const Ended long_running = ended([] {
     const Watchdog watchdog(0.1);
-    ::usleep(1'500'000);  // longer than the limit and what is granted beyond it
+    ::usleep(1'500'000);  // longer than the limit and the grace period
   });
   EXPECT_TRUE(WIFEXITED(long_running.status));
   EXPECT_EQ(WEXITSTATUS(long_running.status), 7);

@@ -1,4 +1,4 @@
-// What must be true of the pool: the one that waited longest is next, and silence is noticed.
+// Properties of the pool: the process that waited longest is next, and silence is noticed.
 
 #include "harness/thesis/cluster/worker_pool.hpp"
 
@@ -49,7 +49,7 @@ TEST(WorkerPool, NoticesSilenceOfThoseThatHaveWork) {
   WorkerPool pool(3, 1, 10.0);
   pool.join(1, 0.0);
   pool.join(2, 0.0);
-  EXPECT_EQ(pool.next_deadline(), Transport::kForever);  // who has no work may be silent
+  EXPECT_EQ(pool.next_deadline(), Transport::kForever);  // a process without work may be silent
   pool.gave(1, 100.0);
   EXPECT_EQ(pool.next_deadline(), 110.0);
   EXPECT_EQ(pool.declare_silent_lost(110.0), Processes{});

@@ -1,5 +1,5 @@
 #pragma once
-// Which claims about a ray are acceptable: the specification of the judge, decided exactly.
+// Decides exactly which claims about a ray are acceptable: the specification of the judge.
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ struct Leniency {
   Doubt doubt;
 };
 
-// Lengths are rounded from exact ones; the margins are larger than the errors of that.
+// Lengths are rounded from exact values; the margins exceed the resulting errors.
 inline constexpr Leniency kStrict{0.25 * (1.0 - 0x1p-10), Doubt::kOpposes};
 inline constexpr Leniency kGenerous{4.0 * (1.0 + 0x1p-10), Doubt::kFavors};
 
@@ -41,12 +41,12 @@ struct Traced {
 
 inline double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
 
-/// The questions about one traced ray under one leniency.
+/// Decides claims about one traced ray under one leniency.
 class Acceptance {
  public:
   Acceptance(const Traced& traced, Leniency leniency) : traced_(traced), leniency_(leniency) {}
 
-  /// Whether the claim of a closest hit, or of none, is acceptable.
+  /// Returns whether the claim of a closest hit, or of none, is acceptable.
   bool accepts(const std::optional<accel::Hit>& claim) const {
     if (!claim) return all_graze();
     const accel::Ray& ray = traced_.ray.given;
@@ -57,7 +57,7 @@ class Acceptance {
     return is_near(*claim) && nothing_is_lost_before(*claim);
   }
 
-  /// Whether the result of an any-hit query is acceptable.
+  /// Returns whether the result of an any-hit query is acceptable.
   bool accepts_occlusion(bool occluded) const {
     if (!occluded) return all_graze();
     if (std::ranges::find(traced_.inside, true) != traced_.inside.end()) return true;
@@ -69,7 +69,7 @@ class Acceptance {
                                [&](const Solid& solid) { return is_grazed(solid); });
   }
 
-  /// Whether the crossing might as well be missed.
+  /// Returns whether the crossing might as well be missed.
   bool is_graze(const Crossing& crossing) const {
     return touches_an_end(crossing) ||
            is_near_boundary(solid_of(crossing), traced_.ray, within(crossing), leniency_.doubt);
@@ -81,7 +81,7 @@ class Acceptance {
     return traced_.solids[crossing.primitive];
   }
 
-  /// e(x) for the solid. The guard for double arithmetic only ever favors the claim.
+  /// Returns e(x) for the solid. The guard for double arithmetic only ever favors the claim.
   double within_at(const Solid& solid, double largest_coordinate) const {
     const glm::dvec3 origin(traced_.ray.given.origin);
     const double u = 0x1p-24 * (largest_coordinate + glm::length(origin));
@@ -98,13 +98,14 @@ class Acceptance {
     return within(solid_of(crossing), crossing.at.rounded());
   }
 
-  /// As `Crossing::is_across`. Within e of a cone's apex the cosine may be anything.
+  /// Returns `Crossing::is_across`. Within e of a cone's apex any cosine is possible.
   bool is_across(const Crossing& crossing, const Number& s, double e) const {
     if (crossing.radius > e) return crossing.is_across(s, e);
     return favors() || crossing.is_along(s, e / traced_.ray.speed);
   }
 
-  /// Whether the parameter and the crossing are at one place across the crossing's surface.
+  /// Returns whether the parameter and the crossing are at one place, measured across the
+  /// crossing's surface.
   bool is_one_place(const Crossing& crossing, const Number& s) const {
     const double there = within(crossing);
     const double here = within(solid_of(crossing), s.rounded());
@@ -125,7 +126,7 @@ class Acceptance {
     return true;
   }
 
-  /// Whether the claim is at this crossing of its own primitive.
+  /// Returns whether the claim is at this crossing of its own primitive.
   bool is_same(const Crossing& crossing, const accel::Hit& claim, const Number& s) const {
     if (crossing.primitive != claim.primitive) return false;
     const double there = within(crossing);
@@ -136,7 +137,7 @@ class Acceptance {
     return favors() || !crossing.curved || leaves(solid_of(crossing), s) == crossing.leaves;
   }
 
-  /// Whether the ray at the parameter goes outward from a sphere's center or a cone's axis.
+  /// Returns whether the ray at the parameter goes away from a sphere's center or a cone's axis.
   bool leaves(const Solid& solid, const Number& s) const {
     if (const auto* sphere = std::get_if<Sphere>(&solid.shape)) {
       return dot(traced_.ray.at(s) - sphere->center, traced_.ray.direction).sign() > 0;
@@ -145,8 +146,8 @@ class Acceptance {
     return (e.a * s + e.b).sign() > 0;
   }
 
-  /// Walks through the crossings before the claim. Of crossings at one parameter, the claim's own
-  /// comes first if doubts favor the claim and last if not.
+  /// Walks through the crossings before the claim. Among crossings at one parameter, the claim's
+  /// own comes first if doubts favor the claim, and last if not.
   bool nothing_is_lost_before(const accel::Hit& claim) const {
     const Number s = traced_.ray.parameter(claim.t);
     const std::vector<Crossing>& all = traced_.crossings;
@@ -207,7 +208,7 @@ class Acceptance {
     return false;
   }
 
-  /// Whether the point, moved perpendicularly into the plane, is in the triangle.
+  /// Returns whether the point, moved perpendicularly into the plane, is in the triangle.
   static bool is_over(const Triangle& triangle, const Vector& x) {
     const auto is_inward = [&](const Vector& from, const Vector& to) {
       return dot(cross(to - from, x - from), triangle.normal).sign() >= 0;
@@ -248,8 +249,8 @@ class Acceptance {
     return is_visible_side(solid, cone.inside_only, s, e);
   }
 
-  /// Whether a point, moved perpendicularly onto the surface continued beyond its rims, is between
-  /// these: `height` and `across_2` as in `is_near`.
+  /// Returns whether a point, moved perpendicularly onto the surface continued beyond its rims, is
+  /// between the rims: `height` and `across_2` as in `is_near`.
   static bool is_over(const Cone& cone, const Number& height, const Number& across_2) {
     // From the base, (across - base_radius) taper + height along the line of the surface, times
     // |axis|^2, where the apex is at taper^2 + |axis|^2.
@@ -259,14 +260,14 @@ class Acceptance {
            sign_with_root(place - apex, cone.taper, across_2) <= 0;
   }
 
-  /// A solid seen from the inside only is hit where the ray leaves it; beside its silhouette,
-  /// entering and leaving cannot be distinguished.
+  /// Returns whether the ray meets the visible side: a solid visible from the inside only is hit
+  /// where the ray leaves it. Beside its silhouette, entering and leaving cannot be distinguished.
   bool is_visible_side(const Solid& solid, bool inside_only, const Number& s, double e) const {
     return !inside_only || leaves(solid, s) ||
            (favors() && is_near_boundary(solid, traced_.ray, e, leniency_.doubt));
   }
 
-  /// Whether the ray passes beside the solid so closely that it might as well hit it.
+  /// Returns whether the ray passes so close to the solid that it might as well hit it.
   bool is_grazed(const Solid& solid) const {
     const glm::dvec3 middle = 0.5 * (solid.lower + solid.upper);
     const double most = largest(glm::max(glm::abs(solid.lower), glm::abs(solid.upper)));

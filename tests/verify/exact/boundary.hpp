@@ -1,7 +1,7 @@
 #pragma once
-// Whether the line of a ray passes close to a primitive's boundary as the ray sees it: the edges of
-// a polygon's triangles, the silhouette of a sphere, silhouette or rims of a cone. Distances are
-// between the line and the boundary in space.
+// Decides whether the line of a ray passes close to a primitive's boundary as seen along the ray:
+// the edges of a polygon's triangles, the silhouette of a sphere, the silhouette or rims of a cone.
+// Distances are between the line and the boundary in space.
 
 #include <array>
 #include <cmath>
@@ -13,8 +13,8 @@
 
 namespace beambench::exact {
 
-/// The side that a decision takes where exact arithmetic would cost too much: for the claim or
-/// against it.
+/// The outcome of a decision that would cost too much exact arithmetic: for the claim or against
+/// it.
 enum class Doubt { kFavors, kOpposes };
 
 inline bool is_near_point(const ExactRay& ray, const Vector& point, const Number& within_2) {
@@ -27,7 +27,7 @@ inline bool is_near_segment(const ExactRay& ray, const Vector& a, const Vector& 
   const Vector across = cross(ray.direction, edge);
   const Number across_2 = square(across);
   if (across_2.sign() > 0) {
-    // The line of the edge is nearest at a + (along / across_2) edge.
+    // The edge's line is nearest at a + (along / across_2) edge.
     const Vector offset = ray.origin - a;
     const Number along = dot(cross(ray.direction, offset), across);
     if (along.sign() >= 0 && along <= across_2) {
@@ -59,17 +59,17 @@ inline bool is_near_boundary(const Sphere& sphere, const ExactRay& ray, double w
          (inner.sign() <= 0 || distance_2 >= inner.squared() * speed_2);
 }
 
-/// Whether |value| > |gradient| within + bend within^2: a function that changes by no more has no
-/// zero within that distance.
+/// Returns whether |value| > |gradient| within + bend within^2: a function that changes by no more
+/// has no zero within that distance.
 inline bool has_no_zero(const Number& value, const Vector& gradient, const Number& bend,
                         double within) {
   const double change = length(gradient) * within + bend.rounded() * within * within;
   return value.abs() > Number(change);
 }
 
-/// Whether the line surely keeps away from a rim. With base and direction of the axis, the ray
-/// crosses the plane of the rim at distance |w| / |climb| from the center, w being linear in the
-/// origin of the ray.
+/// Returns whether the line is certainly away from a rim. With base and direction of the axis, the
+/// ray crosses the plane of the rim at distance |w| / |climb| from the center, where w is linear in
+/// the origin of the ray.
 inline bool is_far_from_rim(const ExactRay& ray, const Cone& cone, const Vector& center,
                             const Number& radius, double within) {
   const Vector offset = ray.origin - center;
@@ -81,8 +81,8 @@ inline bool is_far_from_rim(const ExactRay& ray, const Cone& cone, const Vector&
   return has_no_zero(value, gradient, Number(turn).squared(), within);
 }
 
-/// Whether the line surely keeps away from where the discriminant of the cone's equation changes
-/// its sign, which is a quadratic form of the ray's origin.
+/// Returns whether the line is certainly away from sign changes of the discriminant of the cone's
+/// equation, which is a quadratic form of the ray's origin.
 inline bool is_far_from_silhouette(const ExactRay& ray, const Cone& cone, double within) {
   const ConeEquation e(cone, ray.origin, ray.direction);
   const Number length_4 = cone.length_2.squared();
@@ -97,7 +97,7 @@ inline bool is_far_from_silhouette(const ExactRay& ray, const Cone& cone, double
   return has_no_zero(e.b.squared() - e.a * e.c, gradient, bend, within);
 }
 
-/// A sixteenth of a circle after another, of radius below 1.
+/// Points at steps of a sixteenth of a circle, of radius below 1.
 inline const std::array<std::array<double, 2>, 16>& around() {
   static const auto kAround = [] {
     constexpr double kA = 0.9238795325112867;
@@ -112,7 +112,7 @@ inline const std::array<std::array<double, 2>, 16>& around() {
   return kAround;
 }
 
-/// How a line crosses a cone, as counts: only a boundary changes it.
+/// Returns how a line crosses a cone, as counts, which change only at a boundary.
 inline std::array<int, 2> crossing_counts(const Cone& cone, const ExactRay& ray) {
   std::vector<Crossing> found;
   Cone both_sides = cone;
@@ -123,8 +123,8 @@ inline std::array<int, 2> crossing_counts(const Cone& cone, const ExactRay& ray)
   return counts;
 }
 
-/// Against the claim: near only if a ray shifted by `within` crosses the cone otherwise. In favor:
-/// far only if no function that vanishes on the boundary can vanish so near.
+/// Against the claim: near only if a ray shifted by `within` crosses the cone differently. In
+/// favor: far only if no function that vanishes on the boundary can vanish so close.
 inline bool is_near_boundary(const Cone& cone, const ExactRay& ray, double within, Doubt doubt) {
   if (doubt == Doubt::kFavors) {
     return !(is_far_from_silhouette(ray, cone, within) &&

@@ -1,5 +1,5 @@
 #pragma once
-// Rays at the places where hits are hard to judge.
+// Rays at places where hits are hard to judge.
 
 #include <algorithm>
 #include <array>
@@ -26,7 +26,7 @@ struct RayStyle {
   bool all_sizes = false;      ///< scene and ray are multiplied by a power of two
 };
 
-/// The part of the scene that is looked at: what is large goes beyond it.
+/// The part of the scene that rays are aimed at; large primitives extend beyond it.
 constexpr double kReach = 3.0;
 
 inline glm::dvec3 point_on_triangle(const std::array<glm::dvec3, 3>& corner, Random& random) {
@@ -81,14 +81,15 @@ inline glm::dvec3 point_on(const scenes::Scene& scene, scenes::PrimitiveId id, R
                            random);
 }
 
-/// Moved by up to some hundred times K u, or not at all.
+/// Moves a point by up to several hundred times K u, or not at all.
 inline glm::dvec3 jittered(const glm::dvec3& point, Random& random) {
   if (random.below(2) == 0) return point;
   const double unit = 16.0 * 0x1p-24 * (1.0 + 2.0 * largest(glm::abs(point)));
   return point + unit * log_uniform(-7, 7, random) * unit_vector(random);
 }
 
-/// For a sphere, sometimes a point beside the silhouette seen from the origin.
+/// Returns a point on the primitive; for a sphere, sometimes a point beside the silhouette seen
+/// from the origin.
 inline glm::dvec3 target_on(const scenes::Scene& scene, scenes::PrimitiveId id,
                             const glm::dvec3& origin, Random& random) {
   const scenes::Primitive& primitive = scene.primitives[id];
@@ -115,7 +116,7 @@ inline glm::vec3 start_of(const scenes::Scene& scene, scenes::PrimitiveId target
     case RayStyle::Start::kOnSurface: {
       const auto from = static_cast<scenes::PrimitiveId>(random.below(scene.primitives.size()));
       glm::vec3 point(point_on(scene, from, random));
-      if (random.below(3) == 0) {  // a few units in the last place beside
+      if (random.below(3) == 0) {  // a few units in the last place to the side
         const int axis = static_cast<int>(random.below(3));
         for (std::uint64_t i = random.below(4); i > 0; --i) {
           point[axis] = std::nextafter(point[axis], random.below(2) == 0 ? -1e9F : 1e9F);
@@ -137,8 +138,8 @@ inline glm::vec3 start_of(const scenes::Scene& scene, scenes::PrimitiveId target
   }
 }
 
-/// Multiplies the direction by a power of two, its longest component from 1e-30 to 1e9, and keeps
-/// the end of the ray where it is; sometimes sets one component to any smaller size.
+/// Multiplies the direction by a power of two, so that its longest component is from 1e-30 to 1e9,
+/// and keeps the end of the ray in place; sometimes sets one component to any smaller size.
 inline void set_any_size(accel::Ray& ray, Random& random) {
   if (random.below(6) == 0) {
     ray.direction[static_cast<int>(random.below(3))] =

@@ -24,7 +24,7 @@ inline glm::dvec3 unit_vector(Random& random) {
   }
 }
 
-/// Its logarithm is about uniform, between powers of two.
+/// Returns a number whose logarithm is roughly uniform, between powers of two.
 inline double log_uniform(int low, int high, Random& random) {
   const int exponent = low + static_cast<int>(random.below(static_cast<std::uint64_t>(high - low)));
   return std::ldexp(random.uniform(1.0, 2.0), exponent);
@@ -35,7 +35,7 @@ inline glm::dvec3 snapped(const glm::dvec3& v) {
   return {snapped(v.x), snapped(v.y), snapped(v.z)};
 }
 
-/// Adds primitives; y is up there, and any axis, by `turn`, in the scene.
+/// Adds primitives in coordinates with y up; `turn` makes it any axis of the scene.
 class Modeller {
  public:
   Modeller(const char* name, std::size_t turn) : builder_(name), turn_(turn % 3) {}
@@ -59,11 +59,11 @@ class Modeller {
                 double apex_radius) {
     attempt([&] { builder_.add_cone(turned(base), base_radius, turned(apex), apex_radius); });
   }
-  /// A sphere, cone or upright triangle that stands on the point. Some cones are flat, some
+  /// Adds a sphere, cone or upright triangle standing on the point. Some cones are flat, some
   /// triangles thin.
   void add_object_on(const glm::dvec3& place, Random& random) {
     const double size = random.uniform(0.1, 0.6);
-    const double seen = random.below(5) == 0 ? -1.0 : 1.0;  // from the inside only
+    const double seen = random.below(5) == 0 ? -1.0 : 1.0;  // visible from the inside only
     const double extreme = random.below(4) == 0 ? log_uniform(-12, 0, random) : 1.0;
     switch (random.below(3)) {
       case 0:
@@ -90,7 +90,7 @@ class Modeller {
   scenes::Scene build() && { return std::move(builder_).build(); }
 
  private:
-  /// Leaves degenerate primitives out.
+  /// Adds a primitive unless it is degenerate.
   template <class Add>
   static void attempt(Add add) {
     try {
@@ -103,7 +103,7 @@ class Modeller {
   std::size_t turn_;
 };
 
-/// Small objects on a square of 1e3 to 1e6.
+/// Small objects on a square of size 1e3 to 1e6.
 inline scenes::Scene huge_floor(Random& random) {
   Modeller modeller("huge floor", random.below(3));
   const double height = random.below(2) == 0 ? 0.0 : random.uniform(-2.0, 2.0);
@@ -114,7 +114,7 @@ inline scenes::Scene huge_floor(Random& random) {
 }
 
 /// Surfaces above each other: squares, concentric spheres or coaxial cones, with gaps from a
-/// hundredth to some hundred times K u.
+/// hundredth to several hundred times K u.
 inline scenes::Scene stack(Random& random) {
   Modeller modeller("stack", random.below(3));
   const double place = std::array<double, 4>{0.0, 0.0, 1.0, 30.0}[random.below(4)];
@@ -134,7 +134,7 @@ inline scenes::Scene stack(Random& random) {
   return std::move(modeller).build();
 }
 
-/// Squares in planes of coordinates that are multiples of 1/8, and objects on them.
+/// Squares in planes whose coordinates are multiples of 1/8, and objects on them.
 inline scenes::Scene planes(Random& random) {
   Modeller upright("planes", random.below(3));
   const double level = snapped(random.uniform(-1.0, 1.0));
@@ -184,7 +184,7 @@ inline scenes::Scene sheet(Random& random) {
   return std::move(modeller).build();
 }
 
-/// The scene with all coordinates times a power of two, which is exact.
+/// Returns the scene with all coordinates multiplied by a power of two, which is exact.
 inline scenes::Scene times_two_to(int power, scenes::Scene scene) {
   const float factor = std::ldexp(1.0F, power);
   for (glm::vec3& vertex : scene.vertices) vertex *= factor;

@@ -1,5 +1,5 @@
 #pragma once
-// A ray, its scene, a claim and the exact decisions as text, every number exactly.
+// Prints a ray, its scene, a claim and the exact decisions, with exact numbers.
 
 #include <string>
 #include <variant>
@@ -41,7 +41,7 @@ inline std::string text_of(const scenes::Scene& scene, scenes::PrimitiveId id) {
   return text;
 }
 
-/// The ray and all crossings of its line, with the primitives that they are of.
+/// Prints the ray and all crossings of its line, with their primitives.
 inline std::string text_of(const scenes::Scene& scene, const Traced& traced) {
   const accel::Ray& ray = traced.ray.given;
   std::string text = fmt::format("  ray {} + t {}, t in [{:.9g}, {:.9g}]\n", text_of(ray.origin),

@@ -1,5 +1,5 @@
 #pragma once
-// Claims about rays, right and wrong ones, made from the exact crossings.
+// Correct and wrong claims about rays, made from the exact crossings.
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@ namespace beambench::exact {
 
 using ClosestClaim = std::optional<accel::Hit>;
 
-/// Makes the claims about one ray. Which of them are right is not known here.
+/// Makes the claims about one ray, without deciding which are correct.
 class ClaimMaker {
  public:
   ClaimMaker(const Traced& traced, Random& random) : traced_(traced), random_(random) {}
@@ -49,7 +49,8 @@ class ClaimMaker {
     if (std::isfinite(t)) claims_.push_back(accel::Hit{t, primitive});
   }
 
-  /// The parameter at a distance of -100 to 100 times K u across the surface, or along the ray.
+  /// Returns the parameter at a distance of -100 to 100 times K u across the surface, or along the
+  /// ray.
   double moved(const Crossing& crossing) {
     const double s = crossing.at.rounded();
     const double unit =
@@ -60,7 +61,7 @@ class ClaimMaker {
     const double distance = sign * kFactors[random_.below(kFactors.size())] * unit;
     return s + distance / traced_.ray.speed / (random_.below(3) == 0 ? 1.0 : cosine(crossing));
   }
-  /// |cos| of the angle between the ray and the normal, at least 2^-12.
+  /// Returns |cos| of the angle between the ray and the normal, at least 2^-12.
   double cosine(const Crossing& crossing) const {
     const double root = std::sqrt(crossing.at.d.rounded());
     const double across =
@@ -71,7 +72,7 @@ class ClaimMaker {
     return std::clamp(across / traced_.ray.speed, 0x1p-12, 1.0);
   }
 
-  /// Crossings of the line that are not in the interval: as they are, and moved to its ends.
+  /// Adds crossings of the line that are not in the interval, both unchanged and moved to its ends.
   void add_outside() {
     const accel::Ray& ray = traced_.ray.given;
     std::size_t added = 0;
@@ -90,7 +91,7 @@ class ClaimMaker {
     add_t(ray.t_min, any_primitive());
     add_t(ray.t_max, any_primitive());
     add(random_.uniform(0.0, 5.0) / traced_.ray.speed, any_primitive());
-    // Where the ray comes closest to the middle of a primitive: it may pass just beside.
+    // The point where the ray comes closest to the middle of a primitive, which it may just miss.
     const scenes::PrimitiveId id = any_primitive();
     const Solid& solid = traced_.solids[id];
     const glm::dvec3 middle = 0.5 * (solid.lower + solid.upper);

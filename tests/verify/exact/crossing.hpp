@@ -1,5 +1,5 @@
 #pragma once
-// Where the line of a ray crosses primitives.
+// Computes where the line of a ray crosses primitives.
 
 #include <algorithm>
 #include <cmath>
@@ -17,15 +17,15 @@ namespace beambench::exact {
 struct Crossing {
   Root at;
   bool curved;
-  bool leaves;                  ///< the sphere or cone: the ray leaves it here
+  bool leaves;                  ///< for a sphere or cone: the ray leaves it here
   Number slack, slack_of_root;  ///< of a curved surface, see `is_across`
-  double stretch;               ///< of a polygon: the length of the normal
-  /// Of a cone at the crossing: at its apex, where it is 0, there is no normal.
+  double stretch;               ///< for a polygon: the length of the normal
+  /// For a cone, its radius at the crossing; 0 at the apex, where the normal is undefined.
   double radius = std::numeric_limits<double>::infinity();
   scenes::PrimitiveId primitive = scenes::kNoPrimitive;
 
-  /// Whether |s - at| |direction| |cos| <= within, the cosine being that of the angle between the
-  /// ray and the normal of the surface at the crossing.
+  /// Returns whether |s - at| |direction| |cos| <= within, where cos is the cosine of the angle
+  /// between the ray and the surface normal at the crossing.
   bool is_across(const Number& s, double within) const {
     const Number offset = s * at.w - at.p;
     const Number limit(within * stretch);
@@ -37,13 +37,14 @@ struct Crossing {
            sign_with_root(-rational + limit * slack, offset + limit * slack_of_root, at.d) >= 0;
   }
 
-  /// Whether |s - at| <= distance.
+  /// Returns whether |s - at| <= distance.
   bool is_along(const Number& s, double distance) const {
     return compare(at, s - Number(distance)) >= 0 && compare(at, s + Number(distance)) <= 0;
   }
 };
 
-/// Whether the line passes through the triangle, its edges included; false for a line in its plane.
+/// Returns whether the line passes through the triangle, including its edges; false for a line in
+/// its plane.
 inline bool passes_through(const Triangle& triangle, const ExactRay& ray) {
   const Vector a = triangle.a - ray.origin;
   const Vector b = triangle.b - ray.origin;
@@ -103,7 +104,7 @@ struct ConeEquation {
     c = square(offset) * length_4 - height.squared() * cone.length_2 - radius.squared();
   }
 
-  Vector offset;            ///< of the origin from the base
+  Vector offset;            ///< from the base to the origin
   Number height, climb;     ///< along the axis: height + s climb, in units of 1 / |axis|
   Number radius, widening;  ///< there: radius + s widening, times |axis|^2
   Number a, b, c;
@@ -146,7 +147,7 @@ inline void add_crossings(const Cone& cone, const ExactRay& ray, std::vector<Cro
   }
 }
 
-/// All crossings of the line, whatever the interval, in ascending order.
+/// Returns all crossings of the line, whatever the interval, in ascending order.
 inline std::vector<Crossing> crossings_of(const std::vector<Solid>& solids, const ExactRay& ray) {
   std::vector<Crossing> all;
   for (scenes::PrimitiveId id = 0; id < solids.size(); ++id) {

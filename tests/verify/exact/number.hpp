@@ -11,8 +11,8 @@
 
 namespace beambench::exact {
 
-/// An integer times a power of two. Every finite double is one; sums, differences and products are
-/// exact. It has no division: quotients are compared by their products.
+/// An integer times a power of two, such as every finite double. Sums, differences and products are
+/// exact. There is no division: quotients are compared by cross-multiplication.
 class Number {
  public:
   Number() = default;
@@ -31,7 +31,8 @@ class Number {
   Number squared() const { return *this * *this; }
   Number times_two_to(int power) const { return {mantissa_, exponent_ + power}; }
 
-  /// Rounded toward zero. The exponent must be one of a double's.
+  /// Returns the number as a double, rounded toward zero. The exponent must be in the range of
+  /// double.
   double rounded() const {
     long exponent = 0;
     const double mantissa = mpz_get_d_2exp(&exponent, mantissa_.get_mpz_t());
@@ -66,7 +67,7 @@ class Number {
   int exponent_ = 0;
 };
 
-/// The sign of a + b sqrt(d), d >= 0.
+/// Returns the sign of a + b sqrt(d), d >= 0.
 inline int sign_with_root(const Number& a, const Number& b, const Number& d) {
   const int rational = a.sign();
   const int root = d.sign() == 0 ? 0 : b.sign();
@@ -75,7 +76,7 @@ inline int sign_with_root(const Number& a, const Number& b, const Number& d) {
   return rational * (a.squared() - b.squared() * d).sign();
 }
 
-/// The sign of a + b sqrt(d) + c sqrt(e), d and e >= 0.
+/// Returns the sign of a + b sqrt(d) + c sqrt(e), d and e >= 0.
 inline int sign_with_roots(const Number& a, const Number& b, const Number& d, const Number& c,
                            const Number& e) {
   const int first = sign_with_root(a, b, d);
@@ -94,7 +95,8 @@ struct Root {
   Number d;
   Number w;
 
-  /// Rounds without cancellation: the error is a few units in the last place.
+  /// Returns the number as a double, without cancellation: the error is a few units in the last
+  /// place.
   double rounded() const {
     const double root = std::sqrt(d.rounded());
     const double rational = p.rounded();
@@ -104,12 +106,12 @@ struct Root {
   }
 };
 
-/// The sign of root - number.
+/// Returns the sign of root - number.
 inline int compare(const Root& root, const Number& number) {
   return sign_with_root(root.p - number * root.w, root.q, root.d);
 }
 
-/// The sign of a - b.
+/// Returns the sign of a - b.
 inline int compare(const Root& a, const Root& b) {
   return sign_with_roots(a.p * b.w - b.p * a.w, a.q * b.w, a.d, -(b.q * a.w), b.d);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A ray in exact numbers.
+// A ray in exact arithmetic.
 
 #include <algorithm>
 #include <bit>
@@ -57,12 +57,12 @@ class ExactRay {
     to.at = to.at.times_two_to(scale_);
   }
 
-  /// The parameter of a t of the given ray. `t` must be finite.
+  /// Returns the parameter of a t of the given ray. `t` must be finite.
   Number parameter(float t) const { return Number(t).times_two_to(scale_); }
-  /// The t, not rounded to float.
+  /// Returns the t, not rounded to float.
   double t_of(double parameter) const { return std::ldexp(parameter, -scale_); }
 
-  /// Whether the float nearest to the exact t lies in the interval of the given ray.
+  /// Returns whether the float nearest to the exact t lies in the interval of the given ray.
   bool contains(const Root& s) const {
     const int above = compare(s, from.at);
     const int below = compare(s, to.at);

@@ -1,5 +1,5 @@
 #pragma once
-// The primitives of a scene in exact numbers.
+// The primitives of a scene in exact arithmetic.
 
 #include <algorithm>
 #include <variant>
@@ -44,7 +44,7 @@ using Shape = std::variant<Polygon, Sphere, Cone>;
 
 struct Solid {
   Shape shape;
-  glm::dvec3 lower, upper;  ///< bounds, which may be a little too large
+  glm::dvec3 lower, upper;  ///< bounds, which may be slightly too large
 };
 
 inline Polygon polygon_of(const scenes::Scene& scene, const scenes::Polygon& polygon) {

@@ -31,7 +31,7 @@ inline Vector cross(const Vector& a, const Vector& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// The length, with an error of a few units in the last place.
+/// Returns the length, with an error of a few units in the last place.
 inline double length(const Vector& a) { return std::sqrt(square(a).rounded()); }
 
 }  // namespace beambench::exact

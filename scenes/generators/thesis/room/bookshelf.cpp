@@ -36,13 +36,13 @@ constexpr std::array<glm::vec3, 10> kCovers = {{{0.62F, 0.13F, 0.12F},
                                                 {0.22F, 0.20F, 0.22F},
                                                 {0.66F, 0.66F, 0.62F}}};
 
-/// Where a book stands; its spine faces -y.
+/// The place of a book; its spine faces -y.
 struct Book {
   double x, width, height, depth;
   glm::vec3 color;
 };
 
-/// Books from one side to the other, some shelves with a gap at their end.
+/// Books from one side to the other; some shelves have a gap at the end.
 std::vector<Book> row_of_books(Random& random, double length) {
   std::vector<Book> books;
   double x = 0.0;
@@ -55,7 +55,7 @@ std::vector<Book> row_of_books(Random& random, double length) {
   }
 }
 
-/// The spine's outline from left to right, as (x, y): it bulges.
+/// The spine's outline from left to right, as (x, y). It bulges.
 std::vector<glm::dvec2> spine(const Book& book) {
   constexpr int kPieces = 4;
   std::vector<glm::dvec2> line;
@@ -67,7 +67,7 @@ std::vector<glm::dvec2> spine(const Book& book) {
   return line;
 }
 
-/// How far a book stands out before or above its neighbor, if there is one.
+/// Returns whether a book protrudes in front of or above its neighbor, if it has one.
 bool stands_out(const Book& book, const Book* neighbor) {
   constexpr double kSeen = 0.012;
   return neighbor == nullptr || book.height > neighbor->height + kSeen ||
@@ -117,7 +117,7 @@ void add_standing_book(PlacedPiece& shelf, const Book& book, const Book* left, c
 
 void add_carcass(PlacedPiece& piece) {
   const auto& [width, depth, height] = std::array{kBookshelf.x, kBookshelf.y, kBookshelf.z};
-  // Every box without its back, which stands at the wall.
+  // Every box lacks its back, which is against the wall.
   const auto board = [&](const glm::dvec3& lower, const glm::dvec3& upper,
                          std::initializer_list<std::size_t> faces) {
     const modelling::PolygonMesh whole = modelling::box(lower, upper);
@@ -159,7 +159,7 @@ void add_bookshelf(SceneBuilder& builder, const glm::dmat4& place) {
     PlacedPiece shelf(builder, place * standing_at({kBoard + 0.002, -0.015, kFirst + kRise * i}));
     for (std::size_t k = 0; k < books.size(); ++k) {
       const bool at_gap = k + 1 == books.size() && kFilled[static_cast<std::size_t>(i)] < 0.99;
-      // The carcass hides an end as a neighbor of the same size would.
+      // The carcass hides an end just as a neighbor of the same size would.
       const Book* left = k == 0 ? &books[k] : &books[k - 1];
       const Book* right = k + 1 < books.size() ? &books[k + 1] : at_gap ? nullptr : &books[k];
       add_standing_book(shelf, books[k], left, right);

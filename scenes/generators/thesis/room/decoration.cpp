@@ -21,7 +21,7 @@ namespace beambench::scenes::generators {
 namespace {
 
 constexpr double kFrame = 0.055;
-constexpr double kCanvas = 0.010;  // before the wall
+constexpr double kCanvas = 0.010;  // in front of the wall
 
 Surface paint(const glm::vec3& color) { return {.color = color, .diffuse = 0.95F}; }
 
@@ -37,7 +37,7 @@ void add_frame(PlacedPiece& picture, const glm::dvec2& size, const glm::vec3& gr
   picture.flat(paint(ground), canvas);
 }
 
-/// A flat polygon a little before the canvas.
+/// A flat polygon slightly in front of the canvas.
 modelling::PolygonMesh patch(const std::vector<glm::dvec2>& outline, int layer) {
   modelling::PolygonMesh mesh;
   modelling::PolygonMesh::Corners corners;
@@ -173,7 +173,7 @@ void add_potted_plant(SceneBuilder& builder, const glm::dvec3& place) {
       {0.160, kSoil}, {0.06, kSoil + 0.015}, {0.0, kSoil + 0.018}};
   plant.smooth({.color = {0.25F, 0.16F, 0.10F}, .diffuse = 0.9F}, modelling::lathe(soil, 24));
 
-  // A golden angle from leaf to leaf, the outer ones hanging (as in maceta); none grows into a
+  // A golden angle from leaf to leaf, the outer ones drooping (as in maceta); none intersects a
   // wall.
   const double golden = std::numbers::pi * (3.0 - std::sqrt(5.0));
   Random random(5);

@@ -32,7 +32,7 @@ const Surface kPaintedWood = {
 const Surface kBrass = {
     .color = {0.80F, 0.63F, 0.28F}, .diffuse = 0.8F, .specular = 0.7F, .shine = 50.0F};
 
-/// (across, up, inward) of a wall to the room.
+/// Maps (across, up, inward) of a wall to the room.
 glm::dmat4 wall(const glm::dvec3& corner, const glm::dvec3& across) {
   const glm::dvec3 up(0.0, 0.0, 1.0);
   return {glm::dvec4(across, 0.0), glm::dvec4(up, 0.0), glm::dvec4(glm::cross(across, up), 0.0),
@@ -136,7 +136,7 @@ Line level(const glm::dvec2& size, double height) {
   return {{0.0, size.y * height}, {size.x, size.y * height}};
 }
 
-/// What lies between two lines.
+/// The polygons between two lines.
 modelling::PolygonMesh between(const Line& low, const Line& high) {
   Line outline = low;
   outline.insert(outline.end(), high.rbegin(), high.rend());
@@ -147,8 +147,8 @@ modelling::PolygonMesh between(const Line& low, const Line& high) {
   return mesh;
 }
 
-/// Closes the rectangle from (0, 0) to `size` in the plane z = 0 of `place` with a landscape: sky,
-/// far hills and a meadow, side by side in that plane.
+/// Closes the rectangle from (0, 0) to `size` in the plane z = 0 of `place` with a landscape (sky,
+/// distant hills and a meadow), all in that plane.
 void add_window_view(SceneBuilder& builder, const glm::dmat4& place, const glm::dvec2& size) {
   const std::array<Line, 6> lines = {level(size, 0.0),
                                      hills(size, 0.24, 0.05, 0.6),

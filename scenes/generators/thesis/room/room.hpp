@@ -19,14 +19,15 @@ inline constexpr glm::dvec3 kRoom = {5.2, 5.8, 2.75};
 /// The window's opening in the wall y = kRoom.y, from (x, z) to (x, z).
 inline constexpr modelling::Rectangle kWindow = {{1.15, 1.02}, {2.65, 2.27}};
 
-/// Adds boards, walls, ceiling, skirting, cornice, window and door, all facing inward. No board is
-/// laid where one of `covered` (rectangles of the floor) would hide all of it.
+/// Adds boards, walls, ceiling, skirting, cornice, window and door, all facing inward. Boards
+/// completely hidden by one of `covered` (rectangles of the floor) are left out.
 void add_room(SceneBuilder& builder, std::span<const modelling::Rectangle> covered);
 
-/// Standing upright at a place, turned counter-clockwise seen from above.
+/// The transform of a piece that stands upright at a place, turned counter-clockwise seen from
+/// above.
 glm::dmat4 standing_at(const glm::dvec3& place, double degrees = 0.0);
 
-/// Adds meshes of one piece, moved to where it stands.
+/// Adds meshes of one piece, moved to its place.
 class PlacedPiece {
  public:
   PlacedPiece(SceneBuilder& builder, const glm::dmat4& place) : builder_(builder), place_(place) {}
@@ -39,7 +40,7 @@ class PlacedPiece {
   glm::dmat4 place_;
 };
 
-/// Without the polygons that lie below a height: what something stands on hides them.
+/// Removes the polygons below a height, which the piece below hides.
 modelling::PolygonMesh above(modelling::PolygonMesh mesh, double z);
 
 inline constexpr double kDiningTop = 0.75;  ///< height of the table's top
@@ -49,7 +50,7 @@ inline constexpr double kCoffeeTop = 0.43;
 void add_dining_table(SceneBuilder& builder, const glm::dmat4& place);
 /// A long low table, 1.16 x 0.62, on turned legs, with a shelf below.
 void add_coffee_table(SceneBuilder& builder, const glm::dmat4& place);
-/// A chair with a bowed back and spindles; who sits on it faces -y.
+/// A chair with a bowed back and spindles; a person sitting on it faces -y.
 void add_chair(SceneBuilder& builder, const glm::dmat4& place);
 
 /// A seat with arms, a back and loose cushions, standing at the origin and facing -y: 0.92 deep
@@ -60,7 +61,7 @@ struct Settee {
 };
 double settee_field(const glm::dvec3& place, const Settee& settee);
 
-/// Its surface in triangles, without what faces the floor.
+/// Its surface in triangles, without the parts that face the floor.
 modelling::PolygonMesh settee(const Settee& settee, double cell);
 /// Four turned feet.
 modelling::PolygonMesh settee_feet(const Settee& settee);
@@ -78,7 +79,8 @@ void add_curtains(SceneBuilder& builder, const modelling::Rectangle& window, dou
 
 inline constexpr glm::dvec3 kBookshelf = {1.24, 0.32, 2.12};  ///< width, depth, height
 
-/// Five shelves of books between x = 0 and its width, its back at y = 0 against a wall, facing -y.
+/// Five shelves of books between x = 0 and the bookshelf's width, with the back at y = 0 against a
+/// wall, facing -y.
 void add_bookshelf(SceneBuilder& builder, const glm::dmat4& place);
 
 /// A closed book that lies at the origin, its spine to -y, of `size` (along the spine, across,
@@ -95,8 +97,8 @@ void add_fruit_bowl(SceneBuilder& builder, const glm::dmat4& place);
 /// A vase with daisies, some 0.5 high.
 void add_vase_of_flowers(SceneBuilder& builder, const glm::dmat4& place);
 
-/// Framed pictures hang in the plane z = 0 of `place`, their lower left outer corner at its origin.
-/// This one, 0.62 x 0.62, shows Sierpinski's triangle, as `stetra` does in space.
+/// The plane z = 0 of `place` is the wall, with the lower left outer corner of a framed picture at
+/// its origin. This one, 0.62 x 0.62, shows Sierpinski's triangle, as `stetra` does in space.
 void add_triangle_picture(SceneBuilder& builder, const glm::dmat4& place);
 /// 0.8 x 0.6: a sailing boat under the sun.
 void add_boat_picture(SceneBuilder& builder, const glm::dmat4& place);
@@ -105,7 +107,7 @@ void add_clock(SceneBuilder& builder, const glm::dmat4& place);
 /// A pot with arching leaves, about 1.1 high.
 void add_potted_plant(SceneBuilder& builder, const glm::dvec3& place);
 
-/// A lamp that hangs from the ceiling: `rim` is the middle of its shade's lower edge.
+/// A ceiling lamp: `rim` is the middle of its shade's lower edge.
 void add_hanging_lamp(SceneBuilder& builder, const glm::dvec3& rim, double ceiling);
 
 /// A standing lamp with a pleated shade, 1.66 high.

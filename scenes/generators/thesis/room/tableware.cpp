@@ -25,7 +25,7 @@ Surface glazed(const glm::vec3& color) {
 const Surface kChina = glazed({0.95F, 0.95F, 0.92F});
 const Surface kBlueChina = glazed({0.22F, 0.38F, 0.68F});
 
-/// A tube along a spline, tapering from one radius to another, without what is inside `body`.
+/// A tube along a spline, tapering from one radius to another, without the parts inside `body`.
 modelling::PolygonMesh spout_or_handle(const std::vector<glm::dvec3>& knots, double from, double to,
                                        const modelling::Field& body) {
   const std::vector<glm::dvec3> path = modelling::spline(knots, 3);
@@ -206,7 +206,7 @@ void add_vase_of_flowers(SceneBuilder& builder, const glm::dmat4& place) {
     const std::vector<glm::dvec3> path = modelling::spline(knots, 2);
     const std::vector<double> radii(path.size(), 0.0028);
     modelling::append(stems, modelling::tube(path, radii, 5));
-    // A head looks the way its stem goes.
+    // The flower faces along its stem.
     const glm::dvec3 up = glm::normalize(flower.head - bend);
     const glm::dvec3 side = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), up));
     const glm::dmat4 head(glm::dvec4(side, 0.0), glm::dvec4(glm::cross(up, side), 0.0),

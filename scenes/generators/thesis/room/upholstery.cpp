@@ -128,7 +128,7 @@ double settee_field(const glm::dvec3& p, const Settee& settee) {
       rounded_box_field(p - glm::dvec3(0.0, 0.0, kBottom + 0.11), {inner, 0.42, 0.11}, 0.03);
   const double back = rounded_box_field({p.x, p.y - 0.33 - 0.10 * (p.z - 0.5), p.z - 0.47},
                                         {inner + 0.06, 0.10, 0.36}, 0.07);
-  // What the cushions lie on and lean against, so that nothing is hollow.
+  // The body under and behind the cushions, so that nothing is hollow.
   const double core = rounded_box_field(p - glm::dvec3(0.0, 0.02, 0.33), {inner, 0.36, 0.10}, 0.02);
   const double behind = rounded_box_field({p.x, p.y - 0.26 - 0.13 * (p.z - 0.5), p.z - 0.55},
                                           {inner, 0.06, 0.24}, 0.02);
@@ -160,7 +160,7 @@ modelling::PolygonMesh settee_feet(const Settee& settee) {
 }
 
 modelling::PolygonMesh scatter_cushion(double half, double height, int steps) {
-  // Two sheets over a square whose sides are drawn in between the corners.
+  // Two sheets over a square whose sides curve inward between the corners.
   const auto sheet = [&](double side) {
     return modelling::parametric_surface(
         [=](double u, double v) {
