@@ -1,5 +1,5 @@
 #pragma once
-// What the leaves of a hierarchy refer to where the triangles of a polygon are separate.
+// The pieces that leaves refer to in a hierarchy over separate triangles of polygons.
 
 #include <cstdint>
 #include <vector>
@@ -15,10 +15,10 @@ struct Piece {
   std::uint32_t index;  ///< into the scene's triangles, spheres or cones
 };
 
-/// The pieces of all primitives, in increasing id.
+/// Returns the pieces of all primitives, in increasing id.
 std::vector<Piece> collect_pieces(const scenes::Scene& scene);
 
-/// The box of a piece, not widened.
+/// Returns the box of a piece, not widened.
 scenes::Bounds piece_bounds(const scenes::Scene& scene, const Piece& piece);
 
 }  // namespace beambench::accel::bvh
