@@ -3,8 +3,9 @@
 namespace beambench::accel::beam {
 namespace {
 
-/// A clipped outline keeps this much beyond the line: a sample on the line itself, which rounding
-/// may put on either side of the outline's edge, stays covered. Far less than a sliver.
+/// The distance by which a clipped outline extends beyond the line, so that a sample on the line
+/// itself, which rounding may put on either side of the outline's edge, stays covered. Far less
+/// than a sliver.
 constexpr double kOverlap = 0x1p-43;
 
 void keep_near(std::span<const BeamCut> cuts, Beam& beam) {

@@ -22,11 +22,11 @@ struct BeamCut {
 
 /// The pyramid from the eye through a convex polygon (thesis, section 3.2), where it enters a leaf.
 ///
-/// Which samples belong to the beam is decided by the cuts alone, by one comparison of numbers
-/// that every beam computes in the same way for a ray (`crosses_before`). `outline` covers them
-/// all. Cuts that do not come near the outline hold for all its samples and are dropped, so that
-/// there are about as many as the outline has edges, and as in the thesis a beam costs the same at
-/// every resolution.
+/// The cuts alone decide which samples belong to the beam, by comparing numbers that every beam
+/// computes in the same way for a ray (`crosses_before`). `outline` covers all of these samples.
+/// Cuts that are not near the outline hold for all its samples and are dropped. So there are about
+/// as many cuts as the outline has edges, and as in the thesis, the cost of a beam does not depend
+/// on the resolution.
 struct Beam {
   std::uint32_t node;  ///< the leaf, its index in the octree
   std::int32_t size;   ///< finest cells along the leaf's edges
@@ -34,14 +34,13 @@ struct Beam {
   ImagePolygon outline;
   FixedVector<BeamCut, 56> cuts;
 
-  /// Too many cuts for one more division: it adds up to 5 for the exit and 2 per level for the
-  /// neighbors.
+  /// Returns whether there are too many cuts for one more division, which adds up to 5 for the exit
+  /// and 2 per level for the neighbors.
   bool crowded() const { return cuts.size() > 20; }
 };
 
-/// The part of a beam on the inner side of all `cuts`: its outline clipped, those cuts kept, its
-/// own and the new ones, that come near the new outline. The outline is empty when there is no
-/// part.
+/// Returns the part of a beam on the inner side of all `cuts`: the clipped outline, and those of
+/// the old and new cuts that are near the new outline. If nothing is left, the outline is empty.
 Beam part_of(const Beam& beam, std::span<const BeamCut> cuts);
 
 }  // namespace beambench::accel::beam

@@ -9,7 +9,7 @@
 namespace beambench::accel::beam {
 namespace {
 
-constexpr int kWindows = 8;  // in a row and in a column
+constexpr int kWindows = 8;  // per row and per column
 
 /// The ratio of a window's side to that of its part of the image: chosen for four beams per
 /// thousand rays, so that counting takes about a hundredth of tracing.
@@ -35,11 +35,11 @@ ImagePolygon window(int column, int row, double size) {
   return corners;
 }
 
-/// Whether the window's left or lower edge cuts a beam. Such a beam is not counted; all others that
-/// reach into the window are. So each beam, whatever its size, is counted with the probability of
-/// the window's share of the image (Gundersen's unbiased counting frame: "Notes on the estimation
-/// of the numerical density of arbitrary profiles: the edge effect", Journal of Microscopy 111(2),
-/// 1977).
+/// Returns whether the window's left or lower edge cuts a beam. Such a beam is not counted; all
+/// others that reach into the window are. So each beam, whatever its size, is counted with the
+/// probability of the window's share of the image (Gundersen's unbiased counting frame: "Notes on
+/// the estimation of the numerical density of arbitrary profiles: the edge effect", Journal of
+/// Microscopy 111(2), 1977).
 bool forbidden(const ImagePolygon& outline, const ImagePolygon& window) {
   constexpr double kNear = 1e-9;
   for (const glm::dvec2& corner : outline) {
@@ -88,7 +88,7 @@ void count_beams(const octree::Octree& octree, const Workload& workload,
 double beam_trace_cost(const octree::OctreeWork& work, double handover) {
   double beams = 205.0 * work.nonterminal + 600.0 * work.occupied;
   if (handover > 0.0) {
-    // A level of leaves in front of the eye has no more beams of `handover` samples than this.
+    // A level of leaves in front of the eye has at most this many beams of `handover` samples.
     const double large = work.steps * work.rays / handover;
     beams *= std::min(1.0, large / std::max(1.0, work.nonterminal));
   }

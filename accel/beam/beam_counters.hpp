@@ -1,5 +1,5 @@
 #pragma once
-// The meaning of what is counted of beams.
+// The meaning of the beam counters.
 
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace beambench::accel::beam {
 
-/// As accel/beam/README.md explains them, in the order of `beambench list`.
+/// Returns the counters explained in accel/beam/README.md, in the order of `beambench list`.
 std::vector<CounterInfo> beam_counters();
 
 }  // namespace beambench::accel::beam

@@ -1,5 +1,5 @@
 #pragma once
-// How beams are divided: among the faces by which they leave a cell, and by planes behind a face.
+// Divides beams: among the faces through which they leave a cell, and by planes behind a face.
 
 #include <array>
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace beambench::accel::beam {
 
-/// Counts a beam that continued in that many parts.
+/// Counts a beam that continued in `parts` parts.
 inline void count_parts(std::uint64_t parts, BeamQueue& queue) {
   if (parts == 1) {
     ++queue.passed_whole;
@@ -22,8 +22,8 @@ inline void count_parts(std::uint64_t parts, BeamQueue& queue) {
 }
 
 /// Calls `visit(part, above)` for the parts of a beam that cross a face, as all its rays do, below
-/// and above a plane of another axis. Both are empty where all of the beam lies within the margin
-/// of nearby rays.
+/// and above a plane of another axis. Both are empty if all of the beam lies within the margin of
+/// nearby rays.
 template <class Visit>
 void halve(const EyeView& view, const Crossing& face, int axis, std::int32_t index,
            const Beam& beam, BeamQueue& queue, Visit visit) {
@@ -46,12 +46,13 @@ void halve(const EyeView& view, const Crossing& face, int axis, std::int32_t ind
   }
 }
 
-/// A cut between the rays that cross `inner` first and those that cross `outer` first.
+/// Returns the cut between the rays that cross `inner` first and those that cross `outer` first.
 inline BeamCut cut_between(const EyeView& view, const Crossing& inner, const Crossing& outer) {
   return {inner, outer, view.line_before(inner, outer)};
 }
 
-/// The part of a beam that enters the box of all cells by one of its faces (thesis, section 3.4).
+/// Returns the part of a beam that enters the box of all cells through one of its faces (thesis,
+/// section 3.4).
 inline Beam part_entering(const EyeView& view, const Crossing& face, const Beam& screen,
                           BeamQueue& queue) {
   FixedVector<BeamCut, 4> borders;
@@ -59,7 +60,7 @@ inline Beam part_entering(const EyeView& view, const Crossing& face, const Beam&
     const int axis = (face.axis + other) % 3;
     const Crossing lower = view.crossing_of(axis, 0);
     const Crossing upper = view.crossing_of(axis, view.grid().cells[axis]);
-    // When crossing the face, a ray is beyond the planes that it crossed before.
+    // A ray that crosses the face is beyond the planes that it crossed before.
     borders.push_back(lower.side > 0 ? cut_between(view, lower, face)
                                      : cut_between(view, face, lower));
     borders.push_back(upper.side > 0 ? cut_between(view, face, upper)
@@ -69,7 +70,7 @@ inline Beam part_entering(const EyeView& view, const Crossing& face, const Beam&
   return part_of(screen, {borders.begin(), borders.size()});
 }
 
-/// The faces by which a beam leaves its leaf, and the lines on the image between them.
+/// The faces through which a beam leaves its leaf, and the lines on the image between them.
 ///
 /// The thesis finds the exit directions by the zones of the main face's plane and, in its conflict
 /// corners, by a second plane (section 3.5.1). Comparing the faces two by two is the same for all
@@ -90,7 +91,7 @@ class Exits {
   std::size_t count() const { return faces_.size(); }
   const Crossing& face(std::size_t i) const { return faces_[i]; }
 
-  /// The cuts around the part of the beam that leaves by face i.
+  /// Returns the cuts around the part of the beam that leaves through face i.
   FixedVector<BeamCut, 5> cuts(const EyeView& view, std::size_t i) const {
     FixedVector<BeamCut, 5> cuts;
     for (std::size_t j = 0; j < faces_.size(); ++j) {
@@ -101,8 +102,8 @@ class Exits {
   }
 
  private:
-  /// Adds a face unless one of the others leaves it no more than a sliver of the beam, and removes
-  /// those to which it leaves no more. One of two that are compared always stays, so the remaining
+  /// Adds a face unless another face leaves it no more than a sliver of the beam, and removes the
+  /// faces to which it leaves no more. One of two compared faces always remains, so the remaining
   /// faces divide all samples among them.
   void add(const EyeView& view, const Beam& beam, const Crossing& face) {
     std::array<ImageLine, 6> lines{};

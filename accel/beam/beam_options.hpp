@@ -9,13 +9,13 @@
 
 namespace beambench::accel::beam {
 
-/// What becomes of a beam's samples, whatever cells the beam passes through.
+/// The treatment of a beam's samples, whatever cells the beam passes through.
 struct BeamRules {
-  std::int64_t handover = 0;       ///< beams of fewer samples become individual rays
+  std::int64_t handover = 0;       ///< beams with fewer samples become individual rays
   bool share_corners = false;      ///< samples in the corners of pixels are shared between pixels
   bool continue_with_rays = true;  ///< behind an occupied leaf: rays (thesis), or the beam again
 
-  /// The parameters `handover`, `continue` and `share_corners`, and their values read back.
+  /// The parameters `handover`, `continue` and `share_corners`, and reading their values.
   static std::vector<ParameterInfo> parameters(const BeamRules& defaults);
   static BeamRules from(const Parameters& parameters);
 };

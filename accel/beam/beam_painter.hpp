@@ -1,5 +1,5 @@
 #pragma once
-// From beams to hits: tracing the samples of a beam.
+// Turns beams into hits by tracing their samples.
 
 #include <algorithm>
 #include <cstddef>
@@ -16,8 +16,8 @@
 
 namespace beambench::accel::beam {
 
-/// For each sample of a buffer 1 if it needs no tracing, where that matters: when some samples are
-/// not wanted, or beams continue behind occupied leaves. Empty otherwise.
+/// Returns 1 for each sample of a buffer that needs no tracing, if that matters: some samples are
+/// not wanted, or beams continue behind occupied leaves. Otherwise empty.
 template <class Sight>
 std::vector<std::uint8_t> finished_samples(const BeamRules& rules, const Sight& sight,
                                            const HitSpan& buffer) {
@@ -26,16 +26,15 @@ std::vector<std::uint8_t> finished_samples(const BeamRules& rules, const Sight& 
   return finished;
 }
 
-/// Finds the samples of beams and traces them (thesis, section 3.6), for one image. It does
-/// not depend on other beams, so several painters, in threads or processes, can fill one image.
-/// They can share its buffer: two beams have no sample in common, unless one descends from the
-/// other.
-/// `Cells` are those that beams pass through.
+/// Finds the samples of beams and traces them (thesis, section 3.6), for one image. Beams are
+/// independent, so several painters, in threads or processes, can fill one image. They can share
+/// its buffer: two beams have no sample in common, unless one descends from the other. `Cells` are
+/// the cells that beams pass through.
 template <class Watch, class Sight, class Cells = OctreeCells>
 class BeamPainter {
  public:
-  /// `cells` are those of the scene. All but these and `rules` must outlive the painter. The buffer
-  /// begins as background, `finished` as `finished_samples`.
+  /// `cells` belong to the scene. All arguments except `cells` and `rules` must outlive the
+  /// painter. The buffer begins as background, `finished` as `finished_samples`.
   BeamPainter(const scenes::Scene& scene, const Cells& cells, const BeamRules& rules,
               const EyeView& view, const PrimaryRays& rays, const Sight& sight,
               const HitSpan& buffer, std::span<std::uint8_t> finished, Watch& watch)
@@ -51,7 +50,7 @@ class BeamPainter {
         watch_(&watch),
         counting_(watch.rays()) {}
 
-  /// A beam leaves the root: its samples keep the background.
+  /// Handles a beam that leaves the root: its samples keep the background.
   void leave(const Beam& beam) {
     if constexpr (Watch::kPaintsLeaving || Sight::kRecordsLeaving) {
       std::uint64_t samples = 0;
@@ -66,7 +65,7 @@ class BeamPainter {
     }
   }
 
-  /// A beam in an empty leaf becomes individual rays.
+  /// Turns a beam in an empty leaf into individual rays.
   void hand_over(const Beam& beam, RayReason reason) {
     for_each_batch(beam, [&] {
       for (LeafBatch::Sample& sample : batch_.samples()) {
@@ -78,7 +77,7 @@ class BeamPainter {
     });
   }
 
-  /// A beam at an occupied leaf. Returns whether some of its samples continue with it.
+  /// Tests a beam at an occupied leaf. Returns whether some of its samples continue with it.
   bool test_leaf(const Beam& beam) {
     bool unfinished = false;
     for_each_batch(beam, [&] {
@@ -92,14 +91,14 @@ class BeamPainter {
   }
 
  private:
-  /// Where a ray leaves a beam's cell.
+  /// Returns the t at which a ray leaves a beam's cell.
   static double exit_of(const Beam& beam, const CellRay& ray) {
     return std::min({ray.exit_t(0, beam.corner, beam.size), ray.exit_t(1, beam.corner, beam.size),
                      ray.exit_t(2, beam.corner, beam.size)});
   }
 
-  /// After a sample was tested in an occupied leaf: finishes it, or returns false where it
-  /// continues with its beam.
+  /// Finishes a sample after its test in an occupied leaf, or returns false if it continues with
+  /// its beam.
   bool settle(const Beam& beam, LeafBatch::Sample& sample) {
     const CellRay cell_ray(cells_.grid(), sample.ray);
     const double exit_t = exit_of(beam, cell_ray);
@@ -116,8 +115,8 @@ class BeamPainter {
     return true;
   }
 
-  /// Traces a ray behind a leaf, which it leaves at `exit_t`, on its own (thesis, section 3.6.2);
-  /// from where it begins, if it begins behind that leaf.
+  /// Traces a ray on its own behind a leaf, which it leaves at `exit_t` (thesis, section 3.6.2);
+  /// from its beginning, if that lies behind the leaf.
   void follow(const Beam& beam, const CellRay& cell_ray, double exit_t, LeafBatch::Sample& sample) {
     if (exit_t < sample.ray.t_min) {
       if (const auto hit = cells_.find_closest(sample.ray, counting_)) {
@@ -170,7 +169,7 @@ class BeamPainter {
     return finished;
   }
 
-  /// Restores the hit that a sample found in leaves its beam passed.
+  /// Restores the hit that a sample found in leaves passed by its beam.
   void resume(LeafBatch::Sample& sample) const {
     for_each_index(sample, [&](std::size_t index) {
       if (const auto hit = buffer_.get(index)) sample.closest.keep(hit->t, hit->primitive);

@@ -9,7 +9,7 @@
 namespace beambench::accel::beam {
 namespace {
 
-/// What a beam meets in a node; nothing where it is to be divided among the node's children.
+/// Returns what a beam meets in a node; nothing if it must be divided among the node's children.
 std::optional<BeamKind> met_in(const octree::OctreeCursor& cursor, const BeamQueue& queue) {
   if (cursor.node().count == 0) return BeamKind::kNonTerminal;
   if (queue.passed != nullptr && queue.passed->has(cursor)) return BeamKind::kNonTerminal;
@@ -24,7 +24,7 @@ void push_at(const octree::OctreeCursor& cursor, BeamKind kind, Beam beam, BeamQ
   queue.waiting.push(kind, beam);
 }
 
-/// Divides a beam among the leaves behind a face that all its rays cross.
+/// Divides a beam among the leaves behind a face crossed by all its rays.
 class Entry {
  public:
   Entry(const EyeView& view, const Crossing& face, BeamQueue& queue)
@@ -98,7 +98,7 @@ void begin_at(const octree::Octree& octree, const EyeView& view, const Beam& scr
   ++queue.appended;
 }
 
-/// The plane of the grid nearest to the eye, crossed toward `side`.
+/// Returns the crossing, toward `side`, of the grid plane nearest to the eye.
 Crossing nearest_plane(const octree::Octree& octree, const EyeView& view, int axis, int side) {
   const CellGrid& grid = octree.grid();
   const double cells = (view.eye(axis) - grid.lower[axis]) / grid.cell[axis];
@@ -107,8 +107,8 @@ Crossing nearest_plane(const octree::Octree& octree, const EyeView& view, int ax
           static_cast<std::int16_t>(axis), static_cast<std::int16_t>(side)};
 }
 
-/// Begins a beam, divided by the planes beside the eye, from this axis on: rays that run along such
-/// a plane may be on the other side of it than the eye, and are in none of the parts.
+/// Begins a beam, divided by the planes beside the eye, from this axis on. Rays along such a plane
+/// may be on its other side than the eye, and are in none of the parts.
 void begin_beside_planes(const octree::Octree& octree, const EyeView& view, int axis,
                          const Beam& screen, BeamQueue& queue) {
   if (screen.outline.empty()) return;

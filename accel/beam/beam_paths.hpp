@@ -1,6 +1,6 @@
 #pragma once
-// Beams through the octree: where they begin, how they continue behind an empty leaf, and those
-// that wait.
+// Beams through the octree: where they begin, how they continue behind an empty leaf, and the stack
+// of waiting beams.
 
 #include <algorithm>
 #include <cstddef>
@@ -13,14 +13,14 @@
 
 namespace beambench::accel::beam {
 
-/// A beam and what it enters.
+/// A beam and the node that it enters.
 struct BeamStep {
   BeamKind kind;
   Beam beam;
 };
 
-/// The last beam pushed is the next to be traced. Corners and cuts of all beams are stored in one
-/// array each, so that a beam takes no more memory than it needs, without an allocation of its own.
+/// A stack of beams. Corners and cuts of all beams are stored in one array each, so that a beam
+/// takes no more memory than it needs, without its own allocation.
 class BeamStack {
  public:
   bool empty() const { return entries_.empty(); }
@@ -34,7 +34,7 @@ class BeamStack {
     cuts_.insert(cuts_.end(), beam.cuts.begin(), beam.cuts.end());
   }
 
-  /// Removes the last beam. Not when empty.
+  /// Removes the last beam. Must not be called when empty.
   void pop(BeamStep& step) {
     const Entry entry = entries_.back();
     entries_.pop_back();
@@ -91,19 +91,20 @@ class BeamStack {
   std::vector<BeamCut> cuts_;
 };
 
-/// Where the octree is a part of a larger one: takes the beams that enter leaves of other parts.
+/// Takes the beams that enter leaves of other parts if the octree is a part of a larger one.
 class BeamBorder {
  public:
   BeamBorder() = default;
   BeamBorder(const BeamBorder&) = delete;
   BeamBorder& operator=(const BeamBorder&) = delete;
   virtual ~BeamBorder() = default;
-  /// A beam enters a leaf by a face. Returns whether it is taken, so that it does not wait here.
+  /// Handles a beam that enters a leaf through a face. Returns whether it is taken, so that it does
+  /// not wait here.
   virtual bool takes(std::uint32_t leaf, const Crossing& face, const Beam& beam) = 0;
 };
 
-/// Where beams pass some nodes as if these were empty leaves, whatever their size: those that hold
-/// nothing that a ray of theirs can meet.
+/// The nodes that beams pass as if they were empty leaves, whatever their size: they hold nothing
+/// that the beams' rays could hit.
 class PassedNodes {
  public:
   PassedNodes() = default;
@@ -113,7 +114,7 @@ class PassedNodes {
   virtual bool has(const octree::OctreeCursor& node) const = 0;
 };
 
-/// Beams that wait to be traced, and the work of finding them.
+/// Waiting beams, and the work of finding them.
 ///
 /// The thesis counts a beam when one is created: at the beginning, and for each part of a beam that
 /// is cut. A beam that continues undivided is the same beam in another leaf (section 4.4.2:
@@ -125,25 +126,25 @@ struct BeamQueue {
   std::uint64_t appended = 0;           ///< to `waiting`, or taken at the border
   std::uint64_t made = 0;               ///< those at the beginning, and the parts of divided beams
   std::uint64_t divided = 0;            ///< beams that continued in several parts
-  std::uint64_t passed_whole = 0;       ///< beams that continued undivided: into one leaf, or out
-  BeamBorder* border = nullptr;         ///< where there is one
-  const PassedNodes* passed = nullptr;  ///< where there are any
+  std::uint64_t passed_whole = 0;       ///< continued undivided: into one leaf, or out of the root
+  BeamBorder* border = nullptr;         ///< if there is one
+  const PassedNodes* passed = nullptr;  ///< if there are any
 };
 
 /// Appends the beams at which tracing begins (thesis, section 3.4), through a convex `part` of the
 /// image: all of it is `view.screen()`. From outside: for each face of the root that faces the
 /// camera, the part clipped to it, divided among the leaves behind it. From inside: the part itself
-/// in the leaf that contains the camera. Samples of no beam miss the root, or run along a plane of
-/// the grid that nearby rays may pass on the eye's other side.
+/// in the leaf that contains the camera. Samples that belong to no beam miss the root, or run along
+/// a plane of the grid that nearby rays may pass on the other side of the eye.
 void begin_beams(const octree::Octree& octree, const EyeView& view, const ImagePolygon& part,
                  BeamQueue& queue);
 
-/// Appends the beams that leave a leaf (thesis, section 3.5): divided among the faces by which its
-/// rays leave, then among the leaves behind each face.
+/// Appends the beams that leave a leaf (thesis, section 3.5): divided among the faces through which
+/// its rays leave, then among the leaves behind each face.
 void continue_beam(const octree::Octree& octree, const EyeView& view, const Beam& beam,
                    BeamQueue& queue);
 
-/// Appends a beam that enters a node by a face, divided among the node's leaves there.
+/// Appends a beam that enters a node through a face, divided among the node's leaves there.
 void enter_node(const EyeView& view, const Crossing& face, const octree::OctreeCursor& node,
                 const Beam& beam, BeamQueue& queue);
 

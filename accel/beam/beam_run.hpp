@@ -1,5 +1,5 @@
 #pragma once
-// Tracing an image by beams, whatever cells they pass through.
+// Traces an image by beams, whatever cells they pass through.
 
 #include <algorithm>
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace beambench::accel::beam {
 template <class Watch, class Sight, class Cells = OctreeCells>
 class BeamRun {
  public:
-  /// All but `cells` and `rules` must outlive it.
+  /// All arguments except `cells` and `rules` must outlive this object.
   BeamRun(const scenes::Scene& scene, const Cells& cells, const BeamRules& rules,
           const PrimaryRays& rays, const Sight& sight, const HitSpan& buffer,
           std::span<std::uint8_t> finished, Watch& watch)
@@ -32,7 +32,7 @@ class BeamRun {
     queue_.passed = sight.passed();
   }
 
-  /// The whole image.
+  /// Traces the whole image.
   void operator()() {
     begin();
     work([](BeamStack&) {});
@@ -48,7 +48,7 @@ class BeamRun {
 
   BeamStack& waiting() { return queue_.waiting; }
 
-  /// Traces beams until none waits. Before each, `share(waiting)` may remove some.
+  /// Traces beams until none waits. Before each beam, `share(waiting)` may remove some.
   template <class Share>
   void work(Share share) {
     BeamStep step;

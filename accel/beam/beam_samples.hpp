@@ -1,5 +1,5 @@
 #pragma once
-// The samples of a beam: scanline filling, exact at the edges.
+// The samples of a beam: scanline filling that is exact at the edges.
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace beambench::accel::beam {
 
-/// From points of the image to samples of a lattice.
+/// Maps points of the image to samples of a lattice.
 class SampleScan {
  public:
   SampleScan(const EyeView& view, const PrimaryRays& rays)
@@ -22,10 +22,10 @@ class SampleScan {
         row_slack_(2.0 * view.rounding() / glm::length(rays.down()) + 1e-6) {}
 
   /// Calls `visit(y, first_x, last_x)` for runs of samples, such that each sample of the beam is in
-  /// one run, and no other sample is. Scanline filling (thesis, section 3.6.1), with the beam's
-  /// cuts for edges. A sample whose direction, rounded to float, may lie on either side of a cut is
-  /// decided by `crosses_before`, as it is in every other beam: the thesis lets some pixels be
-  /// treated twice; here each sample belongs to one beam.
+  /// one run, and no other sample is in any. Scanline filling (thesis, section 3.6.1), with the
+  /// beam's cuts for edges. If a sample's direction, rounded to float, may lie on either side of a
+  /// cut, `crosses_before` decides, as in every other beam. The thesis treats some pixels twice;
+  /// here each sample belongs to one beam.
   template <class Visit>
   void for_each_run(const Beam& beam, const SampleLattice& lattice, Visit visit) const {
     double top = beam.outline[0].y;
@@ -42,7 +42,7 @@ class SampleScan {
     for (int y = first_y; y <= last_y; ++y) {
       const Row row = edges.row(y, lattice.begin.x, lattice.width);
       if (row.first > row.last) continue;
-      // From the ends inward, up to where no cut is near.
+      // From the ends inward, until no cut is near.
       int first = row.first;
       int last = row.last;
       const int sure_first = std::max(first, row.sure_first);
@@ -68,7 +68,7 @@ class SampleScan {
   }
 
  private:
-  /// Samples of a row: those that may belong to the beam, and those that certainly do.
+  /// The samples of a row: those that may belong to the beam, and those that certainly do.
   struct Row {
     int first;
     int last;
@@ -89,7 +89,7 @@ class SampleScan {
       margin_ = scan.view_->rounding();
     }
 
-    /// Of the samples from `begin` on.
+    /// Returns the samples of a row from `begin` on.
     Row row(int y, int begin, int width) const {
       double first = begin;
       double last = width - 1;
@@ -97,7 +97,7 @@ class SampleScan {
       double sure_last = last;
       for (const Edge& edge : edges_) {
         const double value = edge.y * y + edge.constant;  // at x = 0
-        if (std::abs(edge.x) * width < margin_) {         // along the row: the same for all
+        if (std::abs(edge.x) * width < margin_) {         // parallel to the row: the same for all
           if (value > 2.0 * margin_) last = -1.0;
           if (value > -2.0 * margin_) sure_last = -1.0;
           continue;
@@ -120,7 +120,7 @@ class SampleScan {
     }
 
    private:
-    /// For the rounding of the division.
+    /// Allows for the rounding of the division.
     static constexpr double kColumnSlack = 1e-6;
     struct Edge {
       double x;
@@ -146,7 +146,7 @@ class SampleScan {
 
   const EyeView* view_;
   const PrimaryRays* rays_;
-  /// In rows: enough for the rounding of directions. An extra row is harmless.
+  /// Allows, in rows, for the rounding of directions. An extra row is harmless.
   double row_slack_;
 };
 

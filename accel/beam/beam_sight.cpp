@@ -12,17 +12,20 @@ namespace {
 
 using glm::dvec3;
 
-/// Fewer rays are traced singly. In parts of 64x64 pixels at 640x480, 128 to 255 rays take 0.92
-/// (ajedrez) to 1.5 times as long singly as in beams, 64 to 127 rays 0.58 to 1.4 times.
+/// The minimum number of rays; fewer are traced singly. In parts of 64x64 pixels at 640x480, 128 to
+/// 255 rays take 0.92 (ajedrez) to 1.5 times as long singly as in beams, 64 to 127 rays 0.58 to 1.4
+/// times.
 constexpr std::size_t kFewest = 128;
-/// A beam of fewer samples becomes single rays, where an image's own beams by the thesis's rule
-/// never do: a part of a mirror is covered by few samples, and 500 were found in 8,000 beams. Of 0,
-/// 4, 8, 16, 32 and 64 the fastest over ajedrez, closed-room and habitacion.
+/// A beam with fewer samples becomes single rays. An image's own beams never do by the thesis's
+/// rule, but a part of a mirror is covered by few samples: 500 were found in 8,000 beams. The
+/// fastest value of 0, 4, 8, 16, 32 and 64 over ajedrez, closed-room and habitacion.
 constexpr std::int64_t kSmallBeam = 8;
-/// With fewer than one of so many pixels in the pencil the buffers of the part cost too much.
+/// The maximum number of pixels per ray of the pencil: in a sparser part, the buffers cost too
+/// much.
 constexpr std::size_t kSparsest = 64;
 
-/// A convex cover of pixels, given by corners of them: the image, cut along lines of 16 directions.
+/// Returns a convex cover of pixels, given by their corners: the image, cut along lines of 16
+/// directions.
 ImagePolygon cover(const std::vector<glm::dvec2>& corners) {
   ImagePolygon part;
   if (corners.empty()) return part;
@@ -41,7 +44,7 @@ ImagePolygon cover(const std::vector<glm::dvec2>& corners) {
   return part;
 }
 
-/// The highest of a box's corners in a direction.
+/// Returns the coordinate of a box's highest corner in a direction.
 double highest(const dvec3& direction, const dvec3& lower, const dvec3& upper) {
   return glm::dot(direction, glm::mix(lower, upper, glm::greaterThan(direction, dvec3(0.0))));
 }
@@ -74,7 +77,7 @@ BehindMirror::Place BehindMirror::place_of(std::size_t ray) const {
   return {{pixel % width, pixel / width}, samples_[ray] % samples};
 }
 
-/// With the direction scaled to view depth 1, as that of the sample is.
+/// The direction is scaled to view depth 1, like that of the sample.
 BehindMirror::Course BehindMirror::course_of(const Ray& ray, const Place& place) const {
   const dvec3 from = dvec3(ray.origin) - nearby_.eye;
   const dvec3 direction(ray.direction);
@@ -104,11 +107,11 @@ void BehindMirror::choose_part() {
 
 /// The margin is derived for two planes a before b on the line through the eye and a sample's
 /// place, at distances from the eye that together are s, their edge `margin` from the line at view
-/// depth 1. The ray's line passes the eye at e and its direction is off by d. Were the order on it
-/// another and the later of the two crossings in front of its origin, at view depth z or beyond,
-/// the distances and speeds would satisfy s * margin <= (s + 2e) * e / z + s * d. So margin > d +
-/// 2e / z excludes it if s >= 2e; and planes nearer to the eye are crossed before z, or not at all,
-/// by the samples that `begin_beams` leaves: there e + 4e < z * (margin - d).
+/// depth 1. The ray's line passes the eye at e and its direction is off by d. If the order on it
+/// were different and the later of the two crossings in front of its origin, at view depth z or
+/// beyond, the distances and speeds would satisfy s * margin <= (s + 2e) * e / z + s * d. So margin
+/// > d + 2e / z excludes it if s >= 2e; and planes nearer to the eye are crossed before z, or not
+/// at all, by the samples that `begin_beams` leaves: there e + 4e < z * (margin - d).
 void BehindMirror::take_rays() {
   if (ray_at_.empty()) return;
   const double worst = 0.25 * std::min(glm::length(view_->right()), glm::length(view_->down()));
@@ -149,8 +152,8 @@ void BehindMirror::take_rays() {
   part_ = cover(corners);
 }
 
-/// Through three origins that are far apart, and below all others; across the view where that plane
-/// is none that all rays rise from.
+/// Takes the plane through three origins that are far apart and below all others; if not all rays
+/// rise from that plane, the plane across the view.
 void BehindMirror::find_plane() {
   const auto farthest = [&](auto distance) {
     dvec3 best(0.0);
@@ -176,7 +179,8 @@ void BehindMirror::find_plane() {
   limit_ = std::numeric_limits<double>::infinity();
   for_each_taken(
       [&](const Ray& ray) { limit_ = std::min(limit_, glm::dot(normal_, dvec3(ray.origin))); });
-  // More than hits may lie beside their primitives, far less than rays begin beside surfaces.
+  // More than the distance by which hits may lie beside their primitives, far less than that by
+  // which rays begin beside surfaces.
   limit_ -= 16.0 * overlap_tolerance(*scene_);
 }
 

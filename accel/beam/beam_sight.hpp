@@ -1,5 +1,5 @@
 #pragma once
-// What beams are traced for: a whole image, or what a mirror shows.
+// The rays traced by beams: a whole image, or the reflections in a mirror.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,9 +19,9 @@
 
 namespace beambench::accel::beam {
 
-/// The policy of an image: all of it, starting at the eye.
+/// The policy of an image: all samples, starting at the eye.
 struct WholeImage {
-  /// Must samples of beams that leave the root be recorded as finished?
+  /// Whether samples of beams that leave the root must be recorded as finished.
   static constexpr bool kRecordsLeaving = false;
 
   static EyeView view(const CellGrid& grid, const PrimaryRays& rays) { return {grid, rays}; }
@@ -29,10 +29,10 @@ struct WholeImage {
   static std::vector<SampleLattice> lattices(const PrimaryRays& rays, bool share_corners) {
     return sample_lattices(rays, share_corners);
   }
-  /// A beam of fewer samples becomes individual rays.
+  /// Returns the number of samples below which a beam becomes individual rays.
   static std::int64_t handover(const BeamRules& rules) { return rules.handover; }
   static const PassedNodes* passed() { return nullptr; }
-  /// The samples that need no tracing; empty where all need it.
+  /// Returns the samples that need no tracing; empty if all need it.
   static std::vector<std::uint8_t> finished() { return {}; }
   static SampleRay ray(const SampleScan& scan, const SampleLattice& lattice, int x, int y) {
     return {scan.ray(lattice, x, y), 0.0F, 1.0F};
@@ -42,40 +42,40 @@ struct WholeImage {
 /// The policy of a mirror: the rays of a pencil, as samples of the image that its virtual eye sees
 /// (Heckbert and Hanrahan, "Beam tracing polygonal objects", SIGGRAPH 1984; thesis, section 7.3).
 ///
-/// Beams are divided as seen from the pencil's apex, but what is traced are the pencil's own rays,
-/// whose lines pass a little beside it. So beams keep a margin between each other (`NearbyRays`),
-/// and the few samples in it are in no beam. What lies behind the plane of the rays' origins does
-/// not divide beams: nodes that hold nothing in front of it are passed, those of the mirror among
-/// them.
+/// Beams are divided as seen from the pencil's apex, but the traced rays are the pencil's own,
+/// whose lines pass slightly beside it. So there is a margin between beams (`NearbyRays`), and the
+/// few samples in it are in no beam. Objects behind the plane of the rays' origins do not divide
+/// beams: nodes that hold nothing in front of it, such as those of the mirror, are passed.
 class BehindMirror : public PassedNodes {
  public:
   static constexpr bool kRecordsLeaving = true;
 
-  /// Can a pencil's rays be traced in beams, and are they so many that it pays?
+  /// Returns whether a pencil's rays can be traced in beams, and are numerous enough for that to
+  /// pay.
   static bool suits(const RayBatch& batch, const Pencil& pencil);
-  /// For a pencil that `suits`. Rays that deviate too far from their samples are left out.
+  /// Requires a pencil that `suits`. Rays that deviate too far from their samples are left out.
   BehindMirror(const RayBatch& batch, const Pencil& pencil, const scenes::Scene& scene,
                const octree::Octree& octree);
 
-  /// For the hits of the smallest part of the image that has all samples.
+  /// Returns a buffer for the smallest part of the image that contains all samples.
   HitBuffer buffer() const { return {size_.x, size_.y, view_->samples()}; }
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  /// For each ray its place in the buffer, or kNone where it is left out.
+  /// For each ray, its place in the buffer, or kNone if it is left out.
   std::span<const std::uint32_t> places() const { return places_; }
 
   EyeView view(const CellGrid& grid, const PrimaryRays& rays) const {
     return {grid, rays, nearby_};
   }
   const ImagePolygon& part(const EyeView&) const { return part_; }
-  /// Each sample has a ray of its own, those in the corners of pixels too.
+  /// Each sample has its own ray, including those in the corners of pixels.
   std::vector<SampleLattice> lattices(const PrimaryRays& rays, bool share_corners) const;
-  /// For each place of the buffer 1 if no ray of the pencil has it.
+  /// Returns 1 for each place of the buffer that no ray of the pencil has.
   std::vector<std::uint8_t> finished() const;
-  /// Some even where the option is 0.
+  /// Returns some minimum even if the option is 0.
   static std::int64_t handover(const BeamRules& rules);
   SampleRay ray(const SampleScan&, const SampleLattice& lattice, int x, int y) const;
   const PassedNodes* passed() const { return this; }
-  /// Is everything in a node behind the plane of the rays' origins?
+  /// Returns whether everything in a node is behind the plane of the rays' origins.
   bool has(const octree::OctreeCursor& node) const override;
 
  private:
@@ -84,17 +84,17 @@ class BehindMirror : public PassedNodes {
     glm::ivec2 pixel;
     std::size_t sample;
   };
-  /// How a ray runs, as seen from the apex.
+  /// The course of a ray as seen from the apex.
   struct Course {
     double start;   ///< view depth of its origin
     double speed;   ///< view depth per t
-    double beside;  ///< how far its line passes beside the apex
-    double turned;  ///< how far its direction is from its sample's, at view depth 1
+    double beside;  ///< distance at which its line passes the apex
+    double turned;  ///< distance of its direction from its sample's, at view depth 1
   };
 
   Place place_of(std::size_t ray) const;
   Course course_of(const Ray& ray, const Place& place) const;
-  /// In a buffer of the part, as `HitBuffer::index`.
+  /// Returns the index in a buffer of the part, like `HitBuffer::index`.
   std::size_t index_of(int x, int y, std::size_t sample) const {
     const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.x) +
                               static_cast<std::size_t>(x);
@@ -120,10 +120,10 @@ class BehindMirror : public PassedNodes {
   glm::ivec2 corner_{0};  ///< of the part, in pixels
   glm::ivec2 size_{0};
   std::vector<std::uint32_t> places_;
-  std::vector<std::uint32_t> ray_at_;  ///< for each place the ray, or kNone
+  std::vector<std::uint32_t> ray_at_;  ///< the ray of each place, or kNone
   ImagePolygon part_;
   NearbyRays nearby_{};
-  /// All rays stay where dot(normal_, point) > limit_.
+  /// All rays are where dot(normal_, point) > limit_.
   glm::dvec3 normal_{0.0};
   double limit_ = 0.0;
 };

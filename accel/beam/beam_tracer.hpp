@@ -19,27 +19,27 @@ namespace beambench::accel::beam {
 
 /// Beams of primary rays through an octree (González López, thesis 1999, chapters 3 and 4): in
 /// empty leaves the beams continue, divided by the faces and the leaves behind them; at an occupied
-/// leaf the samples of a beam become rays; what leaves the root is background without a ray. Rays
-/// that are not of an image, direct or seen in a planar mirror, and those that pass an occupied
-/// leaf, are traced one by one by Samet's traversal of the same octree.
+/// leaf the samples of a beam become rays; samples that leave the root are background without a
+/// ray. Samet's traversal of the same octree traces individually the rays that pass an occupied
+/// leaf, and all rays that do not belong to an image (seen directly or in a planar mirror).
 class BeamTracer : public octree::Samet {
  public:
   BeamTracer(const scenes::Scene& scene, const BeamOptions& options)
       : BeamTracer(scene, octree::Octree(scene, options.octree), options) {}
-  /// Over an octree that was made already.
+  /// Makes a tracer over an existing octree.
   BeamTracer(const scenes::Scene& scene, octree::Octree octree, const BeamOptions& options)
       : octree::Samet(scene, std::move(octree)), scene_(&scene), options_(options) {}
 
   const scenes::Scene& scene() const { return *scene_; }
   const BeamOptions& options() const { return options_; }
 
-  /// An image is traced in beams, which are shared among the context's threads: two have no sample
-  /// in common, unless one descends from the other. Of a batch, what planar mirrors show is traced
-  /// in beams from their virtual eyes (`BehindMirror`), all other rays one by one.
+  /// Traces an image in beams, which are shared among the context's threads: two have no sample in
+  /// common, unless one descends from the other. In a batch, traces reflections in planar mirrors
+  /// in beams from their virtual eyes (`BehindMirror`), and all other rays one by one.
   void closest_hits(const RaySource& rays, const HitSpan& hits,
                     const QueryContext& context) const override;
 
-  /// Samples become rays at occupied leaves only, so that not all of an image's rays are made.
+  /// Samples become rays only at occupied leaves, so that not all of an image's rays are made.
   Statistics statistics() const override {
     Statistics statistics = octree::Samet::statistics();
     statistics.image_rays = ImageRays::kOwn;
@@ -56,7 +56,7 @@ class BeamTracer : public octree::Samet {
     return std::move(watch).take();
   }
 
-  /// Traces an image, reporting to a policy (see NoBeamWatch).
+  /// Traces an image and reports to a policy (see NoBeamWatch).
   template <class Watch>
   void trace_watched(const PrimaryRays& rays, const HitSpan& buffer, Watch& watch) const;
 

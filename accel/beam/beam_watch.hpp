@@ -1,5 +1,5 @@
 #pragma once
-// What a beam tracer does, reported to a compile-time policy beside that of the rays.
+// Reports a beam tracer's actions to a compile-time policy, in addition to that of the rays.
 
 #include <algorithm>
 #include <array>
@@ -18,9 +18,10 @@
 
 namespace beambench::accel::beam {
 
-/// Why a sample became a ray of its own.
+/// The reason why a sample became an individual ray.
 enum class RayReason {
-  kOccupied,  ///< it found nothing nearer than the exit of the occupied leaf its beam ended at
+  kOccupied,  ///< found nothing nearer than the exit of the occupied leaf where its beam ended
+              ///< ended
   kHandover,  ///< its beam had fewer samples than `handover`
   kCrowded    ///< its beam had too many cuts to be divided (never observed)
 };

@@ -1,5 +1,6 @@
 #pragma once
-// Which plane of the cell grid a ray from the eye crosses first: beams are divided by this alone.
+// Determines which plane of the cell grid a ray from the eye crosses first: beams are divided by
+// this alone.
 
 #include <algorithm>
 #include <array>
@@ -23,9 +24,10 @@ struct Crossing {
   std::int16_t side;
 };
 
-/// Does the ray make crossing `a` before `b`? A crossing that the ray does not make comes last. At
-/// the same t the lower axis is first, so that the crossings of a ray have one order and every
-/// division of beams by them is a partition, however close to an edge or a vertex a ray passes.
+/// Returns whether the ray makes crossing `a` before `b`. A crossing that the ray does not make
+/// comes last. At the same t the lower axis is first, so that the crossings of a ray have a total
+/// order and every division of beams by them is a partition, however close to an edge or a vertex a
+/// ray passes.
 inline bool crosses_before(const CellRay& ray, const Crossing& a, const Crossing& b) {
   const auto t = [&](const Crossing& crossing) {
     return ray.step(crossing.axis) == crossing.side ? ray.plane_t(crossing.axis, crossing.index)
@@ -37,33 +39,33 @@ inline bool crosses_before(const CellRay& ray, const Crossing& a, const Crossing
   return a.axis != b.axis ? a.axis < b.axis : a.side < b.side;
 }
 
-/// A part narrower than this (in the units of `ImageLine`) is not made: its rays stay with the
-/// neighboring part. They deviate by at most 10 scene diagonals x 2^-39, far less than overlaps are
-/// widened by (`tolerance.hpp`), so no hit is lost, and rays that run exactly in a cell's face do
-/// not divide beams into slivers.
+/// The minimum width of a part, in the units of `ImageLine`; the rays of a narrower one stay with
+/// the neighboring part. They deviate by at most 10 scene diagonals x 2^-39, far less than overlaps
+/// are widened by (`tolerance.hpp`), so no hit is lost, and rays that run exactly in a cell's face
+/// do not divide beams into slivers.
 inline constexpr double kSliver = 0x1p-39;
 
-/// How far rounding a ray's direction to float may move it, in units of view depth 1.
+/// Returns how far rounding a ray's direction to float may move it, in units of view depth 1.
 double direction_rounding(const PrimaryRays& rays);
 
-/// Rays that nearly are those of an image, as reflected rays nearly come from a virtual eye: their
-/// numbers are rounded at another origin, so their lines pass a little beside the eye.
+/// Rays that are nearly those of an image, as reflected rays nearly come from a virtual eye: their
+/// numbers are rounded at another origin, so their lines pass slightly beside the eye.
 struct NearbyRays {
   glm::dvec3 eye;
-  double beside_eye;  ///< how far beside it the lines pass, at most
-  /// A ray crosses two planes in the order in which the line through the eye and its sample's place
-  /// does, if that line passes the planes' common edge at no less than this, in units of view depth
-  /// 1. It holds for crossings behind the ray's origin, and is more than the direction from the eye
-  /// to any point of the ray deviates from that line.
+  double beside_eye;  ///< maximum distance at which the lines pass the eye
+  /// A ray crosses two planes in the same order as the line through the eye and its sample's place
+  /// if that line passes the planes' common edge at a distance of at least `margin`, in units of
+  /// view depth 1. This holds for crossings behind the ray's origin. The margin exceeds the
+  /// deviation of the direction from the eye to any point of the ray from that line.
   double margin;
 };
 
 /// The planes of a grid as seen from the camera.
 class EyeView {
  public:
-  /// For the rays of the image themselves, which all pass through the eye.
+  /// The view for the rays of the image themselves, which all pass through the eye.
   EyeView(const CellGrid& grid, const PrimaryRays& rays);
-  /// For others in their place.
+  /// The view for nearby rays in their place.
   EyeView(const CellGrid& grid, const PrimaryRays& rays, const NearbyRays& nearby);
 
   const CellGrid& grid() const { return *grid_; }
@@ -72,21 +74,24 @@ class EyeView {
 
   /// `direction_rounding` of the image's rays.
   double rounding() const { return rounding_; }
-  /// How far the direction from the eye to any point of a ray may deviate from its sample's place.
+  /// The maximum deviation of the direction from the eye to any point of a ray from its sample's
+  /// place.
   double deviation() const { return std::max(rounding_, margin_); }
-  /// May lines pass the eye on the other side of a plane? Then its crossing at the eye is
-  /// uncertain.
+  /// Returns whether lines may pass the eye on the other side of a plane. If so, its crossing at
+  /// the eye is uncertain.
   bool eye_is_beside(const Crossing& crossing) const {
     return std::abs(distance(crossing)) < 4.0 * beside_eye_;
   }
-  /// The whole image as a polygon, wider on all sides by what rounding may do to a border sample.
+  /// Returns the whole image as a polygon, extended on all sides by the possible rounding of a
+  /// border sample.
   ImagePolygon screen() const;
 
-  /// How far the plane lies in front of the eye in the direction of `side`; negative behind it.
+  /// Returns the distance of the plane in front of the eye in the direction of `side`; negative
+  /// behind it.
   double distance(const Crossing& crossing) const {
     return crossing.side * (grid_->plane(crossing.axis, crossing.index) - eye(crossing.axis));
   }
-  /// The crossing of a plane by the rays that do cross it.
+  /// Returns the crossing of a plane by the rays that do cross it.
   Crossing crossing_of(int axis, std::int32_t index) const {
     const bool beyond = grid_->plane(axis, index) >= eye(axis);
     return {index, static_cast<std::int16_t>(axis), static_cast<std::int16_t>(beyond ? 1 : -1)};
@@ -94,8 +99,8 @@ class EyeView {
 
   /// The line on the image between the rays that cross `a` first (negative) and those that cross
   /// `b` first: the image of the edge that the two planes share, as a plane through it and the eye,
-  /// moved inward by the margin of nearby rays.
-  /// Where a ray crosses neither the sign means nothing. Distances of both are not negative.
+  /// moved inward by the margin of nearby rays. If a ray crosses neither, the sign is meaningless.
+  /// Neither distance is negative.
   ImageLine line_before(const Crossing& a, const Crossing& b) const {
     const double distance_a = distance(a);
     const double distance_b = distance(b);
@@ -111,12 +116,13 @@ class EyeView {
   ImageLine other_side(const ImageLine& line) const {
     return {-line.x, -line.y, 2.0 * margin_ - line.constant};
   }
-  /// Do all rays of a polygon, given the range of `line_before(a, b)` over it, cross `a` first, but
-  /// for a sliver?
+  /// Returns whether all rays of a polygon, given the range of `line_before(a, b)` over it, cross
+  /// `a` first, up to a sliver.
   static bool all_before(const LineRange& range) { return range.high <= kSliver; }
-  /// Or `b`?
+  /// Returns whether they all cross `b` first.
   bool all_behind(const LineRange& range) const { return range.low >= 2.0 * margin_ - kSliver; }
-  /// Negative for the rays that run in the direction of the crossing, by more than the margin.
+  /// Returns a line that is negative for the rays in the direction of the crossing, by more than
+  /// the margin.
   ImageLine line_toward(const Crossing& crossing) const {
     ImageLine line = along(crossing, -1.0);
     line.constant += margin_;
@@ -124,7 +130,7 @@ class EyeView {
   }
 
  private:
-  /// `factor` x how fast rays move in the direction of a crossing.
+  /// Returns `factor` times the speed of rays in the direction of a crossing.
   ImageLine along(const Crossing& crossing, double factor) const {
     const ImageLine& direction = direction_[static_cast<std::size_t>(crossing.axis)];
     const double signed_factor = crossing.side * factor;

@@ -10,7 +10,7 @@
 
 namespace beambench::accel::beam {
 
-/// At most `Capacity` values. The caller checks `full()` before it pushes.
+/// A vector of at most `Capacity` values. The caller checks `full()` before pushing.
 template <class T, std::size_t Capacity>
 class FixedVector {
  public:
@@ -81,8 +81,8 @@ inline LineRange range_over(const ImagePolygon& polygon, const ImageLine& line) 
 }
 
 /// The part of a polygon, which has corners, where the line is at most `slack` (Sutherland and
-/// Hodgman, "Reentrant polygon clipping", CACM 17(1), 1974; one line per call). When there is no
-/// space for another corner the polygon is returned whole: it then covers more than necessary.
+/// Hodgman, "Reentrant polygon clipping", CACM 17(1), 1974; one line per call). Without space for
+/// another corner, the whole polygon is returned, which covers more than necessary.
 inline ImagePolygon clip(const ImagePolygon& polygon, const ImageLine& line, double slack) {
   ImagePolygon part;
   glm::dvec2 last = polygon[polygon.size() - 1];
@@ -103,7 +103,7 @@ inline ImagePolygon clip(const ImagePolygon& polygon, const ImageLine& line, dou
   return part;
 }
 
-/// The area of a polygon, 1 being the whole image.
+/// Returns the area of a polygon; the whole image has the area 1.
 inline double area(const ImagePolygon& polygon) {
   double twice = 0.0;
   for (std::size_t i = 2; i < polygon.size(); ++i) {

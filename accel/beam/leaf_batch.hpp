@@ -1,5 +1,5 @@
 #pragma once
-// Samples that are tested together against the references of a leaf.
+// Samples tested together against the references of a leaf.
 
 #include <bit>
 #include <span>
@@ -18,7 +18,7 @@ struct SampleRay {
   float speed;
 };
 
-/// Up to `SampleBatch::kCapacity` samples with their rays and what they hit so far.
+/// Up to `SampleBatch::kCapacity` samples with their rays and their hits so far.
 class LeafBatch {
  public:
   struct Sample {
@@ -45,7 +45,7 @@ class LeafBatch {
   bool full() const { return samples_.size() == SampleBatch::kCapacity; }
   std::span<Sample> samples() { return samples_; }
 
-  /// Not when full.
+  /// Must not be called when full.
   Sample& add(const SampleLattice& lattice, int x, int y, const SampleRay& ray) {
     const std::size_t i = samples_.size();
     places_.x[i] = static_cast<float>(x + lattice.offset.x);
@@ -76,7 +76,7 @@ class LeafBatch {
   }
 
  private:
-  /// Hits that are not farther have a larger 1 / view depth than this.
+  /// Returns the bound on 1 / view depth that hits must exceed to be nearer.
   static float limit(const Sample& sample) {
     constexpr float kLess = 1.0F - 0x1p-20F;
     return kLess / (sample.start + sample.speed * sample.closest.ray.t_max);

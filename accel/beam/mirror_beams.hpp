@@ -1,5 +1,5 @@
 #pragma once
-// What planar mirrors show, by virtual eyes.
+// Reflections in planar mirrors, seen from virtual eyes.
 
 #include <cstdint>
 #include <optional>
@@ -15,18 +15,18 @@
 
 namespace beambench::accel::beam {
 
-/// What the eye sees in a mirror: the rays that the mirror sends on.
+/// The view in a mirror: the rays that the mirror reflects.
 struct MirrorView {
-  PrimaryRays image;  ///< of the virtual eye
-  glm::dvec3 apex;    ///< through which the rays' lines pass
+  PrimaryRays image;  ///< seen from the virtual eye
+  glm::dvec3 apex;    ///< the common point of the rays' lines
   std::vector<Ray> rays;
-  std::vector<std::uint32_t> samples;  ///< of the image, for each ray
+  std::vector<std::uint32_t> samples;  ///< of the image, one for each ray
 
-  /// All rays as one pencil.
+  /// Returns all rays as one pencil.
   Pencil pencil() const { return {0, rays.size(), apex, false, &image}; }
 };
 
-/// From the hits of an image: the rays that a mirror sends on. Nothing where none see it.
+/// Returns the rays that a mirror reflects, from the hits of an image. Nothing if no ray hits it.
 std::optional<MirrorView> view_in(const scenes::PlanarMirror& mirror, const PrimaryRays& rays,
                                   const HitBuffer& hits);
 

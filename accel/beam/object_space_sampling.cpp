@@ -18,7 +18,7 @@ constexpr std::array<int, 25> kAll = [] {
   return all;
 }();
 
-/// Chooses the lattices of each beam's samples by the leaf it ends at.
+/// Chooses the lattices of each beam's samples according to the leaf where it ends.
 class ChoosingWatch : public NoBeamWatch {
  public:
   ChoosingWatch(const BeamTracer& tracer, const PrimaryRays& rays, const SamplingDensity& density,

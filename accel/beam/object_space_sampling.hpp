@@ -1,6 +1,6 @@
 #pragma once
-// How many samples a pixel gets, chosen where its beam ends: by the objects and the size of the
-// leaf.
+// Chooses the number of samples of a pixel where its beam ends, from the objects and the size of
+// the leaf.
 
 #include <array>
 #include <cstddef>
@@ -12,39 +12,39 @@
 
 namespace beambench::accel::beam {
 
-/// The thesis (section 5.3.2) gives pixels of leaving beams no sample and all others the same
-/// number, and proposes that the leaf at which a beam ends choose the number. Here it does. A leaf
-/// with `n` references that is `w` pixels wide (its depth and its distance) shows an estimated n
-/// edges of length w in w x w pixels: n / w edges per pixel. From `few` on, and from `many` on, its
-/// pixels get more samples.
+/// The thesis (section 5.3.2) gives no samples to pixels of leaving beams and the same number to
+/// all others, and proposes to let the leaf at which a beam ends choose the number, as is done
+/// here. A leaf with `n` references that is `w` pixels wide (its depth and its distance) shows an
+/// estimated n edges of length w in w x w pixels: n / w edges per pixel. From the thresholds `few`
+/// and `many` on, its pixels get more samples.
 struct SamplingDensity {
-  double few = 0.15;   ///< edges per pixel from which on a pixel gets 5 samples instead of 1
-  double many = 0.60;  ///< edges per pixel from which on it gets 25
+  double few = 0.15;   ///< threshold in edges per pixel for 5 samples instead of 1
+  double many = 0.60;  ///< threshold in edges per pixel for 25 samples
 };
 
 /// An image whose pixels have 1, 5 or 25 samples of the same regular grid of 5 x 5.
 struct SparseSamples {
   /// 25 samples per pixel; those that were not taken are misses.
   HitBuffer hits;
-  /// For each place in `hits`: 0 where no sample was taken, else the number of samples, 1, 5 or 25,
-  /// that a pixel gets in the leaf which took it. A sample stands for 1/number of its pixel; what
-  /// is left of the pixel is background.
+  /// For each place in `hits`: 0 if no sample was taken, else the number of samples, 1, 5 or 25,
+  /// that a pixel gets in the leaf that took it. A sample represents 1/number of its pixel; the
+  /// rest of the pixel is background.
   std::vector<std::uint8_t> number;
 
-  /// Samples that were taken, those of leaving beams not counted.
+  /// Returns the number of samples taken, without those of leaving beams.
   std::size_t taken() const;
 };
 
-/// The numbers of samples that leaves choose from, in increasing order.
+/// The numbers of samples from which leaves choose, in increasing order.
 inline constexpr std::array<int, 3> kSampleNumbers{1, 5, 25};
 
-/// The index of the number for a value: the second from `few` on, the third from `many` on.
+/// Returns the index of the number for a value: the second from `few` on, the third from `many` on.
 constexpr std::size_t sample_choice(double value, double few, double many) {
   return value >= many ? 2 : value >= few ? 1 : 0;
 }
 
-/// The samples, as places in the grid of 5 x 5 (row by row), that a pixel with `number` samples
-/// has: all, one of each row and column, or the middle one.
+/// Returns the samples of a pixel with `number` samples, as places in the grid of 5 x 5 (row by
+/// row): all, one in each row and column, or the middle one.
 std::span<const int> chosen_samples(int number);
 
 /// Traces an image by beams; each leaf chooses the number of its samples. `rays` must have 25

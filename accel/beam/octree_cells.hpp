@@ -1,5 +1,5 @@
 #pragma once
-// The leaves of an octree as beams pass through them.
+// The leaves of an octree, as cells that beams pass through.
 
 #include <cstdint>
 #include <optional>
@@ -13,29 +13,29 @@
 
 namespace beambench::accel::beam {
 
-/// What a beam's samples need to know of the cells; other cells than an octree's have the same
+/// The interface through which beams see the cells; cells of other structures have the same
 /// functions.
 class OctreeCells {
  public:
   /// `tracer` must outlive it.
   OctreeCells(const octree::Samet& tracer) : tracer_(&tracer) {}  // NOLINT: stands for the tracer
 
-  /// On its planes lie the faces of all cells.
+  /// The grid whose planes contain the faces of all cells.
   const CellGrid& grid() const { return octree().grid(); }
-  /// The first beams, through a part of the image (`begin_beams`).
+  /// Pushes the first beams, through a part of the image (`begin_beams`).
   void begin(const EyeView& view, const ImagePolygon& part, BeamQueue& queue) const {
     begin_beams(octree(), view, part, queue);
   }
-  /// A beam behind its cell (`continue_beam`).
+  /// Pushes the parts of a beam behind its cell (`continue_beam`).
   void advance(const EyeView& view, const Beam& beam, BeamQueue& queue) const {
     continue_beam(octree(), view, beam, queue);
   }
-  /// Those of the beam's cell.
+  /// Returns the references of the beam's cell.
   std::span<const scenes::PrimitiveId> references(const Beam& beam) const {
     return octree().references(octree().nodes()[beam.node]);
   }
 
-  /// Traces a ray behind the beam's cell, which it leaves at t; `watch` may end it where another
+  /// Traces a ray behind the beam's cell, which it leaves at t. `watch` may end it where another
   /// process takes over.
   template <class Counting, class Watch>
   [[gnu::always_inline]] void follow(const scenes::Scene& scene, const Beam& beam, const Ray& ray,
@@ -53,7 +53,7 @@ class OctreeCells {
     best = closest;
   }
 
-  /// Traces a ray from where it begins.
+  /// Traces a ray from its beginning.
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
     return tracer_->find_closest(ray, counting);

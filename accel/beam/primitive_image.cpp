@@ -76,7 +76,7 @@ TriangleImage PrimitiveImages::image_of_triangle(
   }
   const double volume = glm::dot(corners[0], glm::cross(corners[1], corners[2]));
   const double reach = glm::length(corners[0]) * glm::length(corners[1]) * glm::length(corners[2]);
-  // The eye is in the triangle's plane, or so near to it that the signs are uncertain.
+  // The eye is in the triangle's plane, or so close to it that the signs are uncertain.
   if (!(std::abs(volume) > 1e-9 * reach)) return kAnywhere;
 
   // A plane through the eye, or 1/t of a plane, as a line on the image.

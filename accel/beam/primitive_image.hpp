@@ -16,24 +16,24 @@
 
 namespace beambench::accel::beam {
 
-/// x * px + y * py + constant of a sample's place in pixels, in float.
+/// The linear function x * px + y * py + constant of a sample's place in pixels, in float.
 struct PixelLine {
   float x;
   float y;
   float constant;
 };
 
-/// A triangle's edges, each not negative for the samples that may hit it, and 1 / view depth of its
-/// plane, not less than that of a hit. All are widened by what float arithmetic and the deviation
-/// of rays can do to them, so that they reject no hit of the canonical test.
+/// A triangle's edges, nonnegative for samples that may hit it, and 1 / view depth of its plane, at
+/// least that of any hit. All are widened by the possible effects of float arithmetic and of the
+/// deviation of rays, so that they reject no hit of the canonical test.
 struct TriangleImage {
   std::array<PixelLine, 3> edges;
   PixelLine inverse_t;
 };
 
-/// A sphere's outline: xx u^2 + xy u v + yy v^2 + x u + y v + constant, not negative for the
-/// samples that may hit it; (u, v) is a sample's place relative to the center's, in pixels. Widened
-/// as above.
+/// A sphere's outline: xx u^2 + xy u v + yy v^2 + x u + y v + constant, nonnegative for samples
+/// that may hit it; (u, v) is a sample's place relative to the center's, in pixels. Widened as
+/// above.
 struct SphereImage {
   float center_x;
   float center_y;
@@ -51,12 +51,13 @@ struct SampleBatch {
 
   alignas(64) std::array<float, kCapacity> x;  ///< place in pixels
   alignas(64) std::array<float, kCapacity> y;
-  /// A little less than 1 / view depth of the closest hit; 0 before there is one.
+  /// Slightly less than 1 / view depth of the closest hit; 0 before there is one.
   alignas(64) std::array<float, kCapacity> inverse_t;
   std::size_t size = 0;
 };
 
-/// Bit i: may sample i of the batch hit the primitive, no farther than its closest hit?
+/// Bit i is set if sample i of the batch may hit the primitive at most as far away as its closest
+/// hit.
 using SampleMask = std::uint64_t;
 
 /// The mask of all samples of a batch.
@@ -83,26 +84,27 @@ class PrimitiveImages {
   glm::dvec3 right_;
   glm::dvec3 down_;
   glm::dvec2 size_;   ///< of the image, in pixels
-  double deviation_;  ///< of a point of a ray from its sample's place, as seen from the eye
-  /// Where a primitive's first image stands in the array of its kind; kNotMade before it is made.
+  double deviation_;  ///< of a ray's points from its sample's place, as seen from the eye
+  /// Returns the place of a primitive's first image in the array of its kind; kNotMade before it is
+  /// made.
   std::uint32_t& place_of(scenes::PrimitiveId id);
 
-  /// In pages of many primitives, empty before one of them is met: what a small part of an image
-  /// costs does not depend on how many there are.
+  /// The places in pages of many primitives, each empty until one of them is met, so that the cost
+  /// of a small part of an image does not depend on the number of primitives.
   std::vector<std::vector<std::uint32_t>> places_;
   std::vector<TriangleImage> triangles_;
   std::vector<SphereImage> spheres_;
 };
 
-/// Tests of many samples against one primitive's image, for one instruction set. They may only
-/// reject: what passes is confirmed by the canonical test.
+/// Tests many samples against one primitive's image, for one instruction set. The tests only
+/// reject: samples that pass are confirmed by the canonical test.
 struct ProbeKernels {
-  /// May the samples hit one of a polygon's triangles?
+  /// Returns which samples may hit one of a polygon's triangles.
   SampleMask (*triangles)(std::span<const TriangleImage>, const SampleBatch&);
   SampleMask (*sphere)(const SphereImage&, const SampleBatch&);
 };
 
-/// Those for the best instruction set of this machine that Highway supports.
+/// Returns the kernels for the best instruction set of this machine that Highway supports.
 const ProbeKernels& best_probe_kernels();
 
 }  // namespace beambench::accel::beam

@@ -25,7 +25,7 @@ std::vector<SampleLattice> part_of(std::span<const SampleLattice> lattices, cons
   std::vector<SampleLattice> parts(lattices.begin(), lattices.end());
   for (SampleLattice& lattice : parts) {
     lattice.begin = {part.left, part.top};
-    // What is beyond the last pixel, shared corners, belongs to the last part.
+    // Shared corners beyond the last pixel belong to the last part.
     if (part.left + part.width < buffer.width()) lattice.width = part.left + part.width;
     if (part.top + part.height < buffer.height()) lattice.height = part.top + part.height;
   }

@@ -30,7 +30,7 @@ struct SampleLattice {
   std::vector<Place> places;
   glm::ivec2 begin{0};
 
-  /// Calls `visit(index)` for the places in a buffer that the sample (x, y) belongs to.
+  /// Calls `visit(index)` for the places in a buffer to which the sample (x, y) belongs.
   template <class Visit>
   void for_each_index(const HitSpan& buffer, int x, int y, Visit visit) const {
     for (const Place& place : places) {
@@ -50,13 +50,13 @@ struct PixelRect {
   int height;
 };
 
-/// The samples of a part of the image. Parts that divide the image divide its samples, those that
-/// pixels share too.
+/// Returns the samples of a part of the image. Parts that divide the image also divide its samples,
+/// including those shared by pixels.
 std::vector<SampleLattice> part_of(std::span<const SampleLattice> lattices, const HitSpan& buffer,
                                    const PixelRect& part);
 
-/// A lattice for each sample of a pixel. `share_corners`: samples in the corners of pixels that are
-/// the same point are one sample.
+/// Returns a lattice for each sample of a pixel. `share_corners`: samples in the corners of pixels
+/// that are the same point are one sample.
 std::vector<SampleLattice> sample_lattices(const PrimaryRays& rays, bool share_corners);
 
 }  // namespace beambench::accel::beam

@@ -98,7 +98,8 @@ class SampleWatch : public NoBeamWatch {
     return {crossing.axis, octree_->grid().plane(crossing.axis, crossing.index)};
   }
 
-  /// The root's face by which the ray enters: of those that the eye sees the one crossed last.
+  /// Returns the face of the root through which the ray enters: of the faces visible to the eye,
+  /// the one crossed last.
   std::optional<CrossedPlane> face_of_root() const {
     std::optional<Crossing> last;
     for (int axis = 0; axis < 3; ++axis) {
@@ -113,8 +114,8 @@ class SampleWatch : public NoBeamWatch {
     return plane_of(*last);
   }
 
-  /// The face by which beams enter the next leaf: of several that the ray crosses at the same
-  /// t the one of the lowest axis, as in `crosses_before`.
+  /// Returns the face through which beams enter the next leaf. If the ray crosses several at the
+  /// same t, it is the one of the lowest axis, as in `crosses_before`.
   CrossedPlane face_of(const octree::OctreeCursor& leaf, const octree::LeafExit& exit) const {
     int axis = 0;
     while (axis < 2 && exit.step[axis] == 0) ++axis;

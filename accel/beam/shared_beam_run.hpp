@@ -1,5 +1,5 @@
 #pragma once
-// An image by beams on several threads.
+// Traces an image by beams on several threads.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,14 +17,14 @@
 
 namespace beambench::accel::beam {
 
-/// Each thread traces beams from a stack of its own, and turns half of it into a task whenever many
+/// Each thread traces beams from its own stack, and turns half of it into a task whenever many
 /// wait.
 template <class Watch, class Cells = OctreeCells>
 class SharedBeamRun {
  public:
   using Counting = std::conditional_t<std::is_same_v<Watch, NoBeamWatch>, NoCounting, WorkCounters>;
 
-  /// All but `cells` and `rules` must outlive it.
+  /// All arguments except `cells` and `rules` must outlive this object.
   SharedBeamRun(const scenes::Scene& scene, const Cells& cells, const BeamRules& rules,
                 const PrimaryRays& rays, const HitSpan& buffer)
       : finished_(finished_samples(rules, sight_, buffer)),
@@ -44,7 +44,7 @@ class SharedBeamRun {
   }
 
  private:
-  /// From this number on half of the waiting beams are worth a task.
+  /// The number of waiting beams from which on half of them are worth a task.
   static constexpr std::size_t kMany = 16;
 
   /// The state of one thread.

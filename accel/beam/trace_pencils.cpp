@@ -1,4 +1,4 @@
-// Lists of rays: those that a planar mirror sends on in beams, the others one by one.
+// Lists of rays: reflections in planar mirrors are traced in beams, the others one by one.
 
 #include <cstddef>
 #include <type_traits>

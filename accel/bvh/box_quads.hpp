@@ -9,7 +9,7 @@
 
 namespace beambench::accel::bvh {
 
-/// Three coordinates; what is in the fourth lane of a box or a center does not matter.
+/// Three coordinates; the fourth lane of a box or a center is ignored.
 using Quad = float __attribute__((vector_size(16)));
 using IntQuad = std::int32_t __attribute__((vector_size(16)));
 
@@ -40,7 +40,7 @@ struct QuadBox {
   }
 };
 
-/// An item while it is sorted in place: its box stays near its neighbors'.
+/// An item while it is sorted in place, so that its box stays close to its neighbors'.
 class BuildItem {
  public:
   BuildItem(const scenes::Bounds& box, std::uint32_t index)
@@ -48,7 +48,7 @@ class BuildItem {
 
   const QuadBox& box() const { return box_; }
   std::uint32_t index() const { return std::bit_cast<std::uint32_t>(box_.upper[3]); }
-  /// Twice the center, which spares a multiplication.
+  /// Returns twice the center, which saves a multiplication.
   Quad center() const {
     // The bits of an index are a denormal number, with which arithmetic would be slow.
     constexpr IntQuad kCoordinates{-1, -1, -1, 0};

@@ -39,8 +39,8 @@ class Builder {
 
  private:
   /// A node to be made of the items [begin, end). Nodes below it are taken from `free` on, where
-  /// there is space for the maximum: the number of a node does not depend on the task that builds
-  /// it.
+  /// there is space for the maximum, so that the number of a node does not depend on the task that
+  /// builds it.
   struct Pending {
     std::size_t node;
     std::size_t free;
@@ -52,7 +52,7 @@ class Builder {
     std::size_t count() const { return end - begin; }
   };
 
-  /// Where the right child's items begin, and the extents of both children.
+  /// The beginning of the right child's items, and the extents of both children.
   struct Halves {
     std::size_t middle;
     BuildExtent left;
@@ -88,7 +88,7 @@ class Builder {
     return sum_up(begin, end, [] { return BuildExtent(); });
   }
 
-  /// Sums up items, beginning with what `nothing()` returns, in parallel where requested: minima,
+  /// Sums up items, starting with the result of `nothing()`, in parallel if requested: minima,
   /// maxima and counts do not depend on the order.
   template <class Nothing>
   std::invoke_result_t<Nothing> sum_up(std::size_t begin, std::size_t end,
@@ -127,7 +127,7 @@ class Builder {
     return Halves{middle, measure(pending.begin, middle), measure(middle, pending.end)};
   }
 
-  /// From both ends to the middle, as std::partition does, but summing up the extents at the same
+  /// Works from both ends to the middle, like std::partition, but sums up the extents at the same
   /// time.
   Halves partition(const Pending& pending, const Binning& binning, const ObjectSplit& split) {
     Halves halves{pending.begin, {}, {}};
@@ -150,7 +150,7 @@ class Builder {
     }
   }
 
-  /// The cheapest split; none when a leaf is allowed and costs no more.
+  /// Returns the cheapest split; none if a leaf is allowed and costs no more.
   ObjectSplit best_split(const Pending& pending, const Binning& binning) const {
     const Bins bins = sum_up(pending.begin, pending.end, [&] { return Bins(binning); });
     ObjectSplit best = best_object_split(bins, binning, options_);

@@ -1,5 +1,5 @@
 #pragma once
-// A binary hierarchy of boxes by the surface area heuristic; no scene, no primitives.
+// Builds a binary hierarchy of boxes by the surface area heuristic, without scene or primitives.
 
 #include <cstdint>
 #include <span>
@@ -9,11 +9,11 @@
 
 namespace beambench::accel::bvh {
 
-/// What the builder optimizes for.
+/// The parameters of the cost that the builder minimizes.
 struct BvhOptions {
-  std::uint32_t max_leaf = 8;    ///< most items of a leaf
+  std::uint32_t max_leaf = 8;    ///< maximum number of items in a leaf
   std::uint32_t block_size = 8;  ///< items tested at once: a leaf of n costs ceil(n / block_size)
-  float node_cost = 1.0F;        ///< of a node, the test of a block of items costing 1
+  float node_cost = 1.0F;        ///< of a node, relative to the test of a block of items
   bool parallel = false;         ///< on all cores; the result is the same
 };
 
@@ -29,7 +29,7 @@ struct BvhNode {
 
 struct BinaryBvh {
   std::vector<BvhNode> nodes;        ///< the root first, children after their parent; may be empty
-  std::vector<std::uint32_t> items;  ///< indices, leaf by leaf; each once where splits divide none
+  std::vector<std::uint32_t> items;  ///< indices, leaf by leaf; each once unless splits divide it
   std::uint32_t depth = 0;           ///< nodes on the longest path to a leaf, leaf included
 };
 
@@ -41,14 +41,14 @@ inline constexpr std::uint32_t kMaxBvhDepth = 96;
 /// coincide, and those below a depth that only contrived input reaches, are split in the middle.
 BinaryBvh build_bvh(std::span<const scenes::Bounds> boxes, const BvhOptions& options);
 
-/// The expected number of node visits and block tests of a ray that meets the root, weighted as the
-/// options say: what the builder minimizes.
+/// Returns the expected number of node visits and block tests of a ray that meets the root,
+/// weighted according to the options: the cost that the builder minimizes.
 double sah_cost(const BinaryBvh& bvh, const BvhOptions& options);
 
-/// The nodes that become the children of `node` in a hierarchy of `width` children per node: its
-/// own two, of which the interior one of largest area is replaced by its children for as long as
-/// there is room. Writes to `children` (of size `width`); returns how many. `node` must be
-/// interior.
+/// Collects the nodes that become the children of `node` in a hierarchy of `width` children per
+/// node: its own two, of which the interior one with the largest area is replaced by its children
+/// while there is room. Writes to `children` (of size `width`) and returns their number. `node`
+/// must be interior.
 std::size_t gather_children(const BinaryBvh& bvh, std::uint32_t node,
                             std::span<std::uint32_t> children);
 

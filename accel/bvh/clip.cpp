@@ -13,8 +13,8 @@
 namespace beambench::accel::bvh {
 namespace {
 
-/// A convex polygon while it is clipped. Each of the six planes adds one corner at most to those of
-/// a triangle; were rounding to let it cross a plane several times, half as many as there are.
+/// A convex polygon during clipping. Each of the six planes adds at most one corner to those of a
+/// triangle; if rounding made it cross a plane several times, at most half of the corners.
 struct ClippedPolygon {
   std::array<glm::dvec3, 28> corners;
   std::size_t count = 0;
@@ -22,7 +22,7 @@ struct ClippedPolygon {
   void add(const glm::dvec3& corner) { corners[count++] = corner; }
 };
 
-/// Writes to `kept` what lies on the side of the plane where sign * coordinate >= sign * plane.
+/// Writes to `kept` the part on the side of the plane where sign * coordinate >= sign * plane.
 void clip(const ClippedPolygon& polygon, int axis, double plane, double sign,
           ClippedPolygon& kept) {
   kept.count = 0;
@@ -54,7 +54,7 @@ Box bounds_of(const ClippedPolygon& polygon) {
   return bounds;
 }
 
-/// The common part of two boxes; nothing where they have none.
+/// Returns the intersection of two boxes; nothing if it is empty.
 std::optional<Box> common(const Box& a, const Box& b) {
   const Box part{glm::max(a.lower, b.lower), glm::min(a.upper, b.upper)};
   for (int axis = 0; axis < 3; ++axis) {
@@ -87,8 +87,8 @@ std::optional<Box> clipped_triangle(const scenes::Scene& scene, const scenes::Tr
   return common(bounds_of(*polygon), box);
 }
 
-/// The part of the ball: along an axis it reaches as far as it does where the box's other two sides
-/// are nearest to the center.
+/// Returns the part of the ball: along an axis it extends as far as at the points of the box's
+/// other two sides that are nearest to the center.
 std::optional<Box> clipped_sphere(const scenes::Sphere& sphere, const Box& box) {
   if (!sphere_overlaps(sphere, box, 0.0)) return std::nullopt;
   const glm::dvec3 center(sphere.center);

@@ -1,5 +1,5 @@
 #pragma once
-// Which part of a primitive lies in a box.
+// Computes the part of a primitive that lies in a box.
 
 #include <optional>
 
@@ -8,14 +8,14 @@
 
 namespace beambench::accel::bvh {
 
-/// The bounds, within `box`, of the part of a piece's surface that lies in a closed box; nothing
-/// where no part does. Exact, to the rounding of double, for triangles, which are clipped by the
-/// box's planes (Sutherland and Hodgman, "Reentrant Polygon Clipping", 1974). Conservative for
-/// spheres, whose part is that of the ball, and for cones, whose part is that of their box.
+/// Returns the bounds, within `box`, of the part of a piece's surface that lies in a closed box;
+/// nothing if there is none. Exact, to the rounding of double, for triangles, which are clipped by
+/// the box's planes (Sutherland and Hodgman, "Reentrant Polygon Clipping", 1974). Conservative for
+/// spheres, treated as balls, and for cones, treated as their boxes.
 std::optional<Box> clipped_bounds(const scenes::Scene& scene, const PrimitivePart& piece,
                                   const Box& box);
 
-/// The same of the piece's whole box.
+/// Returns the same for the piece's whole box.
 std::optional<Box> whole_bounds(const scenes::Scene& scene, const PrimitivePart& piece,
                                 const Box& box);
 

@@ -71,7 +71,7 @@ GoldsmithSalmon::GoldsmithSalmon(const scenes::Scene& scene, const GoldsmithSalm
     : scene_(&scene), queue_(options.queue), hierarchy_(build(scene, options)) {}
 
 Statistics GoldsmithSalmon::statistics() const {
-  Statistics statistics;  // no leaves: objects hang from volumes at every level
+  Statistics statistics;  // no leaves: volumes at every level have objects
   statistics.nodes = hierarchy_.volumes;
   statistics.references = hierarchy_.entries.size() - hierarchy_.volumes;
   statistics.depth = hierarchy_.depth;

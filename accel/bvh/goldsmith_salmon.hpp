@@ -15,7 +15,7 @@
 
 namespace beambench::accel::bvh {
 
-/// How the hierarchy is built and traversed.
+/// Options for building and traversing the hierarchy.
 struct GoldsmithSalmonOptions {
   enum class Order { kGiven, kShuffled, kSorted };
   enum class Queue { kHeap, kStack };
@@ -29,7 +29,7 @@ struct GoldsmithSalmonOptions {
   static GoldsmithSalmonOptions from(const Parameters& parameters);
 };
 
-/// An entry of the hierarchy that a ray meets, and where it enters its box.
+/// An entry of the hierarchy that a ray meets, and the t at which it enters the entry's box.
 struct MetEntry {
   float enter;
   std::uint32_t index;
@@ -39,8 +39,8 @@ struct Farther {
   bool operator()(const MetEntry& a, const MetEntry& b) const { return a.enter > b.enter; }
 };
 
-/// The entries that a ray has still to visit, the nearest first wherever it is: the priority queue
-/// of Kay and Kajiya (1986; thesis, graphic 4.1).
+/// The entries that a ray has yet to visit, nearest first across the whole hierarchy: the priority
+/// queue of Kay and Kajiya (1986; thesis, graphic 4.1).
 class NearestFirstQueue {
  public:
   explicit NearestFirstQueue(std::pmr::memory_resource* memory) : entries_(memory) {
@@ -62,14 +62,14 @@ class NearestFirstQueue {
   }
   void end_of_siblings() {}
 
-  /// More entries than most rays ever have waiting.
+  /// More entries than most rays ever have waiting at a time.
   static constexpr std::size_t kUsual = 128;
 
  private:
   std::pmr::vector<MetEntry> entries_;
 };
 
-/// The same in depth-first order: of the children of one volume the nearest first.
+/// The same in depth-first order: nearest first among the children of one volume.
 class OrderedStack {
  public:
   explicit OrderedStack(std::pmr::memory_resource* memory) : entries_(memory) {
@@ -97,7 +97,7 @@ class OrderedStack {
 };
 
 /// A hierarchy built by Goldsmith and Salmon's insertion, traversed with Kay and Kajiya's queue for
-/// the closest hit and by plain depth-first search for any hit. Volumes and objects alike have a
+/// the closest hit and by plain depth-first search for any hit. Volumes and objects both have a
 /// box, which is tested before they are entered. With `Insertion::kTerminal` it is the hierarchy of
 /// the thesis (sections 4.3 and 5.4.2).
 class GoldsmithSalmon : public TraversalAccelerator<GoldsmithSalmon> {
@@ -114,8 +114,8 @@ class GoldsmithSalmon : public TraversalAccelerator<GoldsmithSalmon> {
                : closest_through<OrderedStack>(ray, counting);
   }
 
-  /// Preorder, skipping what is missed: the recursion of the thesis's graphic 4.2 without its
-  /// stack.
+  /// Traverses in preorder, skipping missed entries: the recursion of the thesis's graphic 4.2
+  /// without its stack.
   template <class Counting>
   bool find_any(const Ray& ray, Counting& counting) const {
     const CanonicalRay canonical(ray);
@@ -158,7 +158,7 @@ class GoldsmithSalmon : public TraversalAccelerator<GoldsmithSalmon> {
     push_if_met(0);
     while (!queue.empty()) {
       const MetEntry met = queue.pop();
-      // Strictly: at the same t a lower primitive may still be found.
+      // Strictly greater: at the same t, a primitive with a lower id may still be found.
       if (met.enter > closest.ray.t_max) {
         if (Queue::kOrdered) break;
         continue;

@@ -17,27 +17,27 @@ struct ObjectList {
   double smallest = kNever;  ///< no object in the list has a smaller area
 };
 
-/// A bounding volume while the hierarchy grows.
+/// A bounding volume during the growth of the hierarchy.
 struct Volume {
   scenes::Bounds box;
   double area = 0.0;
   std::uint32_t children = 0;          ///< volumes and objects
-  std::uint32_t first_volume = kNone;  ///< of its children, a list through `next`
+  std::uint32_t first_volume = kNone;  ///< of the list of its children, linked by `next`
   std::uint32_t next = kNone;
-  /// Those with less than half the volume's area when they came, and the others. Together with an
-  /// object, a child of at least half the area costs more than the object as one more child does:
+  /// Objects with less than half the volume's area on insertion, and the others. A new volume for a
+  /// pair of an object and a child with at least half the area costs more than one more child: so
   /// thousands of large objects in one place are skipped.
   std::array<ObjectList, 2> objects{};
 };
 
-/// A place for an object and what it costs.
+/// A place for an object and its cost.
 struct Choice {
   enum class Kind { kChild, kBesideObject, kBesideVolume };
 
   double cost = kNever;
   Kind kind = Kind::kChild;
-  std::uint32_t volume = 0;  ///< that gets the child, or beside or in which the new volume stands
-  std::uint32_t list = 0;    ///< of kBesideObject: the partner's list,
+  std::uint32_t volume = 0;      ///< that gets the child, or by or in which the new volume is put
+  std::uint32_t list = 0;        ///< of kBesideObject: the partner's list,
   std::uint32_t before = kNone;  ///< and the object before it in that list
   std::size_t depth = 0;         ///< volumes on the path that grow
 };
@@ -58,14 +58,14 @@ class Inserter {
     place(insertion_ == Insertion::kTerminal ? find_terminal() : find_cheapest());
   }
 
-  /// The finished hierarchy. Volumes are not visited recursively: nothing bounds their depth.
+  /// Returns the finished hierarchy. Not recursive, because the depth of volumes is unlimited.
   InsertionHierarchy finish() const {
     InsertionHierarchy hierarchy;
     hierarchy.volumes = volumes_.size();
     hierarchy.boxes_weighed = boxes_weighed_;
     auto& entries = hierarchy.entries;
     entries.reserve(volumes_.size() + boxes_.size());
-    std::vector<std::uint32_t> open;      // entries whose end is not known yet
+    std::vector<std::uint32_t> open;      // entries whose end is still unknown
     std::vector<std::uint32_t> siblings;  // the volume to visit next on each level
     if (!volumes_.empty()) siblings.push_back(0);
     while (!siblings.empty()) {
@@ -101,7 +101,7 @@ class Inserter {
     Choice best;
     std::uint32_t index = 0;
     double area = area_with_object(volumes_[0].box);  // of the volume with the object
-    double inherited = 0.0;                           // what the growth of the volumes above costs
+    double inherited = 0.0;                           // cost of the growth of the volumes above
     while (true) {
       const Volume& volume = volumes_[index];
       const auto offer = [&](double cost, Choice::Kind kind, std::size_t depth) {
@@ -135,7 +135,7 @@ class Inserter {
     }
   }
 
-  /// The place beside the terminal node to which the path of least growth leads.
+  /// Finds the place beside the terminal node at the end of the path of least growth.
   Choice find_terminal() {
     path_.clear();
     std::uint32_t index = 0;
@@ -152,14 +152,14 @@ class Inserter {
         area = below;
         continue;
       }
-      // The growth of the volumes on the path is the same for both.
+      // The growth of the volumes on the path is the same in both cases.
       if (terminal.cost < area) return terminal;
       return {.cost = area, .kind = Choice::Kind::kChild, .volume = index, .depth = path_.size()};
     }
   }
 
-  /// The pair with the object of a volume that grows least, if it grows by less than `growth`, or
-  /// by as much to an area less than `area`; otherwise it costs kNever.
+  /// Finds the object of a volume whose pair with the new object grows least, if it grows by less
+  /// than `growth`, or equally to an area less than `area`; otherwise the cost is kNever.
   Choice least_growing_object(std::uint32_t index, double growth, double area) {
     Choice best;
     for (std::uint32_t list = 0; list < volumes_[index].objects.size(); ++list) {
@@ -177,7 +177,7 @@ class Inserter {
     return best;
   }
 
-  /// The child volume whose area grows least, of several the smallest; sets its new area.
+  /// Returns the child volume whose area grows least, the smallest of several; sets its new area.
   std::uint32_t least_growing(const Volume& volume, double& area) {
     std::uint32_t best = kNone;
     double least = kNever;
@@ -225,7 +225,7 @@ class Inserter {
     }
   }
 
-  /// A volume without children yet, around a box and the object.
+  /// Adds a volume without children, around a box and the object.
   std::uint32_t add_volume(const scenes::Bounds& box) {
     const scenes::Bounds both = united(box, boxes_[object_]);
     volumes_.push_back({.box = both, .area = half_area(both)});
@@ -270,7 +270,7 @@ class Inserter {
   Insertion insertion_;
   std::vector<std::uint32_t> next_object_;
   std::vector<Volume> volumes_;                        ///< the root is the first
-  std::vector<std::uint32_t> path_;                    ///< volumes the search has entered
+  std::vector<std::uint32_t> path_;                    ///< volumes entered by the search
   scenes::PrimitiveId object_ = scenes::kNoPrimitive;  ///< the one being inserted
   double object_area_ = 0.0;
   std::uint64_t boxes_weighed_ = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Where a node's items are divided by their centers: the candidates of the binned builder.
+// Divides a node's items by their centers: the candidates of the binned builder.
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,8 @@
 
 namespace beambench::accel::bvh {
 
-/// Nodes from this depth on are split in the middle: 2^32 items then need 32 more levels.
+/// Nodes at this depth and below are split in the middle, because 2^32 items then need 32 more
+/// levels.
 inline constexpr std::uint32_t kDeepestSahSplit = kMaxBvhDepth - 34;
 /// Below this many items, tasks cost more than they save.
 inline constexpr std::size_t kParallelItems = 4096;
@@ -38,7 +39,7 @@ class Binning {
 
   std::size_t count() const { return count_; }
   bool divides(std::size_t axis) const { return scale_[axis] > 0.0F; }
-  /// The bins of a center, one axis per lane.
+  /// Returns the bins of a center, one axis per lane.
   IntQuad bins(Quad center) const {
     return __builtin_convertvector(smaller((center - lower_) * scale_, last_), IntQuad);
   }
@@ -99,14 +100,14 @@ struct ObjectSplit {
   std::int32_t bin = 0;
 };
 
-/// The cost of testing `count` items, block by block.
+/// Returns the cost of testing `count` items, block by block.
 inline float leaf_cost(std::uint32_t count, const BvhOptions& options) {
   const std::uint32_t blocks = (count + options.block_size - 1) / options.block_size;
   return static_cast<float>(blocks);
 }
 
-/// Whether a leaf of `count` items is allowed and costs no more than a node whose children cost
-/// `split_cost` (not yet divided by the area of the node's box, which is `box`).
+/// Returns whether a leaf of `count` items is allowed and costs no more than a node whose children
+/// cost `split_cost` (not yet divided by the area of `box`, the node's box).
 inline bool leaf_pays(std::size_t count, const scenes::Bounds& box, float split_cost,
                       const BvhOptions& options) {
   const auto whole = static_cast<float>(half_area(box));
@@ -115,7 +116,7 @@ inline bool leaf_pays(std::size_t count, const scenes::Bounds& box, float split_
              whole * options.node_cost + split_cost;
 }
 
-/// The cheapest division of binned items: the costs of all, axis by axis.
+/// Returns the cheapest division of binned items, comparing all costs, axis by axis.
 inline ObjectSplit best_object_split(const Bins& bins, const Binning& binning,
                                      const BvhOptions& options) {
   const auto cost_of = [&](const Bin& part) {

@@ -1,5 +1,5 @@
 #pragma once
-// Primitives as SIMD tests them: in blocks of eight.
+// Primitives in blocks of eight for SIMD tests.
 
 #include <array>
 #include <cstddef>
@@ -17,11 +17,10 @@ inline constexpr std::size_t kBvhLanes = 8;
 
 /// Up to eight primitives of one kind.
 struct alignas(64) PrimitiveBlock {
-  /// Triangles (kind kPolygon): the axes of three corners, corner by corner. Spheres: the axes of
-  /// the center, the radius. Cones: nothing.
+  /// Triangles (kind kPolygon): the coordinates of three corners, corner by corner. Spheres: those
+  /// of the center, and the radius. Cones: nothing.
   std::array<std::array<float, kBvhLanes>, 9> coordinates;
-  std::array<scenes::PrimitiveId, kBvhLanes>
-      primitives;  ///< of triangles, the polygons they belong to
+  std::array<scenes::PrimitiveId, kBvhLanes> primitives;  ///< the polygons of triangles
   scenes::PrimitiveKind kind;
   std::uint32_t count;
   float leaf_extent;  ///< at least the longest side of the box of any of its triangles

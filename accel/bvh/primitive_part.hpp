@@ -1,5 +1,5 @@
 #pragma once
-// What the leaves of a hierarchy refer to where the triangles of a polygon are separate.
+// The pieces that leaves refer to in a hierarchy over separate triangles of polygons.
 
 #include <cstdint>
 #include <vector>
@@ -15,10 +15,10 @@ struct PrimitivePart {
   std::uint32_t index;  ///< into the scene's triangles, spheres or cones
 };
 
-/// The parts of all primitives, in increasing id.
+/// Returns the parts of all primitives, in increasing id.
 std::vector<PrimitivePart> collect_parts(const scenes::Scene& scene);
 
-/// The box of a part, not widened.
+/// Returns the box of a part, not widened.
 scenes::Bounds part_bounds(const scenes::Scene& scene, const PrimitivePart& part);
 
 }  // namespace beambench::accel::bvh

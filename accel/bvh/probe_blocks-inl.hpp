@@ -48,7 +48,7 @@ LaneBits test_registers(Test test) {
   return bits;
 }
 
-/// The triangles that the ray may hit in [t_min, t_max].
+/// Returns the triangles that the ray may hit in [t_min, t_max].
 inline LaneBits probe_triangles(const PrimitiveBlock& block, const ProbeRay& ray, float t_max) {
   const Tag tag;
   const std::size_t x = ray.side_axis[0];
@@ -92,7 +92,7 @@ inline LaneBits probe_triangles(const PrimitiveBlock& block, const ProbeRay& ray
     const Mask near_it = hn::And(surrounds, in_time);
     if (hn::AllFalse(tag, near_it)) return near_it;
 
-    // Most rays begin on a triangle. It passes the tests above; where its plane is surely met
+    // Most rays begin on a triangle, which passes the tests above. If its plane is certainly met
     // behind the origin, it need not be confirmed (probe_ray.hpp).
     struct Vector {
       Floats x, y, z;
@@ -122,7 +122,7 @@ inline LaneBits probe_triangles(const PrimitiveBlock& block, const ProbeRay& ray
         hn::MulAdd(size(to_a), hn::Set(tag, 0x1p-20F), hn::Set(tag, 0x1p-9F * ray.rounding)),
         hn::Set(tag, 0x1p-120F));  // products that underflow, or are flushed to zero
     const Floats total = hn::Add(hn::Add(u, v), w);
-    const Floats side = hn::Mul(hn::Mul(total, per_t), volume);  // of the sign of -t
+    const Floats side = hn::Mul(hn::Mul(total, per_t), volume);  // has the sign of -t
     const Mask sure = hn::And(hn::Gt(hn::Abs(total), hn::Set(tag, 4.0F * margin)),
                               hn::Gt(hn::Abs(volume), error));
     const Mask behind = hn::And(sure, hn::Gt(side, hn::Zero(tag)));
@@ -130,7 +130,7 @@ inline LaneBits probe_triangles(const PrimitiveBlock& block, const ProbeRay& ray
   });
 }
 
-/// The spheres that the ray may hit in [t_min, t_max].
+/// Returns the spheres that the ray may hit in [t_min, t_max].
 inline LaneBits probe_spheres(const PrimitiveBlock& block, const ProbeRay& ray, float t_max) {
   const Tag tag;
   const float per_square =
@@ -188,7 +188,7 @@ inline float confirm(const CanonicalRay& ray, const scenes::Scene& scene,
   return intersect(ray, scene, block.primitives[lane]);
 }
 
-/// Records what the probe rejected as tested and missed.
+/// Records the primitives rejected by the probe as tested and missed.
 template <class Counting>
 void count_probes(Counting& counting, const PrimitiveBlock& block, LaneBits passed) {
   counting.add_tests(block.kind, block.count);
@@ -198,8 +198,9 @@ void count_probes(Counting& counting, const PrimitiveBlock& block, LaneBits pass
   }
 }
 
-/// Tests the blocks of a leaf. `confirm(counting, block, lane)` makes the canonical test of what
-/// may be hit before `confirm.t_max`, may lower that, and returns true to end, as this does then.
+/// Tests the blocks of a leaf. `confirm(counting, block, lane)` runs the canonical test of possible
+/// hits before `confirm.t_max`, may lower that, and returns true to end; in that case this function
+/// returns true, too.
 template <class Counting, class Confirm>
 HWY_INLINE bool test_blocks(std::span<const PrimitiveBlock> blocks, const ProbeRay& ray,
                             Counting& counting, Confirm& confirm) {
@@ -214,9 +215,9 @@ HWY_INLINE bool test_blocks(std::span<const PrimitiveBlock> blocks, const ProbeR
   return false;
 }
 
-// Many rays need no canonical test: the canonical ray is made for the first.
+// Many rays need no canonical test, so the canonical ray is made for the first one.
 
-/// Keeps the closest of what it confirms, whose t is the least of `t_max`.
+/// Keeps the closest confirmed hit; its t is the least `t_max`.
 class ConfirmClosest {
  public:
   ConfirmClosest(const scenes::Scene& scene, const Ray& ray)

@@ -19,25 +19,24 @@
 
 namespace beambench::accel::bvh {
 
-/// A ray and the error bounds of the float tests made with it. What they reject, the canonical
-/// tests reject; the reverse need not hold.
+/// A ray and the error bounds of the float tests made with it. The canonical tests reject
+/// everything that these reject, but not vice versa.
 ///
 /// Let e = 2^-24 (a rounding's relative error) and R = `reach`, at least the distance along any
 /// axis from the origin to any point of the scene.
 ///
 /// **Boxes.** (plane - origin) * inverse has a relative error below 3 e and the right sign: t
-/// intervals are compared after one end is enlarged by kWider. A direction component of 0 has the
-/// largest float as its inverse. The product is never NaN; it is 0 only in the plane of a widened
+/// intervals are compared after one end is enlarged by kWider. The inverse of a direction component
+/// of 0 is the largest float. The product is never NaN; it is 0 only in the plane of a widened
 /// box's face, where nothing can be hit.
 ///
 /// **Triangles.** Corners are moved by the origin and sheared so that the ray becomes an axis (as
-/// CanonicalRay::beside does). A sheared coordinate is wrong by at most 7 e R. Let s be at
-/// least the longest side of the box of any triangle of the leaf. Where a ray hits one of them, its
-/// corners are within s of the hit along each axis: sheared, they are at most P = 2 s + 20 e R. The
-/// areas a.x b.y - a.y b.x are then wrong by at most 4 P 7eR + 2 (7eR)^2 + 4 e P^2, which
-/// 40 e R (P + 12 e R) exceeds (P <= 2 R).
-/// Depths along the main axis are wrong by 3 e R, and the canonical hit is within 2^-10 e R x 20 of
-/// its triangle: 5 e R over |direction| covers both.
+/// CanonicalRay::beside does). A sheared coordinate is wrong by at most 7 e R. Let s be at least
+/// the longest side of the box of any triangle of the leaf. If a ray hits one of them, its corners
+/// are within s of the hit along each axis: sheared, they are at most P = 2 s + 20 e R. The areas
+/// a.x b.y - a.y b.x are then wrong by at most 4 P 7eR + 2 (7eR)^2 + 4 e P^2, which 40 e R (P + 12
+/// e R) exceeds (P <= 2 R). Depths along the main axis are wrong by 3 e R, and the canonical hit is
+/// within 2^-10 e R x 20 of its triangle: 5 e R over |direction| covers both.
 ///
 /// **Triangles behind the origin.** Let o be the origin, a a corner, e1 and e2 the edges from it,
 /// and |x| the sum of the sizes of x's components. The canonical test has t = V / N, with the
@@ -50,8 +49,8 @@ namespace beambench::accel::bvh {
 ///   4 m its sign is right, and it is nearly m or more.
 ///
 /// They are then the canonical test's signs, too: in double V is wrong by 2^-50 |a - o| |e1| |e2|,
-/// and N by 2^-50 |direction| |e1| |e2| <= 2^-44 |d| R s, while |d| m > 2^-18 |d| R s. Where the
-/// hit's computed point lies does not matter: that test only rejects more. One case is left: a
+/// and N by 2^-50 |direction| |e1| |e2| <= 2^-44 |d| R s, while |d| m > 2^-18 |d| R s. The hit's
+/// computed point does not matter, because that test only rejects more. One case remains: a
 /// negative t that underflows is -0, which t_min = 0 accepts. Another 2^-33 R |e1| |e2| is
 /// therefore allowed: t is then beyond -2^-33 R / |direction|.
 ///
@@ -59,8 +58,8 @@ namespace beambench::accel::bvh {
 /// 21 e R: 32 e R is added to the radius, and as much to the depth of the sphere.
 class ProbeRay {
  public:
-  /// Factors and margins come from floats of ordinary size: of the largest component of the
-  /// direction, squares must neither vanish nor overflow.
+  /// Requires factors and margins of ordinary size: the square of the largest direction component
+  /// must neither vanish nor overflow.
   static bool can_probe(const Ray& ray) {
     const glm::vec3 size = glm::abs(ray.direction);
     const float largest = std::max({size.x, size.y, size.z});
@@ -68,7 +67,7 @@ class ProbeRay {
   }
 
   ProbeRay(const Ray& ray, const scenes::Bounds& scene_bounds) : t_min(ray.t_min) {
-    // Without branches, which the directions of secondary rays make unpredictable.
+    // Avoids branches, which would be unpredictable for the directions of secondary rays.
     float reach = 0.0F;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       origin[axis] = glm::value_ptr(ray.origin)[axis];
@@ -90,7 +89,8 @@ class ProbeRay {
     depth_margin = 5.0F * rounding * std::abs(inverse[main_axis]);
   }
 
-  /// By how much the areas of triangles may be wrong in a leaf whose box has that longest side.
+  /// Returns the possible error of the areas of triangles in a leaf whose box has that longest
+  /// side.
   float area_margin(float leaf_extent) const {
     return 40.0F * rounding * (2.0F * leaf_extent + 32.0F * rounding);
   }
@@ -98,7 +98,7 @@ class ProbeRay {
   /// Enlarges the far end of a t interval in box tests.
   static constexpr float kWider = 1.0F + 0x1p-20F;
 
-  // Arrays, for an axis picked at run time is a chain of branches in a glm vector.
+  // Arrays, because selecting an axis of a glm vector at run time is a chain of branches.
   std::array<float, 3> origin;
   std::array<float, 3> direction;
   float t_min;

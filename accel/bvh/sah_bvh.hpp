@@ -1,5 +1,5 @@
 #pragma once
-// Individual rays through today's standard: an eight-wide hierarchy by the surface area heuristic.
+// Individual rays through the modern standard structure: an eight-wide SAH hierarchy.
 
 #include "accel/bvh/probe_ray.hpp"
 #include "accel/bvh/sah_kernels.hpp"
@@ -12,8 +12,8 @@ namespace beambench::accel::bvh {
 
 /// A binned SAH hierarchy (Wald 2007) of eight children per node, traversed by SIMD in single
 /// precision (Wald, Benthin and Boulos, "Getting rid of packets", 2008). The float tests only
-/// reject; what passes is confirmed by the canonical test, so that the hits are those of every
-/// other classic structure, whatever the instruction set.
+/// reject; candidates that pass are confirmed by the canonical test, so the hits are those of every
+/// other classic structure, on every instruction set.
 class SahBvh : public TraversalAccelerator<SahBvh> {
  public:
   static std::vector<ParameterInfo> parameters();

@@ -26,8 +26,8 @@ namespace beambench::accel::bvh::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using accel::HWY_NAMESPACE::compress;
 
-/// The children whose boxes the ray may meet before `limit`, which is enlarged by kWider, and where
-/// it enters them.
+/// Returns the children whose boxes the ray may meet before `limit`, which is enlarged by kWider,
+/// and the t at which it enters them.
 HWY_INLINE LaneBits meet_children(const WideNode& node, const ProbeRay& ray, float limit,
                                   float* enter_t) {
   const Tag tag;
@@ -52,10 +52,10 @@ HWY_INLINE LaneBits meet_children(const WideNode& node, const ProbeRay& ray, flo
   });
 }
 
-/// What is still to be visited, the next on top, with the t at which the ray enters it.
+/// The entries still to be visited, the next on top, with the t at which the ray enters them.
 class WaitingStack {
  public:
-  /// Takes the next of those that are entered before `limit`; false when there is none.
+  /// Takes the next entry that is entered before `limit`; false if there is none.
   HWY_INLINE bool pop(float limit, ChildReference& next) {
     while (size_ > 0) {
       --size_;
@@ -67,8 +67,8 @@ class WaitingStack {
     return false;
   }
 
-  /// Pushes all of the children but one and returns that: the nearest of two, otherwise, of more
-  /// than one, the nearest along the octant's diagonal.
+  /// Pushes all of the children except one, and returns that one: the nearer of two; of more, the
+  /// nearest along the octant's diagonal.
   HWY_INLINE ChildReference push_but_nearest(const WideNode& node, LaneBits met, std::size_t octant,
                                              const float* enter_t) {
     const LaneBits rest = met & (met - 1);
@@ -86,14 +86,14 @@ class WaitingStack {
     return ChildReference::from_bits(references_[--size_]);
   }
 
-  /// Takes the next; false when there is none.
+  /// Takes the next entry; false if there is none.
   HWY_INLINE bool pop_any(ChildReference& next) {
     if (size_ == 0) return false;
     next = ChildReference::from_bits(references_[--size_]);
     return true;
   }
 
-  /// Pushes all of the children but the last and returns that. Must not be used with `pop`.
+  /// Pushes all of the children except the last, and returns that one. Must not be used with `pop`.
   HWY_INLINE ChildReference push_but_last(const WideNode& node, LaneBits met) {
     const auto last = static_cast<std::size_t>(std::bit_width(met) - 1);
     const LaneBits rest = met ^ LaneBits { 1 } << last;
@@ -118,7 +118,7 @@ class WaitingStack {
   }
 
  private:
-  /// The children of `met`, the farthest first.
+  /// Pushes the children of `met`, the farthest first.
   HWY_INLINE void push(const WideNode& node, LaneBits met, std::size_t octant,
                        const float* enter_t) {
     const Tag tag;
@@ -148,13 +148,13 @@ class WaitingStack {
     }
   }
 
-  /// Each node on the longest path leaves at most seven children waiting; a whole register is
+  /// Each node on the longest path leaves at most seven children waiting, and a whole register is
   /// stored above them.
   static constexpr std::size_t kRoom = kMaxBvhDepth * (kBvhLanes - 1) + 1 + kBvhLanes;
 
   std::size_t size_ = 0;
   std::array<float, kRoom> enter_t_;
-  std::array<std::uint32_t, kRoom> references_;  // bits: a ChildReference would be initialized
+  std::array<std::uint32_t, kRoom> references_;  // bits: ChildReferences would be initialized
 };
 
 inline scenes::Bounds bounds_of(const WideNode& node) {
@@ -179,7 +179,7 @@ inline scenes::Bounds bounds_of(const PrimitiveBlock& block, const scenes::Scene
   return bounds;
 }
 
-/// A step of the traversal path.
+/// Describes a step of the traversal path.
 inline TraceStep describe(const WideBvh& bvh, const scenes::Scene& scene, const Ray& ray,
                           ChildReference at) {
   TraceStep step{.place = at.is_leaf() ? "leaf" : "node"};
@@ -212,9 +212,9 @@ void count_step(Counting& counting, const WideBvh& bvh, const scenes::Scene& sce
   }
 }
 
-/// Traverses the hierarchy, for a closest hit the nearest child first, and returns what `Confirm`
-/// found. Everything is inlined: otherwise GCC makes calls for each node, with the ray in memory,
-/// which costs a tenth of the time.
+/// Traverses the hierarchy, nearest child first for a closest hit, and returns the result of
+/// `Confirm`. Everything is inlined: otherwise GCC makes calls for each node, with the ray in
+/// memory, which takes 10% longer.
 template <bool kAny, class Confirm, class Counting>
 HWY_FLATTEN auto traverse(const WideBvh& bvh, const scenes::Scene& scene, const Ray& ray,
                           Counting& counting) {

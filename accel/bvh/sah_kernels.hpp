@@ -11,7 +11,7 @@
 
 namespace beambench::accel::bvh {
 
-/// Both queries under one counting policy. Not for empty hierarchies.
+/// Both queries under one counting policy. Must not be used for empty hierarchies.
 template <class Counting>
 struct SahQueries {
   std::optional<Hit> (*closest)(const WideBvh&, const scenes::Scene&, const Ray&, Counting&);
@@ -28,7 +28,7 @@ struct SahKernels : SahQueries<NoCounting>, SahQueries<WorkCounters>, SahQueries
   }
 };
 
-/// Those for the best instruction set of this machine that Highway supports.
+/// Returns the kernels for the best instruction set of this machine that Highway supports.
 const SahKernels& best_sah_kernels();
 
 }  // namespace beambench::accel::bvh

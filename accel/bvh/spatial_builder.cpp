@@ -23,7 +23,8 @@
 namespace beambench::accel::bvh {
 namespace {
 
-/// Children that overlap by less of the root's surface are not worth a plane.
+/// The minimum overlap of children, relative to the root's surface, for which a plane is
+/// worthwhile.
 constexpr double kMinOverlap = 1e-5;
 
 /// References to pieces, each with the box of a part of its piece.
@@ -46,15 +47,16 @@ class AxisBins {
         count_(std::min(kMaxBins, 8 + items / 16)),
         scale_(static_cast<float>(count_) / (upper_ - lower_)) {}
 
-  /// Not where the box is flat, or so thin that planes coincide.
+  /// Returns false if the box is flat, or so thin that planes coincide.
   bool divides() const { return std::isfinite(scale_) && plane(1) > lower_ && scale_ > 0.0F; }
   std::size_t count() const { return count_; }
-  /// Where bin `bin` begins; `count()` is the end of the last.
+  /// Returns the beginning of bin `bin`; for `count()`, the end of the last bin.
   float plane(std::size_t bin) const {
     if (bin == count_) return upper_;
     return lower_ + (upper_ - lower_) * (static_cast<float>(bin) / static_cast<float>(count_));
   }
-  /// The bin of a coordinate in the box: planes of bins below it are at most the coordinate.
+  /// Returns the bin of a coordinate in the box: planes of bins below it are at most the
+  /// coordinate.
   std::size_t bin(float coordinate) const {
     const float place = std::max((coordinate - lower_) * scale_, 0.0F);
     std::size_t found = std::min(static_cast<std::size_t>(place), count_ - 1);
@@ -123,7 +125,7 @@ class SpatialBuilder {
   }
 
  private:
-  /// `spare`: how many references may be added below the node.
+  /// `spare`: the number of references that may be added below the node.
   void subdivide(TreeNode& node, References references, const BuildExtent& extent,
                  std::uint32_t depth, std::size_t spare) {
     node.box = extent.boxes;
@@ -156,7 +158,7 @@ class SpatialBuilder {
     }
   }
 
-  /// Nothing for a leaf.
+  /// Returns nothing for a leaf.
   std::optional<Division> divide(const References& references, const BuildExtent& extent,
                                  std::uint32_t depth, std::size_t spare) const {
     if (references.size() == 1) return std::nullopt;
@@ -185,7 +187,7 @@ class SpatialBuilder {
     return Division{{references.begin(), middle}, {middle, references.end()}};
   }
 
-  /// Section 4.5. True, too, where centers cannot be divided.
+  /// Section 4.5. Also true if centers cannot be divided.
   bool children_overlap(const Bins& bins, const Binning& binning, const ObjectSplit& split) const {
     if (split.axis < 0) return true;
     const auto axis = static_cast<std::size_t>(split.axis);
@@ -198,7 +200,7 @@ class SpatialBuilder {
     return area(common) > kMinOverlap * root_area_;
   }
 
-  /// The part of a reference between two planes; nothing where its piece has none there.
+  /// Returns the part of a reference between two planes; nothing if its piece has none there.
   std::optional<QuadBox> part(const BuildItem& reference, int axis, float from, float to) const {
     const scenes::Bounds box = reference.box().bounds();
     Box between{glm::dvec3(box.lower), glm::dvec3(box.upper)};
@@ -216,9 +218,9 @@ class SpatialBuilder {
     return part;
   }
 
-  /// Calls `visit` with boxes of a reference's parts in the bins [first, last]. Those of triangles
-  /// are found from the points where their edges cross planes, without what earlier planes cut off:
-  /// good enough to estimate costs by, and several times as fast.
+  /// Calls `visit` with boxes of a reference's parts in the bins [first, last]. For triangles, they
+  /// are found from the points where their edges cross planes, ignoring earlier planes: good enough
+  /// for estimating costs, and several times faster.
   template <class Visit>
   void cut(const BuildItem& reference, int axis, const AxisBins& bins, std::size_t first,
            std::size_t last, Visit visit) const {
@@ -261,8 +263,8 @@ class SpatialBuilder {
     }
   }
 
-  /// Section 4.2: references are cut at the planes of bins; a bin counts those that begin and those
-  /// that end in it.
+  /// Section 4.2: references are cut at the planes of bins; a bin counts the references that begin
+  /// and those that end in it.
   SpatialSplit best_spatial_split(const References& references, const scenes::Bounds& box) const {
     SpatialSplit best;
     for (int axis = 0; axis < 3; ++axis) {
@@ -316,7 +318,8 @@ class SpatialBuilder {
     }
   }
 
-  /// Nothing where rounding leaves one side empty or more references are added than may be.
+  /// Returns nothing if rounding leaves one side empty, or if more references would be added than
+  /// allowed.
   std::optional<Division> split_space(const References& references, SpatialSplit split,
                                       std::size_t spare) const {
     constexpr float kFar = std::numeric_limits<float>::infinity();
@@ -339,9 +342,9 @@ class SpatialBuilder {
     return division;
   }
 
-  /// Section 4.4, which weighs by references, not by blocks: both parts, or the whole on the side
-  /// where that costs less. `split` has the boxes and counts of both sides as they are with what
-  /// was decided before.
+  /// Section 4.4, which weighs by references, not by blocks: chooses both parts, or the whole on
+  /// one side if that costs less. `split` has the current boxes and counts of both sides, including
+  /// earlier decisions.
   static void divide_reference(const BuildItem& reference, const std::optional<QuadBox>& left,
                                const std::optional<QuadBox>& right, SpatialSplit& split,
                                Division& division) {

@@ -1,5 +1,5 @@
 #pragma once
-// A binary hierarchy whose splits may divide primitives.
+// Builds a binary hierarchy whose splits may divide primitives.
 
 #include <span>
 
@@ -10,10 +10,10 @@
 namespace beambench::accel::bvh {
 
 /// The builder of Stich, Friedrich and Dietrich ("Spatial Splits in Bounding Volume Hierarchies",
-/// 2009): where the children of the best division by centers (`build_bvh`'s) overlap by more than
-/// 1e-5 of the root's surface (section 4.5), planes are tried as well. A piece on both sides of the
-/// plane is referred to by both children, each time with the box of its part there, unless the cost
-/// is less with the whole of it on one side (section 4.4).
+/// 2009): if the children of the best division by centers (that of `build_bvh`) overlap by more
+/// than 1e-5 of the root's surface (section 4.5), planes are tried as well. A piece on both sides
+/// of the plane is referred to by both children, each time with the box of its part there, unless
+/// the cost is less with the whole of it on one side (section 4.4).
 ///
 /// `items` has the indices of pieces, of which there are at most twice as many entries as pieces.
 /// Boxes are those of the parts, widened by `tolerance` (scene units): every point of a piece is in

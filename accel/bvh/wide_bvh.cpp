@@ -83,7 +83,7 @@ class WideBvhBuilder {
     return node;
   }
 
-  /// As WideNode::orders has it: by the centers' places along the octant's diagonal.
+  /// Returns the order for WideNode::orders: by the centers' positions along the octant's diagonal.
   std::uint32_t order_along(std::uint32_t octant, std::span<const std::uint32_t> children) const {
     std::array<float, kBvhLanes> places{};
     std::array<std::uint32_t, kBvhLanes> lanes{};
@@ -104,7 +104,7 @@ class WideBvhBuilder {
     return order;
   }
 
-  /// Pieces in increasing id.
+  /// Makes a leaf of pieces in increasing id.
   ChildReference make_leaf(const BvhNode& leaf) {
     ++wide_.leaves;
     wide_.visits.add_leaf(leaf.box, leaf.count);

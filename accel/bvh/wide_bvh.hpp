@@ -1,5 +1,5 @@
 #pragma once
-// The hierarchy that SIMD traverses: eight children per node, primitives in blocks of eight.
+// The hierarchy traversed by SIMD: eight children per node, primitives in blocks of eight.
 
 #include <array>
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace beambench::accel::bvh {
 
-/// Where a child is found: a node, or a leaf, which is a run of blocks.
+/// The location of a child: a node, or a leaf, which is a run of blocks.
 class ChildReference {
  public:
   static constexpr std::uint32_t kMaxBlocks = 15;            ///< in a leaf
@@ -39,12 +39,12 @@ class ChildReference {
   std::uint32_t bits_ = 0;
 };
 
-/// The boxes of up to eight children; those that are missing have an empty box and come last.
+/// The boxes of up to eight children; missing children have empty boxes and come last.
 struct alignas(64) WideNode {
   std::array<std::array<float, kBvhLanes>, 6> planes;  ///< lower x, y, z; upper x, y, z
   std::array<ChildReference, kBvhLanes> children;
-  /// For each octant of directions (bit a: backward along axis a) the lanes, from the child that
-  /// is farthest along them to the nearest, three bits for each.
+  /// For each octant of directions (bit a: backward along axis a), the lanes ordered from the child
+  /// farthest along the octant to the nearest, three bits for each.
   std::array<std::uint32_t, 8> orders;
 
   std::uint32_t count() const {
@@ -81,7 +81,7 @@ struct WideBvhOptions {
   BvhBuilder builder = BvhBuilder::kBinned;
 };
 
-/// Throws InputError when the scene needs more than ChildReference::kBlockIndices blocks.
+/// Throws InputError if the scene needs more than ChildReference::kBlockIndices blocks.
 WideBvh build_wide_bvh(const scenes::Scene& scene, const WideBvhOptions& options);
 
 }  // namespace beambench::accel::bvh

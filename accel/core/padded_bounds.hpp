@@ -11,14 +11,14 @@
 
 namespace beambench::accel {
 
-/// The next float above a finite number; std::nextafter takes ten times as long.
+/// Returns the next float above a finite number; std::nextafter takes ten times as long.
 inline float next_above(float value) {
   const auto bits = std::bit_cast<std::uint32_t>(value);
   if (value == 0.0F) return std::numeric_limits<float>::denorm_min();
   return std::bit_cast<float>(value > 0.0F ? bits + 1 : bits - 1);
 }
 
-/// The box widened by `tolerance` on every side, rounded outward to float.
+/// Returns the box widened by `tolerance` on every side, rounded outward to float.
 inline scenes::Bounds padded(const scenes::Bounds& bounds, double tolerance) {
   scenes::Bounds wider;
   for (int axis = 0; axis < 3; ++axis) {
@@ -31,8 +31,8 @@ inline scenes::Bounds padded(const scenes::Bounds& bounds, double tolerance) {
   return wider;
 }
 
-/// For each primitive a box that holds every point at which a canonical test may hit it, before t
-/// is rounded (tolerance.hpp).
+/// Returns for each primitive a box that contains every point at which a canonical test may hit it,
+/// before t is rounded (tolerance.hpp).
 inline std::vector<scenes::Bounds> padded_primitive_bounds(const scenes::Scene& scene) {
   const double tolerance = overlap_tolerance(scene);
   std::vector<scenes::Bounds> boxes;
@@ -43,8 +43,8 @@ inline std::vector<scenes::Bounds> padded_primitive_bounds(const scenes::Scene& 
   return boxes;
 }
 
-/// Half the surface area of a box: the probability that a ray which meets an enclosing box also
-/// meets this one is proportional to it. 0 for an empty box.
+/// Returns half the surface area of a box, which is proportional to the probability that a ray that
+/// meets an enclosing box also meets this one. 0 for an empty box.
 inline double half_area(const scenes::Bounds& bounds) {
   const glm::dvec3 size(bounds.extent());
   return size.x * (size.y + size.z) + size.y * size.z;

@@ -1,5 +1,5 @@
 #pragma once
-// A ray against the closed boxes of a hierarchy, one at a time.
+// Tests a ray against the closed boxes of a hierarchy, one at a time.
 
 #include <array>
 #include <cmath>
@@ -9,9 +9,9 @@
 
 namespace beambench::accel {
 
-/// The part of a ray inside a box, its ends rounded to float as the t of a hit is: rounding is
-/// monotonic, so whatever is hit in the box has its rounded t in this interval. Empty
-/// (enter > exit) when the ray misses the box within its own interval.
+/// The part of a ray inside a box, with its ends rounded to float like the t of a hit: rounding is
+/// monotonic, so the rounded t of every hit in the box is in this interval. Empty (enter > exit) if
+/// the ray misses the box within its own interval.
 struct BoxInterval {
   float enter;
   float exit;
@@ -19,8 +19,8 @@ struct BoxInterval {
   bool empty() const { return !(enter <= exit); }
 };
 
-/// The slab test in double (Kay and Kajiya, "Ray Tracing Complex Scenes", 1986). The rounding of
-/// its arithmetic lies far below the tolerance by which boxes are widened.
+/// The slab test in double (Kay and Kajiya, "Ray Tracing Complex Scenes", 1986). Its rounding
+/// errors are far below the tolerance by which boxes are widened.
 class SlabRay {
  public:
   explicit SlabRay(const Ray& ray) {

@@ -1,4 +1,4 @@
-// Embree's native geometry as a structure to compare with.
+// Embree's native geometry as a structure for comparison.
 
 #include <algorithm>
 
@@ -12,7 +12,7 @@
 namespace beambench::accel::embree {
 namespace {
 
-/// Which queries are flagged as coherent.
+/// The queries that are flagged as coherent.
 enum class Coherence { kAuto, kAll, kNone };
 
 Coherence parse_coherence(const std::string& name) {
@@ -20,9 +20,9 @@ Coherence parse_coherence(const std::string& name) {
   return name == "false" ? Coherence::kNone : Coherence::kAuto;
 }
 
-/// Differs from the contract where Embree does: of hits at one place it may return any, not the one
-/// of lowest id, and without `robust` a triangle is hit at t > t_min only, not at t_min itself. It
-/// counts no work: Embree reports none.
+/// Differs from the contract where Embree does: among hits at one place it may return any, not the
+/// one with the lowest id, and without `robust` a triangle is hit only at t > t_min, not at t_min
+/// itself. No work is counted, because Embree reports none.
 class EmbreeStructure : public Accelerator {
  public:
   EmbreeStructure(const scenes::Scene& scene, RTCBuildQuality quality, bool robust,

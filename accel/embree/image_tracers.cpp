@@ -20,7 +20,7 @@ namespace beambench::accel::embree::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The rays through one sample of each pixel of a block, as a packet of N takes them.
+/// The rays through one sample of each pixel of a block, for a packet of N.
 template <int N>
 class Block {
  public:
@@ -28,7 +28,7 @@ class Block {
   static constexpr int kHeight = N / kWidth;
   using Query = typename Packet<N>::Query;
 
-  /// What is the same for all rays of an image and what Embree does not change.
+  /// Sets the values that are the same for all rays of an image and that Embree does not change.
   static void prepare(const PrimaryRays& rays, Query& query) {
     query = {};
     std::fill_n(query.ray.org_x, N, rays.eye().x);
@@ -50,8 +50,8 @@ class Block {
     }
   }
 
-  /// The rest, for the block whose left column of pixels is `x`; in `valid`, as Embree requires, -1
-  /// for each lane on the image and 0 for the others, which get an empty interval.
+  /// Sets the rest for the block whose left column of pixels is `x`. As Embree requires, `valid` is
+  /// -1 for each lane on the image and 0 for the others, which get an empty interval.
   void aim(int x, Query& query, int* valid) const {
     const Floats floats;
     const hn::RebindToSigned<Floats> numbers;
@@ -72,7 +72,7 @@ class Block {
     }
   }
 
-  /// Always inline: otherwise GCC 12 warns of an infinite loop in it.
+  /// Always inline, because otherwise GCC 12 warns of an infinite loop.
   HWY_INLINE void write(const OwnerTable& table, const Query& query, int x,
                         const HitSpan& buffer) const {
     alignas(64) std::array<scenes::PrimitiveId, N> owners;
@@ -118,7 +118,7 @@ class Block {
 
   const glm::dvec2& offset() const { return rays_.offsets()[static_cast<std::size_t>(sample_)]; }
 
-  /// One component of the directions of a register of lanes from `lane` on.
+  /// Returns one component of the directions of a register of lanes from `lane` on.
   hn::Vec<Floats> direction(int x, int axis, std::size_t lane) const {
     const Doubles doubles;
     const hn::Rebind<float, Doubles> rounded;
@@ -221,14 +221,15 @@ void trace_single(const NativeScene& scene, Context& context, const PrimaryRays&
 #if BEAMBENCH_EMBREE_MAJOR == 3
 void trace_stream(const NativeScene& scene, Context& context, const PrimaryRays& rays,
                   const Band& band, const HitSpan& buffer) {
-  // Of another width Embree copies the rays ray by ray (kernels/bvh/bvh_intersector_stream_filters,
-  // filterSOA); its own is that of its registers: 4, 8 or 16.
+  // Embree copies rays of other packet widths one by one
+  // (kernels/bvh/bvh_intersector_stream_filters, filterSOA); its own width is that of its
+  // registers: 4, 8 or 16.
   constexpr int kLanes = std::max(4, static_cast<int>(hn::MaxLanes(hn::CappedTag<float, 16>())));
   using Block = Block<kLanes>;
   constexpr std::size_t kBlocks = kTile * kTile / kLanes;
   std::vector<typename Block::Query> queries(kBlocks);
   for (typename Block::Query& query : queries) Block::prepare(rays, query);
-  alignas(64) std::array<int, kLanes> valid;  // streams go by the interval alone
+  alignas(64) std::array<int, kLanes> valid;  // streams use only the interval
 
   for_each_tile(rays, band, [&](int left, int top, int right, int bottom) {
     for (int sample = 0; sample < rays.samples(); ++sample) {
@@ -261,7 +262,7 @@ void trace_nothing(const OwnerTable& owners, const PrimaryRays& rays, const Band
   constexpr int kLanes = 16;
   trace_blocks<kLanes>(owners, rays, band, buffer,
                        [](Packet<kLanes>::Query& query, const int* valid) {
-                         // For the compiler, the result depends on all of it.
+                         // Makes the compiler assume that the result depends on all of it.
                          asm volatile("" : "+m"(query) : "r"(valid) : "memory");
                        });
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Whole images through Embree. Rays are made and hits are written by SIMD, compiled for several
+// Traces whole images with Embree. Rays are made and hits are written by SIMD, compiled for several
 // instruction sets, so that Embree is measured and not the making of its rays.
 
 #include <cstdint>
@@ -10,19 +10,19 @@
 
 namespace beambench::accel::embree {
 
-/// Rows of an image, from `top` to before `bottom`.
+/// Rows of an image, from `top` up to, not including, `bottom`.
 struct Band {
   int top;
   int bottom;
 };
 
-/// An image is traced tile by tile, so that the part of the scene that a tile needs stays in the
-/// caches.
+/// The size of the tiles in which an image is traced, so that the part of the scene needed for a
+/// tile stays in the caches.
 inline constexpr int kTile = 16;
 
-/// Rows of tiles in an image.
+/// Returns the number of rows of tiles in an image.
 int tile_rows(const PrimaryRays& rays);
-/// The rows of pixels in tile rows `begin` to before `end`.
+/// Returns the rows of pixels in tile rows `begin` up to, not including, `end`.
 Band band_of(const PrimaryRays& rays, int begin, int end);
 
 /// The tracers of images for one instruction set. The rays are those of `PrimaryRays::ray`, bit for
@@ -35,8 +35,8 @@ struct ImageTracers {
   Trace packet4;
   Trace packet8;
   Trace packet16;
-  /// A tile's rays at once, in packets as wide as the instruction set's registers, for which alone
-  /// Embree need not copy them first; nullptr in Embree 4.
+  /// A tile's rays at once, in packets as wide as the instruction set's registers, the only ones
+  /// that Embree need not copy first; nullptr in Embree 4.
   Trace stream;
   /// Makes the rays in packets of 16 and stores a miss for each, without a query.
   void (*untraced)(const OwnerTable& owners, const PrimaryRays& rays, const Band& band,
@@ -44,7 +44,7 @@ struct ImageTracers {
   std::int64_t target;  ///< HWY_TARGET: hwy::TargetName gives its name
 };
 
-/// Those for the best of Highway's `targets` that this machine has.
+/// Returns the tracers for the best of Highway's `targets` that this machine has.
 const ImageTracers& image_tracers(std::int64_t targets);
 
 }  // namespace beambench::accel::embree

@@ -26,7 +26,7 @@ struct Isa {
 constexpr std::array<Isa, 3> kIsas{
     {{"avx512", "avx512", "AVX512"}, {"avx2", "avx2", "AVX2"}, {"sse4", "sse4.2", "SSE4.2"}}};
 
-/// Sends std::cout into a string for as long as it lives.
+/// Redirects std::cout into a string during its lifetime.
 class CaptureStandardOutput {
  public:
   CaptureStandardOutput() : before_(std::cout.rdbuf(captured_.rdbuf())) {}
@@ -41,7 +41,7 @@ class CaptureStandardOutput {
   std::streambuf* before_;
 };
 
-/// The words before `mark` on its line, those up to a ": " left out.
+/// Returns the words before `mark` on its line, without those up to a ": ".
 std::vector<std::string> words_before(const std::string& text, std::string_view mark) {
   const std::size_t end = text.find(mark);
   if (end == std::string::npos) return {};
@@ -58,7 +58,7 @@ std::vector<std::string> words_before(const std::string& text, std::string_view 
   return words;
 }
 
-/// The best of our instruction sets that the machine has; nullptr where it has none of them.
+/// Returns the best of our instruction sets that the machine has; nullptr if it has none of them.
 const Isa* best_of_machine() {
   const auto has = [](const Isa& isa) {
     try {

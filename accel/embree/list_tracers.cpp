@@ -24,14 +24,14 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <int N>
 using Valid = std::array<int, N>;
 
-/// What Embree does not change and no ray has.
+/// Sets the values that Embree does not change and that rays do not have.
 template <class Rays>
 void prepare(Rays& out) {
   std::ranges::fill(out.time, 0.0F);
   std::ranges::fill(out.mask, std::numeric_limits<unsigned>::max());
 }
 
-/// N rays that follow each other in memory, in the lanes of a packet.
+/// Loads N consecutive rays into the lanes of a packet.
 template <int N, class Rays>
 void fill_lanes(const Ray* rays, Rays& out) {
   using Floats = hn::CappedTag<float, N>;
@@ -68,8 +68,8 @@ void fill_lanes(const Ray* rays, Rays& out) {
   }
 }
 
-/// Calls `trace(first, count, rays)` for packets of N, where `rays` has N, of which `count` are of
-/// the list; the others have an empty interval.
+/// Calls `trace(first, count, rays)` for packets of N, of which the first `count` rays are from the
+/// list; the others have an empty interval.
 template <int N, class Trace>
 void for_each_packet(std::span<const Ray> rays, Trace trace) {
   const std::size_t whole = rays.size() / N * N;
@@ -94,7 +94,7 @@ void aim(const Ray* rays, Query& query) {
   std::ranges::fill(query.hit.geomID, RTC_INVALID_GEOMETRY_ID);
 }
 
-/// The hits of a packet into a buffer; misses are at infinity, wherever their rays end.
+/// Writes the hits of a packet into a buffer; misses are at infinity, wherever their rays end.
 template <int N, class Query>
 HWY_INLINE void write(const OwnerTable& table, const Query& query, std::size_t first,
                       std::size_t count, const HitSpan& buffer) {
@@ -108,7 +108,7 @@ HWY_INLINE void write(const OwnerTable& table, const Query& query, std::size_t f
   std::copy_n(owners.begin(), count, buffer.primitive() + first);
 }
 
-/// Embree marks an occluded ray by tfar = -infinity.
+/// Writes which rays are occluded, which Embree marks by tfar = -infinity.
 template <class Rays>
 void write(const Rays& rays, std::size_t first, std::size_t count,
            std::span<std::uint8_t> answers) {
@@ -133,7 +133,7 @@ void any_hits_single(const NativeScene& scene, Context& context, std::span<const
   }
 }
 
-/// `intersect(valid, query)` finds the closest hits of a packet.
+/// Traces a list; `intersect(valid, query)` finds the closest hits of a packet.
 template <int N, class Intersect>
 void closest_hits_by_packets(const OwnerTable& owners, std::span<const Ray> rays,
                              const HitSpan& buffer, Intersect intersect) {
@@ -147,7 +147,7 @@ void closest_hits_by_packets(const OwnerTable& owners, std::span<const Ray> rays
   });
 }
 
-/// `intersect_any(valid, rays)` marks the rays of a packet that hit anything.
+/// Traces a list; `intersect_any(valid, rays)` marks the rays of a packet that hit anything.
 template <int N, class IntersectAny>
 void any_hits_by_packets(std::span<const Ray> rays, std::span<std::uint8_t> answers,
                          IntersectAny intersect_any) {
@@ -178,8 +178,9 @@ void any_hits_in_packets(const NativeScene& scene, Context& context, std::span<c
 }
 
 #if BEAMBENCH_EMBREE_MAJOR == 3
-/// Of another width Embree copies the rays ray by ray (kernels/bvh/bvh_intersector_stream_filters,
-/// filterSOA); its own is that of its registers: 4, 8 or 16.
+/// Embree copies rays of other packet widths one by one
+/// (kernels/bvh/bvh_intersector_stream_filters, filterSOA); its own width is that of its registers:
+/// 4, 8 or 16.
 constexpr int kStreamLanes =
     std::max(4, static_cast<int>(hn::MaxLanes(hn::CappedTag<float, 16>())));
 constexpr std::size_t kStream = 256;
@@ -241,7 +242,7 @@ constexpr ListMode kStreams{nullptr, nullptr};
 
 void untraced_closest(const OwnerTable& owners, std::span<const Ray> rays, const HitSpan& buffer) {
   closest_hits_by_packets<16>(owners, rays, buffer, [](const int* valid, auto& query) {
-    // For the compiler, the result depends on all of it.
+    // Makes the compiler assume that the result depends on all of it.
     asm volatile("" : "+m"(query) : "r"(valid) : "memory");
   });
 }

@@ -15,8 +15,8 @@
 namespace beambench::accel::embree {
 namespace {
 
-/// A new buffer of `count` elements, to be filled. Embree reads 16 bytes at every vertex, so that a
-/// scene's own array cannot be shared: its last element may end a page.
+/// Makes a new buffer of `count` elements to be filled. A scene's own array cannot be shared,
+/// because Embree reads 16 bytes at every vertex, and the last element may end a page.
 template <class Element>
 Element* new_buffer(const GeometryHandle& geometry, RTCBufferType type, RTCFormat format,
                     std::size_t count) {
@@ -24,13 +24,14 @@ Element* new_buffer(const GeometryHandle& geometry, RTCBufferType type, RTCForma
       rtcSetNewGeometryBuffer(geometry.get(), type, 0, format, sizeof(Element), count));
 }
 
-/// Is it 0, 1, 2...?
+/// Returns whether the list is 0, 1, 2...
 bool is_count(const std::vector<scenes::PrimitiveId>& ids) {
   scenes::PrimitiveId expected = 0;
   return std::ranges::all_of(ids, [&](scenes::PrimitiveId id) { return id == expected++; });
 }
 
-/// Gives a ray a direction of unit length; its t become `length` times as large, which is returned.
+/// Gives a ray a direction of unit length. Its t are multiplied by the former length, which is
+/// returned.
 float make_unit(RTCRay& ray) {
   const float length = glm::length(glm::vec3(ray.dir_x, ray.dir_y, ray.dir_z));
   ray.dir_x /= length;
@@ -96,7 +97,7 @@ bool NativeScene::any_hit(Context& context, const Ray& ray) const {
 }
 
 void NativeScene::attach(GeometryId id, const GeometryHandle& geometry, RTCBuildQuality quality) {
-  rtcSetGeometryBuildQuality(geometry.get(), quality);  // needed for low quality to be fast
+  rtcSetGeometryBuildQuality(geometry.get(), quality);  // needed to make low quality fast
   rtcCommitGeometry(geometry.get());
   rtcAttachGeometryByID(scene_.get(), geometry.get(), id);
 }
@@ -107,7 +108,7 @@ GeometryHandle NativeScene::make_triangles(const scenes::Scene& scene) {
                                                scene.vertices.size());
   device_.check("building over " + scene.name);
   std::memcpy(vertices, scene.vertices.data(), scene.vertices.size() * sizeof(glm::vec3));
-  // A triangle's indices come before its owner, so that this array can be shared.
+  // A triangle's indices precede its owner, so that this array can be shared.
   rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                              scene.triangles.data(), 0, sizeof(scenes::Triangle),
                              scene.triangles.size());

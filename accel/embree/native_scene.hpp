@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "accel/core/ray.hpp"
+#include "accel/embree/user_geometry.hpp"
 #include "accel/embree_api/api.hpp"
 #include "accel/embree_api/device.hpp"
-#include "accel/embree/user_geometry.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::accel::embree {
@@ -20,45 +20,47 @@ enum GeometryId : unsigned { kTriangles, kSpheres, kCurves, kUser, kGeometryCoun
 
 /// The owners of Embree's primitives: the scene's primitives.
 struct OwnerTable {
-  /// Primitive ids of the geometries' primitives, one geometry after the other.
+  /// The scene's ids of the geometries' primitives, one geometry after the other.
   std::vector<scenes::PrimitiveId> ids;
-  /// Where each geometry begins in `ids`.
+  /// The beginning of each geometry in `ids`.
   std::array<std::uint32_t, kGeometryCount> first{};
-  bool in_order = false;  ///< ids[i] is i: no look-up is needed
+  bool in_order = false;  ///< ids[i] is i, so no look-up is needed
 };
 
-/// Polygons are Embree triangles (the scene's own triangulation), hollow spheres are sphere points,
-/// cones by choice linear curves, the rest is user geometry. The device is its own, with one build
-/// thread, so that build times compare with structures that build on one and memory is counted
-/// exactly. Making the device is part of the build: 0.05 ms.
+/// A scene in Embree: polygons are triangles (the scene's own triangulation), hollow spheres are
+/// sphere points, cones are optionally linear curves, and the rest is user geometry. It has its own
+/// device with one build thread, so that build times are comparable with those of single-threaded
+/// builds and memory is counted exactly. Making the device is part of the build: 0.05 ms.
 class NativeScene {
  public:
-  /// `isa` is a value of `isa_parameter`; `cones` chooses what is tested by Embree's curves. While
-  /// the scene lives, TBB has no more than `threads` threads (`thread_count`).
+  /// `isa` is a value of `isa_parameter`; `cones` selects the cones that Embree's curves test.
+  /// During the scene's lifetime, TBB has at most `threads` threads (`thread_count`).
   NativeScene(const scenes::Scene& scene, RTCBuildQuality quality, bool robust,
               const std::string& isa, ConeGeometry cones, int threads = 1);
 
   RTCScene get() const { return scene_.get(); }
-  /// The hit of one ray, which must pass `require_valid`; the same as Embree's packets find.
+  /// Returns the hit of one ray, which must pass `require_valid`; the same hit as in Embree's
+  /// packets.
   std::optional<Hit> closest_hit(Context& context, const Ray& ray) const;
   bool any_hit(Context& context, const Ray& ray) const;
-  /// The primitive that was hit; kNoPrimitive for RTC_INVALID_GEOMETRY_ID.
+  /// Returns the primitive that was hit; kNoPrimitive for RTC_INVALID_GEOMETRY_ID.
   scenes::PrimitiveId owner(unsigned geometry, unsigned primitive) const {
     return geometry == RTC_INVALID_GEOMETRY_ID ? scenes::kNoPrimitive
                                                : owners_.ids[owners_.first[geometry] + primitive];
   }
-  /// The same for many hits at once.
+  /// Returns the table for looking up the owners of many hits at once.
   const OwnerTable& owners() const { return owners_; }
 
   std::size_t triangle_count() const { return owners_.first[kSpheres]; }
   std::size_t sphere_count() const { return owners_.first[kCurves] - owners_.first[kSpheres]; }
-  /// Where there are any, rays must have directions of unit length: Embree 3 presumes it of the
-  /// rays that meet these (kernels/geometry/coneline_intersector.h, where the square of the length
-  /// is missing in the coefficient A).
+  /// The number of curves. If there are any, rays must have directions of unit length: Embree 3
+  /// assumes it for the rays that meet them (kernels/geometry/coneline_intersector.h, where the
+  /// square of the length is missing in the coefficient A).
   std::size_t curve_count() const { return owners_.first[kUser] - owners_.first[kCurves]; }
   std::size_t user_count() const { return user_.ids().size(); }
-  /// Of the scene, joined by '+': "triangles"; "points", which are spheres; "curves", which are
-  /// cones; "callbacks" of user geometry, for cones and for spheres seen from the inside only.
+  /// The geometry types of the scene, joined by '+': "triangles"; "points", which are spheres;
+  /// "curves", which are cones; "callbacks" of user geometry, for cones and for spheres seen from
+  /// the inside only.
   std::string geometry_types() const;
   std::uint64_t bytes() const;
 

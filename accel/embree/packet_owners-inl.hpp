@@ -15,7 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::embree::HWY_NAMESPACE {
 
-/// As `NativeScene::owner`, for all lanes of a packet of N; `owners` is aligned to a cache line.
+/// `NativeScene::owner` for all lanes of a packet of N; `owners` is aligned to a cache line.
 template <int N, class Hits>
 HWY_INLINE void find_owners(const OwnerTable& table, const Hits& hits,
                             scenes::PrimitiveId* owners) {
@@ -23,7 +23,7 @@ HWY_INLINE void find_owners(const OwnerTable& table, const Hits& hits,
   const hn::CappedTag<scenes::PrimitiveId, N> words;
   const hn::RebindToSigned<decltype(words)> numbers;
   constexpr std::size_t kLanes = hn::MaxLanes(words);
-  for (std::size_t i = 0; i < N / kLanes; ++i) {  // of lanes GCC 12 warns that they never end
+  for (std::size_t i = 0; i < N / kLanes; ++i) {  // GCC 12 warns of an infinite loop over lanes
     const std::size_t lane = i * kLanes;
     const auto geometry = hn::Load(words, hits.geomID + lane);
     const auto hit = hn::Ne(geometry, hn::Set(words, RTC_INVALID_GEOMETRY_ID));

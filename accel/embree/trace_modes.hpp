@@ -15,7 +15,7 @@ struct TraceMode {
   ListMode ListTracers::*list;
 };
 
-/// The modes of the Embree version that the program was built with, the simplest first.
+/// Returns the modes of the Embree version used in the build, the simplest first.
 std::span<const TraceMode> trace_modes();
 
 }  // namespace beambench::accel::embree

@@ -20,7 +20,7 @@ namespace beambench::accel::embree::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Gives the N rays of a packet directions of unit length, and their t back afterwards.
+/// Gives the N rays of a packet directions of unit length, and restores their t afterwards.
 template <int N>
 class UnitDirections {
  public:
@@ -40,8 +40,8 @@ class UnitDirections {
     });
   }
 
-  /// In the units of the original directions; -infinity, by which Embree marks occluded rays,
-  /// stays.
+  /// Converts t to the units of the original directions; -infinity, with which Embree marks
+  /// occluded rays, stays.
   template <class Rays>
   void restore_t(Rays& rays) const {
     for_lanes([&](auto floats, std::size_t lane) {
@@ -60,7 +60,7 @@ class UnitDirections {
   alignas(64) std::array<float, N> lengths_;
 };
 
-/// Calls `trace()`, for which the rays of a packet are as the scene's curves need them.
+/// Calls `trace()` with the rays of a packet in the form that the scene's curves need.
 template <int N, class Rays, class Trace>
 HWY_INLINE void trace_packet(const NativeScene& scene, Rays& rays, Trace trace) {
   if (scene.curve_count() == 0) {
@@ -72,7 +72,7 @@ HWY_INLINE void trace_packet(const NativeScene& scene, Rays& rays, Trace trace) 
   unit.restore_t(rays);
 }
 
-/// The same for the first `count` of many packets, whose rays are `rays_of(packet)`.
+/// Does the same for the first `count` of many packets, whose rays are `rays_of(packet)`.
 template <int N, class Packets, class RaysOf, class Trace>
 void trace_packets_at_once(const NativeScene& scene, Packets& packets, unsigned count,
                            RaysOf rays_of, Trace trace) {

@@ -1,6 +1,6 @@
 #pragma once
-// Primitives that Embree has no type for, as its user geometry: spheres that are seen from the
-// inside only, and cones, whose ends are open, unless they are taken as its curves.
+// Primitives for which Embree has no type, as user geometry: spheres that are seen from the inside
+// only, and cones, which are open at both ends, unless they are treated as curves.
 
 #include <vector>
 
@@ -9,12 +9,12 @@
 
 namespace beambench::accel::embree {
 
-/// How cones are given to Embree: tested exactly by callbacks, or as its linear curves, which are
-/// closed by disks at both ends and tested in single precision. Those seen from the inside only are
-/// tested by callbacks in any case.
+/// The representation of cones in Embree: tested exactly by callbacks, or as linear curves, which
+/// are closed by disks at both ends and tested in single precision. Cones seen from the inside only
+/// are always tested by callbacks.
 enum class ConeGeometry { kCallbacks, kCurves };
 
-/// The user primitives of a scene; Embree calls back into it, so it may not move.
+/// The user primitives of a scene. Embree's callbacks refer to this object, so it must not move.
 class UserGeometry {
  public:
   UserGeometry(const scenes::Scene& scene, ConeGeometry cones);
@@ -22,9 +22,9 @@ class UserGeometry {
   UserGeometry& operator=(const UserGeometry&) = delete;
   ~UserGeometry() = default;
 
-  /// By the primitive number that Embree reports.
+  /// The ids by the primitive number that Embree reports.
   const std::vector<scenes::PrimitiveId>& ids() const { return ids_; }
-  /// A geometry over them, not yet committed; they must outlive it.
+  /// Makes a geometry over the primitives, not yet committed; they must outlive it.
   GeometryHandle make(RTCDevice device);
 
  private:
@@ -37,7 +37,7 @@ class UserGeometry {
   float pad_;
 };
 
-/// Does `primitive` go into the user geometry of a scene?
+/// Returns whether `primitive` belongs in the user geometry of a scene.
 bool is_user_primitive(const scenes::Scene& scene, const scenes::Primitive& primitive,
                        ConeGeometry cones);
 

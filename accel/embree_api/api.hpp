@@ -29,7 +29,7 @@ inline RTCRay to_embree(const Ray& ray) {
   return out;
 }
 
-/// A ray without a hit yet.
+/// Makes a ray without a hit.
 inline RTCRayHit to_embree_query(const Ray& ray) {
   RTCRayHit out{};
   out.ray = to_embree(ray);
@@ -37,7 +37,7 @@ inline RTCRayHit to_embree_query(const Ray& ray) {
   return out;
 }
 
-/// Embree marks an occluded ray by tfar = -infinity.
+/// Returns whether a ray is occluded, which Embree marks by tfar = -infinity.
 inline bool occluded(RTCScene scene, Context& context, RTCRay& ray) {
   intersect_any(scene, context, ray);
   return ray.tfar == -kInfinity;

@@ -7,7 +7,7 @@ namespace beambench::accel::embree {
 
 using RawContext = RTCIntersectContext;
 
-/// What Embree passes to user geometry; derive from it to carry the state of a query.
+/// The context passed by Embree to user geometry; derive from it to carry the state of a query.
 struct Context : RawContext {
   explicit Context(bool coherent) {
     rtcInitIntersectContext(this);
@@ -40,7 +40,8 @@ inline void intersect_any(const int* valid, RTCScene scene, Context& context, RT
   rtcOccluded16(valid, scene, &context, &rays);
 }
 
-/// A stream of packets (RTCRayHit4, 8 or 16) in one call; rays with tfar < tnear are left out.
+/// Traces a stream of packets (RTCRayHit4, 8 or 16) in one call; rays with tfar < tnear are left
+/// out.
 template <class Packet>
 void intersect_stream(RTCScene scene, Context& context, Packet* packets, unsigned count) {
   constexpr unsigned kLanes = sizeof(packets->ray.tfar) / sizeof(float);
@@ -48,7 +49,7 @@ void intersect_stream(RTCScene scene, Context& context, Packet* packets, unsigne
                  sizeof(Packet));
 }
 
-/// The same of any hits, in packets of rays (RTCRay4, 8 or 16).
+/// Traces a stream of any-hit packets (RTCRay4, 8 or 16).
 template <class Rays>
 void intersect_any_stream(RTCScene scene, Context& context, Rays* packets, unsigned count) {
   constexpr unsigned kLanes = sizeof(packets->tfar) / sizeof(float);

@@ -12,22 +12,22 @@
 
 namespace beambench::accel::embree {
 
-/// An Embree device that records Embree's errors and how much memory it holds. Embree calls back
-/// from inside C functions and from its own threads, through which no exception can pass: errors
-/// are kept until `check`.
+/// An Embree device that records Embree's errors and memory use. Embree calls back from inside C
+/// functions and from its own threads, through which no exception can pass: errors are kept until
+/// `check`.
 class Device {
  public:
-  /// `config` as for rtcNewDevice: "threads=1". Throws std::runtime_error when Embree refuses.
+  /// `config` as for rtcNewDevice: "threads=1". Throws std::runtime_error if Embree refuses.
   explicit Device(const char* config);
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
   ~Device();
 
   RTCDevice get() const { return device_; }
-  /// Throws the first error since the last check: InputError when memory ran out, otherwise
-  /// std::runtime_error. `doing` describes what was tried: "building over balls:n=4".
+  /// Throws the first error since the last check: InputError if memory ran out, otherwise
+  /// std::runtime_error. `doing` describes the attempted action: "building over balls:n=4".
   void check(const std::string& doing);
-  /// Memory that Embree holds for this device.
+  /// Returns the memory that Embree holds for this device.
   std::uint64_t bytes() const;
 
  private:

@@ -1,12 +1,13 @@
 #pragma once
-// What must reach into a voxel for a reference.
+// The criterion for a voxel to refer to a primitive.
 
 #include "scenes/base/parameters.hpp"
 
 namespace beambench::accel::grid {
 
-/// A primitive's surface, or only its bounding box, as many published counts have it (Havran and
-/// Sixta, "Comparison of hierarchical grids", Ray Tracing News 12(1), 1999).
+/// The part of a primitive that must reach into the voxel: its surface, or only its bounding box,
+/// as in many published counts (Havran and Sixta, "Comparison of hierarchical grids", Ray Tracing
+/// News 12(1), 1999).
 enum class Assign { kSurface, kBounds };
 
 /// The parameter `assign`.
@@ -15,7 +16,7 @@ inline ParameterInfo assign_parameter() {
                           "what must reach into a voxel for a reference: the primitive's surface, "
                           "or only its bounding box");
 }
-/// Its value.
+/// Returns the parameter's value.
 inline Assign assign_of(const Parameters& parameters) {
   return parameters.choice("assign") == "bbox" ? Assign::kBounds : Assign::kSurface;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The voxels' lists, all made in advance.
+// The voxels' lists, all built in advance.
 
 #include <cstdint>
 #include <span>
@@ -16,7 +16,7 @@ namespace beambench::accel::grid {
 /// `overlap_tolerance`, in increasing id: one list after the other.
 class EagerVoxels {
  public:
-  /// Throws InputError naming `max_references` when the lists exceed it.
+  /// Throws InputError naming `max_references` if the lists exceed it.
   EagerVoxels(const scenes::Scene& scene, const CellGrid& grid, std::uint64_t max_references,
               Assign assign = Assign::kSurface);
 
@@ -24,11 +24,11 @@ class EagerVoxels {
     return {references_.data() + first_[voxel], first_[voxel + 1] - first_[voxel]};
   }
   bool holds_references(std::size_t voxel) const { return !references(voxel).empty(); }
-  /// Fills in everything but the grid itself.
+  /// Fills in all statistics except those of the grid itself.
   void describe(Statistics& statistics) const;
 
  private:
-  std::vector<std::uint32_t> first_;  ///< by voxel, and the end of the last
+  std::vector<std::uint32_t> first_;  ///< by voxel, then the end of the last one
   std::vector<scenes::PrimitiveId> references_;
 };
 

@@ -46,8 +46,9 @@ glm::ivec3 cubic_cells(const glm::dvec3& size, double wanted, int most) {
   return cells;
 }
 
-/// An upper estimate of the references in a grid of `cells`: a surface reaches into the voxels
-/// of its bounds, or, where those are many, into about twice as many as its bounds' sides show.
+/// Returns an upper estimate of the references in a grid of `cells`: a surface reaches into the
+/// voxels of its bounds or, if those are many, into about twice as many as on the sides of its
+/// bounds.
 double estimated_references(const scenes::Scene& scene, const glm::dvec3& size,
                             const glm::ivec3& cells, Assign assign) {
   const glm::dvec3 voxels_per_unit = glm::dvec3(cells) / glm::max(size, glm::dvec3(1e-300));
@@ -103,7 +104,7 @@ CellGrid make_voxel_grid(const scenes::Scene& scene, const GridLayout& layout) {
         "max_voxels (4 bytes each, 8 where fill is lazy)",
         cells.x, cells.y, cells.z, voxels, layout.max_voxels));
   }
-  // Hits lie within the tolerance of the bounds: the grid must hold them.
+  // Hits lie within the tolerance of the bounds, so the grid must contain that margin.
   const double tolerance = overlap_tolerance(scene);
   const glm::dvec3 margin = glm::max(size * 1e-6, glm::dvec3(2.0 * tolerance));
   return make_cell_grid(scene.bounds, size, margin, cells);

@@ -1,5 +1,5 @@
 #pragma once
-// How a grid is laid over a scene.
+// Lays a grid over a scene.
 
 #include <array>
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace beambench::accel::grid {
 /// Voxels as cubic as they can be, or the same number of them along each axis.
 enum class Shape { kCubic, kEqual };
 
-/// What every structure over a grid of the scene's box has to know.
+/// The layout of any structure with a grid over the scene's box.
 struct GridLayout {
   std::optional<std::array<std::int32_t, 3>> resolution;  ///< voxels per axis; nothing: by density
   double density = 4.0;                                   ///< voxels for each primitive
@@ -27,18 +27,19 @@ struct GridLayout {
   std::uint64_t max_references = 50'000'000;
 };
 
-/// The numbers of voxels per axis, about `wanted` in all, over a box of `size`; none more than
-/// `most`. Of cubic ones: an axis too short for one such voxel has one, and the others have more.
+/// Returns the numbers of voxels per axis, about `wanted` in all, over a box of `size`; at most
+/// `most` per axis. With cubic voxels, an axis too short for one such voxel has one, and the others
+/// have more.
 glm::ivec3 cells_by_number(const glm::dvec3& size, double wanted, Shape shape, int most);
 
-/// The grid over the scene's own box. Throws InputError naming `max_voxels` when it has more.
+/// Returns the grid over the scene's own box. Throws InputError naming `max_voxels` if it has more.
 CellGrid make_voxel_grid(const scenes::Scene& scene, const GridLayout& layout);
 
-/// Throws the InputError of a grid whose voxels refer to more than `max_references` primitives.
+/// Throws the InputError for a grid whose voxels refer to more than `max_references` primitives.
 [[noreturn]] void fail_too_many_references(const scenes::Scene& scene, const CellGrid& grid,
                                            std::uint64_t max_references);
 
-/// The parameters that structures over a grid share.
+/// The common parameters of structures over a grid.
 ParameterInfo resolution_parameter();
 ParameterInfo density_parameter(double default_value);
 ParameterInfo max_references_parameter(const GridLayout& defaults);

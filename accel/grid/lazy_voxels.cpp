@@ -51,7 +51,7 @@ const LazyVoxels::List& LazyVoxels::publish(std::size_t voxel,
   if (!lists_[voxel].compare_exchange_strong(earlier, mine, std::memory_order_acq_rel)) {
     return *earlier;
   }
-  static_cast<void>(list.release());  // now it belongs to lists_
+  static_cast<void>(list.release());  // now owned by lists_
   const std::uint64_t before = references_made_.fetch_add(mine->size(), std::memory_order_relaxed);
   if (before + mine->size() > max_references_) {
     fail_too_many_references(scene_, grid_, max_references_);

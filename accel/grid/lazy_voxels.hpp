@@ -1,5 +1,5 @@
 #pragma once
-// The voxels' lists, each made when the first ray enters.
+// The voxels' lists, each built when the first ray enters.
 
 #include <atomic>
 #include <cstdint>
@@ -14,12 +14,13 @@
 
 namespace beambench::accel::grid {
 
-/// The grid of the thesis: nothing is built; the first ray that enters a voxel has every primitive
-/// of the scene tested for overlap with it, its range of voxels first. The lists are those of
-/// `EagerVoxels` (that of a cone may be longer: its overlap test is conservative).
+/// The grid of the thesis: nothing is built in advance. The first ray that enters a voxel has every
+/// primitive of the scene tested for overlap with it, beginning with the primitive's range of
+/// voxels. The lists are those of `EagerVoxels` (that of a cone may be longer: its overlap test is
+/// conservative).
 ///
-/// Several threads may query at once. A thread that finds no list makes one and publishes it by
-/// compare-exchange; the second to do so discards its own, which is the same.
+/// Several threads may query at once. A thread that finds no list builds one and publishes it by
+/// compare-exchange; the second thread to do so discards its own, which is the same.
 class LazyVoxels {
  public:
   LazyVoxels(const scenes::Scene& scene, const CellGrid& grid, std::uint64_t max_references,
@@ -28,26 +29,27 @@ class LazyVoxels {
   LazyVoxels& operator=(const LazyVoxels&) = delete;
   ~LazyVoxels();
 
-  /// Throws InputError naming `max_references` when the lists made so far exceed it.
+  /// Throws InputError naming `max_references` if the lists made so far exceed it.
   std::span<const scenes::PrimitiveId> references(std::size_t voxel) const {
     const List* list = lists_[voxel].load(std::memory_order_acquire);
     if (list == nullptr) list = &publish(voxel, evaluate(voxel));
     return *list;
   }
-  /// Has it been evaluated, and references were found? Evaluates nothing.
+  /// Returns whether the voxel has been evaluated and has references. Evaluates nothing.
   bool holds_references(std::size_t voxel) const {
     const List* list = lists_[voxel].load(std::memory_order_acquire);
     return list != nullptr && list != &empty_;
   }
-  /// Fills in what has been evaluated so far.
+  /// Fills in the statistics of the voxels evaluated so far.
   void describe(Statistics& statistics) const;
 
  private:
   using List = std::vector<scenes::PrimitiveId>;
 
-  /// Nothing where nothing reaches into the voxel.
+  /// Returns nothing for a voxel without references.
   std::unique_ptr<const List> evaluate(std::size_t voxel) const;
-  /// The list that all threads see from now on: this one or an earlier one.
+  /// Publishes a list. Returns the list that all threads see from now on: this one or an earlier
+  /// one.
   const List& publish(std::size_t voxel, std::unique_ptr<const List> list) const;
 
   const scenes::Scene& scene_;
@@ -56,9 +58,9 @@ class LazyVoxels {
   std::uint64_t max_references_;
   Assign assign_;
   std::vector<CellRange> ranges_;  ///< by primitive
-  /// Shared by all empty voxels, which are most.
+  /// Shared by all empty voxels, which are the majority.
   const List empty_;
-  // Mutable: what a query adds is what any other query would have found. The lists are owned.
+  // Mutable: any query would have added the same. The lists are owned.
   mutable std::vector<std::atomic<const List*>> lists_;
   mutable std::atomic<std::uint64_t> references_made_{0};
 };

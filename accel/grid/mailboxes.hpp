@@ -1,5 +1,5 @@
 #pragma once
-// Which primitives a ray was tested against before.
+// Remembers which primitives a ray has been tested against.
 
 #include <algorithm>
 #include <cstddef>
@@ -15,8 +15,8 @@ namespace beambench::accel::grid {
 /// the last ray it was tested against.
 ///
 /// The boxes belong to the thread, because queries are const and come from several threads at once.
-/// Every ray of a thread has a number of its own, whatever the structure, so the entries of other
-/// structures do no harm.
+/// Every ray of a thread has a unique number across structures, so entries of other structures are
+/// harmless.
 class Mailboxes {
  public:
   explicit Mailboxes(std::size_t primitives) : scratch_(of_this_thread()) {
@@ -27,7 +27,7 @@ class Mailboxes {
     }
   }
 
-  /// Is it the first call for the primitive with this ray?
+  /// Returns whether this is the first call for the primitive with this ray.
   bool is_first(scenes::PrimitiveId id) {
     std::uint32_t& last = scratch_.last_ray[id];
     if (last == scratch_.ray) return false;

@@ -1,5 +1,5 @@
 #pragma once
-// From primitives to the voxels that they reach into.
+// Finds the voxels into which primitives reach.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,16 +16,16 @@
 
 namespace beambench::accel::grid {
 
-/// Finds the closed voxels, widened by `overlap_tolerance`, that one primitive after the other
-/// reaches into. `grid` may cover a part of the scene only.
+/// Finds the closed voxels, widened by `overlap_tolerance`, that a primitive reaches into; called
+/// for one primitive after the other. `grid` may cover only a part of the scene.
 class Rasterizer {
  public:
-  /// Scene and grid must outlive it.
+  /// Scene and grid must outlive this object.
   Rasterizer(const scenes::Scene& scene, const CellGrid& grid, Assign assign)
       : scene_(&scene), grid_(&grid), assign_(assign), tolerance_(overlap_tolerance(scene)) {}
 
   /// Calls `emit(voxel)` with the index of each voxel until it returns false; returns whether it
-  /// never did. Of a part of the scene: for a primitive that reaches into it.
+  /// never did. If the grid covers only a part of the scene, the primitive must reach into it.
   template <class Emit>
   bool for_each_voxel(scenes::PrimitiveId id, Emit emit) const {
     const scenes::Bounds bounds = scenes::primitive_bounds(*scene_, id);
@@ -52,10 +52,10 @@ class Rasterizer {
     return true;
   }
 
-  /// Halves a block of voxels that the primitive is known to reach into, down to a few that are
-  /// tested one by one: the cost of a large primitive depends on its surface, not on the volume
-  /// around it. `all`: it is known to reach into each. So it does in a row of voxels that holds the
-  /// whole primitive, for its surface is connected.
+  /// Halves a block of voxels into which the primitive is known to reach, down to a few that are
+  /// tested one by one: the cost of a large primitive depends on its surface, not on the
+  /// surrounding volume. `all`: the primitive is known to reach into each voxel. This is true for a
+  /// row of voxels that contains the whole primitive, because its surface is connected.
   template <class Emit>
   bool split(scenes::PrimitiveId id, const glm::ivec3& corner, const glm::ivec3& size, bool all,
              Emit& emit) const {
@@ -100,7 +100,7 @@ class Rasterizer {
   double tolerance_;
 };
 
-/// A primitive that reaches into a voxel.
+/// A reference of a voxel to a primitive.
 struct VoxelReference {
   std::uint32_t voxel;
   scenes::PrimitiveId primitive;

@@ -16,8 +16,8 @@
 namespace beambench::accel::grid {
 
 /// A uniform grid with the traversal of Amanatides and Woo (`walk_voxels`). `Voxels` holds the
-/// lists (`EagerVoxels`, `LazyVoxels`); `Boxes` is `Mailboxes` or `NoMailboxes`. Neither changes a
-/// hit.
+/// lists (`EagerVoxels`, `LazyVoxels`); `Boxes` is `Mailboxes` or `NoMailboxes`. Neither affects
+/// the hits.
 template <class Voxels, class Boxes>
 class VoxelGrid : public TraversalAccelerator<VoxelGrid<Voxels, Boxes>> {
  public:

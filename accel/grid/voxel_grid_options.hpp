@@ -1,5 +1,5 @@
 #pragma once
-// How a uniform grid of voxels is made and filled.
+// Options for making and filling a uniform grid of voxels.
 
 #include <vector>
 

@@ -24,7 +24,7 @@ inline std::size_t voxel_count(const CellGrid& grid) {
   return static_cast<std::size_t>(grid.cells.x) * static_cast<std::size_t>(grid.cells.y) *
          static_cast<std::size_t>(grid.cells.z);
 }
-/// The number of a voxel, x fastest.
+/// Returns the number of a voxel, x fastest.
 inline std::size_t voxel_index(const CellGrid& grid, const glm::ivec3& voxel) {
   const auto along = [](std::int32_t n) { return static_cast<std::size_t>(n); };
   return along(voxel.x) +
@@ -37,7 +37,7 @@ inline glm::ivec3 voxel_at(const CellGrid& grid, std::size_t index) {
           static_cast<std::int32_t>(index / x / y)};
 }
 
-/// A grid as walks through it need it.
+/// A grid in the form needed by walks.
 struct WalkGrid {
   WalkGrid() = default;
   explicit WalkGrid(const CellGrid& grid) : cells(grid), per_unit(1.0 / grid.cell) {}
@@ -46,7 +46,7 @@ struct WalkGrid {
   glm::dvec3 per_unit{1.0};  ///< cells in a unit of length
 };
 
-/// A ray as walks through grids need it.
+/// A ray in the form needed by walks.
 struct WalkRay {
   explicit WalkRay(const Ray& ray) : t_min(ray.t_min), t_max(ray.t_max) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -67,7 +67,7 @@ struct WalkRay {
   float t_max;
 };
 
-/// A part of a ray; empty where it does not end before it begins.
+/// A part of a ray; empty if its end is before its beginning.
 struct WalkInterval {
   double enter;
   double exit;
@@ -75,8 +75,8 @@ struct WalkInterval {
   bool empty() const { return !(enter <= exit); }
 };
 
-/// The part of a ray in the box of a grid, from just below t_min, for a hit's t may round up to it,
-/// to just above t_max.
+/// Returns the part of a ray in the box of a grid, from just below t_min, because a hit's t may
+/// round up to it, to just above t_max.
 inline WalkInterval interval_inside(const CellGrid& grid, const WalkRay& ray) {
   WalkInterval inside{std::nextafter(ray.t_min, -kInfinity), std::nextafter(ray.t_max, kInfinity)};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -98,11 +98,11 @@ inline WalkInterval interval_inside(const CellGrid& grid, const WalkRay& ray) {
 /// Calls `visit(index, enter_t, exit_t)` for the voxels that the ray passes through in a part of it
 /// inside the grid, until it returns true; returns whether it did (Amanatides and Woo, "A fast
 /// voxel traversal algorithm for ray tracing", Eurographics 1987). The voxel is stepped by
-/// integers; beside it goes, for each axis, the t of the next plane (their tMax), which grows by a
-/// constant (their tDelta). The axis is chosen by branches: while one is predicted rightly,
-/// the comparisons of the next step need not wait for those of this one.
+/// integers, and for each axis the t of the next plane (their tMax) grows by a constant (their
+/// tDelta). The axis is chosen by branches: while they are predicted correctly, the comparisons of
+/// the next step need not wait for those of this one.
 ///
-/// The sums are not exact, yet no hit is lost. The intervals between the computed t follow each
+/// The sums are not exact, but no hit is lost. The intervals between the computed t follow each
 /// other without a gap, the first begins with the part and the last ends with it, so a hit's t lies
 /// in the interval of one voxel. After n additions tMax is off by less than 2 n 2^-53 of the
 /// largest t in the grid; times the direction, and with an eye within 8 scene sizes
@@ -130,7 +130,7 @@ bool walk_part(const WalkGrid& grid, const WalkRay& ray, const WalkInterval& par
     stride[axis] = strides[axis] * ray.step[axis];
     steps_left[axis] = ray.step[axis] > 0 ? last - cell : cell;
     delta_t[axis] = cells.cell[i] * std::abs(ray.inverse[axis]);
-    // The faces of the grid end the part: they are not crossed.
+    // The faces of the grid end the part and are not crossed.
     next_t[axis] = kNever;
     if (ray.step[axis] != 0 && steps_left[axis] > 0) {
       const std::int32_t plane = ray.step[axis] > 0 ? cell + 1 : cell;
@@ -142,7 +142,7 @@ bool walk_part(const WalkGrid& grid, const WalkRay& ray, const WalkInterval& par
   double next_x = next_t[0];
   double next_y = next_t[1];
   double next_z = next_t[2];
-  /// Visits the voxel and crosses the plane at `next`; returns whether the walk goes on.
+  /// Visits the voxel and crosses the plane at `next`; returns whether the walk continues.
   bool stopped = false;
   const auto pass = [&](double& next, std::size_t axis) __attribute__((always_inline)) {
     const double exit_t = std::min(next, part.exit);

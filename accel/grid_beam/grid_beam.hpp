@@ -14,8 +14,8 @@ namespace beambench::accel::grid_beam {
 /// Beams of primary rays through the voxels of a hierarchy of grids, which the thesis (González
 /// López 1999, section 7.3) proposes as future work: in empty voxels the beams continue, divided by
 /// the faces and the voxels behind them; at an occupied voxel the samples of a beam become rays;
-/// what leaves the top grid is background without a ray. All other rays are traced one by one
-/// through the same grids.
+/// samples that leave the top grid are background without a ray. All other rays are traced one by
+/// one through the same grids.
 class GridBeam : public GridCells::Tracer {
  public:
   GridBeam(const scenes::Scene& scene, const GridBeamOptions& options)
@@ -24,15 +24,15 @@ class GridBeam : public GridCells::Tracer {
         rules_(options.rules),
         lattice_(hierarchy()) {}
 
-  /// An image is traced in beams, which are shared among the context's threads.
+  /// Traces an image in beams, which are shared among the context's threads.
   void closest_hits(const RaySource& rays, const HitSpan& hits,
                     const QueryContext& context) const override;
   std::optional<std::vector<BeamOutline>> beams(const PrimaryRays& rays) const override;
-  /// Samples become rays at occupied voxels only, so that not all of an image's rays are made.
+  /// Samples become rays only at occupied voxels, so that not all of an image's rays are made.
   Statistics statistics() const override;
 
   const GridLattice& lattice() const { return lattice_; }
-  /// Traces an image, reporting to a policy (see beam::NoBeamWatch).
+  /// Traces an image and reports to a policy (see beam::NoBeamWatch).
   template <class Watch>
   void trace_watched(const PrimaryRays& rays, const HitSpan& buffer, Watch& watch) const {
     const beam::WholeImage sight;

@@ -7,9 +7,10 @@ namespace beambench::accel::grid_beam {
 
 namespace {
 
-/// Beams are divided at every voxel, so that small ones cost more than their rays: of 16, 48, 128
-/// and 1000 the smallest with which no scene of four took longer than single rays through the same
-/// grids was 128 (escena2, gato-bill, torre-eiffel, habitacion; 640x480); twice that for others.
+/// Beams are divided at every voxel, so that small ones cost more than their rays. Of 16, 48, 128
+/// and 1000, the smallest value at which none of four scenes took longer than single rays through
+/// the same grids was 128 (escena2, gato-bill, torre-eiffel, habitacion; 640x480). This is twice
+/// that, for other scenes.
 constexpr std::int64_t kHandover = 256;
 
 }  // namespace

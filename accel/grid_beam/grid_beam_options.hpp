@@ -13,7 +13,7 @@ struct GridBeamOptions {
   beam::BeamRules rules;
   hierarchical_grid::HierarchicalGridOptions grid;
 
-  /// The hierarchy is made with `Inner::kPowers`, its rays have mailboxes.
+  /// The hierarchy is made with `Inner::kPowers`, and its rays have mailboxes.
   static std::vector<ParameterInfo> parameters();
   static GridBeamOptions from(const Parameters& parameters);
 };

@@ -30,22 +30,22 @@ BeamKind kind_of(Voxel voxel) {
   return voxel.is_empty() ? BeamKind::kNonTerminal : BeamKind::kOccupied;
 }
 
-/// Some voxels of a grid, one layer of them behind a face.
+/// A one-layer block of a grid's voxels behind a face.
 struct Layer {
   std::uint32_t grid;
   glm::ivec3 first;
   glm::ivec3 count;
 };
 
-/// Divides a beam among the undivided voxels behind a face that all its rays cross.
+/// Divides a beam among the undivided voxels behind a face crossed by all its rays.
 class Entry {
  public:
   Entry(const GridHierarchy& hierarchy, const GridLattice& lattice, const EyeView& view,
         const Crossing& face, BeamQueue& queue)
       : hierarchy_(&hierarchy), lattice_(&lattice), view_(&view), face_(face), queue_(&queue) {}
 
-  /// Halves the layer across its longer side until single voxels are left; a divided one has a
-  /// layer of its own.
+  /// Halves the layer across its longer side until single voxels are left; a divided voxel has its
+  /// own layer.
   void divide(const Layer& layer, const Beam& beam) const {
     if (beam.outline.empty()) return;
     const int u = (face_.axis + 1) % 3;
@@ -66,7 +66,7 @@ class Entry {
           [&](const Beam& part, bool above) { divide(above ? upper : lower, part); });
   }
 
-  /// The layer of a grid's voxels behind the face, where that is a face of the grid.
+  /// Returns the layer of a grid's voxels behind the face, if that is a face of the grid.
   Layer outer_layer(std::uint32_t grid) const {
     Layer layer{grid, glm::ivec3(0), hierarchy_->grids()[grid].place().cells};
     layer.first[face_.axis] = face_.side > 0 ? 0 : layer.count[face_.axis] - 1;
@@ -74,7 +74,8 @@ class Entry {
     return layer;
   }
 
-  /// The voxels behind the face of a cell, or the one that is larger: from the top grid down.
+  /// Returns the voxels behind the face of a cell, or the one that is larger, searching down from
+  /// the top grid.
   Layer behind(const glm::ivec3& corner, std::int32_t size) const {
     glm::ivec3 at = corner;  // a finest cell behind the face
     at[face_.axis] = face_.side > 0 ? face_.index : face_.index - 1;
@@ -125,7 +126,7 @@ void begin_inside(const GridHierarchy& hierarchy, const GridLattice& lattice, co
     const GridPlace& place = lattice.place(number);
     glm::ivec3 at(0);
     for (int axis = 0; axis < 3; ++axis) {
-      // The planes of the lattice decide, as they do everywhere else.
+      // As everywhere, the planes of the lattice decide.
       while (at[axis] + 1 < grid.place().cells[axis] &&
              lattice.cells().plane(axis, place.corner[axis] + place.size * (at[axis] + 1)) <=
                  view.eye(axis)) {

@@ -1,5 +1,5 @@
 #pragma once
-// The voxels of a hierarchy of grids as beams pass through them.
+// The voxels of a hierarchy of grids, as cells that beams pass through.
 
 #include <cstdint>
 #include <optional>
@@ -15,26 +15,26 @@
 
 namespace beambench::accel::grid_beam {
 
-/// What `beam::OctreeCells` is for octrees: a beam's cell is an undivided voxel, its node the
+/// The counterpart of `beam::OctreeCells`: a beam's cell is an undivided voxel, and its node is the
 /// number of that voxel.
 class GridCells {
  public:
   using Tracer = hierarchical_grid::HierarchicalGrid<grid::Mailboxes>;
 
-  /// Both must outlive it.
+  /// Both arguments must outlive this object.
   GridCells(const Tracer& tracer, const GridLattice& lattice)
       : tracer_(&tracer), lattice_(&lattice) {}
 
-  /// On its planes lie the faces of all voxels.
+  /// The grid whose planes contain the faces of all voxels.
   const CellGrid& grid() const { return lattice_->cells(); }
-  /// The first beams (thesis, section 3.4): from outside for each visible face of the top grid,
-  /// divided among the voxels behind it; from inside in the voxel that contains the eye.
+  /// Pushes the first beams (thesis, section 3.4). From outside: for each visible face of the top
+  /// grid, divided among the voxels behind it. From inside: in the voxel that contains the eye.
   void begin(const beam::EyeView& view, const beam::ImagePolygon& part,
              beam::BeamQueue& queue) const;
-  /// A beam behind its voxel: divided among the faces by which its rays leave, then among the
-  /// voxels behind each.
+  /// Pushes the parts of a beam behind its voxel: divided among the faces through which its rays
+  /// leave, then among the voxels behind each.
   void advance(const beam::EyeView& view, const beam::Beam& beam, beam::BeamQueue& queue) const;
-  /// Those of the beam's voxel.
+  /// Returns the references of the beam's voxel.
   std::span<const scenes::PrimitiveId> references(const beam::Beam& beam) const {
     return hierarchy().references(hierarchy().voxel(beam.node));
   }
@@ -52,7 +52,7 @@ class GridCells {
         .from(t);
   }
 
-  /// Traces a ray from where it begins.
+  /// Traces a ray from its beginning.
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
     return tracer_->find_closest(ray, counting);

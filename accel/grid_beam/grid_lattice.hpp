@@ -1,5 +1,5 @@
 #pragma once
-// Where the grids of a hierarchy lie in one lattice of finest cells.
+// Places the grids of a hierarchy in one lattice of finest cells.
 
 #include <cstdint>
 #include <vector>
@@ -17,16 +17,17 @@ struct GridPlace {
   std::int32_t size;  ///< of a voxel: finest cells along each of its edges
 };
 
-/// Where each voxel that is divided is divided into a power of two along each axis, the planes of
-/// all grids are planes of one lattice, as those of an octree are. Beams are divided by planes and
-/// name them by numbers of that lattice, so that neighbors of any size have the same number.
+/// If each divided voxel is divided into a power of two along each axis, the planes of all grids
+/// are planes of one lattice, like those of an octree. Beams are divided by planes, which they
+/// identify by numbers of that lattice, so that a plane has the same number for neighbors of any
+/// size.
 class GridLattice {
  public:
-  /// Of a hierarchy with `Inner::kPowers`.
+  /// Makes the lattice of a hierarchy with `Inner::kPowers`.
   explicit GridLattice(const hierarchical_grid::GridHierarchy& hierarchy);
 
   const CellGrid& cells() const { return cells_; }
-  /// By the grids' numbers.
+  /// Returns the place of the grid with that number.
   const GridPlace& place(std::uint32_t grid) const { return places_[grid]; }
   std::uint64_t bytes() const { return places_.capacity() * sizeof(GridPlace); }
 

@@ -17,7 +17,7 @@
 
 namespace beambench::accel::hierarchical_grid {
 
-/// A voxel in four bytes: empty, or where its references are, or the number of the grid in it.
+/// A voxel in four bytes: empty, the place of its references, or the number of the grid in it.
 class Voxel {
  public:
   Voxel() = default;
@@ -27,7 +27,7 @@ class Voxel {
   bool is_empty() const { return word_ == 0; }
   bool is_divided() const { return (word_ & kGrid) != 0; }
   std::uint32_t grid() const { return word_ & ~kGrid; }  ///< of a divided voxel
-  /// Of one that has references: where their number is; they follow it. Never 0.
+  /// For a voxel with references: the place of their number, which precedes them. Never 0.
   std::uint32_t first() const { return word_; }
 
  private:
@@ -37,39 +37,39 @@ class Voxel {
   std::uint32_t word_ = 0;
 };
 
-/// One of the grids: that of the scene, or in a voxel of another.
+/// One of the grids: that of the scene, or one in a voxel of another.
 struct NestedGrid {
   grid::WalkGrid walk;
-  std::uint32_t first_voxel;  ///< its voxels follow each other, x fastest
-  std::int32_t level;         ///< the scene's grid being level 1
+  std::uint32_t first_voxel;  ///< its voxels are consecutive, x fastest
+  std::int32_t level;         ///< the scene's grid has level 1
 
   const CellGrid& place() const { return walk.cells; }
 };
 
 /// Jevans and Wyvill, "Adaptive voxel subdivision for ray tracing" (Graphics Interface 1989): a
-/// grid over the scene, and in each voxel that refers to more than `max_objects` primitives a grid
-/// of its own, down to `max_level`. An undivided voxel refers to each primitive whose surface (or
-/// box) reaches into it, closed and widened by `overlap_tolerance`, in increasing id.
+/// grid over the scene, and in each voxel that refers to more than `max_objects` primitives another
+/// grid, down to `max_level`. An undivided voxel refers to each primitive whose surface (or box)
+/// reaches into it, closed and widened by `overlap_tolerance`, in increasing id.
 class GridHierarchy {
  public:
-  /// Throws InputError naming `max_voxels` when the top grid has more, and `max_references` when
-  /// its voxels refer to more. Where the grids in the voxels of a grid would make more than
-  /// `max_voxels` in all, none of them is made; a voxel whose grid would make more references than
-  /// `max_references` in all is not divided, or, with `divide=always`, an InputError.
+  /// Throws InputError naming `max_voxels` if the top grid has more, and `max_references` if its
+  /// voxels refer to more. If the grids in the voxels of a grid would bring the total above
+  /// `max_voxels`, none of them is made. A voxel whose grid would bring the total above
+  /// `max_references` is not divided; with `divide=always`, it is an InputError.
   GridHierarchy(const scenes::Scene& scene, const HierarchicalGridOptions& options);
 
   std::span<const NestedGrid> grids() const { return grids_; }
   const NestedGrid& top() const { return grids_.front(); }
   Voxel voxel(std::size_t index) const { return voxels_[index]; }
   const Voxel* voxels() const { return voxels_.data(); }
-  /// Of a voxel that is not divided.
+  /// Returns the references of an undivided voxel.
   std::span<const scenes::PrimitiveId> references(Voxel voxel) const {
     const scenes::PrimitiveId* list = references_.data() + voxel.first();
     return {list + 1, *list};
   }
 
   Statistics statistics() const;
-  /// The undivided voxels that hold references, in scene units.
+  /// Returns the undivided voxels that hold references, in scene units.
   std::vector<Box> occupied_cells() const;
 
  private:
@@ -78,7 +78,7 @@ class GridHierarchy {
   scenes::Bounds scene_bounds_;
   std::vector<NestedGrid> grids_;  ///< the scene's first
   std::vector<Voxel> voxels_;
-  /// Lists with their lengths before them; the first is that of all empty voxels.
+  /// Lists preceded by their lengths; the first is that of all empty voxels.
   std::vector<scenes::PrimitiveId> references_{0};
 };
 

@@ -24,12 +24,12 @@ namespace {
 
 /// A grid to be made in a voxel.
 struct Division {
-  std::uint32_t voxel;  ///< of the grid around it, counted from 0
+  std::uint32_t voxel;  ///< of the surrounding grid, counted from 0
   glm::ivec3 cells;
 };
 
-/// What is needed while the voxels of one grid are made. Grids of one level follow each other, so
-/// that each level needs this once.
+/// Memory used while the voxels of one grid are made. The grids of a level are made one after the
+/// other, so each level needs it once.
 struct Scratch {
   std::vector<grid::VoxelReference> found;
   std::vector<std::uint32_t> first;
@@ -37,14 +37,14 @@ struct Scratch {
   std::vector<Division> divisions;
 };
 
-/// No voxel is narrower than this share of the scene's diagonal: sixteen times as wide as overlaps
-/// are widened by, so that a list does not depend on that.
+/// The minimum width of a voxel relative to the scene's diagonal: sixteen times the widening of
+/// overlaps, so that lists do not depend on the widening.
 constexpr double kNarrowest = 0x1p-26;
 
-/// What it costs to enter a grid in a voxel, and each step in it, in ray-primitive tests.
+/// The costs of entering a grid in a voxel, and of each step in it, in ray-primitive tests.
 constexpr double kEntryCost = 3.0;
 constexpr double kStepCost = 1.0;
-/// A grid is made where a ray is expected to take no more than this share of the time.
+/// A grid is made if a ray is expected to take at most this share of the time.
 constexpr double kWorthwhile = 0.8;
 
 CellGrid grid_in(const Box& box, const glm::ivec3& cells) {
@@ -80,7 +80,7 @@ class GridHierarchyBuilder {
  private:
   Scratch& scratch(int level) { return scratch_[static_cast<std::size_t>(level) - 1]; }
 
-  /// Finds the references of a grid's voxels; false where there are more than the limit.
+  /// Finds the references of a grid's voxels; false if there are more than the limit.
   bool rasterize(const CellGrid& place, int level, std::span<const scenes::PrimitiveId> primitives,
                  ReferenceLimit limit) {
     Scratch& into = scratch(level);
@@ -98,7 +98,7 @@ class GridHierarchyBuilder {
     return true;
   }
 
-  /// Makes a grid of empty voxels; returns its number.
+  /// Makes a grid of empty voxels and returns its number.
   std::uint32_t append(const CellGrid& place, int level) {
     const auto number = static_cast<std::uint32_t>(hierarchy_.grids_.size());
     const std::size_t first = hierarchy_.voxels_.size();
@@ -107,7 +107,7 @@ class GridHierarchyBuilder {
     return number;
   }
 
-  /// Fills the voxels of a grid, which was rasterized, with references or with grids.
+  /// Fills the voxels of a rasterized grid with references or with grids.
   void fill(std::uint32_t number) {
     const NestedGrid grid = hierarchy_.grids_[number];
     Scratch& own = scratch(grid.level);
@@ -132,7 +132,7 @@ class GridHierarchyBuilder {
     const CellGrid place = grid_in(box, division.cells);
     const int level = grid.level + 1;
     const bool always = options_.divide == HierarchicalGridOptions::Divide::kAlways;
-    // So many that those of all voxels, as they are, stay below the limit.
+    // The number for which those of all current voxels stay below the limit.
     const std::uint64_t room = options_.max_references - references_ + primitives.size();
     const std::uint64_t most = always ? room : std::min(room, worthwhile(place, primitives.size()));
     if ((!always && sample_exceeds(place, primitives, most)) ||
@@ -147,8 +147,8 @@ class GridHierarchyBuilder {
     return Voxel::with_grid(inner);
   }
 
-  /// Do some of many primitives show that all will have more references than that? So that no time
-  /// is lost with heaps that no grid separates.
+  /// Returns whether a sample of many primitives shows that all will have more references than
+  /// that, so that no time is lost on heaps that no grid separates.
   bool sample_exceeds(const CellGrid& place, std::span<const scenes::PrimitiveId> primitives,
                       std::uint64_t most) const {
     constexpr std::size_t kSample = 64;
@@ -164,9 +164,10 @@ class GridHierarchyBuilder {
     return false;
   }
 
-  /// The references that a grid in a voxel of so many primitives can have and still save time.
+  /// Returns the maximum number of references with which a grid in a voxel of that many primitives
+  /// still saves time.
   static std::uint64_t worthwhile(const CellGrid& place, std::size_t primitives) {
-    // Of a ray through the box, the expected number of visits to one of its voxels (MacDonald and
+    // The expected number of visits to one of the voxels by a ray through the box (MacDonald and
     // Booth, "Heuristics for ray tracing using space subdivision", 1990).
     const double share =
         half_surface(place.cell) / half_surface(place.cell * glm::dvec3(place.cells));
@@ -221,7 +222,8 @@ class GridHierarchyBuilder {
     return cells;
   }
 
-  /// The power of two nearest to the cube root, by ratio; few, so that finest cells have numbers.
+  /// Returns the power of two nearest to the cube root, by ratio; small, so that finest cells can
+  /// be numbered.
   glm::ivec3 power_cells(const glm::dvec3& size, double number) const {
     constexpr int kMaxPower = 4;
     int power = std::clamp(static_cast<int>(std::lround(std::log2(number) / 3.0)), 0, kMaxPower);
@@ -251,7 +253,7 @@ class GridHierarchyBuilder {
   const HierarchicalGridOptions& options_;
   GridHierarchy& hierarchy_;
   double narrowest_ = 1.0;
-  std::uint64_t voxels_ = 0;      ///< made, and those of the grids that were chosen
+  std::uint64_t voxels_ = 0;      ///< made so far, including chosen grids
   std::uint64_t references_ = 0;  ///< of the voxels made so far, if no other is divided
   std::array<Scratch, kMaxLevels> scratch_;
 };

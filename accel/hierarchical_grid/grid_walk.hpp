@@ -12,26 +12,25 @@
 
 namespace beambench::accel::hierarchical_grid {
 
-/// The traversal of Amanatides and Woo (1987; `grid::walk_part`) in each grid, a divided voxel
-/// being traversed from the t at which the ray enters it to the t at which it leaves it (Jevans and
+/// The traversal of Amanatides and Woo (1987; `grid::walk_part`) in each grid. A divided voxel is
+/// traversed from the t at which the ray enters it to the t at which the ray leaves it (Jevans and
 /// Wyvill 1989).
 ///
-/// No hit is lost by rounding, as `walk_part` shows for one grid. Where a point of a voxel's
-/// interval is outside the voxel, it is as far outside the voxel next to it of the grid within, so
-/// the distance does not add up over the levels.
+/// No hit is lost by rounding, as `walk_part` shows for one grid. If a point of a voxel's interval
+/// is outside the voxel, it is equally far outside the adjacent voxel of the inner grid, so the
+/// distances do not add up over the levels.
 template <class Counting, class Visit>
 class GridWalk {
  public:
-  /// `visit(references, exit_t)` is called for undivided voxels that hold references until it
-  /// returns true. There is no need to ask it in empty ones: a hit that was found before lies in a
-  /// voxel that refers to its primitive.
+  /// Calls `visit(references, exit_t)` for undivided voxels with references until it returns true.
+  /// Empty voxels need no call: an earlier hit lies in a voxel that refers to its primitive.
   GridWalk(const GridHierarchy& hierarchy, const Ray& ray, Counting& counting, Visit visit)
       : hierarchy_(&hierarchy), counting_(&counting), visit_(visit), ray_(ray) {}
 
-  /// From t_min on.
+  /// Starts at t_min.
   void operator()() { from(-kInfinity); }
 
-  /// From t on, but not before t_min.
+  /// Starts at t, but not before t_min.
   void from(double t) {
     grid::WalkInterval inside = grid::interval_inside(hierarchy_->top().place(), ray_);
     inside.enter = std::max(inside.enter, t);
@@ -39,7 +38,7 @@ class GridWalk {
   }
 
  private:
-  /// Returns whether `visit` did.
+  /// Returns whether `visit` returned true.
   bool walk(const NestedGrid& grid, const grid::WalkInterval& part) {
     const Voxel* const voxels = hierarchy_->voxels() + grid.first_voxel;
     return grid::walk_part(
@@ -56,7 +55,7 @@ class GridWalk {
         });
   }
 
-  /// Not in the loop itself, which is short.
+  /// Kept out of the loop, which is short.
   [[gnu::noinline]] bool test(Voxel voxel, double exit_t) {
     return visit_(hierarchy_->references(voxel), exit_t);
   }

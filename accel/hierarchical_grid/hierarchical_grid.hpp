@@ -13,7 +13,7 @@
 namespace beambench::accel::hierarchical_grid {
 
 /// Grids in the voxels of grids, traversed by `GridWalk`. `Boxes` is `grid::Mailboxes` or
-/// `NoMailboxes`; it changes no hit.
+/// `NoMailboxes`, which does not affect the hits.
 template <class Boxes>
 class HierarchicalGrid : public TraversalAccelerator<HierarchicalGrid<Boxes>> {
  public:

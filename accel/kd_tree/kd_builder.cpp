@@ -32,21 +32,20 @@ float float_below(double value) {
 }
 float float_above(double value) { return -float_below(-value); }
 
-/// A plane, and what the heuristic expects of it.
+/// A plane, and its expected cost.
 struct Split {
   int axis = -1;  ///< none
   float plane = 0.0F;
   double cost = std::numeric_limits<double>::infinity();
 };
 
-/// The build in O(n log n) of Wald and Havran (2006, section 4.3). The three lists of events (one
-/// for each axis) of the node being worked on, and of the upper children still to come, are in one
-/// array for each axis, so nothing is allocated for a node: a node's lower child takes its place,
-/// the upper child goes to the end.
+/// The build in O(n log n) of Wald and Havran (2006, section 4.3). For each axis, one array holds
+/// the events of the current node and of the waiting upper children, so nothing is allocated for a
+/// node: its lower child takes its place, and its upper child goes to the end.
 ///
 /// An item begins at the largest float below its box widened by the tolerance, and ends at the
-/// smallest above: it reaches below a plane when it begins below it, and above one when it ends
-/// above.
+/// smallest float above that. It reaches below a plane if it begins below the plane, and above it
+/// if it ends above.
 class Builder {
  public:
   Builder(const scenes::Scene& scene, const KdTreeOptions& options)
@@ -74,7 +73,7 @@ class Builder {
                       "fewer than {}: choose another structure",
                       scene_.name, pieces_.size(), SplitEvent::kItems));
     }
-    // Hits lie within the tolerance of the bounds: the root must hold them.
+    // Hits lie within the tolerance of the bounds, so the root must contain that margin.
     tree_.root = padded(scene_.bounds, 2.0 * tolerance_);
     require_few_references();
     begin();
@@ -126,7 +125,7 @@ class Builder {
   std::span<SplitEvent> list(int axis, const Pending& pending) {
     return {list(axis, pending.first_event), pending.events()};
   }
-  /// Makes room for so many events in each list.
+  /// Makes room for `count` events in each list.
   void require_events(std::size_t count) {
     if (count <= events_[0].size()) return;
     for (auto& events : events_) events.resize(count + count / 4);
@@ -155,7 +154,7 @@ class Builder {
     end_ = above.first_event;
   }
 
-  /// A builder for estimates: some of the items of another one, with its root and depth.
+  /// Makes a builder for estimates over some of another builder's items, with its root and depth.
   Builder(const Builder& whole, std::vector<bvh::PrimitivePart> pieces)
       : scene_(whole.scene_),
         options_(whole.options_),
@@ -168,7 +167,7 @@ class Builder {
     tree_.root = whole.tree_.root;
   }
 
-  /// An estimate of the references, which uses this builder: nodes that are kept apart are divided.
+  /// Returns an estimate of the references made with this builder: waiting nodes are divided.
   auto estimate() {
     struct Node {
       Pending place;
@@ -204,7 +203,8 @@ class Builder {
     return ReferenceEstimate(taken(root()), divide);
   }
 
-  /// Refuses too many references where a small part of the items shows them (planes in the middle).
+  /// Throws if a small part of the items shows that there will be too many references (with planes
+  /// in the middle).
   void require_few_references() const {
     if (options_.builder != KdTreeOptions::Builder::kMedian) return;
     const bool exceeds = part_surely_exceeds(
@@ -232,8 +232,8 @@ class Builder {
     return best;
   }
 
-  /// The middle of one axis after the other (Kaplan, "Space-tracing: a constant time ray-tracer",
-  /// 1985); none where floats are too coarse.
+  /// Returns the middle of one axis after the other (Kaplan, "Space-tracing: a constant time
+  /// ray-tracer", 1985); none if floats are too coarse.
   static Split median(const Pending& pending) {
     const int axis = pending.splits % 3;
     const double lower = pending.cell.lower[axis];
@@ -243,9 +243,9 @@ class Builder {
     return {axis, middle, 0.0};
   }
 
-  /// The costs of all planes across an axis at which an item begins or ends. At one plane, all ends
-  /// come before all beginnings: between them the counts are right, before and after they are too
-  /// high, which does no harm.
+  /// Compares the costs of all planes across an axis at which an item begins or ends. At one plane,
+  /// all ends come before all beginnings: between them the counts are correct; before and after,
+  /// they are too high, which is harmless.
   void sweep(const Pending& pending, int axis, Split& best) {
     const PlaneCost cost_of(pending.cell, axis, options_);
     std::uint32_t below = 0;
@@ -260,7 +260,7 @@ class Builder {
     }
   }
 
-  /// Hands the items of a node down to its children, which are returned.
+  /// Hands the items of a node down to its children, and returns these.
   std::array<Pending, 2> distribute(const Pending& pending, const Split& split,
                                     const KdNode& node) {
     Pending below{node.children(), pending.first_event, 0, pending.splits + 1,
@@ -285,7 +285,7 @@ class Builder {
     return {below, above};
   }
 
-  /// Finds on which side of the plane each item is. It begins before it ends.
+  /// Determines on which side of the plane each item is. An item begins before it ends.
   void classify(const Pending& pending, const Split& split) {
     straddling_.clear();
     const std::uint32_t plane = PlaneKey(split.plane).bits();
@@ -303,13 +303,13 @@ class Builder {
   }
 
   /// Moves the events of items on one side only, in order: those below to the front of the node's
-  /// list, those above to the end of the array. Returns how many.
+  /// list, those above to the end of the array. Returns their numbers.
   std::array<std::size_t, 2> splice(const Pending& pending, int axis) {
     SplitEvent* const first = list(axis, pending.first_event);
     SplitEvent* to_below = first;
     SplitEvent* const first_above = list(axis, end_);
     SplitEvent* to_above = first_above;
-    // Each event is written to both: cheaper than to predict where it goes.
+    // Each event is written to both, which is cheaper than predicting its destination.
     for (const SplitEvent event : list(axis, pending)) {
       const std::uint8_t side = sides_[event.item()];
       *to_below = event;
@@ -321,15 +321,15 @@ class Builder {
             static_cast<std::size_t>(to_above - first_above)};
   }
 
-  /// Adds the events of an item's part in a cell; none where it does not reach into it.
+  /// Adds the events of an item's part in a cell; none if it does not reach into the cell.
   void clip_into(std::uint32_t item, const scenes::Bounds& cell, EventLists& lists) const {
     const Box wider{glm::dvec3(cell.lower) - tolerance_, glm::dvec3(cell.upper) + tolerance_};
     const auto part = options_.clip ? bvh::clipped_bounds(scene_, pieces_[item], wider)
                                     : bvh::whole_bounds(scene_, pieces_[item], wider);
     if (!part) return;
     for (int axis = 0; axis < 3; ++axis) {
-      // In the cell, so that planes in it are met in order; and not empty, even where the part is
-      // in the margin only.
+      // Within the cell, so that planes in it are met in order; and not empty, even if the part is
+      // only in the margin.
       const float lower = std::clamp(float_below(part->lower[axis] - tolerance_), cell.lower[axis],
                                      float_below(cell.upper[axis]));
       const float upper = std::clamp(float_above(part->upper[axis] + tolerance_),
@@ -392,7 +392,7 @@ class Builder {
   std::vector<bvh::PrimitivePart> pieces_;
   std::array<LargePageVector<SplitEvent>, 3> events_;  ///< of each axis
   std::size_t end_ = 0;                                ///< of the events in use
-  std::vector<std::uint8_t> sides_;                    ///< of items, at the split being made
+  std::vector<std::uint8_t> sides_;                    ///< of items, for the current split
   std::vector<std::uint32_t> straddling_;              ///< items on both sides of it
   EventLists events_below_;                            ///< of their parts
   EventLists events_above_;

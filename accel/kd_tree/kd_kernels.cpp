@@ -23,11 +23,11 @@ namespace beambench::accel::kd_tree::HWY_NAMESPACE {
 namespace probes = bvh::HWY_NAMESPACE;
 
 /// Havran's recursive traversal with a stack, TA-B-rec ("Heuristic Ray Shooting Algorithms",
-/// dissertation, 2000, appendix C), which keeps of a far child only where the ray leaves it: it
-/// enters where it left the cell before. Returns what `Confirm` found.
+/// dissertation, 2000, appendix C), which stores only the exit from a far child: its entry is the
+/// exit from the previous cell. Returns the result of `Confirm`.
 ///
-/// A child that the ray meets at one t only, in the plane, is skipped: what can be hit there is
-/// within the tolerance of the other one, too.
+/// A child that the ray meets only at one t, in the plane, is skipped, because any hit there is
+/// also within the tolerance of the other child.
 template <class Confirm, class Counting>
 HWY_FLATTEN auto traverse(const KdTree& tree, const scenes::Scene& scene, const Ray& ray,
                           Counting& counting) {

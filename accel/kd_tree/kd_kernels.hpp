@@ -11,7 +11,7 @@
 
 namespace beambench::accel::kd_tree {
 
-/// Both queries under one counting policy. Not for empty trees.
+/// Both queries under one counting policy. Must not be used for empty trees.
 template <class Counting>
 struct KdQueries {
   std::optional<Hit> (*closest)(const KdTree&, const scenes::Scene&, const Ray&, Counting&);
@@ -28,7 +28,7 @@ struct KdKernels : KdQueries<NoCounting>, KdQueries<WorkCounters>, KdQueries<Ste
   }
 };
 
-/// Those for the best instruction set of this machine that Highway supports.
+/// Returns the kernels for the best instruction set of this machine that Highway supports.
 const KdKernels& best_kd_kernels();
 
 }  // namespace beambench::accel::kd_tree

@@ -1,5 +1,5 @@
 #pragma once
-// Where a ray crosses the planes of a kd-tree.
+// Computes where a ray crosses the planes of a kd-tree.
 
 #include <algorithm>
 #include <array>
@@ -15,12 +15,12 @@ namespace beambench::accel::kd_tree {
 /// Derives everything about a ray and planes from one function, `plane_t`, in double, so that a
 /// cell's exit and its neighbor's entry are the same number and no cell is skipped.
 ///
-/// plane / direction - origin / direction is rounded where origin / direction is: the ray at that t
-/// is off the plane by 2^-53 of the origin's coordinate, which the tolerance of cells holds. It is
-/// one instruction, on which each step of a traversal waits, in place of two.
+/// The rounding of plane / direction - origin / direction is that of origin / direction: the ray at
+/// that t is off the plane by 2^-53 of the origin's coordinate, which is within the tolerance of
+/// cells. Each traversal step then waits for one instruction instead of two.
 class KdRay {
  public:
-  /// The ray's part inside a box, its ends included.
+  /// The ray's part inside a box, including its ends.
   struct Interval {
     double enter;
     double exit;
@@ -29,9 +29,9 @@ class KdRay {
   };
 
   explicit KdRay(const Ray& ray) {
-    // In place of infinity, for a ray parallel to the plane: the t of planes to its sides are then
-    // beyond all others. A plane in which it runs counts as beside it, or is crossed at 0: cells
-    // overlap by the tolerance, so that either side will do. Infinity would make it a NaN.
+    // Replaces infinity, which would cause a NaN, for a ray parallel to the plane: the t of planes
+    // beside it are then beyond all others. A plane that contains the ray counts as beside it, or
+    // is crossed at 0: either is correct, because cells overlap by the tolerance.
     constexpr double kParallel = 1e250;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto at = static_cast<int>(axis);
@@ -46,12 +46,13 @@ class KdRay {
     return std::fma(double{plane}, inverse_[axis], offset_[axis]);
   }
 
-  /// The child of a split across the axis that the ray comes from: 0 below the plane, 1 above.
+  /// Returns the child of a split across the axis from which the ray comes: 0 below the plane, 1
+  /// above.
   [[gnu::always_inline]] std::uint32_t first_child(std::size_t axis) const {
     return backward_ >> axis & 1U;
   }
 
-  /// The part in a box of t that round to what is in [t_min, t_max].
+  /// Returns the part in a box whose t round to values in [t_min, t_max].
   Interval clip(const scenes::Bounds& box, float t_min, float t_max) const {
     Interval part{std::nextafter(t_min, -kInfinity), std::nextafter(t_max, kInfinity)};
     for (std::size_t axis = 0; axis < 3; ++axis) {

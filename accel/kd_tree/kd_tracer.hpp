@@ -13,8 +13,9 @@
 namespace beambench::accel::kd_tree {
 
 /// A kd-tree, traversed in double; the primitives of a leaf are tested in blocks by SIMD in single
-/// precision, as `sah-bvh` does, which only rejects. What passes is confirmed by the canonical
-/// test, so that the hits are those of every other classic structure, whatever the instruction set.
+/// precision, as `sah-bvh` does, which only rejects. Candidates that pass are confirmed by the
+/// canonical test, so the hits are those of every other classic structure, on every instruction
+/// set.
 class KdTracer : public TraversalAccelerator<KdTracer> {
  public:
   KdTracer(const scenes::Scene& scene, const KdTreeOptions& options)

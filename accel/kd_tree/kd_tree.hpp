@@ -17,12 +17,12 @@
 namespace beambench::accel::kd_tree {
 
 /// A node in eight bytes (Wald, "Realtime Ray Tracing and Interactive Global Illumination",
-/// dissertation, 2004): interior (its children are a pair of nodes, the one below
-/// the plane first) or a leaf (a run of blocks). A plane is a float, so that building and traversal
-/// compare with the same number.
+/// dissertation, 2004): interior (its children are a pair of nodes, first the one below the plane)
+/// or a leaf (a run of blocks). A plane is a float, so that building and traversal use the same
+/// number.
 class KdNode {
  public:
-  static constexpr std::uint64_t kNodes = std::uint64_t{1} << 31U;  ///< most nodes of a tree
+  static constexpr std::uint64_t kNodes = std::uint64_t{1} << 31U;  ///< maximum number of nodes
 
   KdNode() = default;
   static KdNode interior(std::size_t axis, float plane, std::uint32_t children) {
@@ -34,12 +34,12 @@ class KdNode {
 
   bool is_leaf() const { return (word_ & 3U) == kLeaf; }
 
-  // Of an interior node.
+  // For an interior node.
   std::size_t axis() const { return word_ & 3U; }
   float plane() const { return std::bit_cast<float>(other_); }
   std::uint32_t children() const { return (word_ & ~3U) >> 1U; }  ///< the first of a pair; even
 
-  // Of a leaf.
+  // For a leaf.
   std::uint32_t first_block() const { return other_; }
   std::uint32_t block_count() const { return word_ >> 2U; }
 
@@ -57,7 +57,7 @@ class KdNode {
 /// Nodes are in one array: the root, a gap, then pairs of siblings, all pairs below the lower of
 /// two siblings before those below the upper one.
 struct KdTree {
-  scenes::Bounds root;  ///< the root's cell, which holds all points at which there are hits
+  scenes::Bounds root;  ///< the root's cell, which contains all points where hits are possible
   scenes::Bounds scene_bounds;
   LargePageVector<KdNode> nodes;
   std::vector<bvh::PrimitiveBlock> blocks;
@@ -65,26 +65,26 @@ struct KdTree {
   std::uint64_t empty_leaves = 0;
   std::uint64_t references = 0;
   std::uint32_t depth = 0;  ///< nodes on the longest path to a leaf, leaf included
-  /// As `bvh::sah_cost` has it: of a ray that meets the root, the expected number of interior nodes
-  /// visited and blocks tested.
+  /// The cost defined by `bvh::sah_cost`: the expected number of interior nodes visited and blocks
+  /// tested by a ray that meets the root.
   double cost = 0.0;
   ExpectedVisits visits;
 
   bool empty() const { return blocks.empty(); }
 };
 
-/// Throws InputError naming `max_references` when the leaves refer to more, or when there are more
-/// than KdNode::kNodes nodes, or as many pieces as an event can number.
+/// Throws InputError naming `max_references` if the leaves refer to more, or if there are more than
+/// KdNode::kNodes nodes, or more pieces than an event can number.
 KdTree build_kd_tree(const scenes::Scene& scene, const KdTreeOptions& options);
 
-/// The children's cells: that of `cell`, cut at the plane of an interior node.
+/// Return the children's cells: parts of `cell`, divided by the plane of an interior node.
 scenes::Bounds lower_cell(const scenes::Bounds& cell, const KdNode& node);
 scenes::Bounds upper_cell(const scenes::Bounds& cell, const KdNode& node);
 
-/// Where a node is.
+/// The place of a node.
 struct KdPlace {
   scenes::Bounds cell;
-  int level;  ///< the root being level 1
+  int level;  ///< the root has level 1
 };
 
 /// Finds a node's place on the way down from the root.

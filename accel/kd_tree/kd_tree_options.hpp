@@ -1,5 +1,5 @@
 #pragma once
-// How a kd-tree is built.
+// Options of a kd-tree.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +10,8 @@
 
 namespace beambench::accel::kd_tree {
 
-/// The most splits on the way from the root to a leaf; a traversal's stack has as many entries.
+/// The maximum number of splits on the way from the root to a leaf; a traversal's stack has this
+/// many entries.
 inline constexpr int kMaxSplits = 64;
 
 struct KdTreeOptions {
@@ -19,7 +20,7 @@ struct KdTreeOptions {
   Builder builder = Builder::kSah;
   double traversal_cost = 1.0;     ///< of passing an interior node
   double intersection_cost = 0.4;  ///< of testing a block of up to eight primitives
-  double empty_bonus = 0.2;        ///< by which fraction a split costs less that cuts off space
+  double empty_bonus = 0.2;        ///< fraction by which cutting off empty space is cheaper
   std::optional<int> max_depth;    ///< splits above a leaf; nothing: by the number of primitives
   std::uint32_t max_objects = 1;   ///< a node with more may be split
   bool clip = true;                ///< by a primitive's part in a cell, not by its whole box
@@ -28,12 +29,12 @@ struct KdTreeOptions {
   static std::vector<ParameterInfo> parameters();
   static KdTreeOptions from(const Parameters& parameters);
 
-  /// `max_depth`, or for the heuristic 8 + 1.3 log2(n) (Pharr and Humphreys, "Physically Based
-  /// Rendering", 2004; the form is Havran's), for the spatial median 15: its cells are then those
-  /// of the thesis's octree of level 6.
+  /// Returns `max_depth`, or its default: for the heuristic 8 + 1.3 log2(n) (Pharr and Humphreys,
+  /// "Physically Based Rendering", 2004; the form is Havran's), for the spatial median 15, which
+  /// gives the cells of the thesis's octree of level 6.
   int depth_for(std::size_t primitives) const;
-  /// `max_references`, or 10 million, or 8 for each primitive where that is more: a mesh has less
-  /// than two for each of its triangles.
+  /// Returns `max_references`, or its default: 10 million, or 8 per primitive if that is more. A
+  /// mesh has fewer than two per triangle.
   std::uint64_t references_for(std::size_t primitives) const;
 };
 

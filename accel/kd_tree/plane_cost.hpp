@@ -1,5 +1,5 @@
 #pragma once
-// What the surface area heuristic expects of the planes that may divide a cell.
+// The surface area heuristic's expected costs of the planes that may divide a cell.
 
 #include <cstdint>
 
@@ -28,13 +28,14 @@ class PlaneCost {
     along_ = options.intersection_cost * (side + other) / area;
   }
 
-  /// Whether the plane cuts the cell in two.
+  /// Returns whether the plane cuts the cell in two.
   bool is_inside(float plane) const { return lower_ < plane && plane < upper_; }
-  /// The cost of a leaf of so many items, of those rays that meet it.
+  /// Returns the cost of a leaf of `items` items for rays that meet it.
   static double leaf(std::uint32_t items, const KdTreeOptions& options) {
     return options.intersection_cost * blocks(items);
   }
-  /// The cost of a ray that meets the cell, of whose items so many reach to each side of the plane.
+  /// Returns the cost for a ray that meets the cell if `below` and `above` items reach to the sides
+  /// of the plane.
   double operator()(float plane, std::uint32_t below, std::uint32_t above) const {
     const double cost = traversal_ + blocks(below) * (ends_ + (double{plane} - lower_) * along_) +
                         blocks(above) * (ends_ + (upper_ - double{plane}) * along_);
@@ -42,7 +43,8 @@ class PlaneCost {
   }
 
  private:
-  /// Items are tested in blocks. Without this a tree has twice the nodes, and rays take longer.
+  /// Items are tested in blocks. If costs ignored this, a tree would have twice the nodes, and rays
+  /// would take longer.
   static std::uint32_t blocks(std::uint32_t items) {
     constexpr std::uint32_t kLanes = bvh::kBvhLanes;
     return (items + kLanes - 1) / kLanes;
@@ -53,7 +55,7 @@ class PlaneCost {
   double traversal_;
   double discount_;
   double ends_;   ///< probability of meeting a face across the axis, times the cost of a block
-  double along_;  ///< and what each unit of length adds to it
+  double along_;  ///< increase for each unit of length
 };
 
 }  // namespace beambench::accel::kd_tree

@@ -1,5 +1,5 @@
 #pragma once
-// Where primitives begin and end along an axis: the candidates for splitting planes.
+// The places where primitives begin and end along an axis: the candidates for splitting planes.
 
 #include <bit>
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace beambench::accel::kd_tree {
 
-/// A float as an integer of the same order, so that planes are compared and sorted as integers.
+/// A float as an integer with the same order, so that planes are compared and sorted as integers.
 class PlaneKey {
  public:
   explicit PlaneKey(float plane) {
@@ -28,9 +28,9 @@ class PlaneKey {
 };
 
 /// An event of the sweep (Wald and Havran, "On building fast kd-trees for ray tracing, and on doing
-/// that in O(N log N)", 2006, section 4.2): an item begins or ends at a plane. One integer, in the
-/// order of the sweep: by plane, ends before beginnings, then by item. There are no planar events:
-/// boxes are widened, so that each item ends strictly above where it begins.
+/// that in O(N log N)", 2006, section 4.2): an item begins or ends at a plane. Stored as one
+/// integer in the order of the sweep: by plane, ends before beginnings, then by item. Planar events
+/// do not occur: boxes are widened, so each item ends strictly above its beginning.
 class SplitEvent {
  public:
   static constexpr std::uint32_t kItems = 1U << 31U;  ///< one more than the largest index
@@ -57,8 +57,8 @@ class SplitEvent {
   std::uint64_t bits_;
 };
 
-/// Sorts events; `scratch` has their size. Events of one plane and kind must be in the order of
-/// their items.
+/// Sorts events; `scratch` has their size. Events with the same plane and kind must be in the order
+/// of their items.
 void sort_events(std::span<SplitEvent> events, std::span<SplitEvent> scratch);
 
 }  // namespace beambench::accel::kd_tree

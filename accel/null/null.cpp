@@ -1,4 +1,4 @@
-// A structure that returns misses: what remains of a measurement is the harness's own share.
+// A structure that returns misses, so that a measurement consists of the harness's own share.
 
 #include "accel/core/instruction_set.hpp"
 #include "accel/core/registry.hpp"
@@ -28,11 +28,12 @@ class Null : public TraversalAccelerator<Null> {
   }
 
  private:
-  /// For the compiler, the ray is used: making it is part of the overhead.
+  /// Makes the compiler assume that the ray is used, because making it is part of the overhead.
   static void use(const Ray& ray) { asm volatile("" : : "g"(&ray) : "memory"); }
 };
 
-/// Images in packets made by SIMD, lists packed by SIMD: the least share of `embree`, in any mode.
+/// Images in packets made by SIMD, lists packed by SIMD: the minimum share of `embree`, in any
+/// mode.
 class SimdNull : public Null {
  public:
   explicit SimdNull(std::int64_t targets)

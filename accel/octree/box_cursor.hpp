@@ -1,5 +1,5 @@
 #pragma once
-// A position in an octree whose planes lie anywhere.
+// A position in an octree with arbitrary planes.
 
 #include <cstdint>
 
@@ -10,13 +10,13 @@
 
 namespace beambench::accel::octree {
 
-/// A node of an octree with the box that it spans. It only goes down: beside a node there need be
-/// none of its size.
+/// A node of an octree with its box. The cursor only moves down, because adjacent nodes of equal
+/// size need not exist.
 class BoxCursor {
  public:
   using Tree = Octree;
 
-  /// At the root of an octree whose planes lie anywhere.
+  /// Starts at the root of an octree with arbitrary planes.
   explicit BoxCursor(const Octree& octree)
       : octree_(&octree), cell_{glm::ivec3(0), octree.grid().cells, 1} {}
 
@@ -26,10 +26,10 @@ class BoxCursor {
   const glm::ivec3& corner() const { return cell_.corner; }
   const glm::ivec3& size() const { return cell_.size; }
   int level() const { return cell_.level; }
-  /// The planes between the children, as finest cells. Not of a leaf.
+  /// Returns the planes between the children, as finest cells. Must not be called for a leaf.
   glm::ivec3 split() const { return octree_->split_of(node()); }
 
-  /// Goes down to a child by its number (x + 2 y + 4 z). Not from a leaf.
+  /// Goes down to a child by its number (x + 2 y + 4 z). Must not be called for a leaf.
   void enter(std::uint32_t octant) {
     cell_ = cell_.child(split(), octant);
     index_ = node().first + octant;

@@ -22,7 +22,7 @@ struct Trial {
   OctreeWork work;
 };
 
-/// The typical work of the level before the first, at which nothing was counted.
+/// Returns the typical work of the level before the first, where nothing was counted.
 OctreeWork usual_work_before(const OctreeWork& first) {
   OctreeWork before = first;
   before.nodes /= 8.0;
@@ -51,7 +51,7 @@ class LevelSearch {
     while (promises(next, best)) {
       ++options_.max_level;
       Trial deeper = tried(Octree(*scene_, options_, best.octree), next);
-      // Both are built by now.
+      // Both are built already.
       if ((*trace_cost_)(deeper.work) >= (*trace_cost_)(best.work)) break;
       next = extrapolate(best.work, deeper.work);
       best = std::move(deeper);
@@ -101,8 +101,8 @@ Octree choose_octree(const scenes::Scene& scene, const OctreeOptions& options,
 
 namespace {
 
-/// The factor by which a number grew from one level to the next, clamped to [lowest, highest];
-/// `lowest` where there was nothing before.
+/// Returns the factor by which a number grew from one level to the next, clamped to [lowest,
+/// highest]; `lowest` if it was 0 before.
 double growth(double before, double now, double lowest, double highest) {
   return before > 0.0 ? std::clamp(now / before, lowest, highest) : lowest;
 }
@@ -112,8 +112,8 @@ constexpr int kColumns = 32;
 constexpr int kRows = 16;
 constexpr int kStride = 197;
 
-/// Have enough rays been counted? Counting is to take less than a hundredth of the work of all
-/// rays, and rays through a coarse octree are long.
+/// Returns whether enough rays have been counted. Counting must take less than a hundredth of the
+/// work of all rays, and rays through a coarse octree are long.
 bool enough(int rays, const WorkCounters& counters, const Workload& workload) {
   constexpr int kMinRays = 32;
   return rays >= kMinRays &&
@@ -162,7 +162,7 @@ OctreeWork extrapolate(const OctreeWork& before, const OctreeWork& now) {
   next.nodes *= growth(before.nodes, now.nodes, 1.0, 8.0);
   next.references *= growth(before.references, now.references, 1.0, 8.0);
   next.steps += std::max(0.0, now.steps - before.steps);
-  // A cell of half the size holds half the tests at best, of surfaces larger than it.
+  // A cell of half the size has at least half the tests for surfaces larger than it.
   next.tests *= growth(before.tests, now.tests, 0.25, 1.0);
   // With twice the cells along an axis, the edges of cells cross on the image at least four times
   // as often, and eight times where all cells are divided; at the next level growth is mostly

@@ -1,5 +1,5 @@
 #pragma once
-// `max_level=auto`: the octree of the level that is expected to be the fastest.
+// `max_level=auto`: finds the octree of the level that is expected to be the fastest.
 
 #include <functional>
 
@@ -8,7 +8,7 @@
 
 namespace beambench::accel::octree {
 
-/// What building an octree and tracing a workload through it takes.
+/// The work of building an octree and tracing a workload through it.
 struct OctreeWork {
   double rays;               ///< of the workload
   double nodes;              ///< of the octree
@@ -20,27 +20,27 @@ struct OctreeWork {
   double occupied = 0.0;     ///< beams that end at an occupied leaf
 };
 
-/// Counts the work of individual rays on a grid of 32 x 16 rays over the camera's image, or on some
-/// of them where rays take much work.
+/// Counts the work of individual rays on a grid of 32 x 16 rays over the camera's image, or of some
+/// of them if rays take much work.
 OctreeWork count_work(const scenes::Scene& scene, const Octree& octree, const Workload& workload);
 
-/// The work of the next level, extrapolated from this level's and the one before.
+/// Extrapolates the work of the next level from this level's and the one before.
 OctreeWork extrapolate(const OctreeWork& before, const OctreeWork& now);
 
-/// Nanoseconds that tracing individual rays is expected to take. The coefficients are those of
-/// section 5.3.3 of the thesis, fitted to measured times (results/published/thesis): only
-/// their ratios matter for the level at which the sum is least.
+/// Returns the expected nanoseconds of tracing individual rays. The coefficients are those of
+/// section 5.3.3 of the thesis, fitted to measured times (results/published/thesis): only their
+/// ratios affect the level with the smallest sum.
 double samet_trace_cost(const OctreeWork& work);
 
 /// Counts what `count_work` does not; `expected` is an estimate of the result, all zero at first.
 using CountMore =
     std::function<void(const Octree& octree, const OctreeWork& expected, OctreeWork& work)>;
-/// Nanoseconds of tracing.
+/// Returns nanoseconds of tracing.
 using TraceCost = std::function<double(const OctreeWork& work)>;
 
-/// The octree of `options`, where `max_level` may be automatic: levels are tried from 3 on, each
-/// octree made from the one before, as long as building and tracing the next one are expected to
-/// cost less. Throws as `Octree`, but where the level is automatic the search ends before
+/// Returns the octree of `options`, where `max_level` may be automatic: levels are tried from 3 on,
+/// each octree made from the one before, as long as building and tracing the next one are expected
+/// to cost less. Throws as `Octree`; if the level is automatic, however, the search ends before
 /// `max_references` is exceeded.
 Octree choose_octree(const scenes::Scene& scene, const OctreeOptions& options,
                      const Workload& workload, const TraceCost& trace_cost,

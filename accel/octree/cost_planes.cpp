@@ -18,7 +18,7 @@ struct Extent {
   std::int32_t last;
 };
 
-/// The plane below and above which lie the centers of as many primitives.
+/// Returns the plane with equally many centers below and above it.
 std::int32_t object_median(std::span<const Extent> extents, std::vector<std::int32_t>& centers) {
   centers.clear();
   for (const Extent& extent : extents) centers.push_back((extent.first + extent.last + 1) / 2);
@@ -27,7 +27,7 @@ std::int32_t object_median(std::span<const Extent> extents, std::vector<std::int
   return *middle;
 }
 
-/// Half the area of a box: costs are only compared.
+/// Returns half the area of a box, because costs are only compared.
 double half_area(const glm::dvec3& size) {
   return size.x * size.y + size.y * size.z + size.z * size.x;
 }

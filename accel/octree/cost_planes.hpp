@@ -1,5 +1,5 @@
 #pragma once
-// Planes between a node's children where the heuristic cost is least.
+// Chooses planes between a node's children with the least heuristic cost.
 
 #include <span>
 
@@ -10,14 +10,15 @@
 
 namespace beambench::accel::octree {
 
-/// The planes, as finest cells, that divide the box of `size` cells at `corner`, at least 2 of them
-/// along each axis. MacDonald and Booth ("Heuristics for ray tracing using space subdivision", The
-/// Visual Computer 6(3), 1990): a plane costs the areas of its two sides, each times the number of
-/// objects there, and the best plane lies between the spatial median and the object median. Whang
-/// and others ("Octree-R: an adaptive octree for efficient ray tracing", IEEE TVCG 1(4), 1995)
-/// choose the plane of each axis so. As Havran measured it (1999), 10 positions between the
-/// medians are tried, evenly spaced; of equal costs that nearest to the spatial median is taken.
-/// The object median is that of the centers of the objects' boxes, clipped by the node.
+/// Returns the planes, as finest cells, that divide the box of `size` cells (at least 2 along each
+/// axis) at `corner`. MacDonald and Booth ("Heuristics for ray tracing using space subdivision",
+/// The Visual Computer 6(3), 1990): a plane costs the areas of its two sides, each times the number
+/// of objects there, and the best plane lies between the spatial median and the object median.
+/// Whang and others ("Octree-R: an adaptive octree for efficient ray tracing", IEEE TVCG 1(4),
+/// 1995) choose the plane of each axis in this way. As in Havran's measurements (1999), 10 evenly
+/// spaced positions between the medians are tried; of equal costs, the one nearest to the spatial
+/// median is taken. The object median is that of the centers of the objects' boxes, clipped by the
+/// node.
 ///
 /// `ranges` has the cells of every primitive of the scene; `primitives` are those of the node.
 glm::ivec3 cost_planes(const CellGrid& grid, const glm::ivec3& corner, const glm::ivec3& size,

@@ -1,5 +1,5 @@
 #pragma once
-// From a node of an octree down to the leaf that a ray is in.
+// Descends from a node of an octree to the leaf that contains the ray.
 
 #include <cstdint>
 
@@ -9,8 +9,8 @@
 
 namespace beambench::accel::octree {
 
-/// Goes down to the leaf that the ray is in at parameter t (a point on a boundary belongs to the
-/// side the ray is going to). Returns the number of levels descended.
+/// Descends to the leaf that contains the ray at parameter t (a point on a boundary belongs to the
+/// side that the ray moves to). Returns the number of levels descended.
 template <class Cursor>
 [[gnu::always_inline]] inline int descend_to_leaf(Cursor& cursor, const CellRay& ray, double t) {
   int levels = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// A ray in a leaf of an octree: where it leaves it, and how its visit is counted.
+// A ray in a leaf of an octree: its exit, and counting its visit.
 
 #include <algorithm>
 #include <array>
@@ -14,8 +14,8 @@
 
 namespace beambench::accel::octree {
 
-/// Where a ray leaves a leaf: at t, over the face, edge or vertex that `step` (-1, 0 or 1 for each
-/// axis) points at.
+/// The exit of a ray from a leaf: at t, over the face, edge or vertex that `step` (-1, 0 or 1 for
+/// each axis) points at.
 struct LeafExit {
   double t;
   glm::ivec3 step;
@@ -33,7 +33,7 @@ template <class Cursor>
 }
 
 /// Counts and records that the ray is in the cursor's leaf from t to `exit_t`. Steps are not
-/// counted here: how many it took to find the leaf is what traversals differ in.
+/// counted here, because traversals differ in the number of steps to find the leaf.
 template <class Cursor, class Counting>
 [[gnu::always_inline]] inline void enter_leaf(const Cursor& cursor, const Ray& ray, double t,
                                               double exit_t, const typename Cursor::Tree& octree,

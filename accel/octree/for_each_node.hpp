@@ -7,7 +7,7 @@
 
 namespace beambench::accel::octree {
 
-/// Calls `visit(cursor)` at each node below a place in an octree, that place included.
+/// Calls `visit(cursor)` at each node below a place in an octree, and at that place itself.
 template <class Cursor, class Visit>
 void for_each_node(Cursor from, Visit visit) {
   std::vector<Cursor> open{std::move(from)};

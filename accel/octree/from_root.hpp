@@ -11,8 +11,8 @@
 
 namespace beambench::accel::octree {
 
-/// Each over octrees with central planes; with planes that lie anywhere; and divided on demand, by
-/// planes of either kind.
+/// Each for octrees with central planes, with arbitrary planes, and divided on demand with planes
+/// of either kind.
 ///
 /// Glassner's traversal (IEEE CG&A 4(10), 1984).
 using Glassner = OctreeTracer<RootSearch<OctreeCursor>>;

@@ -12,7 +12,7 @@
 namespace beambench::accel::octree {
 
 /// A counter of structures over an octree: nodes passed from a leaf to its neighbor of equal or
-/// larger size. The descent to a smaller leaf, the same for all, is not counted.
+/// larger size. The descent to a smaller leaf, the same for all structures, is not counted.
 inline constexpr std::string_view kNeighborSteps = "neighbor_steps";
 inline constexpr std::string_view kNeighborStepsMeaning =
     "nodes of the octree passed from a leaf to its neighbor of equal or larger size; the descent "
@@ -24,12 +24,12 @@ inline constexpr std::string_view kNeighborStepsMeaning =
 /// edge or a vertex goes to the edge or vertex neighbor.
 ///
 /// `search.move(cursor, step)` moves the cursor from a leaf to a node behind the face, edge or
-/// vertex that `step` (-1, 0 or 1 for each axis) points at, in which the search for the next leaf
-/// goes on downward; it returns the number of nodes passed, the last one included, and 0 where the
-/// root ends. `Search::Cursor` is a place in the octree; `Search::kNeighborSteps` says
-/// whether that node is the neighbor of equal or larger size, so that the nodes passed are neighbor
-/// steps. `Search::count_last_climb(level, counting)` counts what a search does that leaves the
-/// root from a leaf of that level, beyond the nodes passed.
+/// vertex that `step` (-1, 0 or 1 for each axis) points at, from which the search for the next leaf
+/// continues downward; it returns the number of nodes passed, including the last one, and 0 if the
+/// root ends there. `Search::Cursor` is a place in the octree; `Search::kNeighborSteps`
+/// states whether that node is the neighbor of equal or larger size, so that the passed nodes are
+/// neighbor steps. `Search::count_last_climb(level, counting)` counts what a search adds when a ray
+/// leaves the root from a leaf of that level.
 template <class Search>
 struct LeafWalk {
   using Cursor = typename Search::Cursor;
@@ -40,8 +40,9 @@ struct LeafWalk {
   const CellRay& planes;  ///< of `ray` and the octree's grid
 
   /// Calls `visit(leaf, exit_t)` for the leaves from a node on that the ray enters at t, until it
-  /// returns true or the ray leaves the root. `passed` nodes were passed to find that node, itself
-  /// included. Returns the level of the leaf in which the ray left the root; 0 where it did not.
+  /// returns true or the ray leaves the root. `passed` is the number of nodes passed to find that
+  /// node, including itself. Returns the level of the leaf in which the ray left the root; 0 if it
+  /// did not.
   template <class Counting, class Visit>
   [[gnu::always_inline]] int from(Cursor cursor, double t, int passed, Counting& counting,
                                   Visit visit) const {
@@ -60,7 +61,7 @@ struct LeafWalk {
     }
   }
 
-  /// The leaves behind a leaf.
+  /// Visits the leaves behind a leaf.
   template <class Counting, class Visit>
   [[gnu::always_inline]] void behind(Cursor leaf, Counting& counting, Visit visit) const {
     const LeafExit exit = leaf_exit(planes, leaf);

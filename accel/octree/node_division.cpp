@@ -17,8 +17,8 @@
 namespace beambench::accel::octree {
 namespace {
 
-/// Planes that may lie anywhere are rounded to that many cells along each axis: all a `CellRange`
-/// can number.
+/// The number of cells along each axis to which arbitrary planes are rounded: the maximum that a
+/// `CellRange` can number.
 constexpr int kCostCells = 1 << 16;
 
 }  // namespace
@@ -30,7 +30,7 @@ CellGrid octree_grid(const scenes::Scene& scene, const OctreeOptions& options) {
   if (options.root == OctreeOptions::Root::kCube) {
     size = glm::dvec3(std::max({size.x, size.y, size.z}));
   }
-  // Hits lie within the tolerance of the bounds: the root must hold them.
+  // Hits lie within the tolerance of the bounds, so the root must contain that margin.
   const glm::dvec3 margin = glm::max(size * options.pad, glm::dvec3(2.0 * tolerance));
   return make_cell_grid(
       scene.bounds, size, margin,
@@ -150,7 +150,7 @@ bool NodeDivision::will_exceed(int level, bool of_lists) const {
                           [&](Random& random) { return chosen(estimate(random), of_lists); });
 }
 
-/// The children that a primitive of the node belongs to, as a bit mask.
+/// Returns the children to which a primitive of the node belongs, as a bit mask.
 std::uint8_t NodeDivision::overlapped_octants(const OctreeCell& cell, const glm::ivec3& split,
                                               scenes::PrimitiveId id) const {
   constexpr std::array<std::uint8_t, 3> kLowHalf{0x55, 0x33, 0x0F};  // octants with the axis' bit 0
@@ -171,7 +171,8 @@ std::uint8_t NodeDivision::overlapped_octants(const OctreeCell& cell, const glm:
       octants &= low ? kLowHalf[slot] : static_cast<std::uint8_t>(~kLowHalf[slot]);
     }
   }
-  // One octant is left, or a connected surface inside the node crosses one plane: no test needed.
+  // If one octant is left, or a connected surface inside the node crosses one plane, no test is
+  // needed.
   if (axes_crossed == 0 || (axes_crossed == 1 && contained)) return octants;
   if (options_->assign == OctreeOptions::Assign::kBounds) return octants;
   for (std::uint32_t octant = 0; octant < 8; ++octant) {

@@ -1,5 +1,5 @@
 #pragma once
-// How a node of an octree is divided: the rules that all builders share.
+// The rules for dividing a node of an octree, shared by all builders.
 
 #include <array>
 #include <cstddef>
@@ -18,11 +18,11 @@
 
 namespace beambench::accel::octree {
 
-/// Where a node lies.
+/// The place of a node.
 struct OctreeCell {
   glm::ivec3 corner{0};
   glm::ivec3 size{1};  ///< in finest cells
-  int level = 1;       ///< the root being level 1
+  int level = 1;       ///< the root has level 1
 
   /// Child number x + 2 y + 4 z.
   OctreeCell child(const glm::ivec3& split, std::uint32_t octant) const {
@@ -36,9 +36,9 @@ struct OctreeCell {
   }
 };
 
-/// Decides whether a node is divided, by which planes, and which children refer to a primitive: a
-/// function of the scene, the options and the node alone, whoever asks and when. Several threads
-/// may ask at once. Scene and options must outlive it.
+/// Decides whether a node is divided, by which planes, and which children refer to a primitive. The
+/// decisions depend only on the scene, the options and the node, not on the caller or the time.
+/// Safe from several threads. Scene and options must outlive this object.
 class NodeDivision {
  public:
   NodeDivision(const scenes::Scene& scene, const OctreeOptions& options);
@@ -46,32 +46,32 @@ class NodeDivision {
   const CellGrid& grid() const { return grid_; }
   OctreeCell root() const { return {glm::ivec3(0), grid_.cells, 1}; }
 
-  /// Is a node with that many primitives divided?
+  /// Returns whether a node with that many primitives is divided.
   bool divides(const OctreeCell& cell, std::size_t primitives) const {
     return primitives > options_->max_objects && can_divide(cell);
   }
-  /// May it be? Not at `max_level`, nor where it is one finest cell thin.
+  /// Returns whether a node may be divided: it is not at `max_level` and not one finest cell thin.
   bool can_divide(const OctreeCell& cell) const {
     return cell.level < options_->max_level && cell.size.x > 1 && cell.size.y > 1 &&
            cell.size.z > 1;
   }
-  /// The planes between the children, as finest cells.
+  /// Returns the planes between the children, as finest cells.
   glm::ivec3 split(const OctreeCell& cell, std::span<const scenes::PrimitiveId> primitives) const;
 
-  /// Writes the children's lists, one after the other, each in increasing id; returns where each
-  /// ends. `octants` is scratch.
+  /// Writes the children's lists, one after the other, each in increasing id; returns the end of
+  /// each. `octants` is scratch memory.
   std::array<std::size_t, 8> distribute(const OctreeCell& cell, const glm::ivec3& split,
                                         std::span<const scenes::PrimitiveId> primitives,
                                         std::vector<std::uint8_t>& octants,
                                         std::vector<scenes::PrimitiveId>& lists) const;
 
-  /// An estimate for the octree that is divided no deeper than `level`.
+  /// Makes an estimate for the octree divided no deeper than `level`.
   ExpectedReferences expected_references(int level, Random& random) const;
-  /// Will the octree that is divided no deeper than `level` refer to more than `max_references`
-  /// primitives, in its leaves or, if `of_lists`, in all nodes but the root?
+  /// Predicts whether the octree divided no deeper than `level` will refer to more than
+  /// `max_references` primitives, in its leaves or, if `of_lists`, in all nodes except the root.
   bool will_exceed(int level, bool of_lists) const;
-  /// The same before it is built, from a small part of many primitives where planes are fixed.
-  /// Throws what `fail_too_many_references` throws.
+  /// Checks the same before the octree is built, from a small part of many primitives, if planes
+  /// are fixed. Throws like `fail_too_many_references`.
   void require_few_references(int level, bool of_lists) const;
 
   /// Throws the InputError that names `max_references`.
@@ -88,7 +88,7 @@ class NodeDivision {
   double tolerance_;
   CellGrid grid_;
   std::vector<CellRange> ranges_;  ///< in finest cells, by primitive
-  std::vector<bool> repeats_;      ///< has the surface of the primitive before it
+  std::vector<bool> repeats_;      ///< has the same surface as the preceding primitive
 };
 
 }  // namespace beambench::accel::octree

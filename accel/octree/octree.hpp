@@ -1,5 +1,5 @@
 #pragma once
-// The octree of the thesis (section 3.3), shared by every structure that traverses one.
+// The octree of the thesis (section 3.3), shared by all structures that traverse one.
 
 #include <array>
 #include <cstddef>
@@ -17,53 +17,53 @@
 
 namespace beambench::accel::octree {
 
-/// How an octree is subdivided.
+/// Options for subdividing an octree.
 struct OctreeOptions {
   enum class Root { kCube, kBox };          ///< a cube around the scene (thesis), or its own box
-  enum class Assign { kSurface, kBounds };  ///< a reference where the surface, or its box, reaches
+  enum class Assign { kSurface, kBounds };  ///< criterion for a reference: surface, or box
 
-  enum class Planes { kMedian, kCost };       ///< nodes halved, or planes where a cost is least
-  enum class Build { kComplete, kOnDemand };  ///< before the first ray, or where rays come
+  enum class Planes { kMedian, kCost };       ///< halved nodes, or planes at the least cost
+  enum class Build { kComplete, kOnDemand };  ///< before the first ray, or on demand
 
-  /// In `max_level`: `choose_octree` finds it.
+  /// The value of `max_level` that lets `choose_octree` find the level.
   static constexpr int kAutomatic = 0;
 
   int max_level = 6;              ///< the root is level 1 (the thesis's counting)
-  std::uint32_t max_objects = 0;  ///< a leaf with more is split while its level allows
+  std::uint32_t max_objects = 0;  ///< a leaf with more is split if its level allows
   Root root = Root::kCube;
   Assign assign = Assign::kSurface;
   double pad = 1e-6;  ///< root's margin on each side, relative to its size
   std::uint64_t max_references = 50'000'000;
 
-  /// Only traversals from the root find their way between planes that lie anywhere; all others
-  /// refuse `kCost`.
+  /// Only traversals from the root support arbitrary planes; all others refuse `kCost`.
   Planes planes = Planes::kMedian;
-  Build build = Build::kComplete;  ///< `OnDemandOctree` divides on demand; `Octree` never
-  int built_level = 4;             ///< divided before the first ray, with `kOnDemand`
+  Build build = Build::kComplete;  ///< `OnDemandOctree` divides on demand, `Octree` never
+  int built_level = 4;             ///< the level divided before the first ray, with `kOnDemand`
 
-  /// The parameters `max_level`, `max_objects`, `root`, `assign`, `pad`, `max_references` that
-  /// every structure over an octree offers, and their values read back.
+  /// The parameters `max_level`, `max_objects`, `root`, `assign`, `pad`, `max_references` of every
+  /// structure over an octree, and reading their values.
   static std::vector<ParameterInfo> parameters();
   static OctreeOptions from(const Parameters& parameters);
 
-  /// These, and `planes`, `build`, `built_level` of the structures that are traversed from the root
-  /// down, and their values read back.
+  /// These parameters, and `planes`, `build`, `built_level` of the structures traversed from the
+  /// root down, and reading their values.
   static std::vector<ParameterInfo> top_down_parameters();
   static OctreeOptions from_top_down(const Parameters& parameters);
 };
 
-/// The finest cells of an octree of these options over a scene: its root, divided evenly, into
-/// 2^(max_level - 1) cells along each axis where nodes are halved, and into 2^16, to which planes
-/// are rounded, where they lie anywhere.
+/// Returns the finest cells of an octree with these options over a scene: its root, divided evenly
+/// into 2^(max_level - 1) cells along each axis if nodes are halved, and into 2^16 if planes are
+/// arbitrary, which are rounded to these cells.
 CellGrid octree_grid(const scenes::Scene& scene, const OctreeOptions& options);
 
-/// A part of an octree, where a scene is divided among several processes: its cells of `level` that
-/// are not `own` are empty leaves, whatever is in them.
+/// A part of an octree, for a scene divided among several processes: its cells of `level` that are
+/// not `own` are empty leaves, whatever they contain.
 struct OctreePart {
   int level;  ///< not deeper than the octree's `max_level`
   std::function<bool(const glm::ivec3& cell)> own;
-  /// Must a node of `size` cells along each axis, from `first` on, be divided? Then all cells of
-  /// `level` in it that are such nodes exist, whether this part has primitives there or not.
+  /// Returns whether a node of `size` cells along each axis, from `first` on, must be divided. If
+  /// so, all cells of `level` in it that are such nodes exist, whether or not this part has
+  /// primitives there.
   std::function<bool(const glm::ivec3& first, std::int32_t size)> divided;
 };
 
@@ -72,7 +72,7 @@ struct OctreePart {
 struct OctreeNode {
   static constexpr std::uint32_t kInterior = 0xFFFFFFFFU;
 
-  std::uint32_t parent;  ///< index of the parent; the root's is the root
+  std::uint32_t parent;  ///< index of the parent; for the root, that of the root itself
   std::uint32_t first;   ///< first child, or first reference
   std::uint32_t count;   ///< kInterior, or the number of references
 
@@ -84,31 +84,32 @@ struct OctreeNode {
 /// closed cell, widened by `overlap_tolerance`, in increasing id.
 class Octree {
  public:
-  /// Static subdivision (thesis, section 3.3): the root is split until a node has at most
-  /// `max_objects` primitives or lies at `max_level`. Throws InputError naming `max_references`
-  /// when the references exceed it.
+  /// Static subdivision (thesis, section 3.3): nodes are split until they have at most
+  /// `max_objects` primitives or lie at `max_level`. Throws InputError naming `max_references` if
+  /// the references exceed it.
   Octree(const scenes::Scene& scene, const OctreeOptions& options);
 
-  /// The same as `Octree(scene, options)`, made faster from the octree of a lower `max_level` and
-  /// otherwise equal options.
+  /// Makes the same as `Octree(scene, options)`, but faster, from the octree of a lower `max_level`
+  /// and otherwise equal options.
   Octree(const scenes::Scene& scene, const OctreeOptions& options, const Octree& coarser);
 
-  /// A part of an octree, over a scene that has at least all primitives that reach into its own
-  /// cells.
+  /// Makes a part of an octree, over a scene with at least all primitives that reach into the
+  /// part's own cells.
   Octree(const scenes::Scene& scene, const OctreeOptions& options, const OctreePart& part);
 
-  /// The finest cells, as many along each axis (`octree_grid`).
+  /// The finest cells, equally many along each axis (`octree_grid`).
   const CellGrid& grid() const { return grid_; }
-  /// Is each node halved along each axis? Neighbors are found by coordinates only where it is.
+  /// Returns whether each node is halved along each axis, which finding neighbors by coordinates
+  /// requires.
   bool has_central_planes() const { return central_planes_; }
-  /// The planes between the children of an interior node, as finest cells. Not of an octree with
-  /// central planes.
+  /// Returns the planes between the children of an interior node, as finest cells. Must not be
+  /// called for an octree with central planes.
   glm::ivec3 split_of(const OctreeNode& node) const {
     const auto& split = splits_[(node.first - 1) / 8];
     return {split[0], split[1], split[2]};
   }
   int deepest_level() const { return deepest_level_; }
-  /// Of all leaves together.
+  /// Returns the number of references in all leaves.
   std::size_t reference_count() const { return references_.size(); }
   std::span<const OctreeNode> nodes() const { return nodes_; }
   std::span<const scenes::PrimitiveId> references(const OctreeNode& leaf) const {
@@ -116,7 +117,7 @@ class Octree {
   }
 
   Statistics statistics() const;
-  /// The leaves that hold references, in scene units.
+  /// Returns the leaves that hold references, in scene units.
   std::vector<Box> occupied_cells() const;
 
  private:
@@ -125,7 +126,7 @@ class Octree {
   CellGrid grid_;
   std::vector<OctreeNode> nodes_;
   std::vector<scenes::PrimitiveId> references_;
-  /// Of interior nodes, in the order of their children; empty where planes are central.
+  /// The planes of interior nodes, in the order of their children; empty if planes are central.
   std::vector<std::array<std::uint16_t, 3>> splits_;
   scenes::Bounds scene_bounds_;
   bool central_planes_ = true;

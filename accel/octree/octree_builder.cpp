@@ -28,8 +28,8 @@ struct Pending {
 
 }  // namespace
 
-/// Depth-first subdivision. Each level keeps the lists of the eight children being worked on in one
-/// array, so nothing is allocated for a node.
+/// Depth-first subdivision. Each level keeps the current lists of the eight children in one array,
+/// so nothing is allocated for a node.
 class OctreeBuilder {
  public:
   /// `part`, if given, outlives the builder.
@@ -63,8 +63,8 @@ class OctreeBuilder {
   }
 
  private:
-  /// Where every occupied node is divided down to the finest cells, these foretell the references;
-  /// elsewhere they are estimated.
+  /// If every occupied node is divided down to the finest cells, these predict the references;
+  /// otherwise they are estimated.
   ReferenceLimit limit() const {
     const std::uint64_t most = options_.max_references;
     if (part_ != nullptr) return ReferenceLimit(most);
@@ -86,7 +86,7 @@ class OctreeBuilder {
     octree_.references_.shrink_to_fit();
   }
 
-  /// Where the coarser octree has a leaf, `subdivide` continues with its references.
+  /// If the coarser octree has a leaf, `subdivide` continues with its references.
   void subdivide_below(const Pending& pending, const Octree& coarser, std::uint32_t node) {
     const OctreeNode& there = coarser.nodes()[node];
     if (there.is_leaf()) {

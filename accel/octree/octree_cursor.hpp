@@ -1,5 +1,5 @@
 #pragma once
-// A position in an octree: a node, and where it lies.
+// A position in an octree: a node and its place.
 
 #include <bit>
 #include <cstdint>
@@ -16,7 +16,7 @@ class OctreeCursor {
  public:
   using Tree = Octree;
 
-  /// At the root.
+  /// Starts at the root.
   explicit OctreeCursor(const Octree& octree)
       : nodes_(octree.nodes().data()), size_(octree.grid().cells.x), cells_(size_) {}
 
@@ -25,13 +25,13 @@ class OctreeCursor {
   std::uint32_t index() const { return index_; }
   const glm::ivec3& corner() const { return corner_; }
   std::int32_t size() const { return size_; }
-  /// The root being level 1.
+  /// Returns the level; the root has level 1.
   int level() const { return std::countr_zero(static_cast<std::uint32_t>(cells_ / size_)) + 1; }
 
-  /// The planes between the children, as finest cells. Not of a leaf.
+  /// Returns the planes between the children, as finest cells. Must not be called for a leaf.
   glm::ivec3 split() const { return corner_ + size_ / 2; }
 
-  /// Goes down to a child by its number (x + 2 y + 4 z). Not from a leaf.
+  /// Goes down to a child by its number (x + 2 y + 4 z). Must not be called for a leaf.
   void enter(std::uint32_t octant) {
     index_ = node().first + octant;
     size_ /= 2;
@@ -40,7 +40,7 @@ class OctreeCursor {
     }
   }
 
-  /// Goes down to the child whose lowest finest cell is `corner`. Not from a leaf.
+  /// Descends to the child whose lowest finest cell is `corner`. Must not be called for a leaf.
   void enter_child(const glm::ivec3& corner) {
     size_ /= 2;
     std::uint32_t octant = 0;
@@ -52,10 +52,10 @@ class OctreeCursor {
   }
 
   /// Samet's search for the neighbor of equal or larger size across the faces of one or more axes
-  /// (a face, edge or vertex neighbor): climbs to the nearest common ancestor and goes down again,
-  /// the path mirrored, as far as there are nodes (Samet, "Implementing ray tracing with octrees
-  /// and neighbor finding", Computers & Graphics 13(4), 1989; thesis, section 3.5.2.2). `step`
-  /// holds -1, 0 or 1 for each axis. Returns the number of levels climbed and descended; 0 when the
+  /// (a face, edge or vertex neighbor): climbs to the nearest common ancestor and descends along
+  /// the mirrored path as far as there are nodes (Samet, "Implementing ray tracing with octrees and
+  /// neighbor finding", Computers & Graphics 13(4), 1989; thesis, section 3.5.2.2). `step` holds
+  /// -1, 0 or 1 for each axis. Returns the number of levels climbed and descended; 0 when the
   /// neighbor would lie outside the root.
   [[gnu::always_inline]] int move_to_neighbor(const glm::ivec3& step) {
     const glm::ivec3 target = corner_ + step * size_;
@@ -72,7 +72,8 @@ class OctreeCursor {
       index_ = node().parent;
       size_ *= 2;
     }
-    // Descend mirrored: the target's coordinates spell the path with the crossed axes reflected.
+    // Descend mirrored: the bits of the target's coordinates give the path with the crossed axes
+    // reflected.
     for (; size_ > equal_size && !node().is_leaf(); ++levels) {
       size_ /= 2;
       std::uint32_t octant = 0;
@@ -85,7 +86,7 @@ class OctreeCursor {
     return levels;
   }
 
-  /// Goes to a node whose place is known.
+  /// Jumps to a node whose place is known.
   void jump(std::uint32_t index, const glm::ivec3& corner, std::int32_t size) {
     index_ = index;
     corner_ = corner;
@@ -100,7 +101,7 @@ class OctreeCursor {
   std::int32_t cells_;
 };
 
-/// At the node of `size` at `corner`, which must be in the octree.
+/// Returns a cursor at the node of `size` at `corner`, which must be in the octree.
 inline OctreeCursor cursor_of(const Octree& octree, const glm::ivec3& corner, std::int32_t size) {
   OctreeCursor cursor(octree);
   while (cursor.size() > size) cursor.enter_child(corner & glm::ivec3(-(cursor.size() / 2)));

@@ -11,20 +11,20 @@
 namespace beambench::accel::octree {
 
 /// Links from each node through each of its six faces to the neighbor of equal or larger size: the
-/// node in which Samet's search over the common ancestor ends, one step away. Where the neighbors
-/// are smaller the link leads to their parent, from which the ray descends.
+/// node that Samet's search over the common ancestor finds, in one step. If the neighbors are
+/// smaller, the link leads to their parent, from which the ray descends.
 ///
-/// Only faces are linked. Through an edge or a vertex, which few rays meet exactly, the neighbor is
-/// found as Samet does.
+/// Only faces are linked. Neighbors across an edge or a vertex, which few rays meet exactly, are
+/// found by Samet's search.
 class OctreeNet {
  public:
   using Cursor = OctreeCursor;
   static constexpr bool kNeighborSteps = true;
 
-  /// One pass over the nodes: a child's links follow from its parent's.
+  /// Takes one pass over the nodes: a child's links follow from its parent's.
   explicit OctreeNet(const Octree& octree);
 
-  /// As `LeafWalk` requires.
+  /// Implements the interface of `LeafWalk`.
   int move(OctreeCursor& cursor, const glm::ivec3& step) const {
     const int face = face_of(step);
     if (face == kNoFace) return cursor.move_to_neighbor(step);
@@ -35,8 +35,8 @@ class OctreeNet {
     return 1;
   }
 
-  /// The node behind a face, `2 * axis` (below) or `2 * axis + 1` (above); kOutside behind the
-  /// root's.
+  /// Returns the node behind a face, `2 * axis` (below) or `2 * axis + 1` (above); kOutside behind
+  /// the root's.
   std::uint32_t neighbor(std::uint32_t node, int face) const {
     return places_[node].neighbors[static_cast<std::size_t>(face)];
   }
@@ -56,7 +56,7 @@ class OctreeNet {
   };
 
   static constexpr int kNoFace = -1;
-  /// The face that a step of one axis leads through; kNoFace for more than one.
+  /// Returns the face that a step along one axis crosses; kNoFace for more than one axis.
   static int face_of(const glm::ivec3& step) {
     switch (step.x + 3 * step.y + 9 * step.z) {
       case -1:

@@ -1,5 +1,5 @@
 #pragma once
-// A structure for single rays, from an octree and a way to find the leaves along a ray.
+// Makes a structure for single rays from an octree and a search for the leaves along a ray.
 
 #include <concepts>
 #include <optional>
@@ -20,8 +20,9 @@
 
 namespace beambench::accel::octree {
 
-/// The octree of the thesis (section 3.3) for individual rays. `Search`, made from the
-/// octree, finds the leaves along a ray (leaf_walk.hpp); it changes no leaf, no order and no hit.
+/// The octree of the thesis (section 3.3) for individual rays. `Search`, made from the octree,
+/// finds the leaves along a ray by `walk_leaves(octree, search, ray, counting, visit)`; all
+/// searches give the same leaves, order and hits.
 template <class Search>
 class OctreeTracer : public TraversalAccelerator<OctreeTracer<Search>> {
  public:
@@ -79,7 +80,7 @@ class OctreeTracer : public TraversalAccelerator<OctreeTracer<Search>> {
   }
 
  private:
-  /// Places by a size and halves of it have no way between planes that lie anywhere.
+  /// Throws if planes are arbitrary but the search identifies places by sizes that are halved.
   void require_fitting_planes() const {
     if constexpr (std::is_same_v<typename Search::Cursor, OctreeCursor>) {
       if (octree_.has_central_planes()) return;

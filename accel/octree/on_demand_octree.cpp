@@ -14,7 +14,7 @@ OnDemandOctree::OnDemandOctree(const scenes::Scene& scene, const OctreeOptions& 
   root_.references.resize(scene.primitives.size());
   std::iota(root_.references.begin(), root_.references.end(), scenes::PrimitiveId{0});
   divide_to(root_, root_cell(), options_.built_level);
-  // What is divided from now on, and how much of it, is for the rays to say.
+  // From now on, the rays determine what is divided.
   limit_ = ReferenceLimit(options_.max_references);
 }
 

@@ -31,7 +31,7 @@ struct OnDemandNode {
   mutable std::atomic<const Children*> children{nullptr};
 };
 
-/// What a node was divided into.
+/// The result of dividing a node.
 struct Children {
   glm::ivec3 split;  ///< the planes between them, as finest cells
   std::array<OnDemandNode, 8> nodes;
@@ -39,17 +39,16 @@ struct Children {
 
 /// The octree of McNeill and others ("Performance of space subdivision techniques in ray tracing",
 /// Computer Graphics Forum 11(4), 1992; thesis, section 2.2.2): few rays reach the small nodes, so
-/// only the high levels are divided beforehand, and a node below when the first ray enters it. It
-/// is divided by the same rules (`NodeDivision`), so that a ray passes through the same leaves as
-/// in `Octree`.
+/// only the high levels are divided in advance, and lower nodes when the first ray enters them. The
+/// rules are the same (`NodeDivision`), so a ray passes through the same leaves as in `Octree`.
 ///
 /// Several threads may query at once. A thread that finds a node undivided divides it and then
-/// publishes the children under a lock; one that comes second discards its own, which are the same.
-/// A divided node keeps its list, for another thread may still be dividing it.
+/// publishes the children under a lock; a second thread discards its own, which are the same. A
+/// divided node keeps its list, because another thread may still be dividing it.
 class OnDemandOctree {
  public:
-  /// Divides down to `built_level`. The scene must outlive this. Throws InputError naming
-  /// `max_references` when the lists exceed it.
+  /// Divides down to `built_level`. The scene must outlive this object. Throws InputError naming
+  /// `max_references` if the lists exceed it.
   OnDemandOctree(const scenes::Scene& scene, const OctreeOptions& options);
   OnDemandOctree(const OnDemandOctree&) = delete;
   OnDemandOctree& operator=(const OnDemandOctree&) = delete;
@@ -61,43 +60,45 @@ class OnDemandOctree {
     return leaf.references;
   }
 
-  /// The children of a node at a place, divided now if none entered it before; nullptr of a leaf.
-  /// Throws InputError naming `max_references` when the lists made so far exceed it.
+  /// Returns the children of a node at a place, dividing it now if no ray entered it before;
+  /// nullptr for a leaf. Throws InputError naming `max_references` if the lists made so far exceed
+  /// it.
   const Children* children(const OnDemandNode& node, const OctreeCell& cell) const {
     const Children* children = node.children.load(std::memory_order_acquire);
     if (children != nullptr || !division_.divides(cell, node.references.size())) return children;
     return &divide(node, cell);
   }
 
-  /// Of what is divided so far: nodes that would be divided count as leaves, and are counted.
+  /// Returns statistics of the octree as divided so far: nodes that may still be divided count as
+  /// leaves, and are counted.
   Statistics statistics() const;
-  /// The leaves so far that hold references, in scene units.
+  /// Returns the current leaves that hold references, in scene units.
   std::vector<Box> occupied_cells() const;
 
  private:
   const Children& divide(const OnDemandNode& node, const OctreeCell& cell) const;
   void divide_to(const OnDemandNode& node, const OctreeCell& cell, int level) const;
-  /// Calls `visit(node, cell, leaf)` for all nodes so far; divides none.
+  /// Calls `visit(node, cell, leaf)` for all current nodes, without dividing any.
   template <class Visit>
   void for_each_node(Visit visit) const;
 
   OctreeOptions options_;
   NodeDivision division_;
   OnDemandNode root_;
-  // Mutable: what a query adds is what any other query would have found.
+  // Mutable: any query would have added the same.
   mutable std::mutex publishing_;
   mutable std::vector<std::unique_ptr<const Children>> divided_;
   mutable std::uint64_t references_made_ = 0;
   mutable ReferenceLimit limit_;
 };
 
-/// A node of an octree on demand with the box that it spans. A node that must be divided is when
-/// the cursor comes to it.
+/// A node of an octree on demand with its box. A node that must be divided is divided when the
+/// cursor reaches it.
 class OnDemandCursor {
  public:
   using Tree = OnDemandOctree;
 
-  /// At the root.
+  /// Starts at the root.
   explicit OnDemandCursor(const OnDemandOctree& octree)
       : octree_(&octree),
         node_(&octree.root()),
@@ -106,16 +107,16 @@ class OnDemandCursor {
 
   const OnDemandNode& node() const { return *node_; }
   bool is_leaf() const { return children_ == nullptr; }
-  /// The code of the node: the numbers of the children on the way, as octal digits after a 1. It
-  /// depends on no order of division.
+  /// Returns the code of the node: the numbers of the children on the way, as octal digits after a
+  /// 1. It does not depend on the order of division.
   std::uint64_t index() const { return code_; }
   const glm::ivec3& corner() const { return cell_.corner; }
   const glm::ivec3& size() const { return cell_.size; }
   int level() const { return cell_.level; }
-  /// The planes between the children, as finest cells. Not of a leaf.
+  /// Returns the planes between the children, as finest cells. Must not be called for a leaf.
   glm::ivec3 split() const { return children_->split; }
 
-  /// Goes down to a child by its number (x + 2 y + 4 z). Not from a leaf.
+  /// Goes down to a child by its number (x + 2 y + 4 z). Must not be called for a leaf.
   void enter(std::uint32_t octant) {
     cell_ = cell_.child(children_->split, octant);
     node_ = &children_->nodes[octant];
@@ -127,7 +128,7 @@ class OnDemandCursor {
   const OnDemandOctree* octree_;
   const OnDemandNode* node_;
   OctreeCell cell_;
-  const Children* children_;  ///< of a leaf nullptr
+  const Children* children_;  ///< nullptr for a leaf
   std::uint64_t code_ = 1;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
-// The leaves of an octree along a ray, from the root down: children in the order of the ray.
+// Finds the leaves of an octree along a ray from the root down, with children in the order of the
+// ray.
 
 #include <algorithm>
 #include <array>
@@ -17,12 +18,13 @@
 namespace beambench::accel::octree {
 
 /// Gargantini and Atkinson, "Ray tracing an octree: numerical evaluation of the first
-/// intersection", Computer Graphics Forum 12(4), 1993: the ray's parameters at the three planes
-/// between a node's children, in order, say which of the children it passes through (four at most)
-/// and from where to where. A node is visited once for a ray; no leaf's neighbor is searched.
+/// intersection", Computer Graphics Forum 12(4), 1993: the ordered parameters of the ray at the
+/// three planes between a node's children determine the children that it passes through (at most
+/// four), and the interval in each. A node is visited once per ray; there is no search for a leaf's
+/// neighbor.
 ///
-/// Theirs is a linear octree, which stores the codes of occupied leaves; ours the octree of all
-/// other structures.
+/// They use a linear octree, which stores the codes of occupied leaves; this class uses the same
+/// octree as all other structures.
 template <class CursorType>
 class ParametricSearch {
  public:
@@ -32,7 +34,7 @@ class ParametricSearch {
   static void describe(Statistics&) {}
 };
 
-/// One ray's way through an octree by `ParametricSearch`. `visit(leaf, exit_t)` returns true when
+/// One ray's path through an octree with `ParametricSearch`. `visit(leaf, exit_t)` returns true if
 /// nothing behind that leaf matters.
 template <class Cursor, class Counting, class Visit>
 class ParametricWalk {
@@ -41,7 +43,8 @@ class ParametricWalk {
                  Counting& counting, Visit& visit)
       : octree_(octree), ray_(ray), planes_(planes), counting_(counting), visit_(visit) {}
 
-  /// The leaves below a node that the ray is in from t to `exit_t`. Has `visit` returned true?
+  /// Visits the leaves below a node that contain the ray from t to `exit_t`. Returns whether
+  /// `visit` returned true.
   bool through(const Cursor& node, double t, double exit_t) const {
     counting_.add(Counter::kTraversalSteps);
     if (node.is_leaf()) {
@@ -58,7 +61,7 @@ class ParametricWalk {
       if (planes_.above(axis, split[axis], t)) octant |= bit(axis);
     }
     while (true) {
-      // The planes crossed by now lie at t or before it.
+      // The planes crossed so far are at t or before it.
       double next = exit_t;
       for (const double crossing : crossings) {
         if (crossing > t) next = std::min(next, crossing);
@@ -70,7 +73,7 @@ class ParametricWalk {
       if (!(next < exit_t)) return false;
       t = next;
       for (int axis = 0; axis < 3; ++axis) {
-        // Through an edge or a vertex the ray goes on into the child opposite to it.
+        // Through an edge or a vertex, the ray continues into the opposite child.
         if (crossings[static_cast<std::size_t>(axis)] == t) octant ^= bit(axis);
       }
     }
@@ -87,8 +90,8 @@ class ParametricWalk {
 };
 
 /// Calls `visit(leaf, exit_t)` for the leaves that the ray passes through, from t_min on, until it
-/// returns true or the ray leaves the root: the leaves, their order and their exits are those of
-/// every other search.
+/// returns true or the ray leaves the root. The leaves, their order and their exits are the same as
+/// in every other search.
 template <class Cursor, class Counting, class Visit>
 void walk_leaves(const typename Cursor::Tree& octree, const ParametricSearch<Cursor>&,
                  const Ray& ray, Counting& counting, Visit visit) {

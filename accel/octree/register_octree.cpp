@@ -24,7 +24,7 @@ void add(Registry& registry, std::string name, std::string summary) {
        }});
 }
 
-/// A structure that is traversed from the root down.
+/// Registers a structure that is traversed from the root down.
 template <class Central, class AnyPlanes, class OnDemand>
 std::unique_ptr<Accelerator> build_top_down(const scenes::Scene& scene,
                                             const Parameters& parameters,

@@ -7,14 +7,14 @@
 
 namespace beambench::accel::octree {
 
-/// As `LeafWalk` requires: the next leaf is searched from the root each time (Glassner, "Space
-/// subdivision for fast ray tracing", IEEE CG&A 4(10), 1984; the "root" methods of the thesis,
-/// section 2.2.2). Nodes need neither parents nor neighbors of their own size, so that planes may
-/// lie anywhere.
+/// Implements the interface of `LeafWalk` by searching for the next leaf from the root each time
+/// (Glassner, "Space subdivision for fast ray tracing", IEEE CG&A 4(10), 1984; the "root" methods
+/// of the thesis, section 2.2.2). Nodes need neither parents nor neighbors of their own size, so
+/// planes may be arbitrary.
 ///
-/// Glassner moves a point a little beyond the leaf and looks where it is. Here no point is moved:
-/// the search goes by the planes that the ray has crossed at the leaf's exit, so that no thin leaf
-/// is skipped. He finds nodes by a hash of their names; the nodes on the way are the same.
+/// Glassner moves a point slightly beyond the leaf and locates it. Here no point is moved: the
+/// search uses the planes that the ray has crossed at the leaf's exit, so that no thin leaf is
+/// skipped. He finds nodes by a hash of their names; the nodes on the path are the same.
 template <class CursorType>
 class RootSearch {
  public:
@@ -22,7 +22,7 @@ class RootSearch {
   static constexpr bool kNeighborSteps = false;
 
   explicit RootSearch(const typename Cursor::Tree& octree) : octree_(&octree) {}
-  // The octree lies beside this in a structure, which is not moved.
+  // The octree is a member of the same structure, which is not moved.
   RootSearch(const RootSearch&) = delete;
   RootSearch& operator=(const RootSearch&) = delete;
 

@@ -23,7 +23,7 @@ inline constexpr std::string_view kLastClimbMeaning =
     "before it knows that there is no neighbor; here they are not climbed, and not among the "
     "traversal steps";
 
-/// Samet's neighbors, over the nearest common ancestor: nothing is stored, each move climbs and
+/// Samet's search over the nearest common ancestor: nothing is stored, each move climbs and
 /// descends.
 class AncestorNeighbors {
  public:
@@ -37,8 +37,8 @@ class AncestorNeighbors {
   }
   static void describe(Statistics&) {}
 
-  /// A ray left the root in a leaf of that level. The search that climbs by pointers alone arrives
-  /// at the root before it knows; the coordinates of the cursor spare us these steps.
+  /// Counts a ray that left the root in a leaf of that level. A search that climbs by pointers
+  /// alone reaches the root first; the cursor's coordinates save these steps.
   template <class Counting>
   static void count_last_climb(int level, Counting& counting) {
     counting.add(kLastClimb, static_cast<std::uint64_t>(level - 1));

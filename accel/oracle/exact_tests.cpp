@@ -14,11 +14,11 @@ namespace {
 #ifdef __SIZEOF_FLOAT128__
 __extension__ using Wide = __float128;
 #else
-using Wide = long double;  // of 113 bits on other 64-bit processors
+using Wide = long double;  // has 113 bits on some 64-bit processors
 #endif
 
-/// `side` with all digits: differences of floats have some 26 bits, their products 52, those with
-/// the direction 77.
+/// Returns `side` with all digits: differences of floats have about 26 bits, their products 52,
+/// those with the direction 77.
 double wide_side(const ExactRay& ray, const dvec3& from, const dvec3& to) {
   const auto minor = [&](int i, int j) {
     const auto edge = [&](int k) { return Wide(to[k]) - Wide(from[k]); };
@@ -30,11 +30,11 @@ double wide_side(const ExactRay& ray, const dvec3& from, const dvec3& to) {
                              minor(0, 1) * Wide(ray.direction.z));
 }
 
-/// Side of the ray on which an edge passes, by the product of their Plücker coordinates. The edge
-/// vector changes sign and the sum does not when the edge is traversed in the opposite direction,
-/// so the two triangles of a shared edge get exactly opposite numbers: no ray passes between them.
-/// The sign is right, so that a ray through a vertex does not leave all edges there on one side,
-/// which would be between all triangles.
+/// Returns the side of the ray on which an edge passes, as the product of their Plücker
+/// coordinates. The edge vector changes sign and the sum does not when the edge is traversed in the
+/// opposite direction, so the two triangles of a shared edge get exactly opposite numbers: no ray
+/// passes between them. The sign is right, so that a ray through a vertex does not leave all edges
+/// there on one side, which would be between all triangles.
 double side(const ExactRay& ray, const dvec3& from, const dvec3& to) {
   const dvec3 edge = to - from;
   const dvec3 sum = from + to;
@@ -72,15 +72,16 @@ std::optional<double> first_hit(const ExactRay& ray, const scenes::Scene& scene,
 
 namespace {
 
-/// Where a ray passes through a quadric a t^2 + 2 b t + c that is negative inside: it enters where
-/// the derivative is negative and leaves where it is positive. Infinite where it does not.
+/// The t at which a ray passes through a quadric a t^2 + 2 b t + c that is negative inside: it
+/// enters where the derivative is negative and leaves where it is positive. Infinite if there is
+/// none.
 struct Crossings {
   double enter = kInfinity;
   double leave = kInfinity;
 };
 
-/// Both roots are written so that nothing cancels. Returns nothing for a ray that misses; both
-/// roots are the same for one that touches.
+/// Computes both roots without cancellation. Returns nothing for a ray that misses; both roots are
+/// the same for one that touches.
 std::optional<Crossings> crossings(double a, double b, double c) {
   if (a == 0.0) {
     if (b == 0.0) return std::nullopt;
@@ -95,8 +96,8 @@ std::optional<Crossings> crossings(double a, double b, double c) {
   return Crossings{-(b + root) / a, -c / (b + root)};
 }
 
-/// The t of the ray's point closest to `point`. Equations are set up from there: seen from a
-/// distant eye their digits would cancel.
+/// Returns the t of the ray's point closest to `point`. Equations are set up from there, because
+/// digits would cancel for a distant eye.
 double closest_approach(const ExactRay& ray, const dvec3& point) {
   return glm::dot(point - ray.origin, ray.direction) / glm::dot(ray.direction, ray.direction);
 }
@@ -122,8 +123,8 @@ std::optional<double> first_hit(const ExactRay& ray, const scenes::Sphere& spher
 namespace {
 
 /// A cone's own frame: the middle of its axis at the origin, the apex on the z axis, and heights
-/// stretched until the surface is nowhere flatter than 45 degrees: otherwise
-/// the height of a flat cone would be lost in rounding.
+/// stretched until the surface is nowhere flatter than 45 degrees. Otherwise the height of a flat
+/// cone would be lost in rounding.
 struct ConeFrame {
   explicit ConeFrame(const scenes::Cone& cone)
       : middle(0.5 * (dvec3(cone.base) + dvec3(cone.apex))),
@@ -175,8 +176,8 @@ std::optional<double> first_hit(const ExactRay& ray, const scenes::Cone& cone) {
   if (!found) return std::nullopt;
   if (cone.inside_only && found->enter == found->leave) return std::nullopt;  // only touched
 
-  // Between base and apex the radius is not negative: the mirrored half of the double cone is out,
-  // and so are infinite and undefined roots, for which the comparisons are false.
+  // Between base and apex the radius is not negative. This excludes the mirrored half of the double
+  // cone, and infinite and undefined roots, for which the comparisons are false.
   std::optional<double> nearest;
   const auto consider = [&](double t) {
     const double height = o.z + t * d.z;

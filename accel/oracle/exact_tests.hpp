@@ -1,7 +1,7 @@
 #pragma once
-// Ray-primitive tests in double precision for Embree's user geometry. They are independent of
-// the canonical tests of the classic structures, with other formulas, so that each exposes mistakes
-// of the other.
+// Ray-primitive tests in double precision for Embree's user geometry. They are independent of the
+// canonical tests of the classic structures, with different formulas, so that each exposes mistakes
+// in the other.
 
 #include <optional>
 
@@ -23,8 +23,8 @@ struct ExactRay {
   Ray floats;
 };
 
-/// Each returns the smallest t in the ray's interval at which it hits, if any.
-/// Triangles are two-sided and closed; rays through a shared edge hit one of its triangles.
+/// Returns the smallest t in the ray's interval at which it hits, if any. Triangles are two-sided
+/// and closed; rays through a shared edge hit one of its triangles.
 std::optional<double> first_hit(const ExactRay& ray, const scenes::Scene& scene,
                                 const scenes::Triangle& triangle);
 std::optional<double> first_hit(const ExactRay& ray, const scenes::Sphere& sphere);
@@ -38,7 +38,7 @@ struct ExactBounds {
 
 ExactBounds bounds_of(const scenes::Scene& scene, const scenes::Triangle& triangle);
 ExactBounds bounds_of(const scenes::Sphere& sphere);
-/// Loose: the box of the spheres around its ends.
+/// Returns loose bounds: the box of the spheres around the cone's ends.
 ExactBounds bounds_of(const scenes::Cone& cone);
 
 }  // namespace beambench::accel::oracle

@@ -17,8 +17,8 @@ namespace {
 using embree::to_embree;
 using embree::to_embree_query;
 
-/// A query inside Embree: the best hit so far keeps its double t here, since Embree's
-/// own ray has only a float.
+/// A query inside Embree. It keeps the double t of the best hit so far, because Embree's own ray
+/// has only a float.
 struct OracleQuery : embree::Context {
   explicit OracleQuery(const Ray& r)
       : Context(false),
@@ -33,15 +33,15 @@ struct OracleQuery : embree::Context {
 
 OracleQuery& query_of(embree::RawContext* context) { return *static_cast<OracleQuery*>(context); }
 
-/// A float that is not below t: Embree prunes by it, so it may only err to the far side.
+/// Returns a float that is not below t: Embree prunes by it, so errors must be on the far side.
 float at_least(double t) {
   constexpr float kSmallest = std::numeric_limits<float>::min();
   return std::nextafter(std::max(static_cast<float>(t), kSmallest), kInfinity);
 }
 
-/// The ray for Embree, whose traversal loses boxes where components of the direction are tiny: the
-/// direction is scaled by a power of two, which is exact, so that its longest component is in
-/// [1, 2). Ends of the interval err to the outside.
+/// Returns the ray for Embree, whose traversal loses boxes if components of the direction are tiny.
+/// The direction is scaled by a power of two, which is exact, so that its longest component is in
+/// [1, 2). The interval is rounded outward.
 RTCRay scaled(const OracleQuery& query) {
   Ray ray = query.ray.floats;
   for (int axis = 0; axis < 3; ++axis) {
@@ -55,8 +55,8 @@ RTCRay scaled(const OracleQuery& query) {
   return to_embree(ray);
 }
 
-/// One user geometry holds all primitives of one kind, which says how many there are, and of each
-/// its owner, its bounds and where a ray hits it first.
+/// A user geometry holds all primitives of one kind; it defines their number and, for each, its
+/// owner, its bounds and the first hit of a ray.
 struct Triangles {
   const scenes::Scene& scene;
 
@@ -104,7 +104,7 @@ struct Padded {
     *arguments->bounds_o = {lower.x, lower.y, lower.z, 0.0F, upper.x, upper.y, upper.z, 0.0F};
   }
 
-  // The oracle traces single rays only, so N is 1 in both callbacks. For Embree 4 `valid` must
+  // The oracle traces only single rays, so N is 1 in both callbacks. For Embree 4, `valid` must
   // state whether there was a hit.
   static void on_intersect(const RTCIntersectFunctionNArguments* arguments) {
     if (arguments->valid[0] == 0) return;

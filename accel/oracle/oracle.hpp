@@ -15,17 +15,17 @@ struct ExactHit {
   scenes::PrimitiveId primitive;
 };
 
-/// Embree's BVH over user geometry whose intersectors compute in double, with code of their own
-/// (none of it shared with the classic structures). Bounds are padded by
-/// 4 x 2^-23 x (largest |coordinate| + reach): unpadded, Embree's float boxes lost 6% of the rays
-/// aimed at the vertices of a closed mesh. Queries are const and safe from several threads.
+/// Embree's BVH over user geometry whose intersectors compute in double, with separate code (none
+/// of it shared with the classic structures). Bounds are padded by 4 x 2^-23 x (largest
+/// |coordinate| + reach): unpadded, Embree's float boxes lost 6% of the rays aimed at the vertices
+/// of a closed mesh. Queries are const and safe from several threads.
 ///
-/// Ties go to the lowest primitive id, but at equal *double* t, while structures break ties of the
-/// t they rounded to float: at an edge the two may name different primitives of one place, which
-/// the differ classes as a tie.
+/// Among hits with equal *double* t, the lowest primitive id wins, while structures compare t
+/// rounded to float: at an edge the two may return different primitives at one place, which the
+/// differ classifies as a tie.
 class Oracle {
  public:
-  /// `reach`: the largest distance of a ray's origin from the origin of the coordinates.
+  /// `reach`: the largest distance of a ray's origin from the coordinate origin.
   Oracle(const scenes::Scene& scene, double reach);
   Oracle(const Oracle&) = delete;
   Oracle& operator=(const Oracle&) = delete;

@@ -1,4 +1,4 @@
-// Which of sixteen boxes a tile's beam meets, where on the screen, and how near.
+// Determines which of sixteen boxes a tile's beam meets, where on the screen, and how near.
 
 #if defined(ACCEL_TILE_BEAM_BOX_PROBE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_BOX_PROBE_INL
@@ -14,7 +14,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// A view's planes for the test of boxes: which corner of a box lies farthest along each.
+/// A view's planes for testing boxes, with the corner of a box that lies farthest along each.
 class BoxProbe {
  public:
   explicit BoxProbe(const TileView& view)
@@ -40,8 +40,8 @@ class BoxProbe {
     }
   };
 
-  /// A box is met when it reaches into the beam, holds a sample's place and is not behind
-  /// `farthest` (1/t) everywhere.
+  /// Tests boxes. A box is met if it reaches into the beam, contains a sample's place and is not
+  /// entirely behind `farthest` (1/t).
   HWY_INLINE void probe(const TileBoxes& boxes, std::uint32_t count, float farthest,
                         Met& met) const {
     met.lanes = for_each_register(
@@ -49,8 +49,8 @@ class BoxProbe {
     met.lanes &= (LaneBits{1} << count) - 1;
   }
 
-  /// The children of a node whose cones of normals all look away from the eye, from wherever in the
-  /// box (Shirmun and Abi-Ezzi 1993). Children without a cone may be among them.
+  /// Returns the children of a node whose cones of normals face entirely away from the eye, from
+  /// anywhere in the box (Shirmun and Abi-Ezzi 1993). Children without a cone may be among them.
   HWY_INLINE LaneBits turned_away(const TileNode& node) const {
     return for_each_register([&](std::size_t lane) {
       Floats along = hn::Zero(Tag());  // the axis, at least, over the box
@@ -114,7 +114,7 @@ class BoxProbe {
                                     float eye) {
     return hn::Sub(load(&boxes.planes[plane][lane]), all(eye));
   }
-  /// The largest value along a row over the boxes, moved by `slacks` slacks.
+  /// Returns the largest value along a row over the boxes, moved by `slacks` slacks.
   HWY_INLINE Floats largest(std::size_t row, const Points& lower, const Points& upper,
                             float slacks = 1.0F) const {
     const glm::vec3& along = rows_[row];

@@ -8,14 +8,15 @@
 namespace beambench::accel::tile_beam {
 namespace {
 
-/// Surfaces that are inclined further than this to the axis (a cosine) are flat.
+/// The cosine of the inclination to the axis beyond which surfaces count as flat.
 constexpr double kFlat = 0x1p-5;
-/// Shorter cones are left to double: a rim has a doubtful margin of 2^-18 on either side.
+/// The length below which cones are left to double: a rim has a doubtful margin of 2^-18 on either
+/// side.
 constexpr double kShort = 0x1p-12;
-/// An eye this near to the surface touches it.
+/// The distance below which the eye counts as touching the surface.
 constexpr double kTouching = 0x1p-18;
 
-/// A vector at right angles to a unit vector.
+/// Returns a vector at right angles to a unit vector.
 glm::dvec3 beside_axis(const glm::dvec3& axis) {
   const glm::dvec3 size = glm::abs(axis);
   const bool is_x = size.x <= size.y && size.x <= size.z;
@@ -62,7 +63,7 @@ std::optional<ConeEquation> cone_equation(const scenes::Cone& cone, const Sample
     return std::nullopt;
   }
   const double constant = (eye_beside - eye_radius) * (eye_beside + eye_radius);
-  if (std::abs(constant) < 0x1p-40) return std::nullopt;  // so nearly 0 that its error counts
+  if (std::abs(constant) < 0x1p-40) return std::nullopt;  // so close to 0 that its error matters
 
   const glm::dvec3 corner = raster.origin + raster.right * static_cast<double>(view.left) +
                             raster.down * static_cast<double>(view.top);

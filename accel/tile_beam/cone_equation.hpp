@@ -10,12 +10,12 @@
 
 namespace beambench::accel::tile_beam {
 
-/// How rays from one eye meet a cone frustum. Lengths are in units of the distance from the eye
-/// within which all of the cone lies, so that scenes of any size have the same rounding, and
-/// w = 1/t is the unknown. Seen from the frustum's middle, let the eye be at height H along the
-/// axis and at the distance X beside it; x be the direction from the axis to the eye, y at right
-/// angles to it and to the axis; C and S the cosine and sine of the angle between the surface and
-/// the axis. The point of a ray in direction d, multiplied by w, then has
+/// The equation for hits of a cone frustum by rays from one eye. The unit of length is a distance
+/// from the eye within which all of the cone lies, so that scenes of any size have the same
+/// rounding; w = 1/t is the unknown. Relative to the frustum's middle, let the eye be at height H
+/// along the axis and at distance X from it. Let x be the direction from the axis to the eye, and y
+/// a direction at right angles to x and the axis. Let C and S be the cosine and sine of the angle
+/// between the surface and the axis. The point of a ray in direction d, multiplied by w, then has
 ///
 ///   along x       X w + d.x
 ///   along y       d.y
@@ -33,7 +33,7 @@ struct ConeEquation {
   TileLine across;                ///< C d.y
   TileLine along;                 ///< d.axis
   TileLine half_linear;           ///< b
-  std::array<TileLine, 2> sides;  ///< the factors of b^2 - a c, or what is squared
+  std::array<TileLine, 2> sides;  ///< the factors of b^2 - a c, or the functions that are squared
   float eye_beside;               ///< C X
   float eye_height;               ///< H
   float eye_radius;               ///< R
@@ -41,13 +41,13 @@ struct ConeEquation {
   float half_length;              ///< the frustum reaches from -half_length to half_length
   float inverse_constant;         ///< 1 / c
   float per_length;               ///< 1 / the unit of lengths
-  bool outside;                   ///< the eye is, of the double cone
-  float least_side;               ///< seen from outside, sides nearer to 0 may have either sign
-  float least_root;               ///< where |b| + sqrt(b^2 - a c) is less, w is too inaccurate
+  bool outside;                   ///< whether the eye is outside the double cone
+  float least_side;               ///< seen from outside, sides closer to 0 may have either sign
+  float least_root;               ///< if |b| + sqrt(b^2 - a c) is less, w is too inaccurate
 };
 
-/// The equation for a tile of a raster. None for the cones that float is too coarse for: flat ones
-/// and short ones, and those that the eye touches.
+/// Returns the equation for a tile of a raster. Nothing for cones for which float is too coarse:
+/// flat ones, short ones, and those that the eye touches.
 std::optional<ConeEquation> cone_equation(const scenes::Cone& cone, const SampleRaster& raster,
                                           const TileView& view);
 

@@ -23,22 +23,22 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// How far a point may be from the surface to be on it, in the equation's unit of lengths: four
-/// roundings. What is computed of a point errs by less than six, so that hits lie within the
+/// The maximum distance of a point on the surface from the computed surface, in the equation's unit
+/// of length: four roundings. A computed point is off by less than six, so hits are within the
 /// differ's sixteen.
 inline constexpr float kOnSurface = 0x1p-22F;
-/// A height is doubtful nearer than this to that of a rim.
+/// A height closer than this to that of a rim is doubtful.
 inline constexpr float kAtRim = 0x1p-18F;
 
-/// Boxes of no more samples than this take less time ray by ray.
+/// Boxes with at most this many samples take less time ray by ray.
 inline constexpr int kFewSamples = 2;
 
-/// A linear function at the first samples of a row, in the lanes of a register of a block.
+/// Returns a linear function at the first samples of a row, in the lanes of a register of a block.
 HWY_INLINE Floats start_of_row(const TileLine& line, Floats j) {
   return hn::MulAdd(all(line.y), j, all(line.constant));
 }
 
-/// What is known of rays where they meet the infinite cone.
+/// Facts about rays where they meet the infinite cone.
 struct ConeRoot {
   Mask hit;       ///< the frustum is met
   Mask doubtful;  ///< rounding decides whether it is
@@ -59,7 +59,7 @@ class ConePainter {
               float nearest)
       : cone_(cone), primitive_(primitive), nearest_(nearest), inside_only_(inside_only) {}
 
-  /// `exact(column, row, samples)` gets the samples of a block that rounding decides, as bits.
+  /// `exact(column, row, samples)` receives, as bits, the samples of a block that rounding decides.
   template <class Exact>
   HWY_INLINE void paint(const SampleRectangle& box, TileImage& image, Exact exact) const {
     const int first_column = box.left >> 2;
@@ -123,7 +123,7 @@ class ConePainter {
     }
   }
 
-  /// Returns the samples of a register that rounding decides, which are not painted.
+  /// Returns the samples of a register that depend on rounding; they are not painted.
   HWY_INLINE LaneBits paint_block(const ConeDirections& d, Floats b, Floats square, Mask met,
                                   Mask doubtful, std::size_t at, TileImage& image) const {
     const Floats across_squared = hn::Mul(d.across, d.across);
@@ -137,7 +137,7 @@ class ConePainter {
     const ConeRoot first = classify(w);
     Mask hit = hn::And(first.hit, hn::Or(hn::Not(approaches), enters));
     doubtful = hn::Or(hn::Or(doubtful, first.doubtful), hn::Le(hn::Abs(q), all(cone_.least_root)));
-    // Both are met only where the ray approaches, and then the first is the nearer.
+    // Both are met only if the ray approaches, and then the first is nearer.
     const Mask decided = hn::Or(doubtful, hit);
     if (!hn::AllFalse(Tag(), hn::AndNot(decided, met))) {
       const Floats a =
@@ -154,8 +154,8 @@ class ConePainter {
     return bits_of(hn::And(met, doubtful));
   }
 
-  /// Is the root w a point of the frustum? The point is computed and compared with the surface: an
-  /// inaccurate root, which is rare, is found to be beside it.
+  /// Returns whether the root w is a point of the frustum. The point is computed and compared with
+  /// the surface, which exposes an inaccurate root, a rare case.
   HWY_INLINE ConeRoot met_at(Floats w, const ConeDirections& d, Floats across_squared,
                              Floats along_radius) const {
     const Floats beside = hn::MulAdd(all(cone_.eye_beside), w, d.beside);
@@ -167,7 +167,7 @@ class ConePainter {
     const Mask on = hn::Le(off, hn::Mul(hn::Mul(all(2.0F * kOnSurface), w), hn::Abs(radius)));
     const Floats beyond = hn::NegMulAdd(all(cone_.half_length), w, hn::Abs(height));
     const Floats rim = hn::Mul(all(kAtRim), w);
-    // All of the cone has w >= 1, and no root is so inaccurate that its w would come out below 1/2.
+    // All of the cone has w >= 1, and no root is so inaccurate that its w would be below 1/2.
     const Mask seen = hn::Ge(w, all(0.5F));
     const Mask inside = hn::And(on, hn::Le(beyond, hn::Neg(rim)));
     const Mask outside = hn::And(on, hn::Ge(beyond, rim));
@@ -180,8 +180,8 @@ class ConePainter {
   bool inside_only_;
 };
 
-/// Draws the cones of a block, the nearest first. What lies behind `farthest` (1/t) is not drawn.
-/// Returns how many samples needed the canonical test because rounding would have decided them.
+/// Draws the cones of a block, the nearest first. Parts behind `farthest` (1/t) are not drawn.
+/// Returns how many samples needed the canonical test because they depended on rounding.
 inline std::uint64_t draw_cones(const ConeBlock& block, const scenes::Scene& scene,
                                 const TileRays& rays, const BoxProbe& probe, float farthest,
                                 TileImage& image) {

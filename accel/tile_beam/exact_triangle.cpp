@@ -11,7 +11,7 @@
 namespace beambench::accel::tile_beam {
 namespace {
 
-/// The largest value of a line over a tile's samples.
+/// Returns the largest value of a line over a tile's samples.
 double largest(const glm::dvec3& line, const TileView& view) {
   return line.z + std::max(0.0, line.x * (view.width - 1)) +
          std::max(0.0, line.y * (view.height - 1));
@@ -21,7 +21,7 @@ TileLine rounded(const glm::dvec3& line) {
   return {static_cast<float>(line.x), static_cast<float>(line.y), static_cast<float>(line.z)};
 }
 
-/// The places on the screen between which a triangle lies along one axis of the screen.
+/// The range of a triangle along one axis of the screen.
 struct Range {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
@@ -32,8 +32,8 @@ struct Range {
   }
 };
 
-/// Of the part of a triangle that lies in front of the eye. `axis` of the corners is place x depth.
-/// An edge that goes behind the eye leaves the screen at one of its ends.
+/// Returns the range of the part of a triangle in front of the eye. `axis` of the corners is place
+/// x depth. An edge that continues behind the eye leaves the screen at one of its ends.
 Range range_of(const std::array<glm::dvec3, 3>& projected, int axis) {
   Range range;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -50,8 +50,8 @@ Range range_of(const std::array<glm::dvec3, 3>& projected, int axis) {
   return range;
 }
 
-/// The samples that the triangle may hold. Acute corners end here, for edges moved outward meet
-/// only far beyond them.
+/// Returns the samples that the triangle may cover. Acute corners end here, because edges moved
+/// outward meet only far beyond them.
 std::optional<SampleRectangle> box_of(const TileView& view,
                                       const std::array<glm::dvec3, 3>& projected) {
   const auto clipped = [&](int axis, double per_angle, int samples) {
@@ -84,11 +84,12 @@ Eye place_of_eye(const std::array<glm::dvec3, 3>& from_eye) {
   return on ? Eye::kOnTriangle : Eye::kInPlane;
 }
 
-/// The size of a plane's numbers, by the largest t of its triangle, from which on rounding may
-/// place a hit farther from the triangle than two hits at one place are apart along a ray.
+/// The size of a plane's numbers, in units of the largest t of its triangle, beyond which rounding
+/// may move a hit farther from the triangle than two equal hits may differ along a ray.
 constexpr double kMinAngle = 0x1p11;
 
-/// Of edges seen from an apex, relative to their numbers: those in float err by less.
+/// The outward shift of edges seen from an apex, relative to their numbers; the error of edges in
+/// float is smaller.
 constexpr double kApexWidening = 2e-7;
 
 ExactTriangle left_to_rays(const SampleRectangle& box) { return {{}, {}, box, true}; }
@@ -128,7 +129,7 @@ std::optional<ExactTriangle> exact_triangle(const TileView& view,
   triangle.box = *box;
   for (std::size_t i = 0; i < 3; ++i) {
     glm::dvec3 edge = glm::cross(projected[i], projected[(i + 1) % 3]) * inward;
-    // In samples from the edge; of an edge that lies at infinity only the sign matters.
+    // In samples from the edge; for an edge at infinity only the sign matters.
     const double slope = std::max(std::hypot(edge.x, edge.y), std::abs(edge.z) * 1e-12);
     if (slope == 0.0) return std::nullopt;
     edge /= slope;
@@ -140,7 +141,7 @@ std::optional<ExactTriangle> exact_triangle(const TileView& view,
       glm::cross(projected[1] - projected[0], projected[2] - projected[0]) / volume;
   if (largest(plane, view) <= 0.0) return std::nullopt;
   if (!(glm::length(plane) < kNearestOfAll)) return left_to_rays(*box);
-  // Seen nearly edge-on, a place in float says little of how far away the triangle is there.
+  // Seen nearly edge-on, the distance of the triangle at a place in float is very inaccurate.
   const double size =
       std::abs(plane.x) * view.width + std::abs(plane.y) * view.height + std::abs(plane.z);
   const double farthest = std::max({projected[0].z, projected[1].z, projected[2].z});

@@ -1,5 +1,5 @@
 #pragma once
-// A triangle's image computed in double, where float would be too inaccurate.
+// Computes a triangle's image in double, for cases in which float is too inaccurate.
 
 #include <array>
 #include <optional>
@@ -20,32 +20,34 @@ struct ExactTriangle {
   std::array<TileLine, 3> edges;
   TileLine plane;
   SampleRectangle box;
-  bool at_eye;  ///< the triangle has no image: edges and plane are not set, rays decide
+  bool at_eye;  ///< the triangle has no image: edges and plane are not set, and rays decide
 };
 
-/// For any triangle: one that crosses the plane through the eye at right angles to the view, one
-/// that reaches far beyond the tile, a sliver. Homogeneous coordinates need no clipping (Olano and
-/// Greer, "Triangle Scan Conversion using 2D Homogeneous Coordinates", 1997). Nothing where no
-/// sample of the tile can hit it. The edges are moved outward by kEdgeWidening. One that the eye
-/// lies on is hit at t = 0 in whatever direction, and has no image.
+/// Computes the image of any triangle, including one that crosses the plane through the eye at
+/// right angles to the view, one that reaches far beyond the tile, and a sliver. Homogeneous
+/// coordinates need no clipping (Olano and Greer, "Triangle Scan Conversion using 2D Homogeneous
+/// Coordinates", 1997). Returns nothing if no sample of the tile can hit it. The edges are moved
+/// outward by kEdgeWidening. A triangle that contains the eye is hit at t = 0 in any direction, and
+/// has no image.
 std::optional<ExactTriangle> exact_triangle(const TileView& view,
                                             const std::array<glm::vec3, 3>& corners);
 
-/// A triangle seen through a side of the cube about a pencil's apex. The condition for a place
-/// (u, v) within the bounds to see it: no edge is negative, where an edge is x * u + y * v + z; its
-/// w there is the plane over `distance`, which is positive. Acute corners end at the bounds.
+/// A triangle seen through a side of the cube about a pencil's apex. The condition for a place (u,
+/// v) within the bounds to see it: no edge is negative, where an edge is x * u + y * v + z; there,
+/// its w is the plane divided by `distance`, which is positive. Acute corners end at the bounds.
 struct ExactApexTriangle {
   glm::dvec2 low;
   glm::dvec2 high;
   std::array<glm::dvec3, 3> edges;
-  std::array<double, 3> clear;  ///< from this value of an edge on, a place is surely inside
+  std::array<double, 3> clear;  ///< at this value of an edge and above, a place is certainly inside
   glm::dvec3 plane;
   double distance;
   double distance_to_plane;  ///< from the apex
-  bool at_apex;              ///< nothing else is set, rays decide
+  bool at_apex;              ///< nothing else is set, and rays decide
 };
 
-/// As `exact_triangle`; edges are moved outward by more than those in float may be wrong.
+/// Does the same as `exact_triangle` from an apex; edges are moved outward by more than the error
+/// of those in float.
 std::optional<ExactApexTriangle> exact_apex_triangle(const glm::vec3& apex, const CubeSide& side,
                                                      const std::array<glm::vec3, 3>& corners);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Noting which rays of a beam are handed over to the traversal of single rays.
+// Records which rays of a beam are handed over to the traversal of single rays.
 
 #include <cstddef>
 #include <vector>
@@ -8,15 +8,15 @@
 
 namespace beambench::accel::tile_beam {
 
-/// The policy of `beam_places`: which rays are handed over, by their places in the tile's image or
-/// in the pencil's unit.
+/// The policy of `beam_places`: records the rays that are handed over, by their places in the
+/// tile's image or in the pencil's unit.
 struct HandOverRecorder : NoCounting {
   explicit HandOverRecorder(std::size_t places) : is_handed_over(places) {}
 
   std::vector<bool> is_handed_over;
 };
 
-/// A walk calls this for each ray that it hands over. Other policies count it.
+/// Called by a walk for each ray that it hands over. Other policies count it.
 template <class Counting>
 void note_handed_over(Counting& counting, std::size_t) {
   counting.add("handed_over_rays");

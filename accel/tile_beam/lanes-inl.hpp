@@ -38,7 +38,7 @@ HWY_INLINE Floats all(float value) { return hn::Set(Tag(), value); }
 HWY_INLINE Floats load(const float* from) { return hn::Load(Tag(), from); }
 HWY_INLINE void store(Floats values, float* to) { hn::Store(values, Tag(), to); }
 
-/// As large as a mask in memory, so that it goes from register to register.
+/// A word as large as a mask in memory, so that it can be forwarded between registers.
 using MaskWord = std::conditional_t<(kLanes > 8), std::uint16_t, std::uint8_t>;
 static_assert(kLanes <= 8 || std::endian::native == std::endian::little);
 
@@ -52,16 +52,16 @@ HWY_INLINE Mask mask_of(LaneBits bits) {
   return hn::LoadMaskBits(Tag(), reinterpret_cast<const std::uint8_t*>(&word));
 }
 
-/// Stores the values of the lanes of `mask` one after the other, and something behind them: there
-/// must be room for a whole register. Returns their number. A compression to memory, which is what
-/// Highway's CompressStore is on AVX-512, is slow on some processors (AMD's Zen 4).
+/// Stores the values of the lanes of `mask` consecutively, and arbitrary values behind them: there
+/// must be room for a whole register. Returns their number. Compressing directly to memory, as
+/// Highway's CompressStore does on AVX-512, is slow on some processors (AMD's Zen 4).
 template <class D>
 HWY_INLINE std::size_t compress_store(D d, hn::Vec<D> values, hn::Mask<D> mask, hn::TFromD<D>* to) {
   hn::StoreU(compress(d, values, mask), d, to);
   return hn::CountTrue(d, mask);
 }
 
-/// 1 / values, to within two roundings; infinity for 0, and 0 for infinity.
+/// Returns 1 / values, to within two roundings; infinity for 0, and 0 for infinity.
 template <class D>
 HWY_INLINE hn::Vec<D> reciprocal(D d, hn::Vec<D> values) {
 #if HWY_MAX_BYTES == 64  // one of Newton's steps is faster than a division
@@ -84,7 +84,7 @@ HWY_INLINE LaneBits for_each_register(Test test) {
   return bits;
 }
 
-/// The lane of the largest value among some.
+/// Returns the lane of the largest of several values.
 template <std::size_t kValues>
 HWY_INLINE std::size_t largest_of(const std::array<float, kValues>& values, LaneBits lanes) {
   auto largest = static_cast<std::size_t>(std::countr_zero(lanes));
@@ -102,7 +102,7 @@ struct Points {
   Floats z;
 };
 
-/// x * a.x + y * a.y + z * a.z.
+/// Returns x * a.x + y * a.y + z * a.z.
 HWY_INLINE Floats dot(const Points& a, const Points& b) {
   return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
 }
@@ -111,7 +111,7 @@ HWY_INLINE Points all_of(const Vector& v) {
   return {all(v.x), all(v.y), all(v.z)};
 }
 
-/// Entries of a table of 32 floats, by indices.
+/// Looks up entries of a table of 32 floats by index.
 class Table32 {
  public:
   HWY_INLINE explicit Table32(const float* entries) : entries_(entries) {}

@@ -24,8 +24,8 @@ bool same_bits(const glm::vec3& point, const Meshlet& meshlet, std::size_t verte
   return true;
 }
 
-/// The number of a corner in a meshlet, added when it is new; kMaxVertices when the meshlet is
-/// full.
+/// Returns the number of a corner in a meshlet, adding it if it is new; kMaxVertices if the meshlet
+/// is full.
 std::size_t vertex_of(Meshlet& meshlet, const glm::vec3& point) {
   for (std::size_t i = meshlet.vertex_count; i-- > 0;) {
     if (same_bits(point, meshlet, i)) return i;
@@ -37,7 +37,7 @@ std::size_t vertex_of(Meshlet& meshlet, const glm::vec3& point) {
   return meshlet.vertex_count++;
 }
 
-/// Adds a triangle with its corners; false, and nothing added, when it does not fit.
+/// Adds a triangle with its corners; false, without adding anything, if it does not fit.
 bool append(Meshlet& meshlet, const scenes::Scene& scene, const scenes::Triangle& triangle) {
   if (meshlet.triangle_count == Meshlet::kMaxTriangles) return false;
   const std::uint32_t vertices_before = meshlet.vertex_count;
@@ -71,7 +71,7 @@ class LeafPacker {
     const scenes::Scene& scene = pieces_->scene;
     made_.packed.reserve(leaves);
     made_.first.reserve(leaves + 1);
-    // For some leaves need several blocks; room that is not used is never touched.
+    // Allow for leaves with several blocks; unused room is never touched.
     const std::size_t blocks = leaves + leaves / 2;
     made_.blocks.meshlets.reserve(blocks * scene.triangles.size() / pieces);
     made_.blocks.spheres.reserve(blocks * scene.spheres.size() / pieces);
@@ -93,8 +93,8 @@ class LeafPacker {
   PackedLeaves& made() { return made_; }
 
  private:
-  /// Items of one kind into one block or, where they do not fit, halved where they lie apart most:
-  /// in the order of the scene, the boxes of a leaf's blocks would overlap.
+  /// Packs items of one kind into one block. If they do not fit, they are halved along the axis of
+  /// their greatest extent: in the order of the scene, the boxes of a leaf's blocks would overlap.
   void pack_blocks(scenes::PrimitiveKind kind, std::span<std::uint32_t> items) {
     if (pack_block(kind, items)) return;
     const auto half = static_cast<std::ptrdiff_t>(items.size() / 2);
@@ -116,7 +116,7 @@ class LeafPacker {
     }
   }
 
-  /// False, and nothing added, when they do not fit.
+  /// Returns false, without adding anything, if they do not fit.
   bool pack_block(scenes::PrimitiveKind kind, std::span<const std::uint32_t> items) {
     scenes::Bounds box;
     for (const std::uint32_t item : items) box.include(pieces_->boxes[item]);
@@ -136,7 +136,7 @@ class LeafPacker {
     made_.packed.push_back({TileChild(kind, static_cast<std::uint32_t>(index)), box});
   }
 
-  /// Spheres or cones.
+  /// Adds spheres or cones.
   template <class Blocks>
   bool pack_lanes(TileChild::Kind kind, Blocks& blocks, std::span<const std::uint32_t> items,
                   const scenes::Bounds& box) {
@@ -163,7 +163,7 @@ class LeafPacker {
     return true;
   }
 
-  /// Marks the triangles of the last meshlet that are parts of solids.
+  /// Marks the triangles of the last meshlet that belong to solids.
   void note_solids(std::span<const std::uint32_t> items) {
     const Solids& solids = pieces_->solids;
     if (solids.solids.empty()) return;
@@ -200,11 +200,11 @@ class LeafPacker {
   }
 
   const TilePieces* pieces_;
-  std::vector<std::uint32_t> of_kind_;  ///< of the leaf being packed: kept for its memory
+  std::vector<std::uint32_t> of_kind_;  ///< of the current leaf; kept for its memory
   PackedLeaves made_;
 };
 
-/// Joins what was packed part by part, in the order of the parts.
+/// Joins the packed parts in their order.
 class Joining {
  public:
   Joining(const scenes::Scene& scene, std::vector<LeafPacker>& parts) : parts_(&parts) {
@@ -236,7 +236,7 @@ class Joining {
   }
 
  private:
-  /// Where a part begins in the whole.
+  /// The beginning of a part in the whole.
   struct Begin {
     std::size_t meshlets = 0;
     std::size_t spheres = 0;

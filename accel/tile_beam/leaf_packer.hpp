@@ -1,5 +1,5 @@
 #pragma once
-// From leaves of primitives to the blocks that SIMD processes: meshlets, spheres, cones.
+// Packs leaves of primitives into the blocks that SIMD processes: meshlets, spheres, cones.
 
 #include <cstdint>
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace beambench::accel::tile_beam {
 
-/// What a leaf refers to: a triangle of a polygon, or a whole sphere or cone.
+/// A piece in a leaf: a triangle of a polygon, or a whole sphere or cone.
 struct TilePiece {
   scenes::PrimitiveId primitive;
   std::uint32_t index;  ///< into the scene's triangles, spheres or cones
@@ -44,9 +44,9 @@ struct TilePieces {
 };
 
 /// Packs leaves, each given by its items. A leaf becomes a block for each kind of primitive in it,
-/// more where one is full: at most kTileLanes for a leaf of no more than 32 pieces. `parallel`: on
-/// all cores; the blocks are the same.
-/// Throws InputError when there are more than TileChild::kIndices blocks of a kind.
+/// or several if one is full: at most kTileLanes for a leaf of up to 32 pieces. `parallel`: on all
+/// cores; the blocks are the same. Throws InputError when there are more than TileChild::kIndices
+/// blocks of a kind.
 PackedLeaves pack_leaves(const TilePieces& pieces,
                          std::span<const std::span<const std::uint32_t>> leaves, bool parallel);
 

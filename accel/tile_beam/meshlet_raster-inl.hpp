@@ -19,7 +19,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// Triangles that need double, one by one. `triangle_of(lane)` is the number of a lane's.
+/// Draws triangles that need double, one by one. `triangle_of(lane)` is the number of a lane's
+/// triangle.
 template <class TriangleOf>
 inline void draw_exactly(const Meshlet& meshlet, TriangleOf triangle_of, Mask which,
                          const TileRays& rays, TileImage& image) {
@@ -41,7 +42,7 @@ inline void draw_exactly(const Meshlet& meshlet, TriangleOf triangle_of, Mask wh
   }
 }
 
-/// Large triangles, one by one, row by row; acute ones not beyond their boxes.
+/// Draws large triangles one by one, row by row; acute ones not beyond their boxes.
 inline void draw_large(const StoredImages& images, const scenes::PrimitiveId* primitives,
                        Mask which, Mask acute_ones, TileImage& image) {
   const LaneBits acute = bits_of(acute_ones);
@@ -57,8 +58,8 @@ inline void draw_large(const StoredImages& images, const scenes::PrimitiveId* pr
   }
 }
 
-/// The triangles of `which` that hierarchical Z hides: of those that cover at most 2 x 2 of its
-/// cells.
+/// Returns the triangles of `which` that hierarchical Z hides, among those that cover at most 2 x 2
+/// of its cells.
 HWY_INLINE Mask hidden(const TriangleImages& images, Mask which, const TileImage& image) {
   const auto cell = [](Floats sample) {
     return hn::ShiftRight<3>(hn::ConvertTo(IntTag(), sample));
@@ -107,8 +108,8 @@ HWY_INLINE void draw_triangles(const TriangleImages& images, const scenes::Primi
   draw_large(stored, primitives, hn::AndNot(listed, rest), images.acute, image);
 }
 
-/// Draws a meshlet. What lies behind `farthest` (1/t) is not drawn, nor are backs of the triangles
-/// in `hidden`.
+/// Draws a meshlet. Parts behind `farthest` (1/t) are not drawn, nor are backs of the triangles in
+/// `hidden`.
 inline void draw_meshlet(const Meshlet& meshlet, std::uint32_t hidden, const TileRays& rays,
                          float farthest, TileImage& image) {
   ProjectedVertices projected;

@@ -1,4 +1,4 @@
-// The blocks of a part of a pencil, put together anew where they are large, and in groups.
+// Regroups the blocks of a part of a pencil: large blocks are rebuilt, and all are put into groups.
 
 #if defined(ACCEL_TILE_BEAM_PENCIL_GROUPING_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_PENCIL_GROUPING_INL
@@ -20,7 +20,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// The even bits of the result are the eight bits of each lane.
+/// Spreads the eight bits of each lane to the even bits of the result.
 HWY_INLINE Ints spread_bits(Ints bits) {
   const IntTag d;
   bits = hn::And(hn::Or(bits, hn::ShiftLeft<4>(bits)), hn::Set(d, 0x0F0F));
@@ -49,8 +49,8 @@ class MortonOrder {
   float low_u_, low_v_, scale_u_, scale_v_;
 };
 
-/// Takes apart the blocks that are much larger than most, sorts their rays and puts these into
-/// blocks anew; then orders all blocks, and makes groups of them.
+/// Splits blocks that are much larger than most, sorts their rays and forms new blocks of them;
+/// then orders all blocks and makes groups of them.
 class PencilGrouping {
  public:
   PencilGrouping(PencilUnit& unit, bool has_origin_w) : unit_(&unit), has_origin_w_(has_origin_w) {}
@@ -97,8 +97,8 @@ class PencilGrouping {
       bits += std::bit_cast<std::int32_t>(size);
       ++extended;
     }
-    // The mean of the bits is about that of the logarithms. In a list without order all blocks are
-    // alike: none may be much larger than an equal part of the whole either.
+    // The mean of the bits is roughly that of the logarithms. In an unordered list all blocks are
+    // similar, so none may be much larger than an equal part of the whole either.
     const float usual =
         extended > 0 ? std::bit_cast<float>(static_cast<std::int32_t>(bits / extended)) : 0.0F;
     const float equal_part = ((high_u_ - low_u_) + (high_v_ - low_v_)) /
@@ -106,7 +106,7 @@ class PencilGrouping {
     largest_ = kMuchLarger * std::min(usual, equal_part);
   }
 
-  /// Moves the rays of large blocks behind those in blocks; returns how many there are.
+  /// Moves the rays of large blocks behind those in blocks; returns their number.
   std::size_t pool_large_blocks() {
     std::size_t pooled = 0;
     for (std::size_t block = 0; block < unit_->listed; ++block) {
@@ -120,7 +120,7 @@ class PencilGrouping {
     return pooled;
   }
 
-  /// Sorts them along the curve, by two passes of counting.
+  /// Sorts them along the curve, with two passes of counting.
   void put_together(std::size_t pooled) {
     const MortonOrder order(low_u_, high_u_, low_v_, high_v_);
     alignas(64) std::array<float, 16> u{};
@@ -200,7 +200,7 @@ class PencilGrouping {
     if (has_origin_w_) reduce(unit_->origin_w.data(), unused, bounds.most_origin_w[block]);
   }
 
-  /// Along the curve, by their middles, in 256 cells.
+  /// Orders the blocks along the curve by their centers, in 256 cells.
   void order_blocks() {
     const MortonOrder order(low_u_, high_u_, low_v_, high_v_);
     std::array<std::uint16_t, 257> next{};
@@ -280,10 +280,10 @@ class PencilGrouping {
     }
   }
 
-  /// How many times the usual extent a block must have to be taken apart: depth discontinuities.
+  /// The factor by which a block must exceed the usual extent to be split: depth discontinuities.
   static constexpr float kMuchLarger = 2.8F;
-  /// Of the bounds of a block: more than five roundings of places |u| <= 1, which bounds and edges
-  /// may be wrong by.
+  /// The padding of a block's bounds: more than five roundings of places |u| <= 1, the possible
+  /// error of bounds and edges.
   static constexpr float kPad = 3e-7F;
 
   PencilUnit* unit_;

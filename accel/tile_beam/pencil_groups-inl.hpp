@@ -1,4 +1,4 @@
-// The groups of blocks of a part of a pencil: their bounds, and which rays may still be hit.
+// The groups of blocks of a part of a pencil: their bounds, and the rays that may still be hit.
 
 #if defined(ACCEL_TILE_BEAM_PENCIL_GROUPS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_PENCIL_GROUPS_INL
@@ -21,7 +21,7 @@ namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 /// Rays toward the apex: a hit ends a ray.
 struct AnyHitPolicy {
   static constexpr bool kClosest = false;
-  /// Leaves for each ray from which on single rays take less time, measured.
+  /// The number of leaves per ray from which on single rays take less time, as measured.
   static constexpr float kHandoverLeaves = 1.0F;
 };
 /// Rays away from the apex: a hit brings the ray's end nearer.
@@ -34,7 +34,7 @@ struct ClosestHitPolicy {
 using SideBounds = std::array<float, 6>;
 enum Bound : std::size_t { kLowU, kHighU, kLowV, kHighV, kLowW, kHighW };
 
-/// Lanes whose bounds overlap those of `within` (sign clear).
+/// Returns the lanes whose bounds overlap those of `within` (sign clear).
 template <bool kClosest>
 HWY_INLINE Floats apart(const SeenBounds& bounds, const PencilBounds& within) {
   const Floats aside =
@@ -49,11 +49,11 @@ HWY_INLINE Floats apart(const SeenBounds& bounds, const PencilBounds& within) {
   }
 }
 
-/// What is known of the groups of a unit while its part goes through the hierarchy.
+/// The state of a unit's groups while its part traverses the hierarchy.
 template <class Policy>
 class PencilGroups {
  public:
-  /// The groups of the unit as they are before the first test.
+  /// Starts with the groups of the unit before the first test.
   explicit PencilGroups(PencilUnit& unit) : unit_(&unit) {
     for (std::size_t group = 0; group < PencilUnit::kGroups; ++group) {
       if (group < unit_->groups) {
@@ -72,16 +72,16 @@ class PencilGroups {
     bound_all();
   }
 
-  /// A bit for each that has a ray which may still be hit.
+  /// Returns a bit for each group with a ray that may still be hit.
   std::uint32_t alive() const { return unit_->groups_alive; }
-  /// Of all of these.
+  /// Returns the bounds of all of these.
   const PencilBounds& all_bounds() const { return all_; }
   PencilBounds bounds_of(std::size_t group) const {
     return {unit_->group_low_u[group],  unit_->group_high_u[group], unit_->group_low_v[group],
             unit_->group_high_v[group], unit_->group_w[group],      unit_->group_origin_w[group]};
   }
 
-  /// The groups from which bounds may be seen.
+  /// Returns the groups from which bounds may be visible.
   HWY_INLINE std::uint32_t groups_in(const SideBounds& bounds) const {
     std::uint32_t bits = 0;
     for (std::size_t lane = 0; lane < unit_->groups; lane += kLanes) {
@@ -98,7 +98,7 @@ class PencilGroups {
     return bits;
   }
 
-  /// The blocks of a group that something within bounds may be seen from.
+  /// Returns the blocks of a group from which something within bounds may be visible.
   HWY_INLINE LaneBits blocks_in(std::size_t group, const SideBounds& bounds) const {
     const LaneBits blocks = for_each_register([&](std::size_t lane) {
       const std::size_t at = group * 16 + lane;
@@ -112,7 +112,7 @@ class PencilGroups {
     return blocks & unit_->group_blocks[group];
   }
 
-  /// Notes which rays of a block were hit. Returns the bit of its group if that matters for bounds.
+  /// Records which rays of a block were hit. Returns the bit of its group if that affects bounds.
   HWY_INLINE std::uint32_t note(std::size_t place, LaneBits hits) {
     const std::size_t group = place / 16;
     if constexpr (kClosest) {
@@ -127,7 +127,7 @@ class PencilGroups {
     }
   }
 
-  /// Bounds anew the groups for which `note` returned a bit.
+  /// Recomputes the bounds of the groups for which `note` returned a bit.
   void update(std::uint32_t changed) {
     const std::uint32_t before = unit_->groups_alive;
     bool shrunk = false;
@@ -209,7 +209,7 @@ class PencilGroups {
             most_of(high_v), least_of(w),     kClosest ? most_of(origin_w) : kInfinity};
   }
 
-  /// The smallest w that is left to beat in a block.
+  /// Finds the smallest w in a block that hits must exceed.
   HWY_INLINE void find_farthest(std::size_t place) {
     const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
     Floats least = all(kInfinity);

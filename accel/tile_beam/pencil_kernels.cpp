@@ -15,10 +15,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// The largest distance from the apex at which a part is traced together. From a few scene sizes
-/// on, float distinguishes few origins of rays from the surfaces that they begin beside; any hits
-/// are still worth deciding one by one, but over a scene that is small beside its coordinates all
-/// places are rounded alike.
+/// The largest distance from the apex at which a part is traced together. At more than a few scene
+/// sizes, float rarely distinguishes origins of rays from the surfaces beside them. For any hits,
+/// it is still worthwhile to decide them one by one, but in a scene that is small relative to its
+/// coordinates, all places are rounded to the same ones.
 template <bool kToward>
 float farthest(const scenes::Bounds& scene) {
   const float size = scene.largest_coordinate();
@@ -29,7 +29,7 @@ float farthest(const scenes::Bounds& scene) {
 }
 
 /// Calls `walk(part, side)` for each side of the cube that the first rays pass, and `undecided(i)`
-/// for those that pass none.
+/// for rays that pass none.
 template <bool kToward, class Walk, class Undecided>
 HWY_INLINE AnsweredRays for_each_side(const PencilRays& pencil, PencilUnit& unit, Walk walk,
                                       Undecided undecided) {
@@ -103,9 +103,9 @@ AnsweredRays closest_hits(const PencilRays& pencil, PencilUnit& unit, const HitS
         counting.add("beams");
         walk_part<ClosestHitPolicy>(pencil, part, side, unit, counting);
         const auto z = static_cast<int>(side.z_axis());
-        // The place of a hit errs by up to 8 roundings of its distance from the apex. Where these
-        // are more than the 16 that are allowed of origin and hit (`float_unit`), the canonical
-        // test finds t.
+        // The place of a hit is off by up to 8 roundings of its distance from the apex. If these
+        // exceed the 16 that are allowed for origin and hit (`float_unit`), the canonical test
+        // determines t.
         const auto is_far = [](const Ray& ray, float t, float depth) {
           const float more = depth - 2.0F * glm::length(ray.origin);
           if (more <= 0.0F) return false;

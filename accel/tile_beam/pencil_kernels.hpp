@@ -1,5 +1,5 @@
 #pragma once
-// Parts of pencils through the hierarchy, compiled for several instruction sets.
+// Traces parts of pencils through the hierarchy, compiled for several instruction sets.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,9 +17,9 @@
 
 namespace beambench::accel::tile_beam {
 
-/// The samples of an image that rays come from, by their numbers in a HitBuffer.
+/// The samples of an image from which rays come, as numbers in a HitBuffer.
 struct PencilSamples {
-  std::span<const std::uint32_t> of_rays;  ///< empty where they are not known
+  std::span<const std::uint32_t> of_rays;  ///< empty if unknown
   std::uint32_t width = 1;                 ///< of the image, in pixels
   std::uint32_t per_pixel = 1;
   double per_width = 1.0;  ///< 1 / width
@@ -38,7 +38,7 @@ struct PencilSamples {
     if (!of_rays.empty()) rest.of_rays = of_rays.subspan(first);
     return rest;
   }
-  /// Without a division. Half a pixel more than the quotient is far enough from whole numbers.
+  /// Avoids a division. Half a pixel more than the quotient is far enough from whole numbers.
   std::uint32_t row_of(std::uint32_t pixel) const {
     return static_cast<std::uint32_t>((pixel + 0.5) * per_width);
   }
@@ -53,36 +53,37 @@ struct PencilRays {
   glm::vec3 apex;
 };
 
-/// The result of a ray that is left to the query of single rays: its line is too long for float, or
-/// has no direction from the apex.
+/// The result of a ray that is left to the query for single rays: its line is too long for float,
+/// or has no direction from the apex.
 inline constexpr std::uint8_t kUndecided = 2;
 /// The same as the t of a closest hit; no ray has one there.
 inline constexpr float kUndecidedT = -kInfinity;
 
-/// How many rays were answered, and whether some of them are undecided.
+/// The number of rays answered, and whether some of them are undecided.
 struct AnsweredRays {
   std::size_t count;
   bool some_undecided;
 };
 
-/// The queries under one counting policy. They answer the first rays of some, as many as go into
-/// `unit`. The unit's side of the cube is the first to be tried, and
-/// is set to the one that saw the last rays.
+/// The queries under one counting policy. They trace the first rays of a list, as many as fit into
+/// `unit`. The unit's side of the cube is tried first, and is set to the one that saw the last
+/// rays.
 template <class Counting>
 struct PencilQueries {
-  /// Rays toward the apex: 1, 0 or kUndecided for each.
+  /// Traces rays toward the apex: writes 1, 0 or kUndecided for each.
   AnsweredRays (*any_hits)(const PencilRays&, PencilUnit& unit, std::span<std::uint8_t> hits,
                            Counting&);
-  /// Rays away from it: their hits from `first` of the buffer on; t is kUndecidedT where undecided.
+  /// Traces rays away from the apex: writes their hits from `first` of the buffer on; t is
+  /// kUndecidedT if undecided.
   AnsweredRays (*closest_hits)(const PencilRays&, PencilUnit& unit, const HitSpan& buffer,
                                std::size_t first, Counting&);
 };
 
 struct PencilKernels : PencilQueries<NoCounting>, PencilQueries<WorkCounters> {
-  /// How many rays the queries answer at once.
+  /// Returns how many rays the queries trace at once.
   std::size_t (*count_part)(const PencilRays&, PencilUnit& unit);
-  /// Where the rays of a part toward the apex are when any_hits traces them (`note_places`); those
-  /// that it leaves undecided are not written.
+  /// Writes the places of the rays of a part toward the apex when any_hits traces them
+  /// (`note_places`); those that it leaves undecided are not written.
   void (*places)(const PencilRays&, PencilUnit& unit, std::span<BeamPlace> places);
 
   template <class Counting>
@@ -91,7 +92,8 @@ struct PencilKernels : PencilQueries<NoCounting>, PencilQueries<WorkCounters> {
   }
 };
 
-/// Those for the best instruction set that this machine has among some, as `tile_kernels_for`.
+/// Returns the kernels for the best instruction set that this machine has among some, like
+/// `tile_kernels_for`.
 const PencilKernels& pencil_kernels_for(std::int64_t targets);
 
 }  // namespace beambench::accel::tile_beam

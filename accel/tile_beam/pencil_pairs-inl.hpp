@@ -1,4 +1,4 @@
-// Which blocks of a part of a pencil are to be tested against which shapes of a leaf.
+// Determines which blocks of a part of a pencil must be tested against which shapes of a leaf.
 
 #if defined(ACCEL_TILE_BEAM_PENCIL_PAIRS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_PENCIL_PAIRS_INL
@@ -20,7 +20,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// Numbers of a shape, all lanes alike, or of as many shapes as there are lanes; likewise blocks.
+/// The numbers of one shape in all lanes, or of one shape per lane; likewise for blocks.
 struct OneShape {
   const SeenShapes& shapes;
   std::size_t shape;
@@ -40,7 +40,8 @@ struct SomeBlocks {
   HWY_INLINE Floats operator()(const float* values) const { return load(values + place); }
 };
 
-/// Finds them by the bounds of groups, then by those of blocks, a triangle's edges and its plane.
+/// Finds the pairs by the bounds of groups, then by those of blocks, a triangle's edges and its
+/// plane.
 template <class Policy>
 class PencilPairs {
  public:
@@ -53,7 +54,7 @@ class PencilPairs {
     list_candidates(bounds, groups, count);
     test_blocks<kTriangles>(count);
   }
-  /// Those found last: place of the block * SeenShapes::kMax + shape.
+  /// Returns the pairs found last: place of the block * SeenShapes::kMax + shape.
   std::span<const std::uint32_t> found() const { return {pairs_.data(), count_}; }
 
  private:
@@ -61,14 +62,14 @@ class PencilPairs {
 
   using Numbers = hn::Vec<hn::RebindToUnsigned<Tag>>;
 
-  /// Writes the numbers of some lanes one after the other, and returns how many.
+  /// Writes the numbers of some lanes consecutively, and returns how many.
   static HWY_INLINE std::size_t append(Numbers numbers, Mask which, std::uint32_t* to) {
     const hn::RebindToUnsigned<Tag> d;
     return compress_store(d, numbers, hn::RebindMask(d, which), to);
   }
 
-  /// Which shapes are to be tested with which blocks: of each group either all blocks against some
-  /// shapes, or all shapes against some blocks, whatever is fewer.
+  /// Lists the shapes to be tested with blocks: for each group either all blocks with some shapes,
+  /// or all shapes with some blocks, whichever are fewer.
   HWY_INLINE void list_candidates(const SideBounds& bounds, std::uint32_t groups,
                                   std::size_t count) {
     const hn::RebindToUnsigned<Tag> d;
@@ -89,7 +90,7 @@ class PencilPairs {
         shapes |= bits_of(hn::Not(is_negative(apart<kClosest>(seen, within)))) << lane;
       }
       shapes &= shapes_->present;
-      // Both lists grow without a branch: the one that is not chosen by nothing.
+      // Both lists grow without a branch: the one that is not chosen grows by nothing.
       const std::size_t registers_of_group = 16 / kLanes;
       const bool by_block = static_cast<std::size_t>(std::popcount(blocks)) * shape_registers <
                             static_cast<std::size_t>(std::popcount(shapes)) * registers_of_group;
@@ -109,7 +110,7 @@ class PencilPairs {
     by_block_count_ = by_block_count;
   }
 
-  /// Lanes where the shape can hit no ray of the block have their sign set.
+  /// Sets the sign of lanes in which the shape cannot hit any ray of the block.
   template <bool kTriangles, class Shape, class Block>
   HWY_INLINE Floats misses(Shape shape, Block block) const {
     const PencilUnit& unit = *unit_;
@@ -148,7 +149,7 @@ class PencilPairs {
     return out;
   }
 
-  /// Lists the pairs of a block and a shape whose rays are to be tested.
+  /// Lists the pairs of a block and a shape whose rays must be tested.
   template <bool kTriangles>
   HWY_INLINE void test_blocks(std::size_t shapes) {
     const hn::RebindToUnsigned<Tag> d;
@@ -186,7 +187,7 @@ class PencilPairs {
   std::size_t by_shape_count_ = 0;
   std::size_t by_block_count_ = 0;
   std::size_t count_ = 0;
-  /// Room for a register behind the last.
+  /// Room for a register after the last one.
   std::array<std::uint32_t, PencilUnit::kGroups * SeenShapes::kMax + 16> by_shape_;
   std::array<std::uint32_t, PencilUnit::kPlaces + 16> by_block_;
   std::array<std::uint32_t, PencilUnit::kPlaces * SeenShapes::kMax + 16> pairs_;

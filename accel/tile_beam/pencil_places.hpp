@@ -1,5 +1,5 @@
 #pragma once
-// Where the rays of a unit are, for pictures.
+// Shows the places of a unit's rays, for pictures.
 
 #include <bit>
 #include <cstdint>
@@ -11,11 +11,11 @@
 
 namespace beambench::accel::tile_beam {
 
-/// Each side of the cube has blocks of its own.
+/// Each side of the cube has its own blocks.
 inline constexpr std::uint32_t kBlocksOfPart = CubeSide::kCount * PencilUnit::kBlocks;
 
-/// Notes the places of the rays that a walk through one side of the cube has traced, by their
-/// numbers in the unit. Blocks are numbered from 0 to `kBlocksOfPart`.
+/// Records the places of the rays traced by a walk through one side of the cube, by their numbers
+/// in the unit. Blocks are numbered from 0 to `kBlocksOfPart`.
 inline void note_places(const PencilUnit& unit, CubeSide side, const HandOverRecorder& recorder,
                         std::span<BeamPlace> places) {
   for (std::size_t place = 0; place < unit.places; ++place) {

@@ -1,4 +1,4 @@
-// The rays of a part of a pencil as its apex sees them: listed in blocks, and projected.
+// The rays of a part of a pencil as seen from its apex: listed in blocks, and projected.
 
 #if defined(ACCEL_TILE_BEAM_PENCIL_POINTS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_PENCIL_POINTS_INL
@@ -25,14 +25,14 @@ namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
 inline constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
-/// The lanes whose sign bit is set.
+/// Returns the lanes whose sign bit is set.
 HWY_INLINE Mask is_negative(Floats values) {
   return hn::RebindMask(Tag(), hn::Lt(hn::BitCast(IntTag(), values), hn::Zero(IntTag())));
 }
 HWY_INLINE Floats either(Floats a, Floats b, Floats c) { return hn::Or3(a, b, c); }
 HWY_INLINE float least_of(Floats values) { return hn::GetLane(hn::MinOfLanes(Tag(), values)); }
 HWY_INLINE float most_of(Floats values) { return hn::GetLane(hn::MaxOfLanes(Tag(), values)); }
-/// The lanes from `first` on of sixteen bits.
+/// Returns the lanes from `first` on of sixteen bits.
 HWY_INLINE Mask lanes_of(LaneBits bits, std::size_t first) { return mask_of(bits >> first); }
 
 /// Component by component.
@@ -43,7 +43,7 @@ struct RayLanes {
   Floats t_max;
 };
 
-/// As many rays as a register has lanes.
+/// Loads as many rays as a register has lanes.
 HWY_INLINE RayLanes load_rays(const Ray* rays) {
 #if HWY_TARGET == HWY_SCALAR
   return {all_of(rays->origin), all_of(rays->direction), all(rays->t_min), all(rays->t_max)};
@@ -66,8 +66,8 @@ HWY_INLINE Floats coordinate(const Points& points, std::size_t axis) {
   return axis == 0 ? points.x : axis == 1 ? points.y : points.z;
 }
 
-/// Divides the first rays of a list into listed blocks: sixteen after the other or, where their
-/// samples are known, those of a square of 4 x 4 pixels.
+/// Divides the first rays of a list into listed blocks: sixteen in succession or, if their samples
+/// are known, those in a square of 4 x 4 pixels.
 inline void list_blocks(std::span<const Ray> rays, const PencilSamples& samples, PencilUnit& unit) {
   unit.listed = 0;
   unit.first[0] = 0;
@@ -83,13 +83,13 @@ inline void list_blocks(std::span<const Ray> rays, const PencilSamples& samples,
 struct PencilPart {
   std::span<const Ray> rays;
   glm::vec3 apex;
-  /// Rays that begin farther from the apex along the side's axis are too far for float.
+  /// The maximum distance of a ray's beginning from the apex along the side's axis for float.
   float farthest;
 };
 
-/// Projects the rays of one side. `kToward`: the apex is at the rays' ends, and their points are
-/// seen from it; otherwise at some distance behind their origins, and their directions are seen.
-/// Returns the sides that other rays belong to, a bit each.
+/// Projects the rays of one side. `kToward`: the apex is at the rays' ends, and sees their points;
+/// otherwise it is at some distance behind their origins, and sees their directions. Returns the
+/// sides to which other rays belong, one bit each.
 template <bool kToward>
 class PencilProjection {
  public:
@@ -101,7 +101,7 @@ class PencilProjection {
     for (std::size_t block = 0; block < unit_->listed; ++block) {
       const std::size_t first = unit_->first[block];
       const LaneBits present = (LaneBits{1} << (unit_->first[block + 1] - first)) - 1;
-      // The next unit's rays, while these are traced.
+      // Prefetches the next unit's rays while these are traced.
       prefetch_lines(&part_->rays[first] + PencilUnit::kRays, PencilUnit::kBlock * sizeof(Ray));
       if (first + PencilUnit::kBlock <= count) {
         project(block, &part_->rays[first], present);
@@ -194,11 +194,11 @@ class PencilProjection {
     }
   }
 
-  /// The least depth and direction: reciprocals remain of ordinary size, and single rays can be
+  /// The minimum depth and direction: reciprocals stay of ordinary size, and single rays can be
   /// probed (ProbeRay::can_probe).
   static constexpr float kNearest = 0x1p-59F;
-  /// Rays that end farther before the apex, as those of points close to a light, are traced one by
-  /// one.
+  /// The minimum end of rays traced together. Rays that end farther in front of the apex, such as
+  /// those of points close to a light, are traced one by one.
   static constexpr float kMinEnd = 0.5F;
 
   Floats end_depth_ = hn::Zero(Tag());

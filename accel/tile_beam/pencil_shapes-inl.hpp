@@ -1,4 +1,4 @@
-// The contents of a leaf as a pencil's apex sees them: bounds, and what the tests of rays need.
+// The contents of a leaf as seen from a pencil's apex: bounds, and data for the tests of rays.
 
 #if defined(ACCEL_TILE_BEAM_PENCIL_SHAPES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_PENCIL_SHAPES_INL
@@ -17,21 +17,21 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// Where a side of the cube is seen from.
+/// The viewpoint of a side of the cube.
 struct ApexView {
   glm::vec3 apex;
   CubeSide side;
   float scene_size;  ///< the largest |coordinate|
-  /// Shapes closer to the apex are left to the canonical test: some ray ends before them.
+  /// Shapes closer to the apex are left to the canonical test, because some ray ends before them.
   float end;
 
-  /// The world's coordinates in the order of the side's.
+  /// Returns the world's coordinates in the order of the side's.
   HWY_INLINE Points turned(Floats x, Floats y, Floats z) const {
     const Points world{x, y, z};
     return {coordinate(world, side.x_axis()), coordinate(world, side.y_axis()),
             hn::Mul(coordinate(world, side.z_axis()), all(side.sign()))};
   }
-  /// Of turned places: the side's coordinates.
+  /// Returns the side's coordinates of turned places.
   HWY_INLINE Points from_apex(const Points& at) const {
     const auto component = [&](std::size_t axis) { return apex[static_cast<int>(axis)]; };
     return {hn::Sub(at.x, all(component(side.x_axis()))),
@@ -45,11 +45,11 @@ struct SeenBounds {
   Floats low_u, high_u, low_v, high_v, low_w, high_w;
 };
 
-/// The largest w: of what reaches to the apex or beside it.
+/// The largest w, for parts at or beside the apex.
 inline constexpr float kAtApex = 1e30F;
 
-/// The bounds of boxes, which are exact: boxes and sides have the same axes. Lanes of boxes behind
-/// the apex are not set in `seen`.
+/// Returns the bounds of boxes, which are exact, because boxes and sides have the same axes. Lanes
+/// of boxes behind the apex are not set in `seen`.
 HWY_INLINE SeenBounds bounds_of(const TileBoxes& boxes, std::size_t lane, const ApexView& view,
                                 Mask& seen) {
   const auto plane = [&](std::size_t row, std::size_t axis) {
@@ -70,9 +70,9 @@ HWY_INLINE SeenBounds bounds_of(const TileBoxes& boxes, std::size_t lane, const 
   return {low(plane(0, x)), high(plane(3, x)), low(plane(0, y)), high(plane(3, y)), low_w, high_w};
 }
 
-/// The roundings that float is allowed for where a ray begins, in units of 2^-24 (see
-/// TriangleShapes): of places, which are to be multiplied by 1, of origins beside their line by the
-/// scene's size and w, and of the depths of origins.
+/// The roundings allowed for the beginning of a ray in float, in units of 2^-24 (see
+/// TriangleShapes): of places, to be multiplied by 1; of origins beside their line, by the scene's
+/// size and w; and of the depths of origins.
 template <class Policy>
 inline constexpr float kSlackOfPlaces = Policy::kClosest ? 36.0F : 8.0F;
 template <class Policy>
@@ -89,15 +89,15 @@ struct SeenShapes {
     kHighV,
     kLowW,
     kHighW,
-    /// Triangles: three edges a u + b v + c, inside not negative; the plane, and its distance: w of
+    /// Triangles: three edges a u + b v + c, nonnegative inside; the plane, and its distance: w of
     /// the triangle is (x u + y v + z) / distance. And the magnitudes of a, b, x and y. For any
     /// hits the plane and the distance are moved toward the rays by the slack.
     kEdge0,
     kPlane = kEdge0 + 9,
     kDistance = kPlane + 3,
     kMagnitudes,
-    /// Triangles: by how much plane - distance w may be wrong, slack + slack per w * w; twice as
-    /// much where that was moved by it.
+    /// Triangles: the possible error of plane - distance w, slack + slack per w * w; twice as much
+    /// where that was moved by it.
     kSlack = kMagnitudes + 8,
     kSlackPerW,
     /// Triangles: the value of an edge below which a hit is uncertain.
@@ -110,9 +110,9 @@ struct SeenShapes {
   static constexpr std::size_t kMax = 32;
 
   alignas(64) std::array<std::array<float, kMax>, kRows> rows;
-  LaneBits present;  ///< shapes that may be seen at all
-  LaneBits exact;    ///< triangles whose tests are `exact_triangle`'s
-  LaneBits by_rays;  ///< that the canonical test decides, ray by ray
+  LaneBits present;  ///< shapes that may be visible at all
+  LaneBits exact;    ///< triangles that use `exact_triangle`'s tests
+  LaneBits by_rays;  ///< decided by the canonical test, ray by ray
   LaneBits around;   ///< spheres that contain the apex
   std::array<ExactApexTriangle, kMax> exact_triangle;
 
@@ -134,7 +134,7 @@ struct SeenShapes {
   }
 };
 
-/// What all rays that may still be hit are within.
+/// Bounds of all rays that may still be hit.
 struct PencilBounds {
   float low_u, high_u, low_v, high_v;
   float least_w;        ///< nothing with a smaller w matters
@@ -190,7 +190,7 @@ class TriangleShapes {
       const Floats w = hn::Div(all(1.0F), seen.z);
       store(hn::Mul(seen.x, w), &u_[i]);
       store(hn::Mul(seen.y, w), &v_[i]);
-      // Beside the apex or behind it a corner has no accurate place: NaN.
+      // A corner beside the apex or behind it has no accurate place: NaN.
       const Mask before =
           hn::Gt(hn::Mul(seen.z, all(kFarAside)), hn::Max(hn::Abs(seen.x), hn::Abs(seen.y)));
       store(hn::IfThenElse(before, w, all(kNaN)), &w_[i]);
@@ -222,8 +222,8 @@ class TriangleShapes {
     const Mask present = hn::Or(hn::Not(before), hn::Not(is_negative(outside)));
     if (hn::AllFalse(Tag(), present)) return;
 
-    // Sides from the corners themselves: seen from a far apex, these are rounded to more than a
-    // small triangle's normal can bear.
+    // Sides are computed from the corners themselves: seen from a distant apex, these are rounded
+    // too coarsely for a small triangle's normal.
     const Points first{corner(x_, 0), corner(y_, 0), corner(z_, 0)};
     const Points p0 = view_->from_apex(first);
     const auto side = [&](std::size_t which) -> Points {
@@ -251,8 +251,8 @@ class TriangleShapes {
     slack_per_w = hn::MulAdd(all(kRounding * kSlackOfOrigins<Policy> * view_->scene_size),
                              sum_of_sizes, slack_per_w);
 
-    // Places of corners are those of all their triangles. So edges moved outward by what their
-    // values may be rounded by leave no gap between triangles that share an edge or a corner.
+    // Places of corners are the same for all their triangles. So edges moved outward by their
+    // possible rounding leave no gap between triangles that share an edge or a corner.
     struct Edge {
       Floats a, b, c;
     };
@@ -328,7 +328,7 @@ class TriangleShapes {
       return;
     }
     shapes.exact_triangle[triangle] = *exact;
-    // In float for the bounds of blocks, moved outward once more.
+    // In float for the bounds of blocks, moved outward again.
     const auto set_bound = [&](SeenShapes::Row row, double bound, double more) {
       shapes.rows[row][triangle] = static_cast<float>(std::clamp(
           bound + more * std::max(1.0, std::abs(bound)), double{-kAtApex}, double{kAtApex}));
@@ -355,12 +355,13 @@ class TriangleShapes {
   }
 
   static constexpr float kRounding = 0x1p-24F;
-  /// How far edges are moved, on the side of the cube: a rounding of places |u| <= 1.
+  /// The distance by which edges are moved, on the side of the cube: a rounding of places |u| <= 1.
   static constexpr float kOutward = kRounding;
-  /// The distance from a moved edge within which any hits are uncertain: places and edges err by
-  /// less, which far from the apex is more than ray and hit allow for (`float_unit`).
+  /// The distance from a moved edge within which any hits are uncertain: the errors of places and
+  /// edges are smaller, but far from the apex exceed the tolerance of ray and hit (`float_unit`).
   static constexpr float kUncertain = 8.0F * kRounding;
-  /// Beyond this tangent a corner's place is less accurate than blocks' bounds allow for.
+  /// The tangent beyond which a corner's place is less accurate than the bounds of blocks allow
+  /// for.
   static constexpr float kFarAside = 4.0F;
   /// The area of a triangle, over its extent, below which its sign is uncertain: eight roundings of
   /// places up to `kFarAside`.
@@ -372,7 +373,7 @@ class TriangleShapes {
   alignas(64) std::array<float, Meshlet::kMaxVertices> x_, y_, z_, u_, v_, w_;
 };
 
-/// Spheres of a block.
+/// Sets up the spheres of a block.
 HWY_INLINE void set_up_spheres(const SphereBlock& block, const ApexView& view, float slack,
                                SeenShapes& shapes) {
   shapes.present = shapes.exact = shapes.by_rays = shapes.around = 0;
@@ -403,8 +404,8 @@ HWY_INLINE void set_up_spheres(const SphereBlock& block, const ApexView& view, f
     const Floats squared = dot(center, center);
     const Floats radius_squared = hn::Mul(radius, radius);
     shapes.around |= bits_of(hn::Lt(squared, radius_squared)) << lane;
-    // Float cannot decide on which side of a surface so near the apex is, nor which ray ends before
-    // the surface.
+    // Float cannot decide on which side of a very close surface the apex is, nor which ray ends
+    // before the surface.
     const Floats near =
         hn::MulAdd(all(0x1p-19F), hn::Add(squared, radius_squared),
                    hn::Mul(all(view.end), hn::MulAdd(all(2.0F), radius, all(view.end))));
@@ -414,7 +415,7 @@ HWY_INLINE void set_up_spheres(const SphereBlock& block, const ApexView& view, f
   shapes.present &= (LaneBits{1} << block.count) - 1;
 }
 
-/// Cones of a block: their boxes, and rays decide.
+/// Sets up the cones of a block: their boxes; rays decide.
 HWY_INLINE void set_up_cones(const ConeBlock& block, const ApexView& view, SeenShapes& shapes) {
   shapes.present = shapes.exact = shapes.around = 0;
   for (std::size_t lane = 0; lane < block.count; lane += kLanes) {

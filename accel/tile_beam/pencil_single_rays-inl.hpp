@@ -1,4 +1,4 @@
-// Rays of a part of a pencil that are traced singly.
+// The rays of a part of a pencil that are traced singly.
 
 #if defined(ACCEL_TILE_BEAM_PENCIL_SINGLE_RAYS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_PENCIL_SINGLE_RAYS_INL
@@ -22,7 +22,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// Traces them with the same query, and notes their hits among those of the part.
+/// Traces them with the same query, and records their hits with those of the part.
 template <class Policy, class Counting>
 class PencilSingleRays {
  public:
@@ -60,14 +60,14 @@ class PencilSingleRays {
     return changed;
   }
 
-  /// Is the ray of a place in the unit hit by anything in the hierarchy?
+  /// Returns whether the ray of a place in the unit is hit by anything in the hierarchy.
   bool is_hit(std::size_t at) const {
     note_handed_over(*counting_, at);
     return any_below(*hierarchy_, *scene_, hierarchy_->root, part_->rays[unit_->ray_at(at)],
                      *counting_);
   }
 
-  /// Closest hits: is this one the nearest so far? It is kept then.
+  /// Keeps a closest hit if it is the nearest so far, and returns whether it is.
   bool keeps(std::size_t at, const Ray& ray, const Hit& hit) {
     const auto z = static_cast<int>(view_->side.z_axis());
     const float origin = (ray.origin[z] - view_->apex[z]) * view_->side.sign();
@@ -127,7 +127,7 @@ class PencilSingleRays {
     }
   }
 
-  /// What bounds of boxes and places may be wrong by: a few roundings of places |u| <= 1.
+  /// The possible error of bounds of boxes and places: a few roundings of places |u| <= 1.
   static constexpr float kPlacePad = 3e-7F;
   static constexpr std::size_t kMax = PencilUnit::kPlaces * PencilUnit::kBlock;
 

@@ -1,4 +1,4 @@
-// The tests of the rays of a block against a shape of a leaf.
+// Tests the rays of a block against a shape of a leaf.
 
 #if defined(ACCEL_TILE_BEAM_PENCIL_TESTS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_PENCIL_TESTS_INL
@@ -23,7 +23,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// Tests pairs of a block and a shape, and notes the hits. Each function returns the groups that
+/// Tests pairs of a block and a shape, and records the hits. Each function returns the groups that
 /// changed.
 template <class Policy, class Counting>
 class PencilTests {
@@ -42,7 +42,7 @@ class PencilTests {
   HWY_INLINE std::uint32_t test_triangles(std::span<const std::uint32_t> pairs,
                                           const Meshlet& meshlet) {
     const LaneBits special = shapes_->exact | shapes_->by_rays;
-    std::uint32_t changed = 0;  // in a register: the next test would wait for it in memory
+    std::uint32_t changed = 0;  // in a register, because the next test would wait for it in memory
     for (const std::uint32_t pair : pairs) {
       const std::size_t place = pair / SeenShapes::kMax;
       const std::size_t shape = pair % SeenShapes::kMax;
@@ -106,14 +106,14 @@ class PencilTests {
  private:
   static constexpr bool kClosest = Policy::kClosest;
 
-  /// The rays of a block of which float is not sure whether they hit a shape.
+  /// The rays of a block for which float cannot decide whether they hit a shape.
   struct Unsure {
     LaneBits depth = 0;  ///< they begin too close to it: at its surface or at one of its sides
     LaneBits edge = 0;   ///< hits close to an edge, which was moved outward
   };
 
-  /// The rays of a block that hit a triangle, and which of these hits are `uncertain`. These are so
-  /// few that `told_apart` says why.
+  /// Returns the rays of a block that hit a triangle, and which of these hits are `uncertain`.
+  /// These are so few that `told_apart` determines the reason.
   HWY_INLINE LaneBits test_triangle(std::size_t place, std::size_t shape,
                                     scenes::PrimitiveId primitive, LaneBits& uncertain) {
     const OneShape of{*shapes_, shape};
@@ -154,7 +154,7 @@ class PencilTests {
     });
   }
 
-  /// Returns by how much the place of a ray's origin beside a triangle's plane may be wrong.
+  /// Returns the possible error of a ray origin's place relative to a triangle's plane.
   static HWY_INLINE Floats slack_of(const OneShape& of, Floats w) {
     return hn::MulAdd(of(SeenShapes::kSlackPerW), w, of(SeenShapes::kSlack));
   }
@@ -172,13 +172,13 @@ class PencilTests {
   static HWY_INLINE Floats least_edge(const Edges& edges) {
     return hn::Min(edges[0], hn::Min(edges[1], edges[2]));
   }
-  /// Returns how far behind a triangle's plane a ray begins, seen from the apex: of any hits.
+  /// Returns how far behind a triangle's plane a ray begins, seen from the apex. For any hits.
   static HWY_INLINE Floats beyond_plane(const OneShape& of, Floats u, Floats v, Floats w) {
     return value_of(of, SeenShapes::kPlane, u, v,
                     hn::NegMulAdd(of(SeenShapes::kDistance), w, of(SeenShapes::kPlane + 2)));
   }
 
-  /// Divides uncertain hits into those that are so in depth and, of any hits, those at an edge.
+  /// Divides uncertain hits into those uncertain in depth and, for any hits, those at an edge.
   Unsure told_apart(std::size_t place, std::size_t shape, LaneBits uncertain) const {
     if constexpr (kClosest) return {uncertain, 0};
     const OneShape of{*shapes_, shape};
@@ -197,8 +197,8 @@ class PencilTests {
     return {uncertain & in_depth, uncertain & at_edge};
   }
 
-  /// Any hits, of which those at an edge are decided by single rays through the whole hierarchy:
-  /// where triangles share the edge, another test of one of them alone could lose the ray between.
+  /// Returns any hits, with those at an edge decided by single rays through the whole hierarchy: if
+  /// triangles share the edge, another test of only one of them could lose the ray between them.
   LaneBits decided_by_rays(std::size_t place, LaneBits hits, LaneBits unsure) {
     const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
     for (LaneBits left = hits & unsure; left != 0; left &= left - 1) {
@@ -208,7 +208,7 @@ class PencilTests {
     return hits;
   }
 
-  /// A triangle that float is too coarse for.
+  /// Tests a triangle for which float is too coarse.
   std::uint32_t test_specially(std::size_t place, std::size_t shape, const Meshlet& meshlet) {
     const scenes::PrimitiveId primitive = meshlet.primitives[shape];
     if ((shapes_->exact >> shape & 1U) == 0) {
@@ -220,14 +220,14 @@ class PencilTests {
     Unsure unsure;
     LaneBits hits = test_exact_triangle(place, shapes_->exact_triangle[shape], primitive, unsure);
     if (unsure.depth != 0) hits = decided_by_plane(place, hits, unsure.depth, meshlet, shape);
-    // Seen edge-on, a sliver is not wider than its edges were moved.
+    // Seen edge-on, a sliver is no wider than the shift of its edges.
     if (!kClosest) hits = decided_by_rays(place, hits, unsure.edge);
     return groups_->note(place, hits);
   }
 
-  /// The hits of a block after a triangle's plane has decided in double on which side unsure rays
-  /// begin. The triangle's edges stay as tested in float: neighbors that share an edge must be
-  /// tested alike, or a ray could pass between them.
+  /// Returns the hits of a block after a triangle's plane has decided in double on which side
+  /// uncertain rays begin. The triangle's edges stay as tested in float: neighbors that share an
+  /// edge must be tested in the same way, or a ray could pass between them.
   LaneBits decided_by_plane(std::size_t place, LaneBits hits, LaneBits unsure,
                             const Meshlet& meshlet, std::size_t shape) {
     const TrianglePlane plane(
@@ -236,8 +236,8 @@ class PencilTests {
                    [&](const Ray& ray) { return plane.hit(ray); });
   }
 
-  /// Does the ray begin outside of the sphere, clearly in double, and run away from it? Far from
-  /// the apex most rays that begin beside a sphere are unsure, and do so.
+  /// Returns whether the ray begins outside of the sphere, clearly in double, and moves away from
+  /// it. Far from the apex, most rays that begin beside a sphere are uncertain, and do so.
   static bool leaves(const scenes::Sphere& sphere, const Ray& ray) {
     const glm::dvec3 from_center = glm::dvec3(ray.origin) - glm::dvec3(sphere.center);
     const double square = double{sphere.radius} * sphere.radius;
@@ -245,7 +245,8 @@ class PencilTests {
            glm::dot(from_center, glm::dvec3(ray.direction)) > 0.0;
   }
 
-  /// The hits of a block, of which the canonical test decides some: `t_of(ray)` returns t or kMiss.
+  /// Returns the hits of a block, of which the canonical test decides some: `t_of(ray)` returns t
+  /// or kMiss.
   template <class TOf>
   LaneBits decided(std::size_t place, LaneBits hits, LaneBits unsure, scenes::PrimitiveId primitive,
                    TOf t_of) {
@@ -274,7 +275,7 @@ class PencilTests {
     const hn::CappedTag<double, 8> d;
     const hn::Rebind<float, decltype(d)> half;
     const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
-    // In float are only the rays: see TriangleShapes.
+    // Only the rays are in float: see TriangleShapes.
     const double size =
         std::abs(triangle.plane.x) + std::abs(triangle.plane.y) + std::abs(triangle.plane.z);
     const double slack_at_apex = 0x1p-24 * kSlackOfPlaces<Policy> * size;
@@ -334,10 +335,11 @@ class PencilTests {
     return hits;
   }
 
-  /// In units of z: a ray's line is s (u, v, 1). Which side of the surface a ray begins on decides
-  /// which of the two roots are within the ray, and is known better than the roots; of rays that
-  /// begin too close to the surface it is not known. As the canonical test does, the discriminant
-  /// is taken from the line's point nearest the center (Haines et al., Ray Tracing Gems, 2019).
+  /// Computes in units of z: a ray's line is s (u, v, 1). The side of the surface on which a ray
+  /// begins determines which of the two roots are within the ray. It is known more accurately than
+  /// the roots, but not for rays that begin too close to the surface. As in the canonical test, the
+  /// discriminant is computed from the line's point nearest the center (Haines et al., Ray Tracing
+  /// Gems, 2019).
   HWY_INLINE LaneBits test_sphere(std::size_t place, std::size_t shape, bool around,
                                   bool inside_only, scenes::PrimitiveId primitive, Unsure& unsure) {
     const OneShape of{*shapes_, shape};
@@ -385,7 +387,7 @@ class PencilTests {
         if (!hn::AllFalse(Tag(), hit)) keep(at, hit, found, w, primitive);
         return hit;
       } else {
-        // Toward the apex: what is passed on the way, or left.
+        // Toward the apex: surfaces passed or left on the way.
         const Mask passes =
             hn::And(meets, hn::And(hn::Lt(middle, origin), hn::Gt(middle, hn::Zero(Tag()))));
         if (around) return inside_only ? only(false) : hn::Not(inside);
@@ -394,7 +396,7 @@ class PencilTests {
     });
   }
 
-  /// Closest hits.
+  /// Keeps closest hits.
   HWY_INLINE void keep(std::size_t at, Mask hit, Floats found, Floats w,
                        scenes::PrimitiveId primitive) {
     const hn::RebindToUnsigned<Tag> ids;

@@ -1,4 +1,4 @@
-// The rays of a part of a pencil, through one side of the cube about its apex, through the
+// Traces the rays of a part of a pencil through one side of the cube around its apex, through the
 // hierarchy.
 
 #if defined(ACCEL_TILE_BEAM_PENCIL_WALK_INL) == defined(HWY_TARGET_TOGGLE)
@@ -25,7 +25,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// Parts of so few leaves are not worth counting rays for.
+/// The number of leaves up to which counting rays is not worthwhile for a part.
 inline constexpr std::uint32_t kFewLeaves = 2;
 
 template <class Policy, class Counting>
@@ -47,8 +47,8 @@ class PencilWalk {
 
   void operator()() {
     if (groups_.alive() == 0) return;
-    // Over all of the scene the estimate is coarse: only a part that is clearly crowded is handed
-    // over whole, which a look at the children would decide better but not for nothing.
+    // Over the whole scene the estimate is coarse. Only a clearly crowded part is handed over
+    // whole; examining the children would decide this better, but at a cost.
     const auto half = static_cast<std::uint32_t>(hierarchy_->leaves() / 2);
     stack_[0] = {hierarchy_->root, groups_.alive(),
                  is_crowded(half, groups_.alive(), bounds_of_all()), kEverywhere};
@@ -73,13 +73,13 @@ class PencilWalk {
 
  private:
   static constexpr bool kClosest = Policy::kClosest;
-  /// No place on a side of the cube is farther from the apex, per unit of depth.
+  /// The maximum distance of a place on a side of the cube from the apex, per unit of depth.
   static constexpr float kDiagonal = 1.75F;
 
   static constexpr SideBounds kEverywhere{-kAtApex, kAtApex, -kAtApex, kAtApex, -kAtApex, kAtApex};
   struct Entry {
     TileChild child;
-    std::uint32_t groups;   ///< that it may be seen from, a bit each
+    std::uint32_t groups;   ///< groups from which it may be visible, one bit each
     std::uint32_t crowded;  ///< not 0: more leaves than single rays take; a word: see TileWalk
     SideBounds bounds;
   };
@@ -118,7 +118,7 @@ class PencilWalk {
     }
   }
 
-  /// Of the whole hierarchy.
+  /// Returns the bounds of the whole hierarchy.
   SideBounds bounds_of_all() const {
     TileBoxes boxes{};
     boxes.set(0, hierarchy_->bounds);
@@ -128,10 +128,10 @@ class PencilWalk {
             hn::GetLane(bounds.high_v), hn::GetLane(bounds.low_w),  hn::GetLane(bounds.high_w)};
   }
 
-  /// A part of the hierarchy with more leaves than `kHandoverLeaves` for each ray that may
-  /// meet it is traversed by single rays, which need a few leaves each. How many these would be is
-  /// estimated from how densely the rays of the groups lie, over all of its bounds: most leaves of
-  /// a large part may lie beyond the groups.
+  /// Returns whether a part of the hierarchy has more leaves than `kHandoverLeaves` for each ray
+  /// that may meet it. If so, it is traversed by single rays, which need a few leaves each. The
+  /// number of these rays is estimated from the density of the groups' rays over all of the part's
+  /// bounds, because most leaves of a large part may lie outside the groups.
   HWY_INLINE bool is_crowded(std::uint32_t leaves, std::uint32_t groups,
                              const SideBounds& bounds) const {
     if (leaves < kFewLeaves) return false;

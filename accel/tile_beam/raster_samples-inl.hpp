@@ -1,4 +1,4 @@
-// Which rays of a list come from one square of pixels.
+// Finds the rays of a list that come from one square of pixels.
 
 #if defined(ACCEL_TILE_BEAM_RASTER_SAMPLES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_RASTER_SAMPLES_INL
@@ -16,14 +16,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// How many of up to `most` rays from a place on come from one square of 4 x 4 pixels. At least 1.
+/// Returns how many of up to `most` consecutive rays come from one square of 4 x 4 pixels. At least
+/// 1.
 HWY_INLINE std::size_t run_in_square(const PencilSamples& samples, std::size_t from,
                                      std::size_t most) {
   const std::uint32_t sample = samples.of_rays[from];
   const std::uint32_t pixel = samples.per_pixel == 1 ? sample : sample / samples.per_pixel;
   const std::uint32_t y = samples.row_of(pixel);
   const std::uint32_t x = pixel - y * samples.width;
-  // Of each row of the square, the samples are consecutive.
+  // In each row of the square, the samples are consecutive.
   const std::uint32_t row = samples.width * samples.per_pixel;
   const std::uint32_t corner = (y & ~3U) * row + (x & ~3U) * samples.per_pixel;
   const std::uint32_t across = std::min(4U, samples.width - (x & ~3U)) * samples.per_pixel;

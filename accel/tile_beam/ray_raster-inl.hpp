@@ -1,4 +1,4 @@
-// Drawing a primitive by its canonical test, sample by sample.
+// Draws a primitive by its canonical test, sample by sample.
 
 #if defined(ACCEL_TILE_BEAM_RAY_RASTER_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_RAY_RASTER_INL
@@ -23,7 +23,7 @@ struct TileRays {
   HWY_INLINE Ray at(int x, int y) const { return raster.ray(rays, view.left + x, view.top + y); }
 };
 
-/// Draws one sample, unless it is nearer already than 1/t = `nearest`. `intersect(ray)` returns t
+/// Draws one sample, unless it is already nearer than 1/t = `nearest`. `intersect(ray)` returns t
 /// or kMiss for a CanonicalRay.
 template <class Intersect>
 HWY_INLINE void draw_by_ray(const TileRays& rays, int x, int y, float nearest,
@@ -36,7 +36,7 @@ HWY_INLINE void draw_by_ray(const TileRays& rays, int x, int y, float nearest,
   image.primitive[at] = primitive;
 }
 
-/// Draws the samples of `box` so.
+/// Draws the samples of `box` in this way.
 template <class Intersect>
 HWY_INLINE void draw_by_rays(const TileRays& rays, const SampleRectangle& box, float nearest,
                              scenes::PrimitiveId primitive, TileImage& image, Intersect intersect) {

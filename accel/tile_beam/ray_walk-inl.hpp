@@ -22,7 +22,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// The boxes that a ray may meet before `limit`, and where it enters them (see ProbeRay).
+/// Returns the boxes that a ray may meet before `limit`, and the t at which it enters them (see
+/// ProbeRay).
 HWY_INLINE LaneBits meet_boxes(const TileNode& node, const bvh::ProbeRay& ray, float limit,
                                float* enter_t) {
   const LaneBits met = for_each_register([&](std::size_t lane) {
@@ -97,11 +98,11 @@ class MeshletProbe {
   alignas(64) std::array<float, Meshlet::kMaxVertices> t_;
 };
 
-/// Rays that are on their way together.
+/// The number of rays in flight at a time.
 inline constexpr std::size_t kRaysAtOnce = 12;
 
-/// The entries still to be visited: the bits of where the ray enters them, which order as the
-/// floats do, above the child's. The nearest is on top.
+/// The entries still to be visited: the bits of the entry t, which are ordered like the floats,
+/// above those of the child. The nearest is on top.
 class WaitingChildren {
  public:
   bool empty() const { return size_ == 0; }
@@ -114,7 +115,7 @@ class WaitingChildren {
     }
     entries_[hole] = entry;
   }
-  /// Those pushed from here on are sorted among themselves.
+  /// Entries pushed from here on are sorted among themselves.
   void begin_siblings() { sorted_from_ = size_; }
   TileChild top() const {
     return TileChild::from_bits(static_cast<std::uint32_t>(entries_[size_ - 1]));
@@ -131,8 +132,8 @@ class WaitingChildren {
   std::size_t sorted_from_ = 0;
 };
 
-/// Tests a leaf's primitives. `visit(t, primitive)` gets the result of each canonical test
-/// and returns true to end; hits beyond `t_max()` do not matter. Returns whether it was ended.
+/// Tests a leaf's primitives. `visit(t, primitive)` receives the result of each canonical test and
+/// returns true to end; hits beyond `t_max()` do not matter. Returns whether `visit` returned true.
 template <class Counting, class FarEnd, class Visit>
 HWY_INLINE bool visit_leaf(const TileHierarchy& hierarchy, const scenes::Scene& scene,
                            TileChild leaf, const bvh::ProbeRay& probe, const CanonicalRay& ray,
@@ -167,7 +168,7 @@ HWY_INLINE bool visit_leaf(const TileHierarchy& hierarchy, const scenes::Scene& 
                                                   : test_each(hierarchy.cones[leaf.index()]);
 }
 
-/// What is asked of a ray, and what was found.
+/// The query for a ray, and its result.
 struct ClosestQuery {
   explicit ClosestQuery(const Ray& query) : best(query) {}
 
@@ -198,7 +199,7 @@ struct AnyQuery {
   bool found = false;
 };
 
-/// A ray on its way through the hierarchy, the nearest child first.
+/// A ray in flight through the hierarchy, nearest child first.
 template <class Query>
 class RayWalk {
  public:
@@ -207,7 +208,7 @@ class RayWalk {
     waiting_.push(ray.t_min, from);
   }
 
-  /// Visits one node or leaf. Returns whether there is more.
+  /// Visits one node or leaf. Returns whether more are waiting.
   template <class Counting>
   HWY_INLINE bool step(const TileHierarchy& hierarchy, const scenes::Scene& scene,
                        Counting& counting) {
@@ -240,7 +241,7 @@ class RayWalk {
     return !waiting_.empty();
   }
 
-  /// Where the next step goes.
+  /// Returns the destination of the next step.
   TileChild next() const { return waiting_.top(); }
   auto result() const { return query_.result(); }
 
@@ -259,7 +260,7 @@ auto answer_below(const TileHierarchy& hierarchy, const scenes::Scene& scene, Ti
   return walk.result();
 }
 
-/// A traversal under way, and the caller's number of its ray.
+/// A traversal in flight, and the caller's number for its ray.
 template <class Query>
 struct NumberedWalk {
   NumberedWalk(std::size_t own, const TileHierarchy& hierarchy, TileChild from, const Ray& ray)
@@ -269,8 +270,8 @@ struct NumberedWalk {
   RayWalk<Query> walk;
 };
 
-/// Answers rays, several of them at once: in a hierarchy larger than the caches nearly each step of
-/// a single ray waits for the memory, and meanwhile the others go on. As `answer_rays_below`.
+/// Traces several rays at once: in a hierarchy larger than the caches, nearly each step of a single
+/// ray waits for memory, and meanwhile the others continue. Interface as in `answer_rays_below`.
 template <class Query, class Counting, class Next, class Done>
 void interleave_rays_below(const TileHierarchy& hierarchy, const scenes::Scene& scene,
                            TileChild from, Counting& counting, Next next, Done done) {
@@ -303,8 +304,8 @@ void interleave_rays_below(const TileHierarchy& hierarchy, const scenes::Scene& 
   }
 }
 
-/// Answers rays in any order. `next(ray, number)` sets the next ray and a number of the caller's,
-/// or returns false; `done(number, result)` gets its answer.
+/// Traces rays in any order. `next(ray, number)` sets the next ray and a number chosen by the
+/// caller, or returns false; `done(number, result)` receives its result.
 template <class Query, class Counting, class Next, class Done>
 void answer_rays_below(const TileHierarchy& hierarchy, const scenes::Scene& scene, TileChild from,
                        Counting& counting, Next next, Done done) {
@@ -318,14 +319,14 @@ void answer_rays_below(const TileHierarchy& hierarchy, const scenes::Scene& scen
   }
 }
 
-/// The closest hit below `from`.
+/// Returns the closest hit below `from`.
 template <class Counting>
 std::optional<Hit> closest_below(const TileHierarchy& hierarchy, const scenes::Scene& scene,
                                  TileChild from, const Ray& ray, Counting& counting) {
   return answer_below<ClosestQuery>(hierarchy, scene, from, ray, counting);
 }
 
-/// Is there a hit below `from`?
+/// Returns whether there is a hit below `from`.
 template <class Counting>
 bool any_below(const TileHierarchy& hierarchy, const scenes::Scene& scene, TileChild from,
                const Ray& ray, Counting& counting) {
@@ -344,8 +345,8 @@ bool any(const TileHierarchy& hierarchy, const scenes::Scene& scene, const Ray& 
   return any_below(hierarchy, scene, hierarchy.root, ray, counting);
 }
 
-/// Calls `done(i, result)` for each ray of a list, in any order, but for those that ProbeRay cannot
-/// probe. Returns whether there are some of these.
+/// Calls `done(i, result)` for each ray of a list, in any order, except those that ProbeRay cannot
+/// probe. Returns whether there are any such rays.
 template <class Query, class Counting, class Done>
 bool answer_list(const TileHierarchy& hierarchy, const scenes::Scene& scene,
                  std::span<const Ray> rays, Counting& counting, Done done) {

@@ -1,4 +1,4 @@
-// From a tile's image to the hits of the samples' pixels.
+// Converts a tile's image to the hits of the samples' pixels.
 
 #if defined(ACCEL_TILE_BEAM_RESOLVE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_RESOLVE_INL
@@ -15,10 +15,11 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// Images larger than this are written past the caches, which could not hold them.
+/// The number of samples from which on images are written past the caches, which could not hold
+/// them.
 inline constexpr std::size_t kStreamedSamples = std::size_t{1} << 17U;
 
-/// Are the image's rows whole cache lines, and too many for the caches?
+/// Returns whether the image's rows are whole cache lines, and too many for the caches.
 inline bool is_streamed(const HitSpan& buffer) {
   return buffer.samples() == 1 && buffer.width() % 16 == 0 && buffer.size() > kStreamedSamples;
 }
@@ -34,8 +35,8 @@ HWY_INLINE void write(D d, hn::Vec<D> values, T* to) {
 }
 
 #if HWY_MAX_BYTES == 64  // a block fills a register
-/// Four blocks of 4 x 4 samples that lie side by side, as rows of sixteen: a transposition of
-/// 4 x 4 quarters of registers.
+/// Four adjacent blocks of 4 x 4 samples as rows of sixteen: a transposition of 4 x 4 quarters of
+/// registers.
 template <class D>
 HWY_INLINE std::array<hn::Vec<D>, 4> rows_of(D d, const std::array<hn::Vec<D>, 4>& blocks) {
   const auto& [a, b, c, e] = blocks;
@@ -50,8 +51,8 @@ HWY_INLINE std::array<hn::Vec<D>, 4> rows_of(D d, const std::array<hn::Vec<D>, 4
 }
 #endif
 
-/// Writes values of four blocks that lie side by side, by `height` rows. `of(d, place)` gives the
-/// values from a place in the image on. `place_of_row(y)` is where a row goes.
+/// Writes values of four adjacent blocks, `height` rows of them. `of(d, place)` gives the values
+/// from a place in the image on. `place_of_row(y)` is the destination of a row.
 template <bool kStreamed, class T, class PlaceOfRow, class Values>
 HWY_INLINE void write_blocks(std::size_t from, int height, PlaceOfRow place_of_row, T* to,
                              Values of) {
@@ -67,7 +68,7 @@ HWY_INLINE void write_blocks(std::size_t from, int height, PlaceOfRow place_of_r
   const hn::CappedTag<T, 4> four;
   for (int y = 0; y < height; ++y) {
     for (std::size_t i = 0; i < kBlock; i += hn::Lanes(four)) {
-      // Four samples lie together, the next in another block.
+      // Four consecutive samples are adjacent; the next are in another block.
       const std::size_t place =
           from + (i >> 2U) * kBlock + static_cast<std::size_t>(4 * y) + (i & 3U);
       write<kStreamed>(four, of(four, place), to + place_of_row(y) + i);
@@ -76,7 +77,7 @@ HWY_INLINE void write_blocks(std::size_t from, int height, PlaceOfRow place_of_r
 #endif
 }
 
-/// Writes four blocks that lie side by side.
+/// Writes four adjacent blocks.
 template <bool kStreamed>
 HWY_INLINE void resolve_four(const TileImage& image, int column, int row, const TileView& view,
                              const HitSpan& buffer) {
@@ -111,7 +112,7 @@ inline void resolve_rest(const TileImage& image, const TileView& view, int first
   }
 }
 
-/// One sample per pixel: rows of blocks are runs of the buffer.
+/// Writes a tile with one sample per pixel: rows of blocks are runs of the buffer.
 template <bool kStreamed>
 inline void resolve_blocks(const TileImage& image, const TileView& view, const HitSpan& buffer) {
   const int whole = view.width / 16 * 4;
@@ -123,7 +124,7 @@ inline void resolve_blocks(const TileImage& image, const TileView& view, const H
   resolve_rest(image, view, 4 * whole, buffer);
 }
 
-/// Background, without a ray.
+/// Writes background, without a ray.
 template <bool kStreamed>
 inline void paint_background(const TileView& view, const HitSpan& buffer) {
   for (int y = 0; y < view.height; ++y) {
@@ -141,7 +142,8 @@ inline void paint_background(const TileView& view, const HitSpan& buffer) {
   }
 }
 
-/// Several samples per pixel: those of a pixel lie together in the buffer, and may be shared.
+/// Writes a tile with several samples per pixel: those of a pixel are adjacent in the buffer, and
+/// may be shared.
 inline void resolve_samples(TileImage& image, const SampleRaster& raster, const TileView& view,
                             const HitSpan& buffer) {
   if (!image.touched) clear(image, view);

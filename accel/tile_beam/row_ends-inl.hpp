@@ -1,4 +1,4 @@
-// Which blocks of a row lie between edges.
+// Finds the blocks of a row that lie between edges.
 
 #if defined(ACCEL_TILE_BEAM_ROW_ENDS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_ROW_ENDS_INL
@@ -19,7 +19,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// Of each row of blocks, those between some edges: the others lie outside one of them.
+/// For each row of blocks, those between some edges: the others lie outside one of them.
 class RowEnds {
  public:
   template <std::size_t kEdges>
@@ -29,11 +29,11 @@ class RowEnds {
       Floats low = all(static_cast<float>(4 * first_column));
       Floats high = all(static_cast<float>(4 * last_column + 3));
       for (const TileLine& edge : edges) {
-        // The largest value on a column of the first block, and a little for rounding.
+        // The largest value on a column of the first block, and a small margin for rounding.
         const float largest = edge.constant + (edge.y > 0.0F ? 3.0F * edge.y : 0.0F) +
                               0x1p-21F * (std::abs(edge.constant) + std::abs(kTileHeight * edge.y));
         const Floats value = hn::MulAdd(all(4.0F * edge.y), top, all(largest));
-        constexpr float kLevel = 1e-30F;  // such an edge ends no row
+        constexpr float kLevel = 1e-30F;  // an edge this level does not end a row
         constexpr float kSlack = 0.0625F;
         if (edge.x > kLevel) {
           low = hn::Max(low, hn::MulAdd(value, all(-1.0F / edge.x), all(-kSlack)));

@@ -1,5 +1,5 @@
 #pragma once
-// The samples of an image as rasters: what is drawn in one pass.
+// The samples of an image as rasters: the samples drawn in one pass.
 
 #include <cstddef>
 #include <vector>
@@ -11,11 +11,11 @@
 
 namespace beambench::accel::tile_beam {
 
-/// Samples in rows and columns of equal distance. A grid of n x n samples per pixel is one raster
-/// of n times the image's size. The corners of pixels are one raster too, in which neighboring
-/// pixels share what is the same ray.
+/// Samples in equidistant rows and columns. A grid of n x n samples per pixel is one raster of n
+/// times the image's size. The corners of pixels are also one raster, in which neighboring pixels
+/// share equal rays.
 struct SampleRaster {
-  /// To which pixel and sample the raster's sample (0, 0) belongs.
+  /// The pixel and sample to which the raster's sample (0, 0) belongs.
   struct Place {
     int left;  ///< pixel -left
     int up;
@@ -25,14 +25,14 @@ struct SampleRaster {
   int width;
   int height;
   int per_pixel;              ///< samples along a pixel's side
-  std::vector<Place> places;  ///< more than one where pixels share samples
+  std::vector<Place> places;  ///< more than one if pixels share samples
 
   /// direction(i, j) = origin + right * i + down * j, before rounding.
   glm::dvec3 origin;
   glm::dvec3 right;
   glm::dvec3 down;
 
-  /// The ray of a sample, with the bits that `PrimaryRays::ray` gives it.
+  /// Returns the ray of a sample, with the same bits as `PrimaryRays::ray`.
   Ray ray(const PrimaryRays& rays, int i, int j) const {
     const int pixel_x = i / per_pixel;
     const int pixel_y = j / per_pixel;
@@ -66,7 +66,7 @@ struct SampleRaster {
   }
 };
 
-/// The rasters that hold all samples of an image.
+/// Returns the rasters that contain all samples of an image.
 std::vector<SampleRaster> sample_rasters(const PrimaryRays& rays);
 
 }  // namespace beambench::accel::tile_beam

@@ -16,7 +16,7 @@ namespace {
 
 using Numbers = LargePageVector<std::uint32_t>;
 
-/// For each vertex the first one at its place: a hash table with open addressing.
+/// Returns for each vertex the first one at its place, using a hash table with open addressing.
 Numbers first_at_place(const std::vector<glm::vec3>& vertices) {
   constexpr std::uint32_t kFree = ~0U;
   Numbers table(std::bit_ceil(2 * vertices.size() + 1), kFree);
@@ -83,9 +83,9 @@ class JoinedTriangles {
     }
   }
 
-  /// The lowest triangle among those that a triangle is joined with, itself included.
+  /// Returns the lowest triangle among those joined with a triangle, including itself.
   std::uint32_t component(std::uint32_t triangle) { return components_.of(triangle); }
-  /// Has it an edge along which no other runs in the opposite direction?
+  /// Returns whether it has an edge without a partner in the opposite direction.
   bool is_open(std::uint32_t triangle) const { return is_open_[triangle] != 0; }
 
  private:
@@ -108,7 +108,7 @@ class JoinedTriangles {
     }
   }
 
-  /// Finds the partner of an edge that runs down.
+  /// Finds the partner of a downward edge.
   void join(std::uint32_t triangle, std::uint32_t from, std::uint32_t to) {
     for (std::uint32_t i = first_[to]; i < first_[to + 1]; ++i) {
       if (upward_[i].to != from) continue;
@@ -125,7 +125,7 @@ class JoinedTriangles {
   LargePageVector<Upward> upward_;
 };
 
-/// What edges connect, and whether it may be a solid.
+/// Triangles connected by shared edges, and whether they may form a solid.
 struct Surface {
   scenes::Bounds box;
   std::uint32_t triangles = 0;
@@ -135,7 +135,7 @@ struct Surface {
   std::uint32_t solid = Solids::kNone;
 };
 
-/// The corners of a triangle as seen from a point.
+/// Returns the corners of a triangle as seen from a point.
 std::array<glm::dvec3, 3> corners_from(const scenes::Scene& scene, std::uint32_t triangle,
                                        const glm::dvec3& point) {
   std::array<glm::dvec3, 3> corners;
@@ -145,9 +145,9 @@ std::array<glm::dvec3, 3> corners_from(const scenes::Scene& scene, std::uint32_t
   return corners;
 }
 
-/// How a ray from a point passes a triangle: the volumes that its direction spans with each edge,
-/// as seen from the point. All positive: it meets the triangle, whose volume about the point is
-/// positive, at `volume` / their sum.
+/// Returns the position of a ray from a point relative to a triangle: the volumes spanned by its
+/// direction and each edge, as seen from the point. If all are positive, the ray meets the
+/// triangle, whose volume about the point is positive, at `volume` / their sum.
 glm::dvec3 volumes_beside(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& direction) {
   return {glm::dot(direction, glm::cross(corners[1], corners[2])),
           glm::dot(direction, glm::cross(corners[2], corners[0])),
@@ -156,7 +156,7 @@ glm::dvec3 volumes_beside(const std::array<glm::dvec3, 3>& corners, const glm::d
 
 double smallest(const glm::dvec3& v) { return std::min({v.x, v.y, v.z}); }
 
-/// Adds a triangle to what is known of its surface.
+/// Adds a triangle to the facts about its surface.
 void look_from_center(const scenes::Scene& scene, std::uint32_t triangle, Surface& surface) {
   constexpr double kRounding = 1e-12;            // generously: of sums of products of doubles
   const glm::dvec3 ray(0.5377, 0.7911, 0.2931);  // any direction that no model favors
@@ -181,7 +181,7 @@ void look_from_center(const scenes::Scene& scene, std::uint32_t triangle, Surfac
   }
 }
 
-/// The surfaces of a scene; `of` gives that of each triangle.
+/// Returns the surfaces of a scene; `of` gives that of each triangle.
 std::vector<Surface> find_surfaces(const scenes::Scene& scene, Numbers& of) {
   const auto count = static_cast<std::uint32_t>(scene.triangles.size());
   JoinedTriangles joined(scene, first_at_place(scene.vertices));

@@ -1,5 +1,5 @@
 #pragma once
-// Closed surfaces whose backs no eye outside of them can see.
+// Finds closed surfaces whose backs are invisible from outside.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,18 +14,18 @@
 
 namespace beambench::accel::tile_beam {
 
-/// Triangles that form a closed surface which every ray from `center` leaves through exactly one of
-/// them: a star-shaped solid. A ray from an eye outside enters it before it leaves it, so that the
-/// first hit on it is on a triangle that faces the eye.
+/// Triangles that form a closed surface such that every ray from `center` leaves through exactly
+/// one of them: a star-shaped solid. A ray from an eye outside enters it before leaving it, so the
+/// first triangle that it hits faces the eye.
 struct Solid {
   scenes::Bounds box;
-  glm::dvec3 center;  ///< of the box
-  bool inward;        ///< seen from outside, the corners of its triangles go round clockwise
+  glm::dvec3 center;             ///< of the box
+  bool inward;                   ///< seen from outside, the corners of its triangles are clockwise
   std::uint32_t first_triangle;  ///< in `Solids::triangles`
   std::uint32_t triangle_count;
 };
 
-/// The solids that are found in a scene.
+/// The solids found in a scene.
 struct Solids {
   static constexpr std::uint32_t kNone = ~0U;
 
@@ -38,16 +38,17 @@ struct Solids {
   }
 };
 
-/// Finds solids in linear time: corners are matched by their bits, every edge has two triangles
-/// that run along it in opposite directions, and the solid is what such edges connect. It is
-/// star-shaped where all its triangles have the same sign of volume about the center and one ray
-/// from there meets one of them: the projection of the surface to a sphere about the center then
-/// covers it once. Surfaces of which rounding leaves this open are not solids.
+/// Finds solids in linear time: corners are matched by their bits, and every edge must have two
+/// triangles that run along it in opposite directions. The triangles connected by such edges form
+/// the solid. It is star-shaped if all its triangles have the same sign of volume about the center
+/// and one ray from there meets exactly one of them: the projection of the surface to a sphere
+/// around the center then covers it once. If rounding leaves this undecided, the surface is not a
+/// solid.
 Solids find_solids(const scenes::Scene& scene);
 
-/// Is the eye outside by more than rounding? Where it is in the solid's box, finding out takes time
-/// in proportion to the triangles; it is not done, and the answer is no, for more than
-/// `most_triangles`.
+/// Returns whether the eye is outside by more than rounding. If it is in the solid's box, this
+/// takes time proportional to the number of triangles; for more than `most_triangles`, false is
+/// returned instead.
 bool is_outside(const scenes::Scene& scene, const Solids& solids, const Solid& solid,
                 const glm::vec3& eye, std::size_t most_triangles);
 

@@ -16,8 +16,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// The places on the screen between which a sphere lies along one axis: with `beside` and `depth`
-/// of its center, of equal scale, the tangents from the eye to a circle. Valid for depth > radius.
+/// The range of a sphere along one axis of the screen: with `beside` and `depth` of its center, of
+/// equal scale, the tangents from the eye to a circle. Valid for depth > radius.
 struct Extent {
   Floats low;
   Floats high;
@@ -33,7 +33,7 @@ HWY_INLINE Extent tangents(Floats beside, Floats depth, Floats radius) {
   return {hn::Mul(hn::Sub(middle, around), per), hn::Mul(hn::Add(middle, around), per)};
 }
 
-/// The samples that the spheres of a block may cover, and how near they come.
+/// The samples that the spheres of a block may cover, and their smallest distances.
 struct SphereBoxes {
   alignas(64) std::array<std::array<float, kTileLanes>, 4> box;  ///< left, right, top, bottom
   alignas(64) std::array<float, kTileLanes> nearest;             ///< the largest 1/t
@@ -80,7 +80,7 @@ HWY_INLINE void see_spheres(const SphereBlock& block, const TileView& view, Sphe
     const Floats high_x = hn::Min(place(x.high, scale_x, left, kSlack), width);
     const Floats low_y = hn::Max(place(y.low, scale_y, top, -kSlack), none);
     const Floats high_y = hn::Min(place(y.high, scale_y, top, kSlack), height);
-    // A sphere that contains the eye, or nearly, may be anywhere.
+    // A sphere that contains the eye, or nearly does, may be anywhere.
     const Floats box_left = hn::Ceil(hn::IfThenElse(before, low_x, none));
     const Floats box_right = hn::Floor(hn::IfThenElse(before, high_x, width));
     const Floats box_top = hn::Ceil(hn::IfThenElse(before, low_y, none));
@@ -97,10 +97,10 @@ HWY_INLINE void see_spheres(const SphereBlock& block, const TileView& view, Sphe
   boxes.seen &= (LaneBits{1} << block.count) - 1;
 }
 
-/// Draws one sphere, whose largest 1/t is `nearest`, into the blocks of a box. As the canonical
-/// test does, t is found from the point of the ray nearest the center (Haines et al., Ray Tracing
+/// Draws one sphere, whose largest 1/t is `nearest`, into the blocks of a box. As in the canonical
+/// test, t is computed from the point of the ray nearest the center (Haines et al., Ray Tracing
 /// Gems, 2019): the hit then lies within a few roundings of the distance from the surface, however
-/// small or far the sphere is.
+/// small or distant the sphere is.
 HWY_INLINE void draw_sphere(const glm::vec3& from_eye, float radius, bool inside_only,
                             scenes::PrimitiveId primitive, const SampleRectangle& box,
                             float nearest, const TileView& view, TileImage& image) {
@@ -140,8 +140,8 @@ HWY_INLINE void draw_sphere(const glm::vec3& from_eye, float radius, bool inside
   }
 }
 
-/// Is the eye so near to a sphere's surface that float cannot decide its side? Half of the hits at
-/// t = 0 would be lost.
+/// Returns whether the eye is so close to a sphere's surface that float cannot decide its side.
+/// Otherwise half of the hits at t = 0 would be lost.
 HWY_INLINE bool is_at_eye(const glm::vec3& from_eye, float radius) {
   const float distance_squared = glm::dot(from_eye, from_eye);
   const float radius_squared = radius * radius;
@@ -149,7 +149,7 @@ HWY_INLINE bool is_at_eye(const glm::vec3& from_eye, float radius) {
          0x1p-19F * (distance_squared + radius_squared);
 }
 
-/// Draws the spheres of a block, the nearest first. What lies behind `farthest` (1/t) is not drawn.
+/// Draws the spheres of a block, the nearest first. Parts behind `farthest` (1/t) are not drawn.
 inline void draw_spheres(const SphereBlock& block, const scenes::Scene& scene, const TileRays& rays,
                          float farthest, TileImage& image) {
   const TileView& view = rays.view;

@@ -29,7 +29,7 @@ struct TiledRaster {
 
   int columns() const { return (raster.width + kTileWidth - 1) / kTileWidth; }
   int rows() const { return (raster.height + kTileHeight - 1) / kTileHeight; }
-  /// For column < columns(), row < rows().
+  /// Requires column < columns(), row < rows().
   TileView tile(int column, int row) const {
     const int left = column * kTileWidth;
     const int top = row * kTileHeight;
@@ -38,7 +38,7 @@ struct TiledRaster {
   }
 };
 
-/// The rasters of an image with a common numbering of tiles: tiles at the same place, which write
+/// The rasters of an image with a common numbering of tiles: tiles in the same place, which write
 /// to the same part of the buffer, have the same number.
 class TiledImage {
  public:
@@ -103,13 +103,13 @@ void trace_tiles(const TileKernels& kernels, const TileHierarchy& hierarchy,
   for (const ThreadState<Counting>& state : states) counting.add(state.counting);
 }
 
-/// Of a sample of a tile.
+/// Returns how a sample of a tile was traced.
 BeamPlace::Way way_of(const TileImage& image, const HandOverRecorder& recorder, std::size_t at) {
   if (recorder.is_handed_over[at]) return BeamPlace::Way::kHandedOver;
   return image.touched ? BeamPlace::Way::kInOrder : BeamPlace::Way::kBackground;
 }
 
-/// Rays of a batch in succession: of a pencil, or single ones.
+/// Consecutive rays of a batch: those of a pencil, or single ones.
 struct RayRange {
   std::size_t first;
   std::size_t count;
@@ -134,7 +134,7 @@ std::vector<RayRange> ranges_of(const RayBatch& batch, bool toward) {
   return ranges;
 }
 
-/// A batch whose pencils this structure sees.
+/// A batch with the pencils that this structure supports.
 struct SeenBatch {
   const TileHierarchy& hierarchy;
   const scenes::Scene& scene;
@@ -147,7 +147,7 @@ struct SeenBatch {
             samples.from(range.first), glm::vec3(range.pencil->apex)};
   }
 
-  /// Ranges of rays, divided into what is answered at once.
+  /// Returns ranges of rays, divided into parts that are traced at once.
   std::vector<RayRange> parts_of(std::span<const RayRange> ranges) const {
     constexpr std::size_t kSingleRays = 1024;
     std::vector<RayRange> parts;
@@ -166,10 +166,10 @@ struct SeenBatch {
   }
 };
 
-/// Of one thread.
+/// The state of one thread.
 template <class Counting>
 struct QueryState {
-  std::unique_ptr<PencilUnit> unit;  ///< from the first pencil on: most batches have none
+  std::unique_ptr<PencilUnit> unit;  ///< made for the first pencil: most batches have none
   Counting counting;
 };
 

@@ -15,19 +15,19 @@
 
 namespace beambench::accel::tile_beam {
 
-/// The thesis's two ideas, many primary rays traced through the scene as one beam and no rays where
-/// nothing is, with today's methods: a tile of the screen goes through a hierarchy of boxes front
-/// to back, skipping what its frustum, its samples or nearer hits exclude (hierarchical Z: Greene,
-/// Kass and Miller 1993), and draws what leaves hold. Images are computed in float, to within a few
-/// roundings of the distances, and so are the pencils of batches, shadow rays of a point light and
-/// rays from a planar mirror, which are seen from the point that they share (pencil_walk-inl.hpp).
-/// Single rays return the hits of the classic structures, bit for bit.
+/// The thesis's two ideas, many primary rays traced through the scene as one beam and no rays in
+/// empty space, with modern methods: a tile of the screen traverses a hierarchy of boxes front to
+/// back, skipping boxes excluded by its frustum, its samples or nearer hits (hierarchical Z:
+/// Greene, Kass and Miller 1993), and draws the contents of leaves. Images are computed in float,
+/// to within a few roundings of the distances. So are the pencils of batches (shadow rays of a
+/// point light, and rays from a planar mirror), as seen from their common point
+/// (pencil_walk-inl.hpp). Single rays return the hits of the classic structures, bit for bit.
 class TileBeam : public TraversalAccelerator<TileBeam> {
  public:
   static std::vector<ParameterInfo> parameters();
   static TileHierarchyOptions options_from(const Parameters& parameters);
 
-  /// `targets`: the instruction sets that it may run on (accel/core/instruction_set.hpp).
+  /// `targets`: the allowed instruction sets (accel/core/instruction_set.hpp).
   TileBeam(const scenes::Scene& scene, const TileHierarchyOptions& options,
            std::int64_t targets = targets_of("best"))
       : scene_(&scene),
@@ -36,9 +36,9 @@ class TileBeam : public TraversalAccelerator<TileBeam> {
         pencil_kernels_(&pencil_kernels_for(targets)),
         parallel_(options.parallel) {}
 
-  /// Pencils of fewer rays are traced singly: what a part costs at all is then more than is gained.
-  /// Rays toward an apex come from all that the picture shows; those away from one see what is in
-  /// their mirror, which few leaves may hold.
+  /// The minimum number of rays of a pencil; smaller ones are traced singly, because the fixed cost
+  /// of a part exceeds the gain. Rays toward an apex come from everything in the picture; those
+  /// away from one see what is in their mirror, which may be in a few leaves.
   static constexpr std::size_t least_pencil(bool toward) { return toward ? 512 : 32; }
 
   const TileHierarchy& hierarchy() const { return hierarchy_; }

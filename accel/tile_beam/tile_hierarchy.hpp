@@ -1,5 +1,5 @@
 #pragma once
-// The hierarchy that tile beams traverse: sixteen children per node, leaves of one kind each.
+// The hierarchy traversed by tile beams: sixteen children per node, leaves of one kind each.
 
 #include <array>
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace beambench::accel::tile_beam {
 /// Children of a node, and spheres or cones of a block.
 inline constexpr std::size_t kTileLanes = 16;
 
-/// What a node's child is, and where.
+/// The kind and place of a node's child.
 class TileChild {
  public:
   enum class Kind : std::uint32_t { kNode, kMeshlet, kSpheres, kCones };
@@ -37,7 +37,7 @@ class TileChild {
   std::uint32_t bits() const { return bits_; }
 
  private:
-  std::uint32_t bits_;  // not set: stacks of hundreds are made for every tile
+  std::uint32_t bits_;  // uninitialized: stacks of hundreds are made for every tile
 };
 
 /// Up to sixteen boxes: lower x, y, z; upper x, y, z.
@@ -56,7 +56,7 @@ struct alignas(64) TileBoxes {
   }
 };
 
-/// Where the fronts of a child's triangles look: a cone about all normals.
+/// The directions that the fronts of a child's triangles face: a cone around all normals.
 struct alignas(64) TileCones {
   std::array<std::array<float, kTileLanes>, 3> axis;
   std::array<float, kTileLanes> sine_squared;  ///< of half its angle, rounded up
@@ -68,12 +68,12 @@ struct alignas(64) TileNode {
   TileBoxes boxes;
   TileCones cones;
   std::array<TileChild, kTileLanes> children;
-  std::array<std::uint32_t, kTileLanes> leaves;  ///< of each child, itself included
+  std::array<std::uint32_t, kTileLanes> leaves;  ///< of each child, including itself
   std::uint32_t count;
-  std::uint32_t cone_lanes;  ///< bit i: child i has nothing but solids' triangles, and a cone
+  std::uint32_t cone_lanes;  ///< bit i: child i has only solids' triangles, and a cone
 };
 
-/// A few neighboring triangles and the corners that they share: each corner is projected once.
+/// A few neighboring triangles and their shared corners: each corner is projected once.
 struct alignas(64) Meshlet {
   static constexpr std::size_t kMaxVertices = 32;
   static constexpr std::size_t kMaxTriangles = 32;
@@ -86,7 +86,7 @@ struct alignas(64) Meshlet {
   std::uint32_t triangle_count;
   float extent;             ///< longest side of the box of all
   std::uint32_t solid;      ///< bit i: triangle i is part of a `Solid`
-  std::uint32_t clockwise;  ///< bit i: its corners go round clockwise, seen from outside
+  std::uint32_t clockwise;  ///< bit i: its corners are clockwise, seen from outside
 
   glm::vec3 corner(std::size_t which, std::size_t triangle) const {
     const std::size_t vertex = corners[which][triangle];
@@ -108,7 +108,7 @@ struct alignas(64) ConeBlock {
   std::uint32_t count;
 };
 
-/// What leaves hold.
+/// The contents of leaves.
 struct TileBlocks {
   LargePageVector<Meshlet> meshlets;
   LargePageVector<SphereBlock> spheres;
@@ -117,7 +117,7 @@ struct TileBlocks {
   std::size_t count() const { return meshlets.size() + spheres.size() + cones.size(); }
 };
 
-/// A meshlet that has triangles of a solid.
+/// A meshlet with triangles of a solid.
 struct SolidMeshlet {
   std::uint32_t solid;
   std::uint32_t meshlet;
@@ -130,35 +130,35 @@ struct SolidMeshlet {
 struct TileHierarchy : TileBlocks {
   LargePageVector<TileNode> nodes;  ///< children after their parents
   TileChild root{};
-  Solids solids;                             ///< whose backs are left out; none: no backs are
+  Solids solids;                             ///< whose backs are left out; none: all are drawn
   std::vector<SolidMeshlet> solid_meshlets;  ///< ascending
   scenes::Bounds bounds;                     ///< of everything, widened
-  bool interleaves_rays = false;             ///< it is so large that single rays go together
+  bool interleaves_rays = false;             ///< so large that single rays are traced together
   std::uint32_t depth = 0;                   ///< nodes on the longest path to a leaf, leaf included
   std::uint64_t references = 0;
   ExpectedVisits visits;
-  double cost = 0.0;  ///< of the binary hierarchy it was made from: see sah_cost
+  double cost = 0.0;  ///< the cost of the underlying binary hierarchy: see sah_cost
 
   bool empty() const { return references == 0; }
   std::size_t leaves() const { return count(); }
-  /// Of nodes and leaves. What is reserved behind them was never touched.
+  /// Returns the bytes of nodes and leaves. Reserved memory behind them was never touched.
   std::size_t bytes() const {
     return nodes.size() * sizeof(TileNode) + meshlets.size() * sizeof(Meshlet) +
            spheres.size() * sizeof(SphereBlock) + cones.size() * sizeof(ConeBlock);
   }
 };
 
-/// The maximum number of nodes from the root to a leaf: the binary hierarchy's, and one for a leaf
-/// that needs several blocks.
+/// The maximum number of nodes from the root to a leaf: that of the binary hierarchy, and one for a
+/// leaf that needs several blocks.
 inline constexpr std::size_t kMaxTileDepth = 97;
 
 struct TileHierarchyOptions {
   std::uint32_t max_leaf = 32;   ///< most primitives of a leaf
   bool parallel = false;         ///< build, and trace images, on all cores
-  bool backface_culling = true;  ///< leave out what cannot be seen of solids in images
+  bool backface_culling = true;  ///< leave out the invisible backs of solids in images
 };
 
-/// Throws InputError when the scene needs more than TileChild::kIndices leaves of a kind.
+/// Throws InputError if the scene needs more than TileChild::kIndices leaves of a kind.
 TileHierarchy build_tile_hierarchy(const scenes::Scene& scene, const TileHierarchyOptions& options);
 
 }  // namespace beambench::accel::tile_beam

@@ -12,9 +12,9 @@
 
 namespace beambench::accel::tile_beam {
 
-/// Samples lie in blocks of 4 x 4, which fill a 512-bit register; blocks lie row by row. Of a hit
-/// 1/t is kept, which is linear on the screen for points of a plane; 0 is the background, and
-/// infinity a hit at t = 0. Samples beyond the raster's ends hold infinity: nothing is nearer.
+/// Samples are in blocks of 4 x 4, which fill a 512-bit register; blocks are in rows. For a hit,
+/// 1/t is stored, which is linear on the screen for points of a plane; 0 is the background, and
+/// infinity a hit at t = 0. Samples beyond the raster's ends hold infinity, so nothing is nearer.
 struct TileImage {
   static constexpr int kBlockColumns = kTileWidth / 4;
   static constexpr int kBlockRows = kTileHeight / 4;
@@ -44,10 +44,10 @@ struct TileImage {
   bool touched;                              ///< false: all background, not cleared yet
 };
 
-/// The 1/t of what reaches to the eye or behind it: nearer than anything else.
+/// The 1/t of anything at the eye or behind it: nearer than everything else.
 inline constexpr float kNearestOfAll = 1e30F;
 
-/// The stored value of a hit. t may be -0, which is as near as 0.
+/// Returns the stored value of a hit. t may be -0, which is as near as 0.
 inline float inverse_of(float t) { return 1.0F / std::abs(t); }
 
 /// Samples [left, right] x [top, bottom] of a tile.

@@ -1,5 +1,5 @@
 #pragma once
-// Tiles and rays through the hierarchy, compiled for several instruction sets.
+// Traces tiles and rays through the hierarchy, compiled for several instruction sets.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,27 +18,27 @@
 
 namespace beambench::accel::tile_beam {
 
-/// The queries of single rays under one counting policy. Not for empty hierarchies, nor for rays
-/// that ProbeRay cannot probe.
+/// The queries of single rays under one counting policy. Must not be used for empty hierarchies,
+/// nor for rays that ProbeRay cannot probe.
 template <class Counting>
 struct TileRayQueries {
   std::optional<Hit> (*closest)(const TileHierarchy&, const scenes::Scene&, const Ray&, Counting&);
   bool (*any)(const TileHierarchy&, const scenes::Scene&, const Ray&, Counting&);
 };
 
-/// Those of lists of rays, for hierarchies that are not empty. Rays that ProbeRay cannot probe are
-/// left out; they return whether there are some.
+/// The queries of lists of rays, for nonempty hierarchies. Rays that ProbeRay cannot probe are left
+/// out; the functions return whether there are any.
 template <class Counting>
 struct TileListQueries {
-  /// The hits are written from `first` of the buffer on.
+  /// Writes the hits from `first` of the buffer on.
   bool (*closest_hits)(const TileHierarchy&, const scenes::Scene&, std::span<const Ray>,
                        const HitSpan& buffer, std::size_t first, Counting&);
-  /// 1 for a hit and 0 for none.
+  /// Writes 1 for a hit and 0 for a miss.
   bool (*any_hits)(const TileHierarchy&, const scenes::Scene&, std::span<const Ray>,
                    std::span<std::uint8_t> hits, Counting&);
 };
 
-/// What is drawn, and from where.
+/// The scene, the view and the result of drawing.
 struct TilePicture {
   const TileHierarchy& hierarchy;
   const scenes::Scene& scene;
@@ -47,8 +47,8 @@ struct TilePicture {
   const VisibleBacks& backs;
 };
 
-/// Draws one tile of a picture; the image is its memory. Where the buffer is large, hits may be
-/// seen by other threads only after hwy::FlushStream.
+/// Draws one tile of a picture; `image` is its memory. If the buffer is large, other threads may
+/// see hits only after hwy::FlushStream.
 template <class Counting>
 struct TileDrawing {
   void (*draw)(const TilePicture&, const TileView&, TileImage&, const HitSpan&, Counting&);
@@ -78,8 +78,8 @@ struct TileKernels : TileRayQueries<NoCounting>,
   }
 };
 
-/// Those for the best instruction set that this machine has among some: Highway's targets, as
-/// `targets_of` gives them.
+/// Returns the kernels for the best instruction set that this machine has among Highway's targets
+/// `targets`, as given by `targets_of`.
 const TileKernels& tile_kernels_for(std::int64_t targets);
 
 }  // namespace beambench::accel::tile_beam

@@ -16,7 +16,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// The samples' places in a block, for the register that begins with sample `first` of it.
+/// Returns the samples' places in a block, for the register that begins with sample `first`.
 HWY_INLINE Floats block_x(std::size_t first) {
   const auto index = hn::Add(hn::Iota(IntTag(), 0), hn::Set(IntTag(), static_cast<int>(first)));
   return hn::ConvertTo(Tag(), hn::And(index, hn::Set(IntTag(), 3)));
@@ -26,8 +26,8 @@ HWY_INLINE Floats block_y(std::size_t first) {
   return hn::ConvertTo(Tag(), hn::ShiftRight<2>(index));
 }
 
-/// Keeps hits where they are nearer than what a block holds: those with `inverse_t` in the lanes of
-/// `hit`, from place `at` on. Of primitives at the same depth the first drawn stays: finding the
+/// Keeps hits that are nearer than the contents of a block: those with `inverse_t` in the lanes of
+/// `hit`, from place `at` on. Of primitives at the same depth, the first drawn stays: finding the
 /// lowest id would cost 5% of a trace, and rounding decides between most of them anyway.
 HWY_INLINE void keep_nearer(TileImage& image, std::size_t at, Floats inverse_t, Mask hit,
                             scenes::PrimitiveId primitive) {
@@ -65,9 +65,9 @@ class HzCell {
   HWY_INLINE HzCell(TileImage& image, unsigned column, unsigned row)
       : image_(&image), column_(column), row_(row) {}
 
-  /// The smallest 1/t.
+  /// Returns the smallest 1/t.
   HWY_INLINE float farthest() const { return is_stale() ? found(smallest()) : kept(); }
-  /// Is all of it at least as near as 1/t?
+  /// Returns whether all of it is at least as near as 1/t.
   HWY_INLINE bool hides(float inverse_t) const {
     if (!is_stale()) return kept() >= inverse_t;
     const Floats now = smallest();
@@ -101,8 +101,8 @@ class HzCell {
   unsigned row_;
 };
 
-/// Is everything in a rectangle nearer than something whose 1/t is at most `inverse_t`? May return
-/// false where it is, but never true where it is not.
+/// Returns whether everything in a rectangle is nearer than something whose 1/t is at most
+/// `inverse_t`. Conservative: may be false although it is true, but not vice versa.
 inline bool hides(TileImage& image, const SampleRectangle& where, float inverse_t) {
   const unsigned left = where.left >> 3U;
   const unsigned right = where.right >> 3U;
@@ -118,8 +118,8 @@ inline bool hides(TileImage& image, const SampleRectangle& where, float inverse_
   return true;
 }
 
-/// The smallest 1/t of the tile. `open` is the cell tested first; where there is background, it
-/// becomes a cell that has some and most likely will the next time.
+/// Returns the smallest 1/t of the tile. `open` is the cell tested first; if there is background,
+/// it becomes a cell that has some and most likely will the next time.
 inline float farthest_of_all(TileImage& image, unsigned& open) {
   constexpr unsigned kColumns = TileImage::kHzColumns;
   const auto farthest = [&](unsigned cell) {

@@ -1,7 +1,7 @@
 #include "accel/tile_beam/tile_recorder.hpp"
 
-// For the baseline's instructions alone, which is fast enough for pictures. Beside the timed
-// kernels it would change what the compiler inlines there.
+// Uses only the baseline's instructions, which is fast enough for pictures. Next to the timed
+// kernels, it would affect the compiler's inlining there.
 #include <hwy/highway.h>
 
 #include "accel/tile_beam/tile_walk-inl.hpp"

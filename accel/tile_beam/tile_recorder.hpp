@@ -1,13 +1,13 @@
 #pragma once
-// A tile's way through the hierarchy, for pictures.
+// Records a tile's path through the hierarchy, for pictures.
 
 #include "accel/tile_beam/hand_over.hpp"
 #include "accel/tile_beam/tile_kernels.hpp"
 
 namespace beambench::accel::tile_beam {
 
-/// Lets a tile traverse the hierarchy as `TileDrawing::draw` does, but writes no hits: the image
-/// says whether it met anything, the recorder which of its samples were handed over.
+/// Lets a tile traverse the hierarchy like `TileDrawing::draw`, but writes no hits: the image shows
+/// whether it met anything, and the recorder which of its samples were handed over.
 void record_tile(const TilePicture& picture, const TileView& view, TileImage& image,
                  HandOverRecorder& recorder);
 

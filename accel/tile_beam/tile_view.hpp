@@ -12,19 +12,20 @@ namespace beambench::accel::tile_beam {
 inline constexpr int kTileWidth = 128;
 inline constexpr int kTileHeight = 128;
 
-/// By how much the edges of triangles made in double are moved outward, in units of |direction|:
-/// more than those made in float may err, so that no gap is left between the two.
+/// The distance by which the edges of triangles computed in double are moved outward, in units of
+/// |direction|: more than the error of those computed in float, so that no gap is left between the
+/// two.
 inline constexpr double kEdgeWidening = 0x1.8p-22;
 
-/// x * i + y * j + constant at sample (i, j) of a tile.
+/// The linear function x * i + y * j + constant at sample (i, j) of a tile.
 struct TileLine {
   float x;
   float y;
   float constant;
 };
 
-/// How a raster's camera projects points to the screen, in double. A point p relative to the eye
-/// has the view depth w = depth . p and lies on the screen at sample (x . p / w, y . p / w).
+/// A raster's camera: projects points to the screen, in double. A point p relative to the eye has
+/// the view depth w = depth . p and lies on the screen at sample (x . p / w, y . p / w).
 struct RasterView {
   RasterView(const SampleRaster& raster, const PrimaryRays& rays, const scenes::Bounds& scene);
 
@@ -37,13 +38,13 @@ struct RasterView {
   glm::dvec3 down;
   double per_angle_x;  ///< samples per unit of |direction|
   double per_angle_y;
-  bool mirrored;       ///< what goes round clockwise is seen to go round the other way
-  double reach = 0.0;  ///< no point of the scene is farther from the eye along any axis
+  bool mirrored;       ///< clockwise corners appear counter-clockwise
+  double reach = 0.0;  ///< maximum distance of a point of the scene from the eye along any axis
 };
 
 /// The view with a tile's first sample as (0, 0), in float. Let e = 2^-24. Coordinates of points
-/// relative to the eye have the relative error e, and x . p, y . p, depth . p are wrong by less
-/// than 4 e |p| x the length of their row.
+/// relative to the eye have the relative error e, and the errors of x . p, y . p, depth . p are
+/// less than 4 e |p| x the length of their row.
 struct TileView {
   TileView(const RasterView& raster, int left, int top, int width, int height);
 
@@ -63,18 +64,18 @@ struct TileView {
   glm::vec3 down;
   bool mirrored;  ///< as `RasterView::mirrored`
 
-  /// Corners farther than this from the tile's first sample make the float edge functions of their
-  /// triangles too inaccurate. In samples per unit of |direction|.
+  /// The distance from the tile's first sample beyond which corners make the float edge functions
+  /// of their triangles too inaccurate. In samples per unit of |direction|.
   float guard;
-  /// How far boxes of triangles are widened, in samples: more than edges evaluated in float err,
-  /// but not by much, for it is the boxes that end acute corners.
+  /// The distance by which boxes of triangles are widened, in samples: more than the error of edges
+  /// evaluated in float, but only slightly, because acute corners end at the boxes.
   float box_slack;
-  /// A triangle whose float area is below sliver x (longer side of its box)^3 has too coarse a
-  /// plane in float.
+  /// If a triangle's float area is below sliver x (longer side of its box)^3, its plane is too
+  /// coarse in float.
   float sliver;
   double per_angle_x;  ///< samples per unit of |direction|
   double per_angle_y;
-  /// What box tests may err by, as distances: of x . p and y . p, and of depth . p.
+  /// The possible errors of box tests, as distances: of x . p and y . p, and of depth . p.
   float slack_x;
   float slack_y;
   float slack_depth;

@@ -1,4 +1,4 @@
-// One tile's beam through the hierarchy, front to back.
+// Traces one tile's beam through the hierarchy, front to back.
 
 #if defined(ACCEL_TILE_BEAM_TILE_WALK_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_TILE_WALK_INL
@@ -22,8 +22,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// A part of the hierarchy is traversed by single rays when it has more than this many leaves per
-/// sample.
+/// The number of leaves per sample above which a part of the hierarchy is traversed by single rays.
 inline constexpr float kHandoverLeaves = 1.0F;
 
 /// Draws a tile.
@@ -57,8 +56,8 @@ class TileWalk {
     TileChild child;
     float nearest;  ///< the largest 1/t of its box
     SampleRectangle where;
-    /// Not 0: more leaves than single rays would take. A whole word, for entries with a gap are
-    /// copied in pieces that overlap, and reading them waits for the cache.
+    /// Not 0 if there are more leaves than single rays would take. A whole word, because entries
+    /// with a gap are copied in overlapping pieces, and reading them waits for the cache.
     std::uint32_t crowded;
   };
 
@@ -74,7 +73,7 @@ class TileWalk {
         is_crowded(static_cast<std::uint32_t>(hierarchy_->leaves()), met.samples[0])};
   }
 
-  /// Samples are counted on the whole screen, because most leaves of a part may lie beyond the
+  /// Samples are counted on the whole screen, because most leaves of a part may lie outside the
   /// tile.
   static bool is_crowded(std::uint32_t leaves, float samples) {
     return static_cast<float>(leaves) > kHandoverLeaves * (samples + 1.0F);
@@ -108,8 +107,9 @@ class TileWalk {
     }
   }
 
-  /// Of those met, how many lie farther than one: its place on the stack. Counting them needs no
-  /// branch, which could not be predicted. Of the equally near the first lane is the farthest.
+  /// Returns how many of those met are farther than one: its place on the stack. Counting them
+  /// needs no branch, which would be unpredictable. Among equally near ones, the first lane counts
+  /// as the farthest.
   static HWY_INLINE int farther_lanes(const BoxProbe::Met& met, std::size_t lane) {
     const Floats own = all(met.nearest[lane]);
     const LaneBits farther = for_each_register(
@@ -149,7 +149,7 @@ class TileWalk {
     changed(entry.where);
   }
 
-  /// Single rays for the remaining samples.
+  /// Traces single rays for the remaining samples.
   void hand_over(const Entry& entry) {
     if (!image_->touched) clear(*image_, *view_);
     const SampleRectangle& where = entry.where;
@@ -179,7 +179,7 @@ class TileWalk {
     changed(where);
   }
 
-  /// Updates the whole tile's depth now and then, when it may have grown by much.
+  /// Updates the whole tile's depth occasionally, when it may have grown by much.
   HWY_INLINE void changed(const SampleRectangle& where) {
     mark_stale(*image_, where);
     drawn_ += where.count();
@@ -197,8 +197,8 @@ class TileWalk {
   TileImage* image_;
   Counting* counting_;
   float farthest_ = 0.0F;   ///< the smallest 1/t of the tile, as far as known
-  unsigned open_cell_ = 0;  ///< where background was found last
-  int drawn_ = 0;           ///< samples that leaves covered since it was found
+  unsigned open_cell_ = 0;  ///< where background was last found
+  int drawn_ = 0;           ///< samples covered by leaves since then
   std::size_t size_ = 0;
   std::array<Entry, kMaxTileDepth*(kTileLanes - 1) + 1> stack_;
 };

@@ -1,4 +1,4 @@
-// Triangles of a few blocks each: which blocks they meet is found by lanes, then block after block.
+// Draws triangles of a few blocks each: lanes find the blocks, which are then drawn one by one.
 
 #if defined(ACCEL_TILE_BEAM_TRIANGLE_BLOCKS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_TRIANGLE_BLOCKS_INL
@@ -13,11 +13,11 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// Triangles with no more blocks than this in their box are drawn by lists.
+/// Triangles with at most this many blocks in their box are drawn by lists.
 inline constexpr int kMaxListedBlocks = 30;
 
-/// A block that a triangle may meet: the block's place in the tile, and the triangle's lane in the
-/// four bits that are free there.
+/// A block that a triangle may meet: the block's place in the tile, and the triangle's lane in four
+/// unused bits.
 struct BlockList {
   static constexpr std::size_t kMaxEntries =
       16 * kMaxListedBlocks + 16;  // room for a whole register at the end
@@ -52,7 +52,7 @@ struct BlockBoxes {
   }
 };
 
-/// The edge's largest value on a block, as a line over the blocks' first samples.
+/// Returns the edge's largest value on a block, as a line over the blocks' first samples.
 HWY_INLINE Lines largest_on_block(const Lines& edge) {
   const Floats none = hn::Zero(Tag());
   const Floats three = all(3.0F + 0x1p-6F);  // and a little for rounding
@@ -61,7 +61,7 @@ HWY_INLINE Lines largest_on_block(const Lines& edge) {
                                          hn::Max(none, hn::Mul(edge.y, three))))};
 }
 
-/// Each lane walks through the blocks of its triangle's box, row by row.
+/// Lets each lane walk through the blocks of its triangle's box, row by row.
 HWY_INLINE void list_blocks(const TriangleImages& images, const BlockBoxes& boxes, Mask listed,
                             BlockList& list) {
   const Lines edge0 = largest_on_block(images.edge0);
@@ -87,7 +87,8 @@ HWY_INLINE void list_blocks(const TriangleImages& images, const BlockBoxes& boxe
   } while (!hn::AllFalse(Tag(), listed));
 }
 
-/// The places of samples of each column of blocks, or each row: faster to look up than to make.
+/// The places of samples of each column of blocks, or each row: looking them up is faster than
+/// computing them.
 template <std::size_t kCount>
 struct BlockPlaces {
   alignas(64) std::array<std::array<float, TileImage::kBlockSamples>, kCount> places;

@@ -1,4 +1,4 @@
-// The smallest triangles: each lane walks through the samples of its own.
+// Draws the smallest triangles: each lane walks through the samples of its own.
 
 #if defined(ACCEL_TILE_BEAM_TRIANGLE_FRAGMENTS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_TRIANGLE_FRAGMENTS_INL
@@ -13,7 +13,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// Triangles with no more samples than this in their box are drawn by lanes.
+/// Triangles with at most this many samples in their box are drawn by lanes.
 inline constexpr float kMaxLaneSamples = 9.0F;
 
 /// Hits found by lanes, before the depth test.
@@ -62,7 +62,7 @@ HWY_INLINE void resolve_fragments(const Fragments& fragments, const scenes::Prim
     const auto where = static_cast<unsigned>(fragments.where[f]);
     const std::size_t at = TileImage::place(static_cast<int>(where >> 4U & (kTileWidth - 1U)),
                                             static_cast<int>(where >> (4 + TileImage::kWidthBits)));
-    // Without a branch, which could not be predicted.
+    // Avoids a branch, which would be unpredictable.
     const bool nearer = fragments.inverse_t[f] > image.inverse_t[at];
     image.inverse_t[at] = nearer ? fragments.inverse_t[f] : image.inverse_t[at];
     image.primitive[at] = nearer ? primitives[where & 15U] : image.primitive[at];

@@ -1,4 +1,4 @@
-// Large triangles, one by one: rows of blocks.
+// Draws large triangles one by one, in rows of blocks.
 
 #if defined(ACCEL_TILE_BEAM_TRIANGLE_PAINTER_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_TRIANGLE_PAINTER_INL

@@ -18,7 +18,8 @@ namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 struct ProjectedVertices {
   alignas(64) std::array<float, Meshlet::kMaxVertices> x;
   alignas(64) std::array<float, Meshlet::kMaxVertices> y;
-  /// 1 / depth; -1 for those whose triangles need double: behind the eye, or far beside the tile.
+  /// 1 / depth; -1 for vertices whose triangles need double: behind the eye, or far beside the
+  /// tile.
   alignas(64) std::array<float, Meshlet::kMaxVertices> inverse_t;
   bool none_needs_double;  ///< no vertex has -1
 };
@@ -62,7 +63,7 @@ struct Lines {
 
 /// The images of some triangles.
 struct TriangleImages {
-  Lines edge0;  ///< none negative: a sample is within
+  Lines edge0;  ///< inside if none is negative
   Lines edge1;
   Lines edge2;
   Lines plane;     ///< 1/t
@@ -75,19 +76,20 @@ struct TriangleImages {
   Mask acute;        ///< has a corner so acute that rounding may draw it far beyond its box
   Mask needs_exact;  ///< may hit samples, but float is too coarse: see exact_triangle.hpp
 
-  /// In the triangles' boxes.
+  /// Returns the number of samples in the triangles' boxes.
   HWY_INLINE Floats samples() const {
     const Floats one = all(1.0F);
     return hn::Mul(hn::Add(hn::Sub(right, left), one), hn::Add(hn::Sub(bottom, top), one));
   }
 };
 
-/// Of a triangle's area over the square of its longer side: below it, corners are acute.
+/// The ratio of a triangle's area to the square of its longer side below which corners count as
+/// acute.
 inline constexpr float kAcute = 0x1p-5F;
 
-/// The edge from (x0, y0) to (x1, y1). Its constant is taken at the middle: turned round, the edge
-/// has exactly the negative value at every sample, so two triangles that share it leave no gap
-/// (-ffp-contract=off is needed for this).
+/// Returns the edge from (x0, y0) to (x1, y1). Its constant is computed at the middle: the reversed
+/// edge has exactly the negative value at every sample, so two triangles that share it leave no gap
+/// (this requires -ffp-contract=off).
 HWY_INLINE Lines edge_between(Floats x0, Floats y0, Floats x1, Floats y1, Floats sign) {
   const Floats a = hn::Sub(y0, y1);
   const Floats b = hn::Sub(x1, x0);
@@ -102,7 +104,7 @@ struct TriangleCorners {
   Ints corner2;
   Mask present;
 
-  /// Those from `first` on.
+  /// Returns those from `first` on.
   static HWY_INLINE TriangleCorners from(const Meshlet& meshlet, std::size_t first) {
     const hn::Rebind<std::uint8_t, Tag> bytes;
     const auto corner = [&](std::size_t which) {
@@ -112,8 +114,8 @@ struct TriangleCorners {
   }
 };
 
-/// The triangles whose backs cannot be seen: bits for those that show them where their area on the
-/// screen is positive, and where it is negative.
+/// The triangles whose backs are invisible: bits for those that would show them if their area on
+/// the screen is positive, and if it is negative.
 struct HiddenBacks {
   std::uint32_t positive;
   std::uint32_t negative;
@@ -123,7 +125,7 @@ struct HiddenBacks {
         negative(hidden & ~positive) {}
 };
 
-/// Triangles that are left of a meshlet's.
+/// The triangles of a meshlet that remain.
 struct Survivors {
   static constexpr std::size_t kRoom = Meshlet::kMaxTriangles + 16;  // for a register at the end
 
@@ -143,9 +145,9 @@ struct Survivors {
   }
 };
 
-/// The triangles that show no hidden back and whose box holds a sample. No vertex needs double.
-/// A back is one whose area says so beyond what its corners' rounding can do: up to `box_slack`
-/// each.
+/// Finds the triangles that show no hidden back and whose box contains a sample. No vertex needs
+/// double. A triangle shows its back if its area proves that beyond the rounding of its corners: up
+/// to `box_slack` each.
 HWY_INLINE void find_survivors(const Meshlet& meshlet, const HiddenBacks& backs,
                                const ProjectedVertices& projected, const TileView& view,
                                Survivors& survivors) {
@@ -192,7 +194,7 @@ HWY_INLINE void find_survivors(const Meshlet& meshlet, const HiddenBacks& backs,
   }
 }
 
-/// Triangles that hold no sample, or that lie behind `farthest` (1/t) everywhere, are in neither
+/// Triangles that contain no sample, or that are entirely behind `farthest` (1/t), are in neither
 /// mask.
 HWY_INLINE TriangleImages project_triangles(const TriangleCorners& corners,
                                             const ProjectedVertices& projected,

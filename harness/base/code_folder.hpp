@@ -1,5 +1,5 @@
 #pragma once
-// Where the running code lies, and so what is installed beside it.
+// Finds the folder of the running code, and thereby the files installed with it.
 
 #include <filesystem>
 

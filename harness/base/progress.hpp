@@ -8,33 +8,34 @@
 
 namespace beambench::base {
 
-/// "7 s", "3 min 20 s", "2 h 5 min".
+/// Returns "7 s", "3 min 20 s", "2 h 5 min".
 std::string format_duration(double seconds);
 
 /// Reports a job of several cells on a stream (stderr). On a terminal one line is redrawn: cells
 /// done, the present cell, the remaining time estimated from the pace so far. Elsewhere each
-/// finished cell leaves one line. Not for use from several threads at once.
+/// finished cell prints one line. Not thread-safe.
 class Progress {
  public:
-  /// `cells` may differ in length; give `advance` the work done if they differ much.
+  /// `cells` may differ in length; if they differ much, report the work done to `advance`.
   explicit Progress(std::size_t cells, std::FILE* stream = stderr);
   Progress(std::size_t cells, std::FILE* stream, bool terminal);
-  /// Clears.
+  /// Clears the line.
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// A cell begins; `name` is shown.
+  /// Begins a cell; `name` is shown.
   void start(std::string_view name);
-  /// The present cell is done to this part (0 ... 1). Cheap: redraws a few times a second at most.
+  /// Updates the share of the current cell that is done (0 ... 1). Cheap: redraws at most a few
+  /// times per second.
   void advance(double part);
-  /// The present cell is done; its line has `result` after the name.
+  /// Finishes the current cell; its line has `result` after the name.
   void finish(std::string_view result);
   /// Removes a number of cells that will not be done.
   void skip(std::size_t cells);
-  /// Prints a line of its own (a warning, a result) apart from the progress line.
+  /// Prints a separate line (a warning, a result) without disturbing the progress line.
   void say(std::string_view line);
-  /// Wipes the progress line, before something else writes to the terminal.
+  /// Wipes the progress line before something else writes to the terminal.
   void clear();
 
   bool on_terminal() const { return terminal_; }
@@ -53,7 +54,7 @@ class Progress {
   Clock::time_point last_draw_;
 };
 
-/// Seconds that remain when `part` (0 ... 1] of the work took `elapsed` seconds.
+/// Returns the remaining seconds if `part` (0 ... 1] of the work took `elapsed` seconds.
 double remaining_seconds(double elapsed, double part);
 
 }  // namespace beambench::base

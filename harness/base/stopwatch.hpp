@@ -6,7 +6,7 @@
 
 namespace beambench::base {
 
-/// Wall time since it was made, on the monotonic clock.
+/// Wall time since construction, on the monotonic clock.
 class Stopwatch {
  public:
   double seconds() const { return elapsed<std::chrono::duration<double>>(); }
@@ -21,8 +21,8 @@ class Stopwatch {
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-/// CPU time since it was made: of the calling thread, or of all threads of the process where
-/// `clock` is CLOCK_PROCESS_CPUTIME_ID. Reading it is a system call.
+/// CPU time since construction: of the calling thread, or of all threads of the process if `clock`
+/// is CLOCK_PROCESS_CPUTIME_ID. Reading it is a system call.
 class CpuStopwatch {
  public:
   explicit CpuStopwatch(clockid_t clock = CLOCK_THREAD_CPUTIME_ID) : clock_(clock) {}

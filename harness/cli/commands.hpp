@@ -1,5 +1,5 @@
 #pragma once
-// The subcommands of `beambench`, one file each.
+// The subcommands of `beambench`, each in its own file.
 
 #include <vector>
 
@@ -10,20 +10,20 @@
 
 namespace beambench::cli {
 
-/// Each adds its subcommand with options and help to `app`; when the user picks it, it runs while
-/// `app` parses and leaves its result in `exit_code`, which outlives `app`. Wrong requests are
-/// thrown as InputError.
+/// Each function adds its subcommand with options and help to `app`. If the user picks it, it runs
+/// while `app` parses and stores its result in `exit_code`, which outlives `app`. Wrong requests
+/// are thrown as InputError.
 using AddCommand = void(CLI::App& app, int& exit_code);
 AddCommand add_list_command, add_scene_command, add_export_command, add_render_command,
     add_rays_command, add_hits_command, add_stats_command, add_verify_command, add_trace_command,
     add_selftest_command, add_time_command, add_analyze_command, add_merge_command;
 /// The experiments of the thesis (`harness/thesis`); built unless BEAMBENCH_THESIS is off.
 AddCommand add_sampling_command, add_census_command, add_mirrors_command;
-/// Returns those of them that were built.
+/// Returns those that were built.
 std::vector<AddCommand*> thesis_commands();
-/// These two read the other commands off `app` when they run.
+/// These two read the other commands from `app` when they run.
 AddCommand add_completion_command, add_man_command;
-/// `activity` outlives `app`.
+/// `activity` must outlive `app`.
 void add_run_command(CLI::App& app, int& exit_code, plugin::Activity& activity);
 
 }  // namespace beambench::cli

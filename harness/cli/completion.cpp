@@ -25,7 +25,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// `first`, then the names of structures, scenes or kinds of rays.
+/// Returns `first`, then the names of structures, scenes or kinds of rays.
 template <class... Infos>
 Words names_with(Words first, const Infos&... all) {
   const auto add = [&](const auto& infos) {
@@ -35,7 +35,7 @@ Words names_with(Words first, const Infos&... all) {
   return first;
 }
 
-/// The valid values of options by their name; file names for all others.
+/// Returns the valid values of options by their name; file names for all others.
 const std::map<std::string, Words>& known_values() {
   const auto structures = accel::registry().structures();
   static const std::map<std::string, Words> values{
@@ -56,7 +56,7 @@ const std::map<std::string, Words>& known_values() {
 
 bool takes_value(const CLI::Option& option) { return option.get_items_expected_max() > 0; }
 
-/// `-o`, `--output`.
+/// Returns `-o`, `--output`.
 Words names_of(const CLI::Option& option) {
   Words names;
   for (const std::string& name : option.get_snames()) names.push_back("-" + name);
@@ -78,7 +78,7 @@ Words command_names(const CLI::App& app) {
   return names;
 }
 
-/// The words for a command's arguments that are no options.
+/// Returns the words for a command's non-option arguments.
 Words argument_words(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     const auto known = known_values().find(option->get_name(true));
@@ -129,14 +129,14 @@ std::string bash_script(const CLI::App& app) {
       fmt::join(first, " "), options, values, arguments);
 }
 
-/// zsh runs bash's completions. The first completion loads the script as a function, which must
-/// complete, too.
+/// Returns the zsh script, which runs bash's completions. The first completion loads the script as
+/// a function, and must also complete.
 std::string zsh_script(const CLI::App& app) {
   return "#compdef beambench\nautoload -U +X bashcompinit && bashcompinit\n" + bash_script(app) +
          "if [[ -n ${compstate+loading} ]]; then _bash_complete -o default -F _beambench; fi\n";
 }
 
-/// In single quotes for fish, on one line.
+/// Quotes a text for fish, on one line.
 std::string fish_quoted(const std::string& text) {
   std::string quoted = "'";
   for (const char c : text) {
@@ -187,7 +187,8 @@ std::string script_for(const std::string& shell, const CLI::App& app) {
   return bash_script(app);
 }
 
-/// A text escaped for roff: no character is taken for a request (groff_char(7), roff(7)).
+/// Escapes a text for roff, so that no character is interpreted as a request (groff_char(7),
+/// roff(7)).
 std::string escaped(std::string_view text) {
   std::string out;
   bool line_begins = true;
@@ -205,12 +206,12 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
-/// Lines without filling.
+/// Returns lines without filling.
 std::string verbatim(std::string_view text) { return fmt::format(".nf\n{}\n.fi\n", escaped(text)); }
 
 std::string bold(const std::string& word) { return R"(\fB)" + escaped(word) + R"(\fR)"; }
 
-/// `\fB\-o\fR, \fB\-\-output\fR \fITEXT\fR`, and in the next lines what it is for.
+/// Returns `\fB\-o\fR, \fB\-\-output\fR \fITEXT\fR` and, on the next lines, the description.
 std::string option_entry(const CLI::Option& option) {
   std::string names;
   if (option.get_positional()) {

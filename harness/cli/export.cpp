@@ -1,4 +1,4 @@
-// beambench export: a scene as an NFF file, or its triangles as OBJ.
+// beambench export: writes a scene as an NFF file, or its triangles as OBJ.
 
 #include <cstdio>
 #include <memory>

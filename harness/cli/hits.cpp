@@ -1,4 +1,4 @@
-// beambench hits: traces rays by a structure and writes the hits.
+// beambench hits: traces rays through a structure and writes the hits.
 
 #include <cstdio>
 #include <memory>

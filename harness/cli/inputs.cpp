@@ -17,7 +17,7 @@
 namespace beambench::cli {
 namespace {
 
-/// `option` names the value in messages.
+/// Parses a vector; `option` names the value in messages.
 glm::vec3 parse_vector(std::string_view option, std::string_view text) {
   std::array<float, 3> numbers{};
   std::string_view rest = text;

@@ -1,5 +1,5 @@
 #pragma once
-// Options of several commands: scenes, cameras, images, structures, light; and renamed options.
+// Common options of commands: scenes, cameras, images, structures, light; and renamed options.
 
 #include <optional>
 #include <string>
@@ -18,53 +18,53 @@ namespace beambench::cli {
 
 using base::open_scene;
 
-/// What SCENE may be, for the help of every command.
+/// Describes SCENE in the help of every command.
 inline constexpr const char* kSceneHelp =
     "Catalogue name, mesh:NAME, or path of an NFF or mesh file";
-/// Adds SCENE, one and required.
+/// Adds SCENE as one required argument.
 void add_scene_option(CLI::App& command, std::string& scene);
 
-/// The camera: one of the scene's, or a view given by options.
+/// The requested camera: one of the scene's, or a view given by options.
 struct ViewRequest {
-  std::string camera;  ///< empty: the scene's first
-  std::string from;    ///< X,Y,Z; empty, like the others: the camera's own
+  std::string camera;  ///< empty: the scene's first camera
+  std::string from;    ///< X,Y,Z; empty, like the others: that of the camera
   std::string at;
   std::string up;
   std::optional<double> angle;  ///< degrees
 };
 /// Adds --camera.
 void add_camera_option(CLI::App& command, ViewRequest& request);
-/// The same, --from, --at, --up and --angle.
+/// Adds --camera, --from, --at, --up and --angle.
 void add_view_options(CLI::App& command, ViewRequest& request);
 
-/// The name of a camera that is given by options, in pictures and records.
+/// The name, in pictures and records, of a camera that is given by options.
 inline constexpr const char* kTypedCamera = "typed";
 
-/// The requested camera: one of the scene's, or where parts of it are given, that camera with these
-/// parts replaced, named `kTypedCamera`. Throws InputError listing the scene's cameras for
-/// an unknown name, and saying what is expected for a view that is none.
+/// Returns the requested camera: one of the scene's or, if parts of a view are given, that camera
+/// with these parts replaced, named `kTypedCamera`. Throws InputError listing the scene's cameras
+/// for an unknown name, and stating the expected form of an invalid view.
 scenes::Camera choose_camera(const scenes::Scene& scene, const ViewRequest& request);
 
-/// The structure that is given for `option`. Throws InputError when there are several.
+/// Returns the structure given for `option`. Throws InputError if there are several.
 accel::StructureChoice choose_one(std::string_view option, std::string_view text);
 
-/// An image's options.
+/// The options of an image.
 struct ImageRequest {
-  std::string resolution;  ///< empty: the camera's own
+  std::string resolution;  ///< empty: that of the camera
   ViewRequest view;
   int samples = 1;
 };
-/// Throws InputError for a wrong resolution, camera or number of samples.
+/// Throws InputError for an invalid resolution, camera or number of samples.
 rays::ImageOfRays choose_image(const scenes::Scene& scene, const ImageRequest& request);
-/// The resolution of the options; nothing where it is the camera's own.
+/// Returns the resolution of the options; nothing if it is the camera's own.
 std::optional<rays::Resolution> chosen_resolution(const ImageRequest& request);
 /// Adds --resolution and --samples.
 void add_size_options(CLI::App& command, ImageRequest& request);
-/// The same and the options of the view.
+/// Adds these and the options of the view.
 void add_image_options(CLI::App& command, ImageRequest& request);
 
-/// The structures given for --accel. Where `all` brought in `exhaustive` and the
-/// scene is too large for it (kExhaustiveLimit), it is left out and `note` says so.
+/// The structures given for --accel. If `all` includes `exhaustive` and the scene is too large for
+/// it (kExhaustiveLimit), it is left out, with a message in `note`.
 struct Contenders {
   std::vector<accel::StructureChoice> choices;
   std::string note;
@@ -72,7 +72,7 @@ struct Contenders {
 Contenders choose_contenders(std::string_view list, const scenes::Scene& scene);
 inline constexpr std::size_t kExhaustiveLimit = 20000;
 
-/// How light is followed in pictures of the whole ray tracer.
+/// The options of light in pictures of the whole ray tracer.
 struct WhittedRequest {
   std::string shadows = "rays";
   int max_depth = render::WhittedOptions{}.max_depth;
@@ -81,19 +81,18 @@ struct WhittedRequest {
 };
 /// Adds --shadows, --depth and --min-weight.
 void add_light_options(CLI::App& command, WhittedRequest& request);
-/// The same and --threads.
+/// Adds these and --threads.
 void add_whitted_options(CLI::App& command, WhittedRequest& request);
 /// Throws InputError for an unknown shadow method.
 render::WhittedOptions whitted_options(const WhittedRequest& request);
 
-/// `tetra-n-4-default-samet-max_level-5` of `tetra:n=4-default-samet:max_level=5`: a name that
-/// file systems and shells take.
+/// Returns `tetra-n-4-default-samet-max_level-5` for `tetra:n=4-default-samet:max_level=5`: a name
+/// that is safe for file systems and shells.
 std::string file_stem(std::string title);
-/// The same with the ending .png.
+/// Returns the same with the ending .png.
 std::string picture_name(std::string title);
 
-/// Replaces options by their new names where they were renamed, with a warning by `program` on
-/// stderr.
+/// Replaces renamed options by their new names, with a warning by `program` on stderr.
 void replace_renamed_options(std::string_view program, std::vector<std::string>& arguments);
 
 }  // namespace beambench::cli

@@ -1,5 +1,5 @@
 #pragma once
-// What commands that measure do on SIGINT and SIGTERM.
+// Handles SIGINT and SIGTERM in commands that measure.
 
 #include <csignal>
 #include <cstdio>
@@ -18,11 +18,11 @@
 
 namespace beambench::cli {
 
-/// While it lives, SIGINT and SIGTERM end the process at once with exit code 130 and one last line
-/// on stderr. For work whose results are safe against a kill at any moment.
+/// During its lifetime, SIGINT and SIGTERM end the process at once with exit code 130 and one last
+/// line on stderr. For work whose results are safe against a kill at any moment.
 ///
-/// The signals are blocked and received by a thread of its own, which is not limited to what a
-/// signal handler may do. Construct it before other threads are started, which inherit the blocked
+/// The signals are blocked and received by a separate thread, which is not restricted like a signal
+/// handler. Construct this object before other threads are started, which inherit the blocked
 /// signals.
 class Interruption {
  public:
@@ -40,7 +40,7 @@ class Interruption {
   }
   ~Interruption() {
     waiting_.request_stop();
-    ::pthread_kill(waiting_.native_handle(), SIGTERM);  // to that thread alone
+    ::pthread_kill(waiting_.native_handle(), SIGTERM);  // only to that thread
     waiting_.join();
     ::pthread_sigmask(SIG_SETMASK, &previous_, nullptr);
   }
@@ -51,7 +51,7 @@ class Interruption {
     const std::lock_guard lock(mutex_);
     last_line_ = std::move(line);
   }
-  /// Nothing in it is worth keeping when the process ends.
+  /// Removes the folder when the process ends, because nothing in it is worth keeping.
   void set_folder_to_remove(std::filesystem::path folder) {
     const std::lock_guard lock(mutex_);
     folder_to_remove_ = std::move(folder);
@@ -60,7 +60,7 @@ class Interruption {
  private:
   [[noreturn]] void end() {
     const std::lock_guard lock(mutex_);
-    ::flockfile(stderr);  // for good: nothing follows the last line
+    ::flockfile(stderr);  // never released: nothing follows the last line
     const char* wipe = ::isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "";
     base::print_message(stderr, fmt::format("{}{}\n", wipe, last_line_));
     std::error_code ignored;

@@ -91,7 +91,7 @@ void print_parameters(const std::vector<ParameterInfo>& parameters) {
   }
 }
 
-/// An entry that cannot be read is shown with the reason.
+/// Prints the meshes; an entry that cannot be read is shown with the reason.
 void print_meshes() {
   fmt::print("\nMeshes, as mesh:NAME (scripts/meshes registers some):\n\n");
   const std::vector<std::string> names = scenes::mesh::registered_mesh_names();
@@ -120,7 +120,7 @@ void print_plugins() {
   }
 }
 
-/// A structure, scene or kind of rays; `note` stands behind its name.
+/// Prints a structure, scene or kind of rays; `note` follows its name.
 template <class Info>
 void print_entry(const Info& info, const std::string& note) {
   fmt::print("\n  {}{}\n{}", info.name, note, wrap(info.summary, 6));
@@ -138,7 +138,7 @@ void print_counters(std::span<const accel::CounterInfo> counters) {
   }
 }
 
-/// Of each structure that has some of its own.
+/// Prints the counters of each structure that has its own.
 void print_all_counters() {
   fmt::print(
       "Counters, kept in a separate pass, never in timed code: for --heatmap, in 'beambench stats' "
@@ -171,7 +171,7 @@ const Info* find_named(std::span<const Info> infos, std::string_view name) {
       did_you_mean(name, names)));
 }
 
-/// Everything of that name, of which the part after a colon is ignored.
+/// Prints everything with that name, ignoring the part after a colon.
 void print_named(const std::string& spec) {
   const std::string name = spec.substr(0, spec.find(':'));
   const accel::StructureInfo* structure = find_named(accel::registry().structures(), name);

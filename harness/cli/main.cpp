@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include <CLI/CLI.hpp>  // all of it in one file alone: it makes much code wherever it is included
+#include <CLI/CLI.hpp>  // included only in this file, because it generates much code
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -50,14 +50,16 @@ int fail_to_print() {
 
 using Arguments = std::vector<std::string>;
 
-/// For --help, completions and the manual page: it is taken off the command line before.
+/// For --help, completions and the manual page: the option is removed from the command line
+/// earlier.
 void add_plugin_option(CLI::App& app) {
   app.add_option("--plugin",
                  "A shared object with structures or scenes of your own; again for more")
       ->type_name("FILE");
 }
 
-/// CLI11 would only say that a subcommand is required, or that an argument was not expected.
+/// Checks the command, because CLI11 would only report that a subcommand is required, or that an
+/// argument was not expected.
 void require_known_command(const CLI::App& app, const Arguments& arguments) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
@@ -72,14 +74,14 @@ void require_known_command(const CLI::App& app, const Arguments& arguments) {
                                did_you_mean(word, names), fmt::join(names, ", "), remedy));
 }
 
-/// `beambench help` and `beambench help render`, as git and others have it, are `--help`.
+/// Replaces `beambench help` and `beambench help render`, as in git and elsewhere, by `--help`.
 void take_help_for_a_command(Arguments& arguments) {
   if (arguments.size() < 2 || arguments[1] != "help") return;
   arguments.erase(arguments.begin() + 1);
   arguments.emplace_back("--help");
 }
 
-/// "did you mean '--resolution'? " for the first word that no option or argument has taken.
+/// Returns "did you mean '--resolution'? " for the first word that no option or argument has taken.
 std::string suggested_option(const CLI::App& command) {
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options()) {
@@ -111,7 +113,7 @@ int parse_and_run(const Arguments& arguments, plugin::Activity& activity) {
   add_plugin_option(app);
   try {
     require_known_command(app, arguments);
-    // CLI11 takes them from the back of a list.
+    // CLI11 takes them from the end of a list.
     app.parse(Arguments(arguments.rbegin(), arguments.rend() - 1));
   } catch (const CLI::Success& success) {  // --help and --version
     return app.exit(success);
@@ -145,10 +147,10 @@ int run_command_line(const Arguments& arguments, const std::vector<std::string>&
   }
 }
 
-/// For debuggers.
+/// Disables the guard, for debuggers.
 bool wants_no_guard() { return std::getenv("BEAMBENCH_UNGUARDED") != nullptr; }
 
-/// Foreign code is kept in a process of its own.
+/// Runs foreign code in a separate process.
 int begin(int argc, char** argv) {
   try {
     plugin::set_program_name(argv[0]);

@@ -1,4 +1,4 @@
-// The commands of the thesis where they are not built (BEAMBENCH_THESIS=OFF).
+// Replaces the commands of the thesis if they are not built (BEAMBENCH_THESIS=OFF).
 
 #include "harness/cli/commands.hpp"
 

@@ -32,7 +32,7 @@ struct RaysRequest {
   bool json = false;
 };
 
-/// An image's rays are saved as a list, too.
+/// Returns the rays as a list; an image's rays are saved as a list, too.
 rays::RaySet as_list(const scenes::Scene& scene, const rays::TraceInput& input) {
   if (input.list() != nullptr) return *input.list();
   rays::RaySet set{{}, input.label(), input.query(), input.seed(), scenes::scene_hash(scene)};

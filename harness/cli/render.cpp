@@ -1,4 +1,4 @@
-// beambench render: a picture of a scene, or of the work that a structure does.
+// beambench render: draws a picture of a scene, or of the work of a structure.
 
 #include <algorithm>
 #include <charconv>
@@ -33,7 +33,7 @@
 namespace beambench::cli {
 namespace {
 
-/// The structure of plain pictures if none is given: quick to build and to trace.
+/// The structure of plain pictures by default: quick to build and to trace.
 constexpr const char* kPlainStructure = "sah-bvh";
 
 struct RenderRequest {
@@ -49,10 +49,10 @@ struct RenderRequest {
   std::string exposure = "0";
 };
 
-/// After --exposure: the picture chooses, not a number of stops.
+/// The value of --exposure that lets the picture choose instead of a number of stops.
 constexpr std::string_view kAuto = "auto";
 
-/// Nothing for `auto`.
+/// Returns nothing for `auto`.
 std::optional<double> parse_exposure(std::string_view text) {
   constexpr double kMaxStops = 32.0;
   if (text == kAuto) return std::nullopt;
@@ -66,7 +66,7 @@ std::optional<double> parse_exposure(std::string_view text) {
       text, kAuto, kMaxStops, kMaxStops));
 }
 
-/// The shadings that show light, not numbers as colors.
+/// Returns whether the shading shows light, not numbers as colors.
 bool shows_light(render::Shading shading) {
   return shading == render::Shading::kPreview || shading == render::Shading::kWhitted;
 }
@@ -82,7 +82,7 @@ void require_exposure(const RenderRequest& request) {
   }
 }
 
-/// Depth and id of each pixel, those of its nearest sample.
+/// Returns depth and id of each pixel, those of its nearest sample.
 std::vector<render::DataChannel> hit_channels(const accel::HitBuffer& hits) {
   std::vector<float> depth;
   std::vector<std::uint32_t> id;
@@ -101,7 +101,7 @@ std::vector<render::DataChannel> hit_channels(const accel::HitBuffer& hits) {
   return channels;
 }
 
-/// A PNG gets a legend; an EXR the numbers themselves.
+/// Writes a heat map: a PNG with a legend, or an EXR with the numbers themselves.
 void write_heat_map(const RenderRequest& request, const render::HeatMap& map,
                     const accel::HitBuffer& hits) {
   if (render::image_format(request.file) == render::ImageFormat::kPng) {
@@ -134,7 +134,8 @@ render::Image shaded(const RenderRequest& request, const accel::StructureChoice&
       .image;
 }
 
-/// Lights of other programs' files fall off with the distance; ours do not. An EXR keeps all light.
+/// Returns a remark if a picture is too bright: lights of other programs' files may fall off with
+/// the distance, but beambench's do not. An EXR keeps all light.
 std::string remark_on_light(const RenderRequest& request, double stops,
                             const render::Image& image) {
   constexpr double kWorthSaying = 0.05;
@@ -148,7 +149,7 @@ std::string remark_on_light(const RenderRequest& request, double stops,
       100.0 * found.share, stops + found.remedy, kAuto);
 }
 
-/// Brings the light of a picture to what --exposure asks for; returns remarks on it.
+/// Exposes a picture according to --exposure; returns remarks on it.
 std::string exposed(const RenderRequest& request, render::Image& image) {
   if (const std::optional<double> stops = parse_exposure(request.exposure)) {
     if (*stops != 0.0) render::expose(image, *stops);
@@ -185,7 +186,7 @@ std::string share_of_hits(const accel::HitBuffer& hits) {
   return format_share(count, hits.size()) + " of the rays hit something";
 }
 
-/// A map without any work is no mistake, but may be read as one.
+/// Returns a remark on a map without any work, which is correct but may look like an error.
 std::string remark_on(const render::HeatMap& map, const accel::StructureChoice& choice) {
   const bool dark =
       std::all_of(map.values.begin(), map.values.end(), [](float v) { return v == 0; });
@@ -194,7 +195,7 @@ std::string remark_on(const render::HeatMap& map, const accel::StructureChoice& 
               : "";
 }
 
-/// What --difference compares with: the oracle, or what another structure finds.
+/// Returns the reference for --difference: the oracle, or the hits of another structure.
 verify::ReferenceHits find_reference(const RenderRequest& request, const scenes::Scene& scene,
                                      const accel::PrimaryRays& rays) {
   if (request.difference == render::kOracleName) return {scene, rays};
@@ -206,7 +207,7 @@ verify::ReferenceHits find_reference(const RenderRequest& request, const scenes:
   return render::reference_from(scene, rays, results);
 }
 
-/// Writes the picture of differences; returns how many there are.
+/// Writes the picture of differences; returns their number.
 std::string compare(const RenderRequest& request, const accel::StructureChoice& choice,
                     const scenes::Scene& scene, const accel::PrimaryRays& rays,
                     const rays::TraceResults& results) {
@@ -224,7 +225,8 @@ std::string compare(const RenderRequest& request, const accel::StructureChoice& 
                      report.count(verify::DiffClass::kEmbreeError));
 }
 
-/// Any structure draws the same plain picture; other pictures show what one structure does.
+/// Returns the structure for a picture: plain pictures are the same with any structure, other
+/// pictures show what one structure does.
 accel::StructureChoice chosen_structure(const RenderRequest& request) {
   if (!request.structure.empty()) return choose_one("--accel", request.structure);
   for (const auto& [option, value] :

@@ -38,7 +38,7 @@ struct RunRequest {
   std::vector<std::string> benchmark_flags;
 };
 
-/// The configuration of the file that was named, or of the run to be resumed.
+/// Returns the configuration in the named file, or of the run to be resumed.
 measure::SweepConfig config_of(const RunRequest& request,
                                const std::optional<measure::Run>& earlier) {
   if (!request.config.empty()) return measure::read_sweep(request.config, accel::registry());
@@ -60,7 +60,7 @@ measure::SweepOptions options_of(const RunRequest& request, plugin::Activity& ac
   return options;
 }
 
-/// --benchmark_repetitions=N: exactly N, in the configuration that is kept, too.
+/// Applies --benchmark_repetitions=N: exactly N, also in the saved configuration.
 void override_repetitions(measure::SweepConfig& config, int repetitions) {
   config.minimum_repetitions = config.maximum_repetitions = repetitions;
   config.source["repetitions"] = {{"minimum", repetitions}, {"maximum", repetitions}};
@@ -74,7 +74,7 @@ std::vector<std::string> cell_names(const measure::Plan& plan) {
   return names;
 }
 
-/// The cells in the order in which they are recorded.
+/// Returns the cells in the order of the records.
 nlohmann::ordered_json to_json(const measure::Plan& plan) {
   nlohmann::ordered_json cells = nlohmann::ordered_json::array();
   for (const measure::CellGroup& group : plan.groups) {
@@ -95,7 +95,7 @@ nlohmann::ordered_json to_json(const measure::Plan& plan) {
   return {{"cells", cells}};
 }
 
-/// The shard that is to be measured: the requested one, or that of the run to be resumed.
+/// Returns the shard to be measured: the requested one, or that of the run to be resumed.
 std::optional<measure::Shard> shard_of(const RunRequest& request,
                                        const std::optional<measure::Run>& earlier) {
   if (request.shard) return measure::parse_shard(*request.shard);
@@ -106,7 +106,7 @@ std::optional<measure::Shard> shard_of(const RunRequest& request,
   return facts ? std::optional(facts->shard) : std::nullopt;
 }
 
-/// A shard is found complete by its number of cells.
+/// Refuses a filtered shard, because a complete shard is recognized by its number of cells.
 void refuse_filtered_shard(const measure::BenchmarkFlags& flags) {
   for (const std::string& flag : flags.passed_on) {
     if (!flag.starts_with("--benchmark_filter")) continue;
@@ -117,7 +117,7 @@ void refuse_filtered_shard(const measure::BenchmarkFlags& flags) {
   }
 }
 
-/// All cells of the configuration.
+/// Returns all cells of the configuration.
 measure::Plan whole_plan(const measure::SweepConfig& config) {
   measure::Plan plan = measure::make_plan(config);
   if (plan.merged > 0) {
@@ -129,7 +129,7 @@ measure::Plan whole_plan(const measure::SweepConfig& config) {
   return plan;
 }
 
-/// Leaves the cells of one shard, and reports how many.
+/// Keeps only the cells of one shard, and reports their number.
 measure::PlannedShard reduce_to_shard(measure::Plan& plan, const measure::SweepConfig& config,
                                       const measure::Shard& shard) {
   measure::PlannedShard planned = measure::keep_shard(plan, config, shard);
@@ -139,14 +139,14 @@ measure::PlannedShard reduce_to_shard(measure::Plan& plan, const measure::SweepC
   return planned;
 }
 
-/// Leaves the cells that --benchmark_filter selects.
+/// Keeps only the cells selected by --benchmark_filter.
 void select_cells(measure::Plan& plan, const measure::GoogleBenchmark& benchmark) {
   const std::set<std::string> selected = benchmark.select(cell_names(plan));
   measure::filter_cells(
       plan, [&](const measure::PlannedCell& cell) { return selected.contains(cell.id.name()); });
 }
 
-/// Makes the files of a run from its log, and prints what it comes to.
+/// Makes the files of a run from its log, and prints the conclusions.
 int conclude(const std::filesystem::path& folder) {
   const analysis::Analysis found = analysis::conclude(folder);
   if (!found.overheads.empty()) {
@@ -162,8 +162,8 @@ std::string resume_command(const std::filesystem::path& folder) {
                      shell_quoted(folder.string()));
 }
 
-/// Runs the sweep so that, however it is cut off, its last line states how to resume it. Returns
-/// the exit code.
+/// Runs the sweep so that, however it is interrupted, its last line states how to resume it.
+/// Returns the exit code.
 int run_resumable(const measure::SweepConfig& config, measure::Plan plan,
                   const measure::GoogleBenchmark& benchmark, measure::SweepOptions options,
                   plugin::Activity& activity, Interruption& interruption) {
@@ -182,7 +182,7 @@ int run_resumable(const measure::SweepConfig& config, measure::Plan plan,
   }
 }
 
-/// Where a plug-in crashed an earlier process over a cell, this one continues after it.
+/// Continues after the cell in which a plug-in crashed an earlier process, if any.
 void continue_after_crashed_cells(RunRequest& request, const plugin::Activity& activity) {
   if (activity.crashed_cells().empty()) return;
   request.config.clear();
@@ -227,7 +227,8 @@ void add_run_command(CLI::App& app, int& exit_code, plugin::Activity& activity) 
   CLI::App* command = app.add_subcommand(
       "run", "Measure a sweep: a time is reported only when the hits are correct");
   const auto request = std::make_shared<RunRequest>();
-  command->add_option("CONFIG", request->config, "The sweep: a name, such as quick, or a JSON file");
+  command->add_option("CONFIG", request->config,
+                      "The sweep: a name, such as quick, or a JSON file");
   CLI::Option* output =
       command->add_option("-o,--output", request->output,
                           "Folder for the record (default: results/runs/<time>-<name>)");

@@ -1,4 +1,4 @@
-// beambench scene: the contents of a scene, or its growth with its size.
+// beambench scene: prints the contents of a scene, or how it grows with its size.
 
 #include <algorithm>
 #include <cstdio>
@@ -36,7 +36,7 @@ std::size_t smooth_polygons(const scenes::Scene& scene) {
   return count;
 }
 
-/// The words of the finishes in use, in the order of the surfaces.
+/// Returns the words of the finishes in use, in the order of the surfaces.
 std::vector<std::string_view> finishes_of(const scenes::Scene& scene) {
   std::vector<std::string_view> words;
   for (const scenes::Surface& surface : scene.surfaces) {
@@ -133,7 +133,7 @@ void print_json(const measure::SceneGrowth& growth) {
   fmt::print("{}\n", json_text(out));
 }
 
-/// A label may hold commas, so it is quoted.
+/// Prints CSV; labels are quoted because they may contain commas.
 void print_csv(const measure::SceneGrowth& growth) {
   fmt::print("generator,parameter,size,primitives,bytes,seconds,scene\n");
   for (const measure::GrownScene& row : growth.sizes) {

@@ -1,4 +1,4 @@
-// beambench selftest: does a structure keep its contract?
+// beambench selftest: checks whether a structure keeps its contract.
 
 #include "harness/verify/selftest/selftest.hpp"
 
@@ -37,18 +37,18 @@ struct SelftestRequest {
   std::string structures = "all";
   std::string json;
   verify::SelftestEffort effort;
-  std::string minimize;  ///< folder; empty: nothing is reduced
-  std::string kit;       ///< folder; empty: none is written
+  std::string minimize;  ///< folder; empty: do not reduce
+  std::string kit;       ///< folder; empty: do not write one
   std::string primitives = "polygons";
 };
 
-/// A check that was made of a structure.
+/// The result of one check of a structure.
 struct CheckedProperty {
   std::string structure;
   const verify::Check* check;
   verify::CheckOutcome outcome;
-  std::string case_folder{};  ///< where its wrong hit was written, reduced; empty: nowhere
-  std::string minimal{};      ///< one line on that
+  std::string case_folder{};  ///< the folder of its reduced wrong hit; empty: none
+  std::string minimal{};      ///< one line about it
 };
 
 std::string_view verdict_of(const verify::CheckOutcome& outcome) {
@@ -77,7 +77,7 @@ std::vector<CheckedProperty> check_all(const std::vector<verify::Subject>& subje
   return checked;
 }
 
-/// Reduces the wrong hits of the checks that failed.
+/// Reduces the wrong hits of the failed checks.
 void minimize_failures(const std::string& folder, std::vector<CheckedProperty>& checked) {
   base::Progress progress(std::ranges::count_if(checked, [](const CheckedProperty& property) {
     return property.outcome.failed.has_value();
@@ -116,7 +116,7 @@ void print(const std::vector<CheckedProperty>& checked) {
   }
 }
 
-/// `, over polygons only: it does not support spheres and cones`; empty if it supports all.
+/// Returns `, over polygons only: it does not support spheres and cones`; empty if it supports all.
 std::string limits_of(const verify::PrimitiveKinds& kinds) {
   if (kinds.all()) return "";
   return fmt::format(", over {} only: it does not support {}", fmt::join(kinds.names(), " and "),
@@ -171,7 +171,7 @@ void write_json(const SelftestRequest& request, const std::vector<CheckedPropert
   write_file(request.json, json_text(out) + '\n');
 }
 
-/// `spheres,polygons`, `all`. Throws InputError listing the kinds.
+/// Parses `spheres,polygons` or `all`. Throws InputError listing the kinds.
 verify::PrimitiveKinds parse_kinds(const std::string& list) {
   if (list == "all") return {};
   constexpr std::array<std::string_view, 3> kNames{"spheres", "cones", "polygons"};

@@ -1,4 +1,4 @@
-// beambench stats: how large structures are and how much work a ray makes them do.
+// beambench stats: prints the sizes of structures and the work per ray.
 
 #include <algorithm>
 #include <cstdio>
@@ -37,7 +37,7 @@ struct StatsRequest {
   bool json = false;
 };
 
-/// What was found out about one structure.
+/// The results for one structure.
 struct Finding {
   accel::StructureChoice choice;
   accel::Statistics statistics;
@@ -74,7 +74,7 @@ struct StatisticsTable {
     for (const Finding& finding : findings) cells.push_back(show(finding));
     return cells;
   }
-  /// A line: a name and how to show it for a structure.
+  /// Adds a line: a name, and how to show it for a structure.
   template <class Show>
   void add(std::string name, Show show) {
     table.add(row(std::move(name), show));
@@ -211,7 +211,8 @@ void print_json(const scenes::Scene& scene, const rays::ImageOfRays& image,
   fmt::print("{}\n", json_text(out));
 }
 
-/// A structure that cannot be built over the scene does not keep the others from being shown.
+/// Shows the statistics; a structure that cannot be built over the scene does not prevent the
+/// others from being shown.
 int show_statistics(const StatsRequest& request) {
   const rays::Resolution resolution = rays::parse_resolution(request.resolution);
   const rays::RayChoice kind = rays::parse_ray_choice(request.rays);

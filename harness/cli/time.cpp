@@ -1,4 +1,4 @@
-// beambench time: times a few structures at once, without a sweep's file.
+// beambench time: times a few structures at once, without a sweep file.
 
 #include <cstdio>
 #include <cstdlib>
@@ -25,7 +25,8 @@
 namespace beambench::cli {
 namespace {
 
-/// As in the default sweep: beyond, `exhaustive` would take all the time there is.
+/// The limit for `exhaustive`, as in the default sweep: beyond, it would take all the available
+/// time.
 constexpr int kMaxForExhaustive = 1000;
 
 struct TimeRequest {
@@ -40,7 +41,7 @@ struct TimeRequest {
   std::string save;
 };
 
-/// The folder of a run that nobody asked to keep.
+/// A temporary folder for a run that is not kept.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -76,8 +77,8 @@ nlohmann::json scenes_of(const TimeRequest& request) {
   return scenes;
 }
 
-/// What was asked for, as `beambench run` reads it. At least six repetitions: fewer have no
-/// interval, and then nothing would be decided.
+/// Returns the request in the form of `beambench run`. At least six repetitions, because fewer give
+/// no interval, and then nothing would be decided.
 nlohmann::json sweep_of(const TimeRequest& request) {
   nlohmann::json structures = nlohmann::json::array();
   for (const auto& choice : accel::registry().choose_list(request.structures)) {
@@ -97,7 +98,7 @@ nlohmann::json sweep_of(const TimeRequest& request) {
           {"exclude", {{{"structure", "exhaustive"}, {"primitives_above", kMaxForExhaustive}}}}};
 }
 
-/// The sweep is JSON, whose texts are UTF-8.
+/// Throws unless the sweep can be saved: it is JSON, whose texts are UTF-8.
 void require_can_be_saved(const TimeRequest& request) {
   for (const std::string& scene : request.scenes) {
     if (is_utf8(scene)) continue;

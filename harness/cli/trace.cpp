@@ -1,4 +1,4 @@
-// beambench trace: the traversal path of one ray, step by step.
+// beambench trace: prints the traversal path of one ray, step by step.
 
 #include <charconv>
 #include <cstdio>

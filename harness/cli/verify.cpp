@@ -30,7 +30,7 @@
 namespace beambench::cli {
 namespace {
 
-constexpr std::size_t kPrintedDisputes = 3;  // of each cell; the JSON has them all
+constexpr std::size_t kPrintedDisputes = 3;  // for each cell; the JSON has them all
 
 struct VerifyRequest {
   std::vector<std::string> scenes;
@@ -87,7 +87,7 @@ void print_disputes(const verify::VerifiedCell& cell) {
   if (!cell.picture.empty()) fmt::print("picture: {}\n", cell.picture);
 }
 
-/// Why kinds have no rays, each once: it is the same for all structures.
+/// Prints why kinds have no rays, each once, because the reason is the same for all structures.
 void print_missing_rays(const std::vector<verify::VerifiedCell>& cells) {
   const std::string* last = nullptr;
   for (const verify::VerifiedCell& cell : cells) {
@@ -110,7 +110,8 @@ void write_json(const VerifyRequest& request, const std::vector<verify::Verified
   write_file(request.json, json_text(out) + '\n');
 }
 
-/// The request as one about the hits of a program. Throws InputError for what does not go together.
+/// Returns the request for verifying the hits of a program. Throws InputError for incompatible
+/// options.
 VerifyHitsRequest hits_request(const VerifyRequest& request, bool structure_given) {
   VerifyHitsRequest out{.scene = {},
                         .kit = request.kit,
@@ -144,7 +145,7 @@ VerifyHitsRequest hits_request(const VerifyRequest& request, bool structure_give
   return out;
 }
 
-/// All of them before any work is done, so that a wrong name fails early.
+/// Opens all scenes before any work is done, so that a wrong name fails early.
 std::vector<scenes::Scene> open_scenes(const VerifyRequest& request) {
   std::vector<scenes::Scene> scenes;
   for (const std::string& spec : request.scenes) scenes.push_back(open_scene(spec));
@@ -154,7 +155,7 @@ std::vector<scenes::Scene> open_scenes(const VerifyRequest& request) {
   return scenes;
 }
 
-/// Reduces the first error of each cell, and adds what came of it to the cell's disputes.
+/// Reduces the first error of each cell, and adds the result to the cell's disputes.
 void minimize_errors(const VerifyRequest& request, const verify::VerifiedView& view,
                      const Contenders& contenders, std::vector<verify::VerifiedCell>& cells,
                      base::Progress& progress) {

@@ -30,19 +30,19 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kPrinted = 3;  // examples; the JSON has them all
 
-/// What was found of one file of rays.
+/// The findings for one file of rays.
 struct VerifiedClaims {
   std::string name;  ///< of the case
   std::string scene;
   std::size_t primitives = 0;
   verify::ClaimsReport found;
-  std::string picture{};  ///< its file; empty: none
-  std::string minimal{};  ///< a line on what it was reduced to; empty: none
+  std::string picture{};  ///< the picture's file; empty: none
+  std::string minimal{};  ///< a line about the reduction; empty: none
 
   bool passed() const { return verify::is_right(found.report.verdict); }
 };
 
-/// Ties are no dispute, and grazes only where there are too many of them.
+/// Returns whether a mismatch is a dispute: ties are not, and grazes only if there are too many.
 bool is_dispute(const verify::Mismatch& mismatch, verify::Verdict verdict) {
   if (mismatch.diff_class == verify::DiffClass::kTie) return false;
   return mismatch.diff_class != verify::DiffClass::kGraze || verdict == verify::Verdict::kGrazes;
@@ -113,7 +113,7 @@ void write_json(const VerifyHitsRequest& request, std::span<const VerifiedClaims
   write_file(request.json, json_text(out) + '\n');
 }
 
-/// What gives the hits, unless they are in a file.
+/// Returns the source of the hits, unless they are in a file.
 std::optional<verify::Tracer> tracer_of(const VerifyHitsRequest& request) {
   if (!request.command.empty()) return verify::program_of(request.command);
   if (request.structure) return verify::tracer_of(*request.structure);

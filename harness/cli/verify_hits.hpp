@@ -12,14 +12,14 @@
 
 namespace beambench::cli {
 
-/// Where hits come from: files, a command, or a structure.
+/// The source of hits: files, a command, or a structure.
 struct VerifyHitsRequest {
   std::string scene;                                  ///< empty for a kit
   std::string kit;                                    ///< its folder; empty: none
   std::string rays;                                   ///< empty for a kit
   std::string hits;                                   ///< empty: a command, or those of the kit
   std::string command;                                ///< empty: none
-  std::optional<accel::StructureChoice> structure{};  ///< that traces a kit
+  std::optional<accel::StructureChoice> structure{};  ///< traces a kit
   ViewRequest view;                                   ///< of the picture
   std::string resolution;                             ///< of the picture
   std::string json;                                   ///< empty: none
@@ -27,16 +27,16 @@ struct VerifyHitsRequest {
   std::string minimize;                               ///< folder; empty: none
 };
 
-/// Verifies the hits of one scene, prints what was found and returns the exit code.
+/// Verifies the hits of one scene, prints the findings and returns the exit code.
 int verify_hits(const VerifyHitsRequest& request);
-/// The same of all scenes of a kit.
+/// Verifies all scenes of a kit in the same way.
 int verify_kit(const VerifyHitsRequest& request);
 
-/// One line on what an error was reduced to, in that folder.
+/// Returns one line about the reduced error in that folder.
 std::string case_text(const std::filesystem::path& folder, const verify::MinimalCase& minimal);
 
-/// Reduces a structure's first error and writes the case below `folder`; returns what to print of
-/// it.
+/// Reduces a structure's first error, writes the case below `folder`, and returns the text to print
+/// about it.
 std::string minimized_text(const std::string& folder, const std::string& name,
                            const scenes::Scene& scene, const rays::TraceInput& input,
                            const verify::DiffReport& report, const verify::Tracer& tracer,

@@ -34,7 +34,7 @@ constexpr const char* kGuardVariable = "BEAMBENCH_GUARD";  // the descriptor of 
 constexpr std::array kCrashes{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS, SIGALRM};
 constexpr std::array kPassedOn{SIGINT, SIGTERM, SIGHUP, SIGQUIT};
 
-/// Keeps the signals that the guard waits for from ending it, and lets the child have them.
+/// Keeps the guard's signals from ending it, and forwards them to the child.
 class HeldSignals {
  public:
   HeldSignals() {
@@ -60,7 +60,7 @@ class HeldSignals {
   sigset_t before_{};
 };
 
-/// The child's status when it has ended.
+/// Waits until the child has ended, and returns its status.
 int watch(pid_t child, const HeldSignals& signals) {
   for (;;) {
     const int signal = signals.wait();
@@ -69,11 +69,11 @@ int watch(pid_t child, const HeldSignals& signals) {
       continue;
     }
     int status = 0;
-    if (::waitpid(child, &status, WNOHANG) == child) return status;  // else it was stopped
+    if (::waitpid(child, &status, WNOHANG) == child) return status;  // otherwise it was stopped
   }
 }
 
-/// Only what is safe between fork and exec: other threads may have held any lock.
+/// Calls only functions that are safe between fork and exec: other threads may have held any lock.
 [[noreturn]] void become_guarded(char** arguments, pid_t guard, const HeldSignals& signals) {
   signals.release();
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -93,7 +93,7 @@ pid_t start(char** arguments, const Activity& activity, const HeldSignals& signa
   return child;
 }
 
-/// `crashed (SIGSEGV: Segmentation fault)`; nothing where the process ended as it should.
+/// Returns `crashed (SIGSEGV: Segmentation fault)`; nothing if the process ended normally.
 std::optional<std::string> breakdown(int status, const Activity& activity) {
   if (WIFEXITED(status)) {
     const bool interrupted = WEXITSTATUS(status) == base::kInterrupted;
@@ -110,7 +110,7 @@ bool is_crash(int status) {
          std::find(kCrashes.begin(), kCrashes.end(), WTERMSIG(status)) != kCrashes.end();
 }
 
-/// Ends as the child did, for shells and scripts that look at it.
+/// Ends in the same way as the child, for shells and scripts that check this.
 int end_by(int signal, const HeldSignals& signals) {
   std::signal(signal, SIG_DFL);
   signals.release();
@@ -135,7 +135,7 @@ int report_breakdown(const Activity& activity, const std::string& what) {
   throw std::system_error(errno, std::generic_category(), what);
 }
 
-/// New memory is all zeros: empty texts.
+/// Returns new memory, which is all zeros: empty texts.
 int new_memory(std::size_t size) {
   const int descriptor = ::memfd_create("beambench", 0);
   if (descriptor < 0 || ::ftruncate(descriptor, static_cast<off_t>(size)) != 0) {
@@ -144,7 +144,7 @@ int new_memory(std::size_t size) {
   return descriptor;
 }
 
-/// Concatenates texts, truncated to `place`, and ends with a zero.
+/// Concatenates texts, truncated to the size of `place`, with a terminating zero.
 void copy(std::span<char> place, std::initializer_list<std::string_view> pieces) {
   std::size_t room = place.size() - 1;
   char* end = place.data();
@@ -159,7 +159,7 @@ void copy(std::span<char> place, std::initializer_list<std::string_view> pieces)
 }  // namespace
 
 struct Activity::Board {
-  std::array<std::array<char, 4096>, 3> lines;            // a path is no longer
+  std::array<std::array<char, 4096>, 3> lines;            // the maximum length of a path
   std::array<char, std::size_t{1} << 17U> crashed_cells;  // key, tab, sentence, line end
 };
 
@@ -216,7 +216,7 @@ int run_guarded(char** arguments) {
     const std::string cell = activity.read(Line::kCell);
     const std::string how =
         foreign.empty() ? "it " + *what : fmt::format("the plug-in {} {}", foreign, *what);
-    // Each cell is recorded once: otherwise this would never end.
+    // Each cell is recorded only once; otherwise this would never end.
     if (cell.empty() || activity.crashed_cells().contains(cell) ||
         !activity.add_crashed_cell(cell, how)) {
       return report_breakdown(activity, *what);
@@ -230,7 +230,7 @@ std::unique_ptr<Activity> guarded_activity() {
   const char* text = std::getenv(kGuardVariable);
   if (text == nullptr) return nullptr;
   auto activity = std::make_unique<Activity>(std::atoi(text));
-  ::unsetenv(kGuardVariable);  // what this process starts is not guarded
+  ::unsetenv(kGuardVariable);  // processes started by this one are not guarded
   return activity;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
-// What a process is doing, recorded where another process can read it after a crash; and the guard,
-// which is that process.
+// Records what a process is doing where another process, the guard, can read it after a crash.
 
 #include <map>
 #include <memory>
@@ -9,34 +8,34 @@
 
 namespace beambench::plugin {
 
-/// A few lines in memory that two processes share. Writing costs a copy of the text.
+/// A few lines of memory shared by two processes. Writing costs one copy of the text.
 class Activity {
  public:
   enum class Line {
-    kForeign,    ///< what foreign code is doing: "loading ./libmine.so"; empty: nothing
-    kRunFolder,  ///< of the sweep that can be resumed
+    kForeign,    ///< the current action of foreign code: "loading ./libmine.so"; empty: none
+    kRunFolder,  ///< of the resumable sweep
     kCell        ///< the key of the cell being measured
   };
 
   Activity();
-  /// That of another process, whose descriptor this one has inherited. Throws std::system_error
-  /// when the descriptor is of something else.
+  /// Opens that of another process, whose descriptor this one has inherited. Throws
+  /// std::system_error if the descriptor refers to something else.
   explicit Activity(int descriptor);
   ~Activity();
   Activity(const Activity&) = delete;
   Activity& operator=(const Activity&) = delete;
 
-  /// Two pieces of one text, truncated where it is too long.
+  /// Writes a text in two pieces, truncated if it is too long.
   void write(Line line, std::string_view text, std::string_view rest = "");
   void clear(Line line) { write(line, ""); }
   std::string read(Line line) const;
 
-  /// Records that a cell crashed: its key and a sentence. False where there is no space left.
+  /// Records that a cell crashed: its key and a sentence. Returns false if there is no space left.
   bool add_crashed_cell(std::string_view key, std::string_view how);
-  /// By key.
+  /// Returns the sentences by key.
   std::map<std::string, std::string> crashed_cells() const;
 
-  /// To be inherited by the process that writes here.
+  /// Returns the descriptor for the process that writes here, which inherits it.
   int descriptor() const { return descriptor_; }
 
  private:
@@ -45,15 +44,15 @@ class Activity {
   Board* board_;
 };
 
-/// Runs this program once more with the same arguments, in a process of its own that finds by
-/// `guarded_activity` that it is guarded, and returns what this one should end with: what that one
-/// ended with, or where foreign code crashed, hung while it was loaded or ended the process, 1
-/// after a sentence on stderr that says which and where (2 when it was being loaded). Where that
-/// happened to a cell of a sweep, the program is run again, with the cell among the broken ones.
-/// Signals to end are passed on. For the start of a program.
+/// Runs this program again with the same arguments in a guarded process (see `guarded_activity`),
+/// and returns the exit code for this one: that of the guarded process or, if foreign code crashed,
+/// hung while being loaded or ended the process, 1 after a sentence on stderr with the code and the
+/// place (2 if it was being loaded). If that happened in a cell of a sweep, the program is run
+/// again, with the cell among the broken ones. Termination signals are passed on. Called at the
+/// start of a program.
 int run_guarded(char** arguments);
 
-/// Where a guarded process records what it is doing; nullptr in others.
+/// Returns where a guarded process records what it is doing; nullptr in other processes.
 std::unique_ptr<Activity> guarded_activity();
 
 }  // namespace beambench::plugin

@@ -13,7 +13,7 @@
 namespace beambench::plugin {
 namespace {
 
-/// What guards a structure's calls, and its inspector's.
+/// Guards calls of a structure and of its inspector.
 class Guard {
  public:
   Guard(const scenes::Scene& scene, std::string file, std::string name)
@@ -79,7 +79,7 @@ class GuardedInspector final : public accel::Inspector {
   std::vector<accel::Box> occupied_cells() const override {
     return guard_->call([&] { return shown().occupied_cells(); });
   }
-  /// Not forwarded: what reads them relies on their numbers.
+  /// Not forwarded, because readers rely on the node numbers.
   std::vector<accel::NodeFacts> nodes() const override { return {}; }
   std::optional<std::vector<accel::BeamOutline>> beams(
       const accel::PrimaryRays& image) const override {
@@ -116,7 +116,7 @@ class GuardedStructure : public accel::ForwardingAccelerator {
   void closest_hits(const accel::RaySource& rays, const accel::HitSpan& hits,
                     const accel::QueryContext& context) const override {
     guard_.call([&] { structure_->closest_hits(rays, hits, context); });
-    // Hits of images and batches are left to those who verify them.
+    // Hits of images and batches are left to the caller's verification.
     if (rays.ray() == nullptr) return;
     if (const auto hit = hits.get(0)) guard_.require_primitive(hit->primitive);
   }
@@ -139,8 +139,8 @@ class GuardedStructure : public accel::ForwardingAccelerator {
   Activity* activity_;
 };
 
-/// A plug-in's function that builds a structure, guarded. It is timed: texts are made beforehand or
-/// after an error.
+/// A plug-in's function that builds a structure, guarded. It is timed, so texts are made in advance
+/// or after an error.
 class GuardedBuild {
  public:
   GuardedBuild(const accel::StructureInfo& info, Activity& activity)

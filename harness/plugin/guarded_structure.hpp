@@ -1,5 +1,5 @@
 #pragma once
-// Calling code of a plug-in, and its structures as the program uses them.
+// Guards calls of a plug-in's code, and its structures as used by the program.
 
 #include <exception>
 #include <memory>
@@ -16,8 +16,8 @@
 
 namespace beambench::plugin {
 
-/// Calls `code`, which is a plug-in's. InputError and std::bad_alloc are passed on; whatever else
-/// it throws becomes a PluginError. `who` is the plug-in's file, `what` describes the call: "while
+/// Calls `code` of a plug-in. InputError and std::bad_alloc are passed on; anything else that it
+/// throws becomes a PluginError. `who` is the plug-in's file, and `what` describes the call: "while
 /// it was loaded".
 template <class Code>
 decltype(auto) foreign_call(std::string_view who, std::string_view what, Code&& code) {
@@ -37,10 +37,10 @@ decltype(auto) foreign_call(std::string_view who, std::string_view what, Code&& 
   }
 }
 
-/// The same structure, guarded: `activity` records what it is doing, and what it throws becomes a
-/// PluginError that names it, as do a structure that was not built and invalid hits of single rays
-/// (the hits of images and batches are left to the differ: timed code pays for one call more, not
-/// for a check of each hit). `activity` outlives the program's use of it.
+/// Returns the same structure, guarded: `activity` records its current action. Exceptions become a
+/// PluginError that names it, and so do a missing structure and invalid hits of single rays (hits
+/// of images and batches are left to the differ, so that timed code has only one additional call,
+/// not a check of each hit). `activity` must outlive the structure's use.
 accel::StructureInfo guarded(accel::StructureInfo info, Activity& activity);
 
 }  // namespace beambench::plugin

@@ -27,7 +27,7 @@ namespace beambench::plugin {
 namespace {
 
 constexpr const char* kEntry = "beambench_plugin";
-/// A plug-in that takes longer to load hangs.
+/// The time after which loading a plug-in counts as hanging.
 constexpr unsigned kSecondsToLoad = 10;
 
 std::vector<LoadedPlugin>& all_loaded() {
@@ -52,7 +52,7 @@ std::string call_with_plugins(std::string_view program) {
   throw InputError(fmt::format("the plug-in {} {}", file, why));
 }
 
-/// The loader's message without the file's name, which ours has already.
+/// Returns the loader's message without the file's name, which our message already has.
 std::string loader_message(const std::string& path) {
   const char* error = ::dlerror();
   std::string_view message = error == nullptr ? "no reason was given" : error;
@@ -60,7 +60,7 @@ std::string loader_message(const std::string& path) {
   return std::string(message);
 }
 
-/// Ends the process by SIGALRM when loading hangs; the guard reports it.
+/// Ends the process with SIGALRM if loading hangs; the guard reports it.
 class LoadingTime {
  public:
   LoadingTime() { ::alarm(kSecondsToLoad); }
@@ -69,14 +69,15 @@ class LoadingTime {
   LoadingTime& operator=(const LoadingTime&) = delete;
 };
 
-/// Stays loaded until the program ends: the registry points to its code.
+/// Opens a plug-in, which stays loaded until the program ends, because the registry points to its
+/// code.
 const Plugin& open(const std::string& file) {
   namespace fs = std::filesystem;
   std::error_code error;
   if (!fs::exists(file, error)) refuse(file, "is not there; check the path after --plugin");
   if (!fs::is_regular_file(file, error)) refuse(file, "is not a file; name a shared object");
   const std::string path =
-      fs::absolute(file).string();  // a bare name would be looked for elsewhere
+      fs::absolute(file).string();  // a bare name would be searched for elsewhere
   void* object = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (object == nullptr) {
     refuse(file, fmt::format("cannot be loaded: {}; build it with beambench_add_plugin",
@@ -94,7 +95,7 @@ const Plugin& open(const std::string& file) {
 constexpr std::string_view kBuildAgain =
     "build it again with the headers of this beambench, and options that change none of its types";
 
-/// What each version of the interface changed, from version 2 on.
+/// The changes of each version of the interface, from version 2 on.
 constexpr auto kInterfaceChanges = std::to_array<std::string_view>({
     "statistics() reports how a structure gets the rays of an image",
     "each query exists once, with a pointer to counters, and a list of rays is a RayBatch",
@@ -122,7 +123,7 @@ void require_same_version(const std::string& file, std::uint32_t version) {
                            version, kPluginInterface, changes, kBuildAgain));
 }
 
-/// Reads `layout` and what follows only where the version says that they are there.
+/// Reads `layout` and the following members only if the version guarantees that they exist.
 void require_same_stamp(const std::string& file, const PluginStamp& stamp) {
   if (stamp.magic != kPluginStamp.magic) {
     refuse(file, fmt::format("is no plug-in of beambench: its '{}' is something else", kEntry));
@@ -163,7 +164,7 @@ std::vector<std::string> names_of(const std::vector<Thing>& things, std::string 
   return names;
 }
 
-/// Calls `make`, which is the plug-in's, and validates its scene.
+/// Calls `make` of the plug-in, and validates its scene.
 template <class Make>
 scenes::Scene guarded_scene(const std::string& file, const std::string& name, Activity& activity,
                             Make&& make) {

@@ -11,9 +11,9 @@
 
 namespace beambench::plugin {
 
-/// A plug-in that was loaded.
+/// A loaded plug-in.
 struct LoadedPlugin {
-  std::string file;  ///< as on the command line
+  std::string file;  ///< as given on the command line
   std::string description;
   std::uint64_t hash;  ///< fingerprint of the file
   std::string compiler;
@@ -24,32 +24,32 @@ struct LoadedPlugin {
   std::vector<std::string> readers;  ///< the endings of their files
 };
 
-/// Loads a plug-in (plugin.hpp) and adds what it provides to `registry()` and to the catalogue,
-/// each with `origin` set; to be called before a structure or a scene is chosen. Refuses it by an
-/// InputError that names the file: it cannot be loaded, is no plug-in, was built for another
-/// version of the interface (the message says what changed), with other types or another C++
-/// library, throws, or provides nothing or what check_contents refuses. Then nothing of it is
-/// registered. `activity` outlives the program's use of it.
+/// Loads a plug-in (plugin.hpp) and adds its contents to `registry()` and to the catalogue, each
+/// with `origin` set. Must be called before a structure or a scene is chosen. Throws InputError
+/// naming the file if it cannot be loaded, is not a plug-in, was built for another version of the
+/// interface (the message states the changes), with other types or another C++ library, throws, or
+/// provides nothing or contents that `check_contents` refuses. In that case, none of it is
+/// registered. `activity` must outlive the plug-in's use.
 void load_plugin(const std::string& file, Activity& activity);
 
-/// In the order in which they were loaded.
+/// Returns the plug-ins in the order of loading.
 std::span<const LoadedPlugin> loaded_plugins();
 
-/// How this program is called with its plug-ins, for commands that are kept in records, on whatever
-/// machine they are pasted: `beambench` or `beambench --plugin ./libmine.so`.
+/// Returns the command for this program with its plug-ins, for use in records, on any machine:
+/// `beambench` or `beambench --plugin ./libmine.so`.
 std::string program_call();
 
-/// The word that this program was called by, for `program_call_here`; `beambench` if never set.
+/// Sets the word by which this program was called, for `program_call_here`; `beambench` by default.
 void set_program_name(std::string_view word);
 
-/// The same for commands to be pasted at once into the shell that the program was called from:
-/// `build/release/bin/beambench --plugin ./libmine.so`.
+/// Returns the same for commands to be pasted immediately into the shell from which the program was
+/// called: `build/release/bin/beambench --plugin ./libmine.so`.
 std::string program_call_here();
 
 /// Removes `--plugin FILE` and `--plugin=FILE` from a command line (the program's name first)
 /// before a `--`, and returns the files, each once. Those of the environment variable
 /// BEAMBENCH_PLUGINS come first: separated by colons, each a file, or a folder for all its `*.so`
-/// sorted by name. Throws InputError where the option has no file.
+/// sorted by name. Throws InputError if the option has no file.
 std::vector<std::string> take_requested_plugins(std::vector<std::string>& arguments);
 
 }  // namespace beambench::plugin

@@ -1,8 +1,8 @@
 #pragma once
 // Structures and scenes of your own, in a shared object that the program loads: --plugin FILE.
 //
-// A plug-in includes this header, which brings the contract of a structure and what it is made of,
-// and defines one object at global scope:
+// A plug-in includes this header, which declares the contract of a structure and its parts, and
+// defines one object at global scope:
 //
 //     const beambench::plugin::Plugin beambench_plugin{
 //         .description = "My structures",
@@ -15,8 +15,8 @@
 //                                          }});
 //         }};
 //
-// `beambench_add_plugin(mine mine.cpp)` of the CMake package builds it. tests/plugin/template is a
-// complete one to start from.
+// `beambench_add_plugin(mine mine.cpp)` of the CMake package builds it. Start from the complete
+// example in tests/plugin/template.
 
 #include <vector>
 
@@ -41,7 +41,8 @@
 
 namespace beambench::plugin {
 
-/// What a plug-in provides. Names must not be in use: letters, digits, '-' and '_', a letter first.
+/// The contents of a plug-in. Names must not be in use and consist of letters, digits, '-' and '_',
+/// with a letter first.
 struct PluginContents {
   std::vector<accel::StructureInfo> structures;
   std::vector<scenes::SceneInfo> scenes;
@@ -50,9 +51,9 @@ struct PluginContents {
 
 /// The entry point of a plug-in.
 struct Plugin {
-  PluginStamp stamp = kPluginStamp;  ///< first, to be read before all else
+  PluginStamp stamp = kPluginStamp;  ///< first, so that it is read before everything else
   const char* description;           ///< one sentence; `beambench list` prints it
-  /// Called once, after the stamp was found to match. If it throws, the plug-in is refused.
+  /// Called once, after the stamp has been found to match. If it throws, the plug-in is refused.
   void (*fill)(PluginContents& contents);
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// What must be equal in a plug-in and in the program, compared before anything is called.
+// Properties that must be equal in a plug-in and in the program, compared before any call.
 
 #include <array>
 #include <cstddef>
@@ -13,12 +13,12 @@
 
 namespace beambench::plugin {
 
-/// Incremented when an installed header changes so that a plug-in made with the old one would fail:
-/// a virtual function, a type, the meaning of a call. load_plugin.cpp lists what each version
-/// changed.
+/// Incremented whenever an installed header changes so that a plug-in built with the old one would
+/// fail: a virtual function, a type, the meaning of a call. load_plugin.cpp lists the changes of
+/// each version.
 inline constexpr std::uint32_t kPluginInterface = 7;
 
-/// Identifies the build of a plug-in. The first two members never move.
+/// Identifies the build of a plug-in. The position of the first two members never changes.
 struct PluginStamp {
   std::uint64_t magic;
   std::uint32_t interface_version;
@@ -26,12 +26,12 @@ struct PluginStamp {
   std::uint64_t layout;      ///< fingerprint of the types that both sides use
   const char* library;       ///< the C++ library and its binary interface
   const char* compiler;      ///< need not be the program's
-  const char* instructions;  ///< what it was compiled to use
+  const char* instructions;  ///< the instruction set it was compiled for
 };
 
 namespace plugin_stamp {
 
-/// Sizes and alignments of all types that both sides use, hashed by FNV-1a: they change with the
+/// Hashes sizes and alignments of all types that both sides use with FNV-1a: they change with the
 /// project's headers, and with macros that change GLM or the C++ library.
 template <class... Types>
 constexpr std::uint64_t layout_of() {

@@ -32,7 +32,7 @@ bool is_point(const glm::vec3& point) {
 }
 bool is_radius(float radius) { return radius >= 0.0F && is_number(radius); }
 
-/// Do `count` entries from `first` on lie within an array of that size?
+/// Returns whether `count` entries from `first` on lie within an array of that size.
 bool lies_within(std::uint64_t first, std::uint64_t count, std::size_t size) {
   return first + count <= size;
 }
@@ -101,7 +101,7 @@ bool is_camera(const scenes::Camera& camera) {
          camera.height > 0;
 }
 
-/// Names that commands give a meaning of their own.
+/// Names with a special meaning in commands.
 constexpr std::array<std::string_view, 2> kReserved{"all", "oracle"};
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
@@ -113,7 +113,7 @@ bool is_name(std::string_view text) {
   });
 }
 
-/// Names of one kind of thing: each at most once.
+/// The names of one kind of thing, each at most once.
 class Names {
  public:
   Names(std::string_view what, std::set<std::string> taken)
@@ -151,7 +151,7 @@ void require(bool right, std::string_view what, const std::string& name, std::st
   if (!right) throw PluginError(fmt::format("provides a {} '{}' {}", what, name, lack));
 }
 
-/// Its parameters, each set to its default, must pass the check that a user's values have to pass.
+/// Checks parameters: each default must pass the same check as a user's value.
 void check_parameters(std::string_view what, const std::string& owner,
                       const std::vector<ParameterInfo>& infos) {
   Names names(fmt::format("parameter of '{}'", owner), {});

@@ -1,5 +1,5 @@
 #pragma once
-// numpy's arrays in C++, without copies.
+// Uses numpy's arrays in C++ without copies.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,27 +19,27 @@ namespace beambench::python {
 
 namespace nb = nanobind;
 
-/// What a function takes: rows of a type in one block of memory, writable or not. The package
-/// converts whatever it is given to these.
+/// An argument: rows of a type in one block of memory, writable or not. The package converts its
+/// arguments to these.
 template <class T, nb::ssize_t... Shape>
 using ArrayIn = nb::ndarray<const T, nb::shape<Shape...>, nb::c_contig, nb::device::cpu>;
-/// Origin, t_min, direction, t_max.
+/// Rows of origin, t_min, direction, t_max.
 using RaysIn = ArrayIn<float, -1, 8>;
 
-/// What a function returns. Const: an array that may not be written.
+/// A return value. Const: the array is read-only.
 template <class T>
 using ArrayOut = nb::ndarray<nb::numpy, T>;
 
 static_assert(sizeof(accel::Ray) == 8 * sizeof(float) && alignof(accel::Ray) == alignof(float));
 
-/// The rays where they are.
+/// Returns the rays in place.
 inline std::span<const accel::Ray> rays_of(const RaysIn& rays) {
   return {reinterpret_cast<const accel::Ray*>(rays.data()), rays.shape(0)};
 }
 
-/// Throws InputError that names the first ray by its index that `require_valid` refuses.
+/// Throws InputError with the index of the first ray that `require_valid` refuses.
 void require_valid_rays(std::span<const accel::Ray> rays);
-/// `ray 17: direction is zero; ...`, from what is wrong with it.
+/// Returns `ray 17: direction is zero; ...` for a fault of the ray.
 std::string ray_fault(std::size_t index, std::string fault);
 
 /// An owner for arrays: the object lives until the last of them is gone.

@@ -1,6 +1,6 @@
 #pragma once
 // The parts of the extension `_beambench`. Its functions are called by the Python files of the
-// package, which check and convert what users give and hold the documentation.
+// package, which check and convert the users' arguments and contain the documentation.
 
 #include <string>
 
@@ -8,7 +8,8 @@
 
 namespace beambench::python {
 
-/// A dict by name, of values of several types, and a list of such, with their types in the stubs.
+/// A dict by name with values of several types, and a list of such dicts, with their types in the
+/// stubs.
 using Record = nanobind::typed<nanobind::dict, nanobind::str, nanobind::any>;
 using Records = nanobind::typed<nanobind::list, Record>;
 

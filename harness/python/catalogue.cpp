@@ -1,4 +1,4 @@
-// What there is: structures, scenes and kinds of rays, with their parameters.
+// Lists structures, scenes and kinds of rays with their parameters.
 
 #include "scenes/catalogue.hpp"
 

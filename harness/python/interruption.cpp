@@ -18,13 +18,13 @@ namespace beambench::python {
 namespace {
 
 constexpr std::chrono::milliseconds kPoll(50);
-constexpr std::chrono::seconds kPatience(1);  // for work that notices the request
+constexpr std::chrono::seconds kPatience(1);  // for work that checks for the request
 
-/// Work that nobody waits for any longer.
+/// The number of jobs that nobody is waiting for any longer.
 std::atomic<int> abandoned{0};
 
 #if defined(__GLIBC__)
-/// The threads of abandoned work must not meet destructors of static objects.
+/// Exits immediately: the threads of abandoned work must not meet destructors of static objects.
 void end_at_once(int status, void*) {
   if (abandoned.load() == 0) return;
   std::fflush(nullptr);
@@ -39,7 +39,7 @@ void cut_off_at_exit() {
 #endif
 }
 
-/// What the caller and the thread of some work share.
+/// The state shared by the caller and the thread of some work.
 struct Run {
   std::mutex mutex;
   std::condition_variable ended;
@@ -56,7 +56,7 @@ void work_on_thread(const std::shared_ptr<Run>& run, std::function<void(const St
   } catch (...) {
     error = std::current_exception();
   }
-  work = nullptr;  // what it owns goes before the caller goes on
+  work = nullptr;  // its captures are destroyed before the caller continues
   const std::lock_guard lock(run->mutex);
   run->error = error;
   run->done = true;

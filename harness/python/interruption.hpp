@@ -1,5 +1,5 @@
 #pragma once
-// Long work on behalf of Python: without the GIL, and ended by Ctrl-C.
+// Runs long work on behalf of Python: without the GIL, and interruptible by Ctrl-C.
 
 #include <atomic>
 #include <cstddef>
@@ -11,19 +11,19 @@
 
 namespace beambench::python {
 
-/// Throws nanobind::python_error where a signal handler of Python raised an exception, as that of
-/// SIGINT does (KeyboardInterrupt). Called without the GIL. Only Python's main thread handles
-/// signals; on others nothing happens.
+/// Throws nanobind::python_error if a Python signal handler raised an exception, such as that of
+/// SIGINT (KeyboardInterrupt). Called without the GIL. Only Python's main thread handles signals;
+/// on other threads this does nothing.
 void check_signals();
 
-/// Work was ended because its caller was interrupted.
+/// Thrown when work ends because its caller was interrupted.
 struct Stopped {};
 
-/// Whether the caller of some work was interrupted and waits for it no longer.
+/// A request to stop, made when the caller of some work was interrupted and no longer waits for it.
 class StopRequest {
  public:
   bool made() const { return made_->load(std::memory_order_relaxed); }
-  /// Throws Stopped where it was made.
+  /// Throws Stopped if the request has been made.
   void check() const {
     if (made()) throw Stopped();
   }
@@ -33,13 +33,13 @@ class StopRequest {
   std::shared_ptr<std::atomic<bool>> made_ = std::make_shared<std::atomic<bool>>(false);
 };
 
-/// Does the work on a thread of its own and waits for it. Called without the GIL. When the caller
-/// is interrupted, the request is made and KeyboardInterrupt thrown within about a second, whether
-/// or not the work has ended: so it may only use what it owns (copies, shared pointers), and
-/// nothing of Python's. Such work is cut off when the process ends.
+/// Does the work on a separate thread and waits for it. Called without the GIL. If the caller is
+/// interrupted, the request is made and KeyboardInterrupt is thrown within about a second, whether
+/// or not the work has ended. Therefore the work may only use objects that it owns (copies, shared
+/// pointers), and nothing of Python's. Unfinished work is lost when the process ends.
 void run_apart(std::function<void(const StopRequest&)> work);
 
-/// The same with a result.
+/// Does the same with a result.
 template <class Work>
 auto result_of(Work work) {
   using Result = std::invoke_result_t<Work&, const StopRequest&>;
@@ -52,9 +52,9 @@ auto result_of(Work work) {
   return std::move(*shared->result);
 }
 
-/// Into how many rays a list is cut, so that signals are noticed between two parts: as many as are
-/// traced in about a tenth of a second. Multiples of 16 (but for the slowest structures), so that
-/// packets of rays are the same as without cuts.
+/// The size of the parts of a list, so that signals are noticed between two parts: the number of
+/// rays traced in about a tenth of a second. Multiples of 16 (except for the slowest structures),
+/// so that packets of rays are the same as without parts.
 class PartSize {
  public:
   std::size_t rays() const { return rays_; }

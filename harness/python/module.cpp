@@ -18,7 +18,8 @@ NB_MODULE(_beambench, module) {
       "The compiled part of beambench. Use the package `beambench`, which checks and converts "
       "what\n"
       "it is given and documents everything.";
-  // At its end, a program with a daemon thread keeps whatever that thread can see: no leak of ours.
+  // At exit, a program with a daemon thread keeps everything reachable from that thread, which is
+  // not a leak.
   nb::set_leak_warnings(false);
   const nb::exception<beambench::InputError> input_error(module, "InputError", PyExc_ValueError);
   input_error.attr("__doc__") =

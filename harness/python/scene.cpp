@@ -50,7 +50,7 @@ namespace {
 using Vertices = ArrayIn<double, -1, 3>;
 using Triangles = ArrayIn<std::uint32_t, -1, 3>;
 
-// Rows of three numbers are where these types have them.
+// These types store three numbers in consecutive memory.
 static_assert(sizeof(glm::dvec3) == 3 * sizeof(double));
 static_assert(sizeof(std::array<std::uint32_t, 3>) == 3 * sizeof(std::uint32_t));
 
@@ -63,7 +63,8 @@ std::span<const std::array<std::uint32_t, 3>> triples_of(const Triangles& triang
           triangles.shape(0)};
 }
 
-/// Of everything that is built from arrays: their third axis may be up, or the second.
+/// Returns the orientation of anything built from arrays: either the third axis or the second is
+/// up.
 scenes::mesh::Orientation orientation_of(std::string_view up) {
   if (up == "z") return {{0.0, 0.0, 1.0}, {0.0, -1.0, 0.0}};
   if (up == "y") return {};
@@ -135,8 +136,8 @@ ArrayOut<std::uint32_t> without_area(const Vertices& vertices, const Triangles& 
   return array_of(std::move(found));
 }
 
-/// A part of the scene as an array of rows: where it is, so it may not be written. `stride` is in
-/// numbers, from one row to the next.
+/// Returns a part of the scene as an array of rows, in place and therefore read-only. `stride` is
+/// the distance between rows, in numbers.
 template <class T>
 ArrayOut<const T> view(const SceneHandle& handle, const T* data,
                        std::initializer_list<std::size_t> shape, std::size_t stride) {
@@ -204,7 +205,7 @@ scenes::Camera make_camera(const std::string& name, const Triple& eye, const Tri
   return camera;
 }
 
-/// The rays of a kind, those of an image made here.
+/// Returns the rays of a kind; those of an image are made here.
 std::vector<accel::Ray> make_rays(const scenes::Scene& scene, const rays::ImageOfRays& image,
                                   const rays::RayChoice& choice) {
   const rays::TraceInput input = rays::make_trace_input(scene, image, choice);

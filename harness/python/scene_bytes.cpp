@@ -22,8 +22,8 @@ constexpr std::string_view kFirstLine = "beambench-scene 1\n";
 
 static_assert(std::endian::native == std::endian::little, "numbers are kept as they lie in memory");
 
-/// The members of each type, in their order. A structured binding names all of them, so that a
-/// member that is added and forgotten here is an error of the compiler.
+/// The members of each type, in order. A structured binding names all of them, so forgetting a new
+/// member here is a compiler error.
 template <class T>
 auto members(T& object) {
   using Type = std::remove_const_t<T>;
@@ -54,8 +54,8 @@ auto members(T& object) {
   }
 }
 
-/// Types without padding, and of numbers alone, are copied as they are; bytes of padding would make
-/// two pickles of one scene differ.
+/// Types without padding that consist only of numbers are copied as they are; padding bytes would
+/// make two pickles of one scene differ.
 template <class T>
 constexpr bool kIsPlain = std::is_arithmetic_v<T> || std::is_enum_v<T> ||
                           std::is_same_v<T, glm::vec3> ||

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes as bytes, for pickle.
+// Converts scenes to bytes, for pickle.
 
 #include <string>
 #include <string_view>
@@ -11,8 +11,8 @@ namespace beambench::python {
 /// Returns all of a scene, bit by bit.
 std::string bytes_of_scene(const scenes::Scene& scene);
 
-/// Returns the scene of which these are the bytes. Throws InputError for bytes of another version
-/// of beambench and for damaged ones. Like pickle itself, it trusts whoever made them.
+/// Returns the scene stored in these bytes. Throws InputError for bytes of another version of
+/// beambench and for damaged ones. Like pickle itself, it trusts the author of the bytes.
 scenes::Scene scene_of_bytes(std::string_view bytes);
 
 }  // namespace beambench::python

@@ -1,5 +1,5 @@
 #pragma once
-// A scene that Python objects and work share.
+// A scene shared by Python objects and work.
 
 #include <memory>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace beambench::python {
 
-/// A scene, and what was noticed when it was read.
+/// A scene, and the warnings from reading it.
 struct SceneHandle {
   std::shared_ptr<const scenes::Scene> scene;
   std::vector<std::string> warnings{};
@@ -25,7 +25,7 @@ struct ImageChoice {
   int samples;
 };
 
-/// Throws InputError for a camera or an image that is not possible.
+/// Throws InputError for an invalid camera or image.
 rays::ImageOfRays image_of(const ImageChoice& choice);
 
 }  // namespace beambench::python

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes from arrays of coordinates.
+// Builds scenes from arrays of coordinates.
 
 #include <array>
 #include <cstddef>
@@ -16,17 +16,17 @@
 
 namespace beambench::python {
 
-/// Triangles over vertices, rounded to float once, with one surface.
+/// Returns triangles over vertices, rounded to float once, with one surface.
 scenes::mesh::TriangleMesh mesh_of(std::span<const glm::dvec3> vertices,
                                    std::span<const std::array<std::uint32_t, 3>> triangles);
 
-/// The places of triangles that no scene can have: after rounding they have no area. The indices
-/// are those of vertices.
+/// Returns the places of triangles that no scene can have, because they have no area after
+/// rounding. `indices` are those of vertices.
 std::vector<std::uint32_t> triangles_without_area(
     std::span<const glm::dvec3> vertices, std::span<const std::array<std::uint32_t, 3>> triangles);
 
-/// Spheres in their order, with the cameras and lights of meshes. There are as many radii as
-/// centers. Throws InputError as SceneBuilder.
+/// Returns spheres in order, with the same kinds of cameras and lights as for meshes. The numbers
+/// of radii and centers must be equal. Throws InputError as SceneBuilder.
 scenes::Scene sphere_scene(const std::string& name, std::span<const glm::dvec3> centers,
                            std::span<const double> radii,
                            const scenes::mesh::Orientation& orientation);

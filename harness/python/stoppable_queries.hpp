@@ -1,5 +1,5 @@
 #pragma once
-// What stands between long work and its structure: queries that end when the work is to stop.
+// Queries that end when their work is to stop, placed between long work and its structure.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,12 +13,12 @@
 
 namespace beambench::python {
 
-/// The hits and counters of another structure. Its queries throw Stopped after a request: before
-/// each ray of an image, and before a batch. Where the structure traces beams or packets, its own
-/// query for images is used, which is fast and cannot be stopped.
+/// Returns the hits and counters of another structure. Its queries throw Stopped after a request:
+/// before each ray of an image, and before a batch. If the structure traces beams or packets, its
+/// own query for images is used, which is fast and cannot be stopped.
 class StoppableQueries : public accel::ForwardingAccelerator {
  public:
-  /// The structure must outlive this.
+  /// The structure must outlive this object.
   StoppableQueries(const accel::Accelerator& structure, StopRequest stop)
       : ForwardingAccelerator(structure),
         stop_(std::move(stop)),

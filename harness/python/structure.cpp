@@ -1,4 +1,4 @@
-// Structures: building them, and tracing through them.
+// Builds structures and traces rays through them.
 
 #include <algorithm>
 #include <cstddef>
@@ -70,7 +70,7 @@ accel::WorkCounters* pointer_to(std::optional<accel::WorkCounters>& counters) {
   return counters ? &*counters : nullptr;
 }
 
-/// Calls `trace(part, first)` for parts of a list, and lets Python's signals through in between.
+/// Calls `trace(part, first)` for parts of a list, and handles Python's signals in between.
 template <class Trace>
 void trace_in_parts(std::span<const accel::Ray> rays, const Trace& trace) {
   PartSize size;
@@ -84,7 +84,7 @@ void trace_in_parts(std::span<const accel::Ray> rays, const Trace& trace) {
   }
 }
 
-/// A hit buffer is as wide as an int.
+/// Throws if there are too many rays: the width of a hit buffer is an int.
 void require_count(std::size_t rays) {
   constexpr std::size_t kMax = std::numeric_limits<int>::max();
   if (rays <= kMax) return;

@@ -1,5 +1,5 @@
 #pragma once
-// A structure that Python objects and work share.
+// A structure shared by Python objects and work.
 
 #include <memory>
 #include <string>
@@ -10,12 +10,13 @@
 
 namespace beambench::python {
 
-/// A structure, and what it needs to live.
+/// A structure, and the objects that it needs to live.
 struct BuiltStructure {
   std::shared_ptr<const scenes::Scene> scene;
   accel::StructureChoice choice;
   std::unique_ptr<const accel::Accelerator> accelerator;
-  int threads;  ///< that it was built for, to trace images; see `accel::thread_count`
+  int threads;  ///< it was built for, to trace images; see `accel::thread_count`
+                ///< `accel::thread_count`
 };
 
 struct StructureHandle {

@@ -1,4 +1,4 @@
-// Sweeps in this process.
+// Runs sweeps in this process.
 
 #include <chrono>
 #include <cstdio>
@@ -30,8 +30,8 @@ namespace {
 
 namespace nb = nanobind;
 
-/// Google Benchmark's state is global: one sweep at a time, the later waits for the earlier. A
-/// sweep that was interrupted may go on for as long as its present repetition takes.
+/// Locks Google Benchmark's global state: one sweep at a time, later ones wait. An interrupted
+/// sweep may continue until its current repetition ends.
 std::unique_lock<std::mutex> lock_benchmark(const StopRequest& stop) {
   static std::mutex running;
   std::unique_lock lock(running, std::try_to_lock);
@@ -47,7 +47,7 @@ struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-/// A configuration from JSON, or where there is none from a file.
+/// Returns a configuration from JSON or, if that is empty, from a file.
 measure::SweepConfig read_config(const std::string& json, const std::string& file) {
   if (json.empty()) return measure::read_sweep(file, accel::registry());
   return measure::parse_sweep(parse_json<nlohmann::json>(json, "config"), "config",

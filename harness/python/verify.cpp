@@ -1,4 +1,4 @@
-// Verifying hits of any program.
+// Verifies the hits of any program.
 
 #include <algorithm>
 #include <cstddef>
@@ -31,11 +31,11 @@
 namespace beambench::python {
 namespace {
 
-/// Between two parts signals are let through. The search for the truth about the wrong hits of a
-/// part takes seconds at most.
+/// Signals are handled between two parts. The exact search for the wrong hits of a part takes
+/// seconds at most.
 constexpr std::size_t kPart = std::size_t{1} << 14U;
 
-/// An array that is not given has no rows.
+/// Returns an array without rows if it is not given.
 template <class T>
 using Numbers = ArrayIn<T, -1>;
 using Points = ArrayIn<float, -1, 3>;

@@ -12,20 +12,20 @@
 
 namespace beambench::rays {
 
-/// Arrays with one element for each ray, in the order of the rays; those that are not given are
-/// empty. For the closest hits: `t` or `points`, and, where the program knows them, `primitives` or
-/// `triangles`. For any hits: `occluded` alone.
+/// Arrays with one element for each ray, in the order of the rays; missing ones are empty. For
+/// closest hits: `t` or `points` and, if the program knows them, `primitives` or `triangles`. For
+/// any hits: only `occluded`.
 struct ClaimedHits {
-  std::span<const float> t{};           ///< origin + t * direction is hit; infinity: nothing is
-  std::span<const glm::vec3> points{};  ///< the point that is hit; infinite: none is
+  std::span<const float> t{};           ///< the hit is at origin + t * direction; infinity: a miss
+  std::span<const glm::vec3> points{};  ///< the point that is hit; infinite: a miss
   std::span<const std::uint32_t> primitives{};  ///< `Scene::primitives`; kNoPrimitive: no hit
   std::span<const std::uint32_t> triangles{};   ///< `Scene::triangles`; kNoPrimitive: no hit
   std::span<const std::uint8_t> occluded{};     ///< 1: the ray hits something; 0: nothing
 
-  /// The number of rays. Throws std::logic_error where the arrays differ in length, or are not
-  /// those of one of the forms above.
+  /// Returns the number of rays. Throws std::logic_error if the arrays differ in length, or do not
+  /// match one of the forms above.
   std::size_t size() const;
-  /// Those of `count` rays from `first` on.
+  /// Returns the part for `count` rays from `first` on.
   ClaimedHits part(std::size_t first, std::size_t count) const;
 };
 

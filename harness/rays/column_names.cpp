@@ -28,7 +28,7 @@ std::optional<std::size_t> place_among(KnownNames known, std::string_view name) 
   return static_cast<std::size_t>(found - known.begin());
 }
 
-/// Does a line name at least two known columns when it is divided at that separator?
+/// Returns whether a line names at least two known columns when split at that separator.
 bool is_divided_by(char separator, std::string_view line, KnownNames known) {
   std::size_t found = 0;
   while (!line.empty()) {

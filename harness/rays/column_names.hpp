@@ -1,5 +1,5 @@
 #pragma once
-// The names of columns in files of rays and hits.
+// Parses the column names in files of rays and hits.
 
 #include <cstddef>
 #include <optional>
@@ -10,10 +10,9 @@
 
 namespace beambench::rays {
 
-/// Returns the place of each name among the `known` ones; upper and lower case are the same.
-/// Nothing where none is known: the names are not those of columns. Throws InputError, which begins
-/// with `place`, for a name that is unknown or there twice, and for columns that are not separated
-/// by commas.
+/// Returns the place of each name among the `known` ones, ignoring case. Nothing if none is known:
+/// the line does not consist of column names. Throws InputError, which begins with `place`, for an
+/// unknown or duplicate name, and for columns that are not separated by commas.
 std::optional<std::vector<std::size_t>> places_of_columns(const std::string& place,
                                                           std::span<const std::string> names,
                                                           std::span<const std::string_view> known);

@@ -12,7 +12,7 @@
 
 namespace beambench::rays {
 
-/// The work of all queries together.
+/// The total work of all queries.
 struct QueryWork {
   std::uint64_t rays = 0;
   std::uint64_t rays_that_hit = 0;
@@ -25,13 +25,13 @@ struct QueryWork {
   }
 };
 
-/// The hits of another structure, and the work of all queries together. The counters that a query
-/// is called with are not added to. Several threads may query at once.
+/// Forwards queries to another structure and counts their total work. The caller's counters are not
+/// increased. Several threads may query at once.
 class CountedQueries : public accel::ForwardingAccelerator {
  public:
   using ForwardingAccelerator::ForwardingAccelerator;
 
-  /// Returns the work of all queries that have returned.
+  /// Returns the work of all finished queries.
   QueryWork work() const {
     const std::lock_guard lock(adding_);
     return work_;

@@ -29,7 +29,8 @@ std::string_view take_cell(std::string_view& line) {
   return trimmed(cell);
 }
 
-/// The text between quotation marks, which spreadsheets and R write around names and numbers.
+/// Returns the text without the quotation marks that spreadsheets and R write around names and
+/// numbers.
 std::string_view unquoted(std::string_view cell) {
   const bool is_quoted = cell.size() >= 2 && cell.front() == '"' && cell.back() == '"';
   return is_quoted ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
@@ -47,14 +48,14 @@ std::vector<std::string> names_of(std::string_view line) {
   return names;
 }
 
-/// Nothing when the text is not a number.
+/// Parses a number; nothing if the text is not one.
 std::optional<double> parse_number(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
   double value = 0.0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (stop != text.data() + text.size()) return std::nullopt;
   if (error == std::errc::result_out_of_range) {
-    // Too small for a double is 0, which is its float; too large is an error of the writer.
+    // A number too small for double is 0, like its float; one too large is an error of the writer.
     if (text.find("e-") != std::string_view::npos || text.find("E-") != std::string_view::npos) {
       return 0.0;
     }

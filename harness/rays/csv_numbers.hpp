@@ -1,5 +1,5 @@
 #pragma once
-// CSV files of numbers: a line with the names of the columns, then one line for each record.
+// Reads CSV files of numbers: a line with the names of the columns, then one line per record.
 
 #include <cstddef>
 #include <filesystem>
@@ -12,19 +12,19 @@
 
 namespace beambench::rays {
 
-/// Reads the records in their order. Blanks around cells, a byte order mark, "\r\n" and a "# "
-/// before the names (which NumPy writes) are skipped; names and numbers may be in quotation marks,
-/// and numbers may be `inf` and `nan`. Blank lines may stand at the end alone.
+/// Reads the records in order. Blanks around cells, a byte order mark, "\r\n" and a "# " before the
+/// names (which NumPy writes) are skipped; names and numbers may be in quotation marks, and numbers
+/// may be `inf` and `nan`. Blank lines are allowed only at the end.
 class CsvNumbers {
  public:
-  /// `first_line` was read from the input already, and is the line of the names.
+  /// `first_line` has already been read from the input, and contains the names.
   CsvNumbers(std::filesystem::path path, InputStream input, std::string_view first_line);
 
   std::span<const std::string> columns() const { return columns_; }
-  /// Fills a row, with `when_empty` where a cell is empty; NaN there means that it must not be.
-  /// False at the end. Throws InputError naming file, line and column.
+  /// Fills a row, using `when_empty` for empty cells; NaN there means that the cell must not be
+  /// empty. Returns false at the end. Throws InputError with file, line and column.
   bool next(std::span<double> row, std::span<const double> when_empty);
-  /// `hits.csv:18`, the place of the record with that index.
+  /// Returns the place of the record with that index, such as `hits.csv:18`.
   std::string place_of(std::size_t index) const;
 
   const InputStream& input() const { return input_; }

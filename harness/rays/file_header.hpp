@@ -9,8 +9,8 @@
 
 namespace beambench::rays {
 
-/// The object that the line of a file holds. Throws InputError naming the file when there is no
-/// line, or it is no such object; `remedy` ends the sentence.
+/// Parses the object in the header line of a file. Throws InputError with the file name if the line
+/// is missing or not a JSON object; `remedy` ends the sentence.
 nlohmann::ordered_json parse_file_header(const std::filesystem::path& path,
                                          std::optional<std::string_view> line,
                                          std::string_view remedy);

@@ -13,12 +13,12 @@ namespace beambench::rays {
 
 std::uint64_t fingerprint(std::string_view bytes);
 
-/// Of all rays in their order: origin, t_min, direction and t_max, bit for bit.
+/// Returns the fingerprint of all rays in order: origin, t_min, direction and t_max, bit for bit.
 std::uint64_t fingerprint(std::span<const accel::Ray> rays);
 std::uint64_t fingerprint(const accel::PrimaryRays& rays);
 std::uint64_t fingerprint(const TraceInput& input);
 
-/// The fingerprint of a list that comes in parts.
+/// Computes the fingerprint of a list that arrives in parts.
 class RayFingerprint {
  public:
   RayFingerprint();
@@ -27,7 +27,7 @@ class RayFingerprint {
   RayFingerprint& operator=(const RayFingerprint&) = delete;
 
   void add(std::span<const accel::Ray> rays);
-  /// Of all rays so far.
+  /// Returns the fingerprint of all rays so far.
   std::uint64_t value() const;
 
  private:
@@ -35,11 +35,11 @@ class RayFingerprint {
   std::unique_ptr<State> state_;
 };
 
-/// Of all hits, t and primitive, bit for bit.
+/// Returns the fingerprint of all hits, t and primitive, bit for bit.
 std::uint64_t fingerprint(const accel::HitBuffer& buffer);
 std::uint64_t fingerprint(const TraceResults& results);
 
-/// Sixteen hexadecimal digits, as records show fingerprints.
+/// Returns a fingerprint as sixteen hexadecimal digits, as in records.
 std::string hex_digits(std::uint64_t value);
 
 }  // namespace beambench::rays

@@ -1,5 +1,5 @@
 #pragma once
-// The hits that a structure returns are checked before anything is computed from them.
+// Checks the hits returned by a structure before anything is computed from them.
 
 #include <cmath>
 #include <stdexcept>
@@ -12,28 +12,29 @@
 
 namespace beambench::rays {
 
-/// A structure returned a hit that its ray cannot have. The message is one sentence that names the
-/// structure, the ray, what was returned and what was expected; the command line prints it and
-/// exits with 1.
+/// Thrown if a structure returns a hit that is impossible for its ray. The message is one sentence
+/// that names the structure, the ray, the returned hit and the expectation; the command line prints
+/// it and exits with 1.
 class InvalidHit : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
 /// Checks the hits of one structure over one scene: secondary rays, normals and colors may only be
-/// computed from those that pass. Whether a hit is the right one is decided by the differ.
+/// computed from hits that pass. The differ decides whether a hit is correct.
 class HitCheck {
  public:
   /// `structure` is the subject of the message: "structure 'samet:max_level=6'".
   explicit HitCheck(const scenes::Scene& scene, std::string structure = "the structure")
       : HitCheck(scene.primitives.size(), std::move(structure)) {}
-  /// Over a scene with that many primitives, where the scene itself is not available.
+  /// For a scene with that many primitives, if the scene itself is not available.
   HitCheck(std::size_t primitives, std::string structure)
       : primitives_(primitives), structure_(std::move(structure)) {}
-  /// The message names the choice and, where it comes from a plug-in, its file.
+  /// The message names the choice and, if it comes from a plug-in, its file.
   HitCheck(const scenes::Scene& scene, const accel::StructureChoice& choice);
 
-  /// Can the ray have that hit: one of the scene's primitives, at a finite t in [t_min, t_max]?
+  /// Returns whether the hit is possible for the ray: one of the scene's primitives, at a finite t
+  /// in [t_min, t_max].
   bool passes(const accel::Ray& ray, const accel::Hit& hit) const {
     return hit.primitive < primitives_ && std::isfinite(hit.t) && hit.t >= ray.t_min &&
            hit.t <= ray.t_max;

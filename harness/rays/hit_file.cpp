@@ -57,10 +57,10 @@ constexpr std::array<std::string_view, 7> kColumnNames{"t",         "x",        
                                                        "primitive", "triangle", "occluded"};
 constexpr std::array<std::size_t, 7> kColumnBytes{4, 4, 4, 4, 4, 4, 1};
 
-/// The columns of a file, checked.
+/// The validated columns of a file.
 class Columns {
  public:
-  /// `place` is that of the names in the file.
+  /// `place` is the place of the names in the file.
   Columns(const std::filesystem::path& path, const std::string& place,
           std::span<const std::string> names) {
     const auto places = places_of_columns(place, names, kColumnNames);
@@ -89,7 +89,7 @@ class Columns {
   const std::vector<Column>& order() const { return order_; }
   Query query() const { return has(Column::kOccluded) ? Query::kAnyHit : Query::kClosestHit; }
 
-  /// Makes the arrays of a table that long, and the others empty.
+  /// Resizes the arrays that the table has to `count`, and clears the others.
   void resize(HitTable& hits, std::size_t count) const {
     hits.t.resize(has(Column::kT) ? count : 0);
     hits.points.resize(has(Column::kX) ? count : 0);
@@ -200,7 +200,7 @@ class BinaryHits : public HitReader::Format {
   std::uint64_t count_ = 0;
   Columns columns_;
   std::size_t record_ = 0;   ///< bytes of a hit
-  std::uint64_t begin_ = 0;  ///< of the hits, in bytes
+  std::uint64_t begin_ = 0;  ///< offset of the hits, in bytes
   std::uint64_t read_ = 0;
   std::vector<char> bytes_{};
 };

@@ -24,16 +24,16 @@ inline constexpr std::string_view kHitFileEnding = ".hits";
 /// must have `hits` (how many) and `columns`, the names of a hit's numbers in their order; other
 /// members are for people. The columns are one of
 ///
-///     t                 float32   origin + t * direction is hit; infinity: nothing is
-///     x, y, z           float32   the point that is hit; all infinite: none is
+///     t                 float32   the hit is at origin + t * direction; infinity: a miss
+///     x, y, z           float32   the point that is hit; all infinite: a miss
 ///
-/// and, where the program knows it, one of
+/// and, if the program knows it, one of
 ///
-///     primitive         uint32    the id in the scene; 4294967295: nothing is hit
+///     primitive         uint32    the id in the scene; 4294967295: a miss
 ///     triangle          uint32    the triangle, as `beambench export` numbers them; 4294967295:
 ///     none
 ///
-/// or, for any hits, `occluded` alone, of one byte: 1 where the ray hits something, otherwise 0. In
+/// or, for any hits, only `occluded`, one byte: 1 if the ray hits something, otherwise 0. In
 /// Python:
 ///
 ///     hits = numpy.zeros(len(rays), [("t", "<f4"), ("primitive", "<u4")])
@@ -44,30 +44,30 @@ inline constexpr std::string_view kHitFileEnding = ".hits";
 ///
 /// A CSV file has the same columns, in any order. A miss has empty cells, or `inf` and -1.
 ///
-/// The ending, `.csv` or another, decides what is written: t and primitive, or occluded. Throws
-/// InputError when the file cannot be written; then there is none.
+/// Writes a CSV file if the ending is `.csv`, otherwise a binary one, with t and primitive, or with
+/// occluded. Throws InputError if the file cannot be written; in that case, there is none.
 void write_hit_file(const std::filesystem::path& path, const TraceResults& results,
                     const nlohmann::ordered_json& note);
 
-/// Reads a file of hits part by part. The first line tells the format. What the hits may hold is
-/// left to verify::ClaimVerifier.
+/// Reads a file of hits in parts. The first line determines the format. The values of the hits are
+/// checked by verify::ClaimVerifier.
 class HitReader {
  public:
-  /// Throws InputError naming the file and what is wrong with it: not a file of hits, another
-  /// version, columns that are unknown or do not go together, too short or too long.
+  /// Throws InputError with the file name and the problem: not a file of hits, another version,
+  /// columns that are unknown or do not go together, too short or too long.
   explicit HitReader(const std::filesystem::path& path);
   ~HitReader();
   HitReader(HitReader&&) noexcept;
   HitReader& operator=(HitReader&&) = delete;
 
-  /// What was asked, as the columns tell.
+  /// Returns the query, which follows from the columns.
   Query query() const;
-  /// As the file states; nothing for CSV.
+  /// Returns the number stated in the file; nothing for CSV.
   std::optional<std::uint64_t> count() const;
-  /// Replaces the table by the next hits, at most so many, and returns how many: fewer only at the
-  /// end. Throws InputError with the line of a CSV file that holds no numbers.
+  /// Replaces the table by at most `at_most` further hits, and returns how many: fewer only at the
+  /// end. Throws InputError with the line of a CSV file that does not hold numbers.
   std::size_t read(std::size_t at_most, HitTable& hits);
-  /// `hits.csv:18`, `some.hits: byte 1234`: the place of a hit.
+  /// Returns the place of a hit, such as `hits.csv:18` or `some.hits: byte 1234`.
   std::string place_of(std::size_t index) const;
 
   struct Format;

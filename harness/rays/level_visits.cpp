@@ -9,7 +9,7 @@
 namespace beambench::rays {
 namespace {
 
-/// The level of each node. A parent stands before its children.
+/// Returns the level of each node. Parents precede their children.
 std::vector<int> levels_of(std::span<const accel::NodeFacts> nodes) {
   std::vector<int> levels(nodes.size(), 1);
   for (std::size_t i = 1; i < levels.size(); ++i) levels[i] = levels[nodes[i].parent] + 1;
@@ -55,7 +55,7 @@ std::vector<LevelVisits> count_level_visits(const accel::Accelerator& structure,
   if (input.image() == nullptr) return visits;
   const auto beams = inspector.beams(*input.image());
   for (const accel::BeamOutline& beam : beams.value_or(std::vector<accel::BeamOutline>())) {
-    if (beam.kind != accel::BeamKind::kLeaving) ++at(beam.node).beams;  // else it is in no leaf
+    if (beam.kind != accel::BeamKind::kLeaving) ++at(beam.node).beams;  // not in a leaf
   }
   return visits;
 }

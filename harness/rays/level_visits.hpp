@@ -1,5 +1,5 @@
 #pragma once
-// How often rays and beams visit the nodes of an octree, by level.
+// Counts how often rays and beams visit the nodes of an octree, by level.
 
 #include <cstdint>
 #include <vector>
@@ -13,18 +13,18 @@ namespace beambench::rays {
 /// subdivision techniques in ray tracing", Computer Graphics Forum 11(4), 1992) count visits by
 /// level; the thesis takes its level 6 from them (section 5.3.1).
 struct LevelVisits {
-  int level = 1;                      ///< the root being level 1
+  int level = 1;                      ///< the root has level 1
   std::uint64_t nodes = 0;            ///< leaves and interior nodes
-  std::uint64_t leaves = 0;           ///< empty ones included
+  std::uint64_t leaves = 0;           ///< including empty ones
   std::uint64_t occupied_leaves = 0;  ///< leaves with references
   std::uint64_t node_visits = 0;  ///< a ray and a node that it passes through, up to its first hit
   std::uint64_t leaf_visits = 0;  ///< those of leaves
   std::uint64_t beams = 0;        ///< a beam and a leaf that it enters; of an image, by `beam`
 };
 
-/// All levels, from the root to the deepest; empty for a structure that has no octree. The rays are
-/// traced one by one, as Samet's, and then, in `beam`, as beams. Takes time and memory for each
-/// leaf on a ray's traversal path.
+/// Returns all levels, from the root to the deepest; empty for a structure without an octree. The
+/// rays are traced one by one, as by Samet, and then, in `beam`, as beams. Takes time and memory
+/// for each leaf on a ray's traversal path.
 std::vector<LevelVisits> count_level_visits(const accel::Accelerator& structure,
                                             const TraceInput& input);
 

@@ -14,7 +14,8 @@ glm::dvec3 hit_point(const accel::Ray& ray, const accel::Hit& hit) {
   return glm::dvec3(ray.origin) + double{hit.t} * glm::dvec3(ray.direction);
 }
 
-/// The lateral surface leans by the change of its radius along the axis.
+/// Returns the normal of the lateral surface, which leans according to the change of its radius
+/// along the axis.
 glm::dvec3 cone_normal(const scenes::Cone& cone, const glm::dvec3& point) {
   const glm::dvec3 base(cone.base);
   const glm::dvec3 along = glm::dvec3(cone.apex) - base;
@@ -23,7 +24,7 @@ glm::dvec3 cone_normal(const scenes::Cone& cone, const glm::dvec3& point) {
   const glm::dvec3 offset = point - base;
   const glm::dvec3 outward = offset - axis * glm::dot(offset, axis);
   const double distance = glm::length(outward);
-  if (distance == 0.0) return axis;  // the tip, where every direction is as good
+  if (distance == 0.0) return axis;  // the tip, where every direction is equally good
   const double slope = (double{cone.base_radius} - double{cone.apex_radius}) / height;
   return outward / distance + axis * slope;
 }
@@ -36,11 +37,11 @@ struct TriangleCorners {
         b(scene.vertices[triangle.vertex[1]]),
         c(scene.vertices[triangle.vertex[2]]) {}
 
-  /// Not of unit length.
+  /// Returns the normal, not of unit length.
   glm::dvec3 normal() const { return glm::cross(b - a, c - a); }
 };
 
-/// Where a point lies in one triangle of a polygon.
+/// The place of a point in one triangle of a polygon.
 struct Place {
   const scenes::Triangle* triangle;
   glm::dvec3 normal;              ///< not of unit length
@@ -61,7 +62,7 @@ Place place_in(const scenes::Scene& scene, const scenes::Triangle& triangle,
   return {&triangle, normal, {1.0 - of_b - of_c, of_b, of_c}};
 }
 
-/// In the triangle in which the point lies deepest.
+/// Returns the place in the triangle in which the point lies deepest.
 Place place_in(const scenes::Scene& scene, std::span<const scenes::Triangle> triangles,
                const glm::dvec3& point) {
   Place deepest = place_in(scene, triangles.front(), point);
@@ -72,7 +73,7 @@ Place place_in(const scenes::Scene& scene, std::span<const scenes::Triangle> tri
   return deepest;
 }
 
-/// Where in the scene's normals that of a polygon's vertex is.
+/// Returns the index, among the scene's normals, of that of a polygon's vertex.
 std::size_t corner_of(const scenes::Scene& scene, const scenes::Polygon& polygon,
                       std::uint32_t vertex) {
   const auto corners = std::span(scene.corners).subspan(polygon.first_corner, polygon.corner_count);
@@ -99,7 +100,7 @@ bool has_one_normal(const scenes::Scene& scene, const scenes::Polygon& polygon) 
       triangles, [&](const scenes::Triangle& triangle) { return unit_normal(triangle) == first; });
 }
 
-/// As `NormalTable`, for a few places.
+/// Stands in for `NormalTable` for a few places.
 struct UntabledNormals {
   glm::dvec3 at_corner(std::size_t normal) const {
     return glm::normalize(glm::dvec3(scene->normals[normal]));
@@ -112,8 +113,7 @@ struct UntabledNormals {
   const scenes::Scene* scene;
 };
 
-/// Interpolated between the corners' normals; the geometric
-/// one where they cancel out.
+/// Interpolates between the corners' normals; returns the geometric one if they cancel out.
 template <class Table>
 glm::dvec3 smooth_normal(const scenes::Scene& scene, const scenes::Polygon& polygon,
                          const Place& place, const Table& table) {
@@ -156,10 +156,10 @@ SurfaceNormals normals_at(const scenes::Scene& scene, scenes::PrimitiveId id,
   return {normal, normal};
 }
 
-/// Of unit length, on the side that the ray comes from.
+/// Returns the unit normal on the side from which the ray comes.
 glm::dvec3 facing(const glm::dvec3& normal, const glm::dvec3& direction) {
   const double length = glm::length(normal);
-  // What is smaller than the rounding of t can be hit in its very center: it faces the ray.
+  // An object smaller than the rounding of t can be hit at its very center: it faces the ray.
   if (!(length > 0.0 && std::isfinite(length))) return -glm::normalize(direction);
   const glm::dvec3 unit = glm::normalize(normal);
   return glm::dot(unit, direction) > 0.0 ? -unit : unit;

@@ -1,5 +1,5 @@
 #pragma once
-// The order in which rays that come from an image follow each other in lists and batches.
+// The order of an image's rays in lists and batches.
 
 #include <algorithm>
 #include <vector>
@@ -19,14 +19,14 @@ struct PixelRange {
   int height() const { return bottom - top; }
 };
 
-/// An image in squares, row by row: their side is 4 times the largest power of two with which a
-/// square has at most 4096 samples (64 pixels for one sample a pixel); those at the right and at
-/// the bottom are cut off.
+/// Divides an image into squares, row by row. Their side is 4 times the largest power of two for
+/// which a square has at most 4096 samples (64 pixels for one sample per pixel); those at the right
+/// and the bottom are truncated.
 std::vector<PixelRange> squares_of(const accel::PrimaryRays& image);
 
 /// Calls `visit(x, y, sample)` for the samples of one of these squares: blocks of 4x4 pixels in
-/// Morton order, so that 16, 256 or 4096 samples in succession lie close together; in a block one
-/// sample of all its pixels after the other, row by row.
+/// Morton order, so that 16, 256 or 4096 consecutive samples are close together. Within a block,
+/// one sample of all its pixels comes after the other, row by row.
 template <class Visit>
 void for_each_sample(const PixelRange& square, int samples, const Visit& visit) {
   constexpr int kBlock = 4;
@@ -39,14 +39,14 @@ void for_each_sample(const PixelRange& square, int samples, const Visit& visit) 
       }
     }
   };
-  // Bits of the place in Morton order: those of x and y in turns.
+  // The bits of x and y alternate in Morton order.
   const auto every_second_bit = [](unsigned place) {
     unsigned number = 0;
     for (unsigned bit = 0; place >> (2 * bit) != 0; ++bit) number |= (place >> bit) & (1U << bit);
     return static_cast<int>(number);
   };
   const int longer = std::max(square.width(), square.height());
-  unsigned blocks = 1;  // of a whole square
+  unsigned blocks = 1;  // in a whole square
   for (int side = kBlock; side < longer; side *= 2) blocks *= 4;
   for (unsigned place = 0; place < blocks; ++place) {
     const int left = square.left + kBlock * every_second_bit(place);
@@ -55,7 +55,7 @@ void for_each_sample(const PixelRange& square, int samples, const Visit& visit) 
   }
 }
 
-/// The same for a whole image, square by square.
+/// Does the same for a whole image, square by square.
 template <class Visit>
 void for_each_sample(const accel::PrimaryRays& image, const Visit& visit) {
   for (const PixelRange& square : squares_of(image)) {

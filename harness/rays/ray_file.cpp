@@ -69,8 +69,8 @@ void require_valid_ray(const accel::Ray& ray, const std::function<std::string()>
 
 // Binary files
 
-/// The JSON of a pencil whose rays begin at `begin` or later, of `rays` rays in all. Throws
-/// InputError without naming the file.
+/// Parses a pencil whose rays begin at `begin` or later, in a list of `rays` rays. Throws
+/// InputError without the file name.
 accel::Pencil read_pencil(const Json& json, std::uint64_t begin, std::uint64_t rays) {
   const auto whole_number = [&](const char* name) {
     const Json value = json.is_object() ? json.value(name, Json()) : Json();
@@ -204,7 +204,7 @@ class BinaryRays : public RayReader::Format {
 
   std::filesystem::path path_;
   InputStream input_;
-  std::uint64_t begin_ = 0;  ///< of the rays, in bytes
+  std::uint64_t begin_ = 0;  ///< offset of the rays, in bytes
   std::uint64_t count_ = 0;
   std::uint64_t read_ = 0;
   std::optional<std::uint64_t> hash_{};
@@ -295,7 +295,7 @@ void write_csv(std::ostream& out, const RaySet& set) {
   out << fmt::format("{}\n", fmt::join(kColumns, ","));
   for (const accel::Ray& ray : set.rays) {
     const auto floats = std::bit_cast<std::array<float, 8>>(ray);
-    std::array<double, 8> numbers{};  // the shortest form of a float is another number as double
+    std::array<double, 8> numbers{};  // a float's shortest text is not the double's
     std::ranges::copy(floats, numbers.begin());
     out << fmt::format("{}\n", fmt::join(numbers, ","));
   }
@@ -331,7 +331,7 @@ RaySet read_ray_file(const std::filesystem::path& path) {
     fail(path, fmt::format("it holds {} rays, more than the {} that are read at once",
                            *reader.count(), kMaxRaysInMemory));
   }
-  // What comes through a pipe may be less than its header says.
+  // A pipe may deliver less than its header states.
   std::error_code has_no_length;
   const std::uint64_t bytes = std::filesystem::file_size(path, has_no_length);
   if (!has_no_length) {

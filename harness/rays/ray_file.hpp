@@ -18,45 +18,45 @@ namespace beambench::rays {
 /// each as eight 32-bit IEEE floats in little-endian order: origin, t_min, direction, t_max. The
 /// JSON must have `query` ("closest" or "any") and `rays` (how many). `seed`, `scene_hash` (a file
 /// of another scene is refused), `hash` (of the rays' bytes, XXH3; a damaged file is refused),
-/// `may_graze` (true: `RaySet::may_graze`) and `pencils` may be missing; other members, such as
-/// those of `note`, are for people. `pencils` is a list of `{"first": 0, "count": 16, "apex": [x,
-/// y, z], "toward": true}`, in the order of `first`: see `accel::Pencil`. Samples of an image and
-/// views are not saved. In Python:
+/// `may_graze` (true: `RaySet::may_graze`) and `pencils` are optional; other members, such as those
+/// of `note`, are for people. `pencils` is a list of `{"first": 0, "count": 16, "apex": [x, y, z],
+/// "toward": true}`, in the order of `first`: see `accel::Pencil`. An image's samples and views are
+/// not saved. In Python:
 ///
 ///     with open(path, "rb") as f:
 ///         f.readline(); header = json.loads(f.readline())
 ///         rays = numpy.fromfile(f, "<f4").reshape(-1, 8)
 ///
 /// A CSV file has the columns ox, oy, oz, t_min, dx, dy, dz, t_max, in any order; t_min (0) and
-/// t_max (infinity) may be missing or empty. Upper and lower case are the same, and names and
-/// numbers may be in quotation marks. Its query is "closest". Its numbers are exact for readers of
-/// float and of double.
+/// t_max (infinity) may be missing or empty. Case is ignored, and names and numbers may be in
+/// quotation marks. Its query is "closest". Its numbers are exact for readers of both float and
+/// double.
 ///
-/// The ending, `.csv` or another, decides what is written. Throws InputError when the file cannot
-/// be written; then there is none.
+/// Writes a CSV file if the ending is `.csv`, otherwise a binary one. Throws InputError if the file
+/// cannot be written; in that case, there is none.
 void write_ray_file(const std::filesystem::path& path, const RaySet& set,
                     const nlohmann::ordered_json& note);
 
-/// Reads a file of rays part by part. The first line tells the format.
+/// Reads a file of rays in parts. The first line determines the format.
 class RayReader {
  public:
-  /// Throws InputError naming the file and what is wrong with it: not a file of rays, another
-  /// version, too short or too long, or a pencil (by its index) that is not in order, not of these
-  /// rays or not finite.
+  /// Throws InputError with the file name and the problem: not a file of rays, another version, too
+  /// short or too long, or a pencil (by its index) that is out of order, not of these rays or not
+  /// finite.
   explicit RayReader(const std::filesystem::path& path);
   ~RayReader();
   RayReader(RayReader&&) noexcept;
   RayReader& operator=(RayReader&&) = delete;
 
-  /// All but the rays; the label is the path.
+  /// Returns the set without its rays; the label is the path.
   const RaySet& header() const;
-  /// As the file states; nothing for CSV.
+  /// Returns the number stated in the file; nothing for CSV.
   std::optional<std::uint64_t> count() const;
   /// Fills the buffer with the next rays and returns how many it got: fewer only at the end. Throws
-  /// InputError naming the place of a ray that `require_valid` refuses, and at the end of a damaged
+  /// InputError with the place of a ray that `require_valid` refuses, and at the end of a damaged
   /// file.
   std::size_t read(std::span<accel::Ray> rays);
-  /// How much was read, from 0 to 1; 0 where that is not known.
+  /// Returns the fraction read so far, from 0 to 1; 0 if unknown.
   double part() const;
 
   struct Format;
@@ -65,7 +65,7 @@ class RayReader {
   std::unique_ptr<Format> format_;
 };
 
-/// The whole file. Throws as RayReader, and for more than 2^28 rays.
+/// Reads the whole file. Throws as RayReader, and for more than 2^28 rays.
 RaySet read_ray_file(const std::filesystem::path& path);
 
 }  // namespace beambench::rays

@@ -48,7 +48,7 @@ void reserve(std::size_t rays, RayList& list) {
   list.samples.reserve(rays);
 }
 
-/// The rays of the list from `first` on, where they hit.
+/// Returns the surface points at the hits of the list's rays from `first` on.
 std::vector<SurfacePoint> points_hit(const scenes::Scene& scene, const MirrorTable& mirrors,
                                      const accel::oracle::Oracle& oracle, const RayList& list,
                                      std::size_t first) {
@@ -69,9 +69,9 @@ void add_reflected(const SurfacePoint& at, RayList& list) {
   add_ray(at, accel::mirrored(at.incoming, at.normal), list);
 }
 
-/// A unit vector with density cos / pi in the hemisphere about the unit vector `normal` (Malley's
-/// method: a uniform point of the unit disc, lifted to the hemisphere; Pharr, Jakob and Humphreys,
-/// Physically Based Rendering, 4th ed., A.5.3).
+/// Returns a unit vector with density cos / pi in the hemisphere about the unit vector `normal`
+/// (Malley's method: a uniform point of the unit disc, lifted to the hemisphere; Pharr, Jakob and
+/// Humphreys, Physically Based Rendering, 4th ed., A.5.3).
 dvec3 cosine_direction(const dvec3& normal, Random& random) {
   const dvec3 axis = std::abs(normal.x) < 0.5 ? dvec3(1.0, 0.0, 0.0) : dvec3(0.0, 1.0, 0.0);
   const dvec3 tangent = glm::normalize(glm::cross(normal, axis));
@@ -83,7 +83,7 @@ dvec3 cosine_direction(const dvec3& normal, Random& random) {
          normal * std::sqrt(1.0 - radius_2);
 }
 
-/// One ray from each point.
+/// Adds one ray from each point.
 void add_scattered(const std::vector<SurfacePoint>& points, Random& random, RayList& list) {
   for (const SurfacePoint& at : points) {
     add_ray(at, cosine_direction(at.normal, random), list);
@@ -102,7 +102,7 @@ Box widened(const scenes::Bounds& bounds) {
   return {dvec3(bounds.lower) - pad, size + 2.0 * pad};
 }
 
-/// Enters through one of the six faces, chosen by area.
+/// Returns a ray that enters through one of the six faces, chosen by area.
 accel::Ray line_through(const Box& box, Random& random) {
   const dvec3 areas(box.size.y * box.size.z, box.size.z * box.size.x, box.size.x * box.size.y);
   const double chosen = random.uniform(0.0, areas.x + areas.y + areas.z);
@@ -234,7 +234,8 @@ RayList path_rays(const scenes::Scene& scene, const MirrorTable& mirrors,
     const std::size_t first = list.rays.size();
     add_scattered(points, random, list);
     if (bounce + 1 == bounces) break;
-    // Its reach: every point is on a primitive, and rays begin a little beside it.
+    // The reach follows from the scene: every point is on a primitive, and rays begin slightly
+    // beside it.
     if (!oracle)
       oracle.emplace(scene, 2.0 * static_cast<double>(scene.bounds.largest_coordinate()));
     points = points_hit(scene, mirrors, *oracle, list, first);

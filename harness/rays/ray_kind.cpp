@@ -103,7 +103,7 @@ RayChoice choose(const Spec& spec) {
   return choice;
 }
 
-/// Does a list continue with another parameter, `name=value`, of the previous choice?
+/// Returns whether a list continues with another parameter, `name=value`, of the previous choice.
 bool is_parameter(std::string_view rest) {
   const std::size_t end = rest.find_first_of(",:=");
   return end != std::string_view::npos && rest[end] == '=';

@@ -1,5 +1,5 @@
 #pragma once
-// The kinds of rays that structures trace, and how a user names them.
+// The kinds of rays that structures trace, and their names on the command line.
 
 #include <cstdint>
 #include <filesystem>
@@ -14,25 +14,25 @@ namespace beambench::rays {
 
 enum class RayKind {
   kPrimary,     ///< from the camera through the pixels
-  kShadow,      ///< from where primary rays hit to the lights
-  kReflection,  ///< mirrored where primary rays hit
-  kMirror,      ///< mirrored where primary rays hit planar mirrors
-  kDiffuse,     ///< scattered where primary rays hit
-  kOcclusion,   ///< short ones, several from each place where primary rays hit: ambient occlusion
-  kPath,        ///< scattered where primary rays hit, and again where these hit
+  kShadow,      ///< from the hits of primary rays to the lights
+  kReflection,  ///< mirrored at the hits of primary rays
+  kMirror,      ///< mirrored at the hits of primary rays with planar mirrors
+  kDiffuse,     ///< scattered at the hits of primary rays
+  kOcclusion,   ///< several short ones from each hit of a primary ray: ambient occlusion
+  kPath,        ///< scattered at the hits of primary rays, and again at their own hits
   kRandom,      ///< lines through the scene's box
-  kWhitted      ///< all of a whole picture's, which follow from the structure's own hits
+  kWhitted      ///< all rays of a whole picture, which follow from the structure's own hits
 };
 
-/// What is to be found for a ray.
+/// The result required for a ray.
 enum class Query {
   kClosestHit,
-  kAnyHit,  ///< is there a hit at all?
-  kPicture  ///< both, in batches, as a whole picture needs them
+  kAnyHit,  ///< whether there is any hit
+  kPicture  ///< both, in batches, as required for a whole picture
 };
 std::string_view to_string(Query query);  // "closest", "any", "picture"
 
-/// A kind as the user sees it in `beambench list`.
+/// A kind as listed by `beambench list`.
 struct RayKindInfo {
   RayKind kind;
   std::string name;
@@ -47,33 +47,33 @@ std::span<const RayKindInfo> ray_kinds();
 const RayKindInfo& info_of(RayKind kind);
 std::string_view to_string(RayKind kind);
 
-/// The endings by which a file of rays is distinguished from the name of a kind.
+/// The endings that distinguish a file of rays from the name of a kind.
 inline constexpr std::string_view kRayFileEnding = ".rays";
 inline constexpr std::string_view kCsvEnding = ".csv";
 
-/// Whether a text names a file of rays, by its ending.
+/// Returns whether a text names a file of rays, by its ending.
 inline bool is_ray_file(std::string_view text) {
   return text.ends_with(kRayFileEnding) || text.ends_with(kCsvEnding);
 }
 
-/// Rays as a user names them: a kind with its parameters, or a file.
+/// The user's choice of rays: a kind with its parameters, or a file.
 struct RayChoice {
-  RayKind kind = RayKind::kPrimary;  ///< of a file: whatever was saved
-  std::uint64_t seed = 0;            ///< of a random kind; 0 for the others
+  RayKind kind = RayKind::kPrimary;  ///< for a file: whatever was saved
+  std::uint64_t seed = 0;            ///< for a random kind; 0 for the others
   std::filesystem::path file;        ///< empty: the rays are made
-  /// As records and commands name it: `shadow`, `diffuse`, `diffuse:seed=7`, or the file's name
+  /// The name in records and commands: `shadow`, `diffuse`, `diffuse:seed=7`, or the file's name
   /// (`name_of_path`).
   std::string label = "primary";
 
   friend bool operator==(const RayChoice&, const RayChoice&) = default;
 };
 
-/// `primary`, `diffuse:seed=7`, `some/file.rays`. Throws InputError listing the valid names or
-/// parameters. A file is not opened yet.
+/// Parses `primary`, `diffuse:seed=7` or `some/file.rays`. Throws InputError listing the valid
+/// names or parameters. A file is not opened yet.
 RayChoice parse_ray_choice(std::string_view text);
-/// The values of a choice's parameters, those of a file's kind being none.
+/// Returns the values of a choice's parameters; there are none for a file.
 Parameters parameters_of(const RayChoice& choice);
-/// A comma-separated list, each choice once. Throws as parse_ray_choice.
+/// Parses a comma-separated list, each choice once. Throws as parse_ray_choice.
 std::vector<RayChoice> parse_ray_choices(std::string_view list);
 
 }  // namespace beambench::rays

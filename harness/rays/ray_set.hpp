@@ -15,24 +15,24 @@
 
 namespace beambench::rays {
 
-/// A batch, and what it refers to.
+/// A batch, and the objects that it refers to.
 struct RayList {
   std::vector<accel::Ray> rays{};
-  std::vector<std::uint32_t> samples{};  ///< of each ray; none where they come from no image
+  std::vector<std::uint32_t> samples{};  ///< of each ray; empty if they do not come from an image
   std::shared_ptr<const accel::PrimaryRays> image{};  ///< that they come from
   std::vector<accel::Pencil> pencils{};
-  std::vector<std::shared_ptr<const accel::PrimaryRays>> views{};  ///< of pencils that have one
+  std::vector<std::shared_ptr<const accel::PrimaryRays>> views{};  ///< of pencils that have a view
 
   accel::RayBatch batch() const { return {rays, pencils, samples, image.get()}; }
 };
 
-/// Rays, what is to be found for them, and where they come from.
+/// Rays, the query for them, and their origin.
 struct RaySet : RayList {
-  std::string label{};  ///< as records and commands name it (`RayChoice::label`)
+  std::string label{};  ///< the name in records and commands (`RayChoice::label`)
   Query query = Query::kClosestHit;
-  std::uint64_t seed = 0;                     ///< 0 where nothing is random
-  std::optional<std::uint64_t> scene_hash{};  ///< of the scene they were made for, where known
-  bool may_graze = false;  ///< aimed at edges and corners: grazes are no fault, however many
+  std::uint64_t seed = 0;                     ///< 0 if nothing is random
+  std::optional<std::uint64_t> scene_hash{};  ///< of the scene they were made for, if known
+  bool may_graze = false;  ///< aimed at edges and corners: any number of grazes is allowed
 };
 
 /// The coherence of a list: the mean cosine of the angle between the directions of a ray

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::int64_t kMaxRays = std::int64_t{1} << 28;
 
-/// The whole text as a side of an image.
+/// Parses the whole text as a side of an image.
 std::optional<int> parse_side(std::string_view text) {
   int value = 0;
   const char* end = text.data() + text.size();
@@ -29,7 +29,8 @@ std::optional<int> parse_side(std::string_view text) {
   return value;
 }
 
-/// A list is in memory, unlike an image's rays, so its size is bounded before it is made.
+/// Throws if a list is too large: unlike an image's rays, it is in memory, so its size is checked
+/// before it is made.
 void require_list_size(std::size_t points, std::int64_t each, const RayChoice& choice,
                        std::string_view parameter) {
   const std::int64_t rays = static_cast<std::int64_t>(points) * each;

@@ -1,5 +1,5 @@
 #pragma once
-// The rays of an image or of a list, and the query that a structure is to answer for them.
+// The rays of an image or of a list, and the query for them.
 
 #include <cstdint>
 #include <memory>
@@ -27,14 +27,14 @@ struct Resolution {
   friend bool operator==(const Resolution&, const Resolution&) = default;
 };
 
-/// Throws InputError when the text is not `WxH` with whole numbers in 1 ... kMaxSide.
+/// Throws InputError unless the text is `WxH` with whole numbers in 1 ... kMaxSide.
 Resolution parse_resolution(std::string_view text);
 
-/// `640x480`.
+/// Returns `640x480`.
 std::string to_string(const Resolution& resolution);
 
-/// Throws InputError when the image has more samples than a buffer is meant for (2^28), naming
-/// what to lower.
+/// Throws InputError if the image has more samples than a buffer is meant for (2^28), stating what
+/// to lower.
 void require_ray_count(const Resolution& resolution, int samples);
 
 /// The place of a primary ray in its image.
@@ -44,17 +44,17 @@ struct PixelSample {
   friend bool operator==(const PixelSample&, const PixelSample&) = default;
 };
 
-/// Where in its image the ray of that index is, as a hit buffer counts them.
+/// Returns the place in the image of the ray with that index, as numbered by a hit buffer.
 PixelSample place_of(const accel::PrimaryRays& image, std::size_t index);
-/// The other way round.
+/// Returns the index of a place.
 std::size_t index_of(const accel::PrimaryRays& image, const PixelSample& at);
-/// The ray itself.
+/// Returns the ray at an index.
 accel::Ray ray_at(const accel::PrimaryRays& image, std::size_t index);
 
-/// Rays by their index, and one query for all of them. A small value: lists are shared.
+/// Rays by their index, and one query for all of them. Cheap to copy, because lists are shared.
 class TraceInput {
  public:
-  /// The closest hits of an image.
+  /// The closest-hit query for an image.
   TraceInput(
       accel::PrimaryRays rays);  // NOLINT(google-explicit-constructor): an image implies its query
   explicit TraceInput(RaySet rays);
@@ -62,18 +62,18 @@ class TraceInput {
   std::size_t size() const;
   accel::Ray ray(std::size_t index) const;
   Query query() const { return list_ ? list_->query : Query::kClosestHit; }
-  /// As `RayChoice::label`.
+  /// Returns the label, like `RayChoice::label`.
   const std::string& label() const;
   std::uint64_t seed() const { return list_ ? list_->seed : 0; }
 
-  /// The image; nothing for a list.
+  /// Returns the image; null for a list.
   const accel::PrimaryRays* image() const { return image_ ? &*image_ : nullptr; }
-  /// The list; nothing for an image.
+  /// Returns the list; null for an image.
   const RaySet* list() const { return list_.get(); }
-  /// Where in the image the ray is; nothing for a list.
+  /// Returns the ray's place in the image; nothing for a list.
   std::optional<PixelSample> pixel(std::size_t index) const;
 
-  /// The largest distance of an origin from the origin of the coordinates.
+  /// Returns the largest distance of an origin from the coordinate origin.
   double reach() const;
 
  private:
@@ -81,13 +81,13 @@ class TraceInput {
   std::shared_ptr<const RaySet> list_;
 };
 
-/// `pixel (3, 4) sample 0`, `ray 17`.
+/// Returns `pixel (3, 4) sample 0` or `ray 17`.
 std::string place_text(const TraceInput& input, std::size_t index);
 
-/// `coherence` of a list, or of an image's rays in their order.
+/// Returns the `coherence` of a list, or of an image's rays in order.
 double coherence(const TraceInput& input);
 
-/// The image whose primary rays are traced, or that other rays start from.
+/// An image whose primary rays are traced, or from which other rays start.
 struct ImageOfRays {
   scenes::Camera camera;
   Resolution resolution;
@@ -96,27 +96,27 @@ struct ImageOfRays {
   accel::PrimaryRays rays() const { return {camera, resolution.width, resolution.height, samples}; }
 };
 
-/// The image of a camera, in the camera's own resolution if none is given. Throws InputError where
-/// it has too many rays or no such number of samples exists.
+/// Returns the image of a camera, in the camera's own resolution by default. Throws InputError if
+/// it has too many rays or the number of samples is not supported.
 ImageOfRays image_of(const scenes::Camera& camera, const std::optional<Resolution>& resolution,
                      int samples);
 
-/// What a structure is built for: the rays, the camera behind them, and the threads that trace.
+/// Returns the workload of a structure: the rays, their camera, and the number of threads.
 accel::Workload workload_of(const ImageOfRays& image, const TraceInput& input, int threads = 1);
 
-/// There are no rays of a kind over a scene; the other kinds of a request are not affected.
+/// Thrown if a scene has no rays of a kind; the other kinds of a request are not affected.
 class NoRaysError : public InputError {
  public:
   using InputError::InputError;
 };
 
-/// Throws InputError for rays of a file that states that they were made for another scene.
+/// Throws InputError if the rays come from a file that was made for another scene.
 void require_made_for(const scenes::Scene& scene, const RaySet& set);
 
-/// Makes the rays of a choice, or reads them. Throws NoRaysError where the scene has no lights for
-/// shadow rays or no planar mirrors for mirror rays, or no primary ray hits anything for rays to
-/// start from; InputError for whole pictures, and as `read_ray_file`; for a file also when it was
-/// made for another scene.
+/// Makes the rays of a choice, or reads them. Throws NoRaysError if the scene has no lights for
+/// shadow rays or no planar mirrors for mirror rays, or if no primary ray hits anything. Throws
+/// InputError for whole pictures, and as `read_ray_file`; for a file, also if it was made for
+/// another scene.
 TraceInput make_trace_input(const scenes::Scene& scene, const ImageOfRays& image,
                             const RayChoice& choice);
 

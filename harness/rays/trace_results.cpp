@@ -20,13 +20,13 @@ constexpr double kProbeSeconds = 0.02;
 constexpr int kProbeRays = 1000;
 constexpr double kWorthWatching = 0.5;  // seconds
 
-/// What all rays would take if they were like a few of them, spread over all.
+/// Estimates the time for all rays from a few of them, spread over all.
 double estimated_seconds(const accel::Accelerator& structure, const TraceInput& input) {
   const base::Stopwatch stopwatch;
   const auto rays = static_cast<double>(input.size());
   int traced = 0;
   while (traced < kProbeRays && stopwatch.seconds() < kProbeSeconds) {
-    // Steps of the golden ratio never come back to where they were.
+    // Steps of the golden ratio never return to an earlier place.
     const double at = traced * 0.6180339887498949;
     const auto index = static_cast<std::size_t>((at - std::floor(at)) * rays);
     structure.closest_hit(input.ray(index), nullptr);

@@ -1,5 +1,5 @@
 #pragma once
-// Tracing the rays of a `TraceInput`, with progress where it takes long, and the results.
+// Traces the rays of a `TraceInput`, with progress for long runs, and stores the results.
 
 #include <cstdint>
 #include <optional>
@@ -14,35 +14,36 @@
 
 namespace beambench::rays {
 
-/// For each ray of an any-hit query: 1 where there is a hit, 0 where there is none.
+/// For each ray of an any-hit query: 1 for a hit, 0 for a miss.
 using AnyHits = std::vector<std::uint8_t>;
 using TraceResults = std::variant<accel::HitBuffer, AnyHits>;
 
-/// Results of the input's shape: all misses.
+/// Returns results in the shape of the input: all misses.
 TraceResults make_results(const TraceInput& input);
 
-/// Overwrites all of them with impossible results: the differ finds every one left unwritten.
+/// Overwrites all results with impossible ones, so that the differ finds any that are left
+/// unwritten.
 void poison(TraceResults& results);
 void poison(accel::HitBuffer& hits);
 
-/// Is the result at an index a hit? Poison counts as one.
+/// Returns whether the result at an index is a hit. Poison counts as one.
 bool is_hit_at(const TraceResults& results, std::size_t index);
 
-/// Throws UnsupportedError where a structure does not take an image, or lists of rays.
+/// Throws UnsupportedError if a structure does not support an image, or lists of rays.
 void require_support(const accel::StructureChoice& choice, const TraceInput& input);
 
 /// Traces the rays through a structure. `results` has the shape that `make_results` gives.
-/// `counters` may be null. An image is traced on that many threads (`accel::thread_count`), a list
+/// `counters` may be null. An image is traced on `threads` threads (`accel::thread_count`), a list
 /// on the calling one.
 void trace(const accel::Accelerator& structure, const TraceInput& input, TraceResults& results,
            accel::WorkCounters* counters = nullptr, int threads = 1);
 
-/// A sentence where less than 1% or more than 99% of the rays hit anything (are occluded): times
-/// over them compare how structures miss, or how they find anything at all, and little else.
+/// Returns a warning if less than 1% or more than 99% of the rays hit anything (are occluded):
+/// times for such rays mostly compare how structures miss, or how they find anything at all.
 std::optional<std::string> share_warning(const TraceInput& input, std::uint64_t hits);
 
-/// `trace` without counters; on a terminal with the remaining time, estimated from a few rays that
-/// are traced first.
+/// Calls `trace` without counters; on a terminal it shows the remaining time, estimated from a few
+/// rays that are traced first.
 void trace_with_progress(const accel::Accelerator& structure, const TraceInput& input,
                          TraceResults& results, int threads, base::Progress& progress);
 

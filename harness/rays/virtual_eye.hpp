@@ -1,5 +1,5 @@
 #pragma once
-// From where rays seem to come that planar mirrors reflect.
+// The virtual eyes from which rays reflected by planar mirrors seem to come.
 
 #include <cstddef>
 #include <cstdint>
@@ -22,7 +22,7 @@ class MirrorTable {
   explicit MirrorTable(const scenes::Scene& scene);
 
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  /// Of a primitive; kNone where it is no planar mirror.
+  /// Returns the mirror of a primitive; kNone if it is not part of a planar mirror.
   std::uint32_t mirror_of(scenes::PrimitiveId primitive) const {
     return mirrors_.empty() ? kNone : mirror_of_[primitive];
   }
@@ -41,17 +41,17 @@ class MirrorTable {
   std::vector<std::uint32_t> mirror_of_;  ///< by primitive; empty without mirrors
 };
 
-/// The eye of an image, or what mirrors make of it.
+/// The eye of an image, or its mirror image.
 struct VirtualEye {
   explicit VirtualEye(accel::PrimaryRays image) : place(image.eye()), view(std::move(image)) {}
 
-  /// That of the rays which a mirror reflects: they begin a little beside it, so their lines pass
-  /// through the eye's image moved by as much (`accel::mirror_lift`). Nothing for a mirror that is
-  /// seen from its edge, where rounding decides on which side a ray meets it.
+  /// Returns the eye of the rays that a mirror reflects. They begin slightly beside it, so their
+  /// lines pass through the eye's image, moved by the same distance (`accel::mirror_lift`). Nothing
+  /// for a mirror seen edge-on, where rounding decides on which side a ray meets it.
   std::optional<VirtualEye> behind(const scenes::PlanarMirror& mirror) const;
 
   glm::dvec3 place;
-  /// The image seen from there, but for rounding: its eye is a float, and is not moved.
+  /// The image seen from there, up to rounding: its eye is a float, and is not moved.
   accel::PrimaryRays view;
 };
 

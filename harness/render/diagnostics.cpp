@@ -20,7 +20,7 @@
 namespace beambench::render {
 namespace {
 
-/// In increasing severity; the position is the category in the map, agreement aside.
+/// In increasing severity; the position is the category in the map, except for agreement.
 constexpr std::array kBySeverity{verify::DiffClass::kTie, verify::DiffClass::kGraze,
                                  verify::DiffClass::kEmbreeError,
                                  verify::DiffClass::kStructureError};
@@ -31,11 +31,11 @@ std::uint8_t category_of(verify::DiffClass diff_class) {
                                     : static_cast<std::uint8_t>(found - kBySeverity.begin());
 }
 
-/// Each pixel's worst class.
+/// Returns each pixel's worst class.
 std::vector<verify::DiffClass> worst(std::span<const verify::DiffClass> classes,
                                      std::size_t samples) {
   const auto less_severe = [](verify::DiffClass a, verify::DiffClass b) {
-    // kNone, the category of agreement, is the largest number: plus one it is the smallest.
+    // kNone, the category of agreement, is the largest number; adding one makes it the smallest.
     return static_cast<std::uint8_t>(category_of(a) + 1) <
            static_cast<std::uint8_t>(category_of(b) + 1);
   };
@@ -60,7 +60,7 @@ CategoryMap map_of(const std::vector<verify::DiffClass>& pixels, const ComparedN
 
 using Names = std::set<std::string, std::less<>>;
 
-/// Reads one counter. A name of the family's own may be absent from a ray that did no such work.
+/// Reads one counter. A family's own counter may be missing for a ray without such work.
 std::uint64_t read(const accel::WorkCounters& counters, const std::string& name, Names& seen) {
   const auto standard = std::find(accel::kCounterNames.begin(), accel::kCounterNames.end(), name);
   if (standard != accel::kCounterNames.end()) {
@@ -75,7 +75,7 @@ std::uint64_t read(const accel::WorkCounters& counters, const std::string& name,
 }
 
 void require_known(const std::string& counter, const Names& seen) {
-  // No names were read: the counter is a standard one.
+  // If no names were read, the counter is a standard one.
   if (seen.empty() || seen.contains(counter)) return;
   throw InputError(fmt::format("this structure has no counter '{}'; choose from: {}", counter,
                                fmt::join(seen, ", ")));

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures of what a structure does: where its hits differ from others, its work.
+// Pictures that show how a structure's hits differ from others, and its work.
 
 #include <array>
 #include <cstddef>
@@ -18,30 +18,30 @@
 
 namespace beambench::render {
 
-/// The names of the compared.
+/// The names of the compared structures.
 struct ComparedNames {
   std::string verified;   ///< whose errors are `DiffClass::kStructureError`
   std::string reference;  ///< whose errors are `DiffClass::kEmbreeError`
 };
 
-/// `kOracleName` as a reference stands for the oracle itself.
+/// The name of a reference that is the oracle itself.
 inline constexpr const char* kOracleName = "oracle";
 
-/// Writes the classes of the rays of an image (the input's rays are primary) over a gray preview
-/// of the reference; a pixel shows the worst class of its samples. A .png gets a
-/// legend; an .exr the preview in colors and the classes as numbers (0 agree, 1 tie, 2 graze, 3
-/// the verified structure is wrong, 4 the reference is).
+/// Writes the classes of the rays of an image (the input's rays are primary) over a gray preview of
+/// the reference; a pixel shows the worst class of its samples. A .png has a legend; an .exr has
+/// the preview in colors and the classes as numbers (0 agree, 1 tie, 2 graze, 3 the verified
+/// structure is wrong, 4 the reference is).
 void write_difference(const std::filesystem::path& file, const verify::ReferenceHits& reference,
                       std::span<const verify::DiffClass> classes, const ComparedNames& comparison);
 
-/// Where rays were found to be wrong, grazing or tied: the point of the oracle's hit, or of the
-/// claimed one where the oracle finds none. Bounded in memory.
+/// Collects the places of wrong, grazing or tied rays: the point of the oracle's hit, or of the
+/// claimed one if the oracle finds none. Limited in memory.
 class DisputedPlaces {
  public:
   void add(const verify::Mismatch& mismatch);
   bool empty() const;
 
-  /// Of each class, in the order of `verify::DiffClass`; at most kMaxPoints each.
+  /// Returns the places of a class; at most kMaxPoints each.
   const std::vector<glm::dvec3>& of(verify::DiffClass diff_class) const {
     return points_[static_cast<std::size_t>(diff_class)];
   }
@@ -53,16 +53,17 @@ class DisputedPlaces {
       points_{};
 };
 
-/// Writes a preview of the scene with the places marked; a .png with a legend.
+/// Writes a preview of the scene with the places marked; a .png has a legend.
 void write_disputed_places(const std::filesystem::path& file, const scenes::Scene& scene,
                            const accel::PrimaryRays& rays, const DisputedPlaces& places);
 
-/// A structure's hits as reference; invalid hits count as misses.
+/// Returns a structure's hits as a reference; invalid hits count as misses.
 verify::ReferenceHits reference_from(const scenes::Scene& scene, const rays::TraceInput& input,
                                      const rays::TraceResults& results);
 
-/// Traces each ray's closest hit with counters; a pixel's value is the mean of its samples. Hits go
-/// to `hits`. Throws InputError listing the counters of the structure if `counter` is none of them.
+/// Traces each ray's closest hit with counters; a pixel's value is the mean of its samples. Writes
+/// the hits to `hits`. Throws InputError listing the counters of the structure if `counter` is not
+/// one of them.
 HeatMap count_work(const accel::Accelerator& accelerator, const accel::PrimaryRays& rays,
                    const std::string& counter, accel::HitBuffer& hits, base::Progress& progress);
 

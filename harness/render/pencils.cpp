@@ -28,7 +28,7 @@ std::uint32_t MirrorPencils::group_with(std::uint64_t key) {
   return group;
 }
 
-/// Where the group with a key is listed, or is to be.
+/// Returns the slot of the group with a key, whether or not it is listed yet.
 std::uint32_t& MirrorPencils::slot_of(std::uint64_t key) {
   std::size_t slot = (key * 0x9E3779B97F4A7C15U) >> 32U;  // Fibonacci hashing
   do {
@@ -37,7 +37,7 @@ std::uint32_t& MirrorPencils::slot_of(std::uint64_t key) {
   return slots_[slot];
 }
 
-/// Each group of enough rays gets an eye, and all groups their places.
+/// Gives each group with enough rays an eye, and all groups their places.
 void MirrorPencils::mark_pencils() {
   for (const Run& run : runs_) groups_[run.group].count += run.count;
   std::size_t first = 0;

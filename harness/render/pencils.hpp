@@ -13,22 +13,23 @@
 
 namespace beambench::render {
 
-/// Fewer rays than this are not marked as a pencil.
+/// The minimum number of rays of a pencil; fewer are not marked.
 inline constexpr std::size_t kMinPencil = 16;
 
-/// Which of some virtual eyes a ray comes through; kNoEye for a ray that was refracted or that a
-/// curved mirror reflected, and for one with few others.
+/// The index of the virtual eye through which a ray comes; kNoEye for a ray that was refracted or
+/// reflected by a curved mirror, and for one in a small group.
 using EyeIndex = std::uint16_t;
 inline constexpr EyeIndex kNoEye = static_cast<EyeIndex>(~EyeIndex{0});
 
-/// The mirror rays of a part of a wave by their virtual eyes: each eye with enough rays is a
-/// pencil; the other rays follow. Rays of an eye, and those without, stay in their order.
+/// Groups the mirror rays of a part of a wave by their virtual eyes: each eye with enough rays is a
+/// pencil; the other rays follow. Rays of an eye, and those without, stay in order.
 class MirrorPencils {
  public:
-  /// Of rays through `eyes`, the camera's or those of the wave. All must outlive this.
+  /// Groups rays through `eyes`, the camera's or those of the wave. All arguments must outlive this
+  /// object.
   MirrorPencils(const rays::MirrorTable& mirrors, std::span<const rays::VirtualEye> eyes);
 
-  /// The next ray, which comes from `eye` and is reflected by a primitive.
+  /// Adds the next ray, which comes from `eye` and is reflected by a primitive.
   void add(EyeIndex eye, scenes::PrimitiveId primitive) {
     if (groups_.empty()) return;
     const std::uint32_t mirror = mirrors_->mirror_of(primitive);
@@ -40,14 +41,14 @@ class MirrorPencils {
     ++runs_.back().count;
   }
 
-  /// Once all rays are there: from the batch of them in the order of `add` that in the order of the
-  /// pencils, which it marks.
+  /// Once all rays have been added, takes their batch in the order of `add` and returns the batch
+  /// in the order of the pencils, which it marks.
   accel::RayBatch arranged(const accel::RayBatch& added);
-  /// Where the i-th ray that was added is there.
+  /// Returns the place there of the i-th added ray.
   std::size_t place_of(std::size_t i) const { return pencils_.empty() ? i : places_[i]; }
-  /// Through which of `take_eyes` it comes.
+  /// Returns the index in `take_eyes` of the ray's eye.
   EyeIndex eye_of(std::size_t i) const { return pencils_.empty() ? kNoEye : eye_of_[i]; }
-  /// One for each pencil. The pencils' views are then theirs.
+  /// Returns one eye for each pencil, and the ownership of the pencils' views.
   std::vector<rays::VirtualEye> take_eyes() && { return std::move(eyes_); }
 
  private:
@@ -58,7 +59,7 @@ class MirrorPencils {
     EyeIndex eye = kNoEye;
     std::size_t next = 0;  ///< the place of its next ray
   };
-  /// Rays of one group that were added in succession.
+  /// Consecutively added rays of one group.
   struct Run {
     std::uint32_t group;
     std::uint32_t count;
@@ -73,12 +74,12 @@ class MirrorPencils {
 
   const rays::MirrorTable* mirrors_;
   std::span<const rays::VirtualEye> before_;
-  std::vector<Group> groups_;  ///< the first: rays without a virtual eye; none without mirrors
-  std::vector<std::uint32_t> slots_;  ///< a hash table of groups; 0 where no group is
+  std::vector<Group> groups_;  ///< the first: rays without a virtual eye; empty without mirrors
+  std::vector<std::uint32_t> slots_;  ///< a hash table of groups; 0 in free slots
   std::vector<Run> runs_;
   std::vector<rays::VirtualEye> eyes_;
   std::vector<accel::Pencil> pencils_;
-  std::vector<std::uint32_t> places_;  ///< of each ray added; none without pencils, as what follows
+  std::vector<std::uint32_t> places_;  ///< of each added ray; empty without pencils, like the next
   std::vector<EyeIndex> eye_of_;       ///< of each ray added
   std::vector<accel::Ray> rays_;
   std::vector<std::uint32_t> samples_;

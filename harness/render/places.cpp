@@ -20,7 +20,7 @@ using Lanes = hn::Vec<Tag>;
 
 inline Lanes set(double value) { return hn::Set(Tag(), value); }
 
-/// As glm::dvec3, several at once.
+/// Several glm::dvec3 at once.
 struct Vector {
   Lanes x, y, z;
 };
@@ -57,14 +57,14 @@ inline Vector normalized(const Vector& a) {
   return scaled(a, hn::Div(set(1.0), hn::Sqrt(dot(a, a))));
 }
 
-/// On the side that the ray comes from.
+/// Returns the normal on the side from which the ray comes.
 inline Vector facing(const Vector& normal, const Vector& direction, const Vector& incoming) {
   const Lanes length = hn::Sqrt(dot(normal, normal));
   const auto is_direction = hn::And(hn::Gt(length, set(0.0)),
                                     hn::Lt(length, set(std::numeric_limits<double>::infinity())));
   const Vector unit = scaled(normal, hn::Div(set(1.0), length));
   const Vector turned = if_then_else(hn::Gt(dot(unit, direction), set(0.0)), opposite(unit), unit);
-  // What is smaller than the rounding of t can be hit in its very center.
+  // An object smaller than the rounding of t can be hit at its very center.
   return if_then_else(is_direction, turned, opposite(incoming));
 }
 

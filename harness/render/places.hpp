@@ -1,7 +1,7 @@
 #pragma once
-// Where the rays of a wave meet surfaces, and how a light shines on these places: by component, so
-// that several are computed at once by SIMD. The operations and their order are those of
-// glm::dvec3, so that the results are the same bits on every instruction set.
+// The places where the rays of a wave meet surfaces, and the light on them: by component, so that
+// several are computed at once by SIMD. The operations and their order are those of glm::dvec3, so
+// that the results have the same bits on every instruction set.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace beambench::render {
 
-/// Numbers for whole registers: there is room for some more behind the last one.
+/// Numbers for whole registers, with room for several more behind the last one.
 class Doubles {
  public:
   explicit Doubles(std::size_t count) : values_((count + kLanes - 1) / kLanes * kLanes) {}
@@ -43,7 +43,7 @@ class Vectors {
   Doubles z;
 };
 
-/// Places on surfaces, where rays of one depth end.
+/// Places on surfaces at the ends of rays of one depth.
 struct Places {
   explicit Places(std::size_t count)
       : size(count),
@@ -56,31 +56,31 @@ struct Places {
 
   std::size_t size;
   Vectors point;
-  Vectors beside;     ///< `lift` before the surface: where rays begin
+  Vectors beside;     ///< `lift` in front of the surface: origins of rays
   Doubles lift;       ///< `accel::surface_lift`, or `mirror_lift` on a planar mirror
   Vectors incoming;   ///< the ray's direction, of unit length
   Vectors geometric;  ///< unit normals on the side of the ray
   Vectors shading;
 };
 
-/// How a light shines on each place, if nothing is between.
+/// The angles of a light at each place, assuming that nothing is in between.
 struct LightAngles {
   explicit LightAngles(std::size_t count) : cosine(count), gleam(count), is_before(count) {}
 
   Doubles cosine;     ///< of the angle between the shading normal and the direction to the light
-  Doubles gleam;      ///< of the angle between the eye and where a mirror would send the light
-  Doubles is_before;  ///< 1 where the light is before the surface, by both normals; 0 elsewhere
+  Doubles gleam;      ///< of the angle between the eye and the mirror direction of the light
+  Doubles is_before;  ///< 1 if the light is in front of the surface, by both normals
 };
 
 /// The computations for one instruction set.
 struct PlaceKernels {
-  /// Computes all that `Places` describes from points, lifts, directions of any length and normals
-  /// of any length on either side; a normal without a direction is turned against the ray.
+  /// Computes the members of `Places` from points, lifts, and directions and normals of any length
+  /// on either side; an undefined normal is turned against the ray.
   void (*complete)(Places& places);
   void (*find_angles)(const Places& places, const glm::dvec3& light, LightAngles& angles);
 };
 
-/// Those for the best of Highway's `targets` that this machine has. Asking for them takes
+/// Returns the kernels for the best of Highway's `targets` that this machine has. The call takes
 /// microseconds.
 const PlaceKernels& place_kernels(std::int64_t targets);
 

@@ -1,5 +1,5 @@
 #pragma once
-// How many rays of which kind a picture took.
+// Counts the rays of a picture by kind.
 
 #include <algorithm>
 #include <array>
@@ -16,23 +16,23 @@ struct RayCensus {
   std::uint64_t reflected = 0;
   std::uint64_t refracted = 0;
   std::uint64_t totally_reflected = 0;  ///< of the reflected: in place of a refracted ray
-  std::uint64_t secondary_hits = 0;     ///< of reflected and refracted rays
+  std::uint64_t secondary_hits = 0;     ///< hits of reflected and refracted rays
   std::uint64_t too_faint = 0;          ///< not traced: too small a part of the pixel's color
   std::uint64_t shadow = 0;             ///< a point and a light that its side of the surface faces
-  std::uint64_t shadow_hidden = 0;      ///< of these: the light is hidden by something opaque
-  std::uint64_t shadow_cached = 0;      ///< of these: the shadow cache knew it
-  std::uint64_t shadow_listed = 0;      ///< of all shadow rays: the light buffer answered
+  std::uint64_t shadow_hidden = 0;      ///< of these: the light is hidden by an opaque surface
+  std::uint64_t shadow_cached = 0;      ///< of these: found by the shadow cache
+  std::uint64_t shadow_listed = 0;      ///< of all shadow rays: decided by the light buffer
   std::uint64_t shadow_tests = 0;       ///< ray-primitive tests of cache and light buffer
   std::uint64_t shadow_queries = 0;     ///< closest-hit and any-hit queries for shadow rays
 
-  /// Rays of all kinds.
+  /// Returns the number of rays of all kinds.
   std::uint64_t all_rays() const { return eye + reflected + refracted + shadow; }
 
   RayCensus& operator+=(const RayCensus& other);
   friend bool operator==(const RayCensus&, const RayCensus&) = default;
 };
 
-/// All counts in their order, and as records name them.
+/// All counts in order, and their names in records.
 struct CensusCount {
   const char* name;
   std::uint64_t RayCensus::*count;
@@ -58,21 +58,21 @@ inline RayCensus& RayCensus::operator+=(const RayCensus& other) {
   return *this;
 }
 
-/// Rays by kind of one scene at its standard size: 513 x 513 camera rays through the corners of
-/// pixels, depth 5, none left out for being faint.
+/// The counts of one scene at its standard size: 513 x 513 camera rays through the corners of
+/// pixels, depth 5, without leaving out faint rays.
 struct PublishedCounts {
   std::string_view scene;  ///< the scene's name with its parameters: `balls:n=4`
   std::uint64_t eye_hits;
   std::uint64_t reflected;
-  std::uint64_t refracted;  ///< rays that are reflected totally in place of it included
+  std::uint64_t refracted;  ///< including totally reflected rays
   std::uint64_t shadow;
 };
 
 /// The seven scenes of "Database Analysis" in the README of SPD 3.14 (Haines, "A proposal for
-/// standard graphics environments", IEEE CG&A 7(11), 1987; realtimerendering.com/resources/SPD).
-/// He expects other ray tracers within about 10%; ours is up to 0.5% above, for his camera rays
-/// seem to be spread over one pixel more. Of `shells`, `jacks`, `lattice` and `sombrero` no counts
-/// are published.
+/// standard graphics environments", IEEE CG&A 7(11), 1987; realtimerendering.com/resources/SPD). He
+/// expects other ray tracers to be within about 10%; ours is up to 0.5% above, because his camera
+/// rays seem to be spread over one more pixel. No counts are published for `shells`, `jacks`,
+/// `lattice` and `sombrero`.
 inline constexpr std::array<PublishedCounts, 7> kPublishedSpdCounts{{
     {"balls:n=4", 263'169, 175'095, 0, 954'368},
     {"gears:n=4", 245'086, 304'643, 207'564, 2'246'955},
@@ -83,7 +83,7 @@ inline constexpr std::array<PublishedCounts, 7> kPublishedSpdCounts{{
     {"tree:n=11", 169'836, 0, 0, 1'097'419},
 }};
 
-/// Of the scene of that name; nullptr where none are published.
+/// Returns the counts for the scene of that name; nullptr if none are published.
 inline const PublishedCounts* find_published_counts(std::string_view scene) {
   const auto* const found = std::ranges::find(kPublishedSpdCounts, scene, &PublishedCounts::scene);
   return found == kPublishedSpdCounts.end() ? nullptr : found;

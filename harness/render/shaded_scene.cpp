@@ -25,7 +25,7 @@ std::vector<dvec3> colors_of_lights(const scenes::Scene& scene) {
   return colors;
 }
 
-/// Of a display color.
+/// Returns the matte color for a display color.
 dvec3 matte(const scenes::Surface& surface, const dvec3& color) {
   const dvec3 display = glm::clamp(color, 0.0, 1.0);
   return double{surface.diffuse} * dvec3(linear_from_srgb(glm::vec3(display)));

@@ -1,5 +1,5 @@
 #pragma once
-// What shading needs of a scene, computed once for all its pictures.
+// Data of a scene for shading, computed once for all its pictures.
 
 #include <cstdint>
 #include <optional>
@@ -14,18 +14,18 @@
 
 namespace beambench::render {
 
-/// The scene must outlive it.
+/// The scene must outlive this object.
 class ShadedScene {
  public:
   explicit ShadedScene(const scenes::Scene& scene);
 
   const scenes::Scene& scene() const { return *scene_; }
-  /// Linear light. A light without a color of its own (white) has 1 / sqrt(lights).
+  /// Returns linear light. A light without its own color (white) has 1 / sqrt(lights).
   const std::vector<glm::dvec3>& light_colors() const { return light_colors_; }
   const glm::dvec3& background() const { return background_; }
   const rays::NormalTable& normals() const { return normals_; }
   const rays::MirrorTable& mirrors() const { return mirrors_; }
-  /// What a surface's diffuse factor leaves of its color at a point of the scene, in linear light.
+  /// Returns a surface's color times its diffuse factor at a point of the scene, in linear light.
   glm::dvec3 matte_at(std::uint32_t surface, const glm::dvec3& point) const;
 
  private:
@@ -34,7 +34,7 @@ class ShadedScene {
   std::vector<glm::dvec3> light_colors_;
   rays::NormalTable normals_;
   rays::MirrorTable mirrors_;
-  std::vector<std::optional<glm::dvec3>> matte_;  ///< by surface; nothing where it has a texture
+  std::vector<std::optional<glm::dvec3>> matte_;  ///< by surface; nothing if it has a texture
   glm::dvec3 background_;
 };
 

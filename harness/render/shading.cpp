@@ -27,7 +27,7 @@ glm::vec3 display_to_linear(const glm::vec3& color) {
   return linear_from_srgb(glm::clamp(color, 0.0F, 1.0F));
 }
 
-/// What the lights send to the camera, in parts of white.
+/// The light reflected to the camera, in parts of white.
 struct Reflected {
   glm::dvec3 matte{0.0};
   glm::dvec3 glossy{0.0};
@@ -64,7 +64,7 @@ glm::vec3 normal_color(const scenes::Scene& scene, const accel::Ray& ray, const 
   return linear_from_srgb(glm::vec3(rays::geometric_normal(scene, ray, hit) * 0.5 + 0.5));
 }
 
-/// Light gray at the nearest hit of the image, dark gray at the farthest; black is a miss.
+/// Returns light gray at the nearest hit of the image, dark gray at the farthest; black for a miss.
 HitColor depth_color(const accel::HitBuffer& hits) {
   float nearest = accel::kInfinity;
   float farthest = 0.0F;

@@ -1,5 +1,5 @@
 #pragma once
-// From the hits of an image to a picture, and the laws of reflection that pictures share.
+// Turns the hits of an image into a picture, and defines the common laws of reflection.
 
 #include <algorithm>
 #include <cmath>
@@ -18,21 +18,22 @@
 
 namespace beambench::render {
 
-/// Phong's (CACM 18(6), 1975): how near the eye is to where a mirror would send the light, of which
-/// `cosine` is the angle's.
+/// Returns Phong's highlight (CACM 18(6), 1975): how close the eye is to the mirror direction of
+/// the light; `cosine` is that of the angle.
 inline double phong(double cosine, double shine) {
   return cosine > 0.0 ? std::pow(cosine, std::max(shine, 1.0)) : 0.0;
 }
-/// The same from directions, which all have unit length.
+/// Returns the same from directions, which all have unit length.
 inline double phong(const glm::dvec3& normal, const glm::dvec3& to_light, const glm::dvec3& to_eye,
                     double shine) {
   return phong(glm::dot(accel::mirrored(-to_light, normal), to_eye), shine);
 }
 
-/// Where a ray goes behind a surface, by Snell's law, or nothing where all of it is reflected.
-/// `incoming` and `normal` have unit length, the normal points to where the ray comes from; `ratio`
-/// is the index of refraction before the surface over that behind it. The result has unit length
-/// (Heckbert, "Writing a ray tracer", in Glassner, An Introduction to Ray Tracing, 1989).
+/// Returns the direction of a ray behind a surface, by Snell's law; nothing at total reflection.
+/// `incoming` and `normal` have unit length, and the normal points to the side from which the ray
+/// comes; `ratio` is the index of refraction in front of the surface over that behind it. The
+/// result has unit length (Heckbert, "Writing a ray tracer", in Glassner, An Introduction to Ray
+/// Tracing, 1989).
 inline std::optional<glm::dvec3> refracted(const glm::dvec3& incoming, const glm::dvec3& normal,
                                            double ratio) {
   const double cosine = -glm::dot(incoming, normal);
@@ -41,20 +42,20 @@ inline std::optional<glm::dvec3> refracted(const glm::dvec3& incoming, const glm
   return glm::normalize(ratio * incoming + (ratio * cosine - std::sqrt(behind)) * normal);
 }
 
-/// Linear light from a hit: Lambert and Phong under the scene's lights and a headlight at the
-/// camera, without shadows. The headlight leaves no side of a thing black. The scene's colors are
-/// display values, as they were in 1987; they are decoded to linear light first.
+/// Returns linear light for a hit: Lambert and Phong under the scene's lights and a headlight at
+/// the camera, without shadows. The headlight keeps all visible sides from being black. The scene's
+/// colors are display values, as they were in 1987; they are first decoded to linear light.
 glm::vec3 preview_color(const scenes::Scene& scene, const accel::Ray& ray, const accel::Hit& hit);
 
-/// Linear light of a miss.
+/// Returns linear light for a miss.
 glm::vec3 background_color(const scenes::Scene& scene);
 
-/// What a picture shows of a hit.
+/// The quantity shown for a hit.
 enum class Shading {
   kPreview,  ///< surface colors under the scene's lights and a headlight, without shadows
   kNormals,  ///< the surface's direction: x, y, z as red, green, blue
   kId,       ///< a color for each primitive
-  kDepth,    ///< the nearer, the brighter
+  kDepth,    ///< nearer is brighter
   kWhitted   ///< the whole ray tracer (`Whitted`), which needs more than hits
 };
 
@@ -63,7 +64,7 @@ std::span<const std::string_view> shading_names();
 /// Throws InputError listing the valid names.
 Shading parse_shading(std::string_view name);
 
-/// Each pixel is the mean of its samples. `hits` are the answers to `rays`. Throws
+/// Computes each pixel as the mean of its samples. `hits` are the results for `rays`. Throws
 /// std::invalid_argument for kWhitted.
 Image shade(const scenes::Scene& scene, const accel::PrimaryRays& rays,
             const accel::HitBuffer& hits, Shading shading);

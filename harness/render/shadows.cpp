@@ -23,14 +23,14 @@ constexpr std::array<std::string_view, 3> kMethodNames{"rays", "cache", "light-b
 
 using glm::dvec3;
 
-/// A box as the light sees it.
+/// A box as seen from the light.
 struct LitBox {
   dvec3 low;
   dvec3 high;
 };
 
-/// Wide enough for all that rounding does: a hit may lie beside its primitive, and a shadow ray,
-/// whose numbers are floats, beside the straight line to the light.
+/// Returns a box widened for all effects of rounding: a hit may lie beside its primitive, and a
+/// shadow ray, whose numbers are floats, beside the straight line to the light.
 LitBox lit_box(const scenes::Scene& scene, scenes::PrimitiveId id, const dvec3& light) {
   const double size = scene.bounds.largest_coordinate() + glm::length(light);
   const double slack = accel::overlap_tolerance(scene) + 0x1p-20 * size;
@@ -47,10 +47,11 @@ struct Range {
   double high;
 };
 
-/// The smallest magnitude in a range.
+/// Returns the smallest magnitude in a range.
 double min_magnitude(const Range& range) { return std::max({range.low, -range.high, 0.0}); }
 
-/// What a range of one coordinate, divided by depths, covers of a face, which is [-1, 1].
+/// Returns the part of a face, which is [-1, 1], covered by a range of one coordinate divided by
+/// depths.
 Range projected(const Range& range, const Range& depth) {
   if (depth.low <= 0.0) return {-1.0, 1.0};  // the light is in the box's shadow on this face
   return {std::max(range.low / (range.low < 0.0 ? depth.low : depth.high), -1.0),
@@ -68,7 +69,7 @@ std::size_t cell_index(int face, int u, int v, int cells) {
          static_cast<std::size_t>(u);
 }
 
-/// Calls `visit(cell)` for all cells through which a box may be seen.
+/// Calls `visit(cell)` for all cells through which a box may be visible.
 template <class Visit>
 void visit_cells(const LitBox& box, int cells, Visit visit) {
   for (int face = 0; face < 6; ++face) {
@@ -78,7 +79,7 @@ void visit_cells(const LitBox& box, int cells, Visit visit) {
     if (along.high <= 0.0) continue;
     const Range u_range{box.low[(axis + 1) % 3], box.high[(axis + 1) % 3]};
     const Range v_range{box.low[(axis + 2) % 3], box.high[(axis + 2) % 3]};
-    // Only what is deeper than it is far aside is seen through this face.
+    // Only parts whose depth exceeds their lateral distance are seen through this face.
     const Range depth{std::max({along.low, min_magnitude(u_range), min_magnitude(v_range)}),
                       along.high};
     if (depth.low > depth.high) continue;
@@ -240,7 +241,7 @@ double Shadows::asked_by_cache(const accel::Ray& to_light, scenes::PrimitiveId& 
     ++census.shadow_queries;
     if (!structure_->any_hit(to_light, nullptr)) return 1.0;
   }
-  return followed(to_light, last, census);  // any_hit does not return which primitive it was
+  return followed(to_light, last, census);  // any_hit does not return which primitive was hit
 }
 
 double Shadows::asked_by_buffer(const accel::Ray& to_light, std::size_t light,
@@ -254,9 +255,9 @@ double Shadows::asked_by_buffer(const accel::Ray& to_light, std::size_t light,
   return found == LightBuffer::Visibility::kHidden ? 0.0 : 1.0;
 }
 
-/// Goes from surface to surface, each time from a little behind it, as all rays begin a little
-/// beside surfaces. With an any-hit query beforehand, pictures of `gears`, `mount` and `finishes`
-/// took 1.01 to 1.25 times as long.
+/// Follows the ray from surface to surface, each time from slightly behind it, as all rays begin
+/// slightly beside surfaces. With an any-hit query beforehand, pictures of `gears`, `mount` and
+/// `finishes` took 1.01 to 1.25 times as long.
 std::vector<double> Shadows::followed(const accel::RayBatch& to_light, std::size_t light,
                                       RayCensus& census) const {
   std::vector<accel::Ray> rays(to_light.rays.begin(), to_light.rays.end());
@@ -287,7 +288,7 @@ std::vector<double> Shadows::followed(const accel::RayBatch& to_light, std::size
   return parts;
 }
 
-/// One ray; an opaque surface at its end is the `blocker`.
+/// Follows one ray; an opaque surface at its end becomes the `blocker`.
 double Shadows::followed(accel::Ray ray, scenes::PrimitiveId& blocker, RayCensus& census) const {
   double part = 1.0;
   while (ray.t_min <= ray.t_max) {
@@ -303,7 +304,8 @@ double Shadows::followed(accel::Ray ray, scenes::PrimitiveId& blocker, RayCensus
   return part;
 }
 
-/// The transmittance of what a ray has met, 0 where it is opaque. The ray then begins behind it.
+/// Returns the transmittance of the surface that a ray has met, 0 if opaque. The ray then begins
+/// behind it.
 float Shadows::passed_through(accel::Ray& ray, const accel::Hit& hit) const {
   check_.require(ray, hit);
   const float through = std::max(transmittance_of(*scene_, hit.primitive), 0.0F);

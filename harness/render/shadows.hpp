@@ -1,5 +1,5 @@
 #pragma once
-// How far a picture follows light, and its shadow rays.
+// The depth to which a picture follows light, and its shadow rays.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,12 +18,12 @@
 
 namespace beambench::render {
 
-/// How the visibility of a light is decided. All give the same picture, unless something opaque
-/// lies no farther behind glass than rays begin beside surfaces (`surface_lift`).
+/// Methods of deciding the visibility of a light. All give the same picture, unless something
+/// opaque lies no farther behind glass than rays begin beside surfaces (`surface_lift`).
 enum class ShadowMethod {
-  kRays,        ///< one any-hit query a light
+  kRays,        ///< one any-hit query per light
   kCache,       ///< first the opaque primitive that hid the light last (OORT; `ShadowCache`)
-  kLightBuffer  ///< what each direction from the light holds is listed beforehand (`LightBuffer`)
+  kLightBuffer  ///< primitives are listed in advance by direction from the light (`LightBuffer`)
 };
 
 /// The names after --shadows, in the order of `ShadowMethod`.
@@ -32,37 +32,38 @@ std::span<const std::string_view> shadow_method_names();
 ShadowMethod parse_shadow_method(std::string_view name);
 
 struct WhittedOptions {
-  /// Maximum ray depth, the primary ray included: 5 in Haines's databases (SPD).
+  /// Maximum ray depth, including the primary ray: 5 in Haines's databases (SPD).
   int max_depth = 5;
   /// Adaptive depth control (Hall and Greenberg, "A testbed for realistic image synthesis", IEEE
-  /// CG&A 3(8), 1983): a ray whose part in its pixel's color is less than this is not traced. 0
-  /// traces all.
+  /// CG&A 3(8), 1983): trace a secondary ray only if it contributes at least this much to its
+  /// pixel. 0 traces all.
   double min_weight = 0.0;
   ShadowMethod shadows = ShadowMethod::kRays;
-  /// Glass spawns a mirror ray even where its specular factor is 0, so that the picture takes
-  /// nothing from it: rule 8 of Haines's databases (SPD), whose counts include these rays.
+  /// Spawn a mirror ray at glass even if its specular factor is 0, so that it does not contribute
+  /// to the picture: rule 8 of Haines's databases (SPD), whose counts include these rays.
   bool glass_always_mirrors = false;
 };
 
-/// Of a whole picture as a kind of rays: `whitted:depth=3,shadows=cache`.
+/// Returns the options of a whole picture as a kind of rays: `whitted:depth=3,shadows=cache`.
 WhittedOptions whitted_options(const rays::RayChoice& choice);
 
 /// The light buffer (Haines and Greenberg, "The light buffer: a shadow-testing accelerator", IEEE
 /// CG&A 6(9), 1986): the faces of a cube about a light are divided into cells, and each cell lists
-/// the primitives that may be seen through it, the nearest first. A shadow ray's cell holds all
-/// primitives that it can meet, so the result is that of a search of all primitives.
+/// the primitives that may be visible through it, the nearest first. A shadow ray's cell contains
+/// all primitives that it can meet, so the result is the same as for all primitives.
 class LightBuffer {
  public:
-  /// `cells` along an edge of the cube, at least 1. The scene must outlive the buffer.
+  /// `cells` is the number along an edge of the cube, at least 1. The scene must outlive the
+  /// buffer.
   LightBuffer(const scenes::Scene& scene, const glm::vec3& light, int cells);
 
   enum class Visibility {
-    kFree,         ///< nothing before the light
+    kFree,         ///< nothing in front of the light
     kHidden,       ///< something opaque
-    kTransparent,  ///< something transparent, nothing opaque: what comes through must be followed
+    kTransparent,  ///< something transparent, nothing opaque: the remaining light must be followed
   };
-  /// What lies on a shadow ray: `to_light` begins at a point and has the light at t = 1. `tests`
-  /// grows by the ray-primitive tests made.
+  /// Finds what lies on a shadow ray: `to_light` begins at a point and has the light at t = 1. Adds
+  /// the number of ray-primitive tests to `tests`.
   Visibility visibility(const accel::Ray& to_light, std::uint64_t& tests) const;
 
   std::size_t memory_bytes() const;
@@ -77,13 +78,13 @@ class LightBuffer {
   const scenes::Scene* scene_;
   glm::dvec3 light_;
   int cells_;
-  std::vector<std::uint32_t> first_;  ///< by cell, and one more: its first entry
+  std::vector<std::uint32_t> first_;  ///< by cell: its first entry; and the end
   std::vector<Entry> entries_;
 };
 
-/// The opaque primitive that hid each light last, for each depth of rays (as the ray tracer OORT
-/// has it; Wilt, Object-Oriented Ray Tracing in C++, 1994): neighboring points are mostly hidden
-/// by the same one.
+/// The opaque primitive that last hid each light, for each depth of rays (as in the ray tracer
+/// OORT; Wilt, Object-Oriented Ray Tracing in C++, 1994): neighboring points are mostly hidden by
+/// the same one.
 struct ShadowCache {
   ShadowCache(std::size_t lights, int depths)
       : last(lights * static_cast<std::size_t>(depths), scenes::kNoPrimitive) {}
@@ -91,23 +92,24 @@ struct ShadowCache {
   std::vector<scenes::PrimitiveId> last;  ///< by depth, then by light
 };
 
-/// Shadow rays over a structure. Queries are const and safe from several threads, each with a cache
-/// of its own.
+/// Shadow rays over a structure. Queries are const and safe from several threads, each with its own
+/// cache.
 class Shadows {
  public:
-  /// Builds light buffers where the options require them. Scene and structure must outlive this.
+  /// Builds light buffers if the options require them. Scene and structure must outlive this
+  /// object.
   Shadows(const scenes::Scene& scene, const accel::Accelerator& structure,
           const WhittedOptions& options, rays::HitCheck check);
 
-  /// The parts of a light that come through: 0 behind an opaque primitive, the product of the
-  /// transmittances of transparent surfaces before it, 1 where nothing is. Each ray of `to_light`
-  /// begins at a point, `depth` rays from the camera (the camera ray is 1), and has the light at
-  /// t = 1; the cache sees them in their order. The rays need no marks: those that a batch holds
-  /// are a pencil. Throws InvalidHit.
+  /// Returns the fractions of a light that come through: 0 behind an opaque primitive, the product
+  /// of the transmittances of transparent surfaces in front of it, 1 if there is nothing. Each ray
+  /// of `to_light` begins at a point, `depth` rays from the camera (the camera ray is 1), and has
+  /// the light at t = 1; the cache processes them in order. The rays need no marks, because the
+  /// rays of a batch are a pencil. Throws InvalidHit.
   std::vector<double> transmitted(const accel::RayBatch& to_light, std::size_t light, int depth,
                                   ShadowCache& cache, RayCensus& census) const;
 
-  /// Of light buffers; 0 without.
+  /// Returns the bytes of light buffers; 0 without.
   std::size_t memory_bytes() const;
 
  private:
@@ -120,7 +122,7 @@ class Shadows {
                                RayCensus& census) const;
   double followed(accel::Ray ray, scenes::PrimitiveId& blocker, RayCensus& census) const;
   float passed_through(accel::Ray& ray, const accel::Hit& hit) const;
-  /// Of all rays of a batch, if there are enough of them.
+  /// Returns a pencil of all rays of a batch, if there are enough of them.
   std::vector<accel::Pencil> pencil(std::size_t light, std::size_t rays) const;
 
   const scenes::Scene* scene_;
@@ -128,7 +130,7 @@ class Shadows {
   rays::HitCheck check_;
   ShadowMethod method_;
   bool all_opaque_;
-  std::vector<LightBuffer> buffers_;  ///< one a light, or none
+  std::vector<LightBuffer> buffers_;  ///< one per light, or empty
 };
 
 }  // namespace beambench::render

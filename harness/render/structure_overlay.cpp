@@ -28,7 +28,8 @@ std::vector<ParameterInfo> parameters_of(Overlay overlay) {
   return {integer_parameter("light", 1, 1, kMaxLights, "whose shadow rays; the first is 1")};
 }
 
-/// Whether a structure has what the overlay draws, tried over a scene where it would show it.
+/// Returns whether a structure has what the overlay draws, by a trial over a scene that would show
+/// it.
 bool shows(const accel::StructureInfo& structure, Overlay overlay) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=1");
   const accel::PrimaryRays rays(scene.cameras.front(), 8, 8, 1);
@@ -39,7 +40,7 @@ bool shows(const accel::StructureInfo& structure, Overlay overlay) {
       return inspector.beams(rays).has_value() || !inspector.places(rays).empty();
     case Overlay::kCells: {
       accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
-      accelerator->closest_hits(rays, hits, {});  // cells may be made where rays pass
+      accelerator->closest_hits(rays, hits, {});  // cells may be made on demand
       return !inspector.occupied_cells().empty();
     }
     case Overlay::kPencils: {
@@ -63,8 +64,8 @@ std::vector<LegendEntry> draw_beams(Image& picture, const accel::Accelerator& ac
   return overlay_tiles(picture, {places, samples, rays.samples()});
 }
 
-/// The pencil of one light among the shadow rays of a picture. It has none where no hit faces the
-/// light.
+/// Draws the pencil of one light among the shadow rays of a picture. It is empty if no hit faces
+/// the light.
 std::vector<LegendEntry> draw_pencil(Image& picture, const accel::Accelerator& accelerator,
                                      const scenes::Scene& scene, const accel::PrimaryRays& rays,
                                      const scenes::Light& light) {

@@ -1,5 +1,5 @@
 #pragma once
-// What a structure is made of, or how it traces, drawn over a picture: its beams or cells.
+// Draws the parts of a structure, or how it traces, over a picture: its beams or cells.
 
 #include <span>
 #include <string_view>
@@ -23,19 +23,19 @@ std::span<const std::string_view> overlay_names();
 
 struct OverlayChoice {
   Overlay overlay;
-  std::size_t light = 1;  ///< whose pencil is drawn; the scene's first is 1
+  std::size_t light = 1;  ///< the light whose pencil is drawn; the scene's first is 1
 };
 
-/// `beams`, `pencils:light=2`. Throws InputError listing the valid names or parameters, or the
-/// structures that have such an overlay if this one does not. That is found by a trial over a small
-/// scene, not by the name.
+/// Parses `beams` or `pencils:light=2`. Throws InputError listing the valid names or parameters, or
+/// the structures that have such an overlay if this one does not. That is determined by a trial
+/// over a small scene, not by the name.
 OverlayChoice parse_overlay(std::string_view text, const accel::StructureInfo& structure);
 
-/// Throws InputError where the scene has not as many lights.
+/// Throws InputError if the scene does not have that light.
 void require_light(const OverlayChoice& choice, const scenes::Scene& scene);
 
-/// Draws over the picture of an image, once it has been traced: a grid that is filled by rays
-/// shows what they filled. Returns the legend.
+/// Draws over the picture of an image that has been traced: a grid that is filled by rays shows the
+/// cells that they filled. Returns the legend.
 std::vector<LegendEntry> draw_overlay(const OverlayChoice& choice, Image& picture,
                                       const accel::Accelerator& accelerator,
                                       const scenes::Scene& scene, const accel::PrimaryRays& rays);

@@ -18,7 +18,7 @@ constexpr std::uint64_t kHashX = 0x9E3779B97F4A7C15ULL;
 constexpr std::uint64_t kHashY = 0xC2B2AE3D27D4EB4FULL;
 constexpr std::uint64_t kHashZ = 0x165667B19E3779F9ULL;
 
-/// Mixes three coordinates, which were multiplied before (multiplications and shifts as in
+/// Mixes three coordinates, which have already been multiplied (multiplications and shifts as in
 /// MurmurHash3's finalizer).
 std::uint64_t mixed(std::uint64_t bits) {
   bits ^= bits >> 33U;
@@ -28,7 +28,7 @@ std::uint64_t mixed(std::uint64_t bits) {
   return bits ^ (bits >> 33U);
 }
 
-/// Toward the middles of a cube's edges, from its center.
+/// Gradients toward the middles of a cube's edges, from its center.
 constexpr std::array<glm::dvec3, 12> kGradients{{{1, 1, 0},
                                                  {-1, 1, 0},
                                                  {1, -1, 0},
@@ -42,15 +42,16 @@ constexpr std::array<glm::dvec3, 12> kGradients{{{1, 1, 0},
                                                  {0, 1, -1},
                                                  {0, -1, -1}}};
 
-/// 6 x^5 - 15 x^4 + 10 x^3: no step in the second derivative.
+/// Returns 6 x^5 - 15 x^4 + 10 x^3, which has a continuous second derivative.
 double faded(double x) { return x * x * x * (x * (x * 6.0 - 15.0) + 10.0); }
 
 using glm::dvec3;
 
-/// How many times the largest feature of a texture fits into the scene's longest side.
+/// The ratio of the scene's longest side to the largest feature of a texture.
 constexpr double kFeatures = 12.0;
 
-/// The sum over octaves of what `of` makes of noise of twice the frequency and half the size.
+/// Returns the sum over octaves of `of` applied to noise with twice the frequency and half the
+/// amplitude.
 template <class Of>
 double over_octaves(const dvec3& point, int octaves, Of of) {
   double sum = 0.0;
@@ -67,7 +68,7 @@ double smooth_step(double low, double high, double x) {
   return t * t * (3.0 - 2.0 * t);
 }
 
-/// Layers bent by turbulence, thin dark veins between them (Perlin 1985).
+/// Layers bent by turbulence, with thin dark veins between them (Perlin 1985).
 dvec3 marble(const dvec3& p, const dvec3& stone, const dvec3& vein) {
   const double layer = std::sin(2.0 * p.x + 1.0 * p.y + 6.0 * turbulence(p, 5));
   const double vein_share = std::pow(0.5 + 0.5 * layer, 6.0);
@@ -75,7 +76,7 @@ dvec3 marble(const dvec3& p, const dvec3& stone, const dvec3& vein) {
   return glm::clamp(glm::mix(stone * (1.0 + cloud), vein, vein_share), 0.0, 1.0);
 }
 
-/// Grains of two stones in a third.
+/// Grains of two stones in a third one.
 dvec3 granite(const dvec3& p, const dvec3& mean) {
   const double dark = smooth_step(0.05, 0.25, fractal_noise(6.0 * p, 3));
   const double light = smooth_step(0.1, 0.3, fractal_noise(5.0 * p + dvec3(17.0), 3));
@@ -84,7 +85,7 @@ dvec3 granite(const dvec3& p, const dvec3& mean) {
   return color * (1.0 + 0.15 * gradient_noise(14.0 * p));
 }
 
-/// Rings about an axis that leans, and grain along it.
+/// Rings about a leaning axis, and grain along it.
 dvec3 wood(const dvec3& p, const dvec3& early, const dvec3& late) {
   const dvec3 bent =
       p + 0.25 * dvec3(fractal_noise(0.5 * p, 2), fractal_noise(0.5 * p + 9.0, 2), 0.0);

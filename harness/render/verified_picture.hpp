@@ -1,5 +1,5 @@
 #pragma once
-// The verification of a whole picture: it is right when every answer is that it depends on.
+// Verifies a whole picture: it is correct if every result that it depends on is.
 
 #include <array>
 #include <cstddef>
@@ -22,7 +22,7 @@
 
 namespace beambench::render {
 
-/// Rays and their results, each kind of query in its order.
+/// Rays and their results, each kind of query in order.
 struct AskedRays {
   std::vector<accel::Ray> closest;
   std::vector<std::optional<accel::Hit>> hits;  ///< of `closest`
@@ -30,10 +30,10 @@ struct AskedRays {
   std::vector<std::uint8_t> any_hits;  ///< of `any`
 };
 
-/// Keeps all rays and results of a structure. Not for use from several threads.
+/// Keeps all rays and results of a structure. Not thread-safe.
 class RecordedQueries : public accel::ForwardingAccelerator {
  public:
-  /// Both must outlive this.
+  /// Both arguments must outlive this object.
   RecordedQueries(const accel::Accelerator& structure, AskedRays& asked)
       : ForwardingAccelerator(structure), asked_(&asked) {}
 
@@ -46,11 +46,11 @@ class RecordedQueries : public accel::ForwardingAccelerator {
   AskedRays* asked_;
 };
 
-/// Returns recorded results to the same queries in the same order: what is left of a time is all
-/// that is not the structure's. Not for use from several threads.
+/// Returns recorded results to the same queries in the same order, so that the remaining time is
+/// not the structure's. Not thread-safe.
 class ReplayedResults : public accel::Accelerator {
  public:
-  /// `asked` must outlive this.
+  /// `asked` must outlive this object.
   explicit ReplayedResults(const AskedRays& asked)
       : hit_(asked.hits.data()), any_hit_(asked.any_hits.data()) {}
 
@@ -65,10 +65,10 @@ class ReplayedResults : public accel::Accelerator {
   mutable const std::uint8_t* any_hit_;
 };
 
-/// The oracle: its hits rounded to float.
+/// The oracle, with its hits rounded to float.
 class OracleQueries : public accel::TraversalAccelerator<OracleQueries> {
  public:
-  /// The oracle must outlive this.
+  /// The oracle must outlive this object.
   explicit OracleQueries(const accel::oracle::Oracle& oracle) : oracle_(&oracle) {}
 
   accel::Statistics statistics() const override { return {}; }
@@ -92,7 +92,7 @@ using ByFollowingRays = std::array<Value, kFollowingRays>;
 inline constexpr ByFollowingRays<std::string_view> kFollowingRayNames{"reflected", "refracted",
                                                                       "shadow"};
 
-/// A picture with all that a structure was asked for it.
+/// A picture with all queries that were made for it.
 struct RecordedPicture {
   accel::HitBuffer primary;  ///< the hits of camera rays
   ByFollowingRays<AskedRays> asked;
@@ -100,39 +100,39 @@ struct RecordedPicture {
   RayCensus census;
 };
 
-/// Draws the picture that the hits `primary` of `rays` begin, on this thread alone; some 50 bytes a
-/// ray. Throws InvalidHit.
+/// Draws the picture that continues from the hits `primary` of `rays`, only on this thread; takes
+/// about 50 bytes per ray. Throws InvalidHit.
 RecordedPicture record_picture(const std::shared_ptr<const ShadedScene>& scene,
                                const accel::Accelerator& structure, const accel::PrimaryRays& rays,
                                accel::HitBuffer primary, const WhittedOptions& options,
                                rays::HitCheck check);
 
-/// Throws UnsupportedError where a structure does not take all that a picture is made of: an image,
-/// lists of rays and single rays.
+/// Throws UnsupportedError if a structure does not support everything that a picture needs: an
+/// image, lists of rays and single rays.
 void require_support(const accel::StructureChoice& choice);
 
-/// The rays of one kind, and how they were answered.
+/// The rays of one kind, and the verification of their results.
 struct VerifiedRays {
   std::string_view kind;  ///< "camera", or one of kFollowingRayNames
   rays::TraceInput input;
   verify::DiffReport report;
 };
 
-/// Verifies every ray of a picture, each kind (and query) as a list of its own; first the camera
-/// rays, whose true hits are `primary`. Kinds without rays are left out.
+/// Verifies every ray of a picture, each kind (and query) as a separate list; first the camera
+/// rays, whose correct hits are `primary`. Kinds without rays are left out.
 std::vector<VerifiedRays> verify_recorded_picture(const verify::ReferenceHits& primary,
                                                   RecordedPicture picture,
                                                   accel::Conformance conformance);
 
-/// The disputed rays of the kinds whose verdict is bad, described.
+/// Describes the disputed rays of the kinds with a bad verdict.
 std::vector<std::string> described_examples(const scenes::Scene& scene,
                                             const std::vector<VerifiedRays>& verified);
 
-/// All of them together: counts added up, the worst verdict, no examples.
+/// Combines all reports: counts are added up, and the worst verdict is kept, without examples.
 verify::DiffReport sum_of(const std::vector<VerifiedRays>& verified);
 
-/// As `verify_scene`, for `whitted` rays. Bit-exact structures must draw the same picture;
-/// `different_bits` counts pixels.
+/// Counterpart of `verify_scene` for `whitted` rays. Bit-exact structures must draw the same
+/// picture; `different_bits` counts pixels.
 std::vector<verify::VerifiedCell> verify_picture(const scenes::Scene& scene,
                                                  const rays::ImageOfRays& image,
                                                  const rays::RayChoice& choice,

@@ -20,17 +20,17 @@ using glm::dvec3;
 
 constexpr double kAmbient = 0.06;  // of white light, from everywhere
 
-/// Rays of a wave that are shaded together: what is computed of them stays in the caches.
+/// The number of rays of a wave that are shaded together, so that their data stay in the caches.
 constexpr std::size_t kPart = 4096;
 
-/// A direction on the outer side of the surface: a smooth polygon's shading normal may send it
-/// through the polygon.
+/// Returns a mirror direction on the outer side of the surface, which a smooth polygon's shading
+/// normal may miss.
 dvec3 mirrored_outward(const dvec3& incoming, const dvec3& shading, const dvec3& geometric) {
   const dvec3 direction = accel::mirrored(incoming, shading);
   return glm::dot(direction, geometric) > 0.0 ? direction : accel::mirrored(incoming, geometric);
 }
 
-/// The same for the inner side.
+/// Returns a refracted direction on the inner side, likewise.
 std::optional<dvec3> refracted_inward(const dvec3& incoming, const dvec3& shading,
                                       const dvec3& geometric, double ratio) {
   const auto direction = refracted(incoming, shading, ratio);
@@ -38,7 +38,7 @@ std::optional<dvec3> refracted_inward(const dvec3& incoming, const dvec3& shadin
   return outward ? refracted(incoming, geometric, ratio) : direction;
 }
 
-/// In place: copying a ray that was just made would wait until it is in memory.
+/// Built in place: copying a ray that was just made would wait until it is in memory.
 accel::Ray& add_ray(std::vector<accel::Ray>& rays, const dvec3& origin, const dvec3& direction) {
   accel::Ray& ray = rays.emplace_back();
   ray.origin = glm::vec3(origin);
@@ -46,7 +46,7 @@ accel::Ray& add_ray(std::vector<accel::Ray>& rays, const dvec3& origin, const dv
   return ray;
 }
 
-/// The hits of a batch of rays, counted.
+/// Traces a batch of rays and counts the hits.
 accel::HitBuffer traced(const accel::Accelerator& structure, const accel::RayBatch& batch,
                         std::uint64_t& count) {
   accel::HitBuffer hits(static_cast<int>(batch.rays.size()), 1, 1);
@@ -55,7 +55,7 @@ accel::HitBuffer traced(const accel::Accelerator& structure, const accel::RayBat
   return hits;
 }
 
-/// Of each ray the next of the mirror rays or of the glass rays.
+/// Takes, for each ray, the next of the mirror rays or of the glass rays.
 template <class Value>
 std::vector<Value> merged(std::vector<Value> mirrors, const std::vector<Value>& glasses,
                           const std::vector<bool>& is_glass) {
@@ -70,14 +70,14 @@ std::vector<Value> merged(std::vector<Value> mirrors, const std::vector<Value>& 
 
 }  // namespace
 
-/// How a ray came about.
+/// The history of a ray.
 struct Whitted::Path {
-  double weight;  ///< the largest part that it can have in the pixel's color
-  EyeIndex eye;   ///< among those of its wave
-  bool inside;    ///< in something transparent
+  double weight;  ///< its maximum contribution to the pixel's color
+  EyeIndex eye;   ///< among the eyes of its wave
+  bool inside;    ///< inside something transparent
 };
 
-/// A part of a wave: rays of one depth, and what they found.
+/// A part of a wave: rays of one depth, and their hits.
 struct Whitted::Part {
   std::span<const accel::Ray> rays;
   std::span<const std::uint32_t> samples;
@@ -97,7 +97,7 @@ struct Whitted::Part {
   }
 };
 
-/// The rays of a part that hit: where, what, and how they came about.
+/// The rays of a part that hit: where, what, and their histories.
 struct Whitted::Found {
   explicit Found(std::size_t count)
       : places(count), ray(count), sample(count), primitive(count), surface(count), path(count) {}
@@ -112,7 +112,8 @@ struct Whitted::Found {
   std::vector<Path> path;
 };
 
-/// The next wave, in the order of the places that it comes from: of each the mirror ray first.
+/// The next wave, in the order of the places from which it comes: at each place, first the mirror
+/// ray.
 struct Whitted::Spawned {
   struct Origin {
     std::size_t place;
@@ -150,7 +151,7 @@ void Whitted::trace_light(const CameraRays& camera, std::span<dvec3> colors,
              progress);
 }
 
-/// Part by part, each with all that follows from it: what waits is a part of each depth.
+/// Traces part by part, each with all rays that follow from it: at each depth, one part is waiting.
 void Whitted::trace_wave(const Part& wave, int depth, std::span<dvec3> colors,
                          Progress& progress) const {
   for (std::size_t first = 0; first < wave.size(); first += kPart) {
@@ -207,7 +208,7 @@ Whitted::Found Whitted::find_places(const Part& part) const {
   return found;
 }
 
-/// What the lights send to the camera from each place.
+/// Returns the light reflected to the camera from each place.
 std::vector<dvec3> Whitted::lit(const Found& found, const accel::PrimaryRays& image, int depth,
                                 Progress& progress) const {
   std::vector<dvec3> matte(found.size());
@@ -222,7 +223,7 @@ std::vector<dvec3> Whitted::lit(const Found& found, const accel::PrimaryRays& im
   return sums;
 }
 
-/// Lights behind the surface get no shadow ray.
+/// Adds a light. Lights behind the surface get no shadow ray.
 void Whitted::add_light(std::size_t light, const Found& found, std::span<const dvec3> matte,
                         const accel::PrimaryRays& image, int depth, std::span<dvec3> sums,
                         Progress& progress) const {
@@ -256,8 +257,8 @@ void Whitted::add_light(std::size_t light, const Found& found, std::span<const d
   }
 }
 
-/// Mirror rays and refracted ones, traced. At total reflection the mirror ray carries both shares:
-/// it is one ray, even where the surface is a mirror as well (SPD, rule 9).
+/// Returns the mirror rays and refracted rays, traced. At total reflection the mirror ray carries
+/// both shares: it is one ray, even if the surface is a mirror as well (SPD, rule 9).
 Whitted::Spawned Whitted::spawned(const Found& found, const Part& part, Progress& progress) const {
   Spawned next;
   std::vector<accel::Ray> mirror_rays, glass_rays;
@@ -334,8 +335,8 @@ Whitted::Spawned Whitted::spawned(const Found& found, const Part& part, Progress
   return next;
 }
 
-/// Whether a ray that meets glass goes into it: of a sphere by the place of the point, of polygons
-/// and cones by the surfaces that the ray has passed.
+/// Returns whether a ray that meets glass enters it: for a sphere by the place of the point, for
+/// polygons and cones by the surfaces that the ray has passed.
 bool Whitted::enters(const Found& found, std::size_t place) const {
   const scenes::Primitive& primitive = scene_->primitives[found.primitive[place]];
   if (primitive.kind != scenes::PrimitiveKind::kSphere) return !found.path[place].inside;

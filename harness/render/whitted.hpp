@@ -21,41 +21,40 @@
 
 namespace beambench::render {
 
-/// The structure for each kind of rays: one for all, or others that watch its queries.
+/// The structure for each kind of rays: the same for all, or others that watch its queries.
 struct RayStructures {
   const accel::Accelerator* reflected;
   const accel::Accelerator* refracted;
   const accel::Accelerator* shadow;
 };
 
-/// Camera rays of an image, and what they found. All three lists have one length.
+/// Camera rays of an image, and their hits. All three lists have the same length.
 struct CameraRays {
   const accel::PrimaryRays* image;
   std::span<const accel::Ray> rays;
-  std::span<const std::uint32_t> samples;  ///< theirs, as a HitBuffer of the image numbers them
+  std::span<const std::uint32_t> samples;  ///< theirs, as numbered by a HitBuffer of the image
   std::span<const std::optional<accel::Hit>> hits;
 };
 
 /// Recursive ray tracing (Whitted, "An improved illumination model for shaded display", CACM 23(6),
 /// 1980; chapter 4 of the thesis) with NFF's surfaces: the diffuse factor times the color under
-/// ambient light and every light that is seen; the specular factor for highlights (Phong) and for
-/// what a mirror ray sees; the transmittance for what a ray refracted by Snell's law sees, or at
-/// total reflection, where there is no such ray, for what the mirror ray sees.
+/// ambient light and every visible light; the specular factor for highlights (Phong) and for the
+/// light of the mirror ray; the transmittance for the light of the ray refracted by Snell's law, or
+/// of the mirror ray at total reflection.
 ///
 /// Colors of scenes are display values, as they were in 1987, and are decoded to linear light. A
-/// light without a color of its own (white) has 1 / sqrt(lights), as NFF has it. All in double, in
-/// one order: structures that return the same hits give the same bits.
+/// light without its own color (white) has 1 / sqrt(lights), as in NFF. Everything is computed in
+/// double, in a fixed order: structures that return the same hits give the same bits.
 ///
 /// Rays are traced in waves (Laine, Karras and Aila, "Megakernels considered harmful", HPG 2013,
 /// for the idea on other hardware): the camera rays of a part of the picture, all shadow rays of
 /// each light from where they hit, all mirror rays, all refracted rays, and so on with these, so
-/// that a structure is given batches. The shadow rays of a light are a pencil, and so are mirror
-/// rays that come through one virtual eye: from the camera by planar mirrors alone, of any number.
-/// What a sample receives is summed in the order of recursive ray tracing, whatever the parts and
-/// batches.
+/// that a structure receives batches. The shadow rays of a light are a pencil, and so are mirror
+/// rays that come through one virtual eye: from the camera via any number of planar mirrors only. A
+/// sample's light is summed in the order of recursive ray tracing, whatever the parts and batches.
 class Whitted {
  public:
-  /// Scene and structure must outlive this. `check` names the structure where it fails.
+  /// Scene and structure must outlive this object. `check` names the structure in its errors.
   Whitted(const scenes::Scene& scene, const accel::Accelerator& structure,
           const WhittedOptions& options)
       : Whitted(scene, structure, options, rays::HitCheck(scene)) {}
@@ -66,21 +65,21 @@ class Whitted {
   Whitted(std::shared_ptr<const ShadedScene> scene, const RayStructures& structures,
           const WhittedOptions& options, rays::HitCheck check);
 
-  /// What a part of a picture, made by one thread in one order, remembers and counts.
+  /// The memory and counts of a part of a picture, drawn by one thread in a fixed order.
   struct Progress {
     ShadowCache shadows;
     RayCensus census;
   };
   Progress begin() const;
 
-  /// Linear light along camera rays, into as many `colors`. Memory is that of some thousand rays
-  /// for each depth, however many there are. Throws InvalidHit where one of their hits or that of a
-  /// following ray is invalid.
+  /// Computes linear light along camera rays into the same number of `colors`. Memory is that of
+  /// several thousand rays for each depth, whatever their number. Throws InvalidHit if a hit of the
+  /// camera rays or of a following ray is invalid.
   void trace_light(const CameraRays& camera, std::span<glm::dvec3> colors,
                    Progress& progress) const;
 
   const Shadows& shadows() const { return shadows_; }
-  /// Does what is counted depend on the order of the rays?
+  /// Returns whether counts depend on the order of the rays.
   bool remembers_shadows() const { return options_.shadows == ShadowMethod::kCache; }
 
  private:

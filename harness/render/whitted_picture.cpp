@@ -31,7 +31,7 @@ std::vector<PixelRange> rows_of(const accel::PrimaryRays& image) {
   return rows;
 }
 
-/// Which pixels are shaded together, and in which order their samples.
+/// The division into pixels that are shaded together, and the order of their samples.
 class Parts {
  public:
   Parts(const accel::PrimaryRays& image, const Whitted& tracer)
@@ -55,7 +55,7 @@ class Parts {
   std::vector<PixelRange> ranges_;
 };
 
-/// Camera rays, and what they found and receive.
+/// Camera rays, their hits and their light.
 struct Batch {
   std::vector<accel::Ray> rays;
   std::vector<std::uint32_t> samples;
@@ -67,7 +67,7 @@ struct Batch {
     samples.reserve(count);
     hits.reserve(count);
   }
-  /// Component by component: a copy would wait until the ray that was just made is in memory.
+  /// Assigns component by component, because a copy would wait until the new ray is in memory.
   void add(const accel::Ray& ray, std::size_t sample, const accel::HitBuffer& found) {
     accel::Ray& own = rays.emplace_back();
     own.origin = ray.origin;
@@ -81,7 +81,7 @@ struct Batch {
   }
 };
 
-/// Draws a part with a shadow cache of its own, so that its census is the same however parts are
+/// Draws a part with its own shadow cache, so that its census does not depend on how parts are
 /// shared among threads.
 RayCensus draw(const Parts& parts, const PixelRange& part, const Whitted& tracer,
                const accel::PrimaryRays& rays, const accel::HitBuffer& hits, Image& image) {

@@ -28,45 +28,47 @@ struct WhittedPicture {
   RayCensus census;
 };
 
-/// Called from time to time, on the calling thread, with the part that is done (0 ... 1).
+/// Called from time to time on the calling thread with the fraction done (0 ... 1).
 using PictureWatch = std::function<void(double part)>;
 
-/// Each pixel is the mean of its samples. `hits` are the structure's answers to `rays`, found
-/// beforehand by its own query for whole images (beams). Parts of the picture are shared among
-/// `threads` threads (`accel::thread_count`); picture and census do not depend on how many there
-/// are. A part is a square of pixels in the order of `rays::for_each_sample`, so that
-/// neighbors in a batch of rays are neighbors in the picture; with the shadow cache it is a row,
-/// from left to right, in which the cache begins anew.
+/// Draws the picture; each pixel is the mean of its samples. `hits` are the structure's results for
+/// `rays`, found in advance by its own query for whole images (beams). Parts of the picture are
+/// shared among `threads` threads (`accel::thread_count`); picture and census do not depend on
+/// their number. A part is a square of pixels in the order of `rays::for_each_sample`, so that
+/// neighbors in a batch of rays are neighbors in the picture; with the shadow cache, it is a row,
+/// from left to right, and the cache is empty at its beginning.
 WhittedPicture whitted_picture(const Whitted& tracer, const accel::PrimaryRays& rays,
                                const accel::HitBuffer& hits, const PictureWatch& watch = {},
                                int threads = 0);
 
-/// The same picture (but for rounding, with several samples a pixel) with its samples shaded in the
-/// order of `places` in the hit buffer, each of which is there once: on this thread alone, with one
-/// shadow cache, which all that is counted of the cache depends on.
+/// Draws the same picture (up to rounding, with several samples per pixel) with its samples shaded
+/// in the order of `places` in the hit buffer, which has each place once: only on this thread, with
+/// one shadow cache, so that all counts of the cache depend on the order.
 WhittedPicture whitted_picture_along(std::span<const std::size_t> places, const Whitted& tracer,
                                      const accel::PrimaryRays& rays, const accel::HitBuffer& hits,
                                      const PictureWatch& watch = {});
 
-/// The same picture into `image`, which has its size, on this thread alone; returns its census.
+/// Draws the same picture into `image`, which has its size, only on this thread; returns its
+/// census.
 RayCensus draw_in_order(const Whitted& tracer, const accel::PrimaryRays& rays,
                         const accel::HitBuffer& hits, Image& image);
 
-/// What a shadow cache remembers depends on which samples follow each other.
+/// The order of samples, which determines the contents of a shadow cache.
 enum class ShadingOrder {
-  kRows,  ///< row by row, the cache begins anew in each; rows may be shared among threads
+  kRows,  ///< row by row, with a new cache in each; rows may be shared among threads
   kScan,  ///< pixel by pixel along the rows, with one cache
-  kBeams  ///< beam by beam, with one cache: what the thesis expects a cache to gain by (6.2.2)
+  kBeams  ///< beam by beam, with one cache, from which the thesis expects a gain (6.2.2)
 };
 
-/// `rows`, `scan`, `beams`. Throws InputError for another name.
+/// Parses `rows`, `scan` or `beams`. Throws InputError for any other name.
 ShadingOrder parse_shading_order(std::string_view name);
 
-/// The places in the hit buffer of all samples along the rows.
+/// Returns the places in the hit buffer of all samples along the rows.
 std::vector<std::size_t> scan_order(const accel::PrimaryRays& rays);
 
-/// The same places as beams decide them: those of a beam are together, along the rows; then those
-/// that no beam at an occupied leaf had. Throws InputError for a structure that traces no beams.
+/// Returns the same places in the order of beams: those of a beam are together, along the rows;
+/// then those that no beam at an occupied leaf had. Throws InputError for a structure that traces
+/// no beams.
 std::vector<std::size_t> beam_order(const accel::Accelerator& structure,
                                     const accel::PrimaryRays& rays);
 

@@ -1,5 +1,5 @@
 #pragma once
-// How many rays of which kind the whole ray tracer takes, and how long.
+// Counts the rays of the whole ray tracer by kind, and measures their time.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,26 +20,26 @@ namespace beambench::thesis {
 
 struct CensusOptions {
   render::WhittedOptions whitted;
-  /// The rules of Haines's Standard Procedural Databases: rays through the corners of pixels, and a
-  /// mirror ray from all glass.
+  /// Use the rules of Haines's Standard Procedural Databases: rays through the corners of pixels,
+  /// and a mirror ray from all glass.
   bool spd_rules = false;
   render::ShadingOrder order = render::ShadingOrder::kRows;
   int threads = 0;  ///< see `accel::thread_count`
-  /// Count the structure's work, which times then include.
+  /// Count the structure's work, in which case times include the counting.
   bool count_work = false;
 };
 
-/// The same picture with all rays, however small their weight.
+/// The same picture with all rays, whatever their weight.
 struct FullPicture {
   std::uint64_t rays;
   double picture_ms;
-  double error;  ///< of the picture without some of the rays: `root_mean_square_error`
+  double error;  ///< of the picture with the reduced rays: `root_mean_square_error`
 };
 
-/// What a structure is and did, over all rays of a picture.
+/// The facts about a structure, and its work over all rays of a picture.
 struct StructureWork {
   accel::Statistics statistics;
-  QueryWork queries;  ///< shadow rays: to the first thing that they hit (`CountedShadows`)
+  QueryWork queries;  ///< shadow rays: up to their first hit (`CountedShadows`)
 };
 
 /// The rays and times of one picture.
@@ -50,15 +50,15 @@ struct CensusResult {
   double build_ms;
   double eye_ms;          ///< primary rays
   double preparation_ms;  ///< light buffers
-  double picture_ms;      ///< all but the primary rays
+  double picture_ms;      ///< everything except the primary rays
   std::size_t shadow_bytes;
-  std::optional<FullPicture> full;    ///< where `min_weight` is positive
+  std::optional<FullPicture> full;    ///< if `min_weight` is positive
   std::optional<StructureWork> work;  ///< with `count_work`
   render::Image picture;
 };
 
-/// Draws the picture, and again with all rays where `min_weight` is positive. `progress` gets a
-/// cell for each. Throws rays::InvalidHit.
+/// Draws the picture, and again with all rays if `min_weight` is positive. `progress` gets a cell
+/// for each. Throws rays::InvalidHit.
 CensusResult take_census(const accel::StructureChoice& choice, const scenes::Scene& scene,
                          const rays::ImageOfRays& image, const CensusOptions& options,
                          base::Progress& progress);

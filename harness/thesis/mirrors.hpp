@@ -1,5 +1,5 @@
 #pragma once
-// What planar mirrors show, by beams and by individual reflected rays.
+// Reflections in planar mirrors, by beams and by individual reflected rays.
 
 #include <cstddef>
 #include <vector>
@@ -23,12 +23,12 @@ struct MirrorResult {
 
 struct MirrorComparison {
   std::size_t mirrors;             ///< planar mirrors of the scene
-  std::vector<MirrorResult> seen;  ///< those that the image shows
+  std::vector<MirrorResult> seen;  ///< those visible in the image
 };
 
-/// Traces what each mirror shows in beams from the mirror's virtual eye (Heckbert and Hanrahan
-/// 1984) and ray by ray through the same octree, each `repetitions` times. `hits` are those of
-/// `rays`.
+/// Traces the reflections in each mirror in beams from the mirror's virtual eye (Heckbert and
+/// Hanrahan 1984) and ray by ray through the same octree, each `repetitions` times. `hits` are
+/// those of `rays`.
 MirrorComparison compare_mirrors(const accel::beam::BeamTracer& tracer, const scenes::Scene& scene,
                                  const accel::PrimaryRays& rays, const accel::HitBuffer& hits,
                                  int repetitions);

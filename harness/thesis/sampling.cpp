@@ -20,7 +20,7 @@
 namespace beambench::thesis {
 namespace {
 
-/// Display values of an image's pixels.
+/// Returns display values of an image's pixels.
 render::Image displayed(render::Image image) {
   for (glm::vec3& pixel : image.pixels()) pixel = render::srgb_from_linear(pixel);
   return image;
@@ -30,7 +30,7 @@ double contrast(const glm::vec3& a, const glm::vec3& b) {
   return std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)});
 }
 
-/// The largest contrast of a pixel to its neighbors above, below, left and right.
+/// Returns the largest contrast of a pixel to its neighbors above, below, left and right.
 double contrast_at(const render::Image& image, int x, int y) {
   double largest = 0.0;
   const auto look = [&](int other_x, int other_y) {
@@ -44,7 +44,7 @@ double contrast_at(const render::Image& image, int x, int y) {
   return largest;
 }
 
-/// Marks the samples that pixels get, and lists those beyond the first.
+/// Marks the samples of each pixel, and lists those beyond the first.
 std::vector<std::size_t> choose(const render::Image& image, const SamplingContrast& contrast,
                                 accel::beam::SparseSamples& samples) {
   std::vector<std::size_t> more;
@@ -73,7 +73,7 @@ constexpr std::array<SamplingContrast, 3> kContrasts{{{0.10, 0.50}, {0.05, 0.30}
 /// One run of a sampling method.
 struct Attempt {
   double ms;
-  double rays;  ///< in all
+  double rays;  ///< in total
   render::Image image;
 };
 
@@ -122,7 +122,7 @@ class Sampler {
             sparse_image(*scene_, rays, *samples)};
   }
 
-  /// Samples that leave the scene with their beam.
+  /// Returns the samples that leave the scene with their beam.
   double leaving(const accel::PrimaryRays& rays) const {
     accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
     accel::WorkCounters counters;

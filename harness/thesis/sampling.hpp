@@ -1,5 +1,6 @@
 #pragma once
-// Choosing the number of samples of a pixel: in image space, in object space, and compared.
+// Methods of choosing the number of samples of a pixel: in image space, in object space, and their
+// comparison.
 
 #include <string>
 #include <vector>
@@ -14,8 +15,8 @@ namespace beambench::thesis {
 
 /// Contrast between pixels: the largest difference of a channel's display values, 0 to 1.
 struct SamplingContrast {
-  double few = 0.05;   ///< to one of the four neighbors: the pixel gets 5 samples instead of 1
-  double many = 0.30;  ///< it gets 25
+  double few = 0.05;   ///< to one of the four neighbors: threshold for 5 samples instead of 1
+  double many = 0.30;  ///< threshold for 25 samples
 };
 
 /// Adaptive sampling in image space (after Whitted 1980, section 4, who compares the corners of
@@ -27,9 +28,9 @@ accel::beam::SparseSamples trace_image_space(const accel::beam::BeamTracer& trac
                                              const accel::PrimaryRays& rays,
                                              const SamplingContrast& contrast);
 
-/// The picture of sparse samples, in the colors of `Shading::kPreview`. Each sample stands for
-/// 1/number of its pixel; what is left of the pixel is background, and where the parts are more
-/// than a pixel, because leaves with other numbers of samples meet there, they are scaled to it.
+/// Draws the picture of sparse samples, in the colors of `Shading::kPreview`. Each sample
+/// represents 1/number of its pixel. The rest of the pixel is background; if the parts exceed a
+/// pixel, because leaves with different numbers of samples meet there, they are scaled to it.
 render::Image sparse_image(const scenes::Scene& scene, const accel::PrimaryRays& rays,
                            const accel::beam::SparseSamples& samples);
 
@@ -42,17 +43,17 @@ struct SamplingResult {
   double error;         ///< RMS error on a 0-255 scale against 64 samples per pixel
 };
 
-/// The number of cells that `compare_sampling` reports to its progress.
+/// Returns the number of cells that `compare_sampling` reports to its progress.
 std::size_t sampling_steps();
 
 /// Traces the image by uniform, object-space and image-space sampling at several settings, each
-/// `repetitions` times. Throws InputError where the image is too large for 64 samples per pixel.
+/// `repetitions` times. Throws InputError if the image is too large for 64 samples per pixel.
 std::vector<SamplingResult> compare_sampling(const accel::beam::BeamTracer& tracer,
                                              const scenes::Scene& scene,
                                              const rays::ImageOfRays& image, int repetitions,
                                              base::Progress& progress);
 
-/// The number of samples in each pixel, row by row.
+/// Returns the number of samples in each pixel, row by row.
 std::vector<float> samples_by_pixel(const accel::beam::SparseSamples& samples);
 
 }  // namespace beambench::thesis

@@ -26,7 +26,7 @@ namespace {
 
 constexpr std::size_t kReferencesAtOnce = std::size_t{1}
                                           << 16U;  // rays whose reference is in memory at once
-// As for the exact search of the differ: what enough errors or tests leave open is presumed.
+// As in the differ's exact search: if there are enough errors or tests, the rest is presumed.
 constexpr std::uint64_t kEnoughFaults = 64;
 constexpr std::uint64_t kPrimitiveBudget = 400'000'000;  // primitives
 
@@ -37,12 +37,12 @@ constexpr std::string_view kNotSearched =
     "the oracle hits another place, and no surface was searched for here since enough faults or "
     "tests were counted before";
 
-/// The ids of a claim, of primitives or triangles; empty where they are not known.
+/// Returns the ids of a claim, of primitives or triangles; empty if unknown.
 std::span<const std::uint32_t> ids_of(const rays::ClaimedHits& hits) {
   return hits.primitives.empty() ? hits.triangles : hits.primitives;
 }
 
-/// Throws InvalidClaim.
+/// Throws InvalidClaim for an invalid claim.
 void require_valid_claim(const scenes::Scene& scene, const rays::ClaimedHits& hits, std::size_t i,
                          std::size_t index) {
   const auto refuse = [&](const std::string& fault) { throw InvalidClaim(index, fault); };
@@ -79,15 +79,14 @@ void require_valid_claim(const scenes::Scene& scene, const rays::ClaimedHits& hi
   if (nowhere) refuse(fmt::format("{} {} is named, but its place is infinite", what, ids[i]));
 }
 
-/// A claim as structures return hits, or why it is wrong.
+/// A claim in the form of a structure's hit, or the reason why it is wrong.
 struct Answer {
   accel::Hit hit{accel::kInfinity, scenes::kNoPrimitive};
   bool primitive_known = true;
   std::string_view fault{};
 };
 
-/// A point near an end of the interval is meant to be in it: t follows from the point by our own
-/// division.
+/// Moves a t near an end of the interval into it: t follows from the point by our own division.
 float within(const accel::Ray& ray, double t, double length, double near) {
   if (t < ray.t_min && (ray.t_min - t) * length <= near) return ray.t_min;
   if (t > ray.t_max && (t - ray.t_max) * length <= near) return ray.t_max;
@@ -166,8 +165,8 @@ struct ClaimVerifier::State {
     verified += block.size();
   }
 
-  /// The oracle's boxes are padded for rays from so far away. Powers of two: a few builds are
-  /// enough for any rays.
+  /// Returns an oracle whose boxes are padded for rays from that distance. Powers of two, so that a
+  /// few builds suffice for any rays.
   const accel::oracle::Oracle& oracle_for(double reach) {
     if (!oracle || reach > oracle_reach) {
       const double least = std::max<double>(reach, scene.bounds.largest_coordinate());
@@ -177,7 +176,7 @@ struct ClaimVerifier::State {
     return *oracle;
   }
 
-  /// The primitive that lies at the claim's place: the oracle's where it does, otherwise the first
+  /// Finds the primitive at the claim's place: the oracle's if it lies there, otherwise the first
   /// of the nearest.
   void find_primitive(const accel::Ray& ray, const std::optional<accel::oracle::ExactHit>& expected,
                       Answer& answer) {

@@ -1,5 +1,5 @@
 #pragma once
-// Verifies hits that any program reports, part by part, in memory that does not grow with them.
+// Verifies hits reported by any program, in parts, with a constant amount of memory.
 
 #include <cstddef>
 #include <functional>
@@ -15,7 +15,8 @@
 
 namespace beambench::verify {
 
-/// A number that no hit or ray can have. `what()` is the fault without its place.
+/// Thrown for a number that is impossible for a hit or ray. `what()` is the fault without its
+/// place.
 class InvalidClaim : public InputError {
  public:
   InvalidClaim(std::size_t index, const std::string& fault) : InputError(fault), index(index) {}
@@ -23,10 +24,10 @@ class InvalidClaim : public InputError {
   std::size_t index;  ///< of the ray, counted over all parts
 };
 
-/// The differ for hits from outside. Each ray gets one of the classes of `DiffClass`, of which
+/// The differ for hits from outside. Each ray gets one of the classes of `DiffClass`;
 /// `kStructureError` means that the program is wrong. t and points are compared as floats; a point
-/// must lie within K u of the ray. Where no primitive is named, it is the one that the point lies
-/// on, the oracle's where it lies on several.
+/// must lie within K u of the ray. If no primitive is given, it is the one on which the point lies,
+/// or the oracle's if it lies on several.
 ///
 ///     verify::ClaimVerifier verifier(scene);
 ///     verifier.add(rays, {.t = t, .primitives = ids});
@@ -34,25 +35,24 @@ class InvalidClaim : public InputError {
 ///     if (report.verdict != verify::Verdict::kOk) ...
 class ClaimVerifier {
  public:
-  /// Gets every ray whose class is not kAgree.
+  /// Receives every ray whose class is not kAgree.
   using OnMismatch = std::function<void(const Mismatch&)>;
 
-  /// The scene must outlive it.
+  /// The scene must outlive this object.
   explicit ClaimVerifier(const scenes::Scene& scene, OnMismatch on_mismatch = {});
   ~ClaimVerifier();
   ClaimVerifier(ClaimVerifier&&) noexcept;
   ClaimVerifier& operator=(ClaimVerifier&&) = delete;
 
-  /// Verifies the next rays, all parts in the same form, on all cores. `classes`, unless empty,
-  /// gets that of each. Throws InvalidClaim for a ray that `require_valid` refuses, NaN in t or a
-  /// point, an id that the scene does not have, a primitive without t or point and the other way
-  /// round, and `occluded` other than 0 and 1; nothing of the part counts then. Throws
-  /// std::logic_error as `ClaimedHits::size`, and where there are not as many rays, hits and
-  /// classes.
+  /// Verifies the next rays, all parts in the same form, on all cores. Writes the class of each ray
+  /// to `classes` unless that is empty. Throws InvalidClaim for a ray that `require_valid` refuses,
+  /// NaN in t or a point, an id that is not in the scene, a primitive without t or point and vice
+  /// versa, and `occluded` other than 0 and 1; in these cases, none of the part counts. Throws
+  /// std::logic_error as `ClaimedHits::size`, and if the numbers of rays, hits and classes differ.
   void add(std::span<const accel::Ray> rays, const rays::ClaimedHits& hits,
            std::span<DiffClass> classes = {});
 
-  /// What was found in all parts. Call it once.
+  /// Returns the findings of all parts. Call it once.
   DiffReport finish();
 
  private:

@@ -16,13 +16,14 @@
 namespace beambench::verify {
 namespace {
 
-/// A corner may be 10^9 away from where a ray passes its polygon: double would lose what counts.
+/// A corner may be 10^9 away from where a ray passes its polygon: double would lose the significant
+/// digits.
 using Real = long double;
 using Vector = glm::vec<3, Real>;
 
 constexpr Real kFar = std::numeric_limits<Real>::infinity();
 
-/// The least distance that the arithmetic of the tests in double can resolve, as a part of the
+/// The smallest distance that the arithmetic of the tests in double can resolve, relative to the
 /// distance to the farthest point of a primitive.
 constexpr double kMinPart = 0x1p-50;
 
@@ -33,13 +34,13 @@ struct RayLine {
         length(glm::length(Vector(ray.direction))),
         direction(Vector(ray.direction) / length) {}
 
-  /// From the line to the point, perpendicular to the line.
+  /// Returns the vector from the line to the point, perpendicular to the line.
   Vector across(const Vector& point) const {
     const Vector offset = point - origin;
     return offset - glm::dot(offset, direction) * direction;
   }
   Real distance_to(const Vector& point) const { return glm::length(across(point)); }
-  /// The line's approach to a point.
+  /// Returns the line's approach to a point.
   Approach approach(const Vector& point) const {
     return {static_cast<double>(glm::length(across(point))),
             static_cast<double>(glm::dot(point - origin, direction) / length)};
@@ -77,7 +78,7 @@ double least_distance(std::span<const Approach> approaches) {
   return least;
 }
 
-/// By how much the line passes beside the triangle; 0 through it.
+/// Returns the distance at which the line passes beside the triangle; 0 if it passes through.
 Real lateral_distance(const RayLine& line, const Corners& corners) {
   const Vector a = line.across(corners[0]);
   const Vector b = line.across(corners[1]);
@@ -85,7 +86,7 @@ Real lateral_distance(const RayLine& line, const Corners& corners) {
   const auto [least, greatest] = std::minmax({glm::dot(glm::cross(a, b), line.direction),
                                               glm::dot(glm::cross(b, c), line.direction),
                                               glm::dot(glm::cross(c, a), line.direction)});
-  // A line in the triangle's plane passes between its edges nowhere.
+  // A line in the triangle's plane never passes between its edges.
   const Real none = 0x1p-58L * std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(c, c)});
   const bool is_in_plane = least >= -none && greatest <= none;
   if (!is_in_plane && (least >= 0.0L || greatest <= 0.0L)) return 0.0L;
@@ -96,7 +97,7 @@ Contact made(double tolerance, Real offset, Real cosine, bool leaving) {
   return {tolerance, static_cast<double>(offset), static_cast<double>(cosine), leaving};
 }
 
-/// Of a polygon, the triangle that the claim fits best.
+/// Returns the contact with the triangle of a polygon that fits the claim best.
 Contact contact_with(const scenes::Scene& scene, const RayLine& line, const Vector& point,
                      const scenes::Polygon& polygon, double tolerance) {
   Contact best{tolerance};
@@ -132,9 +133,9 @@ Contact contact_with(const RayLine& line, const Vector& point, const scenes::Sph
   return found;
 }
 
-/// A cone as a segment that is turned round the axis, of unit direction (along_radius, along_axis)
-/// in the half plane of (distance from the axis, height over the base). Cones of hardly any height
-/// are nothing special so: nothing is divided by the height.
+/// A cone as a segment that is rotated about the axis, of unit direction (along_radius, along_axis)
+/// in the half plane of (distance from the axis, height over the base). Cones with nearly zero
+/// height need no special treatment, because nothing is divided by the height.
 struct Profile {
   explicit Profile(const scenes::Cone& cone) : base(cone.base), base_radius(cone.base_radius) {
     const Vector span = Vector(cone.apex) - base;
@@ -147,26 +148,27 @@ struct Profile {
   }
 
   Real height_of(const Vector& point) const { return glm::dot(point - base, axis); }
-  /// From the axis to the point, perpendicular to the axis.
+  /// Returns the vector from the axis to the point, perpendicular to the axis.
   Vector radial(const Vector& point) const { return point - base - height_of(point) * axis; }
-  /// The unit vector from the axis to the point; 0 for a point on the axis.
+  /// Returns the unit vector from the axis to the point; 0 for a point on the axis.
   Vector outward(const Vector& point) const {
     const Vector across = radial(point);
     const Real distance = glm::length(across);
     return distance > 0.0L ? across / distance : Vector(0.0L);
   }
-  /// Distance of a point from the surface continued beyond its rims; negative inside.
+  /// Returns the distance of a point from the surface continued beyond its rims; negative inside.
   Real signed_distance(const Vector& point) const {
     return (glm::length(radial(point)) - base_radius) * along_axis -
            height_of(point) * along_radius;
   }
-  /// Where on the surface, continued beyond its rims, the point is nearest: from 0 at the base to
-  /// `length` at the apex.
+  /// Returns the place on the surface, continued beyond its rims, nearest to the point: from 0 at
+  /// the base to `length` at the apex.
   Real place(const Vector& point) const {
     return (glm::length(radial(point)) - base_radius) * along_radius +
            height_of(point) * along_axis;
   }
-  /// The rim at a place of 0 or `length`: its point on the same side of the axis as `point`.
+  /// Returns the point of the rim at a place of 0 or `length` on the same side of the axis as
+  /// `point`.
   Vector rim_point(const Vector& point, Real rim) const {
     return base + rim * along_axis * axis + rim_radius(rim) * outward(point);
   }
@@ -197,9 +199,9 @@ struct LineByAxis {
   Real climb, speed, gap;
 };
 
-/// How near the line comes to touching the surface without crossing it, or to having its entry and
-/// exit in one point. The signed distance of the line's points from the surface is convex in t, so
-/// it turns once, or never where the line is steeper than the surface.
+/// Returns how close the line comes to touching the surface without crossing it, or to having its
+/// entry and exit in one point. The signed distance of the line's points from the surface is convex
+/// in t, so it has one turning point, or none if the line is steeper than the surface.
 std::optional<Approach> silhouette_approach(const RayLine& line, const Profile& profile) {
   const LineByAxis seen(line, profile);
   const Real rise = seen.climb * profile.along_radius;
@@ -213,9 +215,10 @@ std::optional<Approach> silhouette_approach(const RayLine& line, const Profile& 
                   line.approach(turning_point).t};
 }
 
-/// The line's approaches to a rim: from where it crosses the rim's plane, and from where it passes
-/// over the rim or is closest to the axis, each improved by looking for the rim's point next to the
-/// line and the line's next to that in turn. Never too small.
+/// Adds the line's approaches to a rim: from where it crosses the rim's plane, and from where it
+/// passes over the rim or is closest to the axis. Each is improved by alternately finding the rim's
+/// point nearest to the line and the line's point nearest to the rim. The distance is never too
+/// small.
 void add_rim_approaches(const RayLine& line, const Profile& profile, Real rim,
                         std::vector<Approach>& found) {
   constexpr int kTurns = 8;
@@ -247,8 +250,8 @@ std::vector<Approach> cone_approaches(const RayLine& line, const scenes::Cone& c
   return found;
 }
 
-/// The distance of the line from a rim near a point: from the rim's point next to that, or less
-/// where the line comes closer to the rim at one place with the point.
+/// Returns the distance of the line from a rim near a point: from the rim's point nearest to that,
+/// or less if the line comes closer to the rim at one place with the point.
 Real rim_distance(const RayLine& line, const Profile& profile, const Vector& point, Real rim,
                   double tolerance) {
   Real nearest = line.distance_to(profile.rim_point(point, rim));

@@ -1,5 +1,5 @@
 #pragma once
-// How a ray meets a primitive, measured in long double: near which point, and how far from the
+// Measures, in long double, how a ray meets a primitive: near which point, and how far from the
 // primitive's boundary.
 
 #include <limits>
@@ -13,23 +13,23 @@ namespace beambench::verify {
 
 /// A claimed hit measured against its primitive.
 struct Contact {
-  /// K u at the hit, but at least what the arithmetic of the tests in double can resolve there.
+  /// K u at the hit, but at least the resolution of the tests in double there.
   double tolerance;
   /// The distance of the claim from a true hit: the larger of the distance of the point at t from
   /// the primitive's surface (continued beyond its boundary) and the distance by which the ray
-  /// passes beside the primitive. Infinite where the point is more than `kAlong` tolerances away
-  /// from the primitive's box, and where the ray may not hit at all: at the entry into a primitive
-  /// that is seen from the inside only.
+  /// passes beside the primitive. Infinite if the point is more than `kAlong` tolerances away from
+  /// the primitive's box, or if a hit is impossible: at the entry into a primitive that is seen
+  /// from the inside only.
   double offset = std::numeric_limits<double>::infinity();
   /// |cos| of the angle between the ray and the surface normal there.
   double cosine = 0.0;
-  /// Does the ray leave the sphere or cone there? False for polygons, which have no inside.
+  /// Whether the ray leaves the sphere or cone there. False for polygons, which have no inside.
   bool leaving = false;
 
   bool is_on_primitive() const { return offset <= tolerance; }
 };
 
-/// Measures a hit against the primitive that it names, in long double.
+/// Measures a hit against its claimed primitive, in long double.
 Contact contact(const scenes::Scene& scene, const accel::Ray& ray,
                 const accel::oracle::ExactHit& hit);
 
@@ -43,13 +43,13 @@ struct Approach {
   double t;
 };
 
-/// One approach to each edge of a polygon's triangles, or to the silhouette of a sphere, or to the
-/// silhouette and the rims of a cone, as the ray sees them. A part that the line does not pass is
-/// left out.
+/// Returns one approach to each edge of a polygon's triangles, or to the silhouette of a sphere, or
+/// to the silhouette and the rims of a cone, as seen along the ray. A part that the line does not
+/// pass is left out.
 std::vector<Approach> approaches(const scenes::Scene& scene, const accel::Ray& ray,
                                  scenes::PrimitiveId primitive);
 
-/// The least distance of all approaches; infinite without any.
+/// Returns the smallest distance of all approaches; infinite without any.
 double boundary_distance(const scenes::Scene& scene, const accel::Ray& ray,
                          scenes::PrimitiveId primitive);
 

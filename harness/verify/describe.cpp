@@ -13,8 +13,8 @@ namespace {
 
 std::string vector_text(const glm::vec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
 
-/// What picks the camera: nothing for the first, a name, or the view itself if it is no camera of
-/// the scene's.
+/// Returns the options that select the camera: none for the first, a name, or the view itself if it
+/// is not one of the scene's cameras.
 std::string view_options(const scenes::Scene& scene, const scenes::Camera& camera) {
   if (camera.name == scene.cameras.front().name) return "";
   const bool of_scene = std::ranges::any_of(

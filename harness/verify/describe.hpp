@@ -1,5 +1,5 @@
 #pragma once
-// One mismatch as text, and the command that traces the ray again.
+// Formats a mismatch as text, and the command that traces its ray again.
 
 #include <cstddef>
 #include <string>
@@ -14,13 +14,13 @@
 
 namespace beambench::verify {
 
-/// `beambench trace SCENE --accel A --pixel X,Y ...` for the rays of an image,
-/// `... --rays KIND --ray N ...` for those of a list, to be pasted into a shell. Scenes from files
-/// are named by their path as it was given.
+/// A command to be pasted into a shell: `beambench trace SCENE --accel A --pixel X,Y ...` for a ray
+/// of an image, `... --rays KIND --ray N ...` for one of a list. Scenes from files are named by
+/// their path as given.
 class ReplayCommand {
  public:
-  /// `program` is how the program is called, with its plug-ins (`plugin::program_call`); `image` is
-  /// what the rays come from, primary or not.
+  /// `program` is the command for the program with its plug-ins (`plugin::program_call`); `image`
+  /// is the image from which the rays come, primary or not.
   ReplayCommand(std::string_view program, const scenes::Scene& scene,
                 const rays::ImageOfRays& image, const accel::StructureChoice& structure,
                 const rays::TraceInput& input);
@@ -33,20 +33,20 @@ class ReplayCommand {
   std::string image_;    ///< resolution, samples, camera
 };
 
-/// One mismatch as text: its place, ray, both results, the exact one, and why it is of its class.
-/// `subject` is what gave the answer, in at most nine letters.
+/// Describes a mismatch: its place, ray, both results, the exact one, and the reason for its class.
+/// `subject` is the source of the result, in at most nine letters.
 std::string describe(const scenes::Scene& scene, std::string_view place, const Mismatch& mismatch,
                      std::string_view subject);
-/// The same of a program's answer, whose ray is known by its index alone.
+/// Describes a program's result, whose ray is identified by its index alone.
 std::string describe(const scenes::Scene& scene, const Mismatch& mismatch);
-/// The same of a structure's answer, with the place in the input.
+/// Describes a structure's result, with the place in the input.
 std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,
                      const Mismatch& mismatch);
-/// The same, and the command that shows the ray's traversal path.
+/// Describes the same, followed by the command that shows the ray's traversal path.
 std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,
                      const Mismatch& mismatch, const ReplayCommand& replay);
 
-/// The same as JSON: index, class, reason, ray, and the hits, `reported` being the answer.
+/// Returns the same as JSON: index, class, reason, ray, and the hits; `reported` is the result.
 nlohmann::ordered_json to_json(const Mismatch& mismatch);
 
 }  // namespace beambench::verify

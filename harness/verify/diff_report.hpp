@@ -1,5 +1,6 @@
 #pragma once
-// What a verification finds: the classes of rays, the verdict, and the rays that did not agree.
+// The findings of a verification: the classes of rays, the verdict, and the rays that did not
+// agree.
 
 #include <array>
 #include <cstddef>
@@ -16,10 +17,10 @@ namespace beambench::verify {
 
 /// The outcome of a comparison of one hit with the exact one. u is 2^-24 x (largest |coordinate| of
 /// the hit + distance of the ray's origin from that of the coordinates), K is 16: correct hits of
-/// Embree in float were found up to 3.6 u off. The first three need a sound answer: its point lies
-/// within K u of the primitive it names. Hits that differ from the oracle's are judged by exact
-/// arithmetic (`classify_by_search`). An answer to an any-hit query has no point, so it never
-/// ties: it agrees, or it grazes where every hit that is in dispute does.
+/// Embree in float were found up to 3.6 u off. The first three require a valid result: its point
+/// lies within K u of its primitive. Hits that differ from the oracle's are judged by exact
+/// arithmetic (`classify_by_search`). A result of an any-hit query has no point, so it never ties:
+/// it agrees, or it grazes if every disputed hit does.
 enum class DiffClass : std::size_t {
   kAgree,  ///< the exact hit: same primitive, |dt| x |cos theta| <= K u (a sphere or cone:
            ///< the point is within K u of the surface, on the same side of it)
@@ -28,29 +29,29 @@ enum class DiffClass : std::size_t {
   kGraze,  ///< the boundary of the primitive in dispute is within K u of the ray, or its
            ///< hit at one place with an end of the ray; what lies behind it is judged alike
   kStructureError,  ///< the structure is wrong, by exact arithmetic
-  kEmbreeError,     ///< the structure is right and the oracle wrong, by the same arithmetic
+  kEmbreeError,     ///< the structure is correct and the oracle wrong, by the same arithmetic
   kCount
 };
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(DiffClass::kCount)>
     kDiffClassNames{"agree", "tie", "graze", "structure_error", "embree_error"};
 
-/// The result of a verification, as records state it.
+/// The result of a verification, as stated in records.
 enum class Verdict {
   kOk,          ///< no structure error, grazes within the budget
   kMismatch,    ///< at least one structure error
   kGrazes,      ///< no structure error, but more grazes than max(2, 1e-4 x rays)
   kBaseline,    ///< a structure that returns no hits by design, and did not
   kError,       ///< the structure could not be built or failed: nothing was verified
-  kNoRays,      ///< the scene has no rays of the kind: nothing was verified, and nothing is wrong
-  kUnsupported  ///< the structure takes no such rays or primitives: as kNoRays
+  kNoRays,      ///< the scene has no rays of the kind: nothing was verified, but nothing is wrong
+  kUnsupported  ///< the structure does not support these rays or primitives: otherwise as kNoRays
 };
-/// "ok", "mismatch", "grazes", "baseline", "error", "no_rays", "unsupported".
+/// Returns "ok", "mismatch", "grazes", "baseline", "error", "no_rays", "unsupported".
 std::string_view to_string(Verdict verdict);
 inline bool is_right(Verdict verdict) {
   return verdict == Verdict::kOk || verdict == Verdict::kBaseline;
 }
 
-/// One ray that did not agree, with all that is needed to look at it.
+/// One ray that did not agree, with all data for examining it.
 struct Mismatch {
   std::size_t index;  ///< of the ray, counted over all parts
   accel::Ray ray;
@@ -60,11 +61,11 @@ struct Mismatch {
   std::uint8_t any_hit_answer;       ///< of an any-hit query: 0, 1, or what the structure wrote
   std::optional<accel::oracle::ExactHit> oracle;  ///< the closest hit, whatever the query
   std::optional<accel::oracle::ExactHit> exact;   ///< the exact hit, if it was searched
-  bool searched;                                  ///< was the answer judged by exact arithmetic?
-  std::string_view reason;  ///< why it is of its class: a clause for `describe`
+  bool searched;                                  ///< whether exact arithmetic judged the answer
+  std::string_view reason;  ///< the reason for its class: a clause for `describe`
 };
 
-/// What was found in one buffer.
+/// The findings for one buffer.
 struct DiffReport {
   std::uint64_t rays = 0;
   std::uint64_t hits = 0;  ///< of the oracle

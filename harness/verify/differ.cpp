@@ -21,8 +21,8 @@ constexpr std::uint64_t kEnoughErrors = 64;
 constexpr std::uint64_t kTestBudget = 400'000'000;  // primitive tests
 constexpr std::size_t kBatch = 64;                  // rays searched at once, on all cores
 
-/// A parallel loop on all cores in the caller's floating-point mode. By default it would run in
-/// that of the thread's first loop, which may be Embree's: there denormals count as 0.
+/// Runs a parallel loop on all cores in the caller's floating-point mode. By default it would run
+/// in that of the thread's first loop, which may be Embree's, where denormals count as 0.
 template <class Range, class Body>
 void on_all_cores(const Range& range, const Body& body) {
   tbb::task_group_context mode(
@@ -63,7 +63,7 @@ Verdict verdict_of(const DiffReport& report) {
   return grazes > graze_budget(report.rays) ? Verdict::kGrazes : Verdict::kOk;
 }
 
-/// Errors of the structure first, then the oracle's, grazes and ties.
+/// Ranks errors of the structure first, then the oracle's, grazes and ties.
 int rank(const Mismatch& mismatch) {
   return mismatch.diff_class == DiffClass::kStructureError ? -10
                                                            : -static_cast<int>(mismatch.diff_class);
@@ -71,7 +71,7 @@ int rank(const Mismatch& mismatch) {
 
 }  // namespace
 
-/// The comparison of one part.
+/// Compares one part.
 class Differ::Part {
  public:
   Part(Differ& differ, const ReferenceHits& reference, const rays::TraceResults& results,
@@ -132,8 +132,8 @@ class Differ::Part {
     return is_miss(answer(std::get<accel::HitBuffer>(results_), i));
   }
 
-  /// True for nearly every ray of a correct structure: the same primitive, and so near that the
-  /// angle of incidence does not matter.
+  /// Returns true for nearly every ray of a correct structure: the same primitive, and so close
+  /// that the angle of incidence does not matter.
   bool agrees_at_once(std::size_t i) const {
     if (const auto* any = std::get_if<rays::AnyHits>(&results_)) {
       return (*any)[i] == (hits_[i] ? 1 : 0);
@@ -159,7 +159,7 @@ class Differ::Part {
     return found;
   }
 
-  /// Rule 4, batch by batch, so that the outcome does not depend on the number of threads.
+  /// Applies rule 4, batch by batch, so that the result does not depend on the number of threads.
   void search(const std::vector<std::size_t>& disputed) {
     std::vector<Mismatch> batch;
     for (std::size_t first = 0; first < disputed.size(); first += kBatch) {
@@ -231,7 +231,7 @@ void Differ::compare(const ReferenceHits& reference, const rays::TraceResults& r
 }
 
 DiffReport Differ::finish() {
-  std::ranges::stable_sort(report_.examples, {}, rank);  // within a class as they were found
+  std::ranges::stable_sort(report_.examples, {}, rank);  // within a class, in order of discovery
   report_.verdict = verdict_of(report_);
   if (conformance_ == accel::Conformance::kBaseline && report_.verdict == Verdict::kOk) {
     report_.verdict = Verdict::kBaseline;

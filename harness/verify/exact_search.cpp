@@ -18,7 +18,7 @@ using Integer = mpz_class;
 
 constexpr int kBits = 192;  // of quotients and roots, before they are rounded to double
 
-/// The float in units of the smallest float that there is.
+/// Returns the float in units of the smallest positive float.
 Integer whole(float number) { return Integer(std::ldexp(static_cast<double>(number), 149)); }
 
 struct WholeVector {
@@ -41,7 +41,7 @@ WholeVector cross(const WholeVector& a, const WholeVector& b) {
           Integer(a.x * b.y - a.y * b.x)};
 }
 
-/// Rounds to the nearest double: the first conversion only cuts off.
+/// Rounds to the nearest double: the first conversion only truncates.
 double to_double(const mpf_class& number) {
   const double cut = number.get_d();
   return cut + mpf_class(number - cut, kBits).get_d();
@@ -51,7 +51,7 @@ double quotient(const mpf_class& dividend, const mpf_class& divisor) {
 }
 mpf_class real(const Integer& integer) { return mpf_class(integer, kBits); }
 
-/// The sign of p + q sqrt(root), for a root that is not negative.
+/// Returns the sign of p + q sqrt(root), for a nonnegative root.
 int sign_of_sum(const Integer& p, const Integer& q, const Integer& root) {
   const int sign_p = sgn(p);
   const int sign_q = sgn(q) * sgn(root);
@@ -60,13 +60,13 @@ int sign_of_sum(const Integer& p, const Integer& q, const Integer& root) {
   return sign_p * sgn(Integer(p * p - q * q * root));
 }
 
-/// A ray and the crossings that were found of one primitive.
+/// A ray and the crossings found for one primitive.
 class Finder {
  public:
   Finder(const accel::Ray& ray, scenes::PrimitiveId id)
       : origin_(ray.origin), direction_(ray.direction), id_(id) {}
 
-  /// Cramer's rule for origin + t d = a + v (b - a) + w (c - a).
+  /// Applies Cramer's rule to origin + t d = a + v (b - a) + w (c - a).
   void add(const std::array<glm::vec3, 3>& corners) {
     const WholeVector a(corners[0]);
     const WholeVector ab = WholeVector(corners[1]) - a;
@@ -123,7 +123,7 @@ class Finder {
   std::vector<Crossing> take() && { return std::move(found_); }
 
  private:
-  /// a t^2 + 2 b t + c, negative inside.
+  /// The polynomial a t^2 + 2 b t + c, negative inside.
   struct Quadratic {
     Integer a, b, c;
 
@@ -132,8 +132,8 @@ class Finder {
 
   void add(double t, bool leaving) { found_.push_back({t, id_, leaving}); }
 
-  /// The derivative at (-b + sqrt(discriminant)) / a is positive: there the ray leaves. `is_part`
-  /// gets the sign before the root.
+  /// The derivative at (-b + sqrt(discriminant)) / a is positive, so the ray leaves there.
+  /// `is_part` receives the sign before the root.
   template <class IsPart>
   void add(const Quadratic& quadratic, bool inside_only, IsPart is_part) {
     const auto& [a, b, c] = quadratic;
@@ -147,7 +147,7 @@ class Finder {
     const Integer discriminant = quadratic.discriminant();
     if (sgn(discriminant) < 0) return;
     const mpf_class root(sqrt(real(discriminant)), kBits);
-    // The root of the larger size, times a; nothing cancels. The other is c over that.
+    // The root of the larger magnitude, times a, without cancellation. The other is c over that.
     const int outer = sgn(b) < 0 ? 1 : -1;
     const mpf_class outer_root(outer * root - real(b), kBits);
     for (const int which : {-1, 1}) {
@@ -168,7 +168,7 @@ class Finder {
   std::vector<Crossing> found_;
 };
 
-/// Does the line reach the box between two t?
+/// Returns whether the line reaches the box between two t.
 bool reaches(const scenes::Bounds& box, double pad, const accel::Ray& ray, double enter,
              double leave) {
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,6 +1,6 @@
 #pragma once
-// Where rays cross primitives, decided by exact arithmetic: what settles disputes. Shares no code
-// with structures and oracle. Slow: 20 ns for each primitive, and 10 us for each whose box the ray
+// Finds where rays cross primitives by exact arithmetic, to settle disputes. Shares no code with
+// structures and oracle. Slow: 20 ns for each primitive, and 10 us for each whose box the ray
 // reaches.
 
 #include <vector>
@@ -15,25 +15,25 @@ namespace beambench::verify {
 struct Crossing {
   double t;  ///< the exact value, rounded
   scenes::PrimitiveId primitive;
-  bool leaving;  ///< Does the ray leave the sphere or cone there? False for polygons.
+  bool leaving;  ///< whether the ray leaves the sphere or cone there; false for polygons
 
   accel::oracle::ExactHit hit() const { return {t, primitive}; }
 };
 
-/// Returns the primitives whose boxes the ray reaches, in ascending order: among them are all that
-/// it crosses, and all whose boundary or whose crossing just beyond an end of the interval is
-/// within the judge's tolerance.
+/// Returns the primitives whose boxes the ray reaches, in ascending order. They include all that it
+/// crosses, and all whose boundary, or whose crossing just beyond an end of the interval, is within
+/// the judge's tolerance.
 std::vector<scenes::PrimitiveId> primitives_near(const scenes::Scene& scene, const accel::Ray& ray);
 
 /// Returns where the line of the ray, without ends, crosses one primitive, in any order. Floats are
-/// read as exact numbers, and whether there is a crossing is decided by integers. Polygons are
-/// closed triangles, seen from both sides; a ray in a triangle's plane does not cross it. A sphere
-/// or cone that is only touched is crossed twice, at one place.
+/// treated as exact numbers, and integers decide whether there is a crossing. Polygons are closed
+/// triangles, seen from both sides; a ray in a triangle's plane does not cross it. A sphere or cone
+/// that the ray only touches is crossed twice, at one place.
 std::vector<Crossing> line_crossings(const scenes::Scene& scene, const accel::Ray& ray,
                                      scenes::PrimitiveId id);
 
-/// Returns the crossings of some primitives in the ray's interval (`accel::in_interval`), in the
-/// order of t, at equal t in that of primitives.
+/// Returns the crossings of some primitives in the ray's interval (`accel::in_interval`), ordered
+/// by t and, at equal t, by primitive.
 std::vector<Crossing> crossings(const scenes::Scene& scene, const accel::Ray& ray,
                                 const std::vector<scenes::PrimitiveId>& ids);
 

@@ -48,7 +48,7 @@ ClaimsReport verify_hit_files(const scenes::Scene& scene, const std::filesystem:
   std::uint64_t verified = 0;
   for (;;) {
     const std::size_t ray_count = ray_reader.read(block);
-    // One more than there are rays, to find hits that are too many.
+    // One more than the number of rays, to detect excess hits.
     const std::size_t hit_count =
         hit_reader.read(ray_count < kRaysAtOnce ? ray_count + 1 : ray_count, table);
     if (hit_count < ray_count) {

@@ -1,5 +1,5 @@
 #pragma once
-// Verifies the hits that any program finds for the rays of a file.
+// Verifies hits found by any program for the rays of a file.
 
 #include <filesystem>
 #include <string>
@@ -14,21 +14,21 @@
 namespace beambench::verify {
 
 struct ClaimsReport {
-  rays::Query query;  ///< that the hits answer
+  rays::Query query;  ///< the query of the hits
   DiffReport report;
   std::vector<std::string> places;  ///< of the report's examples: "ray 17 (hits.csv:18)"
 };
 
-/// Reads both files part by part and verifies the hits: any number of them in the same memory.
-/// Grazes of rays that may graze do not count in the verdict. `progress` gets one cell. Throws
-/// InputError naming file and line or byte for what the files may not hold, for rays of another
-/// scene, and where there are not as many hits as rays.
+/// Reads both files in parts and verifies the hits: any number of them in constant memory. Grazes
+/// of rays that may graze do not count in the verdict. `progress` gets one cell. Throws InputError
+/// with file and line or byte for invalid contents, for rays of another scene, and if the numbers
+/// of hits and rays differ.
 ClaimsReport verify_hit_files(const scenes::Scene& scene, const std::filesystem::path& rays,
                               const std::filesystem::path& hits,
                               ClaimVerifier::OnMismatch on_mismatch, base::Progress& progress);
 
-/// The same with hits that a tracer finds for the rays of a file, which it gets all at once. Throws
-/// also as the tracer.
+/// Verifies hits that a tracer finds for the rays of a file, which it receives all at once. Also
+/// throws as the tracer.
 ClaimsReport verify_traced_file(const scenes::Scene& scene, const std::filesystem::path& rays,
                                 const Tracer& tracer, ClaimVerifier::OnMismatch on_mismatch,
                                 base::Progress& progress);

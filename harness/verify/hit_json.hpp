@@ -1,5 +1,5 @@
 #pragma once
-// Rays and hits as JSON, the same in every report.
+// Formats rays and hits as JSON, the same in every report.
 
 #include <cmath>
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace beambench::verify {
 
-/// null for a miss.
+/// Returns null for a miss.
 template <class AnyHit>
 nlohmann::ordered_json hit_json(const std::optional<AnyHit>& hit) {
   if (!hit) return nullptr;
@@ -22,7 +22,7 @@ nlohmann::ordered_json vector_json(const Vector& v) {
   return nlohmann::ordered_json::array({v.x, v.y, v.z});
 }
 
-/// An infinite t_max, which has no number in JSON, is null.
+/// An infinite t_max, which JSON cannot represent as a number, is null.
 inline nlohmann::ordered_json ray_json(const accel::Ray& ray) {
   return {{"origin", vector_json(ray.origin)},
           {"direction", vector_json(ray.direction)},

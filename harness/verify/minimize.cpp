@@ -40,13 +40,14 @@ std::vector<accel::Ray> rays_of(const rays::TraceInput& input) {
   return rays;
 }
 
-/// Asks for wrong answers over parts of a scene and of an input.
+/// Looks for wrong results over parts of a scene and of an input.
 class Trial {
  public:
   Trial(const scenes::Scene& scene, const FindWrong& find_wrong, base::Progress& progress)
       : scene_(scene), find_wrong_(find_wrong), progress_(progress) {}
 
-  /// A wrong answer over these primitives; nothing where all are right, or it was asked too often.
+  /// Returns a wrong result over these primitives; nothing if all are correct, or after too many
+  /// runs.
   std::optional<Mismatch> wrong(std::span<const scenes::PrimitiveId> ids,
                                 const rays::TraceInput& input) {
     if (runs_ == kMaxRuns) return std::nullopt;
@@ -63,7 +64,7 @@ class Trial {
   std::size_t runs_ = 0;
 };
 
-/// Takes away ever smaller parts of a list as long as `fails` holds of the rest.
+/// Removes smaller and smaller parts of a list while `fails` is true for the rest.
 template <class T, class Fails>
 std::vector<T> reduced(std::vector<T> items, Fails fails) {
   for (std::size_t part = (items.size() + 1) / 2; part >= 1; part /= 2) {
@@ -87,7 +88,7 @@ std::vector<T> reduced(std::vector<T> items, Fails fails) {
   return items;
 }
 
-/// The primitives that the answers name, ascending.
+/// Returns the primitives of the results, ascending.
 std::vector<scenes::PrimitiveId> named(const scenes::Scene& scene, const Mismatch& wrong) {
   std::vector<scenes::PrimitiveId> ids;
   const auto add = [&](const auto& hit) {
@@ -144,7 +145,7 @@ FindWrong wrong_by_differ(Tracer tracer) {
       found.diff_class = DiffClass::kStructureError;
       found.reason = "invalid hit: it has a number that no hit has";
       return found;
-    } catch (const InputError&) {  // over this part it fails in another way
+    } catch (const InputError&) {  // over this part it fails differently
       return std::nullopt;
     } catch (const PluginError&) {
       return std::nullopt;
@@ -160,7 +161,7 @@ std::optional<MinimalCase> minimize(const scenes::Scene& scene, const rays::Trac
   std::vector<scenes::PrimitiveId> all(scene.primitives.size());
   std::iota(all.begin(), all.end(), 0U);
 
-  // Fewer primitives make all that follows quick, so those that are named go first.
+  // Fewer primitives make all later steps quick, so the named ones are tried first.
   std::vector<scenes::PrimitiveId> ids = named(scene, wrong);
   rays::TraceInput kept = list_of({wrong.ray}, input);
   std::optional<Mismatch> found = ids.empty() ? std::nullopt : trial.wrong(ids, kept);
@@ -168,7 +169,7 @@ std::optional<MinimalCase> minimize(const scenes::Scene& scene, const rays::Trac
     ids = all;
     found = trial.wrong(ids, kept);
   }
-  if (!found && input.list() != nullptr) {  // it takes more than this ray
+  if (!found && input.list() != nullptr) {  // one ray is not enough
     kept = list_of(reduced(input.list()->rays,
                            [&](const std::vector<accel::Ray>& rays) {
                              return trial.wrong(all, list_of(rays, input)).has_value();
@@ -176,7 +177,7 @@ std::optional<MinimalCase> minimize(const scenes::Scene& scene, const rays::Trac
                    input);
     found = trial.wrong(ids, kept);
   }
-  if (!found) {  // it takes the pencils of the list, or the image
+  if (!found) {  // it needs the pencils of the list, or the image
     kept = input;
     found = trial.wrong(ids, kept);
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Reduces a wrong answer to the fewest primitives and one ray.
+// Reduces a wrong result to the fewest primitives and one ray.
 
 #include <cstddef>
 #include <filesystem>
@@ -17,51 +17,50 @@
 
 namespace beambench::verify {
 
-/// Answers the rays of an input over a scene, as a structure or a program does. Throws InputError
-/// where it cannot.
+/// Traces the rays of an input over a scene, like a structure or a program. Throws InputError on
+/// failure.
 using Tracer = std::function<rays::HitTable(const scenes::Scene& scene, const rays::TraceInput&)>;
 
-/// A structure, built over each scene anew.
+/// Returns a tracer that builds the structure anew over each scene.
 Tracer tracer_of(const accel::StructureChoice& structure);
 
-/// The report over all rays of an input.
+/// Returns the report over all rays of an input.
 DiffReport verify_tracer(const scenes::Scene& scene, const rays::TraceInput& input,
                          const Tracer& tracer);
 
-/// The first wrong answer that a subject gives for an input over a scene, which is a part of the
-/// one that it failed over. Nothing where all are right, or where the subject fails in another way.
+/// Returns the first wrong result of a subject for an input over a scene, which is a part of the
+/// scene where it failed. Nothing if all are correct, or if the subject fails differently.
 using FindWrong =
     std::function<std::optional<Mismatch>(const scenes::Scene& scene, const rays::TraceInput&)>;
 
-/// By the differ: the first structure error.
+/// Finds the first structure error of the differ.
 FindWrong wrong_by_differ(Tracer tracer);
 
-/// A wrong answer, over a part of a scene.
+/// A wrong result, over a part of a scene.
 struct MinimalCase {
   scenes::Scene scene;
   std::vector<scenes::PrimitiveId> primitives;  ///< of the whole scene, in the order of `scene`
-  /// One ray; more where it takes them all, as an image whose rays are traced together.
+  /// One ray, or all rays if that many are needed, as for an image whose rays are traced together.
   rays::TraceInput input;
   Mismatch mismatch;     ///< of a ray of `input`
   std::size_t runs = 0;  ///< of the subject
-  bool repeated = true;  ///< false: not traced again, what is left is what the answers name
+  bool repeated = true;  ///< false: not traced again; only the primitives of the results remain
 };
 
-/// Takes rays, then primitives away as long as some answer stays wrong (Zeller and Hildebrandt,
-/// "Simplifying and isolating failure-inducing input", IEEE TSE 28(2), 2002), by at most 2,000
-/// runs of `find_wrong`. Nothing where the subject, asked again, is right. `progress` gets one
-/// cell.
+/// Removes rays, then primitives, while some result stays wrong (Zeller and Hildebrandt,
+/// "Simplifying and isolating failure-inducing input", IEEE TSE 28(2), 2002), with at most 2,000
+/// runs of `find_wrong`. Returns nothing if the subject is correct when run again. `progress` gets
+/// one cell.
 std::optional<MinimalCase> minimize(const scenes::Scene& scene, const rays::TraceInput& input,
                                     const Mismatch& wrong, const FindWrong& find_wrong,
                                     base::Progress& progress);
 
-/// The ray and the primitives that its answers name, for answers that nobody can be asked for
-/// again.
+/// Returns the ray and the primitives of its results, for results that cannot be reproduced.
 MinimalCase named_case(const scenes::Scene& scene, const Mismatch& wrong);
 
-/// Writes into a folder, which is made: scene.nff; scene.obj where there are triangles alone;
-/// ray.rays and ray.csv, unless the rays are an image; case.json with the ray, the answers, which
-/// primitives of `whole` are left, and what was traced by `subject`. Throws InputError.
+/// Writes into a folder, which is created: scene.nff; scene.obj if there are only triangles;
+/// ray.rays and ray.csv, unless the rays are an image; case.json with the ray, the results, the
+/// remaining primitives of `whole`, and what `subject` traced. Throws InputError.
 void write_case(const std::filesystem::path& folder, const MinimalCase& minimal,
                 const std::string& whole, const std::string& subject);
 

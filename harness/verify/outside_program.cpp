@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of this process, removed with all that is in it.
+/// A temporary folder of this process, removed with its contents.
 class WorkFolder {
  public:
   WorkFolder() : path_((fs::temp_directory_path() / "beambench-XXXXXX").string()) {

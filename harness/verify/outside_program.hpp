@@ -1,5 +1,5 @@
 #pragma once
-// A program that is run to answer rays.
+// Runs an outside program that traces rays.
 
 #include <string>
 
@@ -7,16 +7,16 @@
 
 namespace beambench::verify {
 
-/// Runs a command of the shell for each scene and input, in which these words are replaced by the
-/// paths of files in a folder of its own:
+/// Runs a shell command for each scene and input, in which these words are replaced by the paths of
+/// files in a temporary folder:
 ///
-///     {nff}, {obj}              the scene; OBJ has none with spheres or cones
+///     {nff}, {obj}              the scene; OBJ cannot express spheres and cones
 ///     {rays}, {rays_csv}        the rays
-///     {hits}                    where the command is to write the hits, in either format
+///     {hits}                    where the command must write the hits, in either format
 ///
-/// What the command prints goes to stderr; of later runs nothing is printed. Throws InputError here
-/// when the command has no {hits}, and when it is run where it fails, or writes no hits, or not as
-/// many as there are rays.
+/// The command's output goes to stderr; that of later runs is suppressed. Throws InputError if the
+/// command has no {hits}; each run throws it if the command fails, or if the numbers of hits and
+/// rays differ.
 Tracer program_of(const std::string& command);
 
 }  // namespace beambench::verify

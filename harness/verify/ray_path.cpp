@@ -22,13 +22,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kListedMisses = 40;  // in the text; the JSON has them all
+constexpr std::size_t kListedMisses = 40;  // in the text; the JSON has all of them
 
-/// What a ray-primitive test came to. A primitive beyond the best hit is not missed by the ray.
+/// The outcome of a ray-primitive test. A primitive beyond the best hit does not count as missed.
 struct TestOutcome {
   scenes::PrimitiveId primitive;
   bool hit;
-  float t;  ///< kMiss where the ray misses it altogether
+  float t;  ///< kMiss if the ray misses it completely
 };
 
 /// The tests of a path with the best hit after each step.
@@ -109,7 +109,7 @@ std::string plane_text(const accel::CrossedPlane& plane) {
 constexpr std::array<std::string_view, 3> kBeamMeets{"empty leaf", "occupied leaf", "leaves leaf"};
 constexpr std::array<std::string_view, 3> kBeamKinds{"non-terminal", "occupied", "leaving"};
 
-/// Why there is no further beam.
+/// Returns why there are no further beams.
 std::string_view end_text(const accel::BeamPassage& last) {
   switch (last.kind) {
     case accel::BeamKind::kLeaving:
@@ -222,7 +222,7 @@ Json step_json(const accel::TraceStep& step, Account& account) {
   return out;
 }
 
-/// Traces one ray and puts its hit in its place.
+/// Traces one ray and stores its hit.
 void answer_alone(const accel::Accelerator& structure, const accel::Ray& ray, std::size_t index,
                   rays::TraceResults& results) {
   if (auto* any = std::get_if<rays::AnyHits>(&results)) {
@@ -275,8 +275,7 @@ std::string to_text(const scenes::Scene& scene, const RayPath& path) {
   out += beams_text(path);
   Account account(scene, path.verified.ray);
   for (std::size_t i = 0; i < path.steps.size(); ++i) {
-    // In the leaf where its beam ends, the images of the primitives on the screen are tested
-    // first.
+    // In the leaf where its beam ends, the images of the primitives on the screen are tested first.
     const bool by_images = i == 0 && !path.beams.empty();
     out += step_text(i + 1, path.steps[i],
                      by_images ? "no test: the sample lies outside of the primitives' images"

@@ -1,5 +1,5 @@
 #pragma once
-// The traversal path of one ray, its hits and how they were verified: as text and as JSON.
+// The traversal path of one ray, its hits and their verification: as text and as JSON.
 
 #include <map>
 #include <optional>
@@ -15,31 +15,33 @@
 
 namespace beambench::verify {
 
-/// What is known of one ray.
+/// The facts about one ray.
 struct RayPath {
   std::string structure;    ///< its short label
-  rays::ImageOfRays image;  ///< that the rays are of, or come from
+  rays::ImageOfRays image;  ///< the image of the rays, or from which they come
   const rays::TraceInput& input;
-  std::vector<accel::TraceStep> steps;  ///< empty where the structure cannot list them
+  std::vector<accel::TraceStep> steps;  ///< empty if the structure cannot list them
   std::map<std::string, std::uint64_t, std::less<>> counters;
-  /// The ray, its hit among all rays (or, unless `asked_all`, alone), the oracle's, the class.
+  /// The ray, its hit among all rays (or, unless `asked_all`, alone), the oracle's hit, and the
+  /// class.
   Mismatch verified;
   std::optional<accel::Hit> alone;  ///< its closest hit, traced alone
-  bool asked_all = true;            ///< were all rays of the input traced?
-  /// With beams: those that contain the sample. The steps are then of the sample with its beams.
+  bool asked_all = true;            ///< whether all rays of the input were traced
+  /// For beams: those that contain the sample. The steps are then those of the sample with its
+  /// beams.
   std::vector<accel::BeamPassage> beams;
 };
 
-/// Builds the structure and traces ray `index` of the input, unless `alone` with all the others.
-/// `input` must outlive the result.
+/// Builds the structure and traces ray `index` of the input, together with all the others unless
+/// `alone`. `input` must outlive the result.
 RayPath trace_path(const accel::StructureChoice& choice, const scenes::Scene& scene,
                    const rays::ImageOfRays& image, const rays::TraceInput& input, std::size_t index,
                    bool alone, base::Progress& progress);
 
-/// One paragraph for each step.
+/// Returns one paragraph for each step.
 std::string to_text(const scenes::Scene& scene, const RayPath& path);
 
-/// All of it, numbers as they are; what is infinite or a miss is null.
+/// Returns everything, with numbers as they are; infinite values and misses are null.
 nlohmann::ordered_json to_json(const scenes::Scene& scene, const RayPath& path);
 
 }  // namespace beambench::verify

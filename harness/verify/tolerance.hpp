@@ -1,5 +1,5 @@
 #pragma once
-// The lengths within which the judge does not distinguish points.
+// The tolerances within which the judge does not distinguish points.
 
 #include <algorithm>
 #include <limits>
@@ -11,9 +11,9 @@
 
 namespace beambench::verify {
 
-/// K u for a point on the ray (`accel::float_unit`): the length within which points near it cannot
-/// be distinguished in float. At least the smallest normal float, as smaller numbers are flushed to
-/// 0.
+/// Returns K u for a point on the ray (`accel::float_unit`): the distance within which points near
+/// it cannot be distinguished in float. At least the smallest normal float, because smaller numbers
+/// are flushed to 0.
 inline double tolerance(const accel::Ray& ray, const glm::dvec3& point) {
   return std::max<double>(accel::kUnits * accel::float_unit(glm::dvec3(ray.origin), point),
                           std::numeric_limits<float>::min());
@@ -22,9 +22,9 @@ inline double tolerance(const accel::Ray& ray, double t) {
   return tolerance(ray, glm::dvec3(ray.origin) + t * glm::dvec3(ray.direction));
 }
 
-/// The number of tolerances that two places may be apart along the ray. At a grazing incidence
-/// places that are close across a surface are far apart along it; where they are farther than this,
-/// the sine of the incidence is below 1/1024, and they are two places.
+/// The number of tolerances that two equal places may be apart along the ray. At grazing incidence,
+/// places that are close across a surface are far apart along it; beyond this limit, the sine of
+/// the incidence is below 1/1024, and they count as two places.
 inline constexpr double kAlong = 1024.0;
 
 }  // namespace beambench::verify

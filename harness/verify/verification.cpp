@@ -57,7 +57,7 @@ void compare_bits(const rays::TraceInput& input, const rays::TraceResults& resul
   if (cell.different_bits > 0) cell.verdict = Verdict::kMismatch;
 }
 
-/// Ties are no dispute, and grazes only where there are too many of them.
+/// Describes disputes: ties are not disputes, and grazes only if there are too many.
 std::vector<std::string> describe_disputes(const VerifiedView& view, const DiffReport& report,
                                            const ReplayCommand& replay) {
   std::vector<std::string> texts;
@@ -108,7 +108,7 @@ std::vector<VerifiedCell> verify_each(const scenes::Scene& scene, const std::str
       fail(cell, error);
     } catch (const PluginError& error) {
       fail(cell, error);
-    } catch (const rays::InvalidHit& error) {  // nothing can be traced on from there
+    } catch (const rays::InvalidHit& error) {  // tracing cannot continue from there
       fail(cell, error);
     }
     const std::string_view verdict = to_string(cell.verdict);

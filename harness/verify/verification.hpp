@@ -1,5 +1,5 @@
 #pragma once
-// Verifying structures over a scene: against the oracle, and bit for bit among themselves.
+// Verifies structures over a scene: against the oracle, and bit for bit among themselves.
 
 #include <cstdint>
 #include <functional>
@@ -15,7 +15,7 @@
 
 namespace beambench::verify {
 
-/// What was found of one structure over one scene.
+/// The findings for one structure over one scene.
 struct VerifiedCell {
   std::string scene;
   std::string rays;  ///< as `RayChoice::label`
@@ -23,52 +23,54 @@ struct VerifiedCell {
   std::string structure;   ///< the bare name
   std::string parameters;  ///< all of them, canonical
   std::string label;       ///< the name and the parameters that are not at their defaults
-  std::string rays_hash;   ///< empty where the rays follow from the hits, as those of pictures
+  std::string rays_hash;   ///< empty if the rays follow from the hits, as in pictures
 
-  std::optional<DiffReport> report;   ///< absent where nothing was verified
-  std::vector<std::string> disputes;  ///< rays described, errors first
-  std::string bits_reference;        ///< the structure whose bits it was compared with; empty: none
-  std::uint64_t different_bits = 0;  ///< rays whose hit differs from the reference's
+  std::optional<DiffReport> report;   ///< absent if nothing was verified
+  std::vector<std::string> disputes;  ///< descriptions of rays, errors first
+  std::string bits_reference;         ///< structure with which its bits were compared; empty: none
+  std::uint64_t different_bits = 0;   ///< rays whose hit differs from the reference's
   Verdict verdict = Verdict::kError;
   std::string message;  ///< why nothing was verified
-  std::string picture;  ///< file of the differences; empty: none was made
+  std::string picture;  ///< the file of the differences; empty: none
 
   bool has_rays() const { return verdict != Verdict::kNoRays; }
-  /// Was something verified? Not where there are no rays or the structure does not take them.
+  /// Returns whether a verification was possible, with rays that the structure supports.
   bool was_possible() const { return has_rays() && verdict != Verdict::kUnsupported; }
-  /// Was nothing found to be wrong?
+  /// Returns whether no fault was found.
   bool passed() const { return is_right(verdict) || !was_possible(); }
 };
 
-/// The rays that are traced over a scene, which outlives it.
+/// The rays that are traced over a scene, which must outlive this object.
 struct VerifiedView {
   const scenes::Scene& scene;
   rays::ImageOfRays image;
   rays::TraceInput input;
-  int threads = 1;      ///< that trace the image
-  std::string program;  ///< how this program is called, for the commands that replay a ray
+  int threads = 1;      ///< number of threads that trace the image
+  std::string program;  ///< the command for this program, for replaying a ray
 };
 
 /// Verifies one structure and fills the rest of its cell; may throw InputError.
 using VerifyInto = std::function<void(const accel::StructureChoice& choice, VerifiedCell& cell)>;
-/// Verifies each contender, the exhaustive search first where it is among them. `progress` gets one
-/// cell for each; one that throws gets the verdict "error".
+/// Verifies each contender, starting with the exhaustive search if it is among them. `progress`
+/// gets one cell for each; a contender that throws gets the verdict "error".
 std::vector<VerifiedCell> verify_each(const scenes::Scene& scene, const std::string& rays,
                                       std::vector<accel::StructureChoice> contenders,
                                       base::Progress& progress, const VerifyInto& verify_into);
 
-/// Draws the classes of the rays, where they are an image's and some are wrong; returns the file.
+/// Draws the classes of an image's rays if some are wrong; returns the file.
 using DrawDifferences = std::function<std::string(
     const ReferenceHits& reference, std::span<const DiffClass> classes, const VerifiedCell& cell)>;
 
-/// Verifies each contender, the exhaustive search first where it is among them: the bit-exact ones
-/// are compared with it, or with the first of them. `progress` gets one cell for each contender.
+/// Verifies each contender, starting with the exhaustive search if it is among them: the bit-exact
+/// ones are compared with it, or with the first of them. `progress` gets one cell for each
+/// contender.
 std::vector<VerifiedCell> verify_scene(const VerifiedView& view,
                                        std::vector<accel::StructureChoice> contenders,
                                        base::Progress& progress,
                                        const DrawDifferences& draw_differences = {});
 
-/// The cells of rays of a kind that the scene has none of, and why. `progress` gets each.
+/// Returns cells for a kind of rays that the scene does not have, with the reason. `progress` gets
+/// each.
 std::vector<VerifiedCell> cells_without_rays(const scenes::Scene& scene, const std::string& rays,
                                              std::vector<accel::StructureChoice> contenders,
                                              base::Progress& progress, const std::string& why);

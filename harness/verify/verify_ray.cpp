@@ -21,7 +21,7 @@ struct Place {
   Contact contact;
 };
 
-/// One ray over a scene, and what counts as one place on it.
+/// One ray over a scene, and the criteria for equal places on it.
 struct Measure {
   const scenes::Scene& scene;
   const accel::Ray& ray;
@@ -36,7 +36,7 @@ struct Measure {
     return gap * place.contact.cosine <= near && gap <= kAlong * near;
   }
 
-  /// Does the ray begin or end on the surface that is hit?
+  /// Returns whether the ray begins or ends on the surface that is hit.
   bool touches(const Place& place) const {
     return at_one_place(place, ray.t_min) || at_one_place(place, ray.t_max);
   }
@@ -50,9 +50,9 @@ struct Measure {
                                [&](const Crossing& each) { return grazes(place_of(each.hit())); });
   }
 
-  /// Two hits of one primitive at one point. On a sphere or cone |dt| says little near the
-  /// silhouette; two points of its surface are the same crossing when the ray enters at both or
-  /// leaves at both.
+  /// Returns whether two hits of one primitive are the same crossing. On a sphere or cone, |dt| is
+  /// inconclusive near the silhouette; two points of its surface are the same crossing if the ray
+  /// enters at both or leaves at both.
   bool is_same(const Place& claim, const Place& reference) const {
     const scenes::PrimitiveId id = claim.hit.primitive;
     if (id != reference.hit.primitive) return false;
@@ -62,7 +62,8 @@ struct Measure {
            claim.contact.leaving == reference.contact.leaving;
   }
 
-  /// Does the ray pass the primitive's boundary within K u, or cross it just beyond an end?
+  /// Returns whether the ray passes the primitive's boundary within K u, or crosses it just beyond
+  /// an end.
   bool nearly_hits(scenes::PrimitiveId id) const {
     const double length = glm::length(glm::dvec3(ray.direction));
     for (const Approach& approach : approaches(scene, ray, id)) {
@@ -82,8 +83,8 @@ std::optional<ExactHit> as_exact(const std::optional<accel::Hit>& hit) {
   return hit ? std::optional(ExactHit{hit->t, hit->primitive}) : std::nullopt;
 }
 
-/// The class of a closest hit, or of a miss, by the crossings in their order: kAgree, kTie or
-/// kGraze; nothing where it is wrong.
+/// Returns the class of a closest hit, or of a miss, by the crossings in order: kAgree, kTie or
+/// kGraze; nothing if it is wrong.
 std::optional<DiffClass> class_among(const Measure& measure, const std::vector<Crossing>& crossings,
                                      const std::optional<ExactHit>& answer) {
   if (!answer) {
@@ -123,9 +124,9 @@ std::string_view why_wrong(const Measure& measure, const Mismatch& found) {
   return "a nearer hit was lost";
 }
 
-/// A structure that reports no hit is right when there is none, and only grazes when every hit
-/// there is does. One that reports some hit is right when there is one, and grazes when the ray
-/// nearly hits something.
+/// Classifies an any-hit result. "No hit" is correct if there is none, and only grazes if every
+/// existing hit does. "Hit" is correct if there is one, and grazes if the ray nearly hits
+/// something.
 void classify_any_hit(const Measure& measure, const std::vector<scenes::PrimitiveId>& near,
                       const std::vector<Crossing>& crossings, Mismatch& found) {
   const bool answer = found.any_hit_answer == 1;
@@ -134,7 +135,7 @@ void classify_any_hit(const Measure& measure, const std::vector<scenes::Primitiv
     return std::ranges::any_of(near,
                                [&](scenes::PrimitiveId id) { return measure.nearly_hits(id); });
   };
-  if (answer != crossings.empty()) {  // right, so the oracle is not
+  if (answer != crossings.empty()) {  // correct, so the oracle is wrong
     const bool excused = answer ? all_grazed : is_hit_nearly();
     if (excused) return classify_as(DiffClass::kAgree, {}, found);
     return classify_as(DiffClass::kEmbreeError,
@@ -220,7 +221,7 @@ bool classify_by_oracle(const scenes::Scene& scene, Mismatch& found) {
   const Place claim = measure.place_of({found.answer->t, found.answer->primitive});
   if (!claim.contact.is_on_primitive()) return false;
   if (measure.is_same(claim, measure.place_of(*found.oracle))) return true;
-  // Nothing lies before the oracle's hit, nor between two places that are so close.
+  // Nothing lies in front of the oracle's hit, nor between two places that are so close.
   const double gap = measure.length_between(claim.hit.t, found.oracle->t);
   if (!(gap <= claim.contact.tolerance)) return false;
   classify_as(DiffClass::kTie, "both primitives are hit at one point", found);

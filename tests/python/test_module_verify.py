@@ -243,21 +243,25 @@ def claims_of_two(**arrays: object) -> Callable[[], bb.Report]:
 
 INVALID: dict[str, tuple[Callable[[], object], type[Exception], str]] = {
     "nothing": (claims_of_two(), TypeError, r"no hits are given; give t or point"),
-    "ids alone": (claims_of_two(primitive=[0, 1]), TypeError, r"primitive alone is no hit"),
+    "ids alone": (
+        claims_of_two(primitive=[0, 1]),
+        TypeError,
+        r"primitive alone does not state a hit",
+    ),
     "two places": (
         claims_of_two(t=[1, 1], point=np.zeros((2, 3))),
         TypeError,
-        r"t and point are no hits together",
+        r"t and point cannot be combined",
     ),
     "two ids": (
         claims_of_two(t=[1, 1], primitive=[0, 0], triangle=[0, 0]),
         TypeError,
-        r"t and primitive and triangle are no hits together",
+        r"t and primitive and triangle cannot be combined",
     ),
     "both queries": (
         claims_of_two(t=[1, 1], occluded=[0, 1]),
         TypeError,
-        r"t and occluded are no hits together",
+        r"t and occluded cannot be combined",
     ),
     "too few": (
         claims_of_two(t=[1]),

@@ -1,8 +1,4 @@
-<<<<<<< HEAD:tests/thesis/census_test.cpp
-// What must be true of the census of a picture's rays.
-=======
-// Properties of the census of a picture's rays, and of a scene's growth.
->>>>>>> main:tests/experiments/census_test.cpp
+// Properties of the census of a picture's rays.
 
 #include "harness/thesis/census.hpp"
 

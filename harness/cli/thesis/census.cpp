@@ -1,4 +1,4 @@
-// beambench census: how many rays of which kind the whole ray tracer takes.
+// beambench census: counts the rays of the whole ray tracer by kind.
 
 #include "harness/thesis/census.hpp"
 
@@ -38,7 +38,7 @@ struct CensusRequest {
   std::string order = "rows";
   ImageRequest image;
   WhittedRequest whitted;
-  std::string pictures;  ///< a folder; empty: none are kept
+  std::string pictures;  ///< a folder; empty: do not keep them
   bool count_work = false;
   bool json = false;
 };
@@ -76,16 +76,16 @@ Cells row_of(const CensusResult& result) {
   return row;
 }
 
-/// Above this a difference from a published count needs an explanation.
+/// The percentage above which a difference from a published count needs an explanation.
 constexpr double kNotablePercent = 2.0;
 
-/// One of our counts beside that of the literature.
+/// One of our counts compared with that of the literature.
 struct Compared {
   std::string_view rays;
   std::uint64_t ours;
   std::uint64_t published;
 
-  /// Nothing where there is nothing to be a percentage of.
+  /// Returns nothing if the published count is 0.
   std::optional<double> percent() const {
     if (published == 0) return ours == 0 ? std::optional(0.0) : std::nullopt;
     return 100.0 * (static_cast<double>(ours) / static_cast<double>(published) - 1.0);
@@ -198,7 +198,7 @@ std::string census_text(const std::vector<CensusResult>& results) {
   return table.text();
 }
 
-/// The options that depart from the rules of SPD, which explains other counts than the published.
+/// Returns the options that depart from the SPD's rules, which explains different counts.
 std::string departure(const CensusRequest& request) {
   std::vector<std::string> options;
   const int published_depth = render::WhittedOptions{}.max_depth;

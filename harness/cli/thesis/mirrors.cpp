@@ -1,4 +1,5 @@
-// beambench mirrors: what planar mirrors show, by beams and by individual reflected rays.
+// beambench mirrors: traces reflections in planar mirrors by beams and by individual reflected
+// rays.
 
 #include "harness/thesis/mirrors.hpp"
 
@@ -72,7 +73,7 @@ void print_json(const scenes::Scene& scene, const MirrorsRequest& request,
   fmt::print("{}\n", json_text(out));
 }
 
-/// Returns false when beams and rays found different hits.
+/// Returns false if beams and rays found different hits.
 bool show_mirrors(const MirrorsRequest& request) {
   const accel::StructureChoice choice = choose_one("--accel", request.structure);
   const scenes::Scene scene = open_scene(request.scene);

@@ -1,4 +1,4 @@
-// beambench sampling: cost and error of choosing the number of samples for each pixel.
+// beambench sampling: compares cost and error of choosing the number of samples for each pixel.
 
 #include "harness/thesis/sampling.hpp"
 

@@ -47,7 +47,7 @@ Vec3 vec3(const glm::vec3& v) { return {v.x, v.y, v.z}; }
   return Builder::build(boxes, centers, config);  // on this thread
 }
 
-/// The library's hierarchy and its triangles, which are put in the order of the leaves.
+/// The library's hierarchy and its triangles, in the order of the leaves.
 template <bool kRobust>
 class MadmannBvh : public TraversalAccelerator<MadmannBvh<kRobust>> {
  public:
@@ -86,7 +86,7 @@ class MadmannBvh : public TraversalAccelerator<MadmannBvh<kRobust>> {
     statistics.bytes = bvh_.nodes.capacity() * sizeof(Node) +
                        bvh_.prim_ids.capacity() * sizeof(std::size_t) +
                        triangles_.capacity() * sizeof(triangles_[0]);
-    // Its headers state no version.
+    // Its headers do not state a version.
     statistics.library_version = adapters::library_version("madmann91/bvh 2");
     return statistics;
   }
@@ -99,7 +99,7 @@ class MadmannBvh : public TraversalAccelerator<MadmannBvh<kRobust>> {
     return {vec3(ray.origin), vec3(ray.direction), ray.t_min, ray.t_max};
   }
 
-  /// The number in the scene of the triangle that is hit; `ray.tmax` is its t.
+  /// Returns the number in the scene of the triangle that is hit; `ray.tmax` is its t.
   template <bool kAny, class Counting>
   std::optional<std::size_t> visit(TheirRay& ray, Counting& counting) const {
     if (triangles_.empty()) return std::nullopt;

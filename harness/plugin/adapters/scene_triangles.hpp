@@ -1,5 +1,5 @@
 #pragma once
-// A scene as libraries for triangles take it.
+// A scene in the form that triangle libraries need.
 
 #include <array>
 #include <cstddef>
@@ -11,13 +11,13 @@
 
 namespace adapters {
 
-/// The three corners of triangle `index`, which is part of a polygon's surface.
+/// Returns the three corners of triangle `index`, which is part of a polygon's surface.
 inline std::array<glm::vec3, 3> corners(const beambench::scenes::Scene& scene, std::size_t index) {
   const auto& vertex = scene.triangles[index].vertex;
   return {scene.vertices[vertex[0]], scene.vertices[vertex[1]], scene.vertices[vertex[2]]};
 }
 
-/// Throws InputError when the scene holds something else.
+/// Throws InputError if the scene contains anything else.
 inline void require_triangles_only(const beambench::scenes::Scene& scene,
                                    const std::string& structure) {
   if (scene.spheres.empty() && scene.cones.empty()) return;
@@ -25,10 +25,10 @@ inline void require_triangles_only(const beambench::scenes::Scene& scene,
                               "' holds spheres or cones; choose a scene of polygons");
 }
 
-/// The hit of a triangle that a library found. Libraries compute t in float by formulas of their
-/// own, which the differ would not always accept; here t of the triangle's plane is computed in
-/// double. Whether the triangle is hit remains the library's decision: next to an edge beambench's
-/// own test may reject the ray, and the hit would be lost.
+/// Returns a hit that a library found, with an accurate t. Libraries compute t in float with their
+/// own formulas, which the differ would not always accept; here, t of the triangle's plane is
+/// computed in double. Whether the triangle is hit remains the library's decision: next to an edge,
+/// beambench's own test may reject the ray, and the hit would be lost.
 inline beambench::accel::Hit with_exact_t(const beambench::scenes::Scene& scene,
                                           const beambench::accel::Ray& ray, std::size_t triangle,
                                           float t) {
@@ -41,7 +41,7 @@ inline beambench::accel::Hit with_exact_t(const beambench::scenes::Scene& scene,
   return {beambench::accel::is_hit(exact) ? exact : t, scene.triangles[triangle].primitive};
 }
 
-/// The parameter that turns it off.
+/// The parameter that turns this off.
 inline beambench::ParameterInfo exact_t_parameter() {
   return beambench::flag_parameter(
       "exact_t", true, "t in double, from the plane of the triangle that the library found");

@@ -1,5 +1,5 @@
-// Jacco Bikker's tinybvh (https://github.com/jbikker/tinybvh, MIT) as a plug-in, by its layouts for
-// processors.
+// Jacco Bikker's tinybvh (https://github.com/jbikker/tinybvh, MIT) as a plug-in, with its layouts
+// for CPUs.
 
 #include <cstddef>
 #include <cstdint>
@@ -26,7 +26,8 @@ using namespace beambench::scenes;
 
 tinybvh::bvhvec3 vec3(const glm::vec3& v) { return {v.x, v.y, v.z}; }
 
-/// What a layout holds, which is also what it was made of: tinybvh frees nothing in between.
+/// Returns the bytes of a layout, including what it was made from: tinybvh does not free it in
+/// between.
 std::size_t bytes_of(const tinybvh::BVH& bvh) {
   return bvh.allocatedNodes * sizeof(tinybvh::BVH::BVHNode) +
          bvh.idxCount * (sizeof(std::uint32_t) + sizeof(tinybvh::BVHBase::Fragment));
@@ -46,7 +47,7 @@ std::size_t bytes_of(const tinybvh::BVH8_CPU& bvh) {
   return bvh.allocatedBlocks * sizeof(tinybvh::BVH8_CPU::CacheLine) + bytes_of(bvh.bvh8);
 }
 
-/// The hierarchy of two children a node that a layout was made from.
+/// Returns the binary hierarchy from which a layout was made.
 const tinybvh::BVH& binary(const tinybvh::BVH& bvh) { return bvh; }
 const tinybvh::BVH& binary(const tinybvh::BVH_SoA& soa) { return soa.bvh; }
 const tinybvh::BVH& binary(const tinybvh::BVH4_CPU& bvh) { return bvh.bvh4.bvh; }
@@ -59,8 +60,8 @@ struct Options {
   bool exact_t;
 };
 
-/// One of tinybvh's layouts over the triangles of a scene. tinybvh knows no t_min, so rays begin at
-/// theirs.
+/// One of tinybvh's layouts over the triangles of a scene. tinybvh does not support t_min, so rays
+/// begin at theirs.
 template <class Layout>
 class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
  public:
@@ -113,8 +114,8 @@ class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
   }
 
  private:
-  /// The wider layouts choose the fastest builder themselves; BVH::Build is the reference one,
-  /// which makes the same tree.
+  /// Builds: the wider layouts choose the fastest builder themselves; BVH::Build is the reference
+  /// builder, which makes the same tree.
   template <class Built>
   void build_binned(Built& built, std::uint32_t triangles) {
 #ifdef BVH_USEAVX
@@ -126,8 +127,9 @@ class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
     built.Build(vertices_.data(), triangles);
   }
 
-  /// `Optimize` of the wider layouts themselves loses triangles: they join leaves whose triangles
-  /// must be neighbors, which `Compact` alone makes them again after subtrees were moved.
+  /// Optimizes: the wider layouts' own `Optimize` loses triangles, because they join leaves whose
+  /// triangles must be neighbors. Only `Compact` makes them neighbors again after subtrees were
+  /// moved.
   void build_optimized(std::uint32_t triangles) {
     auto& bvh = const_cast<tinybvh::BVH&>(binary(layout_));
     if (options_.spatial) {
@@ -148,7 +150,7 @@ class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
     return binary(layout_).usedNodes;
   }
 
-  /// The length of the direction where it is normalized: tinybvh's t are in it.
+  /// Returns the length of the direction if it is normalized, which is the unit of tinybvh's t.
   float unit_of(const Ray& ray) const {
     return options_.normalize ? glm::length(ray.direction) : 1.0F;
   }
@@ -158,7 +160,7 @@ class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
     const float reach = (ray.t_max - ray.t_min) * unit;
     const float far = options_.normalize ? BVH_FAR : kFarNotNormalized;
     const float t_max = reach < far ? reach : far;
-    // What the constructor of its rays does, which always normalizes.
+    // Like its ray constructor, which, however, always normalizes.
     tinybvh::Ray query;
     query.O = origin;
     query.D =
@@ -168,13 +170,14 @@ class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
     return query;
   }
 
-  /// Empty children are boxes at 1e30, BVH_FAR. A longer direction reaches them before t is so
-  /// large, and finds no node; this is short of them for all that are not longer than 1e10.
+  /// Empty children are boxes at 1e30, BVH_FAR. A longer direction reaches them before t is that
+  /// large, and finds no node; this value is nearer than that for all directions of length up to
+  /// 1e10.
   static constexpr float kFarNotNormalized = 1e20F;
 
   const Scene* scene_;
   Options options_;
-  std::vector<tinybvh::bvhvec4> vertices_;  // tinybvh keeps pointers into it
+  std::vector<tinybvh::bvhvec4> vertices_;  // tinybvh keeps pointers to it
   Layout layout_;
 };
 

@@ -1,4 +1,4 @@
 #pragma once
-// #include <beambench/plugin.hpp>: all that a plug-in needs.
+// #include <beambench/plugin.hpp>: everything that a plug-in needs.
 
 #include "harness/plugin/plugin.hpp"

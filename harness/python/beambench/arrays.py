@@ -1,4 +1,4 @@
-"""What users give, as the arrays that the compiled part takes; or one sentence on what is wrong."""
+"""Converts users' arguments to arrays for the compiled part, or states the problem."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ LARGEST_ID = 0xFFFFFFFF
 
 
 def whole_number(name: str, given: object) -> int:
-    """A whole number; raises TypeError for anything else."""
+    """Returns a whole number; raises TypeError for anything else."""
     if isinstance(given, bool) or not isinstance(given, int | np.integer):
         raise TypeError(f"{name} is {given!r}; expected a whole number")
     return int(given)
 
 
 def text(name: str, given: object) -> str:
-    """A text of Unicode; raises TypeError for anything else, InputError for lone surrogates."""
+    """Returns Unicode text; raises TypeError for anything else, InputError for lone surrogates."""
     if not isinstance(given, str):
         raise TypeError(f"{name} is {given!r}; expected a text")
     try:
@@ -32,7 +32,7 @@ def text(name: str, given: object) -> str:
 
 
 def encoded(name: str, given: str | bytes | os.PathLike[Any]) -> bytes:
-    """The bytes of a name or a path, UTF-8 or not; raises TypeError for anything else."""
+    """Returns the bytes of a name or a path, UTF-8 or not; raises TypeError for anything else."""
     try:
         return os.fsencode(given)
     except UnicodeEncodeError:
@@ -42,12 +42,12 @@ def encoded(name: str, given: str | bytes | os.PathLike[Any]) -> bytes:
 
 
 def _shape_text(shape: tuple[int | str, ...]) -> str:
-    """`(N, 3)`, `(N,)`."""
+    """Returns a text such as `(N, 3)` or `(N,)`."""
     return f"({', '.join(map(str, shape))}{',' if len(shape) == 1 else ''})"
 
 
 def _as_array(name: str, given: ArrayLike, kinds: str, expected: str) -> NDArray[Any]:
-    """An array of whatever shape whose dtype is of these kinds."""
+    """Returns an array of any shape whose dtype is one of these kinds."""
     try:
         array = np.asarray(given)
     except ValueError as error:  # rows of several lengths
@@ -60,7 +60,7 @@ def _as_array(name: str, given: ArrayLike, kinds: str, expected: str) -> NDArray
 
 
 def _require_shape(name: str, array: NDArray[Any], shape: tuple[int | str, ...]) -> None:
-    """A text in `shape` stands for any number of rows, a number for itself."""
+    """Raises InputError for other shapes. A text in `shape` means any number of rows."""
     fits = array.ndim == len(shape) and all(
         isinstance(wanted, str) or wanted == found
         for wanted, found in zip(shape, array.shape, strict=True)
@@ -77,15 +77,15 @@ def reals(
     shape: tuple[int | str, ...],
     dtype: type[np.float32] | type[np.float64],
 ) -> NDArray[Any]:
-    """Real numbers of a shape in one block of memory: where they are if possible, else a copy."""
+    """Returns real numbers of a shape in one block of memory: in place if possible, else a copy."""
     array = _as_array(name, given, "fiu", f"real numbers ({np.dtype(dtype)})")
     _require_shape(name, array, shape)
-    with np.errstate(over="ignore"):  # what is too large for float32 becomes infinite
+    with np.errstate(over="ignore"):  # numbers too large for float32 become infinite
         return np.require(array, dtype=dtype, requirements=["C", "A"])
 
 
 def ids(name: str, given: ArrayLike, shape: tuple[int | str, ...]) -> NDArray[np.uint32]:
-    """Indices as uint32; -1 of a signed type stands for NO_PRIMITIVE."""
+    """Returns indices as uint32; -1 of a signed type represents NO_PRIMITIVE."""
     array = _as_array(name, given, "iu", "integers (uint32)")
     _require_shape(name, array, shape)
     if array.dtype == np.uint32:
@@ -103,7 +103,7 @@ def ids(name: str, given: ArrayLike, shape: tuple[int | str, ...]) -> NDArray[np
 
 
 def flags(name: str, given: ArrayLike, shape: tuple[int | str, ...]) -> NDArray[np.uint8]:
-    """True and false, or 1 and 0, as uint8."""
+    """Returns true and false, or 1 and 0, as uint8."""
     array = _as_array(name, given, "biu", "bool, or integers 0 and 1")
     _require_shape(name, array, shape)
     if array.dtype.kind == "b":
@@ -116,12 +116,12 @@ def flags(name: str, given: ArrayLike, shape: tuple[int | str, ...]) -> NDArray[
 
 
 def rays_in_place(given: ArrayLike) -> NDArray[np.float32]:
-    """The rays of a call: where they are if they are float32 in one block, else a copy."""
+    """Returns the rays of a call: in place if they are float32 in one block, else a copy."""
     return reals("rays", given, ("N", 8), np.float32)
 
 
 def require_coordinates(name: str, points: NDArray[np.float64]) -> None:
-    """Raises InputError that names the first row with a coordinate that no scene may have."""
+    """Raises InputError for the first row with a coordinate that no scene may have."""
     wrong = ~(np.abs(points) <= 1e9).all(axis=-1)
     if wrong.any():
         first = int(np.argmax(wrong))

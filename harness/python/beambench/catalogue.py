@@ -1,4 +1,4 @@
-"""What there is by name: structures, scenes and kinds of rays."""
+"""Lists structures, scenes and kinds of rays by name."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ class Parameter:
     """A parameter of a structure, a scene or a kind of rays."""
 
     name: str
-    """By which it is given."""
+    """The name by which it is given."""
     type: str
     """integer, integer or auto, real, flag, choice, or cells (`32`, `64x32x16`, `auto`)."""
     default: str
-    """As text."""
+    """The default, as text."""
     minimum: float | None
-    """Of a number, inclusive; None for flags and choices."""
+    """The minimum of a number, inclusive; None for flags and choices."""
     maximum: float | None
-    """Of a number, inclusive; None for flags and choices."""
+    """The maximum of a number, inclusive; None for flags and choices."""
     choices: tuple[str, ...]
-    """Of a choice."""
+    """The values of a choice."""
     description: str
-    """One sentence, units included."""
+    """One sentence, including units."""
 
 
 @dataclass(frozen=True)
@@ -33,15 +33,15 @@ class StructureInfo:
     """A structure by name."""
 
     name: str
-    """By which `Structure` builds it."""
+    """The name by which `Structure` builds it."""
     summary: str
     """One sentence with the source in the literature."""
     parameters: tuple[Parameter, ...]
     """In the order of its label."""
     conformance: str
-    """bit-exact: the hits of `exhaustive`; tolerance: arithmetic of its own; baseline: no hits."""
+    """bit-exact: the hits of `exhaustive`; tolerance: its own arithmetic; baseline: no hits."""
     counters: dict[str, str]
-    """What it counts, and what that means."""
+    """The counters and their meaning."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ class SceneInfo:
     """A generated scene by name."""
 
     name: str
-    """By which `Scene` makes it."""
+    """The name by which `Scene` makes it."""
     summary: str
     """One sentence."""
     parameters: tuple[Parameter, ...]
@@ -61,13 +61,13 @@ class RayKindInfo:
     """A kind of rays by name."""
 
     name: str
-    """By which `Scene.rays` makes them."""
+    """The name by which `Scene.rays` makes them."""
     summary: str
-    """Where the rays come from."""
+    """The origin of the rays."""
     parameters: tuple[Parameter, ...]
-    """Such as the seed of random rays."""
+    """Parameters, such as the seed of random rays."""
     query: str
-    """What is to be found: closest, any, or picture (both)."""
+    """The query: closest, any, or picture (both)."""
 
 
 def _parameters(entry: dict[str, Any]) -> tuple[Parameter, ...]:
@@ -75,7 +75,7 @@ def _parameters(entry: dict[str, Any]) -> tuple[Parameter, ...]:
 
 
 def structures() -> list[StructureInfo]:
-    """All structures, with their parameters and counters."""
+    """Returns all structures, with their parameters and counters."""
     return [
         StructureInfo(**{**entry, "parameters": _parameters(entry)})
         for entry in _beambench.structures()
@@ -83,14 +83,14 @@ def structures() -> list[StructureInfo]:
 
 
 def scenes() -> list[SceneInfo]:
-    """All scenes of the catalogue, sorted by name."""
+    """Returns all scenes of the catalogue, sorted by name."""
     return [
         SceneInfo(**{**entry, "parameters": _parameters(entry)}) for entry in _beambench.scenes()
     ]
 
 
 def ray_kinds() -> list[RayKindInfo]:
-    """All kinds of rays that `Scene.rays` makes; `whitted`, whole pictures, is for sweeps only."""
+    """Returns the kinds of rays that `Scene.rays` makes; `whitted` is only for sweeps."""
     return [
         RayKindInfo(**{**entry, "parameters": _parameters(entry)})
         for entry in _beambench.ray_kinds()

@@ -11,13 +11,13 @@ from beambench.arrays import reals
 
 
 def _rows(name: str, given: ArrayLike) -> NDArray[np.float32]:
-    """Vectors, one for each ray or one for all."""
+    """Returns vectors, one for each ray or one for all."""
     array = np.asarray(given)
     return reals(name, given, (3,) if array.ndim == 1 else ("N", 3), np.float32)
 
 
 def _interval(name: str, given: ArrayLike) -> NDArray[np.float32]:
-    """Numbers, one for each ray or one for all."""
+    """Returns numbers, one for each ray or one for all."""
     array = np.asarray(given)
     return reals(name, given, () if array.ndim == 0 else ("N",), np.float32)
 
@@ -28,7 +28,7 @@ def rays(
     t_min: ArrayLike = 0.0,
     t_max: ArrayLike = np.inf,
 ) -> NDArray[np.float32]:
-    """Rays from their parts, each rounded to float32 once.
+    """Combines the parts of rays, each rounded to float32 once.
 
     Args:
         origins: shape (N, 3), or (3,) for all rays.

@@ -1,4 +1,4 @@
-"""Scenes: what structures are built over and rays are traced against."""
+"""Scenes, over which structures are built and against which rays are traced."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Vector = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Camera:
-    """A pinhole camera. `dataclasses.replace` makes another one of it."""
+    """A pinhole camera. `dataclasses.replace` makes a modified copy."""
 
     eye: Vector
     """Where it is."""
@@ -101,7 +101,7 @@ class Scene:
         up: str = "z",
         degenerate: str = "error",
     ) -> Scene:
-        """A scene of flat triangles, seen from both sides; primitive i is row i of `triangles`.
+        """Makes a scene of flat, two-sided triangles; primitive i is row i of `triangles`.
 
         Args:
             vertices: shape (V, 3), real numbers; rounded to float32 once.
@@ -113,8 +113,9 @@ class Scene:
                 `source_rows` has their rows.
 
         Raises:
-            InputError: another shape, a coordinate that is no number or beyond 1e9, an index that
-                is no vertex, no triangle at all, or one without area: the message names its row.
+            InputError: another shape, a coordinate that is not a number or beyond 1e9, an
+                index without a vertex, no triangles, or one without area: the message contains its
+                row.
             TypeError: another dtype.
         """
         points = reals("vertices", vertices, ("V", 3), np.float64)
@@ -151,18 +152,18 @@ class Scene:
     def from_spheres(
         cls, centers: ArrayLike, radii: ArrayLike, *, name: str = "spheres", up: str = "z"
     ) -> Scene:
-        """A scene of hollow spheres; primitive i is row i of `centers`.
+        """Makes a scene of hollow spheres; primitive i is row i of `centers`.
 
         Args:
             centers: shape (S, 3), real numbers; rounded to float32 once.
-            radii: shape (S,), or one number for all; a negative radius is of a sphere that rays
-                hit only from the inside.
+            radii: shape (S,), or one number for all; rays hit a sphere with a negative
+                radius only from the inside.
             name: of the scene, in texts.
             up: "y" or "z", for the cameras that are fitted to the scene.
 
         Raises:
-            InputError: another shape, a number that is none or beyond 1e9, a radius of 0, or no
-                sphere at all: the message names the row.
+            InputError: another shape, a value that is not a number or beyond 1e9, a radius of 0, or
+                no spheres: the message contains the row.
             TypeError: another dtype.
         """
         points = reals("centers", centers, ("S", 3), np.float64)
@@ -191,17 +192,17 @@ class Scene:
 
     @property
     def primitives(self) -> int:
-        """How many primitives there are; their ids are 0 ... primitives - 1."""
+        """The number of primitives; their ids are 0 ... primitives - 1."""
         return self._compiled.primitives
 
     @property
     def lights(self) -> int:
-        """How many point lights there are, for shadow rays and pictures."""
+        """The number of point lights, for shadow rays and pictures."""
         return self._compiled.lights
 
     @property
     def hash(self) -> str:
-        """16 hexadecimal digits of what rays can hit, equal on every machine; as in records."""
+        """Identifies what rays can hit: 16 hexadecimal digits, equal on every machine."""
         return self._compiled.hash
 
     @property
@@ -216,7 +217,7 @@ class Scene:
 
     @property
     def triangles(self) -> NDArray[np.uint32]:
-        """Of polygons' surfaces, rows of `vertices`: (T, 3), uint32, read-only, without a copy."""
+        """Polygon surfaces as rows of `vertices`: (T, 3), uint32, read-only, without a copy."""
         return self._compiled.triangles
 
     @property
@@ -236,19 +237,19 @@ class Scene:
 
     @property
     def source_rows(self) -> NDArray[np.int64] | None:
-        """The row of `triangles` that each primitive comes from; None for other scenes."""
+        """The row of `triangles` from which each primitive comes; None for other scenes."""
         return self._source_rows
 
     @property
     def cameras(self) -> tuple[Camera, ...]:
-        """At least one; the first is used where none is named."""
+        """At least one; the first is the default."""
         return tuple(
             Camera(c.eye, c.at, c.up, c.angle, c.aspect, c.width, c.height, c.name)
             for c in self._compiled.cameras
         )
 
     def camera(self, name: str) -> Camera:
-        """The camera of that name.
+        """Returns the camera of that name.
 
         Args:
             name: of one of `cameras`.
@@ -265,7 +266,7 @@ class Scene:
     def _image(
         self, camera: Camera | str | None, resolution: tuple[int, int] | None, samples: int
     ) -> _beambench.ImageChoice:
-        """The image that is meant; the compiled part refuses one that is not possible."""
+        """Returns the requested image; the compiled part refuses an invalid one."""
         if isinstance(camera, str):
             camera = self.camera(camera)
         if camera is not None and not isinstance(camera, Camera):
@@ -294,7 +295,7 @@ class Scene:
         camera: Camera | str | None = None,
         samples: int = 1,
     ) -> NDArray[np.float32]:
-        """Rays of a kind, the same bits as the program's.
+        """Returns rays of a kind, the same bits as the program's.
 
         Args:
             kind: one of `ray_kinds`, such as `"primary"`, `"shadow"` or `"diffuse:seed=2"`; or the
@@ -324,7 +325,7 @@ class Scene:
         structure: Structure | str = "tile-beam",
         threads: int = 0,
     ) -> NDArray[np.float32]:
-        """A picture of the scene.
+        """Draws a picture of the scene.
 
         Args:
             resolution: width and height; None: the camera's own.
@@ -351,25 +352,25 @@ class Scene:
         return _beambench.render(built._compiled, image, text("shading", shading), count)
 
     def __copy__(self) -> Scene:
-        """This scene, which never changes."""
+        """Returns this scene, which never changes."""
         return self
 
     def __deepcopy__(self, memo: dict[int, object]) -> Scene:
-        """This scene, which never changes."""
+        """Returns this scene, which never changes."""
         return self
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Returns all of the scene for pickle, not the name that it was made by."""
+        """Returns all of the scene for pickle, not just the name that made it."""
         compiled = self._compiled
         return _unpickled, (compiled.pickled(), list(compiled.warnings), self._source_rows)
 
     def __repr__(self) -> str:
-        """Name and size."""
+        """Returns name and size."""
         return f"<beambench.Scene '{self.name}', {self.primitives} primitives>"
 
 
 def _unpickled(pickled: bytes, warned: list[str], source_rows: NDArray[np.int64] | None) -> Scene:
-    """The scene that `Scene.__reduce__` took apart."""
+    """Restores the scene stored by `Scene.__reduce__`."""
     scene = Scene._of(_beambench.unpickled_scene(pickled, warned))
     scene._source_rows = source_rows
     return scene

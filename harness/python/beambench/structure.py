@@ -1,4 +1,4 @@
-"""Structures: built over a scene, and traced."""
+"""Structures: building them over a scene, and tracing."""
 
 from __future__ import annotations
 
@@ -15,24 +15,24 @@ from beambench.scene import Camera, Scene
 
 @dataclass(frozen=True, eq=False)
 class Hits:
-    """The closest hits of rays, each of the shape of the rays or of the image."""
+    """The closest hits of rays, in arrays with the shape of the rays or of the image."""
 
     t: NDArray[np.float32]
-    """origin + t * direction is hit; infinity: nothing is."""
+    """The hit is at origin + t * direction; infinity: a miss."""
     primitive: NDArray[np.uint32]
-    """The id of the primitive; NO_PRIMITIVE: nothing is hit."""
+    """The id of the primitive; NO_PRIMITIVE: a miss."""
     counters: dict[str, int] | None = None
-    """The work of all rays by name, where it was counted."""
+    """The work of all rays by name, if it was counted."""
 
     @property
     def hit(self) -> NDArray[np.bool_]:
-        """Whether anything is hit."""
+        """Whether each ray hits anything."""
         hit: NDArray[np.bool_] = self.primitive != NO_PRIMITIVE
         return hit
 
 
 def require_threads(threads: int) -> int:
-    """A number of threads that is possible."""
+    """Returns a valid number of threads."""
     if not 0 <= whole_number("threads", threads) <= 1024:
         raise InputError(f"threads is {threads}; expected 1 to 1024, or 0 for one for each core")
     return int(threads)
@@ -79,11 +79,11 @@ class Structure:
 
     @property
     def statistics(self) -> dict[str, int | float | str]:
-        """Sizes: nodes, leaves, references, depth, bytes, and what the structure adds."""
+        """Sizes: nodes, leaves, references, depth, bytes, and the structure's own statistics."""
         return self._compiled.statistics
 
     def closest_hits(self, rays: ArrayLike, *, counters: bool = False) -> Hits:
-        """The closest hit of each ray in [t_min, t_max]; of equal ones that with the lowest id.
+        """Returns the closest hit of each ray in [t_min, t_max]; at equal t, the lowest id.
 
         Args:
             rays: shape (N, 8), float32: origin, t_min, direction, t_max. Such an array in one
@@ -102,7 +102,7 @@ class Structure:
         return Hits(t, primitive, counts)
 
     def any_hits(self, rays: ArrayLike) -> NDArray[np.bool_]:
-        """Whether each ray hits anything in [t_min, t_max].
+        """Returns whether each ray hits anything in [t_min, t_max].
 
         Args:
             rays: as for `closest_hits`.
@@ -117,7 +117,7 @@ class Structure:
         return hits.view(np.bool_)
 
     def any_hit_counters(self, rays: ArrayLike) -> dict[str, int]:
-        """The work of `any_hits` by name.
+        """Returns the work of `any_hits` by name.
 
         Args:
             rays: as for `closest_hits`.
@@ -137,7 +137,7 @@ class Structure:
         threads: int | None = None,
         counters: bool = False,
     ) -> Hits:
-        """The closest hits of an image's rays, by the structure's own way of tracing images.
+        """Returns the closest hits of an image's rays, using the structure's query for images.
 
         Args:
             resolution: width and height; None: the camera's own.
@@ -167,7 +167,7 @@ class Structure:
         shading: str = "preview",
         threads: int = 0,
     ) -> NDArray[np.float32]:
-        """As `Scene.render`, through this structure."""
+        """Draws the picture of `Scene.render` through this structure."""
         return self.scene.render(
             resolution=resolution,
             camera=camera,
@@ -178,5 +178,5 @@ class Structure:
         )
 
     def __repr__(self) -> str:
-        """Name and scene."""
+        """Returns name and scene."""
         return f"<beambench.Structure '{self.name}' over '{self.scene.name}'>"

@@ -20,7 +20,7 @@ CLASSES: tuple[str, ...] = tuple(_beambench.class_names())
 
 
 def _number(value: float) -> str:
-    """As few digits as distinguish neighbors of its type."""
+    """Returns the fewest digits that distinguish neighboring numbers of the type."""
     return str(value)
 
 
@@ -39,37 +39,37 @@ class Example:
     """One ray whose claimed hit does not agree with the oracle's."""
 
     index: int
-    """Of the ray."""
+    """The index of the ray."""
     ray: NDArray[np.float32]
     """Shape (8,): origin, t_min, direction, t_max."""
     class_name: str
     """One of CLASSES."""
     reason: str
-    """Why it is of this class; empty where the class says it all."""
+    """The reason for its class; empty if the class is self-explanatory."""
     claimed_t: float | None
-    """As it was given; None: not given, or no hit."""
+    """As given; None: not given, or no hit."""
     claimed_point: Vector | None
-    """As it was given; None: not given, or no hit."""
+    """As given; None: not given, or no hit."""
     claimed_primitive: int | None
-    """As it was given; None: not given, or no hit."""
+    """As given; None: not given, or no hit."""
     claimed_triangle: int | None
-    """As it was given; None: not given, or no hit."""
+    """As given; None: not given, or no hit."""
     claimed_occluded: bool | None
-    """As it was given; None: the claims are of closest hits."""
+    """As given; None: the claims are of closest hits."""
     oracle_t: float | None
-    """Of the closest hit by double-precision intersectors; None: no hit."""
+    """The closest hit by double-precision intersectors; None: no hit."""
     oracle_primitive: int | None
-    """Of the same hit."""
+    """The primitive of the same hit."""
     exact_t: float | None
-    """Of the closest hit by exact arithmetic; None: no hit, or not searched."""
+    """The closest hit by exact arithmetic; None: no hit, or not searched."""
     exact_primitive: int | None
-    """Of the same hit."""
+    """The primitive of the same hit."""
     searched: bool
-    """Was the answer judged by exact arithmetic? It is where it differs from the oracle's."""
+    """Whether exact arithmetic judged the answer, because it differs from the oracle's."""
 
     @property
     def claim(self) -> str:
-        """What was claimed, as text."""
+        """The claim, as text."""
         if self.claimed_occluded is not None:
             return "some hit" if self.claimed_occluded else "no hit"
         if self.claimed_t is None and self.claimed_point is None:
@@ -86,7 +86,7 @@ class Example:
         return place
 
     def __str__(self) -> str:
-        """Several lines: the ray, the claim, the oracle's hit and the exact one."""
+        """Returns several lines: the ray, the claim, the oracle's hit and the exact one."""
         exact = _hit(self.exact_t, self.exact_primitive) if self.searched else "not searched"
         reason = f", {self.reason}" if self.reason else ""
         return (
@@ -101,7 +101,7 @@ class Example:
 
 @dataclass(frozen=True, eq=False)
 class Report:
-    """What a verification found."""
+    """The findings of a verification."""
 
     verdict: str
     """ok; mismatch: at least one structure_error; grazes: more than max(2, 1e-4 x rays)."""
@@ -118,11 +118,11 @@ class Report:
 
     @property
     def ok(self) -> bool:
-        """Is the verdict ok?"""
+        """Whether the verdict is ok."""
         return self.verdict == "ok"
 
     def __str__(self) -> str:
-        """The verdict, the counts, and the first examples."""
+        """Returns the verdict, the counts, and the first examples."""
         counts = ", ".join(f"{name} {n}" for name, n in self.counts.items() if n > 0)
         lines = [f"{self.verdict}: {self.rays} rays, {self.hits} of them hit; {counts}"]
         shown = self.examples[:3]
@@ -135,7 +135,7 @@ class Report:
 
 @dataclass(frozen=True, eq=False)
 class _Claims:
-    """The arrays that were given, converted; those that were not are None."""
+    """The given arrays, converted; missing ones are None."""
 
     t: NDArray[np.float32] | None
     point: NDArray[np.float32] | None
@@ -147,7 +147,7 @@ class _Claims:
         return {name: array for name, array in vars(self).items() if array is not None}
 
     def example(self, entry: dict[str, Any], rays: NDArray[np.float32]) -> Example:
-        """What was claimed is read from the arrays as they are."""
+        """Returns an example; the claim is read from the given arrays."""
         i = entry["index"]
         named = [array[i] for array in (self.primitive, self.triangle) if array is not None]
         missed = any(id_ == NO_PRIMITIVE for id_ in named)
@@ -178,7 +178,7 @@ class _Claims:
 
 
 def _require_form(given: dict[str, object]) -> None:
-    """Raises TypeError unless the arrays are those of one kind of claim."""
+    """Raises TypeError unless the arrays match one kind of claim."""
     names = " and ".join(name for name, array in given.items() if array is not None)
     wanted = (
         "give t or point, with or without primitive or triangle, for closest hits; or occluded "
@@ -190,9 +190,9 @@ def _require_form(given: dict[str, object]) -> None:
     one_id = given["primitive"] is None or given["triangle"] is None
     if names != "occluded" and not (one_place and one_id and given["occluded"] is None):
         raise TypeError(
-            f"{names} are no hits together; {wanted}"
+            f"{names} cannot be combined; {wanted}"
             if " " in names
-            else f"{names} alone is no hit; {wanted}"
+            else f"{names} alone does not state a hit; {wanted}"
         )
 
 
@@ -208,30 +208,28 @@ def verify(
 ) -> Report:
     """Verifies the hits that any program reports for a list of rays.
 
-    The claims are of closest hits (`t` or `point`, and where the program knows them `primitive` or
-    `triangle`) or of any hits (`occluded` alone). A claim is compared with the hit of an oracle in
-    double precision, with tolerances of rounding in float32; what is in dispute is
-    decided by exact arithmetic.
+    The claims are of closest hits (`t` or `point`, optionally with `primitive` or `triangle`) or of
+    any hits (only `occluded`). A claim is compared with the hit of an oracle in double precision,
+    with tolerances of rounding in float32; disputes are decided by exact arithmetic.
 
     Args:
-        scene: what the rays were traced against.
-        rays: shape (N, 8), float32: origin, t_min, direction, t_max; used where it is, or
-            converted first.
-        t: shape (N,), real numbers, rounded to float32: origin + t * direction is hit; infinity:
-            nothing is.
+        scene: the scene against which the rays were traced.
+        rays: shape (N, 8), float32: origin, t_min, direction, t_max; used in place, or converted
+            first.
+        t: shape (N,), real numbers, rounded to float32: the hit is at origin + t * direction;
+            infinity: a miss.
         point: shape (N, 3), real numbers, rounded to float32: the point that is hit; three
-            infinities: none is.
-        primitive: shape (N,), integers: the id in the scene; -1 or NO_PRIMITIVE: nothing is hit.
-        triangle: shape (N,), integers: the row of `Scene.triangles`; -1 or NO_PRIMITIVE: nothing
-            is hit.
-        occluded: shape (N,), bool, or integers 0 and 1: does the ray hit anything?
+            infinities: a miss.
+        primitive: shape (N,), integers: the id in the scene; -1 or NO_PRIMITIVE: a miss.
+        triangle: shape (N,), integers: the row of `Scene.triangles`; -1 or NO_PRIMITIVE: a miss.
+        occluded: shape (N,), bool, or integers 0 and 1: whether the ray hits anything.
 
     Returns:
         The verdict, how many rays are of each class, the class of each ray, and examples.
 
     Raises:
-        InputError: another shape, no rays, or a ray or hit with numbers that it cannot have, such
-            as NaN or an id beyond the scene's: the message names it by the index of the ray.
+        InputError: another shape, no rays, or a ray or hit with impossible numbers, such as NaN or
+            an id that is not in the scene: the message contains the index of the ray.
         TypeError: another dtype, or arrays that do not go together.
     """
     if not isinstance(scene, Scene):
@@ -259,7 +257,7 @@ def verify(
                 f"{name} has {len(array)} rows, but there are {len(lines)} rays; expected one each"
             )
     if len(lines) == 0:
-        raise InputError("there are no rays; a verdict on none would mean nothing")
+        raise InputError("there are no rays; a verdict without rays would be meaningless")
     none = np.empty(0)
     found, classes = _beambench.verify(
         scene._compiled,

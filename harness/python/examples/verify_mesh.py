@@ -1,4 +1,4 @@
-"""From a mesh, through a ray tracer of one's own, to a verdict and a plot.
+"""Goes from a mesh, through a custom ray tracer, to a verdict and a plot.
 
 The ray tracer tests every triangle against every ray in numpy, by Möller and Trumbore's test in
 float32. The module verifies its hits, and the plot shows where which class is. An epsilon that is
@@ -28,13 +28,13 @@ import matplotlib.pyplot as plt
 Floats = NDArray[np.float32]
 Ids = NDArray[np.int64]
 
-# Of the classes in the order of bb.CLASSES; distinct for the color-blind, too (Okabe and Ito).
+# By class in the order of bb.CLASSES; also distinct for the color-blind (Okabe and Ito).
 COLORS = ["#0072B2", "#56B4E9", "#F0E442", "#D55E00", "#CC79A7"]
 RAYS_AT_ONCE = 512
 
 
 def torus(around: int, along: int) -> tuple[Floats, Ids]:
-    """Vertices and triangles of a torus about the z axis, with radii 1 and 0.4."""
+    """Returns vertices and triangles of a torus about the z axis, with radii 1 and 0.4."""
     u, v = np.meshgrid(
         np.linspace(0, 2 * np.pi, around, endpoint=False),
         np.linspace(0, 2 * np.pi, along, endpoint=False),
@@ -52,7 +52,7 @@ def torus(around: int, along: int) -> tuple[Floats, Ids]:
 
 
 def trace(vertices: Floats, triangles: Ids, rays: Floats, epsilon: float) -> tuple[Floats, Ids]:
-    """The closest hit of each ray: t (infinity for a miss) and triangle (-1 for a miss).
+    """Returns the closest hit of each ray: t (infinity for a miss) and triangle (-1 for a miss).
 
     Möller and Trumbore, "Fast, minimum storage ray-triangle intersection", 1997.
     """
@@ -82,7 +82,7 @@ def trace(vertices: Floats, triangles: Ids, rays: Floats, epsilon: float) -> tup
 
 
 def plot(report: bb.Report, t: Floats, size: int, file: Path) -> None:
-    """The depth of the image, and the class of each pixel."""
+    """Plots the depth of the image, and the class of each pixel."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(10, 5), layout="constrained")
     left.imshow(np.where(np.isfinite(t), t, np.nan).reshape(size, size), cmap="viridis_r")
     left.set_title("t of the claimed hits")

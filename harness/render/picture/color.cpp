@@ -31,14 +31,14 @@ glm::vec3 linear_from_oklch(float lightness, float chroma, float hue) {
 glm::vec3 heat_color(float x) {
   x = std::clamp(x, 0.0F, 1.0F);
   const float lightness = 0.22F + 0.70F * x;
-  // Below the most that sRGB holds at each lightness and hue of the path: least in the teal.
+  // Below the maximum of sRGB at each lightness and hue of the path, which is smallest in the teal.
   const float chroma = 0.08F + 0.03F * fourth(1.0F - x) + 0.10F * fourth(x);
   const float hue = (290.0F - 185.0F * x) * kDegree;
   return glm::clamp(linear_from_oklch(lightness, chroma, hue), 0.0F, 1.0F);
 }
 
 glm::vec3 id_color(std::uint32_t id) {
-  // Multiples of the golden ratio, modulo 1, keep far from each other (Knuth, TAOCP 3, 6.4).
+  // Multiples of the golden ratio, modulo 1, are far apart (Knuth, TAOCP 3, 6.4).
   const double n = id;
   const float hue = 2.0F * std::numbers::pi_v<float> * fraction(n * (std::numbers::phi - 1.0));
   const float lightness = 0.55F + 0.27F * fraction(n * (std::numbers::sqrt2 - 1.0));

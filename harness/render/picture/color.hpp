@@ -1,5 +1,5 @@
 #pragma once
-// Colors in linear light, encoded for displays, from numbers.
+// Colors in linear light, their encoding for displays, and colors that represent numbers.
 
 #include <algorithm>
 #include <cmath>
@@ -27,19 +27,21 @@ inline glm::vec3 linear_from_srgb(const glm::vec3& c) {
   return {linear_from_srgb(c.x), linear_from_srgb(c.y), linear_from_srgb(c.z)};
 }
 
-/// The component that a display clips first.
+/// Returns the component that a display clips first.
 inline float brightest(const glm::vec3& color) { return std::max({color.x, color.y, color.z}); }
 
-/// Linear light for x in [0, 1] (clamped): from dark violet over teal to yellow. Lightness rises
-/// evenly with x, so that the order of values can be seen by everyone, the color-blind included,
-/// and survives a black-and-white print. A path in Ottosson's Oklab ("A perceptual color space for
-/// image processing", 2020), with as much chroma as sRGB holds all along it.
+/// Returns linear light for x in [0, 1] (clamped): from dark violet through teal to yellow.
+/// Lightness rises evenly with x, so that everyone, including color-blind people, can see the order
+/// of values, also in a black-and-white print. A path in Ottosson's Oklab ("A perceptual color
+/// space for image processing", 2020), with the maximum chroma that sRGB allows along the whole
+/// path.
 glm::vec3 heat_color(float x);
 
-/// Linear light that distinguishes ids: neighboring ids get hues far from each other.
+/// Returns linear light that distinguishes ids: neighboring ids get very different hues.
 glm::vec3 id_color(std::uint32_t id);
 
-/// Linear light from lightness [0, 1], chroma and hue (radians) of Oklab; may leave [0, 1].
+/// Converts lightness [0, 1], chroma and hue (radians) of Oklab to linear light; the result may be
+/// outside [0, 1].
 glm::vec3 linear_from_oklch(float lightness, float chroma, float hue);
 
 }  // namespace beambench::render

@@ -36,21 +36,21 @@ class Image {
   std::vector<glm::vec3> pixels_;
 };
 
-/// Multiplies linear light by two to the power of `stops`, as a photographer counts.
+/// Multiplies linear light by two to the power of `stops`, in the photographic sense.
 void expose(Image& image, double stops);
 
 struct Overexposure {
-  double share = 0.0;   ///< of the pixels, those with a component above 1: a display shows it as 1
-  double remedy = 0.0;  ///< stops, in tenths, that leave no more than one pixel of a hundred so
+  double share = 0.0;   ///< share of pixels with a component above 1, which a display clips
+  double remedy = 0.0;  ///< stops, in tenths, that leave at most one pixel in a hundred clipped
 };
-/// The remedy is 0 where nothing has to be done.
+/// Returns the overexposure. The remedy is 0 if none is needed.
 Overexposure overexposure(const Image& image);
 
-/// Of all pixels, bit for bit.
+/// Returns the fingerprint of all pixels, bit for bit.
 std::uint64_t fingerprint(const Image& image);
 
-/// The RMS error of a picture against another of its size, over pixels and channels, in display
-/// values on a 0-255 scale before they are rounded.
+/// Returns the RMS error of a picture relative to another of its size, over pixels and channels, in
+/// display values on a 0-255 scale before rounding.
 double root_mean_square_error(const Image& picture, const Image& reference);
 
 }  // namespace beambench::render

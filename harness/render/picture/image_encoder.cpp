@@ -35,14 +35,14 @@ OIIO::ImageSpec spec_of(const StoredImage& image) {
     spec.channelformats.push_back(type_of(image.channels[at].type));
   }
   spec.attribute("compression", "zip");
-  // OpenImageIO states the time of writing unless it is given one: equal pictures would differ.
+  // Otherwise OpenImageIO records the time of writing, and equal pictures would differ.
   spec.attribute("DateTime", "1970:01:01 00:00:00");
   return spec;
 }
 
 }  // namespace
 
-/// In memory: OpenImageIO does not notice when a disk is full.
+/// Encodes in memory, because OpenImageIO does not notice a full disk.
 extern "C" void beambench_encode_image(const std::string& file, const StoredImage& image,
                                        EncodedImage& encoded) {
   OIIO::Filesystem::IOVecOutput memory;
@@ -56,7 +56,7 @@ extern "C" void beambench_encode_image(const std::string& file, const StoredImag
     if (encoded.error.empty()) encoded.error = "OpenImageIO states no reason";
   }
 }
-// The loader of the shared object takes it for one.
+// The loader of the shared object assumes this type.
 static_assert(std::is_same_v<decltype(beambench_encode_image), EncodeImage>);
 
 }  // namespace beambench::render

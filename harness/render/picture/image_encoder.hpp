@@ -2,9 +2,9 @@
 // The interface of libbeambench_image_encoder.so: pixels in, the bytes of a file out, by
 // OpenImageIO.
 //
-// It is apart from the program and loaded when a first picture is written, because OpenImageIO
-// brings over two hundred shared libraries: loaded at the start, they took most of the time of
-// every command that writes no picture.
+// It is separate from the program and loaded when the first picture is written, because OpenImageIO
+// needs over two hundred shared libraries: loaded at the start, they took most of the time of every
+// command that does not write a picture.
 
 #include <cstdint>
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace beambench::render {
 
-/// How one channel of a pixel is stored.
+/// The storage type of one channel of a pixel.
 enum class StoredType : std::uint8_t { kByte, kFloat, kUint32 };
 
 /// One channel of a stored image.
@@ -21,7 +21,7 @@ struct StoredChannel {
   StoredType type = StoredType::kFloat;
 };
 
-/// Pixels as the file is to hold them.
+/// Pixels in the form stored in the file.
 struct StoredImage {
   int width = 0;
   int height = 0;
@@ -29,21 +29,21 @@ struct StoredImage {
   std::vector<std::uint8_t> bytes;      ///< row by row; a pixel's channels are together
 };
 
-/// What became of an image: the bytes of the file, or why there are none.
+/// The result of encoding an image: the bytes of the file, or the reason for a failure.
 struct EncodedImage {
-  std::vector<unsigned char> bytes;  ///< none: it could not be encoded
-  std::string error;                 ///< why, where OpenImageIO states it
+  std::vector<unsigned char> bytes;  ///< empty if encoding failed
+  std::string error;                 ///< the reason, if OpenImageIO states it
 };
 
-/// Encodes the image in the format that the ending of `file` names, which is not written.
+/// Encodes the image in the format given by the ending of `file`, which is not written.
 using EncodeImage = void(const std::string& file, const StoredImage& image, EncodedImage& encoded);
 
 /// The function's name in the shared object.
 inline constexpr const char* kEncodeImage = "beambench_encode_image";
 
-/// The function, with the shared object loaded at the first call: from the folder of the program
-/// (or of the Python module) that this code is part of, or from ../lib/beambench beside it. Throws
-/// InputError where it is in neither or cannot be loaded.
+/// Returns the function, loading the shared object at the first call: from the folder of the
+/// program (or of the Python module) that contains this code, or from ../lib/beambench beside it.
+/// Throws InputError if it is in neither or cannot be loaded.
 EncodeImage& image_encoder();
 
 }  // namespace beambench::render

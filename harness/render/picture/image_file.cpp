@@ -36,7 +36,7 @@ StoredImage png_image(const Image& image) {
   return result;
 }
 
-/// Each value is in its channel's own type.
+/// Returns an image in which each value has its channel's own type.
 StoredImage exr_image(const Image& image, std::span<const DataChannel> data) {
   StoredImage result = stored(image, StoredType::kFloat);
   for (const DataChannel& channel : data) {

@@ -12,23 +12,24 @@
 
 namespace beambench::render {
 
-/// What a format can hold.
+/// The supported formats.
 enum class ImageFormat {
   kPng,  ///< 8 bits of sRGB for each of R, G, B; data channels are left out
-  kExr   ///< linear float R, G, B, and the data channels as they are
+  kExr   ///< linear float R, G, B, and unchanged data channels
 };
 
-/// The format by the file's ending. Throws InputError unless that is .png or .exr.
+/// Returns the format by the file's ending. Throws InputError unless that is .png or .exr.
 ImageFormat image_format(const std::filesystem::path& file);
 
-/// One number for each pixel beside its color: depth, ids, counters.
+/// One number for each pixel in addition to its color: depth, ids, counters.
 struct DataChannel {
   std::string name;
   std::variant<std::vector<float>, std::vector<std::uint32_t>> values;
 };
 
-/// Writes the file whole or not at all. Throws InputError when it cannot be written or OpenImageIO
-/// cannot be loaded, and std::logic_error when a channel has not one value for each pixel.
+/// Writes the file completely or not at all. Throws InputError if it cannot be written or
+/// OpenImageIO cannot be loaded, and std::logic_error if a channel does not have one value for each
+/// pixel.
 void write_image(const std::filesystem::path& file, const Image& image,
                  std::span<const DataChannel> data = {});
 

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures with a legend: numbers or categories as colors, and the small text that explains them.
+// Pictures with a legend: numbers or categories as colors, and small text that explains them.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,31 +17,31 @@ namespace beambench::render {
 inline constexpr int kGlyphHeight = 7;   ///< in dots
 inline constexpr int kGlyphAdvance = 6;  ///< five dots and a gap
 
-/// Width in pixels of a text drawn with dots of `scale` x `scale` pixels.
+/// Returns the width in pixels of a text drawn with dots of `scale` x `scale` pixels.
 int text_width(std::string_view text, int scale);
 
-/// Draws lower-case letters, digits, blanks and . , : _ - + = ( ) /; anything else as a box. (x, y)
-/// is the top left corner; what leaves the image is cut off.
+/// Draws lower-case letters, digits, blanks and . , : _ - + = ( ) /; anything else is drawn as a
+/// box. (x, y) is the top left corner; parts outside the image are clipped.
 void draw_text(Image& image, int x, int y, std::string_view text, int scale,
                const glm::vec3& color);
 
 /// Linear light of a legend's text.
 inline constexpr glm::vec3 kInk(0.82F);
 
-/// The sizes of a legend in pixels: text as large as the picture's width allows, up to two pixels a
-/// dot. The picture is widened where it is narrower than its legend.
+/// The sizes of a legend in pixels: text as large as the picture's width allows, up to two pixels
+/// per dot. The picture is widened if it is narrower than its legend.
 struct LegendLayout {
-  /// `characters`: of the longest line.
+  /// `characters`: the length of the longest line.
   LegendLayout(int picture_width, std::size_t characters);
 
   int scale, margin, width;
 };
 
-/// The picture, centered, above that many empty rows for a legend.
+/// Returns the picture, centered, above that many empty rows for a legend.
 Image above_legend(const Image& picture, const LegendLayout& layout, int height);
 
-/// Colors that people with any kind of color vision can distinguish: those of Okabe and
-/// Ito, "Color Universal Design", 2008, but black. Linear light.
+/// Colors that people with any kind of color vision can distinguish: those of Okabe and Ito, "Color
+/// Universal Design", 2008, without black. Linear light.
 namespace okabe_ito {
 extern const glm::vec3 kSkyBlue;
 extern const glm::vec3 kYellow;
@@ -59,11 +59,12 @@ struct LegendEntry {
   std::size_t count;
 };
 
-/// The picture above a title and the entries. It is widened where it is narrower than its legend.
+/// Returns the picture above a title and the entries. It is widened if it is narrower than its
+/// legend.
 Image with_legend(const Image& picture, const std::string& title,
                   std::span<const LegendEntry> entries);
 
-/// Dimmed gray, for a picture that colors are to stand out from.
+/// Returns dimmed gray, as the background for colors that stand out.
 glm::vec3 dimmed(const glm::vec3& color);
 void dim(Image& image);
 
@@ -73,7 +74,7 @@ struct Category {
   glm::vec3 color;  ///< linear light
 };
 
-/// Which category each pixel belongs to, row by row from the top left.
+/// The category of each pixel, row by row from the top left.
 struct CategoryMap {
   static constexpr std::uint8_t kNone = 255;
 
@@ -82,9 +83,9 @@ struct CategoryMap {
   std::vector<std::uint8_t> pixels;  ///< index into `categories`, or kNone
 };
 
-/// The map over `ground`, an image of its size that is shown in dimmed gray, above a legend with
-/// the number of pixels of each category. Pixels of a category that has only a few are framed, or
-/// they would be overlooked. The picture is widened where it is narrower than its legend.
+/// Draws the map over `ground`, an image of its size that is shown in dimmed gray, above a legend
+/// with the number of pixels of each category. The pixels of a small category are framed so that
+/// they are not overlooked. The picture is widened if it is narrower than its legend.
 Image draw_category_map(const CategoryMap& map, const Image& ground);
 
 /// Values >= 0, one for each pixel, row by row from the top left.
@@ -95,20 +96,20 @@ struct HeatMap {
   std::vector<float> values;
 };
 
-/// The value that gets the brightest color: the quantile of 99.5%, so that a few rays that had far
-/// more work than all others do not darken these. At least the smallest value > 0.
+/// Returns the value that gets the brightest color: the 99.5% quantile, so that a few rays with far
+/// more work than the others do not darken these. At least the smallest value > 0.
 float brightest_value(const HeatMap& map);
 
-/// Colors from 0 to the brightest value, without a legend.
+/// Draws colors from 0 to the brightest value, without a legend.
 Image draw_heat_map(const HeatMap& map);
 
-/// The same above a legend: title, mean and maximum, and a bar with numbers; a plus after the last
-/// means that larger values share its color. The picture is widened where it is narrower than its
+/// Draws the same above a legend: title, mean and maximum, and a bar with numbers; a plus after the
+/// last means that larger values share its color. The picture is widened if it is narrower than its
 /// legend.
 Image draw_heat_map_with_legend(const HeatMap& map);
 
-/// The numbers written under a bar from 0 to `maximum` > 0: multiples of 1, 2 or 5 times a power of
-/// ten, from 0 on, `at_most` of them or fewer.
+/// Returns the numbers under a bar from 0 to `maximum` > 0: at most `at_most` multiples of 1, 2 or
+/// 5 times a power of ten, starting at 0.
 std::vector<double> legend_ticks(double maximum, int at_most);
 
 }  // namespace beambench::render

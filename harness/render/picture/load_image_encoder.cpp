@@ -23,7 +23,7 @@ EncodeImage* load() {
   for (const fs::path& place : places) {
     std::error_code error;
     if (!fs::exists(place, error)) continue;
-    // Never closed: what OpenImageIO registers is called when the program ends.
+    // Never closed, because OpenImageIO registers functions that are called at exit.
     void* object = ::dlopen(place.c_str(), RTLD_LAZY | RTLD_LOCAL);
     void* function = object == nullptr ? nullptr : ::dlsym(object, kEncodeImage);
     if (function != nullptr) return reinterpret_cast<EncodeImage*>(function);

@@ -19,17 +19,18 @@ namespace {
 
 constexpr double kThickness = 1.0;
 
-/// How near to the camera's plane an edge is followed, as a part of its farther end's depth. There
-/// every point appears at infinity.
+/// The minimum distance from the camera's plane to which an edge is followed, relative to its
+/// farther end's depth. There every point appears at infinity.
 constexpr double kNearest = 1e-6;
 
-/// An edge on the image: of what lies in front of the camera.
+/// The visible part of an edge on the image: the part in front of the camera.
 struct SeenEdge {
   PixelSegment line;
   double from_depth;
   double to_depth;
 
-  /// The depth of the point at `along` in [0, 1] of the line: its inverse is linear on the image.
+  /// Returns the depth of the point at `along` in [0, 1] of the line: its inverse is linear on the
+  /// image.
   double depth_at(double along) const {
     return 1.0 / ((1.0 - along) / from_depth + along / to_depth);
   }
@@ -52,8 +53,8 @@ bool holds(const accel::Box& box, const glm::dvec3& eye) {
   return true;
 }
 
-/// All edges, along x, along y, along z. Around an eye within the box no face is turned away: it
-/// sees each from inside.
+/// Returns all edges, along x, along y, along z. From an eye within the box, all faces are seen
+/// from inside, and none is turned away.
 std::array<BoxEdge, 12> box_edges(const accel::Box& box, const glm::dvec3& eye) {
   const bool inside = holds(box, eye);
   std::array<BoxEdge, 12> edges{};
@@ -76,7 +77,7 @@ std::array<BoxEdge, 12> box_edges(const accel::Box& box, const glm::dvec3& eye) 
   return edges;
 }
 
-/// An edge cut off at the camera's plane; nothing where all of it lies behind.
+/// Clips an edge at the camera's plane; nothing if all of it lies behind.
 std::optional<SeenEdge> project(const BoxEdge& edge, const Projection& projection) {
   const double from_depth = projection.depth(edge.from);
   const double to_depth = projection.depth(edge.to);
@@ -95,10 +96,10 @@ std::optional<SeenEdge> project(const BoxEdge& edge, const Projection& projectio
 }
 
 constexpr double kInfiniteDepth = std::numeric_limits<double>::infinity();
-/// Points of a box's own surface come out this near to it, as a part of their depth.
+/// The relative depth error within which points of a box's own surface are computed.
 constexpr double kRounding = 1e-6;
 
-/// Where a ray enters a box; infinity where it misses it or starts within.
+/// Returns where a ray enters a box; infinity if it misses or starts inside.
 double enter(const accel::Box& box, const glm::dvec3& eye, const glm::dvec3& direction) {
   double first = 0.0;
   double last = kInfiniteDepth;
@@ -111,8 +112,8 @@ double enter(const accel::Box& box, const glm::dvec3& eye, const glm::dvec3& dir
   return first <= last && first > 0.0 ? first : kInfiniteDepth;
 }
 
-/// The pixels that a box may appear in: around its edges, cut off at the camera's plane. Empty
-/// (last < first) where there are none.
+/// The pixels in which a box may appear: around its edges, clipped at the camera's plane. Empty
+/// (last < first) if there are none.
 struct PixelBounds {
   glm::ivec2 first;
   glm::ivec2 last;
@@ -126,7 +127,7 @@ PixelBounds pixels_of(const accel::Box& box, const Projection& projection, int w
     low = glm::min(low, glm::min(seen->line.from, seen->line.to));
     high = glm::max(high, glm::max(seen->line.from, seen->line.to));
   }
-  // Only pixels whose centers lie between: a box buffer needs no others.
+  // Only pixels whose centers lie in between: a box buffer needs no others.
   const auto first = [](double x, int size) {
     return static_cast<int>(std::clamp(std::ceil(x - 0.5), 0.0, static_cast<double>(size)));
   };
@@ -136,11 +137,11 @@ PixelBounds pixels_of(const accel::Box& box, const Projection& projection, int w
   return {{first(low.x, width), first(low.y, height)}, {last(high.x, width), last(high.y, height)}};
 }
 
-/// Decides what boxes hide: a box buffer (Catmull's z-buffer, 1974, that remembers the box, so that
-/// depths between the pixels' centers are known). Boxes around the camera hide nothing.
+/// Decides what boxes hide with a box buffer: Catmull's z-buffer (1974), but storing the box, so
+/// that depths between the pixels' centers are known. Boxes around the camera hide nothing.
 class NearestBoxes {
  public:
-  /// The boxes must outlive it.
+  /// The boxes must outlive this object.
   NearestBoxes(const Projection& projection, int width, int height,
                std::span<const accel::Box> boxes)
       : projection_(projection),
@@ -152,8 +153,9 @@ class NearestBoxes {
     for (std::uint32_t box = 0; box < boxes.size(); ++box) add(box);
   }
 
-  /// Is a point that appears at `place`, at this depth, behind a box? `x` and `y` are the pixel
-  /// that shall show it; the answer is exact if that pixel or the one around `place` shows the box.
+  /// Returns whether a point that appears at `place`, at this depth, is behind a box. `x` and `y`
+  /// are the pixel that is to show it; the result is exact if that pixel or the one around `place`
+  /// shows the box.
   bool hide(int x, int y, const glm::dvec2& place, double depth) const {
     if (hidden_by(nearest_[index(x, y)], place, depth)) return true;
     const glm::dvec2 around = glm::floor(place);
@@ -164,7 +166,7 @@ class NearestBoxes {
                      depth);
   }
 
-  /// The smallest and the largest depth of the pixels that see a box.
+  /// Returns the smallest and the largest depth of the pixels that see a box.
   std::pair<double, double> range() const {
     std::pair<double, double> range{kInfiniteDepth, 0.0};
     for (const double depth : depths_) {
@@ -202,7 +204,7 @@ class NearestBoxes {
   int width_;
   int height_;
   std::span<const accel::Box> boxes_;
-  std::vector<std::uint32_t> nearest_;  ///< kNone where no box is seen
+  std::vector<std::uint32_t> nearest_;  ///< kNone if no box is visible
   std::vector<double> depths_;
 };
 
@@ -213,13 +215,13 @@ struct Look {
   const char* name;
   const glm::vec3* color;
 };
-/// From the lowest to the uppermost.
+/// From the bottom to the top layer.
 constexpr std::array kLooks{
     Look{accel::BeamKind::kLeaving, "leaving", &okabe_ito::kBluishGreen},
     Look{accel::BeamKind::kNonTerminal, "non-terminal", &okabe_ito::kSkyBlue},
     Look{accel::BeamKind::kOccupied, "occupied", &okabe_ito::kYellow}};
 
-/// Of a polygon (the shoelace formula).
+/// Returns the area of a polygon (the shoelace formula).
 double area(std::span<const glm::dvec2> corners) {
   double twice = 0.0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -237,8 +239,8 @@ void add_outline(LineLayer& layer, const accel::BeamOutline& beam) {
   }
 }
 
-/// An end tints its area: the edges of beams that continue run along it, too, and hide its own.
-/// What no beam ends at stays gray; where two did, the tint would be twice as strong.
+/// Tints the area of an end: the edges of beams that continue run along it, too, and hide its own.
+/// Areas where no beam ends stay gray; where two ended, the tint would be twice as strong.
 void tint(Image& image, const accel::BeamOutline& beam, const glm::vec3& color) {
   for_each_pixel_in(beam.corners, image.width(), image.height(), [&](int x, int y) {
     image.at(x, y) = glm::mix(image.at(x, y), color, kCellTint);

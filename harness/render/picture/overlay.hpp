@@ -12,16 +12,17 @@
 
 namespace beambench::render {
 
-/// Dims the picture that `rays` show and draws the cells over it as boxes that hide each other, of
-/// glass to what is in them: the edges of faces turned to the camera, where no other cell is
-/// in front of them, the paler the farther. A cell around the camera shows all its edges and hides
-/// none. Returns what the color stands for.
+/// Dims the picture shown by `rays` and draws the cells over it as glass boxes that hide each
+/// other: the edges of faces turned to the camera, unless another cell is in front of them, paler
+/// with distance. A cell around the camera shows all its edges and hides nothing. Returns the
+/// meaning of the color.
 std::vector<LegendEntry> overlay_cells(Image& image, const accel::PrimaryRays& rays,
                                        std::span<const accel::Box> cells);
 
 /// Dims the picture and draws the beams' outlines over it: those that leave the scene under those
-/// that continue under those that end at occupied leaves. Both ends tint their area, for where a
-/// line is a beam's end it is mostly that of others, too. Returns what the colors stand for.
+/// that continue under those that end at occupied leaves. Both kinds of ends tint their area,
+/// because the line around a beam's end mostly belongs to other beams, too. Returns the meaning of
+/// the colors.
 std::vector<LegendEntry> overlay_beams(Image& image, std::span<const accel::BeamOutline> beams);
 
 }  // namespace beambench::render

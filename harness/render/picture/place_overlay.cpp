@@ -15,8 +15,8 @@ namespace {
 using accel::BeamPlace;
 using Way = BeamPlace::Way;
 
-/// How much of its color a pixel in order gets, and one where a block begins: a mesh, as long as
-/// blocks are of more than one pixel.
+/// The strength of color of a pixel in order, and of one where a block begins: a mesh, if blocks
+/// have more than one pixel.
 constexpr float kPlaceTint = 0.35F;
 constexpr float kMeshTint = 0.15F;
 
@@ -59,13 +59,13 @@ class PixelPlaces {
     }
   }
 
-  /// Null where a pixel has none, and beyond the image.
+  /// Returns null for a pixel without a place, and beyond the image.
   const BeamPlace* at(int x, int y) const {
     if (x < 0 || y < 0) return nullptr;
     return first_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
                   static_cast<std::size_t>(x)];
   }
-  /// Does the pixel to the left or that above lie in another beam, or block?
+  /// Returns whether the pixel to the left or above lies in another beam, or block.
   bool begins(int x, int y, std::uint32_t BeamPlace::*what) const {
     const auto differs = [&](const BeamPlace* other) {
       return is_in_beam(other) && other->*what != at(x, y)->*what;

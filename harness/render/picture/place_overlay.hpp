@@ -1,5 +1,5 @@
 #pragma once
-// The beams of a structure that divides them into blocks of rays, over a picture.
+// Draws the beams of a structure that divides them into blocks of rays over a picture.
 
 #include <cstdint>
 #include <span>
@@ -11,20 +11,20 @@
 
 namespace beambench::render {
 
-/// The places of rays, and the sample of a picture that each belongs to.
+/// The places of rays, and the sample of a picture to which each belongs.
 struct PlacedRays {
   std::span<const accel::BeamPlace> places;
-  std::span<const std::uint32_t> samples;  ///< as a HitBuffer numbers them
+  std::span<const std::uint32_t> samples;  ///< as numbered by a HitBuffer
   int per_pixel;
 };
 
 /// Dims the picture and draws the tiles of its primary rays: outlines, and within them the blocks
-/// as a mesh, in a color for the way that rays take. A pixel shows its first sample. Returns what
-/// the colors stand for.
+/// as a mesh, in a color for the way that rays are traced. A pixel shows its first sample. Returns
+/// the meaning of the colors.
 std::vector<LegendEntry> overlay_tiles(Image& image, const PlacedRays& rays);
 
-/// The same of a pencil of other rays: its parts, and their blocks in a color for the side of the
-/// cube about the apex.
+/// Draws the same for a pencil of other rays: its parts, and their blocks in a color for the side
+/// of the cube about the apex.
 std::vector<LegendEntry> overlay_pencil(Image& image, const PlacedRays& rays);
 
 }  // namespace beambench::render

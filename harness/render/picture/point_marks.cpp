@@ -14,7 +14,7 @@ namespace {
 constexpr int kRadius = 2;  // pixels; the frame is one more
 constexpr glm::vec3 kFrameColor(0.0F);
 
-/// The pixel where a point appears, or nothing where it is not in the picture.
+/// Returns the pixel in which a point appears; nothing if it is not in the picture.
 std::optional<glm::ivec2> pixel_of(const glm::dvec3& point, const Projection& projection,
                                    const Image& image) {
   if (!(projection.depth(point) > 0.0)) return std::nullopt;

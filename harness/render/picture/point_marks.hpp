@@ -1,5 +1,5 @@
 #pragma once
-// Points of the scene marked in a picture.
+// Marks points of the scene in a picture.
 
 #include <cstddef>
 #include <span>
@@ -13,15 +13,15 @@
 
 namespace beambench::render {
 
-/// Points that mean the same.
+/// Points with the same meaning.
 struct PointGroup {
   Category category;
   std::vector<glm::dvec3> points;
 };
 
-/// Dims the picture that `rays` show and marks each point with a framed dot, the later groups over
-/// the earlier, also where a surface hides it: what is looked for may lie inside of something.
-/// Returns what the colors stand for with the numbers of points, and how many are outside of the
+/// Dims the picture shown by `rays` and marks each point with a framed dot, later groups over
+/// earlier ones, even if a surface hides it, because points of interest may be inside of objects.
+/// Returns the meaning of the colors with the numbers of points, and how many are outside of the
 /// picture.
 std::vector<LegendEntry> mark_points(Image& image, const accel::PrimaryRays& rays,
                                      std::span<const PointGroup> groups);

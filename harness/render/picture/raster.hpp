@@ -1,5 +1,5 @@
 #pragma once
-// Straight lines without stairs, and filled polygons.
+// Antialiased straight lines, and filled polygons.
 
 #include <algorithm>
 #include <cmath>
@@ -24,8 +24,8 @@ struct PixelSegment {
   glm::dvec2 to;
 };
 
-/// Cuts the part [first, last] of a line to where `low` <= t * direction <= `high`; false where
-/// nothing is left for a line along the slab.
+/// Clips the part [first, last] of a line to `low` <= t * direction <= `high`; false if nothing is
+/// left of a line along the slab.
 inline bool clip_to_slab(double low, double high, double direction, double& first, double& last) {
   if (direction == 0.0) return low <= 0.0 && high >= 0.0;
   const double a = low / direction;
@@ -35,14 +35,15 @@ inline bool clip_to_slab(double low, double high, double direction, double& firs
   return true;
 }
 
-/// The part [first, second] of a line's [0, 1] that lies less than `margin` outside the image
-/// (Liang and Barsky, "A new concept and method for line clipping", 1984); nothing where none does.
+/// Returns the part [first, second] of a line's [0, 1] that lies less than `margin` outside the
+/// image (Liang and Barsky, "A new concept and method for line clipping", 1984); nothing if there
+/// is none.
 std::optional<std::pair<double, double>> part_on_image(const PixelSegment& line, int width,
                                                        int height, double margin);
 
 /// Calls `visit(x, y, coverage, along)` for the pixels of an image that a line of the given
-/// thickness covers: `coverage` in (0, 1] is the pixel's covered share, near enough, by the
-/// distance of its center from the line; `along` in [0, 1] is the point of the line next to it.
+/// thickness covers: `coverage` in (0, 1] approximates the pixel's covered share by the distance of
+/// its center from the line; `along` in [0, 1] is the nearest point of the line.
 template <class Visit>
 void for_each_pixel(const PixelSegment& line, double thickness, int width, int height,
                     Visit visit) {
@@ -54,7 +55,7 @@ void for_each_pixel(const PixelSegment& line, double thickness, int width, int h
   const glm::dvec2 first = line.from + whole * part->first;
   const glm::dvec2 last = line.from + whole * part->second;
 
-  // Along the axis on which the line is longer, and across it as far as the line reaches.
+  // Along the axis on which the line is longer, and across it over the line's width.
   const int main = std::abs(whole.x) >= std::abs(whole.y) ? 0 : 1;
   const int cross = 1 - main;
   const glm::ivec2 sizes(width, height);
@@ -79,12 +80,12 @@ void for_each_pixel(const PixelSegment& line, double thickness, int width, int h
   }
 }
 
-/// The strength, up to 1, of lines around something that many pixels wide: where they
-/// lie side by side they get fainter, or the picture would be an area of their color.
+/// Returns the strength, up to 1, of lines around an area of that many pixels in width: adjacent
+/// lines get fainter, because otherwise they would fill the picture with their color.
 float line_strength(double pixels);
 
-/// Lines of one color, gathered before they are drawn: where they overlap, no pixel gets more than
-/// the strongest of them, so that an edge that two neighbors share looks like any other.
+/// Lines of one color, collected before they are drawn: where they overlap, a pixel gets only the
+/// strongest of them, so that an edge shared by two neighbors looks like any other.
 class LineLayer {
  public:
   LineLayer(int width, int height)
@@ -95,7 +96,7 @@ class LineLayer {
   int width() const { return width_; }
   int height() const { return height_; }
 
-  /// A pixel that a line covers by `coverage`, drawn with `strength`, both from 0 to 1.
+  /// Adds a pixel that a line covers by `coverage`, drawn with `strength`, both from 0 to 1.
   void add(int x, int y, float coverage, float strength) {
     Pixel& pixel = pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
                            static_cast<std::size_t>(x)];
@@ -104,8 +105,8 @@ class LineLayer {
   }
   void add(const PixelSegment& line, double thickness, float strength);
 
-  /// Draws the lines over an image. Where they run nothing shines through but `ground`, though they
-  /// be faint: else they would mix with the lines of the layers below. All are of one size.
+  /// Draws the lines over an image of the same size. Even faint lines let only `ground` shine
+  /// through; otherwise they would mix with the lines of the layers below.
   void draw_on(Image& image, const Image& ground, const glm::vec3& color) const;
 
  private:
@@ -120,12 +121,12 @@ class LineLayer {
 };
 
 /// Calls `visit(x, y)` for the pixels of an image whose centers lie in a convex polygon (in pixels,
-/// (0, 0) being the image's top left corner). Of a center on an edge that two polygons share, only
-/// one of them gets the pixel.
+/// where (0, 0) is the image's top left corner). If a center is on an edge shared by two polygons,
+/// only one of them gets the pixel.
 template <class Visit>
 void for_each_pixel_in(std::span<const glm::dvec2> corners, int width, int height, Visit visit) {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
-  /// The first pixel whose center is at a coordinate or behind it.
+  /// Returns the first pixel whose center is at or after a coordinate.
   const auto first_from = [](double coordinate, int size) {
     return static_cast<int>(
         std::clamp(std::ceil(coordinate - 0.5), 0.0, static_cast<double>(size)));
@@ -141,7 +142,7 @@ void for_each_pixel_in(std::span<const glm::dvec2> corners, int width, int heigh
     double left = kInfinite;
     double right = -kInfinite;
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      // Always from its lower end: neighbors compute the same number.
+      // Always from its lower end, so that neighbors compute the same number.
       const auto& [upper, lower] =
           std::minmax(corners[i], corners[(i + 1) % corners.size()],
                       [](const glm::dvec2& a, const glm::dvec2& b) { return a.y < b.y; });

@@ -16,12 +16,12 @@
 namespace beambench::render {
 namespace {
 
-// Reinhard et al. go down to a key of 0.09 for dark subjects, up to 0.36 for bright ones, half and
-// twice the usual 0.18.
+// Reinhard et al. use keys from 0.09 for dark subjects to 0.36 for bright ones, half and twice the
+// usual 0.18.
 constexpr double kLowKey = 0.09;
 constexpr double kHighKey = 0.36;
 
-/// Of the primaries of sRGB (ITU-R BT.709).
+/// Returns the luminance with the primaries of sRGB (ITU-R BT.709).
 double luminance(const glm::vec3& color) {
   return glm::dot(glm::dvec3(color), glm::dvec3(0.2126, 0.7152, 0.0722));
 }
@@ -31,7 +31,7 @@ bool is_lit(const glm::vec3& color) {
          brightest(color) > 0.0F && luminance(color) > 0.0;
 }
 
-/// The value that one of a hundred exceed, at most. There is at least one.
+/// Returns the value that at most one in a hundred exceeds. There must be at least one value.
 double hundredth(std::vector<float> values) {
   const auto place = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 100);
   std::nth_element(values.begin(), place, values.end(), std::greater<>());
@@ -54,7 +54,7 @@ double ToneCurve::stops() const { return std::log2(exposure_); }
 double ToneCurve::operator()(double brightest) const {
   const double light = exposure_ * brightest;
   if (white_ == kPeak) return std::min(light, 1.0);
-  // In units of kPeak, with the white of the paper as white_ / kPeak.
+  // In units of kPeak, with white_ / kPeak as the white of the paper.
   const double shown = light * (1.0 + light * kPeak / (white_ * white_)) / (1.0 + light / kPeak);
   return std::min(shown, 1.0);
 }

@@ -8,13 +8,14 @@
 
 namespace beambench::cluster {
 
-/// A consumer's final report, as bytes: its tasks, times and counts.
+/// Encodes a consumer's final report: its tasks, times and counts.
 Bytes write_report(const ProcessReport& report);
-/// Reads it into the producer's report of that process. Throws ProtocolError for other bytes.
+/// Reads the report into the producer's report on that process. Throws ProtocolError for other
+/// bytes.
 void read_report(std::span<const std::byte> bytes, ProcessReport& report);
 
 /// A consumer of section 6.2: sends `ready_report`, then waits for a parcel, performs its tasks and
-/// sends the results, until the end message. In a long task it sends heartbeats, one in
+/// sends the results, until the end message. During a long task it sends a heartbeat every
 /// `heartbeat_interval` seconds.
 void consume(Transport& transport, TaskWorker& worker, double heartbeat_interval,
              Bytes ready_report);

@@ -53,9 +53,9 @@ std::vector<Share> of_equal_cost(std::span<const double> costs, std::size_t shar
 }
 
 /// A producer can send some thousand messages before the others wait for it. So each consumer's
-/// next message has three quarters of its part of what is left, but not less than a fifth of its
-/// part of all; and no more than a 1,024th of all, so that with few consumers little is lost with
-/// one.
+/// next message has three quarters of its share of the remainder, but at least a fifth of its share
+/// of the whole, and at most a 1,024th of the whole, so that with few consumers little is lost with
+/// any of them.
 std::vector<Share> falling(std::size_t tasks, std::size_t consumers) {
   const std::size_t most = std::max<std::size_t>(1, tasks / 1024);
   const std::size_t least = std::clamp<std::size_t>(tasks / (5 * consumers), 1, most);
@@ -113,7 +113,7 @@ TileOrder::TileOrder(int width, int height, int size)
     return static_cast<std::size_t>(of_all * static_cast<double>(count));
   };
   step_ = part(0.7548776662, rows_) * columns_ + part(0.5698402910, columns_);
-  while (std::gcd(step_, count()) != 1) ++step_;  // or not every tile would have its turn
+  while (std::gcd(step_, count()) != 1) ++step_;  // or some tiles would never have their turn
 }
 
 accel::beam::PixelRect TileOrder::operator[](std::size_t i) const {

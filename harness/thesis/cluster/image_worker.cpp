@@ -11,17 +11,17 @@
 namespace beambench::cluster {
 namespace {
 
-/// The contents of a run of results of `write_colors`.
+/// The contents of one run in the results of `write_colors`.
 enum class Part : std::uint8_t { kPixels, kSample };
 
-/// The number of samples that follow each other without a gap.
+/// Returns the number of consecutive samples without a gap.
 std::size_t run_length(SampleList samples) {
   std::size_t length = 1;
   while (length < samples.size() && samples[length] == samples[0] + length) ++length;
   return length;
 }
 
-/// The mean of a pixel's samples, in the order and the precision of `whitted_picture`.
+/// Returns the mean of a pixel's samples, in the order and the precision of `whitted_picture`.
 template <class Color>
 glm::vec3 mean(int samples, Color color) {
   glm::dvec3 sum(0.0);
@@ -29,7 +29,7 @@ glm::vec3 mean(int samples, Color color) {
   return {(1.0 / samples) * sum};
 }
 
-/// The light of samples, in their order.
+/// Returns the light of samples, in order.
 std::vector<glm::dvec3> colors_of(SampleList samples, const accel::HitBuffer& hits,
                                   const accel::PrimaryRays& rays, const render::Whitted& tracer,
                                   render::Whitted::Progress& progress, const Heartbeat& heartbeat) {
@@ -62,7 +62,7 @@ Vector get_vector(ByteReader& reader) {
   return vector;
 }
 
-/// As wide around as `EyeView::screen` is around the image.
+/// Returns the outline of a part, with the same margin as `EyeView::screen`.
 accel::beam::ImagePolygon outline_of(const accel::beam::PixelRect& part,
                                      const accel::PrimaryRays& rays,
                                      const accel::beam::EyeView& view) {

@@ -1,5 +1,5 @@
 #pragma once
-// What a consumer computes, the hits or light of beams and blocks: as bytes, and collected.
+// The computations of a consumer, hits or light of beams and blocks: encoding and collecting them.
 
 #include <cstdint>
 #include <span>
@@ -25,13 +25,13 @@ namespace beambench::cluster {
 /// Indices in a hit buffer, ascending.
 using SampleList = std::span<const std::uint32_t>;
 
-/// Appends the hits of samples, 8 bytes each and 8 for each run of neighbors.
+/// Appends the hits of samples: 8 bytes each, and 8 for each run of neighbors.
 void write_hits(SampleList samples, const accel::HitBuffer& hits, Bytes& bytes);
 
 /// Collects hits.
 class HitSink : public ResultSink {
  public:
-  /// Nothing is hit yet. The buffer must outlive the sink.
+  /// Starts without hits. The buffer must outlive the sink.
   explicit HitSink(accel::HitBuffer& hits) : hits_(&hits) {}
   std::size_t accept(std::span<const std::byte> result) override;
 
@@ -39,21 +39,21 @@ class HitSink : public ResultSink {
   accel::HitBuffer* hits_;
 };
 
-/// Appends the light of samples: 12 bytes for a pixel with all its samples here, their mean; 28
-/// bytes for other samples, in double, so that the sink can add a pixel's samples in their order.
-/// `heartbeat` is called from time to time.
+/// Appends the light of samples. For a pixel with all its samples here, this is their mean, in 12
+/// bytes; for other samples, 28 bytes each, in double, so that the sink can add a pixel's samples
+/// in order. `heartbeat` is called from time to time.
 void write_colors(SampleList samples, const accel::HitBuffer& hits, const accel::PrimaryRays& rays,
                   const render::Whitted& tracer, render::Whitted::Progress& progress,
                   const Heartbeat& heartbeat, Bytes& bytes);
 
-/// Collects light: the picture equals `whitted_picture` bit for bit.
+/// Collects light: the picture is equal to `whitted_picture` bit for bit.
 class ColorSink : public ResultSink {
  public:
-  /// `background`: along rays that hit nothing.
+  /// `background`: the light along rays without hits.
   ColorSink(int width, int height, int samples, const glm::dvec3& background);
   std::size_t accept(std::span<const std::byte> result) override;
 
-  /// The picture, once all results are in.
+  /// Returns the picture, once all results have arrived.
   render::Image image() const;
 
  private:
@@ -67,17 +67,17 @@ class ColorSink : public ResultSink {
   std::unordered_map<std::uint32_t, std::vector<glm::dvec3>> divided_;
 };
 
-/// Records which samples a beam decided.
+/// Records the samples decided by a beam.
 class DecidedSamples : public accel::beam::NoBeamWatch {
  public:
-  /// Of beams only the samples of a part of the image are wanted; empty: all.
+  /// Restricts the beams' samples to a part of the image; empty: all.
   void want(std::vector<accel::beam::SampleLattice> part) { part_ = std::move(part); }
   std::span<const accel::beam::SampleLattice> chosen(
       std::span<const accel::beam::SampleLattice> all) const {
     return part_.empty() ? all : part_;
   }
 
-  /// Clears; `heartbeat` is called from time to time and must outlive the record.
+  /// Clears the record. `heartbeat` is called from time to time and must outlive it.
   void begin(const Heartbeat& heartbeat) {
     pulse_ = &heartbeat;
     samples_.clear();
@@ -95,21 +95,21 @@ class DecidedSamples : public accel::beam::NoBeamWatch {
 };
 
 /// Finds the samples of a beam (thesis, section 6.2.3, "BuscarPixel") and traces them, with light
-/// if requested; of a tile also its beams. One for each process.
+/// if requested; for a tile, also its beams. There is one for each process.
 class ImageWorker : public TaskWorker {
  public:
-  /// Results are hits, or light where `light` is given. All must outlive this.
+  /// Results are hits, or light if `light` is given. All arguments must outlive this object.
   ImageWorker(const accel::beam::BeamTracer& tracer, const accel::PrimaryRays& rays,
               const render::Whitted* light);
 
   void perform(std::span<const std::byte> task, Bytes& result, const Heartbeat& heartbeat) override;
-  /// Those in its results so far.
+  /// Returns the number of samples in its results so far.
   std::uint64_t samples() const { return samples_; }
-  /// Its census of rays.
+  /// Writes its census of rays.
   void write_counts(Bytes& bytes) const override;
 
  private:
-  /// What the samples of a task need when these are decided.
+  /// Data for writing the samples of a task once they are decided.
   struct Results {
     Bytes* bytes;
     const Heartbeat* heartbeat;
@@ -118,7 +118,7 @@ class ImageWorker : public TaskWorker {
   void perform(const BlockTask& task, const Results& results);
   void perform(const TileTask& task, const Results& results);
   void trace_beams_through(const accel::beam::PixelRect& tile);
-  /// Of the samples that were decided.
+  /// Writes the results of the decided samples.
   void write(const Results& results);
 
   const accel::beam::BeamTracer* tracer_;
@@ -135,7 +135,7 @@ class ImageWorker : public TaskWorker {
   render::RayCensus census_;
 };
 
-/// Reads what `ImageWorker::write_counts` wrote. Throws ProtocolError for other bytes.
+/// Reads the output of `ImageWorker::write_counts`. Throws ProtocolError for other bytes.
 render::RayCensus read_census(std::span<const std::byte> bytes);
 
 }  // namespace beambench::cluster

@@ -31,7 +31,7 @@ void write_version(ByteWriter& writer) {
   writer.put_text(this_version());
 }
 
-/// The first message of every process begins like this, in all versions.
+/// Reads the version, with which the first message of every process begins in all versions.
 std::string read_version(ByteReader& reader) {
   if (reader.get<std::uint32_t>() != kMagic) {
     throw InputError("a process of this run is another program; start the same one everywhere");
@@ -39,7 +39,7 @@ std::string read_version(ByteReader& reader) {
   return reader.get_text();
 }
 
-/// What is sent of a job, in its order; the argument may be const.
+/// Visits the transmitted members of a job in order; the argument may be const.
 template <class AJob>
 auto members(AJob& job) requires std::same_as<std::remove_const_t<AJob>, Job> {
   return std::tie(job.scene, job.structure, job.camera, job.resolution.width, job.resolution.height,
@@ -48,7 +48,7 @@ auto members(AJob& job) requires std::same_as<std::remove_const_t<AJob>, Job> {
                   job.heartbeat_interval);
 }
 
-/// What is sent of a report behind its host and problem.
+/// Visits the transmitted members of a report after its host and problem.
 template <class Report>
 auto members(Report& report) requires std::same_as<std::remove_const_t<Report>, ReadyReport> {
   return std::tie(report.identity.scene, report.identity.primitives, report.identity.nodes,

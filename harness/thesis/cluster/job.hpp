@@ -1,5 +1,5 @@
 #pragma once
-// The job that is broadcast at the beginning, and the check that all processes agree.
+// The job that is broadcast at the beginning, and the check that all processes agree on it.
 
 #include <cstdint>
 #include <span>
@@ -18,43 +18,43 @@ namespace beambench::cluster {
 struct Job {
   std::string scene;
   std::string structure;              ///< `beam:max_level=6,...`
-  std::string camera;                 ///< empty: the scene's first
-  rays::Resolution resolution{0, 0};  ///< 0: the camera's
+  std::string camera;                 ///< empty: the scene's first camera
+  rays::Resolution resolution{0, 0};  ///< 0: that of the camera
   int samples = 1;
   bool light = false;  ///< consumers send light; otherwise hits
   render::WhittedOptions whitted;
   int split_level =
       0;  ///< level of the cells that divide the scene; 0: every process has all of it
   SceneDivision division = SceneDivision::kPrimitives;  ///< of those cells among the processes
-  std::string work;    ///< what the tasks are, for results that are kept
+  std::string work;                                     ///< the kind of tasks, for kept results
   std::string stored;  ///< folder in which every process keeps its results; empty: they are sent
   double heartbeat_interval = 1.0;  ///< seconds between heartbeats in long tasks
 };
 
-/// The structure of a job with its parameters. Throws InputError where it is not `beam`.
+/// Returns the structure of a job with its parameters. Throws InputError if it is not `beam`.
 accel::StructureChoice beam_choice(const Job& job);
 
-/// The image of a job over its scene, which must outlive it.
+/// Returns the image of a job over its scene, which must outlive it.
 rays::ImageOfRays job_image(const Job& job, const scenes::Scene& scene);
 
-/// As bytes, preceded by the version of this program.
+/// Encodes the job, preceded by the version of this program.
 Bytes write_job(const Job& job);
-/// Throws InputError where the producer is another version of this program.
+/// Throws InputError if the producer is another version of this program.
 Job read_job(std::span<const std::byte> bytes);
 
-/// What must be equal in all processes for a beam to mean the same.
+/// The properties that must be equal in all processes for a beam to mean the same.
 struct Identity {
   std::uint64_t scene = 0;  ///< hash of all that is visible: primitives, surfaces, lights, cameras
   std::uint64_t primitives = 0;
-  std::uint64_t nodes = 0;  ///< of the octree of the whole scene; 0 where no process has it
+  std::uint64_t nodes = 0;  ///< of the octree of the whole scene; 0 if no process has it
   std::uint64_t references = 0;
   friend bool operator==(const Identity&, const Identity&) = default;
 };
 
-/// Hash of the scene and everything that shading depends on.
+/// Returns the hash of the scene and everything that shading depends on.
 std::uint64_t visible_hash(const scenes::Scene& scene);
 
-/// What a process sends when it is set up: its identity, or why it cannot work.
+/// The message of a process that has been set up: its identity, or why it cannot work.
 struct ReadyReport {
   std::string host;
   std::string problem;  ///< empty: none
@@ -63,10 +63,10 @@ struct ReadyReport {
   std::uint64_t structure_bytes = 0;
 };
 Bytes write_ready_report(const ReadyReport& ready_report);
-/// Throws InputError, naming the process, if it has another version, a problem or another identity.
+/// Throws InputError naming the process if it has another version, a problem or another identity.
 ReadyReport read_ready_report(int process, std::span<const std::byte> bytes, const Identity& mine);
 
-/// This machine's name.
+/// Returns this machine's name.
 std::string host_name();
 
 }  // namespace beambench::cluster

@@ -43,7 +43,7 @@ std::vector<fs::path> files_in(const fs::path& folder) {
   return files;
 }
 
-/// A task with its result; nothing where the file ends, or what follows was cut off or damaged.
+/// A task with its result; nothing at the end of the file, or if the rest is truncated or damaged.
 struct Record {
   std::span<const std::byte> task;
   std::span<const std::byte> result;
@@ -62,7 +62,7 @@ std::optional<Record> next_record(ByteReader& reader) {
   }
 }
 
-/// The first line of `a` that `b` does not have at its place.
+/// Returns the first line of `a` that differs from the line at the same place in `b`.
 std::string first_difference(std::string_view a, std::string_view b) {
   while (!a.empty()) {
     const std::string_view line = a.substr(0, a.find('\n'));
@@ -148,7 +148,7 @@ KeptFolder::KeptFolder(const fs::path& picture, bool resume)
 
 KeptFolder::~KeptFolder() {
   std::error_code ignored;
-  fs::remove(path_, ignored);  // not while there are files in it
+  fs::remove(path_, ignored);  // fails, as intended, if there are files in it
 }
 
 void KeptFolder::read(const std::string& key,

@@ -1,5 +1,5 @@
 #pragma once
-// Finished results of a picture, kept on disk until it is written: what `--resume` goes on with.
+// Keeps finished results of a picture on disk until it is written, for `--resume`.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,21 +19,21 @@
 
 namespace beambench::cluster {
 
-/// What must be the same for results to be of the same picture: a line for each property.
+/// Returns the properties that must be the same for results of the same picture, one per line.
 std::string picture_key(const Job& job, const Identity& identity);
 
-/// A file of results that one process appends to. What was added is there after the process died,
-/// whole; the last one may be there in part, and is then not read.
+/// A file of results to which one process appends. Added results survive the death of the process;
+/// the last one may be incomplete, and is then not read.
 class KeptFile {
  public:
-  /// A new file in the folder, which must be there. Throws InputError.
+  /// Creates a new file in the folder, which must exist. Throws InputError.
   KeptFile(const std::filesystem::path& folder, ProcessId process, const std::string& key);
   /// Removes a file without results.
   ~KeptFile();
   KeptFile(const KeptFile&) = delete;
   KeptFile& operator=(const KeptFile&) = delete;
 
-  /// Throws InputError, for a full disk.
+  /// Throws InputError, for example if the disk is full.
   void add(std::span<const std::byte> task, std::span<const std::byte> result);
 
  private:
@@ -47,8 +47,8 @@ class KeptFile {
 /// The folder PICTURE.kept beside a picture, for one run at a time.
 class KeptFolder {
  public:
-  /// `resume`: keeps what is there; otherwise it is removed. Throws InputError where the folder
-  /// cannot be made or another run has it.
+  /// `resume`: keeps existing results; otherwise they are removed. Throws InputError if the folder
+  /// cannot be created or another run holds it.
   KeptFolder(const std::filesystem::path& picture, bool resume);
   /// Removes a folder without results.
   ~KeptFolder();
@@ -57,11 +57,11 @@ class KeptFolder {
 
   const std::filesystem::path& path() const { return path_; }
   /// Calls `visit` for the result of each task once. Throws InputError for a file of another
-  /// picture, naming what differs.
+  /// picture, stating the difference.
   void read(const std::string& key,
             const std::function<void(std::span<const std::byte> task,
                                      std::span<const std::byte> result)>& visit) const;
-  /// Removes the results: the picture is written.
+  /// Removes the results once the picture has been written.
   void remove();
 
  private:
@@ -69,10 +69,10 @@ class KeptFolder {
   std::unique_ptr<FolderLock> lock_;
 };
 
-/// Tasks, as they were sent.
+/// Tasks in the form in which they were sent.
 using TaskSet = std::set<Bytes>;
 
-/// Leaves out the tasks that are finished.
+/// Leaves out the finished tasks.
 class RemainingSource : public TaskSource {
  public:
   RemainingSource(std::unique_ptr<TaskSource> all, TaskSet finished)
@@ -84,10 +84,10 @@ class RemainingSource : public TaskSource {
   TaskSet finished_;
 };
 
-/// Keeps results where they were made, and returns a receipt for each.
+/// Keeps results in the process that made them, and returns a receipt for each.
 class StoringWorker : public TaskWorker {
  public:
-  /// All must outlive this.
+  /// All arguments must outlive this object.
   StoringWorker(ImageWorker& worker, KeptFile& file) : worker_(&worker), file_(&file) {}
   void perform(std::span<const std::byte> task, Bytes& result, const Heartbeat& heartbeat) override;
   void write_counts(Bytes& bytes) const override { worker_->write_counts(bytes); }

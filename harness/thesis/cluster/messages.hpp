@@ -1,5 +1,5 @@
 #pragma once
-// Messages as bytes: numbers, texts, and parcels of several tasks or results.
+// Encodes messages as bytes: numbers, texts, and parcels of several tasks or results.
 
 #include <bit>
 #include <cstddef>
@@ -18,7 +18,7 @@ namespace beambench::cluster {
 
 using Bytes = std::vector<std::byte>;
 
-/// A message does not have the form that its tag requires.
+/// Thrown if a message does not have the form that its tag requires.
 class ProtocolError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -26,7 +26,7 @@ class ProtocolError : public std::runtime_error {
 
 static_assert(std::endian::native == std::endian::little, "messages are little-endian");
 
-/// A number, or an enumeration, which is sent as one.
+/// A number, or an enumeration, which is sent as a number.
 template <class Value>
 concept PlainNumber = std::is_arithmetic_v<Value> || std::is_enum_v<Value>;
 
@@ -39,7 +39,7 @@ class ByteWriter {
   void put(Number number) {
     append(&number, sizeof number);
   }
-  /// All of them in their order.
+  /// Appends all of them in order.
   template <class... Values>
   void put(const std::tuple<Values&...>& values) {
     const auto put_one = [this](const auto& value) {
@@ -68,7 +68,7 @@ class ByteWriter {
   Bytes* bytes_;
 };
 
-/// Reads a message from its beginning. Throws ProtocolError where it is too short.
+/// Reads a message from its beginning. Throws ProtocolError if it is too short.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -81,7 +81,7 @@ class ByteReader {
     std::memcpy(&number, get_bytes(sizeof number).data(), sizeof number);
     return number;
   }
-  /// What `ByteWriter::put` wrote of the same values.
+  /// Reads the same values that `ByteWriter::put` wrote.
   template <class... Values>
   void get(const std::tuple<Values&...>& values) {
     const auto get_one = [this]<class Value>(Value& value) {
@@ -99,7 +99,7 @@ class ByteReader {
     bytes_ = bytes_.subspan(size);
     return taken;
   }
-  /// All that is left.
+  /// Returns the rest.
   std::span<const std::byte> rest() { return get_bytes(bytes_.size()); }
   std::string get_text() {
     const auto taken = get_bytes(get<std::uint32_t>());
@@ -122,7 +122,7 @@ class ParcelWriter {
     bytes_.resize(head_ + sizeof(ItemHead));
     return bytes_;
   }
-  /// `note` goes with the item.
+  /// Ends an item; `note` is sent with it.
   void end_item(float note = 0.0F) {
     const ItemHead head{static_cast<std::uint32_t>(bytes_.size() - head_ - sizeof(ItemHead)), note};
     std::memcpy(bytes_.data() + head_, &head, sizeof head);
@@ -145,7 +145,7 @@ class ParcelWriter {
 };
 
 struct ParcelItem {
-  float note;  ///< of a result: the CPU seconds that its task took
+  float note;  ///< for a result: the CPU seconds of its task
   std::span<const std::byte> bytes;
 };
 

@@ -23,14 +23,14 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-/// Time limits until a process that is not the producer has ended.
+/// Time limits until a process other than the producer has ended.
 constexpr double kLongestEnd = 2.0;
 
 void report(const std::string& message) {
   base::report_error("beambench-cluster", message, base::kInvalidInput);
 }
 
-/// Sleeps; returns whether to go on, which it does not once a stop is requested.
+/// Sleeps; returns whether to continue, which is false once a stop is requested.
 bool sleep_for(const std::stop_token& stop, Seconds time) {
   std::mutex mutex;
   std::condition_variable_any changed;
@@ -40,7 +40,7 @@ bool sleep_for(const std::stop_token& stop, Seconds time) {
 }
 
 /// Ends this process with a message unless it is destroyed in time; mpirun then ends the others.
-/// For calls of MPI that wait for all processes, without a limit of their own.
+/// For MPI calls that wait for all processes without their own time limit.
 class Deadline {
  public:
   Deadline(double seconds, std::string message, int exit_code)
@@ -56,7 +56,7 @@ class Deadline {
 
 }  // namespace
 
-/// In a communicator of its own. The thread alone uses it until `end`.
+/// Signs of life in a separate communicator, used only by the thread until `end`.
 class MpiSession::SignsOfLife {
  public:
   explicit SignsOfLife(double timeout)
@@ -65,7 +65,7 @@ class MpiSession::SignsOfLife {
     MPI_Comm_rank(processes_, &self_);
     int count = 0;
     MPI_Comm_size(processes_, &count);
-    if (!is_producer()) count = kProducer + 1;  // it hears of the producer alone
+    if (!is_producer()) count = kProducer + 1;  // it hears only from the producer
     for (ProcessId process = 0; process < count; ++process) {
       if (process != self_) others_.push_back({process, Clock::now()});
     }
@@ -82,7 +82,7 @@ class MpiSession::SignsOfLife {
 
   bool is_producer() const { return self_ == kProducer; }
 
-  /// The producer tells the other processes that all is written; these wait for it to do so.
+  /// Waits until the producer has told the other processes that everything is written.
   void end() {
     thread_.request_stop();
     thread_.join();
@@ -108,7 +108,7 @@ class MpiSession::SignsOfLife {
     for (const Other& other : others_) {
       MPI_Request request = MPI_REQUEST_NULL;
       MPI_Isend(nullptr, 0, MPI_BYTE, other.process, sign, processes_, &request);
-      MPI_Request_free(&request);  // there are no bytes that would have to be kept
+      MPI_Request_free(&request);  // has no bytes that would have to be kept
     }
   }
 
@@ -173,7 +173,7 @@ MpiSession::~MpiSession() {
   }
   signs_->end();
   watchdog_.require_end();
-  // The producer, which knows that all is written, is the first to give up.
+  // The producer, which knows when everything is written, is the first to give up.
   const Deadline deadline(
       signs_->is_producer() ? timeout_ : kLongestEnd * timeout_,
       fmt::format("a process did not end within {} s; what was asked for is written", timeout_),

@@ -1,5 +1,5 @@
 #pragma once
-// MPI from its beginning to its end, and what ends a run when a process stops.
+// MPI from its start to its end, and the end of a run in which a process stops.
 
 #include <memory>
 
@@ -8,14 +8,15 @@
 
 namespace beambench::cluster {
 
-/// One per program, constructed before anything else. A process that is stopped, or whose machine
-/// is, ends the run of all others within the time limit, instead of letting them wait: with a
-/// message on stderr and exit code 2. So that this is noticed whatever the others are doing, a
-/// thread of each process sends a sign of life to the producer, and the producer's to all, where
-/// MPI allows threads (MPI_THREAD_MULTIPLE); where it does not, only the start is limited.
+/// The MPI session of a program, constructed before anything else. If a process or its machine is
+/// stopped, all others end within the time limit instead of waiting, with a message on stderr and
+/// exit code 2. To detect this whatever the processes are doing, a thread of each process sends
+/// signs of life to the producer, and the producer's thread to all others, if MPI allows threads
+/// (MPI_THREAD_MULTIPLE); otherwise only the start is limited.
 class MpiSession {
  public:
-  /// `timeout`: seconds until MPI has started, of silence after that, and until MPI has ended.
+  /// `timeout`: the limit in seconds for the start of MPI, for silence after that, and for the end
+  /// of MPI.
   MpiSession(int& argc, char**& argv, double timeout);
   /// The producer announces that it has written everything, for which the other processes wait
   /// here; then all end MPI.
@@ -23,10 +24,10 @@ class MpiSession {
   MpiSession(const MpiSession&) = delete;
   MpiSession& operator=(const MpiSession&) = delete;
 
-  /// On the producer: from now on other processes may be silent; it copes with that itself.
+  /// On the producer: from now on, other processes may be silent, which it handles itself.
   void allow_silence();
 
-  /// Ends all processes at once, hanging ones included.
+  /// Ends all processes at once, including hanging ones.
   [[noreturn]] static void abort(int exit_code);
 
  private:

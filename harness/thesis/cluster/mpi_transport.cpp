@@ -21,7 +21,7 @@ Message receive(MPI_Comm processes, const MPI_Status& coming) {
   return message;
 }
 
-/// Polls without a pause at first, so that a message that comes soon is received soon; then sleeps
+/// Polls without a pause at first, so that a prompt message is received promptly; then sleeps for
 /// longer and longer, to leave the processor to others.
 class Backoff {
  public:
@@ -38,7 +38,7 @@ class Backoff {
 
  private:
   /// A message and its reply take about 0.1 ms. With three processes on two processors, 0.5 to 20
-  /// ms made no difference, and less cost up to a third.
+  /// ms made no difference, and shorter times cost up to a third.
   static constexpr std::chrono::milliseconds kAwake{2};
   static constexpr std::chrono::microseconds kLongest{200};
   Clock::time_point sleeps_from_ = Clock::now() + kAwake;
@@ -49,17 +49,17 @@ class Backoff {
 
 struct MpiTransport::Mpi {
   MPI_Comm processes = MPI_COMM_NULL;
-  /// Messages being sent, each kept until it has left.
+  /// Messages in transmission, each kept until it has left.
   std::vector<MPI_Request> sending;
   std::vector<Bytes> sent;
-  /// A buffer for any message, allocated when needed and not touched before.
+  /// A buffer for any message, allocated on first use and not initialized.
   std::unique_ptr<std::byte[]> room;  // NOLINT(modernize-avoid-c-arrays): not initialized
 
   void forget_what_left();
   Message receive_next();
 };
 
-/// One MPI_Testsome for all.
+/// Uses one MPI_Testsome for all.
 void MpiTransport::Mpi::forget_what_left() {
   if (sending.empty()) return;
   int left = 0;
@@ -75,7 +75,7 @@ void MpiTransport::Mpi::forget_what_left() {
   }
 }
 
-/// Without a probe: SimGrid's MPI_Probe polls, which takes simulated time.
+/// Avoids a probe, because SimGrid's MPI_Probe polls, which takes simulated time.
 Message MpiTransport::Mpi::receive_next() {
   constexpr int kLargest = 1 << 26;
   // NOLINTNEXTLINE(modernize-avoid-c-arrays)
@@ -93,13 +93,13 @@ MpiTransport::MpiTransport(Waiting waiting) : mpi_(std::make_unique<Mpi>()), wai
   MPI_Comm_size(mpi_->processes, &processes_);
 }
 
-/// MPI_Finalize frees the communicator: here all processes would have to take part.
+/// The communicator is freed by MPI_Finalize: here, all processes would have to take part.
 MpiTransport::~MpiTransport() = default;
 
 double MpiTransport::seconds() const { return MPI_Wtime(); }
 
-/// MPI_Isend, as in the thesis, where the producer first waits for its last message to leave. Here
-/// each message has a buffer of its own, so that a slow consumer delays no one.
+/// Uses MPI_Isend, as in the thesis, where the producer first waits for its last message to leave.
+/// Here each message has its own buffer, so that a slow consumer does not delay the others.
 void MpiTransport::send(ProcessId to, Tag tag, Bytes bytes) {
   mpi_->forget_what_left();
   const Bytes& kept = mpi_->sent.emplace_back(std::move(bytes));

@@ -1,5 +1,5 @@
 #pragma once
-// Messages by MPI.
+// Messages via MPI.
 
 #include <memory>
 
@@ -7,16 +7,16 @@
 
 namespace beambench::cluster {
 
-/// The processes that mpirun started, in a communicator of its own.
+/// The processes started by mpirun, in a separate communicator.
 class MpiTransport : public Transport {
  public:
-  /// How it waits for messages.
+  /// The method of waiting for messages.
   enum class Waiting {
     kSleeping,  ///< polls and sleeps: leaves the processor to others
     kBlocking   ///< in MPI_Recv, with no time limit: for a simulation, where waiting is exact
   };
   explicit MpiTransport(Waiting waiting);
-  /// Messages that have not left are lost.
+  /// Messages that have not left by then are lost.
   ~MpiTransport() override;
   MpiTransport(const MpiTransport&) = delete;
   MpiTransport& operator=(const MpiTransport&) = delete;

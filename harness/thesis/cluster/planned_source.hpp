@@ -1,5 +1,5 @@
 #pragma once
-// Tasks whose messages were planned before the first is sent.
+// Tasks whose messages are planned before the first is sent.
 
 #include <cstddef>
 #include <span>
@@ -12,10 +12,10 @@
 
 namespace beambench::cluster {
 
-/// Tasks share by share, a message for each.
+/// Provides tasks share by share, one message for each share.
 class PlannedSource : public TaskSource {
  public:
-  /// The tasks as `write_task` wrote them; `estimates` of their seconds, or none.
+  /// `tasks` are as written by `write_task`; `estimates` are their seconds, or empty.
   PlannedSource(std::vector<Bytes> tasks, std::vector<Share> shares, std::vector<double> estimates);
 
   bool next(Bytes& task) override;
@@ -28,12 +28,12 @@ class PlannedSource : public TaskSource {
   std::vector<double> estimates_;
   std::size_t share_ = 0;
   std::size_t place_ = 0;  ///< in the share
-  std::size_t last_ = 0;   ///< task that was made
+  std::size_t last_ = 0;   ///< the last task that was made
 };
 
-/// For each block the CPU seconds that its pixels should take, from one of each 16 x 16 pixels (the
-/// block's middle where it is smaller), which `worker` traces: the pre-processing with an image of
-/// low quality of Salmon and Goldsmith (1988) and Priol and Bouatouch (1989).
+/// Estimates for each block the CPU seconds of its pixels, from one pixel in each 16 x 16 (in a
+/// smaller block, the middle one), which `worker` traces: the pre-processing with a low-quality
+/// image of Salmon and Goldsmith (1988) and Priol and Bouatouch (1989).
 std::vector<double> estimate_costs(std::span<const accel::beam::PixelRect> blocks,
                                    TaskWorker& worker);
 

@@ -35,7 +35,7 @@ ClusterReport Producer::run() {
   return std::move(report_);
 }
 
-/// Consumers are shut down with their last result; lost tasks are performed here.
+/// Shuts consumers down with their last result; lost tasks are performed here.
 void Producer::finish() {
   shut_down_idle();
   while (!open_.empty()) {
@@ -77,7 +77,7 @@ void Producer::wait_for_final_reports() {
   }
 }
 
-/// Opens a parcel with the next tasks; false if there are none.
+/// Opens a parcel with the next tasks; returns false if there are none.
 bool Producer::make_parcel() {
   ParcelWriter parcel(next_number_);
   const std::size_t first = report_.tasks.size();
@@ -131,7 +131,7 @@ void Producer::give_lost() {
     if (!consumer) return;
     const Number number = lost_.front();
     lost_.pop_front();
-    if (open_.contains(number)) give(number, *consumer);  // its results may have come after all
+    if (open_.contains(number)) give(number, *consumer);  // its results may have arrived after all
   }
 }
 
@@ -256,7 +256,7 @@ void Producer::shut_down_idle() {
   }
 }
 
-/// Also those that never joined or were declared lost, should they still receive it.
+/// Includes those that never joined or were declared lost, in case they still receive it.
 void Producer::shut_down_all() {
   for (const ProcessId consumer : pool_.not_shut_down()) shut_down(consumer);
 }

@@ -17,31 +17,31 @@ namespace beambench::cluster {
 struct ProducerOptions {
   std::size_t batch = 1;          ///< tasks per message
   int in_flight = 1;              ///< messages that a consumer may hold
-  bool consumes = false;          ///< performs tasks itself while no consumer waits
+  bool consumes = false;          ///< perform tasks itself while no consumer waits
   double timeout = 30.0;          ///< seconds after which a silent consumer is declared lost
-  double startup_timeout = 60.0;  ///< seconds after which it begins alone if no consumer is ready
-  /// Called with each task and its result, once; may be empty.
+  double startup_timeout = 60.0;  ///< seconds after which it starts alone if no consumer is ready
+  /// Called once with each task and its result; may be empty.
   std::function<void(std::span<const std::byte> task, std::span<const std::byte> result)> keep;
 };
 
-/// The producer of section 6.2: takes a task from its source, sends it to the consumer that has
+/// The producer of section 6.2. It takes a task from its source, sends it to the consumer that has
 /// waited longest without waiting for the message to leave, and receives results before each
 /// message it sends. When there are no more tasks, each consumer is shut down with its last result.
 ///
 /// A consumer that is silent for too long is declared lost: its tasks go to the others, or are
-/// performed here if none is left. If it is heard again it is given work again; duplicate results
-/// are used once.
+/// performed here if none is left. If it is heard from again, it receives work again; duplicate
+/// results are used once.
 class Producer {
  public:
   /// Checks a consumer's ready report; throws InputError if it does not match, which ends the run.
   using Check = std::function<void(ProcessId, std::span<const std::byte>)>;
 
-  /// All arguments must outlive this. `own` performs the tasks that no consumer gets.
+  /// All arguments must outlive this object. `own` performs the tasks that no consumer receives.
   Producer(Transport& transport, TaskSource& source, ResultSink& sink, TaskWorker& own, Check check,
            const ProducerOptions& options);
 
-  /// All tasks, from the first to the last result. If it throws, the consumers were shut down
-  /// before.
+  /// Runs all tasks, from the first to the last result. If it throws, the consumers have been shut
+  /// down.
   ClusterReport run();
 
  private:
@@ -83,10 +83,10 @@ class Producer {
   ProducerOptions options_;
   WorkerPool pool_;
   std::map<Number, Parcel> open_;  ///< parcels without results
-  std::deque<Number> lost_;        ///< of these: those that no process is working on
+  std::deque<Number> lost_;        ///< those of them that no process is working on
   Number next_number_ = 0;
   double begin_ = 0.0;
-  double walked_ = 0.0;  ///< CPU seconds since the task before
+  double walked_ = 0.0;  ///< CPU seconds since the previous task
   ClusterReport report_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// The record of a run on several processes: totals, each process, each task.
+// The record of a run on several processes: totals, each process, and each task.
 
 #include <cstdint>
 #include <string>
@@ -30,7 +30,7 @@ struct Traffic {
 nlohmann::ordered_json to_json(const Traffic& traffic);
 nlohmann::ordered_json to_json(const render::RayCensus& census);
 
-/// What a process did. Wall times are of the transport's clock.
+/// The activity of a process. Wall times are those of the transport's clock.
 struct ProcessReport {
   std::uint64_t tasks = 0;
   std::uint64_t samples = 0;  ///< in its results
@@ -44,13 +44,13 @@ struct ProcessReport {
   bool final_report_came = false;  ///< of a consumer
 };
 
-/// One task, in the order in which they were made.
+/// One task, in the order of creation.
 struct TaskReport {
-  ProcessId process = kProducer;  ///< that performed it
-  double walk_seconds = 0.0;      ///< CPU time of the producer since the task before
+  ProcessId process = kProducer;  ///< the process that performed it
+  double walk_seconds = 0.0;      ///< CPU time of the producer since the previous task
   double work_seconds = 0.0;      ///< CPU time of the task
-  double accept_seconds = 0.0;    ///< CPU time of the producer for its result
-  double estimate_seconds = 0.0;  ///< what it was expected to take, where that was estimated
+  double accept_seconds = 0.0;    ///< CPU time of the producer for the task's result
+  double estimate_seconds = 0.0;  ///< its expected time, if it was estimated
   std::size_t samples = 0;
   std::size_t task_bytes = 0;
   std::size_t result_bytes = 0;
@@ -59,27 +59,27 @@ struct TaskReport {
 struct ClusterReport {
   double seconds = 0.0;            ///< wall time from the first beam to the last result
   double walk_seconds = 0.0;       ///< CPU time in which the producer made tasks
-  double last_walk_seconds = 0.0;  ///< of it: after the last task
+  double last_walk_seconds = 0.0;  ///< part of it: after the last task
   double accept_seconds = 0.0;     ///< CPU time in which it collected results
   double producer_wait_seconds = 0.0;
   std::vector<ProcessReport> processes;  ///< by `ProcessId`
   std::vector<TaskReport> tasks;
-  std::vector<std::string> remarks;  ///< failures that were recovered from, a sentence each
+  std::vector<std::string> remarks;  ///< failures that the run recovered from, one sentence each
   std::vector<ProcessId> lost;       ///< processes that hung at the end
 
-  /// The messages of all processes in one direction.
+  /// Returns the messages of all processes in one direction.
   Traffic total(Traffic ProcessReport::*direction) const {
     Traffic sum;
     for (const ProcessReport& process : processes) sum += process.*direction;
     return sum;
   }
-  /// The part of the run in which the producer did not wait for a message.
+  /// Returns the share of the run in which the producer did not wait for a message.
   double producer_busy_share() const {
     return seconds > 0.0 ? 1.0 - producer_wait_seconds / seconds : 1.0;
   }
 };
 
-/// All of a run.
+/// The complete record of a run.
 struct ClusterRun {
   Job job;
   std::string work;  ///< `name_of(Work)`
@@ -94,14 +94,14 @@ struct ClusterRun {
   std::uint64_t result_hash = 0;  ///< of the hits, or of the picture's light
 };
 
-/// Totals, and the report of each process.
+/// Returns totals, and the report of each process.
 nlohmann::ordered_json to_json(const ClusterRun& run);
 
-/// A row for each task in their order, and a last one, `end`, for the producer's time after the
+/// Returns a row for each task in order, and a last one, `end`, for the producer's time after the
 /// last task: the input of a simulation.
 std::string task_table(const ClusterReport& report);
 
-/// One or two lines for the user.
+/// Returns one or two lines for the user.
 std::string summary(const ClusterRun& run);
 
 }  // namespace beambench::cluster

@@ -46,7 +46,7 @@ void wait_for_end(Transport& transport) {
   }
 }
 
-/// What every process builds for itself: the scene, its octree, the rays.
+/// The objects that every process builds for itself: the scene, its octree, the rays.
 struct WorkerState {
   /// Loads and builds. Throws InputError if that fails or the structure is not `beam`. Warnings of
   /// the scene's reader are appended to `warnings` if given.
@@ -70,7 +70,7 @@ struct WorkerState {
             build_seconds,
             tracer->statistics().bytes};
   }
-  /// Of results of this picture.
+  /// Returns the key for results of this picture.
   std::string key(Job job) const {
     job.resolution = image.resolution;
     return picture_key(job, ready_report().identity);
@@ -81,17 +81,17 @@ struct WorkerState {
   rays::ImageOfRays image;
   accel::PrimaryRays rays;
   std::unique_ptr<accel::beam::BeamTracer> tracer;
-  std::optional<render::Whitted> light;  ///< nothing if the job is for hits alone
+  std::optional<render::Whitted> light;  ///< nothing if the job is only for hits
   double build_seconds = 0.0;
 };
 
-/// The producer's tasks, and what it took to estimate them.
+/// The producer's tasks, and the time for estimating them.
 struct Plan {
   std::unique_ptr<TaskSource> source;
   double pre_pass_seconds = 0.0;
 };
 
-/// The numbers of the tiles that are not finished.
+/// Returns the numbers of the unfinished tiles.
 std::vector<std::size_t> tiles_left(const TileOrder& order, const TaskSet& finished) {
   std::vector<bool> done(order.count(), false);
   for (const Bytes& task : finished) {
@@ -105,7 +105,7 @@ std::vector<std::size_t> tiles_left(const TileOrder& order, const TaskSet& finis
   return left;
 }
 
-/// Tiles by their numbers, a range of them in each message.
+/// Plans tiles by their numbers, with a range of them in each message.
 Plan plan_tiles(const ClusterRequest& request, const WorkerState& state, int consumers,
                 const TaskSet& finished) {
   const TileOrder order(state.rays.width(), state.rays.height(), request.block_size);
@@ -118,7 +118,7 @@ Plan plan_tiles(const ClusterRequest& request, const WorkerState& state, int con
   std::vector<Share> messages;
   for (const Share& share : shares) {
     Share& message = messages.emplace_back();
-    // Where some tiles are finished, what is left are several ranges.
+    // If some tiles are finished, the rest consists of several ranges.
     for (std::size_t i = 0; i < share.size();) {
       const std::size_t first = left[share[i]];
       std::size_t count = 1;
@@ -134,7 +134,7 @@ Plan plan_tiles(const ClusterRequest& request, const WorkerState& state, int con
                                           std::vector<double>{})};
 }
 
-/// Rows or blocks of a static division.
+/// Returns the rows or blocks of a static division.
 std::vector<accel::beam::PixelRect> parts_of(const ClusterRequest& request,
                                              const accel::PrimaryRays& rays) {
   if (request.work == Work::kContiguous || request.work == Work::kInterlaced) {
@@ -164,7 +164,7 @@ Plan plan_static(const ClusterRequest& request, const WorkerState& state, int co
   return {std::make_unique<PlannedSource>(std::move(tasks), std::move(shares), estimates), seconds};
 }
 
-/// Of the tasks that are not finished.
+/// Plans the unfinished tasks.
 Plan make_plan(const ClusterRequest& request, const WorkerState& state, int processes,
                const TaskSet& finished) {
   const accel::PrimaryRays& rays = state.rays;
@@ -220,12 +220,12 @@ class Result {
   std::optional<ColorSink> color_sink_;
 };
 
-/// The producer's part in keeping results: it reads those of an interrupted run, and keeps those
-/// that are sent, or collects at the end those that every process kept itself.
+/// The producer's part in keeping results: it reads those of an interrupted run, and either keeps
+/// results as they are sent, or at the end collects those that every process kept itself.
 class Keeper {
  public:
-  /// Results that are there go into the sink. Throws InputError where they are of another picture.
-  /// That none can be kept is a warning, unless all processes are to do so.
+  /// Puts existing results into the sink. Throws InputError if they belong to another picture. A
+  /// failure to keep results is only a warning, unless all processes must do so.
   Keeper(const ClusterRequest& request, const std::string& key, ResultSink& sink,
          std::vector<std::string>& warnings)
       : options_(request.producer), folder_(request.kept), key_(key) {
@@ -249,7 +249,7 @@ class Keeper {
 
   const TaskSet& finished() const { return finished_; }
 
-  /// The producer's work, all results being in the sink at the end.
+  /// Does the producer's work; at the end, all results are in the sink.
   ClusterReport produce(Transport& transport, TaskSource& source, ResultSink& sink,
                         ImageWorker& own, const Producer::Check& check) {
     if (!stored_) {
@@ -264,7 +264,8 @@ class Keeper {
   }
 
  private:
-  /// A picture that cannot be resumed is better than none.
+  /// Keeps a result; on failure it continues, because a picture that cannot be resumed is better
+  /// than none.
   void keep(std::span<const std::byte> task, std::span<const std::byte> result) {
     if (!file_) return;
     try {
@@ -308,7 +309,7 @@ void write_files(const ClusterRequest& request, const WorkerState& state, const 
   if (!request.tasks.empty()) write_file(request.tasks, task_table(run.report));
 }
 
-/// The run without its report.
+/// Returns the run without its report.
 ClusterRun describe(const ClusterRequest& request, const WorkerState& state, int processes) {
   ClusterRun run;
   run.job = request.job;

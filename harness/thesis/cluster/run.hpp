@@ -1,5 +1,5 @@
 #pragma once
-// A whole run: how processes set up, lead and follow.
+// A whole run: set-up, leader and followers.
 
 #include <functional>
 #include <memory>
@@ -20,40 +20,40 @@
 
 namespace beambench::cluster {
 
-/// What process 0 is to do.
+/// The request to process 0.
 struct ClusterRequest {
   Job job;
   ProducerOptions producer;
   Work work = Work::kBeams;
-  bool batch_given = false;  ///< tiles: as many in each message, instead of fewer and fewer
+  bool batch_given = false;  ///< tiles: equal numbers in each message, instead of fewer and fewer
   int block_size = 32;
   render::Shading shading = render::Shading::kPreview;
   std::string picture;  ///< file; empty: none
-  /// Where finished results are kept until the picture is written; may be null, but not with
-  /// `job.stored`.
+  /// Keeps finished results until the picture is written; may be null, but not with `job.stored`.
   std::shared_ptr<KeptFolder> kept;
   std::string report;
   std::string tasks;
 };
 
-/// Makes the image and writes the requested files, after the job was broadcast. Throws InputError
-/// if the scene cannot be loaded or a process does not match; the others are shut down before.
+/// Makes the image and writes the requested files, after broadcasting the job. Throws InputError if
+/// the scene cannot be loaded or a process does not match; in that case, the others have been shut
+/// down.
 ClusterRun lead(const ClusterRequest& request, Transport& transport);
 
-/// Receives the job and works on it to its end. A setup failure is reported to process 0, which
-/// ends the run.
+/// Receives the job and works on it to its end. A failure during set-up is reported to process 0,
+/// which ends the run.
 void follow(Transport& transport);
 
 /// On process 0: calls `set_up`, whose warnings go to stderr. If it throws, the others are shut
-/// down before.
+/// down first.
 void set_up_producer(Transport& transport,
                      const std::function<void(std::vector<std::string>& warnings)>& set_up);
 
 /// Reports to process 0 why this process cannot work, and waits for the end.
 void report_setup_failure(Transport& transport, const std::string& problem);
 
-/// On the others: the result of `set_up`; nothing after an InputError or std::bad_alloc, which was
-/// reported to process 0, which has ended the run.
+/// On the others: returns the result of `set_up`; nothing after an InputError or std::bad_alloc,
+/// which has been reported to process 0, which has ended the run.
 template <class SetUp>
 std::optional<std::invoke_result_t<SetUp>> set_up_consumer(Transport& transport, SetUp set_up) {
   std::string problem;

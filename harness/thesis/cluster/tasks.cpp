@@ -16,7 +16,7 @@ std::size_t read_count(const Values& values, ByteReader& reader) {
   return count;
 }
 
-// In place of a beam's kind.
+// Replaces a beam's kind.
 constexpr std::uint8_t kBlock = 255;
 constexpr std::uint8_t kTile = 254;
 

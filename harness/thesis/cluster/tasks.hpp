@@ -16,22 +16,23 @@
 
 namespace beambench::cluster {
 
-/// The locational code of a node (thesis, section 6.2.2, "some code"; Gargantini 1982): the octants
-/// on the path from the root, three bits each, after a leading 1.
+/// Returns the locational code of a node (thesis, section 6.2.2, "some code"; Gargantini 1982): the
+/// octants on the path from the root, three bits each, after a leading 1.
 std::uint64_t leaf_code(const accel::octree::Octree& octree, const glm::ivec3& corner,
                         std::int32_t size);
 
-/// The leaf of that code. Throws ProtocolError where the octree has none.
+/// Returns the leaf with that code. Throws ProtocolError if the octree does not have it.
 accel::octree::OctreeCursor find_leaf(const accel::octree::Octree& octree, std::uint64_t code);
 
-/// A plane of the cells: five bytes.
+/// Writes a plane of the cells: five bytes.
 void write_crossing(const accel::beam::Crossing& crossing, ByteWriter& writer);
-/// Throws ProtocolError where the grid has no such plane.
+/// Throws ProtocolError if the grid does not have that plane.
 accel::beam::Crossing read_crossing(const accel::CellGrid& grid, ByteReader& reader);
 
-/// Outline and cuts. Of the cuts only the planes are written, from which their lines follow.
+/// Writes outline and cuts. Only the planes of the cuts are written, because their lines follow
+/// from these.
 void write_shape(const accel::beam::Beam& beam, ByteWriter& writer);
-/// The inverse, bit for bit. Throws ProtocolError for other bytes.
+/// Reads them back, bit for bit. Throws ProtocolError for other bytes.
 void read_shape(ByteReader& reader, const accel::beam::EyeView& view, accel::beam::Beam& beam);
 
 /// A beam whose samples become rays.
@@ -45,13 +46,13 @@ struct BeamTask {
   accel::beam::Beam beam;
 };
 
-/// Why a beam ends where it is and its samples become rays; nothing where it continues or leaves
-/// the scene.
+/// Returns why a beam ends and its samples become rays; nothing if it continues or leaves the
+/// scene.
 std::optional<BeamTask::Kind> end_of(const accel::beam::BeamStep& step,
                                      const accel::beam::BeamTracer& tracer,
                                      const accel::PrimaryRays& rays);
 
-/// Traces the samples of a beam that ends.
+/// Traces the samples of a beam that has ended.
 template <class Painter>
 void paint(BeamTask::Kind end, const accel::beam::Beam& beam, Painter& painter) {
   if (end == BeamTask::Kind::kTestLeaf) {
@@ -65,38 +66,38 @@ void paint(BeamTask::Kind end, const accel::beam::Beam& beam, Painter& painter) 
 /// Pixels traced by individual rays.
 struct BlockTask : accel::beam::PixelRect {};
 
-/// Tiles traced by beams, which whoever traces them makes itself, from the root on: those with the
-/// numbers from `first` on of `TileOrder`.
+/// Tiles traced by beams, which the tracing process makes itself, starting at the root: those with
+/// the numbers from `first` on of `TileOrder`.
 struct TileTask {
   std::uint32_t first;
   std::uint32_t count;
   std::uint16_t size;  ///< pixels along a side
 };
 
-/// As bytes. The leaf is named by its code: a beam takes about 150 bytes.
+/// Encode a task. The leaf is identified by its code: a beam takes about 150 bytes.
 void write_task(const BeamTask& task, const accel::octree::Octree& octree, Bytes& bytes);
 void write_task(const BlockTask& task, Bytes& bytes);
 void write_task(const TileTask& task, Bytes& bytes);
 
-/// Nothing where the task is another one. Throws ProtocolError where it is cut off.
+/// Returns nothing for other tasks. Throws ProtocolError if the task is truncated.
 std::optional<TileTask> read_tiles(std::span<const std::byte> bytes);
 
-/// The inverse; the same octree gives the same beam bit for bit. Throws ProtocolError for other
+/// Reads a task; the same octree gives the same beam bit for bit. Throws ProtocolError for other
 /// bytes.
 std::variant<BeamTask, BlockTask, TileTask> read_task(std::span<const std::byte> bytes,
                                                       const accel::octree::Octree& octree,
                                                       const accel::beam::EyeView& view);
 
-/// Throws InputError if the tracer continues beams behind occupied leaves: they would have to be
-/// sent back.
+/// Throws InputError if the tracer continues beams behind occupied leaves, because they would have
+/// to be sent back.
 void require_tasks(const accel::beam::BeamTracer& tracer);
 
 /// The traversal of the beams (thesis, section 6.2.2): those in empty leaves continue, those that
-/// leave the scene end, since the image begins as background; those at occupied leaves are the
-/// tasks.
+/// leave the scene end, because the image begins as background, and those at occupied leaves are
+/// the tasks.
 class BeamSource : public TaskSource {
  public:
-  /// Both must outlive this. Throws as `require_tasks`.
+  /// Both arguments must outlive this object. Throws as `require_tasks`.
   BeamSource(const accel::beam::BeamTracer& tracer, const accel::PrimaryRays& rays);
 
   bool next(Bytes& task) override;
@@ -108,10 +109,10 @@ class BeamSource : public TaskSource {
   accel::beam::BeamQueue queue_;
 };
 
-/// Blocks of the image, row by row: what ray tracers without beams distribute.
+/// Blocks of the image, row by row: the tasks of ray tracers without beams.
 class BlockSource : public TaskSource {
  public:
-  /// Blocks of `size` x `size` pixels, less at the right and lower border.
+  /// Blocks have `size` x `size` pixels, fewer at the right and lower border.
   BlockSource(int width, int height, int size);
 
   bool next(Bytes& task) override;

@@ -1,6 +1,5 @@
 #pragma once
-// Messages between processes, and the computing parts of a run: sources of tasks, workers, sinks of
-// results.
+// Messages between processes, and the roles in a run: sources of tasks, workers, sinks of results.
 
 #include <cstddef>
 #include <functional>
@@ -12,21 +11,21 @@
 
 namespace beambench::cluster {
 
-/// What a message is.
+/// The kind of a message.
 enum class Tag {
-  kReady,        ///< consumer: its octree is built; its identity
+  kReady,        ///< consumer: its octree is built; contains its identity
   kTasks,        ///< producer: a parcel of work
   kResults,      ///< consumer: results of a parcel
   kHeartbeat,    ///< consumer: it is working on a long task
   kEnd,          ///< producer: there is no more work
-  kFinalReport,  ///< consumer: its report; of a divided scene, with its hits
-  // Of a divided scene (split/):
+  kFinalReport,  ///< consumer: its report; for a divided scene, with its hits
+  // For a divided scene (split/):
   kGo,      ///< process 0: all have the same scene; begin
   kCross,   ///< to any process: beams and rays that enter its part
   kAsk,     ///< process 0: request for a kCount when idle
   kCount,   ///< the numbers of kCross messages sent and received
   kLight,   ///< to any process: rays of light that enter its part
-  kAnswers  ///< to process 0: what rays of light have found
+  kAnswers  ///< to process 0: the results of rays of light
 };
 
 /// The rank of a process; 0 is the producer.
@@ -39,7 +38,7 @@ struct Message {
   Bytes bytes;
 };
 
-/// The base of what several classes implement; used by reference only.
+/// The base of interfaces with several implementations; used by reference only.
 class Role {
  public:
   Role() = default;
@@ -48,7 +47,7 @@ class Role {
   virtual ~Role() = default;
 };
 
-/// Sends and receives the messages of a process. Messages of one process may overtake each other.
+/// Sends and receives the messages of a process. Messages from one process may overtake each other.
 class Transport : public Role {
  public:
   static constexpr double kForever = std::numeric_limits<double>::infinity();
@@ -61,9 +60,9 @@ class Transport : public Role {
   virtual void send(ProcessId to, Tag tag, Bytes bytes) = 0;
   /// Waits until all messages have left.
   virtual void flush() = 0;
-  /// A message that has arrived, if any.
+  /// Returns a message that has arrived, if any.
   virtual std::optional<Message> poll() = 0;
-  /// The next message; nothing if none arrives within `seconds`.
+  /// Returns the next message; nothing if none arrives within `seconds`.
   virtual std::optional<Message> wait(double seconds) = 0;
   /// Sends the producer's bytes to all; every process calls it.
   virtual void broadcast(Bytes& bytes) = 0;
@@ -72,22 +71,22 @@ class Transport : public Role {
 /// Makes the producer's tasks.
 class TaskSource : public Role {
  public:
-  /// Appends the next task to a message; false when there are no more.
+  /// Appends the next task to a message; returns false when there are no more.
   virtual bool next(Bytes& task) = 0;
-  /// How many tasks the next message is to have, where the source decides that; 0: where not.
+  /// Returns the number of tasks of the next message if the source determines it; otherwise 0.
   virtual std::size_t parcel_size() const { return 0; }
-  /// The seconds that the last task was estimated to take; 0 where it was not.
+  /// Returns the estimated seconds of the last task; 0 if there is no estimate.
   virtual double estimate() const { return 0.0; }
 };
 
-/// Called from time to time within a long task.
+/// Called from time to time during a long task.
 using Heartbeat = std::function<void()>;
 
 /// Performs tasks.
 class TaskWorker : public Role {
  public:
   /// Performs a task and appends its result to a message. The same task gives the same bytes on
-  /// every process. Throws ProtocolError for bytes that are no task.
+  /// every process. Throws ProtocolError for bytes that are not a task.
   virtual void perform(std::span<const std::byte> task, Bytes& result,
                        const Heartbeat& heartbeat) = 0;
   /// Appends its counts, for the report.
@@ -97,8 +96,8 @@ class TaskWorker : public Role {
 /// Collects results.
 class ResultSink : public Role {
  public:
-  /// Results come in any order, each once. Returns the number of samples in it. Throws
-  /// ProtocolError for bytes that are no result.
+  /// Accepts a result. Results come in any order, each once. Returns the number of samples in it.
+  /// Throws ProtocolError for bytes that are not a result.
   virtual std::size_t accept(std::span<const std::byte> result) = 0;
 };
 

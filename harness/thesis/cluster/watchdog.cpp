@@ -13,9 +13,9 @@
 namespace beambench::cluster {
 namespace {
 
-constexpr int kGrace = 1000;  // milliseconds: of a group that was stopped as a whole and goes on
+constexpr int kGrace = 1000;  // milliseconds for a group that was stopped as a whole and continues
 
-/// Has the other side not been closed, as it is when its process ends?
+/// Returns whether the other side is still open; it is closed when its process ends.
 bool is_open_after(int socket, int milliseconds) {
   pollfd waited{socket, POLLIN, 0};
   int ready = 0;
@@ -25,7 +25,7 @@ bool is_open_after(int socket, int milliseconds) {
   return ready == 0;
 }
 
-/// Other libraries may have started threads before the fork, so nothing here may take a lock.
+/// Must not take a lock, because other libraries may have started threads before the fork.
 [[noreturn]] void watch(int socket, pid_t parent, int milliseconds, const std::string& message) {
   ::close(STDIN_FILENO);
   ::close(STDOUT_FILENO);
@@ -65,7 +65,7 @@ Watchdog::Watchdog(double seconds) {
 }
 
 void Watchdog::require_end() const {
-  // Without a signal if the child is gone.
+  // Does not raise a signal if the child is gone.
   if (socket_ >= 0) ::send(socket_, "", 1, MSG_NOSIGNAL);
 }
 

@@ -1,21 +1,21 @@
 #pragma once
-// What ends a process that is stopped when no other one is left to notice.
+// Ends a stopped process when no other process is left to notice.
 
 namespace beambench::cluster {
 
 /// A child process that kills this one if it does not end in time. While MPI ends, each process
-/// waits for the others only at first: one that is stopped after that is waited for by mpirun
-/// alone, for ever.
+/// waits for the others only at first: if a process is stopped later, only mpirun waits for it,
+/// forever.
 class Watchdog {
  public:
-  /// Forks: construct it before MPI. The child ends with this process, however that ends. Where
-  /// there can be no child, nothing is watched.
+  /// Forks: construct it before MPI. The child ends with this process, however that ends. If no
+  /// child can be created, nothing is watched.
   explicit Watchdog(double seconds);
-  ~Watchdog() = default;  ///< goes on watching: static objects are still to be destroyed
+  ~Watchdog() = default;  ///< continues to watch: static objects are still to be destroyed
   Watchdog(const Watchdog&) = delete;
   Watchdog& operator=(const Watchdog&) = delete;
 
-  /// Everything is written. From now on this process must end within the time.
+  /// Called when everything is written. From now on this process must end within the time limit.
   void require_end() const;
 
  private:

@@ -11,35 +11,35 @@
 
 namespace beambench::cluster {
 
-/// Selects the consumer for the next parcel: of those with the fewest parcels the one that has
-/// waited longest (the thesis's round robin, section 6.2.3, where each has one at most).
+/// Selects the consumer for the next parcel: among those with the fewest parcels, the one that has
+/// waited longest (the thesis's round robin, section 6.2.3, where each has at most one).
 class WorkerPool {
  public:
   /// Consumers are 1 ... `processes` - 1. Each may hold up to `in_flight` parcels and is declared
-  /// lost when it holds one and was silent for longer than `timeout`.
+  /// lost if it holds one and is silent for longer than `timeout`.
   WorkerPool(int processes, int in_flight, double timeout);
 
-  /// A consumer is ready.
+  /// Records that a consumer is ready.
   void join(ProcessId consumer, double now);
-  /// A consumer sent something; if it was lost, it is back.
+  /// Records that a consumer sent something; if it was lost, it is back.
   void heard(ProcessId consumer, double now);
-  /// It was sent a parcel, or its results came.
+  /// Record that it was sent a parcel, or that its results arrived.
   void gave(ProcessId consumer, double now);
   void returned(ProcessId consumer, double now);
-  /// It was sent the end.
+  /// Records that it was sent the end.
   void shut_down(ProcessId consumer);
 
   std::optional<ProcessId> longest_waiting() const;
   bool nobody_present() const { return present_count_ == 0; }
-  /// Declares consumers lost that hold parcels and are silent; returns them.
+  /// Declares silent consumers that hold parcels lost, and returns them.
   std::vector<ProcessId> declare_silent_lost(double now);
-  /// When the next one will have been silent for too long.
+  /// Returns when the next one will have been silent for too long.
   double next_deadline() const;
 
-  /// Those that joined and are neither lost nor shut down.
+  /// Returns those that joined and are neither lost nor shut down.
   std::vector<ProcessId> present() const;
   bool idle(ProcessId consumer) const { return at(consumer).load == 0; }
-  /// Those that were declared lost and not heard since.
+  /// Returns those that were declared lost and not heard from since.
   std::vector<ProcessId> lost() const;
   std::vector<ProcessId> not_shut_down() const;
 
@@ -48,10 +48,10 @@ class WorkerPool {
   struct Member {
     State state = State::kAbsent;
     int load = 0;
-    std::uint64_t since = 0;  ///< the turn since which it waits
+    std::uint64_t since = 0;  ///< the turn since which it has waited
     double last_heard = 0.0;
   };
-  /// Ordered by who is given work next.
+  /// Ordered by the sequence in which work is assigned.
   struct Place {
     int load;
     std::uint64_t since;
@@ -68,7 +68,7 @@ class WorkerPool {
   void become(Member& member, State state);
   void leave_queue(ProcessId consumer);
   void enter_queue(ProcessId consumer);
-  /// Those whose state is `wanted`.
+  /// Returns those whose state is `wanted`.
   template <class Wanted>
   std::vector<ProcessId> consumers(Wanted wanted) const;
 

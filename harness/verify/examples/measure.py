@@ -28,7 +28,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 REPOSITORY = HERE.parents[2]
-# Any Python that has numpy runs this, not only that of .venv, which finds the package by itself.
+# Runs with any Python that has numpy, not only that of .venv, which finds the package by itself.
 sys.path.append(str(REPOSITORY / "scripts"))
 
 from beambench_report.base.formulas import guarded  # noqa: E402 (found by the line before)
@@ -43,7 +43,7 @@ SCENES = [
     "habitacion",
     "bumpy:triangles=20000",
 ]
-# Kind of rays: the resolution, or the number of rays for the kinds that are made here.
+# Kinds of rays: the resolution, or the number of rays for the kinds that are made here.
 RAYS = {
     "primary": "512x400",
     "random": "512x400",
@@ -52,29 +52,29 @@ RAYS = {
     "axis": 450_000,
     "inside": 100_000,
 }
-CLOSED = "bumpy"  # scenes with a closed surface, in which rays from within must hit
+CLOSED = "bumpy"  # scenes with a closed surface, so that rays from inside must hit
 CLASSES = ["agree", "tie", "graze", "structure_error", "embree_error"]
 COLUMNS = [
     *["program", "version", "scene", "triangles", "ray_kind", "rays", "hits", "program_hits"],
     *[*CLASSES, "verdict", "seconds"],
 ]
-# How summary.csv adds the rows up.
+# The groups of ray kinds for which summary.csv sums up the rows.
 KINDS_TOGETHER = {"primary": "scene's own", "random": "scene's own", "diffuse": "scene's own"}
 COUNTS = ["rays", "hits", "program_hits", *CLASSES]
 HIT_TYPES = {"t": "<f4", "x": "<f4", "y": "<f4", "z": "<f4", "primitive": "<u4", "triangle": "<u4"}
 
 
 class FailedError(Exception):
-    """A command that ended with another exit code than those that are expected."""
+    """Raised if a command ends with an unexpected exit code."""
 
 
 def slug(text: str) -> str:
-    """A name for a file."""
+    """Returns a name for a file."""
     return re.sub(r"[^a-z0-9]+", "-", text.lower()).strip("-")
 
 
 def call(command: list[str], expected: tuple[int, ...] = (0,)) -> str:
-    """The standard output."""
+    """Returns the standard output of a command."""
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode not in expected:
         last = (done.stderr.strip() or done.stdout.strip()).splitlines()[-1:]
@@ -83,7 +83,7 @@ def call(command: list[str], expected: tuple[int, ...] = (0,)) -> str:
 
 
 def read_obj(path: Path) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices as float32, and the three vertices of each triangle."""
+    """Returns vertices as float32, and the three vertices of each triangle."""
     lines = path.read_text("utf-8").splitlines()
     vertices = [line.split()[1:4] for line in lines if line.startswith("v ")]
     faces = [line.split()[1:4] for line in lines if line.startswith("f ")]
@@ -91,7 +91,7 @@ def read_obj(path: Path) -> tuple[np.ndarray, np.ndarray]:
 
 
 def write_rays(path: Path, rays: np.ndarray, note: str) -> None:
-    """A .rays file of eight numbers each."""
+    """Writes a .rays file of eight numbers per ray."""
     header = {"query": "closest", "rays": len(rays), "note": note}
     partial = path.with_name(f"{path.name}.{os.getpid()}")
     with partial.open("wb") as out:
@@ -101,7 +101,7 @@ def write_rays(path: Path, rays: np.ndarray, note: str) -> None:
 
 
 def aimed_rays(obj: Path, kind: str, count: int) -> np.ndarray:
-    """Rays at vertices and at the midpoints of edges, where wrong hits are most likely.
+    """Returns rays at vertices and at the midpoints of edges, where wrong hits are most likely.
 
     `edges`: from a sphere around the scene; direction and target are rounded to float32, so a ray
     passes its target within rounding. `inside`: the same from around the center, of a closed mesh.
@@ -137,7 +137,7 @@ def aimed_rays(obj: Path, kind: str, count: int) -> np.ndarray:
 
 
 def read_rays(path: Path) -> np.ndarray:
-    """The eight numbers of each ray of a .rays file."""
+    """Returns the eight numbers of each ray of a .rays file."""
     with path.open("rb") as file:
         file.readline()
         file.readline()
@@ -145,7 +145,7 @@ def read_rays(path: Path) -> np.ndarray:
 
 
 def read_hits(path: Path) -> np.ndarray:
-    """The closest hits of a .hits file, by the names of its columns."""
+    """Returns the closest hits of a .hits file, by the names of its columns."""
     with path.open("rb") as file:
         file.readline()
         columns = json.loads(file.readline())["columns"]
@@ -153,13 +153,13 @@ def read_hits(path: Path) -> np.ndarray:
 
 
 def hits_in(path: Path) -> int:
-    """How many rays of a .hits file hit."""
+    """Returns the number of rays of a .hits file that hit."""
     hits = read_hits(path)
     return int(np.count_nonzero(np.isfinite(hits[hits.dtype.names[0]])))
 
 
 def add_common_options(parser: argparse.ArgumentParser) -> None:
-    """Where everything is."""
+    """Adds the options for folders."""
     parser.add_argument("--work", type=Path, required=True, help="folder for rays and cells")
     parser.add_argument("--programs", type=Path, default=HERE / "programs.json")
     parser.add_argument("--build", type=Path, default=REPOSITORY / "build", help="default: build")
@@ -167,7 +167,7 @@ def add_common_options(parser: argparse.ArgumentParser) -> None:
 
 
 def places_of(arguments: argparse.Namespace) -> dict[str, str]:
-    """The words in braces of the commands."""
+    """Returns the values of the words in braces in commands."""
     build = arguments.build.resolve()
     beambench = (arguments.beambench or build / "release/bin/beambench").resolve()
     return {
@@ -179,10 +179,10 @@ def places_of(arguments: argparse.Namespace) -> dict[str, str]:
 
 
 class Measurement:
-    """The programs, the scenes and the folder with what was done."""
+    """The programs, the scenes and the folder of finished cells."""
 
     def __init__(self, work: Path, places: dict[str, str]) -> None:
-        """`places` are the words in braces of the commands."""
+        """`places` are the values of the words in braces in commands."""
         self.commit = of_git("rev-parse", "HEAD")
         self.dirty = bool(of_git("status", "--porcelain"))
         self.work = work
@@ -191,14 +191,14 @@ class Measurement:
         (work / "cells").mkdir(parents=True, exist_ok=True)
 
     def mesh(self, scene: str) -> Path:
-        """The scene's triangles."""
+        """Returns the scene's triangles."""
         obj = self.work / f"{slug(scene)}.obj"
         if not obj.exists():
             call([self.beambench, "export", scene, "-o", str(obj)])
         return obj
 
     def rays(self, scene: str, kind: str) -> Path:
-        """The rays of a kind."""
+        """Returns the rays of a kind."""
         file = self.work / f"{slug(scene)}-{kind}.rays"
         if not file.exists():
             size = RAYS[kind]
@@ -210,13 +210,13 @@ class Measurement:
         return file
 
     def run(self, program: dict[str, Any], scene: str, mesh: Path, rays: Path, hits: Path) -> str:
-        """Lets a program write its hits; returns its version."""
+        """Runs a program, which writes its hits; returns its version."""
         places = {**self.places, "scene": scene, "mesh": mesh, "rays": rays, "hits": hits}
         printed = call([word.format(**places) for word in shlex.split(program["command"])])
         return program.get("version") or json.loads(printed.splitlines()[-1])["version"]
 
     def verify(self, scene: str, rays: Path, hits: Path) -> dict[str, Any]:
-        """What `beambench verify --hits` found."""
+        """Returns the findings of `beambench verify --hits`."""
         found = hits.with_suffix(".json")
         files = ["--rays", str(rays), "--hits", str(hits), "--json", str(found)]
         call([self.beambench, "verify", scene, *files], expected=(0, 1))
@@ -225,11 +225,11 @@ class Measurement:
         return verified
 
     def cell_file(self, program: dict[str, Any], scene: str, kind: str) -> Path:
-        """Where a row is kept."""
+        """Returns the file that keeps a row."""
         return self.work / "cells" / f"{slug(program['name'])}-{slug(scene)}-{kind}.json"
 
     def cell(self, program: dict[str, Any], scene: str, kind: str) -> dict[str, Any]:
-        """A row of the table, with the disputed rays in `examples`."""
+        """Returns a row of the table, with the disputed rays in `examples`."""
         kept = self.cell_file(program, scene, kind)
         if kept.exists():
             return json.loads(kept.read_text("utf-8"))
@@ -258,7 +258,7 @@ class Measurement:
 
 
 def write_table(path: Path, columns: list[str], rows: list[dict[str, Any]]) -> None:
-    """A CSV file of these columns, no text of which is a formula to a spreadsheet."""
+    """Writes a CSV file of these columns, in which no text is a formula for a spreadsheet."""
     with path.open("w", newline="", encoding="utf-8") as table:
         writer = csv.DictWriter(table, columns, extrasaction="ignore", lineterminator="\n")
         writer.writeheader()
@@ -266,7 +266,7 @@ def write_table(path: Path, columns: list[str], rows: list[dict[str, Any]]) -> N
 
 
 def summary(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """The rows of each program added up over the scenes."""
+    """Returns the rows of each program summed over the scenes."""
     sums: dict[tuple[str, str], dict[str, Any]] = {}
     for row in rows:
         kinds = KINDS_TOGETHER.get(row["ray_kind"], row["ray_kind"])
@@ -280,18 +280,18 @@ def summary(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
 
 
 def machine() -> dict[str, str]:
-    """Where it ran."""
+    """Returns a description of the machine."""
     names = re.findall(r"^model name\s*: (.*)$", Path("/proc/cpuinfo").read_text("utf-8"), re.M)
     return {"processor": names[0] if names else "", "system": platform.platform()}
 
 
 def of_git(*arguments: str) -> str:
-    """The output of a git command in this repository."""
+    """Returns the output of a git command in this repository."""
     return call(["git", "-C", str(REPOSITORY), *arguments]).strip()
 
 
 def main() -> int:
-    """Exit codes: 0 success, whatever the verdicts; 2 invalid arguments."""
+    """Returns the exit code: 0 for success, whatever the verdicts; 2 for invalid arguments."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )

@@ -31,12 +31,12 @@ from measure import (
     write_rays,
 )
 
-AROUND = 16  # rays next to the one in question
+AROUND = 16  # number of rays next to the ray in question
 AROUND_BY = 1e-3  # of the length of the ray's direction
 
 
 def write_obj(path: Path, corners: np.ndarray) -> None:
-    """Triangles with each vertex once."""
+    """Writes triangles, each vertex once."""
     vertices, faces = np.unique(corners.reshape(-1, 3), axis=0, return_inverse=True)
     lines = ["v " + " ".join(f"{number:.9g}" for number in vertex) for vertex in vertices]
     lines += ["f " + " ".join(str(i + 1) for i in face) for face in faces.reshape(-1, 3)]
@@ -44,7 +44,7 @@ def write_obj(path: Path, corners: np.ndarray) -> None:
 
 
 def around(ray: np.ndarray) -> np.ndarray:
-    """Rays from the same origin in a cone around this one."""
+    """Returns rays from the same origin in a cone around this one."""
     direction = ray[4:7].astype(np.float64)
     side = np.cross(direction, np.eye(3)[np.abs(direction).argmin()])
     side /= np.linalg.norm(side)
@@ -58,10 +58,10 @@ def around(ray: np.ndarray) -> np.ndarray:
 
 
 class Case:
-    """A program, one ray, and what must remain so."""
+    """A program, one ray, and the properties to be preserved."""
 
     def __init__(self, measurement: Measurement, program: dict[str, Any], ray: np.ndarray) -> None:
-        """The folder of the files is emptied at the end."""
+        """Initializes the case; the folder of its files is emptied at the end."""
         self.measurement, self.program = measurement, program
         self.kept = tempfile.TemporaryDirectory()
         folder = Path(self.kept.name)
@@ -71,7 +71,7 @@ class Case:
         write_rays(self.neighbors, around(ray), "around it")
 
     def examined(self, corners: np.ndarray) -> dict[str, Any]:
-        """The claim over these triangles: its class, and both hits."""
+        """Returns the claim over these triangles: its class, and both hits."""
         write_obj(self.obj, corners)
         scene = str(self.obj)
         version = self.measurement.run(self.program, scene, self.obj, self.rays, self.hits)
@@ -81,7 +81,7 @@ class Case:
         return {"version": version, "lost": lost, **example}
 
     def is_surrounded(self) -> bool:
-        """Do all rays around it hit the triangles that were examined last?"""
+        """Returns whether all rays around it hit the triangles that were examined last."""
         out = self.hits.with_name("around.hits")
         command = ["hits", str(self.obj), "--rays", str(self.neighbors), "-o", str(out)]
         call([self.measurement.beambench, *command])
@@ -89,7 +89,7 @@ class Case:
 
 
 def fewest(count: int, holds: Callable[[np.ndarray], bool]) -> np.ndarray:
-    """Indices of which none can be left out alone."""
+    """Returns indices none of which can be left out alone."""
     left, size = np.arange(count), count // 2
     while size >= 1:
         at, shrunk = 0, False
@@ -104,7 +104,7 @@ def fewest(count: int, holds: Callable[[np.ndarray], bool]) -> np.ndarray:
 
 
 def main() -> int:
-    """Exit codes: 0 success, 2 the program is not wrong about the ray."""
+    """Returns the exit code: 0 for success, 2 if the program is not wrong about the ray."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )

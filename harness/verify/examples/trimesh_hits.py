@@ -26,19 +26,19 @@ RAYS_LINE = b"beambench-rays 1\n"
 NO_TRIANGLE = 0xFFFFFFFF
 HIT = np.dtype([("point", "<f4", 3), ("triangle", "<u4")])
 PROGRESS_SECONDS = 10.0
-# trimesh's own engine holds some 500 bytes for each triangle that it tests, of all rays of a call.
+# trimesh's own engine holds about 500 bytes per tested triangle for all rays of a call.
 TESTS_OF_A_CALL = 1_000_000
 
 # trimesh is imported where it is used, so that --help works without it.
-Hits = tuple[np.ndarray, np.ndarray, np.ndarray]  # the triangle, the ray and the point of each
+Hits = tuple[np.ndarray, np.ndarray, np.ndarray]  # the triangle, the ray and the point of each hit
 
 
 class ProblemError(Exception):
-    """What is wrong with the files, as a sentence."""
+    """The problem with the files, as a sentence."""
 
 
 def open_rays(path: Path) -> tuple[BinaryIO, dict[str, Any]]:
-    """The file, placed at its first ray, and the JSON before it."""
+    """Opens the file at its first ray, and returns it with the JSON before it."""
     file = path.open("rb")
     if file.readline(64) != RAYS_LINE:
         raise ProblemError(f"{path} is not a .rays file of beambench")
@@ -50,7 +50,7 @@ def open_rays(path: Path) -> tuple[BinaryIO, dict[str, Any]]:
 
 
 def load_triangles(path: Path) -> Any:  # noqa: ANN401
-    """The mesh with its faces in the order of the file."""
+    """Returns the mesh with its faces in the order of the file."""
     import trimesh
 
     mesh = trimesh.load_mesh(path, process=False, maintain_order=True)
@@ -58,7 +58,7 @@ def load_triangles(path: Path) -> Any:  # noqa: ANN401
         faces = sum(line.startswith("f ") for line in lines)
     if len(mesh.faces) != faces:
         raise ProblemError(f"trimesh reads {len(mesh.faces)} of the {faces} faces of {path}")
-    # The scene's coordinates are floats, of which the file has as many digits as a float needs.
+    # The scene's coordinates are floats; the file has enough digits for them.
     mesh.vertices = mesh.vertices.astype(np.float32).astype(np.float64)
     return mesh
 
@@ -78,21 +78,22 @@ class Tracer:
 
             self.packages = ["trimesh", "embreex"]
             self.rays_of_a_call = 1 << 16
-        # All hits of its own engine, so that one before t_min does not hide those behind it. The
-        # other finds further hits by moving the origin, so it is asked for the first alone.
+        # Uses all hits of its own engine, so that one before t_min does not hide those behind it.
+        # The other engine finds further hits by moving the origin, so only its first hit is
+        # requested.
         self.all_hits = engine == "rtree"
         self.intersector = RayMeshIntersector(mesh)
         self.intersections(np.zeros((1, 3)), np.ones((1, 3)))  # builds what it keeps
 
     def intersections(self, origins: np.ndarray, directions: np.ndarray) -> Hits:
-        """Hits of rays without ends, in no order."""
+        """Returns the hits of rays without ends, in no order."""
         triangles, rays, points = self.intersector.intersects_id(
             origins, directions, multiple_hits=self.all_hits, return_locations=True
         )
         return triangles, rays, np.reshape(points, (-1, 3))
 
     def closest(self, rays: np.ndarray) -> np.ndarray:
-        """The closest hit of each ray in [t_min, t_max]."""
+        """Returns the closest hit of each ray in [t_min, t_max]."""
         origins, t_min = rays[:, 0:3], rays[:, 3]
         directions, t_max = rays[:, 4:7], rays[:, 7]
         starts = origins + t_min[:, None] * directions
@@ -111,7 +112,7 @@ class Tracer:
 
 
 def trace(mesh_path: Path, rays_path: Path, hits_path: Path, engine: str) -> dict[str, Any]:
-    """Writes the file of hits, which is complete or absent, and returns what to print."""
+    """Writes the file of hits, which is complete or absent, and returns the text to print."""
     file, header = open_rays(rays_path)
     mesh = load_triangles(mesh_path)
     begin = time.perf_counter()
@@ -147,7 +148,7 @@ def trace(mesh_path: Path, rays_path: Path, hits_path: Path, engine: str) -> dic
 
 
 def main() -> int:
-    """Exit codes: 0 success, 2 invalid arguments or input."""
+    """Returns the exit code: 0 for success, 2 for invalid arguments or input."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )

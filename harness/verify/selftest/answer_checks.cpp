@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::uint64_t kMaxPrimitives = 60;
 
-/// Null where the structure refuses the scene, as it may do with what it cannot do.
+/// Returns null if the structure refuses the scene, which it may do for unsupported features.
 std::unique_ptr<accel::Accelerator> build(const accel::StructureChoice& choice,
                                           const scenes::Scene& scene) {
   try {
@@ -33,7 +33,7 @@ std::unique_ptr<accel::Accelerator> build(const accel::StructureChoice& choice,
   }
 }
 
-/// The outcome for one scene.
+/// Adds the outcome for one scene.
 void add(CheckOutcome& outcome, std::size_t rays, const scenes::Scene& scene,
          const accel::StructureChoice& choice, const std::string& where,
          std::optional<WrongHits> wrong) {
@@ -51,14 +51,15 @@ CheckOutcome check_rays(const Subject& subject, const SceneWithRays& made) {
   return outcome;
 }
 
-/// Embree returns hits that do not lie on the polygon; only exact arithmetic can do better.
+/// Leaves out edge-on rays, for which Embree returns hits that do not lie on the polygon; only
+/// exact arithmetic can do better.
 void leave_out_edge_on(const Subject& subject, const scenes::Scene& scene,
                        std::vector<accel::Ray>& rays) {
   if (subject.conformance() != accel::Conformance::kTolerance) return;
   std::erase_if(rays, [&](const accel::Ray& ray) { return is_edge_on(scene, ray); });
 }
 
-/// A scene for a camera anywhere: of any primitives, or of the families.
+/// Returns a scene for a camera anywhere: of any primitives, or of the families.
 scenes::Scene scene_to_view(PrimitiveKinds kinds, Random& random) {
   const std::uint64_t seed = random.bits();
   scenes::Scene scene =
@@ -69,7 +70,7 @@ scenes::Scene scene_to_view(PrimitiveKinds kinds, Random& random) {
   return scene;
 }
 
-/// Of about `rays` pixels, the width below, at and above that of a register.
+/// Returns an image of about `rays` pixels, with a width below, at or above that of a register.
 rays::ImageOfRays image_to_view(const scenes::Scene& scene, std::uint64_t rays, Random& random) {
   const double side = std::sqrt(static_cast<double>(rays));
   const int width = 4 + static_cast<int>(side * random.uniform(0.5, 1.5));
@@ -77,7 +78,7 @@ rays::ImageOfRays image_to_view(const scenes::Scene& scene, std::uint64_t rays, 
   return {random_camera(scene, random), {width, height}, random.below(4) == 0 ? 5 : 1};
 }
 
-/// Without rays that lie in the plane of a polygon, where these prove nothing.
+/// Returns the input without rays in the plane of a polygon, if these prove nothing.
 rays::TraceInput worth_tracing(const Subject& subject, const scenes::Scene& scene,
                                rays::TraceInput input) {
   std::vector<accel::Ray> rays;
@@ -111,7 +112,7 @@ CheckOutcome check_random_scenes(const Subject& subject, const SelftestEffort& e
   for (std::uint64_t i = 0; i < effort.scenes && outcome.passed(); ++i) {
     const std::uint64_t seed = effort.seed + i;
     Random random(seed);
-    // Small scenes first: what fails is easy to look at.
+    // Small scenes first, because their failures are easy to examine.
     const auto primitives = static_cast<int>(1 + i * kMaxPrimitives / effort.scenes);
     const scenes::Scene scene = random_scene(seed, primitives, subject.kinds());
     const accel::StructureChoice choice = subject.vary(random);
@@ -172,7 +173,7 @@ CheckOutcome check_views(const Subject& subject, const SelftestEffort& effort) {
   CheckOutcome outcome;
   for (std::uint64_t i = 0; i < effort.scenes; ++i) {
     const std::uint64_t seed = effort.seed + i;
-    Random random(~seed);  // other numbers than those of the scene
+    Random random(~seed);  // different numbers from those of the scene
     const scenes::Scene scene = scene_to_view(subject.kinds(), random);
     const accel::StructureChoice choice = subject.vary(random);
     const auto structure = build(choice, scene);

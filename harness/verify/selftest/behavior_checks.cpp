@@ -20,7 +20,8 @@ constexpr int kPrimitives = 40;
 
 using Counts = std::map<std::string, std::uint64_t, std::less<>>;
 
-/// A scene, the structure over it, and rays: no multiple of a packet's size, some of them short.
+/// A scene, the structure over it, and rays whose number is not a multiple of a packet's size, some
+/// of them short.
 struct Trial {
   Trial(const Subject& subject, std::uint64_t seed)
       : scene(random_scene(seed, kPrimitives, subject.kinds())), structure(subject.build(scene)) {
@@ -31,7 +32,7 @@ struct Trial {
     }
   }
 
-  /// Every kind of query.
+  /// Returns an input for every kind of query.
   std::vector<rays::TraceInput> inputs() const {
     return {rays::TraceInput(rays::RaySet{{rays}, "closest", rays::Query::kClosestHit}),
             rays::TraceInput(rays::RaySet{{rays}, "any", rays::Query::kAnyHit}),
@@ -49,7 +50,8 @@ std::string first_difference(const rays::TraceResults& a, const rays::TraceResul
   return fmt::format("{} are not the same", what);
 }
 
-/// Times, which some families count, too, differ each time.
+/// Returns the first difference, ignoring times, which some families also count and which always
+/// differ.
 std::string first_difference(const Counts& a, const Counts& b) {
   for (const auto& [name, count] : a) {
     if (name.ends_with("_ns")) continue;
@@ -62,7 +64,7 @@ std::string first_difference(const Counts& a, const Counts& b) {
   return a.size() == b.size() ? "" : "two builds count other things";
 }
 
-/// What is inconsistent in the counters of one ray; empty: nothing.
+/// Returns an inconsistency in the counters of one ray; empty if there is none.
 std::string inconsistency(const accel::Ray& ray, bool hit, const accel::WorkCounters& counters) {
   const auto count = [&](accel::Counter counter) { return counters.get(counter); };
   if (hit && count(accel::Counter::kPrimitiveTests) == 0) {
@@ -201,7 +203,7 @@ CheckOutcome check_counters(const Subject& subject, const SelftestEffort& effort
     all.add(counters);
     if (outcome.passed()) outcome.failure = inconsistency(ray, hit.has_value(), counters);
   }
-  // A structure need not count; then records leave its counters empty.
+  // A structure need not count; in that case records have no counters for it.
   const bool counts =
       std::ranges::any_of(all.by_name(), [](const auto& c) { return c.second > 0; });
   return counts ? outcome : CheckOutcome{outcome.rays, ""};
@@ -237,7 +239,7 @@ CheckOutcome check_explanation(const Subject& subject, const SelftestEffort& eff
       }
     }
     const auto found = trial.structure->closest_hit(ray, nullptr);
-    // A structure that reports no tests explains its traversal, not its hit.
+    // A structure that reports no tests explains its traversal, but not its hit.
     if (nearest && nearest != found) {
       outcome.failure = fmt::format("{} is explained to hit {}, but hits {}", show(ray),
                                     show(nearest), show(found));

@@ -23,7 +23,7 @@ rays::TraceInput list_of(std::vector<accel::Ray> rays, rays::Query query) {
   return rays::TraceInput(std::move(set));
 }
 
-/// The first result that is not the expected one.
+/// Returns the first result that differs from the expected one.
 std::optional<Mismatch> first_other(const rays::TraceInput& input, const rays::TraceResults& found,
                                     const rays::TraceResults& expected) {
   const auto mismatch = [&](std::size_t i) {

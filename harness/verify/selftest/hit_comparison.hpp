@@ -1,6 +1,6 @@
 #pragma once
-// The right hits over a scene, by what a structure claims: every bit those of exhaustive search, or
-// right by the differ's classes.
+// The correct hits over a scene, according to the structure's claim: bit for bit those of
+// exhaustive search, or correct by the differ's classes.
 
 #include <cstddef>
 #include <optional>
@@ -16,27 +16,27 @@
 
 namespace beambench::verify {
 
-/// What is wrong with a structure's hits.
+/// A fault in a structure's hits.
 struct WrongHits {
   std::string what;        ///< a sentence
-  rays::TraceInput input;  ///< that got them
+  rays::TraceInput input;  ///< the input with the fault
   Mismatch first;          ///< of a ray of `input`
 };
 
-/// Compares hits with the right ones. Each method returns what is wrong, and nothing when all are
-/// right. The scene outlives it.
+/// Compares hits with the correct ones. Each method returns the fault, or nothing if all are
+/// correct. The scene must outlive this object.
 class HitComparison {
  public:
   HitComparison(const scenes::Scene& scene, accel::Conformance conformance)
       : scene_(&scene), exhaustive_(scene), conformance_(conformance) {}
 
-  /// Closest and any hits of single rays. Where every bit must be equal, each ray is also traced
-  /// with its end, and with its beginning, exactly where it hits.
+  /// Compares closest and any hits of single rays. If every bit must be equal, each ray is also
+  /// traced with its end, and with its beginning, exactly at its hit.
   std::optional<WrongHits> single_rays(const accel::Accelerator& structure,
                                        std::span<const accel::Ray> rays) const;
 
-  /// The hits of an image or of a list with its pencils, traced as a whole. `may_graze`: more
-  /// grazes than the differ's budget are right, as they are where the camera lies on a surface.
+  /// Compares the hits of an image or of a list with its pencils, traced as a whole. `may_graze`:
+  /// more grazes than the differ's budget are allowed, as if the camera lies on a surface.
   std::optional<WrongHits> whole(const accel::Accelerator& structure, const rays::TraceInput& input,
                                  bool may_graze) const;
 
@@ -55,7 +55,7 @@ class HitComparison {
   accel::Conformance conformance_;
 };
 
-/// Asks a structure again over parts of a scene, by `HitComparison::whole`: for `minimize`.
+/// Runs a structure again over parts of a scene, with `HitComparison::whole`: for `minimize`.
 FindWrong wrong_by_comparison(const accel::StructureChoice& structure);
 
 }  // namespace beambench::verify

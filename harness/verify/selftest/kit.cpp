@@ -41,8 +41,8 @@ or leave the loop to it:
 The formats are described in harness/verify/README.md of beambench.
 )";
 
-/// Calls `visit_made` for each scene; what a family cannot make of these kinds is left out, and
-/// scenes all of whose rays are edge-on.
+/// Calls `visit_made` for each scene. Scenes that a family cannot make of these kinds are left out,
+/// and so are scenes all of whose rays are edge-on.
 void for_each_scene(const SelftestEffort& effort, PrimitiveKinds kinds,
                     const std::function<void(SceneWithRays)>& visit_made) {
   const auto visit = [&](SceneWithRays made) {
@@ -134,7 +134,7 @@ std::size_t write_kit(const fs::path& folder, const SelftestEffort& effort, Prim
   });
   write_file(folder / "README.md", kReadme);
   const nlohmann::ordered_json index{{"seed", effort.seed}, {"cases", cases}};
-  write_file(folder / kIndex, json_text(index) + '\n');  // last: a kit that has it is complete
+  write_file(folder / kIndex, json_text(index) + '\n');  // last: a kit with this file is complete
   return cases.size();
 }
 

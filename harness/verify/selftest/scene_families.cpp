@@ -14,7 +14,7 @@ namespace {
 
 using glm::dvec3;
 
-/// Of unit length; along an axis in half of the cases.
+/// Returns a direction of unit length; along an axis in half of the cases.
 dvec3 direction(Random& random) {
   if (random.below(2) == 0) {
     dvec3 axis(0.0);
@@ -27,7 +27,7 @@ dvec3 direction(Random& random) {
   }
 }
 
-/// Two unit vectors at right angles to `axis` and to each other.
+/// Returns two unit vectors at right angles to `axis` and to each other.
 std::array<dvec3, 2> across(const dvec3& axis) {
   const dvec3 size = glm::abs(axis);
   const dvec3 other = size.x <= size.y && size.x <= size.z ? dvec3(1.0, 0.0, 0.0)
@@ -37,15 +37,15 @@ std::array<dvec3, 2> across(const dvec3& axis) {
   return {u, glm::cross(axis, u)};
 }
 
-/// From 2^low to 2^high, all magnitudes equally often. (Functions of <cmath> that are not exact
-/// differ between machines.)
+/// Returns a number from 2^low to 2^high, all magnitudes equally often. (Inexact functions of
+/// <cmath> differ between machines.)
 double magnitude(Random& random, int low, int high) {
   const int exponent = low + static_cast<int>(random.below(static_cast<std::uint64_t>(high - low)));
   return std::ldexp(random.uniform(1.0, 2.0), exponent);
 }
 
-/// Makes one scene. What rounding to float leaves degenerate is refused by the builder and left
-/// out.
+/// Makes one scene. Primitives that rounding to float makes degenerate are refused by the builder
+/// and left out.
 class FamilyMaker {
  public:
   FamilyMaker(std::uint64_t seed, PrimitiveKinds kinds)
@@ -167,7 +167,7 @@ class FamilyMaker {
   void add_square(const dvec3& center, const dvec3& u, const dvec3& v) {
     add_polygon({center - u - v, center + u - v, center + u + v, center - u + v});
   }
-  /// A sphere, or a box about it where there are none.
+  /// Adds a sphere, or a box about it if spheres are left out.
   void add_ball(const dvec3& center, double radius) {
     if (kinds_.spheres) return add_sphere(center, radius);
     const double size = std::abs(radius);
@@ -236,7 +236,8 @@ class FamilyMaker {
   double sign() { return random_.below(5) == 0 ? -1.0 : 1.0; }
   dvec3 eye_around() { return direction(random_) * random_.uniform(0.5, 4.0); }
 
-  /// Looking at the middle, or anywhere where that is where the eye is.
+  /// Finishes the scene with a camera that looks at the middle, or in any direction if the eye is
+  /// there.
   scenes::Scene finished(const dvec3& eye, double scale = 1.0) {
     scenes::Camera camera;
     camera.from = glm::vec3(eye);

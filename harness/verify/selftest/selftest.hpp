@@ -1,5 +1,5 @@
 #pragma once
-// What must be true of every structure, checked for one.
+// Properties of every structure, checked for one.
 
 #include <cstdint>
 #include <optional>
@@ -16,14 +16,14 @@
 
 namespace beambench::verify {
 
-/// How hard it is tested. The same numbers give the same scenes and rays everywhere.
+/// The effort of the test. The same numbers give the same scenes and rays everywhere.
 struct SelftestEffort {
   std::uint64_t seed = 1;
-  std::uint64_t scenes = 60;  ///< random ones, of each check that makes them
-  std::uint64_t rays = 300;   ///< about so many for each of these
+  std::uint64_t scenes = 60;  ///< number of random scenes in each check that uses them
+  std::uint64_t rays = 300;   ///< approximate number of rays for each of them
 };
 
-/// What a structure gets wrong hits for: what `minimize` starts from.
+/// The input for which a structure returns wrong hits: the starting point of `minimize`.
 struct FailedInput {
   scenes::Scene scene;
   accel::StructureChoice structure;
@@ -33,8 +33,8 @@ struct FailedInput {
 
 struct CheckOutcome {
   std::uint64_t rays = 0;               ///< traced
-  std::string failure;                  ///< the first fault, in a sentence; empty: none
-  std::optional<FailedInput> failed{};  ///< where it is a wrong hit
+  std::string failure;                  ///< the first fault, in a sentence; empty if there is none
+  std::optional<FailedInput> failed{};  ///< for wrong hits
 
   bool passed() const { return failure.empty(); }
 };
@@ -44,33 +44,35 @@ using RunCheck = CheckOutcome(const Subject& subject, const SelftestEffort& effo
 /// One property of structures.
 struct Check {
   std::string_view name;
-  std::string_view claim;  ///< what must be true
-  bool bit_exact_only;     ///< not for structures with arithmetic of their own
-  bool of_polygons;        ///< not for structures that refuse them
+  std::string_view claim;  ///< the claim to be checked
+  bool bit_exact_only;     ///< not for structures with their own arithmetic
+  bool of_polygons;        ///< not for structures that refuse polygons
   RunCheck* run;
 };
 
-/// All of them, the quick and general ones first.
+/// Returns all checks, the quick and general ones first.
 std::span<const Check> selftest_checks();
 
-/// Does the check apply to that structure? None does to one that returns no hits by design.
+/// Returns whether the check applies to that structure. None applies to one that returns no hits by
+/// design.
 bool applies(const Check& check, const Subject& subject);
 
-/// Runs a check. What the structure throws is a failure, too.
+/// Runs a check. An exception of the structure is also a failure.
 CheckOutcome run_check(const Check& check, const Subject& subject, const SelftestEffort& effort);
 
-/// With all its bits, so that it can be traced again.
+/// Formats a ray with all its bits, so that it can be traced again.
 std::string show(const accel::Ray& ray);
 std::string show(const std::optional<accel::Hit>& hit);
 
-/// The results for an input, in a buffer poisoned before: a result left unwritten is found.
+/// Traces an input into a buffer that was poisoned before, so that a result left unwritten is
+/// detected.
 rays::TraceResults traced(const accel::Accelerator& structure, const rays::TraceInput& input,
                           accel::WorkCounters* counters = nullptr);
 
-/// Of hits.
+/// The checks of hits.
 RunCheck check_random_scenes, check_scene_families, check_views, check_images,
     check_smallest_scenes, check_faces_edges_corners, check_heap, check_degenerate_rays;
-/// Of all else.
+/// All other checks.
 RunCheck check_lists, check_counting, check_two_builds, check_threads, check_counters,
     check_statistics, check_explanation;
 

@@ -15,7 +15,7 @@
 namespace beambench::verify {
 namespace {
 
-/// Other faults are for the checks to report.
+/// Returns whether the structure refuses the scene; other faults are reported by the checks.
 bool refuses(const accel::StructureChoice& choice, const scenes::Scene& scene) {
   try {
     choice.build(scene);
@@ -26,7 +26,8 @@ bool refuses(const accel::StructureChoice& choice, const scenes::Scene& scene) {
   return false;
 }
 
-/// A cap is a number of things; to reach one takes another test than this.
+/// Returns whether the parameter is a cap, which limits a number of things; reaching it requires a
+/// different test.
 bool is_cap(const ParameterInfo& parameter) {
   constexpr double kSmallDefault = 1e3;
   constexpr double kSmallMaximum = 1e6;
@@ -40,7 +41,7 @@ std::string small_integer(const ParameterInfo& parameter, Random& random) {
   return std::to_string(std::min(low + random.below(9), high));
 }
 
-/// A value to try; empty: the default.
+/// Returns a value to try; empty for the default.
 std::string random_value(const ParameterInfo& parameter, Random& random) {
   using Type = ParameterInfo::Type;
   if (parameter.changes_hits) return "";

@@ -1,5 +1,5 @@
 #pragma once
-// The structure that a self-test is about, and the primitives that it takes.
+// The structure under test, and the primitives that it supports.
 
 #include <memory>
 #include <string_view>
@@ -11,7 +11,7 @@
 
 namespace beambench::verify {
 
-/// Some of the kinds of primitives.
+/// A set of kinds of primitives.
 struct PrimitiveKinds {
   bool spheres = true;
   bool cones = true;
@@ -20,35 +20,36 @@ struct PrimitiveKinds {
   bool all() const { return spheres && cones && polygons; }
   bool none() const { return !spheres && !cones && !polygons; }
   bool include(scenes::PrimitiveKind kind) const;
-  /// Is the scene made of nothing else?
+  /// Returns whether the scene consists only of these kinds.
   bool include(const scenes::Scene& scene) const;
-  /// `spheres`, `cones`, `polygons`: those of them.
+  /// Returns those of `spheres`, `cones`, `polygons` that are in the set.
   std::vector<std::string_view> names() const;
-  /// The others.
+  /// Returns the other kinds.
   PrimitiveKinds without() const { return {!spheres, !cones, !polygons}; }
 };
 
-/// The kinds that a structure takes: those over a single primitive of which it is not refused by an
-/// InputError. All of them where it refuses each, for then its kinds are not what it refuses.
+/// Returns the kinds that a structure supports: those for which it does not refuse a single
+/// primitive with an InputError. All kinds if it refuses each, because then the kinds are not the
+/// reason.
 PrimitiveKinds kinds_taken(const accel::StructureChoice& choice);
 
-/// Values near the lower end of each parameter's range, where structures are forced to their
+/// Returns values near the lower end of each parameter's range, which force structures into their
 /// special cases; defaults for reals and for large caps.
 Parameters random_parameters(const accel::StructureInfo& info, Random& random);
 
-/// A structure with the given parameters. Where none are given, some scenes get random ones.
+/// A structure with the given parameters. If none are given, some scenes use random ones.
 class Subject {
  public:
-  /// Builds it over three tiny scenes, to see which primitives it takes.
+  /// Builds it over three tiny scenes, to determine which primitives it supports.
   explicit Subject(accel::StructureChoice choice)
       : choice_(std::move(choice)), kinds_(kinds_taken(choice_)) {}
 
   const accel::StructureInfo& info() const { return choice_.info(); }
   accel::Conformance conformance() const { return info().conformance; }
   const accel::StructureChoice& choice() const { return choice_; }
-  /// What the scenes of the checks are made of.
+  /// Returns the kinds of primitives in the scenes of the checks.
   PrimitiveKinds kinds() const { return kinds_; }
-  /// With parameters of its own for each call, if it may.
+  /// Returns the structure, with different parameters for each call if allowed.
   accel::StructureChoice vary(Random& random) const;
 
   std::unique_ptr<accel::Accelerator> build(const scenes::Scene& scene) const {

@@ -80,7 +80,7 @@ class Sculptor {
     }
   }
 
-  /// 0 and 1: a sphere; 2: a cone; 3: a star; 4 and 5: a triangle.
+  /// Returns 0 or 1 for a sphere; 2 for a cone; 3 for a star; 4 or 5 for a triangle.
   std::uint64_t any_kind() {
     while (true) {
       const std::uint64_t drawn = random_.below(6);
@@ -100,7 +100,7 @@ class Sculptor {
     builder_.add_polygon(corners);
   }
 
-  /// A star polygon (concave) in a random plane; snapped scenes use a coordinate plane.
+  /// Adds a star polygon (concave) in a random plane; snapped scenes use a coordinate plane.
   void add_star() {
     const glm::dvec3 center = point_in_cube(random_);
     glm::dvec3 u = glm::normalize(any_direction(random_));
@@ -143,7 +143,7 @@ glm::dvec3 middle_of(const scenes::Scene& scene) {
   return (glm::dvec3(scene.bounds.lower) + glm::dvec3(scene.bounds.upper)) * 0.5;
 }
 
-/// A point on the scene worth aiming at or starting from.
+/// Returns a point on the scene worth aiming at or starting from.
 glm::dvec3 special_point(const scenes::Scene& scene, Random& random) {
   if (scene.primitives.empty()) return point_in_cube(random);
   const scenes::Primitive& primitive = scene.primitives[random.below(scene.primitives.size())];
@@ -199,7 +199,7 @@ glm::dvec3 random_direction(const scenes::Scene& scene, const glm::dvec3& origin
   }
 }
 
-/// The square with its lower corner there, in the plane across an axis.
+/// Returns the square with its lower corner there, in the plane across an axis.
 std::array<glm::dvec3, 4> square(const glm::dvec3& lower, int axis) {
   std::array<glm::dvec3, 4> corners;
   corners.fill(lower);
@@ -220,7 +220,7 @@ void add_cube(scenes::SceneBuilder& builder, const glm::dvec3& lower) {
   }
 }
 
-/// -1, 0 or 1: a digit of a number to the base of three.
+/// Returns -1, 0 or 1: a digit of a number in base three.
 int digit(int number, int place) { return number / place % 3 - 1; }
 
 }  // namespace
@@ -262,7 +262,7 @@ scenes::Camera random_camera(const scenes::Scene& scene, Random& random) {
   camera.from = glm::vec3(random_origin(scene, random));
   const glm::dvec3 from(camera.from);
   const glm::dvec3 direction = glm::normalize(random_direction(scene, from, random));
-  // No shorter than what a float can represent at the distance of the camera from the origin.
+  // At least as long as a float can represent at the camera's distance from the origin.
   const double reach =
       std::max<double>(glm::length(glm::dvec3(scene.bounds.extent())), 1e-3 * glm::length(from));
   camera.at = glm::vec3(from + direction * reach);
@@ -283,7 +283,7 @@ void add_lights(scenes::Scene& scene, Random& random) {
 }
 
 bool is_edge_on(const scenes::Scene& scene, const accel::Ray& ray) {
-  constexpr double kMinSine = 1.0 / kAlong;  // below, float does not tell places on the ray apart
+  constexpr double kMinSine = 1.0 / kAlong;  // below, float cannot distinguish places on the ray
   const glm::dvec3 direction(ray.direction);
   return std::ranges::any_of(scene.triangles, [&](const scenes::Triangle& triangle) {
     const glm::dvec3 first(scene.vertices[triangle.vertex[0]]);
@@ -303,7 +303,7 @@ SceneWithRays cubes_on_a_lattice() {
   for (int from = 0; from < 9 * 9 * 9; ++from) {
     const glm::ivec3 place(from % 9, from / 9 % 9, from / 81);
     for (int step = 0; step < 27; ++step) {
-      if (step == 13) continue;  // no direction at all
+      if (step == 13) continue;  // not a direction
       accel::Ray ray;
       ray.origin = glm::vec3(place) * 0.75F - 1.5F;
       ray.direction = {digit(step, 1), digit(step, 3), digit(step, 9)};

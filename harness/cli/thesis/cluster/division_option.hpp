@@ -1,5 +1,5 @@
 #pragma once
-// The option of both cluster programs that says how a divided scene is distributed.
+// The option of both cluster programs for the distribution of a divided scene.
 
 #include <string>
 
@@ -11,7 +11,7 @@
 
 namespace beambench::cli {
 
-/// Adds --division; `name` has its default. `cluster::parse_scene_division` reads it.
+/// Adds --division; `name` has its default. `cluster::parse_scene_division` parses the value.
 inline CLI::Option* add_division_option(CLI::App& app, std::string& name) {
   return app
       .add_option("--division", name,

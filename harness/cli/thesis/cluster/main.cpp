@@ -1,4 +1,4 @@
-// beambench-cluster: one image on the processes that mpirun starts.
+// beambench-cluster: computes one image on the processes that mpirun starts.
 
 #include <algorithm>
 #include <cstdio>
@@ -53,7 +53,7 @@ constexpr const char* kFooter =
     "  mpirun -n 3 beambench-cluster escena1 -o escena1.png --report run.json --tasks tasks.csv\n"
     "As root in a container: mpirun --allow-run-as-root --oversubscribe ...";
 
-/// Options before they are parsed.
+/// The unparsed options.
 struct Options {
   std::string scene;
   std::string structure = "beam";
@@ -75,8 +75,8 @@ void add_timeout_option(CLI::App& app, double& seconds) {
       ->check(CLI::Range(0.1, 1e6));
 }
 
-/// What every process must know before it can hear of the others; what is wrong with the options is
-/// said later, by process 0.
+/// Returns the time limit, which every process needs before it can hear from the others; process 0
+/// reports errors in the options later.
 double timeout_of(int argc, const char* const* argv) {
   double seconds = ProducerOptions{}.timeout;
   CLI::App app;
@@ -154,7 +154,7 @@ void require_divisible(const ClusterRequest& request) {
   }
 }
 
-/// Where the work is divided before, messages have what the division says.
+/// Throws if an option is meaningless because the division determines the messages.
 void require_fitting(const ClusterRequest& request) {
   const ProducerOptions usual;
   const ProducerOptions& given = request.producer;
@@ -167,7 +167,8 @@ void require_fitting(const ClusterRequest& request) {
   }
 }
 
-/// In the folder beside the picture; a warning where nobody asked for it.
+/// Keeps results in the folder beside the picture; gives only a warning on failure if the user did
+/// not request it.
 void keep_results(const Options& typed, ClusterRequest& request) {
   Job& job = request.job;
   if (request.picture.empty() || job.split_level > 0) return;
@@ -216,7 +217,7 @@ void fill(const Options& typed, ClusterRequest& request) {
   keep_results(typed, request);
 }
 
-/// Nothing after --help or --version. Throws InputError before anything long is begun.
+/// Returns nothing after --help or --version. Throws InputError before any long work.
 std::optional<ClusterRequest> parse_request(int argc, char** argv) {
   CLI::App app(kDescription, kProgram);
   app.set_version_flag("--version", fmt::format("{} {}", kProgram, measure::build_info().version));
@@ -228,7 +229,7 @@ std::optional<ClusterRequest> parse_request(int argc, char** argv) {
   try {
     std::vector<std::string> arguments(argv + 1, argv + argc);
     replace_renamed_options(kProgram, arguments);
-    std::ranges::reverse(arguments);  // CLI11 takes them from the back
+    std::ranges::reverse(arguments);  // CLI11 takes them from the end
     app.parse(std::move(arguments));
   } catch (const CLI::Success& success) {
     app.exit(success);
@@ -240,7 +241,7 @@ std::optional<ClusterRequest> parse_request(int argc, char** argv) {
   return request;
 }
 
-/// Process 0. The others receive the job, or nothing where there is none.
+/// Runs process 0. The others receive the job, or nothing if there is none.
 int lead_run(int argc, char** argv, MpiSession& session, Transport& transport) {
   std::optional<ClusterRequest> request;
   Bytes job;
@@ -262,7 +263,8 @@ int lead_run(int argc, char** argv, MpiSession& session, Transport& transport) {
   for (const std::string& remark : run.report.remarks) base::report_error(kProgram, remark, 0);
   base::report_error(kProgram, summary(run), 0);
   if (run.report.lost.empty()) return base::kSuccess;
-  // Lost processes would not reach MPI_Finalize, where all others would wait. All is written.
+  // Lost processes would not reach MPI_Finalize, and all others would wait there. All results are
+  // written.
   MpiSession::abort(base::kSuccess);
 }
 
@@ -276,7 +278,7 @@ int run_process(int argc, char** argv, MpiSession& session, Transport& transport
     MpiSession::abort(base::kInvalidInput);
   } catch (const InputError& error) {
     return base::report_error(kProgram, error.what(), base::kInvalidInput);
-  } catch (const rays::InvalidHit& error) {  // the others wait for results that will not come
+  } catch (const rays::InvalidHit& error) {  // the others wait for results that will not arrive
     base::report_error(kProgram, error.what(), base::kMismatch);
     MpiSession::abort(base::kMismatch);
   } catch (const std::exception& error) {

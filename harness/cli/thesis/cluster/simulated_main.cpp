@@ -1,4 +1,4 @@
-// beambench-cluster-simulated: the time of a picture on a simulated cluster.
+// beambench-cluster-simulated: computes the time of a picture on a simulated cluster.
 
 #include <algorithm>
 #include <filesystem>
@@ -77,7 +77,8 @@ void add_cluster_options(CLI::App& app, ClusterOptions& cluster) {
       ->check(kPositive);
 }
 
-/// With a machine of speed 1 for process 0; the given speeds are repeated for the others.
+/// Makes a cluster with a machine of speed 1 for process 0; the given speeds are repeated for the
+/// others.
 ClusterModel cluster_of(const ClusterOptions& cluster, int processes) {
   ClusterModel model = cluster.model;
   model.network = cluster.network == "shared" ? ClusterModel::Network::kShared
@@ -264,7 +265,8 @@ void add_split_options(CLI::App& app, SplitRequest& request) {
   add_cluster_options(app, request.cluster);
 }
 
-/// For one version `beambench-split-simulated` stands for `split`, and no subcommand for `cluster`.
+/// Adds the subcommand: for one version, `beambench-split-simulated` means `split`, and a missing
+/// subcommand means `cluster`.
 std::vector<std::string> with_subcommand(int argc, char** argv) {
   std::vector<std::string> arguments(argv + 1, argv + argc);
   const std::string program = std::filesystem::path(argv[0]).filename();
@@ -298,7 +300,7 @@ int run(int argc, char** argv) {
   add_split_options(*split, divided);
   split->callback([&] { trace_split(divided, argv[0]); });
   std::vector<std::string> arguments = with_subcommand(argc, argv);
-  std::ranges::reverse(arguments);  // CLI11 takes them from the back
+  std::ranges::reverse(arguments);  // CLI11 takes them from the end
   try {
     app.parse(std::move(arguments));
   } catch (const CLI::ParseError& error) {

@@ -97,7 +97,7 @@ std::string read_tasks(const std::filesystem::path& path) {
 
 using Number = std::uint32_t;
 
-/// The number of a task, padded to the size of the real message.
+/// Writes the number of a task, padded to the size of the real message.
 void put(Number number, std::size_t size, Bytes& bytes) {
   const std::size_t begin = bytes.size();
   ByteWriter(bytes).put(number);
@@ -180,7 +180,7 @@ TaskCosts merged(const TaskCosts& costs, const std::vector<Share>& shares, bool 
   TaskCosts merged;
   merged.last_walk_seconds = costs.last_walk_seconds;
   for (const Share& share : shares) {
-    // One range of numbers is sent, and, where the results are stored, one receipt.
+    // One range of numbers is sent and, if the results are stored, one receipt.
     TaskCost& sum = merged.tasks.emplace_back(costs.tasks[share.front()]);
     for (const std::size_t number : std::span(share).subspan(1)) {
       const TaskCost& task = costs.tasks[number];

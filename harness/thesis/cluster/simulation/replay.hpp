@@ -1,7 +1,7 @@
 #pragma once
-// The recorded costs of a picture's tasks, and what replays them: a transport whose messages cost
-// CPU time, and a producer and consumers that take the time and send the bytes that the real ones
-// did, and know nothing of scene or octree.
+// The recorded costs of a picture's tasks, and their replay: a transport whose messages cost CPU
+// time, and a producer and consumers that take the same time and send as many bytes as the real
+// ones, without scene and octree.
 
 #include <cstddef>
 #include <filesystem>
@@ -22,7 +22,7 @@ using Spend = std::function<void(double seconds)>;
 struct MessageCost {
   double message_seconds;  ///< for each, sent or received
   double byte_seconds;     ///< for each byte of it
-  double look_seconds;     ///< to poll when there is none
+  double look_seconds;     ///< for polling without a message
 };
 
 /// A transport that charges CPU time for messages.
@@ -69,19 +69,19 @@ class ChargedTransport : public Transport {
   Spend spend_;
 };
 
-/// One task: CPU seconds, bytes of its messages.
+/// One task: its CPU seconds, and the bytes of its messages.
 struct TaskCost {
-  double walk_seconds;    ///< of the producer, since the task before
+  double walk_seconds;    ///< of the producer, since the previous task
   double work_seconds;    ///< of its process
   double accept_seconds;  ///< of the producer, for its result
   std::size_t task_bytes;
   std::size_t result_bytes;
   std::size_t samples;
-  double estimate_seconds = 0.0;  ///< what it was expected to take, where that was recorded
+  double estimate_seconds = 0.0;  ///< its expected time, if recorded
 };
 
 struct TaskCosts {
-  std::vector<TaskCost> tasks;     ///< in the order in which they were made
+  std::vector<TaskCost> tasks;     ///< in the order of creation
   double last_walk_seconds = 0.0;  ///< of the producer, after the last task
 
   double walk_seconds() const;    ///< of all tasks, and after them
@@ -89,28 +89,28 @@ struct TaskCosts {
   double accept_seconds() const;  ///< of all tasks
 };
 
-/// Reads a file of `beambench-cluster --tasks FILE.csv`. Throws InputError naming file and line.
+/// Reads a file of `beambench-cluster --tasks FILE.csv`. Throws InputError with file and line.
 TaskCosts read_task_costs(const std::filesystem::path& path);
 
-/// Scales the times: of the producer's traversal, and of all other work.
+/// Scales the times of the producer's traversal, and those of all other work.
 TaskCosts slowed(TaskCosts costs, double walk, double work);
 
-/// Sets the size of results to this many bytes per sample, as another program would send.
+/// Sets the size of results to this many bytes per sample, as sent by another program.
 TaskCosts with_results_of(double bytes_per_sample, TaskCosts costs);
 
-/// The recorded tasks as messages for that many consumers. Throws InputError for kEqualCost where
-/// no estimates were recorded.
+/// Returns the recorded tasks as messages for that many consumers. Throws InputError for kEqualCost
+/// if no estimates were recorded.
 std::vector<Share> planned(ImageDivision division, const TaskCosts& costs, int consumers);
 
-/// Each share as one task, as the tiles of a range are. `stored`: its results stay with the
-/// consumer, and what was recorded of one is for all of them.
+/// Merges each share into one task, like the tiles of a range. `stored`: the results stay with the
+/// consumer, and the recorded receipt of one task represents all of them.
 TaskCosts merged(const TaskCosts& costs, const std::vector<Share>& shares, bool stored);
 
-/// Makes the recorded tasks in their order, or as planned. A task is its number, padded to the
-/// recorded size.
+/// Makes the recorded tasks in order, or as planned. A task is its number, padded to the recorded
+/// size.
 class ReplayedSource : public TaskSource {
  public:
-  /// Spends `before` seconds before the first task. `plan`: empty if there is none.
+  /// Spends `before` seconds before the first task. `plan` is empty if there is none.
   ReplayedSource(const TaskCosts& costs, Spend spend, std::vector<Share> plan = {},
                  double before = 0.0)
       : costs_(&costs), spend_(std::move(spend)), plan_(std::move(plan)), before_(before) {}
@@ -140,7 +140,7 @@ class ReplayedWorker : public TaskWorker {
   Spend spend_;
 };
 
-/// Spends the recorded time on a result. Throws ProtocolError for one that comes twice.
+/// Spends the recorded time on a result. Throws ProtocolError for duplicates.
 class ReplayedSink : public ResultSink {
  public:
   ReplayedSink(const TaskCosts& costs, Spend spend)

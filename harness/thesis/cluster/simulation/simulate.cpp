@@ -29,8 +29,9 @@ namespace s4u = simgrid::s4u;
 constexpr double kSpeedOne = 1e9;
 constexpr const char* kProgram = "beambench-cluster";
 
-/// Times and sizes are those of the model, without SimGrid's corrections for today's clusters; what
-/// the program really computes takes no time, and MPI's calls take what `ChargedTransport` charges.
+/// Configures SimGrid: times and sizes are those of the model, without its corrections for modern
+/// clusters. The program's real computations take no time, and MPI calls take as long as
+/// `ChargedTransport` charges.
 void configure() {
   const auto set = [](const std::string& option) { s4u::Engine::set_config(option); };
   set("network/model:CM02");
@@ -40,7 +41,7 @@ void configure() {
   set("network/TCP-gamma:0");
   set("network/crosstraffic:no");
   set("smpi/simulate-computation:no");
-  set("smpi/cpu-threshold:0");  // otherwise less than a microsecond would take no time
+  set("smpi/cpu-threshold:0");  // otherwise anything below a microsecond would take no time
   set(fmt::format("smpi/host-speed:{}f", kSpeedOne));
   set("smpi/bw-factor:1");
   set("smpi/lat-factor:1");
@@ -53,14 +54,14 @@ void configure() {
   set("smpi/init:0");
 }
 
-/// Full speed, and the share of it that others leave.
+/// Alternates between full speed and the share of it that others leave.
 simgrid::kernel::profile::Profile* load_of(const std::string& name, const ClusterModel& cluster) {
   const std::string points =
       fmt::format("0 1\n{} {}\n", 0.5 * cluster.load_period, cluster.loaded_share);
   return simgrid::kernel::profile::ProfileBuilder::from_string(name, points, cluster.load_period);
 }
 
-/// Version 4 makes the root itself, and of what is set up here only zones in it take the models.
+/// Version 4 creates the root itself, and only zones in it take the models set up here.
 s4u::NetZone* make_zone() {
 #if SIMGRID_VERSION_MAJOR >= 4
   return s4u::Engine::get_instance()->get_netzone_root()->add_netzone_star("cluster");
@@ -85,7 +86,7 @@ std::vector<s4u::Host*> make_machines(const ClusterModel& cluster) {
     }
     machine->seal();
     if (medium != nullptr) {
-      // One link on the route, whoever sends.
+      // The route has one link, whichever machine sends.
       zone->add_route(machine->get_netpoint(), nullptr, nullptr, nullptr,
                       {s4u::LinkInRoute(medium)}, false);
       zone->add_route(nullptr, machine->get_netpoint(), nullptr, nullptr,
@@ -102,7 +103,7 @@ std::vector<s4u::Host*> make_machines(const ClusterModel& cluster) {
   return machines;
 }
 
-/// One process. Only the time it spends passes, and that of its messages.
+/// The main function of a process. Only the time it spends passes, and that of its messages.
 using ProcessMain = std::function<void(Transport& transport, const Spend& spend)>;
 
 /// Shared by the processes, which are simulated one at a time.
@@ -119,22 +120,22 @@ void run_process_main(Stage& stage) {
   ChargedTransport transport(carrier, stage.message_cost, smpi_execute);
   stage.process(transport, smpi_execute);
   stage.seconds = std::max(stage.seconds, transport.seconds());
-  // Messages that have not arrived would be lost with their sender.
+  // Otherwise messages that have not arrived would be lost with their sender.
   MPI_Comm everybody = MPI_COMM_NULL;
   MPI_Comm_dup(MPI_COMM_WORLD, &everybody);
   MPI_Barrier(everybody);
   ++stage.ended;
 }
 
-/// One process. An exception ends them all, without MPI_Finalize, where each would wait for the
-/// others.
+/// Runs one process. An exception ends all processes, without MPI_Finalize, where each would wait
+/// for the others.
 void live(Stage& stage) {
   try {
     MPI_Init(nullptr, nullptr);
     run_process_main(stage);
     MPI_Finalize();
   } catch (const simgrid::ForcefulKillException&) {
-    throw;  // how SimGrid ends a process
+    throw;  // ends a process in SimGrid
   } catch (...) {
     stage.problem = std::current_exception();
     s4u::Actor::kill_all();
@@ -143,8 +144,9 @@ void live(Stage& stage) {
 }
 
 /// Runs `process` for each machine of a cluster, and returns the seconds to the end of the last
-/// one. `program` is the name of this one, for SimGrid's messages. Throws what a process throws,
-/// and std::runtime_error for a deadlock. Only one call per program: SimGrid has one engine.
+/// one. `program` is the name of this program, for SimGrid's messages. Throws what a process
+/// throws, and std::runtime_error for a deadlock. Only one call per program: SimGrid has one
+/// engine.
 double run_on(const ClusterModel& cluster, const char* program, const ProcessMain& process) {
   std::string name(program);
   std::string quiet("--log=root.thres:warning");
@@ -181,7 +183,7 @@ ClusterReport replay_producer(Transport& transport, const Spend& spend, const Ta
   return Producer(transport, source, sink, own, welcome, options).run();
 }
 
-/// Does the work, spends its scaled CPU time, and adds it up.
+/// Does the work, spends its scaled CPU time, and adds up the time.
 template <class Work>
 void do_for(const Spend& spend, double scale, double& sum, Work work) {
   const base::CpuStopwatch timer;
@@ -215,7 +217,7 @@ SimulatedRun simulate(const ClusterModel& cluster, const Replay& replay, const c
     costs = merged(costs, std::exchange(plan, {}), replay.stored);
   }
   ProducerOptions patient =
-      replay.options;  // no process fails here, and long tasks send no heartbeat
+      replay.options;  // no process fails here, and long tasks do not send heartbeats
   patient.timeout = patient.startup_timeout = Transport::kForever;
   SimulatedRun run;
   run.seconds = run_on(cluster, program, [&](Transport& transport, const Spend& spend) {

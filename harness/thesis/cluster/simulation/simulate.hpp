@@ -1,7 +1,7 @@
 #pragma once
 // Simulated runs on machines and a network that SimGrid computes. Producer and consumers replay a
-// record; a divided scene is really traced while it is simulated, because who hands what to whom,
-// and in which messages, depends on the times.
+// record. A divided scene is actually traced during the simulation, because the handoffs between
+// processes, and their messages, depend on the times.
 
 #include <cstdint>
 #include <functional>
@@ -20,15 +20,15 @@ namespace beambench::cluster {
 /// Speeds are relative: a machine of speed 1 takes the recorded seconds.
 struct ClusterModel {
   enum class Network {
-    kShared,   ///< one medium for all, as in an Ethernet with hubs or coaxial cable
-    kSwitched  ///< for each machine a line of its own in both directions
+    kShared,   ///< one medium for all, as in Ethernet with hubs or coaxial cable
+    kSwitched  ///< a separate line for each machine in both directions
   };
   Network network = Network::kSwitched;
   double bytes_per_second = 1.25e7;  ///< of the medium, or of each line
   double latency_seconds = 1e-4;     ///< between any two machines
   MessageCost message_cost{1e-4, 0.0, 2e-5};
   std::vector<double> speeds;  ///< of each process's machine
-  std::size_t loaded = 0;      ///< number of machines, the last ones, that others use, too
+  std::size_t loaded = 0;      ///< number of machines (the last ones) that others use, too
   double loaded_share = 0.5;   ///< share of their speed that others leave
   double load_period = 20.0;   ///< seconds; others use them in the second half
 };
@@ -39,47 +39,47 @@ struct SimulatedRun {
   ClusterReport report;
 };
 
-/// What is replayed. Seconds are those of a machine of speed 1.
+/// The run to be replayed. Seconds are those of a machine of speed 1.
 struct Replay {
   TaskCosts costs;
   double build_seconds = 0.0;             ///< of every process, for its octree
-  std::optional<ImageDivision> division;  ///< nothing: the tasks in their order, as `options` say
+  std::optional<ImageDivision> division;  ///< nothing: the tasks in order, according to `options`
   bool stored = false;                    ///< results stay with their consumers, see `merged`
   double pre_pass_seconds = 0.0;          ///< of the producer, before the first task
   ProducerOptions options;
 };
 
-/// Runs producer and consumers on the cluster, the producer on the first machine. As `run_on`;
-/// throws as `planned`.
+/// Runs producer and consumers on the cluster, with the producer on the first machine. Otherwise as
+/// `run_on`; throws as `planned`.
 SimulatedRun simulate(const ClusterModel& cluster, const Replay& replay, const char* program);
 
-/// Times of a machine of speed 1 over those of this one.
+/// The ratios of times on a machine of speed 1 to those on this one.
 struct TimeScale {
   double build = 1.0;  ///< to divide the scene and to build
   double walk = 1.0;   ///< to trace beams
-  double work = 1.0;   ///< for all else
+  double work = 1.0;   ///< for everything else
 };
 
-/// What a process did, in CPU seconds of this machine.
+/// The activity of a process, in CPU seconds of this machine.
 struct SplitProcess {
   PartReport report;
   double build_seconds = 0.0;  ///< to divide the scene and to build its part
   double walk_seconds = 0.0;
   double test_seconds = 0.0;  ///< of samples and rays
   double take_seconds = 0.0;  ///< to receive handoffs and, at the end, hits
-  double ready = 0.0;         ///< simulated: when it was ready
+  double ready = 0.0;         ///< simulated: time at which it was ready
   double busy = 0.0;          ///< simulated: time of traversal, tests and receiving
 };
 
 struct SimulatedSplit {
-  double seconds = 0.0;         ///< simulated: to the end of the last process
-  double traced_seconds = 0.0;  ///< of it: since the last process was ready
+  double seconds = 0.0;         ///< simulated: up to the end of the last process
+  double traced_seconds = 0.0;  ///< part of it: since the last process was ready
   std::uint64_t result_hash = 0;
   std::vector<SplitProcess> processes;
 };
 
-/// Traces `job`, each process of the cluster with its part of the scene. Reading the scene takes no
-/// simulated time. As `run_on`.
+/// Traces `job`, with each process of the cluster tracing its part of the scene. Reading the scene
+/// takes no simulated time. Otherwise as `run_on`.
 SimulatedSplit simulate_split(const ClusterModel& cluster, const Job& job,
                               const std::shared_ptr<const scenes::Scene>& whole,
                               const TimeScale& scale, const char* program);

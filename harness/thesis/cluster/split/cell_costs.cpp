@@ -20,16 +20,16 @@ namespace {
 using accel::octree::Octree;
 using accel::octree::OctreeNode;
 
-/// Rays of the sample along each side of a square image; others have as many in all.
+/// The number of sample rays along each side of a square image; other images have the same total.
 constexpr double kAlong = 128.0;
 
 /// Nanoseconds, rounded: fitted to the CPU times of 1,170 processes (five scenes in 16, 37 and 64
 /// interleaved parts, cells of levels 4 and 5).
-constexpr double kBeamsAtLeaf = 40000.0;  ///< of a leaf that a ray of the sample passes in a beam
-constexpr double kFirstLeaf = 50.0;       ///< of a sample: to become a ray at an occupied leaf
-constexpr double kNextCell = 90.0;        ///< of a ray: to be handed over
-constexpr double kNextLeaf = 20.0;        ///< of a ray
-constexpr double kTest = 10.0;            ///< of a ray and a primitive
+constexpr double kBeamsAtLeaf = 40000.0;  ///< for a leaf that a ray of the sample passes in a beam
+constexpr double kFirstLeaf = 50.0;       ///< for a sample: becoming a ray at an occupied leaf
+constexpr double kNextCell = 90.0;        ///< for a ray: being handed over
+constexpr double kNextLeaf = 20.0;        ///< for a ray
+constexpr double kTest = 10.0;            ///< for a ray and a primitive
 
 /// Adds up the costs of the sample's rays.
 class CellCosts {
@@ -75,8 +75,8 @@ class CellCosts {
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
-  /// The cell that each node lies in; none of the nodes above, and none of those in empty cells
-  /// that are not divided.
+  /// Returns the cell of each node; none for the nodes above, and for those in undivided empty
+  /// cells.
   static std::vector<std::uint32_t> cells_of_nodes(const Octree& octree,
                                                    const SceneCells& contents) {
     const LevelCells& cells = contents.cells();
@@ -98,7 +98,7 @@ class CellCosts {
   accel::octree::AncestorNeighbors neighbors_;
   std::vector<std::uint32_t> cell_of_;
   std::vector<bool> seen_;  ///< by node: in a beam
-  double rays_for_each_;    ///< of the image, for each of the sample
+  double rays_for_each_;    ///< of the image, per ray of the sample
   std::vector<double> costs_;
 };
 

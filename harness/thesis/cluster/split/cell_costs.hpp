@@ -1,5 +1,5 @@
 #pragma once
-// What tracing an image costs in each cell of a scene, estimated from a few of its rays.
+// Estimates the cost of tracing an image in each cell of a scene from a few of its rays.
 
 #include <vector>
 
@@ -10,9 +10,10 @@
 
 namespace beambench::cluster {
 
-/// By the cells' number, in nanoseconds of one machine or another: of a sparse regular sample of
-/// the image's rays, leaves and tests are counted where they are and multiplied by what they cost
-/// on average. Every process counts the same. Builds the octree of the whole scene and frees it.
+/// Returns costs by cell number, in nanoseconds of an arbitrary machine: for a sparse regular
+/// sample of the image's rays, leaves and tests are counted in their cells and multiplied by their
+/// average costs. Every process gets the same counts. Builds the octree of the whole scene and
+/// frees it.
 std::vector<double> sampled_costs(const scenes::Scene& scene,
                                   const accel::octree::OctreeOptions& options,
                                   const accel::PrimaryRays& rays, const SceneCells& cells);

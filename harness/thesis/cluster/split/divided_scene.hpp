@@ -1,5 +1,5 @@
 #pragma once
-// A divided scene as a structure that answers rays.
+// A divided scene as a structure for queries.
 
 #include "accel/core/accelerator.hpp"
 #include "harness/thesis/cluster/split/light_exchange.hpp"
@@ -7,12 +7,12 @@
 
 namespace beambench::cluster {
 
-/// On process 0: what all processes find together. The threads that ask trace the rays as far as
-/// they go in this part; what reaches the border is left at the exchange. So a batch is as many
-/// rays in one round, and a ray alone is a round too.
+/// The structure on process 0 that combines all processes. The querying threads trace the rays as
+/// far as they go in this part, and leave those that reach the border at the exchange. So a batch
+/// is one round of many rays, and a single ray is also a round.
 class DividedScene : public accel::Accelerator {
  public:
-  /// Both must outlive it. `statistics` are those of this part.
+  /// Both must outlive this object. `statistics` are those of this part.
   DividedScene(const PartTracer& part, LightExchange& exchange, accel::Statistics statistics);
 
   void closest_hits(const accel::RaySource& rays, const accel::HitSpan& hits,

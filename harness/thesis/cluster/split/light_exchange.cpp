@@ -17,7 +17,7 @@ std::vector<accel::Hit> LightExchange::nearest_hits(std::vector<LightRay> rays) 
   return std::move(round.hits);
 }
 
-/// With the lock.
+/// Requires the lock.
 std::uint32_t LightExchange::number(Round& round, std::size_t place) {
   if (free_.empty()) {
     free_.push_back(static_cast<std::uint32_t>(waiting_.size()));
@@ -49,7 +49,7 @@ void LightExchange::answer(const LightAnswer& answer) {
 void LightExchange::close() {
   const std::lock_guard lock(mutex_);
   closed_ = true;
-  waiting_.clear();  // who waited leaves
+  waiting_.clear();  // the waiting threads leave
   answered_.notify_all();
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Between the threads that draw and the one that sends and receives.
+// Connects the threads that draw with the one that sends and receives.
 
 #include <chrono>
 #include <condition_variable>
@@ -12,28 +12,28 @@
 
 namespace beambench::cluster {
 
-/// Threads that draw leave batches of rays here and wait; one thread takes them, has them traced in
-/// all processes, and returns what they found. Only that thread knows the transport.
+/// Threads that draw leave batches of rays here and wait. One thread takes them, has them traced in
+/// all processes, and returns their hits. Only that thread uses the transport.
 class LightExchange {
  public:
-  /// Waits until all rays are answered; returns their hits. Gives each ray its number. Throws
-  /// std::runtime_error once the exchange is closed.
+  /// Waits until all rays have been traced, and returns their hits. Assigns each ray its number.
+  /// Throws std::runtime_error once the exchange is closed.
   std::vector<accel::Hit> nearest_hits(std::vector<LightRay> rays);
 
-  /// The rays that were left since the last call. Waits a moment for some.
+  /// Returns the rays that were left since the last call. Waits a moment for some.
   std::vector<LightRay> take(std::chrono::microseconds moment);
-  /// Throws ProtocolError unless the ray waits for it.
+  /// Delivers a result. Throws ProtocolError unless the ray is waiting for it.
   void answer(const LightAnswer& answer);
-  /// No ray will be answered any more.
+  /// Closes the exchange: no more rays will be traced.
   void close();
 
  private:
-  /// A batch that a thread waits for.
+  /// A batch for which a thread waits.
   struct Round {
     std::vector<accel::Hit> hits;
     std::size_t missing;
   };
-  /// For whom the ray with some number is traced.
+  /// The recipient of the result of the ray with some number.
   struct Waiting {
     Round* round = nullptr;  ///< null: the number is free
     std::size_t place = 0;

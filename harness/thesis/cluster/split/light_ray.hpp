@@ -1,6 +1,6 @@
 #pragma once
-// Rays of light between processes: what is sent of a shadow, mirror or refracted ray, and the
-// messages it travels in.
+// Rays of light between processes: the transmitted data of a shadow, mirror or refracted ray, and
+// the messages that contain them.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,18 +16,18 @@ namespace beambench::cluster {
 
 enum class LightQuery : std::uint8_t { kClosest, kAny };
 
-/// A ray that enters another process's cell. It is sent itself: only process 0 knows from which
-/// hit it comes.
+/// A ray that enters another process's cell. The ray itself is sent, because only process 0 has the
+/// hit from which it comes.
 struct LightRay {
   std::uint32_t cell;
-  std::uint32_t number;  ///< by which process 0 knows it
+  std::uint32_t number;  ///< its number on process 0
   LightQuery query;
   accel::Ray ray;
-  double t;         ///< where it enters
-  accel::Hit best;  ///< so far, in the whole scene
+  double t;         ///< the t at which it enters
+  accel::Hit best;  ///< the best hit so far, in the whole scene
 };
 
-/// What a ray has found: the closest hit in the whole scene, or whether there is any.
+/// The result of a ray: the closest hit in the whole scene, or whether there is any.
 struct LightAnswer {
   std::uint32_t number;
   accel::Hit hit;
@@ -35,20 +35,21 @@ struct LightAnswer {
 
 void write_light(const LightRay& ray, Bytes& bytes);
 void write_light(const LightAnswer& answer, Bytes& bytes);
-/// All of a message. Throws ProtocolError for other bytes.
+/// Reads a whole message. Throws ProtocolError for other bytes.
 std::vector<LightRay> read_light_rays(std::span<const std::byte> bytes);
 std::vector<LightAnswer> read_light_answers(std::span<const std::byte> bytes);
 
-/// Collects rays and answers into messages, one open message for each process.
+/// Collects rays and results into messages, with one open message for each process.
 class LightOutbox {
  public:
   LightOutbox(Transport& transport, const SceneSplit& split);
   void hand_over(const LightRay& ray);
   void answer(const LightAnswer& answer);
 
-  /// Makes a message worth sending early: while a process works on, others can begin.
+  /// The size from which on a message is worth sending early, so that others can begin while a
+  /// process still works.
   static constexpr std::size_t kLarge = 1 << 12;
-  /// Sends the messages of at least that many bytes, by default all that are not empty.
+  /// Sends the messages of at least that many bytes, by default all nonempty ones.
   void send(std::size_t least = 1);
 
   std::uint64_t rays() const { return rays_; }

@@ -11,25 +11,27 @@
 
 namespace beambench::cluster {
 
-/// Traces rays that enter its part: those that end there are answered, the others handed over.
+/// Traces rays that enter its part: the results of rays that end there are sent, the others are
+/// handed over.
 class LightRelay {
  public:
   using Answer = std::function<void(const LightAnswer&)>;
 
-  /// `answer` takes what rays that end here have found. Tracer and outbox must outlive it.
+  /// `answer` receives the results of rays that end here. Tracer and outbox must outlive this
+  /// object.
   LightRelay(const PartTracer& tracer, const SceneSplit& split, ProcessId self, LightOutbox& outbox,
              Answer answer);
 
   /// Queues the rays of a message. Throws ProtocolError if a ray enters another process's cell.
   void take(std::span<const std::byte> message);
-  /// Traces some of the queued rays; false if there are none.
+  /// Traces some of the queued rays; returns false if there are none.
   bool work();
 
   const Traffic& received() const { return received_; }
   double cpu_seconds() const { return cpu_seconds_; }
 
  private:
-  /// Rays that are traced between two polls for messages.
+  /// The number of rays traced between two polls for messages.
   static constexpr std::size_t kAtOnce = 256;
   void trace(const LightRay& light);
 
@@ -43,7 +45,7 @@ class LightRelay {
   double cpu_seconds_ = 0.0;
 };
 
-/// What becomes of a ray that goes on from a place with its best hit so far.
+/// Returns how a ray continues from a place with its best hit so far.
 PartTracer::Passage pass(const PartTracer& tracer, const LightRay& light,
                          const PartTracer::Place& from);
 

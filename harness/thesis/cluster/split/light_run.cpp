@@ -16,11 +16,11 @@
 namespace beambench::cluster {
 namespace {
 
-/// Parts of a picture that are drawn at the same time. Their threads mostly wait, for a round of
-/// rays each.
+/// The number of parts of a picture drawn at the same time. Their threads mostly wait, for one
+/// round of rays each.
 constexpr int kDrawn = 16;
 
-/// What is sent of a report, in its order.
+/// Visits the transmitted members of a report in order.
 template <class Report>
 auto members(Report& report) requires std::same_as<std::remove_const_t<Report>, LightReport> {
   return std::tie(report.rays_out, report.answers_out, report.out.messages, report.out.bytes,
@@ -52,7 +52,7 @@ DrawnLight LightLeader::draw(const scenes::Scene& whole, const render::WhittedOp
   std::optional<render::WhittedPicture> picture;
   std::vector<LightReport> reports = answer([&](const accel::Accelerator& divided) {
     const render::Whitted tracer(whole, divided, options, check);
-    // More threads than cores: they wait.
+    // More threads than cores, because they wait.
     picture = render::whitted_picture(tracer, rays, hits, {}, kDrawn);
   });
   return {std::move(picture->image), picture->census, std::move(reports),
@@ -74,7 +74,7 @@ std::vector<LightReport> LightLeader::answer(const Asking& asking) {
   return std::move(reports_);
 }
 
-/// Other threads ask; this one sends and receives for them.
+/// Sends and receives in this thread for the querying threads.
 void LightLeader::answer_until_done(std::future<void> asked) {
   constexpr std::chrono::microseconds kMoment(100);
   try {
@@ -88,7 +88,7 @@ void LightLeader::answer_until_done(std::future<void> asked) {
       outbox_.send(worked ? LightOutbox::kLarge : 1);
     }
   } catch (...) {
-    exchange_.close();  // otherwise who asks would wait for ever
+    exchange_.close();  // otherwise querying threads would wait forever
     throw;
   }
   asked.get();

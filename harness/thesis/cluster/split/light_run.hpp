@@ -19,16 +19,16 @@
 
 namespace beambench::cluster {
 
-/// What a process did for the light.
+/// The activity of a process for the light.
 struct LightReport {
   std::uint64_t rays_out = 0;     ///< shadow, mirror and refracted rays handed to other processes
   std::uint64_t answers_out = 0;  ///< to process 0
-  Traffic out;                    ///< messages with rays or answers
+  Traffic out;                    ///< messages with rays or results
   Traffic rays_in;                ///< messages with rays
-  double cpu_seconds = 0.0;       ///< in tracing; of process 0: in all, shading included
+  double cpu_seconds = 0.0;       ///< for tracing; on process 0: in total, including shading
 };
 
-/// A picture, and how it came about.
+/// A picture, and how it was made.
 struct DrawnLight {
   render::Image image;
   render::RayCensus census;
@@ -36,27 +36,29 @@ struct DrawnLight {
   double seconds;                    ///< wall time
 };
 
-/// Process 0 shades, as `whitted_picture` does, over a `DividedScene`; the others trace what enters
-/// their parts. Each batch of Whitted's rays is a round: its rays go from part to part on their
-/// own, whoever finishes one sends the answer to process 0, and the round is over when all are
-/// there. So nothing has to be detected, and rounds of several parts of the picture overlap.
+/// Process 0 shades, like `whitted_picture`, over a `DividedScene`; the others trace the rays that
+/// enter their parts. Each batch of Whitted's rays is a round: its rays go from part to part
+/// independently, whichever process ends a ray sends the result to process 0, and the round is over
+/// when all results have arrived. So termination need not be detected, and rounds of several parts
+/// of the picture overlap.
 ///
-/// Process 0 must have the whole scene, without an octree: what it shades is anywhere.
+/// Process 0 must have the whole scene, without an octree, because shaded points may be anywhere.
 ///
-/// No process can be replaced: process 0 ends the run if one is silent.
+/// Processes cannot be replaced: process 0 ends the run if one is silent.
 class LightLeader {
  public:
-  /// `timeout`: seconds of silence after which LostProcess is thrown. All must outlive it.
+  /// `timeout`: seconds of silence after which LostProcess is thrown. All arguments must outlive
+  /// this object.
   LightLeader(Transport& transport, const PartWorker& worker, const SceneSplit& split,
               double timeout);
 
-  /// Calls `asking` in another thread with the divided scene, and has answered what it asks, from
-  /// any number of threads. The other processes are shut down at the end, even if that or `asking`
-  /// throws. Only once. Returns the reports, by process.
+  /// Calls `asking` in another thread with the divided scene, and has its queries, from any number
+  /// of threads, traced. The other processes are shut down at the end, even if an exception is
+  /// thrown. May be called only once. Returns the reports, by process.
   using Asking = std::function<void(const accel::Accelerator& divided)>;
   std::vector<LightReport> answer(const Asking& asking);
 
-  /// The picture of a scene by that. `hits` are those of `rays` over `whole`.
+  /// Returns the picture of a scene made in this way. `hits` are those of `rays` over `whole`.
   DrawnLight draw(const scenes::Scene& whole, const render::WhittedOptions& options,
                   const rays::HitCheck& check, const accel::PrimaryRays& rays,
                   const accel::HitBuffer& hits);
@@ -79,8 +81,9 @@ class LightLeader {
   int missing_reports_;
 };
 
-/// On the other processes: traces what enters this part until process 0 ends that. Sends a sign of
-/// life each `heartbeat_interval` seconds, even without work: nobody knows where a ray is.
+/// On the other processes: traces the rays that enter this part until process 0 ends that. Sends a
+/// sign of life every `heartbeat_interval` seconds, even without work, because no process knows
+/// where a ray is.
 void serve_light(Transport& transport, const PartWorker& worker, const SceneSplit& split,
                  double heartbeat_interval);
 

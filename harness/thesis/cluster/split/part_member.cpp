@@ -14,7 +14,7 @@
 namespace beambench::cluster {
 namespace {
 
-/// What is sent of a report, in its order.
+/// Visits the transmitted members of a report in order.
 template <class Report>
 auto members(Report& report) requires std::same_as<std::remove_const_t<Report>, PartReport> {
   return std::tie(report.primitives, report.scene_bytes, report.structure_bytes, report.beams_out,
@@ -87,7 +87,7 @@ PartReport PartMember::report() const {
   return report;
 }
 
-/// No handoffs before all processes are known to have the same scene.
+/// Delays handoffs until all processes are known to have the same scene.
 void PartMember::wait_for_all() {
   constexpr double kToLoadAndBuild = 20.0;
   while (missing_ > 0) {
@@ -203,7 +203,7 @@ void PartMember::take_count(const Message& message) {
   --missing_counts_;
 }
 
-/// Called when this process is idle, too.
+/// Also called when this process is idle.
 void PartMember::end_wave() {
   wave_.sent += outbox_->sent().messages;
   wave_.received += received_.messages;
@@ -226,7 +226,7 @@ void PartMember::send_heartbeat() {
   last_sign_ = now;
 }
 
-/// Others reply when they are idle, and send heartbeats while they work.
+/// Other processes reply when they are idle, and send heartbeats while they work.
 void PartMember::require_heartbeats() {
   if (!in_wave_) return;
   const double now = transport_->seconds();

@@ -15,17 +15,17 @@
 
 namespace beambench::cluster {
 
-/// A process is lost and will not reach MPI_Finalize.
+/// Thrown if a process is lost and will not reach MPI_Finalize.
 class LostProcess : public InputError {
  public:
   using InputError::InputError;
 };
 
-/// A process whose part of the scene nobody else has, and which was silent for the timeout, in
-/// seconds.
+/// Returns the error for a process that was silent for `timeout` seconds; no other process has its
+/// part of the scene.
 LostProcess silent_part(ProcessId process, double timeout);
 
-/// What a process had and did.
+/// The part and the activity of a process.
 struct PartReport {
   std::uint64_t primitives = 0;
   std::uint64_t scene_bytes = 0;
@@ -34,24 +34,24 @@ struct PartReport {
   std::uint64_t rays_out = 0;
   Traffic crossings_out;  ///< messages with beams and rays
   Traffic crossings_in;
-  double cpu_seconds = 0.0;   ///< in tracing and in receiving handoffs
+  double cpu_seconds = 0.0;   ///< for tracing and for receiving handoffs
   double wait_seconds = 0.0;  ///< for messages, wall time
 };
 
-/// Sums over all processes, each at a time when it was idle.
+/// Sums over all processes, each taken at a time when it was idle.
 struct Wave {
   std::uint64_t sent = 0;
   std::uint64_t received = 0;
   friend bool operator==(const Wave&, const Wave&) = default;
 };
 
-/// Traces until all processes are idle and no message is on its way. Process 0 detects that by
+/// Traces until all processes are idle and no message is in transit. Process 0 detects that with
 /// Mattern's four counters ("Algorithms for distributed termination detection", Distributed
 /// Computing 2, 1987): it requests the numbers of handoff messages sent and received, each process
 /// replies when it is idle, and when two rounds give the same sums, sent equal to received, the run
 /// is over.
 ///
-/// No process can be replaced: process 0 ends the run if one is silent.
+/// Processes cannot be replaced: process 0 ends the run if one is silent.
 class PartMember {
  public:
   using Check = std::function<void(ProcessId, std::span<const std::byte>)>;
@@ -62,15 +62,15 @@ class PartMember {
   PartMember(Transport& transport, PartWorker& worker, Outbox& outbox, double timeout, Check check,
              Meter meter = nullptr);
 
-  /// On process 0: the final reports of the others, by process. The others are shut down even if it
-  /// throws.
+  /// On process 0: runs to the end and returns the final reports of the others, by process. The
+  /// others are shut down even if it throws.
   std::vector<Bytes> lead();
   /// On the others: works to the end and sends `result`.
   void follow(const std::function<Bytes()>& result);
-  /// Has the run begun? Not where process 0 found that the processes do not match.
+  /// Returns whether the run has begun: not if process 0 found that the processes do not match.
   bool began() const { return going_; }
 
-  /// So far.
+  /// Returns the report so far.
   PartReport report() const;
 
  private:
@@ -102,7 +102,7 @@ class PartMember {
   bool over_ = false;
   // Of process 0:
   struct Other {
-    bool answered = false;  ///< this wave
+    bool answered = false;  ///< in this wave
     double last_heard = 0.0;
   };
   Other& other(ProcessId process) { return others_[static_cast<std::size_t>(process)]; }
@@ -118,7 +118,7 @@ class PartMember {
 
 /// A process's part of a scene, ready to be traced.
 struct PartState {
-  /// Frees the whole scene before it builds. Throws InputError for options that do not fit the job.
+  /// Frees the whole scene before building. Throws InputError for options that do not fit the job.
   PartState(std::shared_ptr<const scenes::Scene> whole, const Job& job, Transport& transport);
 
   accel::beam::BeamOptions options;
@@ -128,9 +128,9 @@ struct PartState {
   std::optional<PartWorker> worker;
 };
 
-/// A process's report and its hits, as bytes.
+/// Encodes a process's report and its hits.
 Bytes write_result(const PartReport& report, const PartWorker& worker);
-/// Adds them to the others' hits. Throws ProtocolError for other bytes.
+/// Adds the hits to those of the others. Throws ProtocolError for other bytes.
 PartReport take_result(std::span<const std::byte> result, accel::HitBuffer& hits);
 
 }  // namespace beambench::cluster

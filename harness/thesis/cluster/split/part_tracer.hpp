@@ -13,12 +13,12 @@
 
 namespace beambench::cluster {
 
-/// Which leaves of a process's octree are other processes' cells.
+/// The leaves of a process's octree that represent other processes' cells.
 class ForeignLeaves {
  public:
   ForeignLeaves(const accel::octree::Octree& octree, const SceneSplit& split, ProcessId self);
 
-  /// The cell of another process that a leaf stands for, if any.
+  /// Returns the cell of another process that a leaf represents, if any.
   std::optional<std::uint32_t> cell_at(std::uint32_t leaf) const {
     if (cells_[leaf] == kOwn) return std::nullopt;
     return cells_[leaf];
@@ -30,47 +30,47 @@ class ForeignLeaves {
   std::vector<std::uint32_t> cells_;  ///< by node
 };
 
-/// The node of a cell of a split.
+/// Returns the node of a cell of a split.
 accel::octree::OctreeCursor cursor_of_cell(const accel::octree::Octree& octree,
                                            const SceneSplit& split, std::uint32_t cell);
 
-/// What a ray has that has met nothing.
+/// The best hit of a ray that has not hit anything.
 inline constexpr accel::Hit kNoHit{accel::kInfinity, scenes::kNoPrimitive};
 
 /// Traces rays from where they begin or enter to where they end or enter another process's cell.
-/// The hits that a ray finds in all parts that it passes are together those of one process, bit for
-/// bit: a ray takes its best hit along, which limits the search, nothing farther is kept, and an
-/// equal t is compared by the whole scene's ids. Queries are const and safe from several threads.
+/// The combined hits of all parts that a ray passes are those of one process, bit for bit: a ray
+/// carries its best hit, which limits the search, nothing farther is kept, and at equal t the whole
+/// scene's ids decide. Queries are const and safe from several threads.
 class PartTracer {
  public:
-  /// All must outlive it.
+  /// All arguments must outlive this object.
   PartTracer(const ScenePart& part, const accel::octree::Samet& tracer, const SceneSplit& split,
              const ForeignLeaves& foreign)
       : part_(&part), tracer_(&tracer), split_(&split), foreign_(&foreign) {}
 
-  /// Where a ray is in this part's octree.
+  /// The place of a ray in this part's octree.
   struct Place {
     accel::octree::OctreeCursor cursor;
     double t;
   };
-  /// Where a ray begins, whether that is in this part or not; nothing if it misses the root.
+  /// Returns where a ray begins, in this part or not; nothing if it misses the root.
   std::optional<Place> beginning(const accel::Ray& ray) const;
-  /// Where it enters an own cell at t.
+  /// Returns where a ray enters an own cell at t.
   Place entry(std::uint32_t cell, double t) const;
 
-  /// Where a ray enters another process's cell.
+  /// The place where a ray enters another process's cell.
   struct Exit {
     std::uint32_t cell;
     double t;
   };
-  /// What a ray has found, and where it goes on: nowhere if that is its result.
+  /// The result of a ray so far, and where it continues; nothing if the result is final.
   struct Passage {
     accel::Hit best;  ///< by the whole scene's ids
     std::optional<Exit> exit;
   };
-  /// Goes on with a ray that has found `best` so far.
+  /// Continues a ray whose best hit so far is `best`.
   Passage closest(const accel::Ray& ray, const Place& from, const accel::Hit& best) const;
-  /// The same for a ray that ends at any hit: it has found none so far.
+  /// Continues a ray that ends at any hit and has none so far.
   Passage any(const accel::Ray& ray, const Place& from) const;
 
   accel::Hit global(const std::optional<accel::Hit>& local) const {

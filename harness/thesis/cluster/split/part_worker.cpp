@@ -18,7 +18,7 @@ auto members(Ray& ray) requires std::same_as<std::remove_const_t<Ray>, RayHandof
   return std::tie(ray.cell, ray.sample, ray.t, ray.best_t, ray.best);
 }
 
-/// In finest cells of the octree.
+/// Returns the size of a cell in finest cells of the octree.
 std::int32_t cell_size(const accel::octree::Octree& octree, const SceneSplit& split) {
   return octree.grid().cells.x / split.cells().along();
 }
@@ -118,7 +118,7 @@ PartWorker::PartWorker(ScenePart part, const SceneSplit& split, ProcessId self,
   queue_.border = this;
 }
 
-/// A beam is begun by the owner of the cell where it begins.
+/// Keeps the beams of this part: each is begun by the owner of the cell in which it begins.
 void PartWorker::keep_own_beams() {
   accel::beam::BeamStack begun;
   accel::beam::BeamStep step;
@@ -141,7 +141,7 @@ void PartWorker::take(const RayHandoff& ray) {
   waiting_.push_back(ray);
 }
 
-/// Beams first: they bring work to others.
+/// Processes beams first, because they create work for others.
 PartWork PartWorker::work() {
   if (!entering_.empty() || !queue_.waiting.empty()) {
     walk();

@@ -1,5 +1,5 @@
 #pragma once
-// Tracing one process's part of a scene.
+// Traces one process's part of a scene.
 
 #include <cstdint>
 #include <deque>
@@ -18,8 +18,8 @@
 
 namespace beambench::cluster {
 
-/// A beam that enters another process's cell by a face. Its `node`, `corner` and `size` mean
-/// nothing there.
+/// A beam that enters another process's cell through a face. Its `node`, `corner` and `size` are
+/// meaningless there.
 struct BeamHandoff {
   std::uint32_t cell;
   accel::beam::Crossing face;
@@ -30,8 +30,8 @@ struct BeamHandoff {
 struct RayHandoff {
   std::uint32_t cell;
   std::uint32_t sample;      ///< its place in the hit buffer
-  double t;                  ///< where it enters
-  float best_t;              ///< infinity: none
+  double t;                  ///< the t at which it enters
+  float best_t;              ///< infinity for a miss
   scenes::PrimitiveId best;  ///< in the whole scene
 };
 
@@ -40,19 +40,20 @@ using Handoff = std::variant<BeamHandoff, RayHandoff>;
 void write_handoff(const BeamHandoff& beam, Bytes& bytes);
 void write_handoff(const RayHandoff& ray, Bytes& bytes);
 
-/// The next one in a message. Throws ProtocolError for other bytes.
+/// Reads the next handoff of a message. Throws ProtocolError for other bytes.
 Handoff read_handoff(ByteReader& reader, const accel::beam::EyeView& view);
 
-/// Collects handoffs into messages, one open message for each process.
+/// Collects handoffs into messages, with one open message for each process.
 class Outbox {
  public:
   Outbox(Transport& transport, const SceneSplit& split);
   void hand_over(const BeamHandoff& beam);
   void hand_over(const RayHandoff& ray);
 
-  /// Makes a message worth sending early: while a process works on, others can begin.
+  /// The size from which on a message is worth sending early, so that others can begin while a
+  /// process still works.
   static constexpr std::size_t kLarge = 1 << 11;
-  /// Sends the messages of at least that many bytes, by default all that are not empty.
+  /// Sends the messages of at least that many bytes, by default all nonempty ones.
   void send(std::size_t least = 1);
 
   const Traffic& sent() const { return sent_; }
@@ -68,7 +69,7 @@ class Outbox {
   std::uint64_t rays_ = 0;
 };
 
-/// Records which samples beams decided, and which continue as rays into a foreign leaf.
+/// Records the samples decided by beams, and those that continue as rays into a foreign leaf.
 class BorderWatch : public accel::beam::NoBeamWatch {
  public:
   BorderWatch(const accel::octree::Octree& octree, const ForeignLeaves& foreign)
@@ -111,11 +112,11 @@ enum class PartWork {
   kTaking,   ///< receiving handoffs
 };
 
-/// The beam tracer over a part of a scene: beams and rays that reach the border are handed over,
+/// The beam tracer over a part of a scene. Beams and rays that reach the border are handed over,
 /// rays with their best hit, and those of others continue here. Together, the processes find the
 /// hits of one process with the whole scene, bit for bit: beams are divided by the same planes, a
-/// primitive is tested in every cell that it overlaps, and ties go to the lowest id of the whole
-/// scene.
+/// primitive is tested in every cell that it overlaps, and at equal t the lowest id of the whole
+/// scene wins.
 class PartWorker : private accel::beam::BeamBorder {
  public:
   /// Begins the beams that begin in this part. Rays and outbox must outlive the worker. Throws
@@ -127,28 +128,28 @@ class PartWorker : private accel::beam::BeamBorder {
   PartWorker& operator=(const PartWorker&) = delete;
   ~PartWorker() override = default;
 
-  /// Queues a handoff. Throws ProtocolError if its cell is another process's.
+  /// Queues a handoff. Throws ProtocolError if its cell belongs to another process.
   void take(const BeamHandoff& beam);
   void take(const RayHandoff& ray);
 
   /// Does some of the queued work, if any, and returns its kind.
   PartWork work();
 
-  /// The samples with a hit in this part, ascending, and their hits.
+  /// Returns the samples with a hit in this part, ascending, and their hits.
   std::vector<std::uint32_t> hit_samples() const;
   const accel::HitBuffer& hits() const { return found_; }
 
-  /// For rays that do not come from the eye.
+  /// Returns the tracer for rays that do not come from the eye.
   const PartTracer& single_rays() const { return single_rays_; }
 
   const accel::beam::EyeView& view() const { return view_; }
   const scenes::Scene& scene() const { return part_.scene; }
   std::uint64_t structure_bytes() const;
-  /// Of the part's octree.
+  /// Returns the statistics of the part's octree.
   accel::Statistics statistics() const { return tracer_.statistics(); }
 
  private:
-  /// Rays and beams that are traced between two polls for messages.
+  /// The number of rays and beams traced between two polls for messages.
   static constexpr std::size_t kRaysAtOnce = 256;
   static constexpr std::size_t kBeamsAtOnce = 32;
 
@@ -177,7 +178,7 @@ class PartWorker : private accel::beam::BeamBorder {
   BorderWatch watch_;
   accel::beam::BeamPainter<BorderWatch, accel::beam::WholeImage> painter_;
   accel::beam::BeamQueue queue_;
-  accel::beam::BeamStack ended_;  ///< whose samples are to be traced
+  accel::beam::BeamStack ended_;  ///< whose samples must be traced
   std::deque<BeamHandoff> entering_;
   std::deque<RayHandoff> waiting_;
 };

@@ -36,7 +36,7 @@ std::vector<std::uint32_t> in_morton_order(const LevelCells& cells) {
   return order;
 }
 
-/// Runs of an order with about the same weight.
+/// Returns consecutive runs with about the same weight.
 Owners runs(std::span<const std::uint32_t> order, std::span<const double> weights, int processes) {
   const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
   Owners owners(order.size());
@@ -50,7 +50,7 @@ Owners runs(std::span<const std::uint32_t> order, std::span<const double> weight
   return owners;
 }
 
-/// Empty cells are dealt, too, on their own: beams may begin in them.
+/// Deals the cells in turn. Empty cells are dealt separately, because beams may begin in them.
 Owners interleaved(std::span<const std::uint32_t> order, const CellLoads& loads, int processes) {
   Owners owners(order.size());
   std::array<int, 2> dealt{};
@@ -64,7 +64,7 @@ Owners interleaved(std::span<const std::uint32_t> order, const CellLoads& loads,
 /// A box of cells and its processes.
 struct Part {
   glm::ivec3 lower;
-  glm::ivec3 upper;  ///< not in it
+  glm::ivec3 upper;  ///< exclusive
   int first;
   int processes;
 };
@@ -95,10 +95,11 @@ class Bisection {
   struct Plane {
     int axis;
     int at;
-    double error;  ///< what the lower side has too much or too little, as a share
+    double error;  ///< relative excess or deficit of the lower side
   };
 
-  /// Where the lower side has nearest to its processes' share. Not for a single layer.
+  /// Returns the plane for which the lower side is closest to its processes' share. Not for a
+  /// single layer.
   Plane best_plane(const Part& part, int axis, double share) const {
     std::vector<double> layers(static_cast<std::size_t>(part.upper[axis] - part.lower[axis]));
     for_each_cell(part, [&](const glm::ivec3& cell, std::uint32_t i) {
@@ -149,9 +150,9 @@ class Bisection {
   Owners owners_;
 };
 
-/// The costliest cell first, each to the process with the least cost so far (Graham, "Bounds on
-/// multiprocessing timing anomalies", SIAM Journal on Applied Mathematics 17(2), 1969), among those
-/// that have room for its primitives.
+/// Assigns the costliest cell first, each to the process with the least cost so far (Graham,
+/// "Bounds on multiprocessing timing anomalies", SIAM Journal on Applied Mathematics 17(2), 1969),
+/// among those that have room for its primitives.
 Owners scattered(std::span<const std::uint32_t> order, std::span<const double> weights,
                  const CellLoads& loads, int processes) {
   std::vector<std::uint32_t> costliest(order.begin(), order.end());
@@ -180,7 +181,8 @@ Owners scattered(std::span<const std::uint32_t> order, std::span<const double> w
   return owners;
 }
 
-/// Plus a little for each cell, so that empty ones are distributed, too.
+/// Returns weights that include a small amount for each cell, so that empty ones are distributed,
+/// too.
 std::vector<double> weights_of(const CellLoads& loads, SceneDivision division) {
   std::vector<double> weights(loads.primitives.begin(), loads.primitives.end());
   if (needs_costs(division)) weights = loads.costs;

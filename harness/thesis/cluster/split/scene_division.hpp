@@ -1,5 +1,5 @@
 #pragma once
-// How the cells of a divided scene are distributed among processes.
+// Distributes the cells of a divided scene among processes.
 
 #include <cstdint>
 #include <span>
@@ -10,34 +10,33 @@
 
 namespace beambench::cluster {
 
-/// The ways that the thesis lists (section 2.3.2.2): the space is divided beforehand, so that each
-/// process has as many primitives, or as much work by a sample of the rays; or small cells that are
-/// not neighbors are dealt to a process, as pixels are interlaced.
+/// The methods listed in the thesis (section 2.3.2.2): either the space is divided in advance, so
+/// that processes have equal numbers of primitives, or equal work according to a sample of the
+/// rays; or small nonadjacent cells are dealt to the processes, like interlaced pixels.
 enum class SceneDivision {
   kPrimitives,   ///< runs of cells in Morton order with equal numbers of primitives
   kCost,         ///< runs of cells in Morton order with equal costs
-  kInterleaved,  ///< of the cells with primitives, in Morton order, each process has every n-th
+  kInterleaved,  ///< each process has every n-th of the cells with primitives, in Morton order
   kBisection,    ///< boxes of cells, halved by planes that halve their cost
   kScattered     ///< single cells, the costliest first, each to the process with the least cost
-                 ///< that has room: 5% more than its share of primitives
 };
 
 /// The names after --division, in the order of `SceneDivision`.
 std::span<const std::string_view> division_names();
-/// Throws InputError listing the valid names.
+/// Parses the name. Throws InputError listing the valid names.
 SceneDivision parse_scene_division(std::string_view name);
 
-/// Does it need the costs of cells?
+/// Returns whether the division needs the costs of cells.
 bool needs_costs(SceneDivision division);
 
 /// The cells of one level of an octree, numbered with x fastest.
 class LevelCells {
  public:
-  /// The root being level 1.
+  /// The root has level 1.
   explicit LevelCells(int level) : level_(level), along_(1 << (level - 1)) {}
 
   int level() const { return level_; }
-  /// Along each axis.
+  /// Returns the number of cells along each axis.
   std::int32_t along() const { return along_; }
   std::uint32_t count() const { return static_cast<std::uint32_t>(along_ * along_ * along_); }
   std::uint32_t index(const glm::ivec3& cell) const {
@@ -53,13 +52,13 @@ class LevelCells {
   std::int32_t along_;
 };
 
-/// What is in each cell, by its number.
+/// The contents of each cell, by its number.
 struct CellLoads {
-  std::vector<std::uint32_t> primitives;  ///< that reach into it
-  std::vector<double> costs;              ///< of any unit; empty where no division needs them
+  std::vector<std::uint32_t> primitives;  ///< reaching into the cell
+  std::vector<double> costs;              ///< in any unit; empty if no division needs them
 };
 
-/// The owner of each cell, by its number. The same loads give the same owners.
+/// Returns the owner of each cell, by its number. The same loads give the same owners.
 std::vector<std::uint16_t> divide(const LevelCells& cells, const CellLoads& loads,
                                   SceneDivision division, int processes);
 

@@ -14,22 +14,22 @@
 
 namespace beambench::cluster {
 
-/// Which cells of a level the primitives of a scene reach into, by their boxes.
+/// The cells of a level that the primitives of a scene reach into, by their boxes.
 class SceneCells {
  public:
-  /// Cells of `level`, at most 7 and not deeper than the octree of `options`.
+  /// Uses cells of `level`, at most 7 and not deeper than the octree of `options`.
   SceneCells(const scenes::Scene& scene, const accel::octree::OctreeOptions& options, int level);
 
   const LevelCells& cells() const { return cells_; }
-  /// Numbers of primitives, by cell.
+  /// Returns the numbers of primitives, by cell.
   const std::vector<std::uint32_t>& primitives() const { return primitives_; }
-  /// Not after `forget_primitives`.
+  /// Must not be called after `forget_primitives`.
   const accel::CellRange& range(scenes::PrimitiveId id) const { return ranges_[id]; }
   /// Frees the memory that grows with the scene.
   void forget_primitives() { ranges_ = {}; }
 
   bool is_empty(std::uint32_t cell) const { return primitives_[cell] == 0; }
-  /// The cells of a node of `size` along each axis, from `first` on.
+  /// Returns whether the cells of a node of `size` along each axis, from `first` on, are empty.
   bool is_empty(const glm::ivec3& first, std::int32_t size) const;
 
  private:
@@ -48,12 +48,14 @@ class SceneSplit {
   const LevelCells& cells() const { return contents_.cells(); }
   const SceneCells& contents() const { return contents_; }
   ProcessId owner(std::uint32_t cell) const { return owners_[cell]; }
-  /// Beams and rays pass empty cells in any process.
+  /// Returns whether the cell belongs to another process. Beams and rays pass empty cells in any
+  /// process.
   bool is_foreign(std::uint32_t cell, ProcessId process) const {
     return owner(cell) != process && !contents_.is_empty(cell);
   }
 
-  /// Does the primitive's box reach into a cell of the process? Not after `forget_primitives`.
+  /// Returns whether the primitive's box reaches into a cell of the process. Must not be called
+  /// after `forget_primitives`.
   bool reaches(ProcessId process, scenes::PrimitiveId id) const;
   void forget_primitives() { contents_.forget_primitives(); }
 
@@ -62,20 +64,20 @@ class SceneSplit {
   std::vector<std::uint16_t> owners_;  ///< by cell
 };
 
-/// Divides a scene by what tracing `rays` costs, where the division depends on that.
+/// Divides a scene, if necessary according to the cost of tracing `rays`.
 SceneSplit split_scene(const scenes::Scene& scene, const accel::octree::OctreeOptions& options,
                        const accel::PrimaryRays& rays, int level, SceneDivision division,
                        int processes);
 
-/// The part of an octree that a process has: all cells that hold something exist, as leaves where
-/// they are another's.
+/// Returns the part of an octree that a process has: all nonempty cells exist, as leaves if they
+/// belong to another process.
 accel::octree::OctreePart own_cells(const SceneSplit& split, ProcessId process);
 
 /// The part of a scene that one process keeps.
 struct ScenePart {
-  /// Its primitives, in their order; bounds, cameras, surfaces and lights are those of the whole.
+  /// Its primitives, in order; bounds, cameras, surfaces and lights are those of the whole scene.
   scenes::Scene scene;
-  /// The ids that they have in the whole scene, ascending.
+  /// The primitives' ids in the whole scene, ascending.
   std::vector<scenes::PrimitiveId> global;
 };
 

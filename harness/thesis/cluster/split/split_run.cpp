@@ -37,7 +37,7 @@ std::shared_ptr<const scenes::Scene> load_whole(const Job& job,
   return std::make_shared<const scenes::Scene>(scenes::load_scene(job.scene, warnings));
 }
 
-/// The scene lives on only where the caller keeps it.
+/// Sets up a process. The scene is kept only if the caller keeps it.
 Setup set_up(std::shared_ptr<const scenes::Scene> whole, const Job& job, Transport& transport) {
   Setup place{{visible_hash(*whole), whole->primitives.size(), 0, 0},
               scenes::memory_bytes(*whole),
@@ -46,7 +46,7 @@ Setup set_up(std::shared_ptr<const scenes::Scene> whole, const Job& job, Transpo
   return place;
 }
 
-/// Does process 0 look at the primitives that were hit?
+/// Returns whether process 0 needs the primitives that were hit.
 bool needs_surfaces(const ClusterRequest& request) {
   if (request.job.light) return true;
   const bool is_of_hits =
@@ -119,7 +119,7 @@ SplitRun lead_split(const ClusterRequest& request, Transport& transport) {
   run.result_hash = light ? render::fingerprint(*light) : rays::fingerprint(hits);
   run.job.resolution = {rays.width(), rays.height()};
   if (!request.picture.empty()) {
-    // The ids are those of the whole scene, of which each process has a part.
+    // The ids are those of the whole scene, of which each process has only a part.
     rays::HitCheck(run.whole_primitives, "structure 'beam'").require(hits, rays);
     render::write_image(
         request.picture,

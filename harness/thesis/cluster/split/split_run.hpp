@@ -16,7 +16,7 @@ struct SplitRun {
   Job job;
   std::vector<PartReport> reports;  ///< by process
   double seconds = 0.0;             ///< wall time from the first beam to the last hit
-  std::vector<LightReport> light;   ///< by process; empty where none was asked for
+  std::vector<LightReport> light;   ///< by process; empty if no light was requested
   double light_seconds = 0.0;       ///< wall time from the last hit to the picture
   render::RayCensus census;         ///< of the light
   std::uint64_t shading_bytes = 0;  ///< of the whole scene, if process 0 keeps it to shade
@@ -25,9 +25,9 @@ struct SplitRun {
   std::uint64_t result_hash = 0;  ///< of the hits, or of the picture's light
 };
 
-/// As `lead` and `follow`, each process keeping only its part of the scene. Each reads the whole
-/// scene and frees it before it builds, but process 0 keeps it, without an octree, where a picture
-/// needs the surfaces that were hit.
+/// Counterparts of `lead` and `follow` in which each process keeps only its part of the scene. Each
+/// reads the whole scene and frees it before building, except that process 0 keeps it, without an
+/// octree, if a picture needs the surfaces that were hit.
 SplitRun lead_split(const ClusterRequest& request, Transport& transport);
 void follow_split(const Job& job, Transport& transport);
 

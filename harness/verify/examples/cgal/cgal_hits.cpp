@@ -1,7 +1,7 @@
 // Traces the rays of a .rays file with CGAL's AABB tree and writes the hits for
 // `beambench verify --hits`. Usage: cgal_hits scene.obj r.rays -o cgal.hits [--kernel epick]
 //
-// README.md, in the folder above, states what is done with t_min and t_max.
+// README.md, in the parent folder, explains the treatment of t_min and t_max.
 
 #include <chrono>
 #include <cmath>
@@ -35,7 +35,7 @@ constexpr std::uint32_t kNoTriangle = 0xFFFFFFFF;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr std::size_t kRaysOfAPart = 1 << 16;
 
-// As the files hold them, in the little-endian order of this machine.
+// The layout in the files, in the little-endian order of this machine.
 struct RayOfFile {
   float origin[3], t_min, direction[3], t_max;
 };
@@ -54,7 +54,7 @@ std::vector<typename Kernel::Triangle_3> read_triangles(const std::string& path)
   for (std::string line; std::getline(file, line);) {
     std::istringstream words(line.size() < 2 ? "" : line.substr(2));
     if (line.starts_with("v ")) {
-      // The scene's coordinates are floats, of which the file has as many digits as a float needs.
+      // The scene's coordinates are floats; the file has enough digits for them.
       float x, y, z;
       if (!(words >> x >> y >> z)) throw std::runtime_error(path + ": not a vertex: " + line);
       points.emplace_back(x, y, z);
@@ -68,7 +68,7 @@ std::vector<typename Kernel::Triangle_3> read_triangles(const std::string& path)
   return triangles;
 }
 
-/// What follows `"name":` in a line of JSON that beambench wrote.
+/// Returns the value after `"name":` in a line of JSON written by beambench.
 std::string member(const std::string& json, const std::string& name) {
   const std::string key = '"' + name + "\":";
   const std::size_t at = json.find(key);
@@ -88,12 +88,12 @@ class Tracer {
 
   HitOfFile closest(const RayOfFile& ray) const {
     HitOfFile hit;
-    // CGAL's rays have no end: it is compared with t_max afterwards, which loses nothing, because
-    // the closest hit is beyond t_max only if all are.
+    // CGAL's rays have no end. The hit is compared with t_max afterwards, which loses nothing,
+    // because the closest hit is beyond t_max only if all hits are.
     const auto found = tree_.first_intersection(typename Kernel::Ray_3(start(ray), vector(ray)));
     if (!found) return hit;
     const Point* point = boost::get<Point>(&found->first);
-    // A ray in the triangle's plane meets it in a segment, whose ends are in no order.
+    // A ray in the triangle's plane meets it in a segment, whose ends are not ordered.
     const auto* segment = boost::get<typename Kernel::Segment_3>(&found->first);
     const Point nearest = point != nullptr ? *point
                           : t_of(ray, segment->source()) < t_of(ray, segment->target())
@@ -152,7 +152,7 @@ void trace(const std::string& mesh, const std::string& rays, const std::string& 
   const Tracer<Kernel> tracer(mesh);
   const double build_seconds = seconds_since(begin);
 
-  const std::string partial = hits + ".partial";  // what is at `hits` is complete
+  const std::string partial = hits + ".partial";  // the file at `hits` is always complete
   std::ofstream out(partial, std::ios::binary);
   out << "beambench-hits 1\n{\"hits\": " << count
       << ", \"columns\": " << (any ? R"(["occluded"])" : R"(["x", "y", "z", "triangle"])") << "}\n";
