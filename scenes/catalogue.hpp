@@ -87,7 +87,7 @@ bool is_scene_file(std::string_view spec);
 
 /// Loads the scene that the user named: a catalogue name with parameters (`balls:n=4`), a
 /// registered mesh (`mesh:dragon`), or a path to a mesh (by its ending), to a file that a plug-in
-/// reads (see scene_readers()), or to an NFF file (anything else with a slash, or the ending .nff).
+/// reads (see scene_readers()), or to an NFF file (the ending .nff, or none after a slash).
 /// `Scene::name` is the canonical label of a catalogue scene; for all others it is the text as
 /// `name_of_path` shows it. Throws InputError for an unknown name (with the nearest and all valid
 /// ones), a parameter out of range, a missing or malformed file, or a scene without primitives.

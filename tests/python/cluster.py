@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from beambench_report.thesis.chapter6.record import ENVIRONMENT as OPEN_MPI
+from beambench_thesis.chapter6.record import ENVIRONMENT as OPEN_MPI
 from program import BINARY
 
 CLUSTER = BINARY.resolve().with_name("beambench-cluster")

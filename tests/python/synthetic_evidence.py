@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pandas as pd
 
 from beambench_report.base.published import RESOLUTIONS, primitives_by_scene
-from beambench_report.thesis.paper.evidence import (
+from beambench_thesis.paper.evidence import (
     HIERARCHY,
     PAPER_HIERARCHY,
     PICTURE,

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
+from beambench_operations.history.alarms import find_alarms
+from beambench_operations.history.night import night_of
+from beambench_operations.history.store import History
+from beambench_operations.nightly.home import Home
 from beambench_report.base.records import read_run
-from beambench_report.history.alarms import find_alarms
-from beambench_report.history.night import night_of
-from beambench_report.history.store import History
-from beambench_report.nightly.home import Home
 from synthetic_run import synthetic_rows, without_times, write_run
 
 SCENES = ("escena1", "tetra:n=6")

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from beambench_report.base.published import primitives_by_scene, rays
-from beambench_report.thesis.report.plan import Plan, PlannedCell, Sweep, keep_plan
+from beambench_thesis.report.plan import Plan, PlannedCell, Sweep, keep_plan
 from synthetic_run import write_cell, write_manifest, write_run
 
 Row = dict[str, object]

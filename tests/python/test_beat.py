@@ -408,10 +408,3 @@ def test_pictures_are_compared_without_their_shading(tmp_path: Path) -> None:
     (pairing,) = pairings([read_run(run)])
     assert pairing.ratio.paired
     assert pairing.ratio.value == pytest.approx(12.3 / 4.3)
-
-
-def test_the_former_name_of_the_command_works_with_a_warning(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    assert main(["beat", "/nowhere"]) == 2
-    assert "warning: the command 'beat' is now 'embree-comparison'" in capsys.readouterr().err

@@ -16,16 +16,16 @@ from random import Random
 
 import pytest
 
-from beambench_campaign import night_kills, quake3_maps
-from beambench_campaign import rays as random_rays
-from beambench_campaign.__main__ import main
-from beambench_campaign.libfuzzer import status
-from beambench_campaign.piece import Finding, Piece, Task
-from beambench_campaign.pool import do_pieces
-from beambench_campaign.programs import Programs
-from beambench_campaign.record import Record
-from beambench_campaign.report import summed, write_report
-from beambench_campaign.rows import cells_of, difference
+from beambench_operations.campaign import night_kills, quake3_maps
+from beambench_operations.campaign import rays as random_rays
+from beambench_operations.campaign.__main__ import main
+from beambench_operations.campaign.libfuzzer import status
+from beambench_operations.campaign.piece import Finding, Piece, Task
+from beambench_operations.campaign.pool import do_pieces
+from beambench_operations.campaign.programs import Programs
+from beambench_operations.campaign.record import Record
+from beambench_operations.campaign.report import summed, write_report
+from beambench_operations.campaign.rows import cells_of, difference
 from beambench_report.base.files import Problem
 from program import BINARY
 from synthetic_bsp import small_map
@@ -364,7 +364,7 @@ def test_help_names_every_option(
 ) -> None:
     done = script("--help")
     assert done.returncode == 0
-    source = (repository / "scripts/beambench_campaign/__main__.py").read_text("utf-8")
+    source = (repository / "scripts/beambench_operations/campaign/__main__.py").read_text("utf-8")
     own = {"--beambench", "--targets"}  # for tests
     for line in source.splitlines():
         if 'add_argument("--' in line:

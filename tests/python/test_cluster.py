@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from beambench_report.thesis.chapter6.record import Picture, measure, measured_section
+from beambench_thesis.chapter6.record import Picture, measure, measured_section
 from cluster import (
     CLUSTER,
     finish,

@@ -9,11 +9,11 @@ import pandas as pd
 import pytest
 
 from beambench_report.base.files import Problem
-from beambench_report.thesis.chapter6.results import write_results
-from beambench_report.thesis.claims.chapter6 import CLUSTER_CLAIMS, cluster_evidence
-from beambench_report.thesis.claims.register import ALL_CLAIMS, judge, judge_claims
-from beambench_report.thesis.claims.verdict import Outcome, Verdict
-from beambench_report.thesis.paper.evidence import FIGURES, NOTHING, ClusterEvidence, Evidence
+from beambench_thesis.chapter6.results import write_results
+from beambench_thesis.claims.chapter6 import CLUSTER_CLAIMS, cluster_evidence
+from beambench_thesis.claims.register import ALL_CLAIMS, judge, judge_claims
+from beambench_thesis.claims.verdict import Outcome, Verdict
+from beambench_thesis.paper.evidence import FIGURES, NOTHING, ClusterEvidence, Evidence
 
 CLAIMS = {claim.name: claim for claim in CLUSTER_CLAIMS}
 CAT, TOWER = "gato-bill", "torre-eiffel"

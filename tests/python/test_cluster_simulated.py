@@ -11,18 +11,18 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from beambench_report.__main__ import main
-from beambench_report.thesis.chapter6.machines import (
+from beambench_thesis.__main__ import main
+from beambench_thesis.chapter6.machines import (
     ALL_BUILDING,
     ALL_WALKING,
     Recorded,
     slowness_of_1999,
     thesis_seconds,
 )
-from beambench_report.thesis.chapter6.plots import cluster_plots
-from beambench_report.thesis.chapter6.record import LARGE, SCENES, WORKS, tasks_file
-from beambench_report.thesis.chapter6.results import read_processes, read_simulations
-from beambench_report.thesis.chapter6.simulate import (
+from beambench_thesis.chapter6.plots import cluster_plots
+from beambench_thesis.chapter6.record import LARGE, SCENES, WORKS, tasks_file
+from beambench_thesis.chapter6.results import read_processes, read_simulations
+from beambench_thesis.chapter6.simulate import (
     DIVISIONS,
     LARGE_OPTIONS,
     MACHINES,

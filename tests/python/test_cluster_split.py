@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from beambench_report.__main__ import main
-from beambench_report.thesis.chapter6 import scene_divisions
-from beambench_report.thesis.chapter6.split import SCENES, read_split, split_plot, split_section
+from beambench_thesis.__main__ import main
+from beambench_thesis.chapter6 import scene_divisions
+from beambench_thesis.chapter6.split import SCENES, read_split, split_plot, split_section
 from cluster import CLUSTER, mpirun, needs_mpi
 from program import BINARY, output_of
 

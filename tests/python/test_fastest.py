@@ -11,7 +11,7 @@ from beambench_report.base.cell_files import CellFile
 from beambench_report.base.fastest import Fastest, fastest_of, with_fastest
 from beambench_report.base.files import ROOT
 from beambench_report.base.records import read_run
-from beambench_report.thesis.paper.measured import error_between_runs
+from beambench_thesis.paper.measured import error_between_runs
 
 PUBLISHED = ROOT / "results" / "published" / "thesis"
 

@@ -1,4 +1,4 @@
-"""The import order of the package's modules: as listed below, without cycles."""
+"""The import order of the modules in the packages of scripts: as listed, without cycles."""
 
 from __future__ import annotations
 
@@ -7,23 +7,27 @@ from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 from typing import NamedTuple
 
-PACKAGE = "beambench_report"
+PACKAGES = ("beambench_report", "beambench_thesis", "beambench_operations")
 # Each imports only itself and modules listed before it.
 ORDER = (
-    "base",
-    "run",
-    "history",
-    "site",
-    "nightly",
-    "embree_comparison",
-    "havran",
-    "haines",
-    "thesis.paper",
-    "thesis.chapter5",
-    "thesis.chapter6",
-    "thesis.claims",
-    "thesis.report",
-    "__main__",
+    "beambench_report.base",
+    "beambench_report.run",
+    "beambench_report.embree_comparison",
+    "beambench_report.havran",
+    "beambench_report.haines",
+    "beambench_report.__main__",
+    "beambench_thesis.paper",
+    "beambench_thesis.chapter5",
+    "beambench_thesis.chapter6",
+    "beambench_thesis.claims",
+    "beambench_thesis.report",
+    "beambench_thesis.__main__",
+    "beambench_operations.history",
+    "beambench_operations.site",
+    "beambench_operations.nightly",
+    "beambench_operations.campaign",
+    "beambench_operations.publish",
+    "beambench_operations.__main__",
 )
 
 
@@ -39,8 +43,8 @@ class Import(NamedTuple):
 
 
 def modules(scripts: Path) -> dict[str, Path]:
-    """Returns the files of the package by module name."""
-    files = sorted((scripts / PACKAGE).rglob("*.py"))
+    """Returns the files of the packages by the names of their modules."""
+    files = sorted(file for package in PACKAGES for file in (scripts / package).rglob("*.py"))
     return {
         ".".join(file.relative_to(scripts).with_suffix("").parts).removesuffix(".__init__"): file
         for file in files
@@ -48,7 +52,7 @@ def modules(scripts: Path) -> dict[str, Path]:
 
 
 def imports(scripts: Path) -> list[Import]:
-    """Returns every import of one module of the package by another, even inside functions."""
+    """Returns every import of one module by another, those inside functions included."""
     files = modules(scripts)
     found = []
     for importing, file in files.items():
@@ -75,12 +79,11 @@ def imports(scripts: Path) -> list[Import]:
 
 
 def rank(module: str) -> int:
-    """Returns the place of a module in ORDER; packages that only contain others come first."""
-    inner = module.removeprefix(PACKAGE).removeprefix(".")
+    """Returns the module's place in ORDER; packages that only contain others come first."""
     for place, name in enumerate(ORDER):
-        if f"{inner}.".startswith(f"{name}."):
+        if f"{module}.".startswith(f"{name}."):
             return place
-    assert any(f"{name}.".startswith(f"{inner}.") for name in ORDER) or not inner, (
+    assert any(name.startswith(f"{module}.") for name in ORDER), (
         f"{module} is not in ORDER: say there what it may import"
     )
     return -1
@@ -112,38 +115,55 @@ def test_imports_point_downward(repository: Path) -> None:
     assert not faults(scripts), "\n".join(faults(scripts))
 
 
-def write_package(folder: Path, files: dict[str, str]) -> Path:
+def write_modules(folder: Path, files: dict[str, str]) -> Path:
     for name, text in files.items():
-        path = folder / PACKAGE / name
+        path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
     return folder
 
 
 def test_upward_imports_are_found_with_file_line_and_import(tmp_path: Path) -> None:
-    inside = "def f():\n    from beambench_report.thesis.paper import cells\n    return cells\n"
-    files = {"base/names.py": inside, "thesis/paper/cells.py": "import beambench_report.base.names"}
-    sentence, circle = faults(write_package(tmp_path, files))
-    place = tmp_path / PACKAGE / "base/names.py"
+    inside = "def f():\n    from beambench_thesis.paper import cells\n    return cells\n"
+    files = {
+        "beambench_report/base/names.py": inside,
+        "beambench_thesis/paper/cells.py": "import beambench_report.base.names",
+    }
+    sentence, circle = faults(write_modules(tmp_path, files))
     assert sentence == (
-        f"{place}:2: from beambench_report.thesis.paper import cells: "
-        "beambench_report.thesis.paper.cells stands above beambench_report.base.names"
+        f"{tmp_path}/beambench_report/base/names.py:2: from beambench_thesis.paper import cells: "
+        "beambench_thesis.paper.cells stands above beambench_report.base.names"
     )
     assert circle.startswith("circle: ")
     assert "import beambench_report.base.names" in circle
 
 
-def test_circles_within_a_module_are_found(tmp_path: Path) -> None:
+def test_the_thesis_imports_no_operations(tmp_path: Path) -> None:
     files = {
-        "run/page.py": "from beambench_report.run.plots import draw",
-        "run/plots.py": "from beambench_report.run.bars import bar",
-        "run/bars.py": "def f():\n    from .page import render\n    return render\n",
+        "beambench_operations/site/write.py": "",
+        "beambench_thesis/report/write.py": "import beambench_operations.site.write",
     }
-    (sentence,) = faults(write_package(tmp_path, files))
+    (sentence,) = faults(write_modules(tmp_path, files))
+    assert sentence.endswith(
+        "beambench_operations.site.write stands above beambench_thesis.report.write"
+    )
+
+
+def test_circles_within_a_module_are_found(tmp_path: Path) -> None:
+    run = "beambench_report/run"
+    files = {
+        f"{run}/page.py": "from beambench_report.run.plots import draw",
+        f"{run}/plots.py": "from beambench_report.run.bars import bar",
+        f"{run}/bars.py": "def f():\n    from .page import render\n    return render\n",
+    }
+    (sentence,) = faults(write_modules(tmp_path, files))
     for file, line in (("page", 1), ("plots", 1), ("bars", 2)):
-        assert f"{tmp_path / PACKAGE / 'run' / file}.py:{line}: " in sentence
+        assert f"{tmp_path / run / file}.py:{line}: " in sentence
 
 
 def test_an_order_that_is_kept_has_no_faults(tmp_path: Path) -> None:
-    files = {"run/page.py": "from beambench_report.base import names", "base/names.py": ""}
-    assert faults(write_package(tmp_path, files)) == []
+    files = {
+        "beambench_report/run/page.py": "from beambench_report.base import names",
+        "beambench_report/base/names.py": "",
+    }
+    assert faults(write_modules(tmp_path, files)) == []

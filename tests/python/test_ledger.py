@@ -12,16 +12,16 @@ from statistics import median
 import numpy as np
 import pytest
 
-from beambench_report.__main__ import main
 from beambench_report.base.cell_files import REPETITIONS
 from beambench_report.base.fastest import with_fastest
 from beambench_report.base.files import Problem
 from beambench_report.base.published import COARSEST, FINEST
 from beambench_report.base.records import read_run
-from beambench_report.thesis.chapter5.cost import fit_costs, r_squared
-from beambench_report.thesis.claims.comparisons import fit_line
-from beambench_report.thesis.claims.register import ALL_CLAIMS, SWEPT_CLAIMS, judge, judge_claims
-from beambench_report.thesis.claims.verdict import (
+from beambench_thesis.__main__ import main
+from beambench_thesis.chapter5.cost import fit_costs, r_squared
+from beambench_thesis.claims.comparisons import fit_line
+from beambench_thesis.claims.register import ALL_CLAIMS, SWEPT_CLAIMS, judge, judge_claims
+from beambench_thesis.claims.verdict import (
     Check,
     Claim,
     Outcome,
@@ -31,7 +31,7 @@ from beambench_report.thesis.claims.verdict import (
     between,
     verdict_of,
 )
-from beambench_report.thesis.paper.evidence import (
+from beambench_thesis.paper.evidence import (
     HIERARCHY,
     PAPER_HIERARCHY,
     Measured,
@@ -40,7 +40,7 @@ from beambench_report.thesis.paper.evidence import (
     smallest,
     total,
 )
-from beambench_report.thesis.paper.measured import (
+from beambench_thesis.paper.measured import (
     BETWEEN_RUNS,
     UNKNOWN_SPREAD,
     census_work,

@@ -8,11 +8,11 @@ from random import Random
 
 import pytest
 
-from beambench_report.thesis.claims.chapter5 import CLAIMS, ON_OCTREES
-from beambench_report.thesis.claims.register import SWEPT_CLAIMS, judge, judge_formerly
-from beambench_report.thesis.claims.text import FURTHER_CLAIMS
-from beambench_report.thesis.claims.verdict import Claim, Verdict
-from beambench_report.thesis.paper.evidence import HIERARCHY, NOTHING, PAPER_HIERARCHY, PICTURE
+from beambench_thesis.claims.chapter5 import CLAIMS, ON_OCTREES
+from beambench_thesis.claims.register import SWEPT_CLAIMS, judge, judge_formerly
+from beambench_thesis.claims.text import FURTHER_CLAIMS
+from beambench_thesis.claims.verdict import Claim, Verdict
+from beambench_thesis.paper.evidence import HIERARCHY, NOTHING, PAPER_HIERARCHY, PICTURE
 from synthetic_evidence import RAYS, SCENES, Row, holding, without
 
 Only = Callable[[Row], bool]

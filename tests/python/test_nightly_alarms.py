@@ -8,11 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from beambench_report.base.files import Problem
-from beambench_report.history.alarms import doubt, find_alarms, sentence
-from beambench_report.history.steps import Rule, find_steps
-from beambench_report.history.store import Alarm, History
-from beambench_report.nightly.calibration import (
+from beambench_operations.history.alarms import doubt, find_alarms, sentence
+from beambench_operations.history.steps import Rule, find_steps
+from beambench_operations.history.store import Alarm, History
+from beambench_operations.nightly.calibration import (
     Effort,
     Noise,
     calibrate,
@@ -21,7 +20,8 @@ from beambench_report.nightly.calibration import (
     share_interval,
     synthetic_nights,
 )
-from beambench_report.nightly.home import Home
+from beambench_operations.nightly.home import Home
+from beambench_report.base.files import Problem
 from synthetic_nights import Row, add_all, counting, nothing, slower, write_nights, wrong
 from synthetic_run import synthetic_rows, without_times, write_cell
 

@@ -12,14 +12,14 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from beambench_report.__main__ import main
+from beambench_operations.__main__ import main
+from beambench_operations.nightly.compare import compare_turns, measure_in_turns
+from beambench_operations.nightly.diff import diff
+from beambench_operations.nightly.home import Home, only_one
+from beambench_operations.nightly.run import _free_folder
 from beambench_report.base.files import Problem
 from beambench_report.base.ratio import Ratio
 from beambench_report.base.records import read_run
-from beambench_report.nightly.compare import compare_turns, measure_in_turns
-from beambench_report.nightly.diff import diff
-from beambench_report.nightly.home import Home, only_one
-from beambench_report.nightly.run import _free_folder
 from program import BINARY
 from run_logs import begun_cells, events, forget_cell
 from synthetic_nights import add_all, counting, nothing, slower, write_night, write_nights, wrong
@@ -361,7 +361,8 @@ def test_compare_builds_each_commit_and_measures_in_turns(
         pytest.skip("beambench is not built, or this is no repository")
     clone = tmp_path / "clone"
     call("git", "clone", "-q", "--shared", repository, clone, directory=tmp_path)
-    for script in ("compare", "beambench_report"):  # the code under test, committed or not
+    # The code under test, committed or not.
+    for script in ("compare", "beambench_report", "beambench_operations"):
         call("cp", "-r", repository / "scripts" / script, clone / "scripts/", directory=tmp_path)
     tools = tmp_path / "tools"
     tools.mkdir()

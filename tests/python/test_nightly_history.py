@@ -10,13 +10,13 @@ from pathlib import Path
 
 import pytest
 
+from beambench_operations.history.night import night_of
+from beambench_operations.history.store import SCHEMA_VERSION, History
+from beambench_operations.nightly.home import Home, abandon, only_one, prune
+from beambench_operations.nightly.run import catch_up, rebuild_history
 from beambench_report.base.files import Problem
 from beambench_report.base.records import read_run
 from beambench_report.base.run_log import has_log
-from beambench_report.history.night import night_of
-from beambench_report.history.store import SCHEMA_VERSION, History
-from beambench_report.nightly.home import Home, abandon, only_one, prune
-from beambench_report.nightly.run import catch_up, rebuild_history
 from synthetic_nights import add_all, counting, write_nights, wrong
 from synthetic_run import synthetic_rows, without_times, write_cell, write_run
 

@@ -10,21 +10,21 @@ import shutil
 import subprocess
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from importlib import import_module
 from pathlib import Path
 
 import pytest
 from PIL import Image
 
-from beambench_publish.__main__ import main
-from beambench_publish.bare_figures import bare_figures
-from beambench_publish.documents import write_documents
-from beambench_publish.make import Interrupted, Place, make_folder, run_program
-from beambench_publish.needs import Given, missing
-from beambench_publish.plan import Command, Folder, Sweep, as_table, read_plan
-from beambench_publish.progress import RECORD, is_published, progress_of, seconds_of
-from beambench_publish.setting import Setting, preflight, require_clean, same_sources
-from beambench_publish.small import make_small, size
-from beambench_report.__main__ import _parser as parser_of_reports
+from beambench_operations.publish.__main__ import main
+from beambench_operations.publish.bare_figures import bare_figures
+from beambench_operations.publish.documents import write_documents
+from beambench_operations.publish.make import Interrupted, Place, make_folder, run_program
+from beambench_operations.publish.needs import Given, missing
+from beambench_operations.publish.plan import Command, Folder, Sweep, as_table, read_plan
+from beambench_operations.publish.progress import RECORD, is_published, progress_of, seconds_of
+from beambench_operations.publish.setting import Setting, preflight, require_clean, same_sources
+from beambench_operations.publish.small import make_small, size
 from beambench_report.base.files import Problem, read_json
 from program import BINARY
 from synthetic_run import synthetic_rows, write_cell, write_run
@@ -80,10 +80,10 @@ def planned_commands() -> Iterator[list[str]]:
 
 
 def test_every_planned_report_can_be_called() -> None:
-    reports = [words[3:] for words in planned_commands() if words[0] == "python"]
+    reports = [words[2:] for words in planned_commands() if words[0] == "python"]
     assert len(reports) > 8
-    for words in reports:
-        assert parser_of_reports().parse_args(words).handler
+    for package, *words in reports:
+        assert import_module(f"{package}.__main__")._parser().parse_args(words).handler
 
 
 @needs_binary

@@ -9,19 +9,19 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from beambench_publish.bare_figures import bare_figures
-from beambench_publish.documents import (
+from beambench_operations.publish.bare_figures import bare_figures
+from beambench_operations.publish.documents import (
     PUBLISHED,
     differences,
     documents,
     module_of,
     write_documents,
 )
-from beambench_publish.figures.thesis import compared, more_runs, times_found_again
-from beambench_publish.layout import laid_out
+from beambench_operations.publish.figures.thesis import compared, more_runs, times_found_again
+from beambench_operations.publish.layout import laid_out
 from beambench_report.base.files import Problem
 from beambench_report.base.records import read_run
-from beambench_report.thesis.claims.verdict import Verdict
+from beambench_thesis.claims.verdict import Verdict
 from synthetic_run import synthetic_rows, write_manifest, write_run
 
 

@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from beambench_operations.nightly.calibration import noise_of_samples
 from beambench_report.__main__ import main
 from beambench_report.base.cell_files import read_cell_files
 from beambench_report.base.files import Problem
 from beambench_report.base.records import read_run
 from beambench_report.embree_comparison.pairings import pairings
-from beambench_report.nightly.calibration import noise_of_samples
 from program import BINARY, output_of
 from synthetic_run import synthetic_rows, write_run
 

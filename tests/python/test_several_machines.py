@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from beambench_operations.site.entry import entry_of
 from beambench_report.base.files import Problem
 from beambench_report.base.machine import Machine
 from beambench_report.base.records import read_run
@@ -15,8 +16,7 @@ from beambench_report.run.ratio_table import write_ratios
 from beambench_report.run.reference import compared
 from beambench_report.run.standings import counted, overall, standings
 from beambench_report.run.winners import races
-from beambench_report.site.entry import entry_of
-from beambench_report.thesis.paper.measured import measured_evidence
+from beambench_thesis.paper.measured import measured_evidence
 from synthetic_run import synthetic_rows, write_run
 
 MACHINES = ("0123456789abcdef", "fedcba9876543210")

@@ -11,9 +11,9 @@ from random import Random
 
 import pytest
 
-from beambench_campaign.killed import Tally, ended_as_killed, finished, killed
-from beambench_campaign.programs import Programs
-from beambench_campaign.rows import cells_of, difference
+from beambench_operations.campaign.killed import Tally, ended_as_killed, finished, killed
+from beambench_operations.campaign.programs import Programs
+from beambench_operations.campaign.rows import cells_of, difference
 from beambench_report.base.records import read_run
 from beambench_report.run.page import render
 from program import BINARY, beambench, refused

@@ -14,14 +14,15 @@ from urllib.parse import unquote
 import pytest
 from work import calls_during, count_calls_of
 
-from beambench_report.__main__ import main
+from beambench_operations.__main__ import main
+from beambench_operations.site import write
+from beambench_operations.site.changes import Repository, _output_of, web_address
+from beambench_operations.site.comparison import compare
+from beambench_operations.site.entry import Entry, as_script, entry_of, read_script
+from beambench_operations.site.write import write_site
+from beambench_report.__main__ import main as draw
 from beambench_report.base.files import Problem
 from beambench_report.base.records import read_run
-from beambench_report.site import write
-from beambench_report.site.changes import Repository, _output_of, web_address
-from beambench_report.site.comparison import compare
-from beambench_report.site.entry import Entry, as_script, entry_of, read_script
-from beambench_report.site.write import write_site
 from synthetic_run import synthetic_rows, write_manifest, write_run
 from synthetic_site import break_run, write_small_run
 
@@ -75,7 +76,7 @@ def test_of_a_run_without_plots_a_page_has_the_figure_over_all_views(tmp_path: P
     assert text.count("<svg ") == 1
     command = f"python -m beambench_report plots {folder}"
     assert f"draw them: <code>{command}</code>" in text
-    assert main(command.split()[3:]) == 0
+    assert draw(command.split()[3:]) == 0
     write_site([folder], tmp_path / "site")
     text = page.read_text("utf-8")
     assert text.count("<svg ") == 4

@@ -10,12 +10,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from beambench_report.__main__ import main
+from beambench_operations.__main__ import main
+from beambench_operations.nightly.home import Home
+from beambench_operations.nightly.mismatches import picture_mismatches
+from beambench_operations.site.history_page import pack_ratios
+from beambench_operations.site.write import write_site
 from beambench_report.base.records import read_run
-from beambench_report.nightly.home import Home
-from beambench_report.nightly.mismatches import picture_mismatches
-from beambench_report.site.history_page import pack_ratios
-from beambench_report.site.write import write_site
 from browser import Browser
 from synthetic_nights import add_all, counting, nothing, slower, write_nights, wrong
 

@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 import pytest
 from matplotlib.axes import Axes
 
-from beambench_publish.documents import PUBLISHED
+from beambench_operations.publish.documents import PUBLISHED
 from beambench_report.base.figure import LINE_COLORS, Plot, house_style, new_figure, svg_of
 from svg_texts import missing_in, missing_texts
 

@@ -1,4 +1,4 @@
-"""scripts/thesis and `python -m beambench_report thesis`, called as by a user."""
+"""scripts/thesis and `python -m beambench_thesis run`, called as by a user."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from beambench_report.__main__ import main
-from beambench_report.thesis.report import plan
-from beambench_report.thesis.report.plan import make_plan, quick, read_sweep
+from beambench_thesis.__main__ import main
+from beambench_thesis.report import plan
+from beambench_thesis.report.plan import make_plan, quick, read_sweep
 from program import BINARY
 from synthetic_thesis import write_runs
 
@@ -41,7 +41,7 @@ def calls(program: Path) -> list[str]:
 
 
 def run_thesis(*arguments: str | Path) -> int:
-    return main(["thesis", *map(str, arguments)])
+    return main(["run", *map(str, arguments)])
 
 
 def test_a_dry_run_lists_sweeps_cells_and_time(capsys: pytest.CaptureFixture[str]) -> None:

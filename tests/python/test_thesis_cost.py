@@ -9,16 +9,16 @@ import numpy as np
 import pytest
 
 from beambench_report.base.figure import house_style, svg_of
-from beambench_report.thesis.chapter5.cost import (
+from beambench_thesis.chapter5.cost import (
     cost_section,
     fit,
     fit_costs,
     sums_of_auto,
     thesis_formulas,
 )
-from beambench_report.thesis.paper.cells import Cell, read_cells
-from beambench_report.thesis.paper.section import section_as_markdown
-from beambench_report.thesis.report.plan import PlannedCell
+from beambench_thesis.paper.cells import Cell, read_cells
+from beambench_thesis.paper.section import section_as_markdown
+from beambench_thesis.report.plan import PlannedCell
 from svg_texts import missing_texts
 from synthetic_run import write_run
 from synthetic_thesis import Row, row_of

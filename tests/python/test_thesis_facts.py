@@ -9,17 +9,17 @@ import pytest
 from PIL import Image
 
 from beambench_report.base.published import primitives_by_scene
-from beambench_report.thesis.chapter5.facts import TURN, facts, gather_facts, turn_camera
-from beambench_report.thesis.claims.register import SWEPT_CLAIMS, judge_claims
-from beambench_report.thesis.claims.verdict import Verdict
-from beambench_report.thesis.paper.cells import Cells
-from beambench_report.thesis.paper.measured import is_census_folder
-from beambench_report.thesis.paper.section import section_as_markdown
-from beambench_report.thesis.report.command import _QUICK
-from beambench_report.thesis.report.pictures import octree_figures
-from beambench_report.thesis.report.plan import make_plan
-from beambench_report.thesis.report.report import gather, sections_of
-from beambench_report.thesis.report.write import write_report
+from beambench_thesis.chapter5.facts import TURN, facts, gather_facts, turn_camera
+from beambench_thesis.claims.register import SWEPT_CLAIMS, judge_claims
+from beambench_thesis.claims.verdict import Verdict
+from beambench_thesis.paper.cells import Cells
+from beambench_thesis.paper.measured import is_census_folder
+from beambench_thesis.paper.section import section_as_markdown
+from beambench_thesis.report.command import _QUICK
+from beambench_thesis.report.pictures import octree_figures
+from beambench_thesis.report.plan import make_plan
+from beambench_thesis.report.report import gather, sections_of
+from beambench_thesis.report.write import write_report
 from program import BINARY
 from synthetic_thesis import Row, write_runs
 

@@ -9,10 +9,10 @@ from pathlib import Path
 import jsonschema
 
 from beambench_report.base.published import primitives_by_scene
-from beambench_report.thesis.chapter5.grid_beams import grid_beam_rows, grid_beams_section
-from beambench_report.thesis.paper.cells import Cell, read_cells
-from beambench_report.thesis.paper.section import section_as_markdown
-from beambench_report.thesis.report.plan import read_sweep
+from beambench_thesis.chapter5.grid_beams import grid_beam_rows, grid_beams_section
+from beambench_thesis.paper.cells import Cell, read_cells
+from beambench_thesis.paper.section import section_as_markdown
+from beambench_thesis.report.plan import read_sweep
 from program import beambench
 
 REPOSITORY = Path(__file__).parents[2]

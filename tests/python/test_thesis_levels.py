@@ -8,13 +8,13 @@ from pathlib import Path
 import jsonschema
 import pytest
 
-from beambench_report.__main__ import main
 from beambench_report.base.published import primitives_by_scene
-from beambench_report.thesis.chapter5.levels import LevelChoice, draw_losses, level_choices, losses
-from beambench_report.thesis.paper.cells import Cell, read_cells
-from beambench_report.thesis.report.plan import LEVELS, PlannedCell, make_plan, quick, read_sweep
-from beambench_report.thesis.report.report import gather
-from beambench_report.thesis.report.write import write_report
+from beambench_thesis.__main__ import main
+from beambench_thesis.chapter5.levels import LevelChoice, draw_losses, level_choices, losses
+from beambench_thesis.paper.cells import Cell, read_cells
+from beambench_thesis.report.plan import LEVELS, PlannedCell, make_plan, quick, read_sweep
+from beambench_thesis.report.report import gather
+from beambench_thesis.report.write import write_report
 from svg_texts import missing_in
 from synthetic_run import without_times, write_manifest, write_run
 from synthetic_thesis import Row, row_of, write_runs

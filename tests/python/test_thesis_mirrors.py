@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from beambench_report.thesis.chapter5.mirrors import mirrors_section, read_mirrors
-from beambench_report.thesis.paper.section import section_as_markdown
+from beambench_thesis.chapter5.mirrors import mirrors_section, read_mirrors
+from beambench_thesis.paper.section import section_as_markdown
 from program import output_of
 
 

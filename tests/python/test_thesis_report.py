@@ -10,14 +10,14 @@ from pathlib import Path
 import pytest
 
 from beambench_report.base.files import Problem
-from beambench_report.thesis.chapter5.best import best_table, choose
-from beambench_report.thesis.paper.cells import Cells, read_cells, setting
-from beambench_report.thesis.paper.evidence import Measured
-from beambench_report.thesis.paper.printed import parts_of, printed_parts
-from beambench_report.thesis.report.plan import Plan, keep_plan, make_plan, read_plan
-from beambench_report.thesis.report.report import gather
-from beambench_report.thesis.report.tables import fill
-from beambench_report.thesis.report.write import write_report
+from beambench_thesis.chapter5.best import best_table, choose
+from beambench_thesis.paper.cells import Cells, read_cells, setting
+from beambench_thesis.paper.evidence import Measured
+from beambench_thesis.paper.printed import parts_of, printed_parts
+from beambench_thesis.report.plan import Plan, keep_plan, make_plan, read_plan
+from beambench_thesis.report.report import gather
+from beambench_thesis.report.tables import fill
+from beambench_thesis.report.write import write_report
 from browser import Browser, find_browser
 from svg_texts import missing_in
 from synthetic_run import without_times

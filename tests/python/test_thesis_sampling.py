@@ -8,17 +8,17 @@ from pathlib import Path
 
 import pytest
 
-from beambench_report.__main__ import main
 from beambench_report.base.files import Problem
-from beambench_report.thesis.chapter5.sampling import (
+from beambench_thesis.__main__ import main
+from beambench_thesis.chapter5.sampling import (
     read_comparison,
     read_comparisons,
     sampling_section,
     write_sampling,
 )
-from beambench_report.thesis.paper.section import section_as_markdown
-from beambench_report.thesis.report.plan import make_plan
-from beambench_report.thesis.report.write import write_report
+from beambench_thesis.paper.section import section_as_markdown
+from beambench_thesis.report.plan import make_plan
+from beambench_thesis.report.write import write_report
 from svg_texts import missing_in
 from synthetic_thesis import write_runs
 

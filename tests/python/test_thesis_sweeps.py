@@ -11,7 +11,7 @@ import jsonschema
 import pytest
 
 from beambench_report.base.files import Problem
-from beambench_report.thesis.report.plan import (
+from beambench_thesis.report.plan import (
     FIGURES,
     FOLDER,
     SWEEPS,

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from beambench_publish.verified_again import CLASSES, summary, verify_again
+from beambench_operations.publish.verified_again import CLASSES, summary, verify_again
 from program import BINARY
 
 SCENE = "tetra:n=2"

@@ -1,0 +1,154 @@
+"""The command line of scripts/campaign."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import os
+import signal
+import sys
+from collections.abc import Callable, Collection
+from functools import partial
+from pathlib import Path
+from typing import NoReturn
+
+from beambench_operations.campaign.kills import kill, killable
+from beambench_operations.campaign.libfuzzer import fuzz, targets_in
+from beambench_operations.campaign.maps import SUBJECT as MAPS
+from beambench_operations.campaign.maps import fuzz_maps
+from beambench_operations.campaign.piece import Piece, Task
+from beambench_operations.campaign.pool import do_pieces
+from beambench_operations.campaign.programs import Programs
+from beambench_operations.campaign.rays import next_seed, structures, trace
+from beambench_operations.campaign.record import Record
+from beambench_operations.campaign.report import write_report
+from beambench_report.base.files import ROOT, Problem, say
+
+HOME = ROOT / "results/robustness"
+_BUILT = ROOT / "build/release/bin/beambench"
+_TARGETS = ROOT / "build/fuzz/bin"
+_LONGEST = 300.0  # seconds of a piece of fuzzing: what Ctrl-C may cost
+_MEASURE = {"fuzz": "seconds", "rays": "scenes", "kills": "runs"}
+"""The count that the subjects of a command get alike, over all pieces of the record."""
+
+Work = dict[str, Callable[[int | None], Piece]]
+"""What makes a piece of a subject, of a given seed or the next one."""
+
+
+def main(arguments: list[str]) -> int:
+    """Returns the exit code."""
+    try:
+        return _run(_parser().parse_args(arguments))
+    except Problem as problem:
+        print(f"error: {problem} (see scripts/campaign --help)", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        say("interrupted; the pieces that were under way are not counted")
+        return 130
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        raise Problem(message)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _Parser("scripts/campaign", add_help=False, allow_abbrev=False)
+    parser.add_argument("command", choices=_MEASURE, nargs="?")
+    parser.add_argument("--minutes", type=_number, default=10.0)
+    parser.add_argument("--jobs", type=_count, default=os.cpu_count() or 1)
+    parser.add_argument("--only", metavar="NAME")
+    parser.add_argument("--seed", type=_count)
+    parser.add_argument("--home", type=Path, default=HOME, metavar="DIR")
+    parser.add_argument("--report", type=Path, metavar="DIR")
+    parser.add_argument("--dry-run", action="store_true")
+    parser.add_argument("--beambench", type=Path, default=_BUILT, metavar="PROGRAM")
+    parser.add_argument("--targets", type=Path, default=_TARGETS, metavar="DIR")
+    return parser
+
+
+def _number(text: str) -> float:
+    with contextlib.suppress(ValueError):
+        if 0 <= (number := float(text)) < 1e6:
+            return number
+    raise argparse.ArgumentTypeError(f"'{text}' is no number from 0 to a million")
+
+
+def _count(text: str) -> int:
+    with contextlib.suppress(ValueError):
+        if 1 <= (number := int(text)) < 2**31:
+            return number
+    raise argparse.ArgumentTypeError(f"'{text}' is no whole number from 1 on")
+
+
+def _run(options: argparse.Namespace) -> int:
+    if bool(options.command) == bool(options.report):
+        raise Problem("name one of fuzz, rays and kills, or --report with a folder")
+    record = Record(options.home.absolute())
+    if options.report:
+        for path in write_report(record.pieces(), options.report):
+            print(path)
+        return 0
+    if options.dry_run:
+        print(f"{options.command}: {options.minutes:g} min on {options.jobs} cores, {record.file}")
+        return 0
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    programs = Programs()
+    work = _work(options, record, programs)
+    if options.only:
+        if options.only not in work:
+            raise Problem(f"there is no '{options.only}' here, only {', '.join(work)}")
+        work = {options.only: work[options.only]}
+    choose = partial(_next, work, options, record)
+    jobs = min(options.jobs, len(work))
+    pieces = do_pieces(choose, record, programs, 60 * options.minutes, jobs)
+    found = sum(len(piece.findings) for piece in pieces)
+    say(f"{len(pieces)} pieces, {found} findings; {record.file}")
+    return 1 if found else 0
+
+
+def _next(work: Work, options: argparse.Namespace, record: Record, busy: Collection[str]) -> Task:
+    """The subject of which least was done so far."""
+    done = partial(record.total, options.command, what=_MEASURE[options.command])
+    subject = min((one for one in work if one not in busy), key=lambda one: done(one))
+    return Task(subject, partial(work[subject], options.seed))
+
+
+def _work(options: argparse.Namespace, record: Record, programs: Programs) -> Work:
+    if options.command == "fuzz":
+        return _fuzzing(options, record, programs)
+    beambench = options.beambench.absolute()
+
+    def rays(structure: str, seed: int | None) -> Piece:
+        seed = seed or next_seed(record, structure)
+        return trace(beambench, structure, seed, record, programs)
+
+    def kills(kind: str, seed: int | None) -> Piece:
+        seed = seed or 1 + record.total("kills", kind, "runs")
+        return kill(beambench, kind, seed, record, programs)
+
+    if options.command == "rays":
+        return {structure: partial(rays, structure) for structure in structures(beambench)}
+    return {kind: partial(kills, kind) for kind in killable(beambench)}
+
+
+def _fuzzing(options: argparse.Namespace, record: Record, programs: Programs) -> Work:
+    targets = {target.name: target for target in targets_in(options.targets.absolute())}
+    subjects = len(targets) + 1 if not options.only else 1
+    jobs = min(options.jobs, subjects)
+    share = min(max(60 * options.minutes * jobs / subjects, 1.0), _LONGEST)
+
+    def seeded(name: str, seed: int | None) -> int:
+        return seed or 1 + record.total("fuzz", name, "executions") % 2**31
+
+    def target(name: str, seed: int | None) -> Piece:
+        return fuzz(targets[name], seeded(name, seed), share, record, programs)
+
+    def maps(seed: int | None) -> Piece:
+        return fuzz_maps(seeded(MAPS, seed), share, record, programs)
+
+    return {**{name: partial(target, name) for name in targets}, MAPS: maps}
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

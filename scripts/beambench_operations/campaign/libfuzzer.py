@@ -1,0 +1,150 @@
+"""Pieces of fuzzing by libFuzzer: a target for some time, and its corpus minimized."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from beambench_operations.campaign.piece import Finding, Piece
+from beambench_operations.campaign.programs import Ended, Programs
+from beambench_operations.campaign.record import Record
+from beambench_report.base.files import ROOT, Problem
+
+SOURCES = ROOT / "tests/fuzz"
+_DICTIONARIES = dict.fromkeys(
+    ("sweep", "run_log", "manifest", "rays", "hits", "gltf", "mesh_entry"), "json"
+)
+"""Of the targets whose dictionary has another name than they."""
+_LIMITS = ("-max_len=4096", "-timeout=20", "-rss_limit_mb=3000")
+_GO_ON = ("-fork=1", "-ignore_crashes=1", "-ignore_timeouts=1", "-ignore_ooms=1")
+_ENVIRONMENT = {"ASAN_OPTIONS": "detect_leaks=0", "UBSAN_OPTIONS": "print_stacktrace=1"}
+_STATUS = re.compile(r"^#(\d+):? .*?cov: (\d+) ft: (\d+) corp: (\d+)", re.MULTILINE)
+_FAULTS = ("crash-*", "timeout-*", "oom-*")
+_REPEATING = 60.0  # seconds for one input
+_MOST_REPEATED = 100
+"""A target that fails at once leaves thousands of inputs that fail in the same way."""
+
+
+@dataclass(frozen=True)
+class Target:
+    """A program of libFuzzer, and where its inputs come from."""
+
+    name: str
+    program: Path
+
+    def seeds(self) -> list[Path]:
+        """The folders of inputs in the repository."""
+        folders = [SOURCES / kind / self.name for kind in ("corpus", "regressions")]
+        return [folder for folder in folders if folder.is_dir()]
+
+    def dictionary(self) -> list[str]:
+        """The option that names its dictionary, if it has one."""
+        file = SOURCES / f"{_DICTIONARIES.get(self.name, self.name)}.dict"
+        return [f"-dict={file}"] if file.exists() else []
+
+
+def targets_in(folder: Path) -> list[Target]:
+    """The targets that were built. Raises Problem where there is none."""
+    programs = sorted(path for path in folder.glob("fuzz_*") if os.access(path, os.X_OK))
+    if not programs:
+        raise Problem(f"{folder}: there is no fuzz target; scripts/setup fuzz builds them")
+    return [Target(path.name.removeprefix("fuzz_"), path) for path in programs]
+
+
+def fuzz(target: Target, seed: int, seconds: float, record: Record, programs: Programs) -> Piece:
+    """Fuzzes a target, goes on after what it finds, and keeps one input for each message."""
+    corpus = record.corpus(target.name)
+    corpus.mkdir(parents=True, exist_ok=True)
+    memory = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
+    with TemporaryDirectory(dir=memory, prefix="beambench-campaign-") as name:
+        scratch = Path(name)
+        faults = scratch / "faults"
+        faults.mkdir()
+        environment = {**_ENVIRONMENT, "TMPDIR": name}
+        command = [
+            *(target.program, *_GO_ON, *_LIMITS, *target.dictionary()),
+            *(f"-seed={seed}", f"-max_total_time={max(1, round(seconds))}"),
+            *(f"-artifact_prefix={faults}/", corpus, *target.seeds()),
+        ]
+        fuzzed = programs.run(command, seconds + 120, scratch, environment)
+        executions, coverage = status(fuzzed.errors)
+        if not executions:
+            raise Problem(f"{target.program} did not run an input: {fuzzed.last_words()}")
+        merged = _minimize(target, corpus, scratch, programs, environment)
+        coverage["corpus"] = sum(1 for _ in corpus.iterdir())
+        findings = list(_findings(target, faults, record, programs, environment))
+    return Piece(
+        "fuzz",
+        target.name,
+        seed,
+        {"executions": executions, "seconds": round(seconds)},
+        round(fuzzed.cpu_seconds + merged.cpu_seconds, 1),
+        coverage,
+        findings,
+    )
+
+
+def status(log: str) -> tuple[int, dict[str, int]]:
+    """How many inputs were run, and the coverage at last, by libFuzzer's messages."""
+    found = _STATUS.findall(log)
+    if not found:
+        return 0, {}
+    numbers = [[int(text) for text in one] for one in found]
+    executions = max(one[0] for one in numbers)
+    return executions, {"cov": numbers[-1][1], "ft": numbers[-1][2]}
+
+
+def _minimize(
+    target: Target, corpus: Path, scratch: Path, programs: Programs, environment: dict[str, str]
+) -> Ended:
+    """Leaves only inputs that add to the coverage; all of them where that does not succeed."""
+    fresh = scratch / "fresh"
+    fresh.mkdir()
+    folders: Sequence[Path] = (fresh, corpus, *target.seeds())
+    ended = programs.run(
+        [target.program, "-merge=1", *_LIMITS, *folders], 300, scratch, environment
+    )
+    if ended.code == 0 and any(fresh.iterdir()):
+        before = {path.name for path in corpus.iterdir()}
+        kept = {path.name for path in fresh.iterdir()}
+        for path in fresh.iterdir():
+            shutil.copy(path, corpus / path.name)
+        for gone in before - kept:
+            (corpus / gone).unlink()
+    return ended
+
+
+def _findings(
+    target: Target, faults: Path, record: Record, programs: Programs, environment: dict[str, str]
+) -> Iterator[Finding]:
+    """One for each message with which the target ends when it is given the input again.
+
+    Not for an input that took too long while the machine was busy, and does not any more.
+    """
+    messages = set()
+    for file in sorted(path for kind in _FAULTS for path in faults.glob(kind))[:_MOST_REPEATED]:
+        ended = programs.run([target.program, *_LIMITS, file], _REPEATING, faults, environment)
+        if ended.code == 0 and file.name.startswith("timeout-"):
+            continue
+        message = _message(ended)
+        if message not in messages:
+            messages.add(message)
+            command = [target.program, file]
+            yield record.keep(file, f"{target.name}-{file.name}", message, command)
+
+
+def _message(ended: Ended) -> str:
+    """What went wrong, without what differs from run to run."""
+    if ended.code == 0:
+        return "it did not fail when it was repeated"
+    lines = ended.errors.splitlines()
+    for words in ("what():", "runtime error:", "SUMMARY:", "ERROR:"):
+        found = [line for line in lines if words in line]
+        if found:
+            return re.sub(r"==\d+==|0x[0-9a-f]+", "", found[0]).strip()
+    return f"no answer within {_REPEATING:.0f} s" if ended.code < 0 else ended.last_words()

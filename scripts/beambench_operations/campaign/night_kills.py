@@ -1,0 +1,96 @@
+"""Nightly runs that are killed and resumed: no night of the history is lost or doubled."""
+
+from __future__ import annotations
+
+import json
+import os
+import sqlite3
+import sys
+import time
+from contextlib import closing
+from pathlib import Path
+from random import Random
+
+from beambench_operations.campaign.killed import (
+    Tally,
+    ended_as_killed,
+    finished,
+    killed,
+    undisturbed,
+    write_sweep,
+)
+from beambench_operations.campaign.programs import Programs
+from beambench_operations.campaign.rows import Rows, cells_of, difference
+from beambench_report.base.files import ROOT
+
+_KILLS = 4
+_REGRESSED = 1  # tiny nights are noisy
+_WAIT = 0.5  # seconds, for a run whose parent was killed
+_IN_PROGRESS = ("a nightly run is in progress", "no run was cut off")
+
+
+def kill_nights(beambench: Path, folder: Path, random: Random, programs: Programs) -> Tally:
+    """A night that nothing disturbs, then others, until so many kills were made and the last one is
+    complete.
+    """
+    tally = Tally()
+    home = folder / "nightly"
+    command = [
+        *(sys.executable, "-m", "beambench_operations", "nightly", "run", "--home", home),
+        *("--sweep", write_sweep(folder), "--beambench", beambench),
+    ]
+    environment = {"PYTHONPATH": f"{ROOT / 'scripts'}:{os.environ.get('PYTHONPATH', '')}"}
+    whole = undisturbed(programs.start(command, folder, environment), tally)
+    nights = _nights(home)
+    complete = False
+    while not complete and not tally.faults:
+        resume = ["--resume"] if _unfinished(home) else []
+        program = programs.start([*command, *resume], folder, environment)
+        if tally.kills < _KILLS:
+            ended = killed(program, random, whole, tally, to_all=random.random() < 0.5)
+        else:
+            ended = finished(program, tally)
+        lost = nights - _nights(home)
+        nights = _nights(home)
+        if lost:
+            tally.faults.append(f"the finished night {min(lost)} is gone")
+        if ended.code in (0, _REGRESSED):
+            complete = tally.kills >= _KILLS
+        elif any(words in ended.errors for words in _IN_PROGRESS):
+            time.sleep(_WAIT)
+        elif not ended_as_killed(ended):
+            tally.faults.append(f"it ended with {ended.code}: {ended.last_words()}")
+    if not tally.faults:
+        tally.faults += [fault for fault in (_fault(home),) if fault]
+    return tally
+
+
+def _fault(home: Path) -> str:
+    """What is wrong with the history, if anything."""
+    with closing(sqlite3.connect(home / "history.sqlite")) as history:
+        nights = sorted(folder for (folder,) in history.execute("SELECT folder FROM nights"))
+    if nights != sorted(_nights(home)):
+        return f"the history has the nights {nights}, but finished are {sorted(_nights(home))}"
+    first: Rows | None = None
+    for night in nights:
+        cells, damage = cells_of(home / night / "results.csv")
+        first = first or cells
+        if fault := damage or difference(first, cells):
+            return f"in the night {night}, {fault}"
+    return ""
+
+
+def _nights(home: Path) -> set[str]:
+    """Those that came to their end."""
+    return {run.name for run in home.glob("[0-9]*") if _is_finished(run)}
+
+
+def _unfinished(home: Path) -> bool:
+    return any(not _is_finished(run) for run in home.glob("[0-9]*"))
+
+
+def _is_finished(run: Path) -> bool:
+    manifest = run / "manifest.json"
+    if not manifest.exists() or not (run / "results.csv").exists():
+        return False
+    return bool(json.loads(manifest.read_text("utf-8")).get("finished_utc"))

@@ -1,0 +1,100 @@
+"""The record of all campaigns, to which pieces are added, and what is kept beside it."""
+
+from __future__ import annotations
+
+import fcntl
+import json
+import os
+import platform
+import re
+import shlex
+import shutil
+import subprocess
+from dataclasses import asdict
+from datetime import UTC, datetime
+from pathlib import Path
+
+from beambench_operations.campaign.piece import Finding, Piece
+from beambench_report.base.files import ROOT, Problem, read_json, write_text
+
+VERSION = 1
+
+
+class Record:
+    """The folder `results/robustness`, or another one."""
+
+    def __init__(self, folder: Path) -> None:
+        """Nothing is made before the first piece is added."""
+        self.folder = folder
+        self.file = folder / "record.json"
+        self.findings = folder / "findings"
+        self._commit = _commit()
+        self._machine = _machine()
+
+    def corpus(self, target: str) -> Path:
+        """Where libFuzzer keeps the inputs of a target."""
+        return self.folder / "corpus" / target
+
+    def pieces(self) -> list[dict]:
+        """All of them, the oldest first. Raises Problem for a file that is no record."""
+        record = read_json(self.file)
+        if record is None:
+            return []
+        if not isinstance(record, dict) or record.get("version") != VERSION:
+            raise Problem(f"{self.file}: it is no record of version {VERSION}; move it away")
+        return record["pieces"]
+
+    def total(self, command: str, subject: str, what: str) -> int:
+        """The sum of a count, or of seconds, over the pieces of one subject."""
+        ours = (p for p in self.pieces() if (p["command"], p["subject"]) == (command, subject))
+        return int(sum(p["counts"].get(what, p.get(what, 0)) for p in ours))
+
+    def add(self, piece: Piece) -> None:
+        """Adds a piece; of several campaigns at once, each keeps what the others added."""
+        self.folder.mkdir(parents=True, exist_ok=True)
+        with (self.folder / "record.lock").open("w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            facts = {
+                "time_utc": f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ}",
+                "commit": self._commit,
+                "machine": self._machine,
+            }
+            pieces = [*self.pieces(), asdict(piece) | facts]
+            write_text(self.file, as_json(pieces))
+
+    def keep(self, source: Path, name: str, message: str, command: list[str | Path]) -> Finding:
+        """Copies what belongs to a finding; `source` in its command becomes the copy."""
+        self.findings.mkdir(parents=True, exist_ok=True)
+        kept = self.findings / re.sub(r"[^A-Za-z0-9._=-]", "-", name)
+        if source.is_dir():
+            shutil.copytree(source, kept, dirs_exist_ok=True)
+        else:
+            shutil.copy(source, kept)
+        words = [kept if word == source else word for word in command]
+        return Finding(kept.name, message, shlex.join(_shown(word) for word in words))
+
+
+def as_json(pieces: list[dict]) -> str:
+    """A record of pieces, one a line."""
+    lines = ",\n".join(json.dumps(piece) for piece in pieces)
+    return f'{{"version": {VERSION}, "pieces": [\n{lines}\n]}}\n'
+
+
+def _shown(word: str | Path) -> str:
+    """A path below the repository as it is named at its top."""
+    path = Path(word)
+    return str(path.relative_to(ROOT)) if path.is_relative_to(ROOT) else str(word)
+
+
+def _commit() -> str:
+    git = ["git", "-C", str(ROOT), "describe", "--always", "--dirty", "--exclude=*", "--abbrev=40"]
+    done = subprocess.run(git, capture_output=True, text=True, check=False)
+    return done.stdout.strip() or "unknown"
+
+
+def _machine() -> str:
+    try:
+        names = re.findall(r"^model name\s*: (.*)$", Path("/proc/cpuinfo").read_text("utf-8"), re.M)
+    except OSError:
+        names = []
+    return f"{names[0] if names else platform.machine()}, {os.cpu_count()} cores"

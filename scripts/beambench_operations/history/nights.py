@@ -1,0 +1,147 @@
+"""The nights of one machine as arrays: a row for each night, a column for each cell."""
+
+import json
+import warnings
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import pandas as pd
+
+from beambench_operations.history.store import History
+from beambench_report.base.cell_files import IDENTITY
+from beambench_report.base.columns import RENAMED_COLUMNS
+from beambench_report.base.files import Problem
+from beambench_report.base.names import contender_labels
+from beambench_report.base.records import BASELINE
+
+_DISTINGUISHING = {"camera": ", camera {}", "samples": ", {} samples", "ray_kind": ", {} rays"}
+
+
+@dataclass(frozen=True)
+class Nights:
+    """What the history knows of one machine, the oldest night first; the last one is `tonight`.
+
+    Only cells of the last night are there. `ratios` are NaN where a night has no time, or
+    other inputs (scene, rays or reference) than the last one.
+    """
+
+    nights: pd.DataFrame
+    """number, run_id, time_utc, commit, dirty, folder, cells, wrong"""
+    cells: pd.DataFrame
+    """IDENTITY, `contender` (its label), `verdict` tonight, `is_reference`"""
+    ratios: np.ndarray
+    works: np.ndarray
+    """Number of the counters of each cell in each night; -1 where its inputs differ."""
+    counters: dict[int, dict[str, float]]
+
+    @cached_property
+    def pools(self) -> pd.DataFrame:
+        """The series that are tested: a contender over a scene, its resolutions taken together."""
+        names = [name for name in IDENTITY if name not in ("width", "height")]
+        tested = self.cells[~self.cells["is_reference"] & (self.cells["verdict"] != BASELINE)]
+        groups = tested.groupby(names, sort=False)
+        named = [name for name in _DISTINGUISHING if self.cells[name].nunique() > 1]
+        rows = []
+        for key, group in groups:
+            row = dict(zip(names, key, strict=True))
+            row["title"] = series_title(group["contender"].iloc[0], row, named)
+            rows.append({**row, "members": group.index.to_numpy()})
+        return pd.DataFrame(rows, columns=[*names, "title", "members"])
+
+    def pooled(self) -> np.ndarray:
+        """Logarithm of the ratio of each pool in each night, 0 being its usual value.
+
+        The mean over resolutions of what each is above its own median; a night that lacks one
+        resolution is tested by the others.
+        """
+        with np.errstate(all="ignore"):
+            logs = np.log(self.ratios)
+        logs[~np.isfinite(logs)] = np.nan
+        logs = logs - nan_median(logs)
+        columns = [nan_mean(logs[:, members]) for members in self.pools["members"]]
+        return np.stack(columns, axis=1) if columns else np.empty((len(self.nights), 0))
+
+
+def series_title(contender: str, row: Mapping[str, object], named: Iterable[str]) -> str:
+    """A series as people read it: the contender, the scene, and what else distinguishes it."""
+    title = f"{contender} in {row['scene']}"
+    return title + "".join(_DISTINGUISHING[name].format(row[name]) for name in named)
+
+
+def nan_median(values: np.ndarray) -> np.ndarray:
+    """The median of each column; NaN, without a warning, where a column holds nothing."""
+    with warnings.catch_warnings(action="ignore", category=RuntimeWarning):
+        return np.nanmedian(values, axis=0)
+
+
+def nan_mean(values: np.ndarray) -> np.ndarray:
+    """The mean of each row; NaN, without a warning, where a row holds nothing."""
+    with warnings.catch_warnings(action="ignore", category=RuntimeWarning):
+        return np.nanmean(values, axis=1)
+
+
+def read_nights(history: History, last: int | None = None, most: int | None = None) -> Nights:
+    """The nights up to the one of number `last` (the newest if not given), on its machine.
+
+    Of these, the newest `most`; all if not given.
+    """
+    tonight = _tonight(history, last)
+    columns = "n.id, n.run_id, n.time_utc, n.commit_hash, n.dirty, n.folder, n.cells, n.wrong"
+    rows = history.read(
+        f"SELECT {columns} FROM nights n, nights t WHERE t.id = ? AND n.machine_id = t.machine_id "
+        "AND (n.time_utc, n.id) <= (t.time_utc, t.id) ORDER BY n.time_utc DESC, n.id DESC LIMIT ?",
+        (tonight, most or -1),
+    )[::-1]
+    names = "number run_id time_utc commit dirty folder cells wrong".split()
+    nights = pd.DataFrame(rows, columns=names)
+    cells = _cells_of(history, tonight)
+    place_of_cell = {number: place for place, number in enumerate(cells["cell"])}
+    place_of_night = {number: place for place, number in enumerate(nights["number"])}
+
+    shape = (len(nights), len(cells))
+    ratios, works = np.full(shape, np.nan), np.full(shape, -1)
+    # One query: a look-up for each night would take longer than all of them together.
+    figures = history.read(
+        "SELECT f.night, f.cell, f.work, f.ratio, f.reference IS t.reference "
+        "FROM figures f JOIN figures t ON t.cell = f.cell AND t.input = f.input "
+        "WHERE t.night = ? AND f.night >= ?",
+        (tonight, int(nights["number"].min())),
+    )
+    for night, cell, work, ratio, same_reference in figures:
+        if (place := place_of_night.get(night)) is None:
+            continue
+        at = (place, place_of_cell[cell])
+        works[at] = work
+        if ratio is not None and same_reference:
+            ratios[at] = ratio
+    used = set(np.unique(works[works >= 0]).tolist())
+    counters = {
+        number: {RENAMED_COLUMNS.get(name, name): value for name, value in json.loads(text).items()}
+        for number, text in history.read("SELECT id, counters FROM work")
+        if number in used
+    }
+    return Nights(nights, cells, ratios, works, counters)
+
+
+def _tonight(history: History, last: int | None) -> int:
+    if last is not None:
+        return last
+    newest = history.read("SELECT id FROM nights ORDER BY time_utc DESC, id DESC LIMIT 1")
+    if not newest:
+        raise Problem(f"{history.path}: holds no night yet; run scripts/nightly")
+    return newest[0][0]
+
+
+def _cells_of(history: History, night: int) -> pd.DataFrame:
+    names = ", ".join(f"c.{name}" for name in IDENTITY)
+    rows = history.read(
+        f"SELECT c.id, {names}, f.verdict, f.reference IS c.id FROM figures f "
+        "JOIN cells c ON c.id = f.cell WHERE f.night = ? ORDER BY c.id",
+        (night,),
+    )
+    cells = pd.DataFrame(rows, columns=["cell", *IDENTITY, "verdict", "is_reference"])
+    cells["is_reference"] = cells["is_reference"].astype(bool)
+    cells["contender"] = contender_labels(cells)
+    return cells

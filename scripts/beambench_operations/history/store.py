@@ -1,0 +1,275 @@
+"""The history of nightly runs in one SQLite file, rebuilt from the CSVs of its runs at any time.
+
+nights      a row for each run; `folder` is where its results.csv lies, beside the history's file
+cells       what was measured: the columns that identify a row of results.csv
+inputs      hashes of scene and rays; nights with other hashes are not comparable
+work        counters per ray as JSON, sorted by name; they repeat from night to night, so kept once
+figures     a row for each cell of each night; NULL is not measured, or not verified
+alarms      what a night raised an alarm about, kept so that no later night does so again
+
+`machine_id` of a night is the column's, with the processor behind it where the run's manifest names
+it: a series holds nights of one machine only.
+
+`ratio` is the total, in clock cycles during which the thread ran (see night.cycles), over that of
+the contender `reference` of the same run and the same rays.
+"""
+
+import json
+import sqlite3
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Self
+
+from beambench_operations.history.night import Key, Night, night_of
+from beambench_report.base.cell_files import IDENTITY
+from beambench_report.base.files import Problem, write_whole
+from beambench_report.base.records import read_run
+
+SCHEMA_VERSION = 1
+
+# Marks the file as a history of ours: "bbnh".
+APPLICATION_ID = 0x62626E68
+
+TABLES = """
+CREATE TABLE nights (
+  id INTEGER PRIMARY KEY,
+  run_id TEXT NOT NULL UNIQUE,
+  time_utc TEXT NOT NULL,
+  commit_hash TEXT NOT NULL,
+  dirty INTEGER NOT NULL,
+  machine_id TEXT NOT NULL,
+  folder TEXT NOT NULL,
+  csv_sha256 TEXT NOT NULL,
+  cells INTEGER NOT NULL,
+  wrong INTEGER NOT NULL
+);
+CREATE TABLE cells (
+  id INTEGER PRIMARY KEY,
+  scene TEXT NOT NULL,
+  camera TEXT NOT NULL,
+  structure TEXT NOT NULL,
+  parameters TEXT NOT NULL,
+  width INTEGER NOT NULL,
+  height INTEGER NOT NULL,
+  samples INTEGER NOT NULL,
+  ray_kind TEXT NOT NULL,
+  UNIQUE (scene, camera, structure, parameters, width, height, samples, ray_kind)
+);
+CREATE TABLE inputs (id INTEGER PRIMARY KEY, hashes TEXT NOT NULL UNIQUE);
+CREATE TABLE work (id INTEGER PRIMARY KEY, counters TEXT NOT NULL UNIQUE);
+CREATE TABLE figures (
+  night INTEGER NOT NULL REFERENCES nights (id) ON DELETE CASCADE,
+  cell INTEGER NOT NULL REFERENCES cells (id),
+  input INTEGER NOT NULL REFERENCES inputs (id),
+  work INTEGER NOT NULL REFERENCES work (id),
+  reference INTEGER REFERENCES cells (id),
+  verdict TEXT NOT NULL,
+  ratio REAL,
+  PRIMARY KEY (night, cell)
+) WITHOUT ROWID;
+CREATE TABLE alarms (
+  night INTEGER NOT NULL REFERENCES nights (id) ON DELETE CASCADE,
+  kind TEXT NOT NULL CHECK (kind IN ('time', 'counter', 'verdict')),
+  series TEXT NOT NULL,
+  details TEXT NOT NULL,
+  PRIMARY KEY (night, kind, series)
+) WITHOUT ROWID;
+"""
+
+
+_REMEDY = "rebuild it from the runs: python -m beambench_operations nightly rebuild"
+
+
+@dataclass(frozen=True)
+class Alarm:
+    """What a night raised an alarm about."""
+
+    night: int
+    kind: str
+    """`time`, `counter` or `verdict`."""
+    series: str
+    details: dict
+
+
+FindAlarms = Callable[["History", int], list[Alarm]]
+"""The alarms of the night of a number."""
+
+
+class History:
+    """The open file. Every change is one transaction: all of it is there, or nothing."""
+
+    def __init__(self, path: Path) -> None:
+        """Opens the file, or begins it. Raises Problem where it is no history of this version."""
+        self.path = path
+        path.parent.mkdir(parents=True, exist_ok=True)
+        self._base = sqlite3.connect(path, timeout=30, isolation_level=None)
+        try:
+            with self._problems():
+                self._base.execute("PRAGMA foreign_keys = ON")
+                self._begin_or_check()
+        except BaseException:
+            self._base.close()
+            raise
+
+    def __enter__(self) -> Self:
+        """For `with`."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Closes the file."""
+        self._base.close()
+
+    def add(self, night: Night, folder: Path, find_alarms: FindAlarms | None = None) -> int | None:
+        """Adds a night with its alarms; returns its number, or None where it is there already."""
+        if self.number_of(night.run_id) is not None:
+            return None
+        with self.change():
+            number = self._insert_night(night, folder)
+            cells = self._cells(night)
+            inputs = self._numbers("inputs", "hashes", (one.inputs for one in night.figures))
+            work = self._numbers("work", "counters", (one.counters for one in night.figures))
+            self._base.executemany(
+                "INSERT INTO figures VALUES (?, ?, ?, ?, ?, ?, ?)",
+                [
+                    (
+                        number,
+                        cells[one.key],
+                        inputs[one.inputs],
+                        work[one.counters],
+                        cells[one.reference] if one.reference else None,
+                        one.verdict,
+                        one.ratio,
+                    )
+                    for one in night.figures
+                ],
+            )
+            alarms = find_alarms(self, number) if find_alarms else []
+            self._base.executemany(
+                "INSERT INTO alarms VALUES (?, ?, ?, ?)",
+                [(number, one.kind, one.series, json.dumps(one.details)) for one in alarms],
+            )
+        return number
+
+    def alarms(self) -> list[Alarm]:
+        """All alarms, the oldest first."""
+        rows = self.read("SELECT night, kind, series, details FROM alarms ORDER BY night, series")
+        return [Alarm(night, kind, series, json.loads(text)) for night, kind, series, text in rows]
+
+    def number_of(self, run_id: str) -> int | None:
+        """The number of a run, if the history has it."""
+        found = self.read("SELECT id FROM nights WHERE run_id = ?", (run_id,))
+        return found[0][0] if found else None
+
+    def read(self, query: str, values: tuple = ()) -> list[tuple]:
+        """The rows of a query."""
+        with self._problems():
+            return self._base.execute(query, values).fetchall()
+
+    @contextmanager
+    def change(self) -> Iterator[None]:
+        """A transaction."""
+        with self._problems():
+            self._base.execute("BEGIN IMMEDIATE")
+            try:
+                yield
+            except BaseException:
+                self._base.execute("ROLLBACK")
+                raise
+            self._base.execute("COMMIT")
+
+    def _begin_or_check(self) -> None:
+        application = self._base.execute("PRAGMA application_id").fetchone()[0]
+        version = self._base.execute("PRAGMA user_version").fetchone()[0]
+        empty = self._base.execute("SELECT count(*) FROM sqlite_schema").fetchone()[0] == 0
+        if empty and application == 0 and version == 0:
+            # One script, one transaction: a history whose tables are half there is never seen.
+            self._base.executescript(
+                f"BEGIN; PRAGMA application_id = {APPLICATION_ID};"
+                f"PRAGMA user_version = {SCHEMA_VERSION}; {TABLES} COMMIT;"
+            )
+            return
+        if application != APPLICATION_ID:
+            raise Problem(f"{self.path}: is an SQLite file, but no history of nightly runs")
+        if version != SCHEMA_VERSION:
+            raise Problem(
+                f"{self.path}: has schema version {version}, and this reads {SCHEMA_VERSION}; "
+                f"{_REMEDY}"
+            )
+
+    @contextmanager
+    def _problems(self) -> Iterator[None]:
+        try:
+            yield
+        except sqlite3.DatabaseError as error:
+            raise Problem(f"{self.path}: cannot be used as a history: {error}; {_REMEDY}") from None
+
+    def _insert_night(self, night: Night, folder: Path) -> int:
+        place = folder.resolve()
+        home = self.path.parent.resolve()
+        relative = place.relative_to(home) if place.is_relative_to(home) else place
+        values = (
+            night.run_id,
+            night.time_utc,
+            night.commit,
+            int(night.dirty),
+            night.machine_id,
+            str(relative),
+            night.csv_sha256,
+            len(night.figures),
+            night.wrong,
+        )
+        marks = ", ".join("?" * len(values))
+        cursor = self._base.execute(f"INSERT INTO nights VALUES (NULL, {marks})", values)
+        return int(cursor.lastrowid or 0)
+
+    def _cells(self, night: Night) -> dict[Key, int]:
+        keys = {one.key for one in night.figures}
+        marks = ", ".join("?" * len(IDENTITY))
+        self._base.executemany(f"INSERT OR IGNORE INTO cells VALUES (NULL, {marks})", sorted(keys))
+        known = self._base.execute(f"SELECT id, {', '.join(IDENTITY)} FROM cells")
+        return {tuple(key): number for number, *key in known}
+
+    def _numbers(self, table: str, column: str, texts: Iterable[str]) -> dict[str, int]:
+        """The number of each text in a table that keeps every text once."""
+        wanted = sorted(set(texts))
+        self._base.executemany(
+            f"INSERT OR IGNORE INTO {table} VALUES (NULL, ?)", [(text,) for text in wanted]
+        )
+        found = (
+            self._base.execute(f"SELECT id FROM {table} WHERE {column} = ?", (text,)).fetchone()
+            for text in wanted
+        )
+        return {text: number for text, (number,) in zip(wanted, found, strict=True)}
+
+
+def recorded_folders(runs: Path) -> list[Path]:
+    """The folders of finished runs, the oldest first: names begin with the time."""
+    return sorted(path.parent for path in runs.glob("[0-9]*/results.csv"))
+
+
+def rebuild(
+    path: Path,
+    folders: Iterable[Path],
+    find_alarms: FindAlarms | None = None,
+) -> int:
+    """Makes the history anew from the CSVs of runs; the old one stays until the new one is whole.
+
+    `find_alarms` is applied to each night once it is in, as when it was new. Returns their count.
+    """
+    nights = [(night_of(read_run(folder)), folder) for folder in folders]
+    nights.sort(key=lambda one: (one[0].time_utc, one[0].run_id))
+
+    def fill(pending: Path) -> None:
+        pending.unlink(missing_ok=True)
+        with History(pending) as history:
+            for night, folder in nights:
+                if history.add(night, folder, find_alarms) is None:
+                    raise Problem(f"{folder}: the run {night.run_id} is in another folder, too")
+        # What a killed process left to be rolled back belongs to the file that goes.
+        for ending in ("-journal", "-wal", "-shm"):
+            path.with_name(path.name + ending).unlink(missing_ok=True)
+
+    write_whole(path, fill)
+    return len(nights)

@@ -1,0 +1,340 @@
+"""How often does pure noise raise a false alarm, and which slow-downs are found?
+
+Noise is taken from repeated runs of one sweep by one program: blocks of consecutive runs are put
+one after another (block bootstrap), all contenders of a scene together, since they share a
+reference. Nights are then tested one by one, each with those before it, as `scripts/nightly` does.
+"""
+
+import json
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import asdict, dataclass
+from math import log, log1p, sqrt
+from pathlib import Path
+from time import monotonic
+
+import numpy as np
+from scipy import stats
+
+from beambench_operations.history.night import VIEW
+from beambench_operations.history.nights import Nights
+from beambench_operations.history.steps import Rule, find_steps
+from beambench_report.base.cell_files import (
+    REPETITIONS,
+    Row,
+    published_repetitions,
+    repetitions_of,
+)
+from beambench_report.base.files import Problem
+from beambench_report.base.run_log import LOG, Repetition, has_log, logged_cells
+
+BLOCK = 5
+SCENES = 15
+_LEAST_NIGHTS = 2 * BLOCK
+_WAIT = 24
+_REPORT_SECONDS = 10.0
+
+
+@dataclass(frozen=True)
+class Noise:
+    """What nights without any change differ by: for each scene an array, a row for each night."""
+
+    scenes: tuple[np.ndarray, ...]
+    nights: int
+
+    @property
+    def standard_deviation(self) -> float:
+        """Of a usual series, as a part of the time."""
+        parts = np.concatenate([scene.std(axis=0) for scene in self.scenes])
+        return float(np.median(parts))
+
+
+@dataclass(frozen=True)
+class Power:
+    """How often a planted slow-down of one series was found and named."""
+
+    slowdown: float
+    found: float
+    low: float
+    """Of the 95% interval of `found`."""
+    high: float
+    trials: int
+    nights_until: float
+    """The median number of nights after the change until it was."""
+
+
+@dataclass(frozen=True)
+class Calibration:
+    """The false alarms and the power of a rule."""
+
+    nights: int
+    series: int
+    alarms: int
+    alarms_low: float
+    """Of the 95% interval of the number of alarms, were they independent of each other."""
+    alarms_high: float
+    noise: float
+    noise_nights: int
+    rule: Rule
+    power: tuple[Power, ...]
+
+    @property
+    def smallest_found(self) -> float | None:
+        """The smallest slow-down whose power is 90% or more by the low end of its interval."""
+        return min((one.slowdown for one in self.power if one.low >= 0.9), default=None)
+
+    def as_json(self) -> str:
+        """For a file."""
+        document = {**asdict(self), "smallest_slowdown_with_90_percent_power": self.smallest_found}
+        return json.dumps(document, indent=2) + "\n"
+
+    def summary(self) -> str:
+        """For people."""
+        lines = [
+            f"{self.alarms} alarms in {self.nights} nights of pure noise over {self.series} series "
+            f"together ({self._in_100_nights(self.alarms)} in 100 nights, 95% interval "
+            f"{self._in_100_nights(self.alarms_low)} to {self._in_100_nights(self.alarms_high)}); "
+            f"the noise was drawn from {self.noise_nights} nights, {100 * self.noise:.2g}% "
+            "(standard deviation of a usual series)."
+        ]
+        lines += [
+            f"A slow-down by {one.slowdown:.1%} was found and named in {one.found:.1%} of "
+            f"{one.trials} trials (95% interval {one.low:.1%} to {one.high:.1%}), after "
+            f"{one.nights_until:.0f} nights."
+            for one in self.power
+        ]
+        smallest = self.smallest_found
+        named = f"{smallest:.1%}" if smallest is not None else "none of these"
+        lines.append(
+            "The smallest of these that is found with 90% power, by the low end of the interval: "
+            f"{named}."
+        )
+        return "\n".join(lines)
+
+    def _in_100_nights(self, alarms: float) -> str:
+        return f"{100 * alarms / self.nights:.2g}"
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How long power is estimated."""
+
+    precision: float = 0.03
+    """Enough trials when no 95% interval of a power is wider than this to either side."""
+    trials: int = 1200
+    """At most: the precision needs 1,067 where the power is a half."""
+    seconds: float = 3600.0
+    """Nor longer than this; the intervals are then what they are."""
+
+
+Report = Callable[[str], None]
+
+
+def noise_of(nights: Nights) -> Noise:
+    """The noise of the nights of a history in which nothing changed."""
+    pooled = nights.pooled()
+    whole = np.isfinite(pooled).all(axis=1)
+    scenes = nights.pools["scene"].to_numpy()
+    parts = tuple(pooled[np.ix_(whole, scenes == scene)] for scene in dict.fromkeys(scenes))
+    return Noise(parts, int(whole.sum()))
+
+
+def has_enough(noise: Noise) -> bool:
+    """Are there nights enough to draw blocks from?"""
+    return noise.nights >= _LEAST_NIGHTS and bool(noise.scenes)
+
+
+def synthetic_nights(noise: Noise, nights: int, random: np.random.Generator) -> np.ndarray:
+    """Nights of pure noise over as many scenes as a nightly sweep has."""
+    columns = []
+    for number in range(SCENES):
+        source = noise.scenes[number % len(noise.scenes)]
+        starts = random.integers(0, len(source), -(-nights // BLOCK))
+        places = (starts[:, None] + np.arange(BLOCK)).ravel() % len(source)
+        columns.append(source[places[:nights]])
+    return np.concatenate(columns, axis=1)
+
+
+def count_alarms(values: np.ndarray, rule: Rule) -> list[tuple[int, int, int]]:
+    """Night, series and night of the change of every alarm, as night after night would raise it."""
+    starts = np.zeros(values.shape[1], int)
+    alarms = []
+    for night in range(2 * rule.side, len(values) + 1):
+        begin = max(0, night - rule.window)
+        for step in find_steps(values[begin:night], np.maximum(starts - begin, 0), rule):
+            alarms.append((night - 1, step.series, begin + step.change))
+            starts[step.series] = begin + step.change
+    return alarms
+
+
+def calibrate(
+    noise: Noise,
+    nights: int = 1000,
+    slowdowns: Sequence[float] = (0.01, 0.015, 0.02, 0.03, 0.05),
+    effort: Effort | None = None,
+    rule: Rule | None = None,
+    seed: int = 1999,
+    report: Report | None = None,
+) -> Calibration:
+    """Tests noise, and noise with a slow-down of one series; `report` gets progress."""
+    rule = rule or Rule()
+    random = np.random.default_rng(seed)
+    values = synthetic_nights(noise, nights, random)
+    alarms = len(count_alarms(values, rule))
+    # The exact interval of a Poisson count (Garwood 1936).
+    low = float(stats.chi2.ppf(0.025, 2 * alarms) / 2) if alarms else 0.0
+    high = float(stats.chi2.ppf(0.975, 2 * alarms + 2) / 2)
+    power = _powers(noise, slowdowns, effort or Effort(), rule, random, report)
+    return Calibration(
+        nights,
+        values.shape[1],
+        alarms,
+        low,
+        high,
+        noise.standard_deviation,
+        noise.nights,
+        rule,
+        power,
+    )
+
+
+def share_interval(found: int, trials: int) -> tuple[float, float]:
+    """The 95% interval of a share (Wilson 1927): right for shares near 0 and 1 as well."""
+    interval = stats.binomtest(found, trials).proportion_ci(method="wilson")
+    return float(interval.low), float(interval.high)
+
+
+def _powers(
+    noise: Noise,
+    slowdowns: Sequence[float],
+    effort: Effort,
+    rule: Rule,
+    random: np.random.Generator,
+    report: Report | None,
+) -> tuple[Power, ...]:
+    """Each trial plants every slow-down into the same noise, so that chance orders none of them."""
+    waits: dict[float, list[int]] = {slowdown: [] for slowdown in slowdowns}
+    begun, reported, trials = monotonic(), monotonic(), 0
+    before = rule.window - _WAIT
+    while trials < effort.trials and monotonic() - begun < effort.seconds:
+        values = synthetic_nights(noise, rule.window, random)
+        series = int(random.integers(values.shape[1]))
+        for slowdown, found in waits.items():
+            if wait := _nights_until_found(values, series, before, slowdown, rule):
+                found.append(wait)
+        trials += 1
+        intervals = [share_interval(len(found), trials) for found in waits.values()]
+        widest = max((high - low for low, high in intervals), default=0.0) / 2
+        if report and monotonic() - reported > _REPORT_SECONDS:
+            reported = monotonic()
+            report(
+                f"{trials} trials, {reported - begun:.0f} s: powers are known to "
+                f"{100 * widest:.1f} points, {100 * effort.precision:g} wanted"
+            )
+        if widest <= effort.precision:
+            break
+    return tuple(_power(slowdown, found, trials) for slowdown, found in waits.items())
+
+
+def _power(slowdown: float, waits: Sequence[int], trials: int) -> Power:
+    low, high = share_interval(len(waits), trials)
+    until = float(np.median(waits)) if waits else float("nan")
+    return Power(slowdown, len(waits) / trials, low, high, trials, until)
+
+
+def _nights_until_found(
+    values: np.ndarray, series: int, before: int, slowdown: float, rule: Rule
+) -> int:
+    """How many nights after it got slower the series was named; 0 where it was not in `_WAIT`.
+
+    The others are as they were: they count by making Holm's correction what it is.
+    """
+    slower = values.copy()
+    slower[before:, series] += log1p(slowdown)
+    for night in range(before + rule.side, len(slower) + 1):
+        if any(step.series == series for step in find_steps(slower[:night], None, rule)):
+            return night - before
+    return 0
+
+
+PROCESS = 0.004
+"""Standard deviation of a ratio from one process to the next: two default runs of commit f245b10,
+96 cells."""
+
+_ROUNDS = 9  # the least repetitions of a nightly cell
+_NIGHTS = 200
+
+
+def noise_of_samples(folders: Iterable[Path], seed: int = 1999) -> Noise:
+    """Noise from the raw samples of runs. Raises Problem where none has enough of them."""
+    random = np.random.default_rng(seed)
+    scenes: dict[str, list[np.ndarray]] = {}
+    for folder in folders:
+        for scene, contenders in _views(folder):
+            nights = _nights(contenders, random)
+            scenes.setdefault(f"{folder}/{scene}", []).append(nights)
+    if not scenes:
+        raise Problem(
+            f"no run has a view with Embree, others, and {_ROUNDS} repetitions in {LOG} "
+            f"or {REPETITIONS}; give runs whose raw samples were not pruned"
+        )
+    parts = []
+    for views in scenes.values():
+        # A scene's resolutions are tested together; what a process differs by is in all of them,
+        # and half of it is the reference's, which all contenders share.
+        noise = np.mean([one for one in views if one.shape == views[0].shape], axis=0)
+        size = PROCESS / sqrt(2)
+        noise += random.normal(0, size, noise.shape) + random.normal(0, size, (_NIGHTS, 1))
+        parts.append(noise)
+    return Noise(tuple(parts), _NIGHTS)
+
+
+def _views(folder: Path) -> Iterable[tuple[str, list[dict[int, float]]]]:
+    """Scene and contenders of each view, Embree's single rays first."""
+    views: dict[tuple, list[tuple[bool, dict[int, float]]]] = {}
+    scenes: dict[tuple, str] = {}
+    for place, row, repetitions in _cells(folder):
+        try:
+            if len(repetitions) < _ROUNDS or row["structure"] == "null":
+                continue
+            view = tuple(row[name] for name in VIEW)
+            logs = {one["round"]: log(_cycles(one)) for one in repetitions}
+        except (ValueError, KeyError, TypeError) as error:
+            raise Problem(
+                f"{place}: has no repetitions of a run ({error}); measure it anew"
+            ) from None
+        is_reference = row["structure"] == "embree" and "mode=single" in row["parameters"]
+        views.setdefault(view, []).append((is_reference, logs))
+        scenes[view] = row["scene"]
+    for view, cells in views.items():
+        cells.sort(key=lambda cell: not cell[0])
+        if cells[0][0] and len(cells) > 1:
+            yield scenes[view], [logs for _, logs in cells]
+
+
+def _cells(folder: Path) -> Iterable[tuple[Path, Row, list[Repetition]]]:
+    """The file, row and repetitions of each cell."""
+    if has_log(folder):
+        for cell in logged_cells(folder):
+            yield folder / LOG, cell.facts, repetitions_of(cell)
+    else:
+        for row, repetitions in published_repetitions(folder):
+            yield folder / REPETITIONS, row, repetitions
+
+
+def _cycles(repetition: dict) -> float:
+    return (repetition["build_cpu_ms"] + repetition["trace_cpu_ms"]) * repetition["clock_ghz"]
+
+
+def _nights(contenders: Sequence[dict[int, float]], random: np.random.Generator) -> np.ndarray:
+    rounds = max(max(logs) for logs in contenders) + 1
+    starts = random.integers(0, rounds, _NIGHTS)
+    medians = np.empty((_NIGHTS, len(contenders)))
+    for place, logs in enumerate(contenders):
+        order = np.array(sorted(logs))
+        values = np.array([logs[number] for number in order])
+        first = np.searchsorted(order, starts) % len(order)
+        medians[:, place] = np.median(
+            values[(first[:, None] + np.arange(_ROUNDS)) % len(order)], axis=1
+        )
+    ratios = medians[:, 1:] - medians[:, :1]
+    return ratios - np.median(ratios, axis=0)

@@ -1,0 +1,223 @@
+"""Two commits of this machine, measured in turns: what scripts/compare runs once both are built.
+
+The history needs a dozen nights to separate a slow-down from noise. Two programs that take turns
+on one machine need minutes: each turn gives a pair of figures that the machine treated alike. The
+order is A B, B A, A B, ..., each first as often as the other, so that neither a drift of the
+machine nor the place within a turn favors one of them.
+
+The cells of a turn are not independent: they share a process and a moment of the machine (the same
+program against itself, twice 12 turns beside builds: a mean correlation of 0.28 and 0.23 between
+cells, and no effect of the place within a turn, -1.9% and +0.5%). Most ratios, or all, may thus lie
+on one side of 1 by chance, and some intervals exclude 1 together. Cells are therefore tested
+together, by Holm's correction, and the ratio of all of them is made turn by turn.
+"""
+
+from dataclasses import dataclass
+from math import inf, sqrt
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from scipy import stats
+
+from beambench_operations.history.night import cell_titles, cycles, keys_of
+from beambench_operations.history.steps import holm
+from beambench_report.base.cell_files import IDENTITY
+from beambench_report.base.files import Problem, output_of, say
+from beambench_report.base.ratio import Ratio, paired_ratio
+from beambench_report.base.records import BASELINE, NO_RAYS, TIMED_VERDICTS, read_run
+
+LEVEL = 0.01
+TOLERANCE = 0.01
+LEAST_TURNS = 6
+"""The fewest pairs whose median has a 95% interval."""
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """One cell of both programs."""
+
+    title: str
+    pairs: int
+    ratio: Ratio
+    """B's time over A's: above 1, B is slower."""
+    p_value: float
+    """That B is no slower, before Holm's correction."""
+
+    @property
+    def is_decided(self) -> bool:
+        """Does the interval rule out that B is slower by more than TOLERANCE?"""
+        return self.high <= 1 + TOLERANCE
+
+    @property
+    def high(self) -> float:
+        """The upper end of the interval; infinite where there is none."""
+        return inf if self.ratio.high is None else self.ratio.high
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What two programs differ by."""
+
+    cells: list[Comparison]
+    slower: list[Comparison]
+    """Slower by more than chance and TOLERANCE explain, over all cells together."""
+    sentences: list[str]
+    """Work and verdicts that got worse."""
+    together: Ratio
+    """Of the geometric mean of all cells, turn by turn."""
+
+    @property
+    def is_regression(self) -> bool:
+        """Is B worse?"""
+        return bool(self.slower or self.sentences)
+
+    def table(self) -> str:
+        """A line for each cell, the one that got slowest first."""
+        named = {cell.title for cell in self.slower}
+        lines = [f"{'B/A':>7}  {'95% interval':<17} {'turns':>5}  cell"]
+        for cell in sorted(self.cells, key=lambda cell: -cell.ratio.value):
+            mark = "  SLOWER" if cell.title in named else ""
+            lines.append(f"{_line(cell.ratio)} {cell.pairs:>5}  {cell.title}{mark}")
+        lines.append(f"{_line(self.together)}        all cells together")
+        return "\n".join([*lines, *self.sentences])
+
+    def verdict(self) -> str:
+        """What the table comes to, in a sentence or two."""
+        rule = (
+            f"by more than {TOLERANCE:.0%} and by more than chance explains (paired t test, Holm's "
+            f"correction to {LEVEL:.0%} over {len(self.cells)} cells)"
+        )
+        if self.slower:
+            worst = sorted(self.slower, key=lambda cell: -cell.ratio.value)
+            named = "; ".join(f"{cell.title} by {_percent(cell.ratio)}" for cell in worst)
+            text = f"SLOWER: {len(worst)} of {len(self.cells)} cells, {rule}: {named}."
+        else:
+            text = f"No cell is slower {rule}.{self._undecided()}"
+        if self.sentences:
+            text += f" WORSE: hits or work, in {len(self.sentences)} places named above."
+        return text
+
+    def _undecided(self) -> str:
+        """What the turns were too few, or the machine too noisy, to rule out."""
+        open_cells = [cell for cell in self.cells if not cell.is_decided]
+        if not open_cells:
+            return ""
+        widest = max(open_cells, key=lambda cell: cell.high)
+        return (
+            f" For {len(open_cells)} of them a slow-down by more than {TOLERANCE:.0%} is not ruled "
+            f"out: the widest interval reaches {widest.high - 1:+.1%} ({widest.title}). More turns "
+            "narrow it."
+        )
+
+
+def _line(ratio: Ratio) -> str:
+    interval = "none" if ratio.interval is None else f"{ratio.low:.4f} to {ratio.high:.4f}"
+    return f"{ratio.value:7.4f}  {interval:<17}"
+
+
+def _percent(ratio: Ratio) -> str:
+    interval = "" if ratio.interval is None else f" ({ratio.low - 1:+.1%} to {ratio.high - 1:+.1%})"
+    return f"{ratio.value - 1:.1%}{interval}"
+
+
+def measure_in_turns(
+    programs: tuple[Path, Path], sweep: Path, directory: Path, turns: int
+) -> tuple[list[Path], list[Path]]:
+    """Runs the sweep by A and B, B and A, ...; returns the folders of their runs.
+
+    Raises Problem where `turns` is odd or below LEAST_TURNS, or a program cannot be run.
+    """
+    if turns < LEAST_TURNS or turns % 2:
+        raise Problem(
+            f"{turns} turns: give an even number from {LEAST_TURNS} on, so that each program goes "
+            "first equally often and the ratios have intervals"
+        )
+    folders: tuple[list[Path], list[Path]] = ([], [])
+    for turn in range(turns):
+        order = (0, 1) if turn % 2 == 0 else (1, 0)  # neither is always the one that warms up
+        for which in order:
+            folder = directory / f"{'ab'[which]}-{turn + 1:02d}"
+            if not (folder / "results.csv").exists():
+                say(f"== turn {turn + 1} of {turns}: {'AB'[which]}")
+                command = [str(programs[which]), "run", str(sweep), "-o", str(folder)]
+                output_of(command, success=(0, 1))
+            folders[which].append(folder)
+    return folders
+
+
+def compare_turns(first: list[Path], second: list[Path]) -> Outcome:
+    """Pairs the runs of A and B by turns."""
+    if len(first) != len(second) or len(first) < LEAST_TURNS:
+        raise Problem(
+            "a comparison needs as many runs of one as of the other, "
+            f"{LEAST_TURNS} or more of each; these are {len(first)} and {len(second)}"
+        )
+    times_a, rows_a = _table(first)
+    times_b, rows_b = _table(second)
+    titles = cell_titles(rows_b)
+    baselines = set(keys_of(rows_b[rows_b["verdict"] == BASELINE]))
+    shared = [key for key in times_a.columns if key in times_b.columns]
+    cells = [key for key in shared if key not in baselines]
+    compared = []
+    for key in cells:
+        ratio, logs = _ratio(times_b[key], times_a[key])
+        if ratio and ratio.interval:
+            compared.append(Comparison(titles[key], len(logs), ratio, _p_value(logs)))
+    if not compared:
+        raise Problem("no cell has times in enough turns of both programs; were their hits right?")
+    together, _ = _ratio(_mean_cell(times_b[cells]), _mean_cell(times_a[cells]))
+    return Outcome(
+        compared,
+        holm(compared, len(compared), LEVEL),  # each tests for more than TOLERANCE already
+        _differences(rows_a, rows_b, titles),
+        together or Ratio(float("nan")),
+    )
+
+
+def _table(folders: list[Path]) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Times, one row per turn and one column per cell; and the rows of the last turn."""
+    turns, rows = [], pd.DataFrame()
+    for folder in folders:
+        rows = read_run(folder).rows
+        turns.append(pd.Series(cycles(rows).to_numpy(), index=pd.Index(keys_of(rows))))
+    return pd.DataFrame(turns), rows
+
+
+def _ratio(times_b: pd.Series, times_a: pd.Series) -> tuple[Ratio | None, np.ndarray]:
+    """Paired by turns; and the logarithm of each turn's ratio."""
+    known = times_b.notna() & times_a.notna()
+    over, under = times_b[known], times_a[known]
+    logs = np.log(over.to_numpy()) - np.log(under.to_numpy())
+    return paired_ratio(over.to_dict(), under.to_dict()), logs
+
+
+def _mean_cell(times: pd.DataFrame) -> pd.Series:
+    """The geometric mean of the cells in each turn; unknown in turns that lack one."""
+    return pd.Series(np.exp(np.log(times.to_numpy(float)).mean(axis=1)), index=times.index)
+
+
+def _p_value(logs: np.ndarray) -> float:
+    error = max(float(logs.std(ddof=1)) / sqrt(len(logs)), 1e-6)
+    return float(stats.t.sf((logs.mean() - TOLERANCE) / error, len(logs) - 1))
+
+
+def _differences(first: pd.DataFrame, second: pd.DataFrame, titles: dict) -> list[str]:
+    """Verdicts and counters that got worse."""
+    keys = [name for name in IDENTITY if name in first]
+    both = first.merge(second, on=keys, suffixes=("_a", "_b"))
+    sentences = []
+    for row, key in zip(both.to_dict("records"), keys_of(both), strict=True):
+        title = titles[key]
+        if row["verdict_b"] == NO_RAYS and row["verdict_a"] in TIMED_VERDICTS:
+            sentences.append(f"{title}: there are no such rays any more")
+        elif row["verdict_b"] not in TIMED_VERDICTS and row["verdict_a"] in TIMED_VERDICTS:
+            sentences.append(f"{title}: the hits are now wrong ({row['verdict_b']})")
+        for name, after in row.items():
+            if not name.endswith("_per_ray_b") or name.endswith("_ns_per_ray_b"):
+                continue
+            before = row[f"{name.removesuffix('_b')}_a"]
+            if after > before * 1.001:
+                counter = name.removesuffix("_per_ray_b").replace("_", " ")
+                sentences.append(f"{title}: {counter} per ray from {before:.6g} to {after:.6g}")
+    return sentences

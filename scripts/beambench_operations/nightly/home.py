@@ -1,0 +1,135 @@
+"""Where nightly runs are stored: a folder with the history, and a folder for each run."""
+
+import fcntl
+import os
+import re
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+
+from beambench_operations.history.store import recorded_folders
+from beambench_report.base.files import ROOT, Problem, read_json
+from beambench_report.base.records import FAULTLESS_VERDICTS
+from beambench_report.base.run_log import LOG, logged_cells
+
+
+@contextmanager
+def only_one(path: Path) -> Iterator[int]:
+    """Holds the lock file while the block runs; the system frees it, however the process ends.
+
+    Gives the file's descriptor: a child that inherits it holds the lock, too, and keeps doing so
+    where its parent is killed. Raises Problem, and waits for nothing, where another process has it.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with path.open("a+", encoding="utf-8") as file:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            file.seek(0)
+            holder = file.read().strip() or "another process"
+            raise Problem(
+                f"{path}: a nightly run is in progress ({holder}); wait until it has ended"
+            ) from None
+        file.truncate(0)
+        file.write(f"process {os.getpid()} since {datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ}\n")
+        file.flush()
+        yield file.fileno()
+        file.truncate(0)
+
+
+HOME = ROOT / "results/runs/nightly"
+
+KEEP_SAMPLES = 30
+"""How many runs keep their raw samples; CSV, manifest, sweep and pictures of mismatches stay."""
+
+
+@dataclass(frozen=True)
+class Home:
+    """The files of a history."""
+
+    folder: Path
+
+    @property
+    def history(self) -> Path:
+        """The SQLite file."""
+        return self.folder / "history.sqlite"
+
+    @property
+    def lock(self) -> Path:
+        """Held while a run is in progress."""
+        return self.folder / "nightly.lock"
+
+    @property
+    def site(self) -> Path:
+        """The site over all nights."""
+        return self.folder / "site"
+
+    @property
+    def page(self) -> Path:
+        """The first page of the site."""
+        return self.site / "index.html"
+
+    def finished(self) -> list[Path]:
+        """Folders of the runs that ended, the oldest first."""
+        return [path for path in recorded_folders(self.folder) if is_finished(path)]
+
+    def unfinished(self) -> list[Path]:
+        """Folders of the runs that were cut off, the oldest first."""
+        begun = sorted(path for path in self.folder.glob("[0-9]*") if path.is_dir())
+        return [path for path in begun if not is_finished(path)]
+
+
+def adopt(home: Home, run: Path, run_id: str) -> Path:
+    """The folder of a run below the home, where a rebuild finds it; copied there if it is not."""
+    if run.resolve().parent == home.folder.resolve():
+        return run
+    target = home.folder / re.sub(r"[^A-Za-z0-9._-]", "-", run_id)
+    if not target.name[:1].isdigit():
+        raise Problem(f"{run}: its run_id '{run_id}' does not begin with a time, as runs' do")
+    if not target.exists():
+        home.folder.mkdir(parents=True, exist_ok=True)
+        pending = target.with_name(f".pending-{target.name}")
+        shutil.copytree(run, pending, dirs_exist_ok=True)
+        pending.rename(target)
+    return target
+
+
+def is_finished(run: Path) -> bool:
+    """Did the run come to its end?"""
+    manifest = read_json(run / "manifest.json")
+    ended = isinstance(manifest, dict) and bool(manifest.get("finished_utc"))
+    return ended and (run / "results.csv").exists()
+
+
+def abandon(run: Path) -> Path:
+    """Renames a run that was cut off, so that it never gets into the history."""
+    target = run.with_name(f"abandoned-{run.name}")
+    if target.exists():
+        shutil.rmtree(target)
+    return run.rename(target)
+
+
+def prune(home: Home, keep: int = KEEP_SAMPLES) -> list[Path]:
+    """Deletes raw samples of all but the newest runs, and runs that were abandoned before them.
+
+    A run with wrong cells keeps its log, which has the examples.
+    """
+    runs = home.finished()
+    old, kept = (runs[:-keep], runs[-keep:]) if keep > 0 else (runs, [])
+    deleted = []
+    for run in old:
+        files = ["google-benchmark.json"]
+        if all(cell.verdict in FAULTLESS_VERDICTS for cell in logged_cells(run)):
+            files.append(LOG)
+        deleted += [run / name for name in files if (run / name).exists()]
+    for path in deleted:
+        path.unlink()
+    oldest = kept[0].name if kept else ""
+    for path in home.folder.glob("abandoned-*"):
+        if path.name.removeprefix("abandoned-") < oldest:
+            shutil.rmtree(path)
+            deleted.append(path)
+    return deleted

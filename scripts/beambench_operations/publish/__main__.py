@@ -1,0 +1,190 @@
+"""The command line of scripts/publish."""
+
+from __future__ import annotations
+
+import argparse
+import signal
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import NoReturn
+
+from beambench_operations.publish.documents import PUBLISHED, differences, write_documents
+from beambench_operations.publish.make import Interrupted, Place, make_folder
+from beambench_operations.publish.needs import Debian13, Given, missing, plugins_for
+from beambench_operations.publish.plan import Folder, Plan, as_table, read_plan
+from beambench_operations.publish.progress import Progress, is_published, progress_of, seconds_of
+from beambench_operations.publish.setting import Setting, git, preflight, require_clean
+from beambench_operations.publish.small import size
+from beambench_operations.publish.verified_again import verify_again, write_summary
+from beambench_operations.site.write import write_site
+from beambench_report.base.files import ROOT, Problem, load_json, say
+from beambench_report.base.quantities import size_in_words
+
+_ASIDE = ROOT / "results/runs/publish"
+_BUILT = ROOT / "build/release/bin/beambench"
+
+
+def main(arguments: list[str]) -> int:
+    """Returns the exit code."""
+    try:
+        return _run(_parser().parse_args(arguments))
+    except Problem as problem:
+        print(f"error: {problem} (see scripts/publish --help)", file=sys.stderr)
+        return 2
+    except (Interrupted, KeyboardInterrupt):
+        say("interrupted; the same command goes on from here on this machine")
+        return 130
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        raise Problem(message)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _Parser("scripts/publish", add_help=False, allow_abbrev=False)
+    parser.add_argument("--only", nargs="+", default=[], metavar="FOLDER")
+    parser.add_argument("--plan", "--dry-run", action="store_true")
+    parser.add_argument("--texts", action="store_true")
+    parser.add_argument("--check", action="store_true")
+    parser.add_argument("--verify-again", action="store_true")
+    parser.add_argument("--commit", action="store_true")
+    parser.add_argument("--tinybvh", type=Path, metavar="DIR")
+    parser.add_argument("--madmann91-bvh", type=Path, metavar="DIR")
+    parser.add_argument("--debian-13", type=Path, metavar="DIR")
+    parser.add_argument("--aside", type=Path, default=_ASIDE, metavar="DIR")
+    parser.add_argument("--published", type=Path, default=PUBLISHED, metavar="DIR")
+    parser.add_argument("--beambench", type=Path, default=_BUILT, metavar="PROGRAM")
+    return parser
+
+
+def _run(options: argparse.Namespace) -> int:
+    options.aside, options.published = options.aside.absolute(), options.published.absolute()
+    plan = read_plan().only(options.only)
+    if options.check:
+        return _check(options.published)
+    if options.texts:
+        for path in write_documents(options.published):
+            print(path)
+        return 0
+    beambench = options.beambench.absolute()
+    if options.verify_again:
+        return _verify_again(options, beambench)
+    if options.plan:
+        setting = preflight(beambench) if beambench.is_file() else None
+        print(as_table(plan, _states(plan, options, setting), _took(plan, options.published)))
+        return 0
+    return _make(plan, options, preflight(beambench))
+
+
+def _check(published: Path) -> int:
+    found = differences(published)
+    for one in found:
+        print(one)
+    return 1 if found else 0
+
+
+def _verify_again(options: argparse.Namespace, beambench: Path) -> int:
+    """Verifies all committed cells; writes what differs beside them."""
+    commit = preflight(beambench).commit
+    record = options.aside.parent / f"verified-again-{commit[:12]}.jsonl"
+    lines = verify_again(options.published, beambench, record)
+    path = write_summary(options.published / "verified-again.json", lines, commit)
+    found = load_json(path)
+    for name in ("hashes_changed", "verdicts_changed", "classes_changed"):
+        say(f"{name.replace('_', ' ')}: {len(found[name])}")
+    say(f"{found['cells']} cells of {found['views']} views; the list is {path}")
+    wrong = [one for one in found["verdicts_changed"] if one["now"]["verdict"] != "ok"]
+    return 1 if wrong else 0
+
+
+def _given(options: argparse.Namespace) -> Given:
+    return Given(options.tinybvh, options.madmann91_bvh, options.debian_13, tuple(options.only))
+
+
+def _states(plan: Plan, options: argparse.Namespace, setting: Setting | None) -> dict[str, str]:
+    """What is there of each folder."""
+    if setting is None:
+        return {}
+    states = {}
+    for folder in plan.folders:
+        lack = missing(folder, _given(options), options.beambench, setting)
+        begun = progress_of(options.aside / folder.name, setting)
+        if is_published(options.published / folder.name, setting):
+            states[folder.name] = "complete"
+        elif lack:
+            states[folder.name] = f"left as it is: {lack}"
+        elif begun:
+            states[folder.name] = f"{len(begun.seconds)} of {len(folder.steps)} steps are done"
+    return states
+
+
+def _took(plan: Plan, published: Path) -> dict[str, float]:
+    """The seconds that the published folders took."""
+    known = {folder.name: seconds_of(published / folder.name) for folder in plan.folders}
+    return {name: seconds for name, seconds in known.items() if seconds is not None}
+
+
+def _make(plan: Plan, options: argparse.Namespace, setting: Setting) -> int:
+    require_clean(setting)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    given = _given(options)
+    say(f"Commit {setting.commit[:7]} on {setting.cpu}, {setting.cores} cores")
+    for warning in setting.warnings:
+        say(f"warning: {warning}")
+    wrong = False
+    for folder in plan.folders:
+        published = options.published / folder.name
+        lack = missing(folder, given, options.beambench, setting)
+        if is_published(published, setting):
+            say(f"== {folder.name} is complete")
+        elif lack:
+            say(f"== {folder.name} is left as it is: {lack}")
+        else:
+            progress = _made(folder, given, options)
+            has_texts = _write_texts(options.published)
+            wrong = wrong or bool(progress.wrong) or not has_texts
+            _commit(folder, setting, options)
+    site = write_site([options.published], options.aside / "site")
+    say(f"{size_in_words(size(options.published))} are published; look at {site}")
+    return 1 if wrong else 0
+
+
+def _write_texts(published: Path) -> bool:
+    """Were they written? A sentence that the new rows do not bear out is to be changed by hand."""
+    try:
+        write_documents(published)
+    except Problem as problem:
+        say(f"the texts were not written: {problem}; edit it, then: scripts/publish --texts")
+        return False
+    return True
+
+
+def _made(folder: Folder, given: Given, options: argparse.Namespace) -> Progress:
+    beambench = options.beambench.absolute()
+    setting = preflight(beambench)
+    for warning in setting.warnings:
+        say(f"warning before {folder.name}: {warning}")
+    place = Place(options.aside, options.published, beambench)
+    if folder.needs == "libraries":
+        place = replace(place, plugins=plugins_for(given))
+    if folder.needs == "debian-13" and given.debian_13:
+        system = Debian13(given.debian_13, setting.commit)
+        place = replace(place, run=lambda command, _: system.run(command, options.aside))
+    return make_folder(folder, place, setting)
+
+
+def _commit(folder: Folder, setting: Setting, options: argparse.Namespace) -> None:
+    relative = options.published.relative_to(ROOT)
+    words = f"Published: {folder.title} ({setting.commit[:7]})"
+    if options.commit:
+        git("add", "--all", "--", str(relative))
+        git("commit", "--quiet", "-m", words)
+        say(f"committed: {words}")
+    else:
+        say(f'to commit: git add --all {relative} && git commit -m "{words}"')
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

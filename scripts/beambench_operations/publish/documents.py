@@ -1,0 +1,188 @@
+"""The texts of results/published, each made of the rows that are committed beside it.
+
+A template FOLDER/README.md.j2 makes FOLDER/README.md: it has the sentences, and an expression
+wherever a figure stands. What it may name is computed by `figures/FOLDER.py`. The template of the
+whole page may name the figures of every folder, by the folder's name with _ for -.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import cache, partial
+from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined, TemplateError
+
+from beambench_operations.publish.figures.every import counted
+from beambench_operations.publish.figures.files import plot
+from beambench_operations.publish.figures.formats import FILTERS, cited, holds
+from beambench_operations.publish.figures.origins import made, origins
+from beambench_operations.publish.layout import laid_out
+from beambench_operations.publish.reports import report, report_names
+from beambench_report.base.files import ROOT, Problem, write_text
+
+PUBLISHED = ROOT / "results/published"
+SUFFIX = ".j2"
+
+
+@dataclass(frozen=True)
+class Document:
+    """A text that a command writes."""
+
+    path: Path
+    source: Path
+    """Its template, or the folder of the run that it reports on."""
+    text: Callable[[], str]
+
+
+def documents(published: Path = PUBLISHED) -> list[Document]:
+    """Every text of the published runs that is computed, in the order of their paths."""
+    return sorted((*_rendered(published), *_reports(published)), key=lambda one: one.path)
+
+
+def write_documents(published: Path = PUBLISHED) -> list[Path]:
+    """Writes those that differ from what is there; returns them."""
+    changed = []
+    for document in documents(published):
+        text = document.text()
+        if not document.path.is_file() or document.path.read_text("utf-8") != text:
+            changed.append(write_text(document.path, text))
+    return changed
+
+
+@dataclass(frozen=True)
+class Difference:
+    """A line of a text that its rows do not give."""
+
+    file: Path
+    line: int
+    stated: str
+    computed: str
+
+    def __str__(self) -> str:
+        """What is at fault, and what to do."""
+        return (
+            f"{self.file}:{self.line}: states '{self.stated}', and the rows give "
+            f"'{self.computed}'; edit the template, or run scripts/publish --texts"
+        )
+
+
+def differences(published: Path = PUBLISHED) -> list[Difference]:
+    """The first line of each text that differs from what is computed."""
+    found = (_difference(document) for document in documents(published))
+    return [one for one in found if one is not None]
+
+
+def _difference(document: Document) -> Difference | None:
+    stated = document.path.read_text("utf-8") if document.path.is_file() else ""
+    computed = document.text()
+    if stated == computed:
+        return None
+    lines = [text.split("\n") for text in (stated, computed)]
+    length = max(len(own) for own in lines)
+    padded = [own + [""] * (length - len(own)) for own in lines]
+    place = next(i for i, (a, b) in enumerate(zip(*padded, strict=True)) if a != b)
+    return Difference(document.path, place + 1, padded[0][place], padded[1][place])
+
+
+def _reports(published: Path) -> Iterator[Document]:
+    for name in report_names():
+        path = published / name
+        if path.parent.is_dir():
+            yield Document(path, path.parent, partial(report, name, path.parent))
+
+
+def _rendered(published: Path) -> Iterator[Document]:
+    environment = Environment(
+        loader=FileSystemLoader(published),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        autoescape=False,
+    )
+    environment.filters |= FILTERS
+    environment.globals |= {"cited": cited, "holds": holds, "plot": plot}
+    known = _Folders(published)
+    for template in sorted(published.rglob(f"*.md{SUFFIX}")):
+        name = str(template.relative_to(published))
+        yield Document(
+            template.with_suffix(""),
+            template,
+            lambda template=template, name=name: _render(environment, template, name, known),
+        )
+
+
+def _render(environment: Environment, template: Path, name: str, known: _Folders) -> str:
+    folder = template.parent
+    note = (
+        f"<!-- Written by `scripts/publish --texts` from {template.name} and the rows here: "
+        "edit that. -->\n"
+    )
+    try:
+        own = known.all() if folder == known.published else known.of(folder.name)
+        text = environment.get_template(name).render(own | {"made": made, "folder": folder})
+    except TemplateError as error:
+        line = getattr(error, "lineno", None) or _line_of(error, template)
+        raise Problem(f"{template}{f':{line}' if line else ''}: {error.message}") from None
+    except (KeyError, ValueError, TypeError, ZeroDivisionError, IndexError) as error:
+        line = _line_of(error, template)
+        what = error if isinstance(error, ValueError) else repr(error)
+        raise Problem(f"{template}{f':{line}' if line else ''}: {what}") from None
+    title, _, rest = text.partition("\n")
+    return f"{title}\n{note}{laid_out(rest)}"
+
+
+def _line_of(error: BaseException, template: Path) -> int | None:
+    """The line of a template at which rendering stopped."""
+    trace, line = error.__traceback__, None
+    while trace:
+        if trace.tb_frame.f_code.co_filename == str(template):
+            line = trace.tb_lineno
+        trace = trace.tb_next
+    return line
+
+
+class _Folders:
+    """The figures of the published folders, each computed when it is needed, once."""
+
+    def __init__(self, published: Path) -> None:
+        self.published = published
+        self.of = cache(self._of)
+
+    def _of(self, name: str) -> dict[str, Any]:
+        folder = self.published / name
+        module = module_of(name)
+        computed = import_module(module).figures(folder) if module else {}
+        return computed | {"origins": origins(folder)}
+
+    def all(self) -> dict[str, Any]:
+        """For the page over all of them."""
+        names = sorted(one.name for one in self.published.iterdir() if one.is_dir())
+        lazy = {_identifier(name): _Lazy(self, name) for name in names}
+        return {"folders": names, "every": counted(self.published)} | lazy
+
+
+class _Lazy:
+    """The figures of one folder, as attributes."""
+
+    def __init__(self, folders: _Folders, name: str) -> None:
+        self._folders, self._name = folders, name
+
+    def __getitem__(self, figure: str) -> object:
+        return self._folders.of(self._name)[figure]
+
+
+def _identifier(name: str) -> str:
+    return re.sub(r"\W", "_", name)
+
+
+def module_of(name: str) -> str | None:
+    """The module that computes a folder's figures; None where it has none of its own."""
+    module = f"beambench_operations.publish.figures.{_identifier(name)}"
+    return module if find_spec(module) else None

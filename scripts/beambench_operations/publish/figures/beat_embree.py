@@ -1,0 +1,72 @@
+"""results/published/beat-embree: images by tile beams and by Embree's fastest mode."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from beambench_operations.publish.figures.cells import Cells
+from beambench_operations.publish.figures.comparison import figures_of, read_pairings
+from beambench_operations.publish.reports import BEAT_EMBREE
+from beambench_report.base.ratio import Ratio
+
+_MILLION = "bumpy:triangles=1000000"
+_FEWER = "bumpy:triangles=200000"
+_EQUALLY_DENSE = {"320x200": "143x89", "1280x1024": "572x458"}
+"""For each resolution of the million triangles, that at which a fifth of them are as dense."""
+
+
+def figures(folder: Path) -> dict[str, Any]:
+    """The groups with their ratios, the growth with triangles, and builds."""
+    found = read_pairings(folder, BEAT_EMBREE)
+    growing = sorted(
+        (
+            one
+            for one in found
+            if one.scene.startswith("bumpy:")
+            and one.resolution == "1280x1024"
+            and one.isa == "best"
+        ),
+        key=lambda one: one.primitives,
+    )
+    million = [one for one in found if one.scene == _MILLION and one.isa == "best"]
+    return figures_of(found) | {
+        "growing": growing,
+        "build": {
+            "tile_beam": [one.tile.build for one in million],
+            "embree": [one.embree.build for one in million],
+        },
+        "memory": _memory(folder / "memory"),
+        "xeon": _xeon(folder / "xeon.csv"),
+        "fastest": sorted({one.embree.contender for one in found if one.isa == "best"}),
+    }
+
+
+def _xeon(file: Path) -> dict[str, Ratio]:
+    """The geometric mean over the scenes of triangles by resolution, of an earlier run."""
+    return {
+        row.resolution: Ratio(row.ratio, row.low, row.high)
+        for row in pd.read_csv(file).itertuples()
+    }
+
+
+def _memory(run: Path) -> dict[str, float]:
+    """A second trace's time per ray over a million triangles, over that over a fifth of them.
+
+    Images have as many pixels per triangle, so that the work is alike and the memory that it is
+    done in is not. Empty where it was not measured.
+    """
+    if not run.is_dir():
+        return {}
+    cells = Cells(run)
+
+    def per_ray(scene: str, size: str) -> float:
+        row = cells.row("tile-beam", scene=scene, size=size)
+        return float(row["trace_warm_ms_median"] / row["rays"])
+
+    return {
+        size: per_ray(_MILLION, size) / per_ray(_FEWER, fewer)
+        for size, fewer in _EQUALLY_DENSE.items()
+    }

@@ -1,0 +1,58 @@
+"""results/published/default: the default run, and whether a second one finds it again."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from beambench_operations.publish.figures.cells import Cells
+from beambench_report.base.cell_files import read_cell_files
+from beambench_report.base.machine import read_exclusions
+from beambench_report.base.records import read_run
+from beambench_report.run.repeatability import repeatability
+from beambench_report.run.standings import overall, standings
+
+_LEVEL_6 = ("beam:max_level=6", "samet:max_level=6")
+_TETRA = "tetra:n=6"
+
+
+def figures(folder: Path) -> dict[str, Any]:
+    """Who is fastest at the highest resolution; beams beside single rays; the second run."""
+    cells = Cells(folder)
+    every = standings(read_run(folder), read_cell_files(folder), read_exclusions(folder))
+    (of_primary,) = overall(every)
+    return {
+        "cells": len(cells.rows),
+        "wrong": len(cells.wrong),
+        "views": every,
+        "means": of_primary.means,
+        "size": every[0].size,
+        "beams": {
+            scene: {
+                size: cells.ratio(_LEVEL_6[1], _LEVEL_6[0], "total", scene=scene, size=size)
+                for size in cells.sizes
+            }
+            for scene in cells.scenes
+        },
+        "sizes": cells.sizes,
+        "tetra": {
+            size: cells.ratio(*_LEVEL_6, "total", scene=_TETRA, size=size) for size in cells.sizes
+        },
+        "again": _again(folder),
+    }
+
+
+def _again(folder: Path) -> dict[str, Any]:
+    """The medians of each of two runs that lie in the intervals that the other one states."""
+    first, second = read_run(folder), read_run(folder / "again")
+    there, back = repeatability(first, second), repeatability(second, first)
+    return {
+        "folders": (str(first.directory.name), str(second.directory.name)),
+        "cells": len(there.cells),
+        "within": int(there.cells["within"].sum()),
+        "share": there.share,
+        "swapped": int(back.cells["within"].sum()),
+        "swapped_share": back.share,
+        "half": float(there.cells["change"].abs().quantile(0.5)),
+        "most": float(there.cells["change"].abs().quantile(0.9)),
+    }

@@ -1,0 +1,85 @@
+"""Which commit and machine made what lies in a published folder."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from beambench_operations.publish.progress import RECORD
+from beambench_report.base.files import Problem, read_json
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Of one run."""
+
+    path: str
+    """Within the published folder; empty for the folder itself."""
+    commit: str
+    machine_id: str
+    processor: str
+    cores: int
+    embree: str
+    day: str
+    noise: float | None
+    """How much longer than usual the slowest twentieth of equal work took before the run."""
+
+    @property
+    def short_commit(self) -> str:
+        """As the texts name it."""
+        return self.commit[:7]
+
+
+def origins(folder: Path) -> list[Origin]:
+    """Of every run in a published folder, by path; of a folder without runs, its record's.
+
+    Raises Problem for a manifest without them.
+    """
+    found = [_origin(manifest, folder) for manifest in sorted(folder.rglob("manifest.json"))]
+    return found or _of_record(folder / RECORD)
+
+
+def _of_record(file: Path) -> list[Origin]:
+    source = read_json(file)
+    if not isinstance(source, dict):
+        return []
+    own = source["made_by"]
+    names = ("commit", "machine_id", "cpu", "cores", "embree")
+    return [Origin("", *(own[name] for name in names), "", own["noise"])]
+
+
+def machine_in_words(processor: str) -> str:
+    """What the texts call a processor: `Xeon`, `EPYC`."""
+    known = re.search(r"\b(Xeon|EPYC|Core|Ryzen)\b", processor)
+    return known[1] if known else processor
+
+
+def made(folder: Path) -> str:
+    """The commits and machines of a folder's runs: `654e80c, EPYC`."""
+    found = dict.fromkeys(
+        (one.short_commit, machine_in_words(one.processor)) for one in origins(folder)
+    )
+    by_machine: dict[str, list[str]] = {}
+    for commit, machine in found:
+        by_machine.setdefault(machine, []).append(commit)
+    return "; ".join(f"{', '.join(own)}, {machine}" for machine, own in by_machine.items())
+
+
+def _origin(manifest: Path, folder: Path) -> Origin:
+    source = read_json(manifest)
+    try:
+        program, machine = source["program"], source["machine"]
+        path = manifest.parent.relative_to(folder)
+        return Origin(
+            "" if path == Path() else str(path),
+            program["commit"],
+            machine.get("id", ""),
+            machine.get("cpu") or machine["processor"],
+            machine.get("cores", 0),
+            program.get("libraries", {}).get("embree", ""),
+            source.get("time_utc", "")[:10],
+            source.get("measurement", {}).get("noise"),
+        )
+    except (TypeError, KeyError) as error:
+        raise Problem(f"{manifest}: is not the manifest of a run ({error!r})") from None

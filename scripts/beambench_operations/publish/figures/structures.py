@@ -1,0 +1,52 @@
+"""results/published/structures: which structure wins where."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+from scipy.stats import gmean
+
+from beambench_operations.publish.figures.cells import Cells
+from beambench_report.run.winners import races
+
+_KINDS = ("primary", "shadow", "diffuse")
+_NOT_OLDER = ("embree", "tile-beam", "sah-bvh", "kd-tree", "beam", "grid-beam")
+"""Structures of today, and beams, which do not trace rays one by one."""
+
+
+def figures(folder: Path) -> dict[str, Any]:
+    """Of each structure, by kind of rays: the mean over the scenes, and how often it wins."""
+    cells = Cells(folder)
+    found = races(cells.rows, cells.files)
+    by_kind = {kind: [race for race in found if race.ray_kind == kind] for kind in _KINDS}
+    best = {
+        kind: {
+            str(name): {"mean": float(gmean(own["ratio"])), "scenes": len(own)}
+            for name, own in pd.concat([race.ranked for race in races_]).groupby("structure")
+        }
+        for kind, races_ in by_kind.items()
+    }
+    for kind, races_ in by_kind.items():
+        wins = Counter(name for race in races_ for name in race.tied)
+        for name, own in best[kind].items():
+            own["wins"] = wins[name]
+    order = sorted(best["primary"], key=lambda name: best["primary"][name]["mean"])
+    wrong = cells.wrong
+    return {
+        "best": best,
+        "order": order,
+        "scenes": {kind: len(races_) for kind, races_ in by_kind.items()},
+        "views": len(found),
+        "undecided": sum(not race.is_decided for race in found),
+        "cells": len(cells.rows),
+        "wrong": wrong.to_dict("records"),
+        "single": min(
+            (name for name in order if name not in ("embree", "tile-beam")),
+            key=lambda name: sum(best[kind][name]["mean"] for kind in _KINDS),
+        ),
+        "older": [name for name in order if name not in _NOT_OLDER],
+        "size": cells.sizes[0],
+    }

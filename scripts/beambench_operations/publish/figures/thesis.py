@@ -1,0 +1,170 @@
+"""results/published/thesis: the claims of the thesis, judged by our rows."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from beambench_operations.publish.figures.origins import origins
+from beambench_operations.publish.figures.thesis_kept import chosen_levels, samplings
+from beambench_report.base.cell_files import IDENTITY
+from beambench_report.base.fastest import with_fastest
+from beambench_report.base.records import Run, read_run
+from beambench_thesis.chapter5.facts import CENSUS
+from beambench_thesis.chapter5.mirrors import read_mirrors
+from beambench_thesis.claims.chapter6 import CLUSTER_CLAIMS
+from beambench_thesis.claims.register import (
+    SWEPT_CLAIMS,
+    JudgedClaim,
+    judge_claims,
+    summary,
+)
+from beambench_thesis.claims.verdict import ALIKE, Outcome, Verdict
+from beambench_thesis.paper.measured import error_between_runs
+from beambench_thesis.report.plan import read_plan
+from beambench_thesis.report.report import Report, gather
+
+_TESTED = (Verdict.HOLDS, Verdict.IN_PART, Verdict.FAILS, Verdict.UNDECIDED)
+
+
+def figures(folder: Path) -> dict[str, Any]:
+    """Claims by verdict, each with its cells and the range of its ratios; planar mirrors.
+
+    Where there are further runs of the same commit and machine, the repetitions of all count.
+    """
+    report = gather(folder, read_plan(folder), None)
+    second = _second(folder)
+    more = more_runs(folder)
+    swept = report.claims
+    if second is not None or more:
+        runs = [*report.cells.runs, *(second.cells.runs if second else ()), *more]
+        swept = judge_claims([*runs, folder / CENSUS], SWEPT_CLAIMS)
+    cluster = folder.parent / "cluster"
+    claims = [*swept, *(judge_claims([cluster], CLUSTER_CLAIMS) if cluster.is_dir() else ())]
+    tested = [one for one in claims if one.ours.verdict is not Verdict.NOT_TESTED]
+    mirrors, unread = read_mirrors(sorted((folder / "mirrors").glob("*.json")))
+    return {
+        "cells": len(report.cells.cells),
+        "wrong": len(report.cells.wrong),
+        "claims": {one.claim.name: _claim(one) for one in tested},
+        "tested": len(tested),
+        "verdicts": {
+            verdict.value: [one.claim.name for one in tested if one.ours.verdict is verdict]
+            for verdict in _TESTED
+        },
+        "alone": Counter(one.ours.verdict.value for one in report.claims),
+        "alike": ALIKE,
+        "again": _again(report, second) if second else None,
+        "more": len(more),
+        "mirrors": mirrors,
+        "unread": unread,
+        "sampling": samplings(folder / "sampling.csv"),
+        "chosen_levels": chosen_levels(folder / "chosen-levels.csv"),
+    }
+
+
+def _second(folder: Path) -> Report | None:
+    """A second run of the same kind."""
+    again = folder.with_name(f"{folder.name}-again")
+    return gather(again, read_plan(again)) if _is_of_one_kind(again, folder) else None
+
+
+def more_runs(folder: Path) -> list[Path]:
+    """Runs of single cells, with more repetitions, by the commit and machine of FOLDER's.
+
+    They are made by `scripts/publish --only thesis-more`.
+    """
+    more = folder.with_name(f"{folder.name}-more")
+    found = sorted(path.parent for path in more.glob("*/results.csv"))
+    return found if _is_of_one_kind(more, folder) else []
+
+
+def _is_of_one_kind(other: Path, folder: Path) -> bool:
+    return other.is_dir() and _made_by(other) == _made_by(folder / "synthetic")
+
+
+def _again(first: Report, second: Report) -> dict[str, Any]:
+    """The verdicts of two runs beside one another."""
+    names = [
+        one.name
+        for one in second.plan.sweeps
+        if (second.directory / one.name / "results.csv").is_file()
+    ]
+    return compared(
+        *({one.claim.name: one.ours.verdict for one in run.claims} for run in (first, second))
+    ) | {
+        "sweeps": names,
+        "planned": len(second.plan.sweeps),
+        "times": times_found_again(
+            [
+                (read_run(first.directory / name), read_run(second.directory / name))
+                for name in names
+            ]
+        ),
+    }
+
+
+def compared(first: dict[str, Verdict], second: dict[str, Verdict]) -> dict[str, Any]:
+    """The claims that two runs test: undecided in one or both, decided alike, decided otherwise."""
+    both = [name for name in first if second.get(name, Verdict.NOT_TESTED) in _TESTED]
+    decided = [n for n in both if Verdict.UNDECIDED not in (first[n], second[n])]
+    return {
+        "tested": len(both),
+        "decided": len(decided),
+        "differ": [name for name in decided if first[name] is not second[name]],
+        "undecided": [
+            [name for name in both if run[name] is Verdict.UNDECIDED] for run in (first, second)
+        ],
+    }
+
+
+def times_found_again(runs: Sequence[tuple[Run, Run]]) -> dict[str, Any]:
+    """Do the fastest repetitions of repeated sweeps lie in the intervals that the first ones state?
+
+    The claims are judged by these intervals (thesis/paper/measured.py). With them the changes that
+    half and nine tenths of the cells stay below, and of the medians the same.
+    """
+    figures = {"fastest": "fastest_mcycles", "median": "total_mcycles_median"}
+    columns = [*IDENTITY, "fastest_error", *figures.values()]
+    pairs = [[with_fastest([run])[0][columns] for run in both] for both in runs]
+    cells = pd.concat(
+        first.merge(second, on=list(IDENTITY), suffixes=("", "_b")).dropna()
+        for first, second in pairs
+    )
+    change = {
+        name: (cells[f"{figure}_b"] / cells[figure] - 1.0).abs() for name, figure in figures.items()
+    }
+    reach = cells["fastest_error"].map(error_between_runs)
+    return {
+        "cells": len(cells),
+        "within": int((change["fastest"] <= reach).sum()),
+        "half": {name: float(changes.quantile(0.5)) for name, changes in change.items()},
+        "most": {name: float(changes.quantile(0.9)) for name, changes in change.items()},
+    }
+
+
+def _made_by(folder: Path) -> set[tuple[str, str]]:
+    return {(one.commit, one.machine_id) for one in origins(folder)}
+
+
+def _claim(one: JudgedClaim) -> dict[str, Any]:
+    counted = [check for check in one.ours.checks if not check.aside]
+    yes = [check for check in counted if check.outcome is Outcome.YES]
+    ratios = [check.ratio for check in yes if check.ratio is not None]
+    open_cells = [check for check in counted if check.outcome is Outcome.UNDECIDED]
+    return {
+        "says": one.claim.says,
+        "verdict": one.ours.verdict.value,
+        "by_the_thesis": one.thesis.verdict.value,
+        "formerly": one.formerly.verdict.value if one.formerly else "",
+        "yes": len(yes),
+        "cells": len(counted),
+        "least": min(ratios, default=None),
+        "most": max(ratios, default=None),
+        "summary": summary(one.ours),
+        "undecided": [f"{check.cell}: {check.figures}" for check in open_cells],
+    }

@@ -1,0 +1,165 @@
+"""Makes one folder: its steps aside, then into results/published, whole."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from beambench_operations.publish.plan import Command, Folder, Step, Sweep
+from beambench_operations.publish.progress import Progress, progress_of, state_file
+from beambench_operations.publish.setting import Setting
+from beambench_operations.publish.small import leave_out, make_small
+from beambench_report.base.files import INTERRUPTED, ROOT, Problem, read_json, say, write_text
+from beambench_report.base.quantities import duration_in_words
+
+WRONG_HITS = 1
+_FIRST_TEMPLATES = Path(__file__).parent / "templates"
+"""Of the pages of folders that were not published yet."""
+
+Run = Callable[[Sequence[str], Path | None], int]
+"""Runs a program, its standard output into a file or nowhere; returns its exit code."""
+
+
+class Interrupted(Exception):  # noqa: N818 (no error)
+    """The user ended it; what was finished is kept."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a folder is made, by which programs, and where it goes."""
+
+    aside: Path
+    published: Path
+    beambench: Path
+    plugins: Sequence[Path] = ()
+    run: Run = field(default=lambda command, into: run_program(command, into))
+
+    def names(self, folder: Path) -> dict[str, str]:
+        """What the words of commands may name."""
+        return {
+            "beambench": str(self.beambench),
+            "bin": str(self.beambench.parent),
+            "python": sys.executable,
+            "folder": str(folder),
+            "root": str(ROOT),
+        }
+
+
+def make_folder(folder: Folder, place: Place, setting: Setting) -> Progress:
+    """Does the steps that are left, and publishes the folder.
+
+    Raises Problem where a step fails, Interrupted where the user ends one; called again on this
+    machine, it goes on there, and on another machine it begins anew.
+    """
+    target = place.aside / folder.name
+    progress = progress_of(target, setting)
+    if progress is None:
+        shutil.rmtree(target, ignore_errors=True)
+        progress = Progress(target, setting.as_record())
+        progress.keep()
+    target.mkdir(parents=True, exist_ok=True)
+    for number, step in enumerate(folder.steps):
+        if number < len(progress.seconds):
+            continue
+        say(f"== {folder.name}, {number + 1} of {len(folder.steps)}: {step.words}")
+        begun = time.monotonic()
+        code = _do(step, target, place)
+        if code in INTERRUPTED:
+            raise Interrupted
+        if code not in (0, WRONG_HITS):
+            raise Problem(f"{folder.name}: exit code {code} of: {step.words}")
+        took = time.monotonic() - begun
+        progress.done(took, wrong=code == WRONG_HITS)
+        say(f"   {duration_in_words(took)}, planned were {duration_in_words(step.seconds)}")
+    _publish(folder, progress, place.published / folder.name)
+    return progress
+
+
+def run_program(command: Sequence[str], into: Path | None) -> int:
+    """Its messages go to the terminal; what it prints, into a file or nowhere."""
+    if into is None:
+        return _wait(subprocess.Popen(command, stdout=subprocess.DEVNULL))
+    into.parent.mkdir(parents=True, exist_ok=True)
+    pending = into.with_name(f".pending-{into.name}")
+    with pending.open("wb") as output:
+        code = _wait(subprocess.Popen(command, stdout=output))
+    if code in (0, WRONG_HITS):
+        pending.replace(into)
+    else:
+        pending.unlink()
+    return code
+
+
+def _wait(child: subprocess.Popen[bytes]) -> int:
+    try:
+        return child.wait()
+    except KeyboardInterrupt:
+        child.wait()
+        return INTERRUPTED[0]
+
+
+def _do(step: Step, target: Path, place: Place) -> int:
+    if isinstance(step, Sweep):
+        return _sweep(step, target, place)
+    return _command(step, target, place)
+
+
+def _sweep(step: Sweep, target: Path, place: Place) -> int:
+    run = target / step.into
+    beambench = [str(place.beambench), *(f"--plugin={one}" for one in place.plugins), "run"]
+    if (run / "config.json").is_file():
+        if _is_finished(run):
+            return 0
+        return place.run([*beambench, "--resume", str(run)], None)
+    config = target.with_name(f"{target.name}.sweep.json")
+    write_text(config, json.dumps(step.config(), indent=1) + "\n")
+    return place.run([*beambench, str(config), "-o", str(run)], None)
+
+
+def _is_finished(run: Path) -> bool:
+    """Did the run end before its end could be noted here?"""
+    manifest = read_json(run / "manifest.json")
+    return isinstance(manifest, dict) and bool(manifest.get("finished_utc"))
+
+
+def _command(step: Command, target: Path, place: Place) -> int:
+    was_begun = bool(step.resume) and any(target.iterdir())
+    words = step.resume if was_begun else step.words_of
+    command = [word.format_map(place.names(target)) for word in words]
+    return place.run(command, target / step.into if step.into else None)
+
+
+def _publish(folder: Folder, progress: Progress, published: Path) -> None:
+    """Replaces the published folder; its texts' templates and what it keeps stay."""
+    leave_out(progress.folder, folder.leave_out)
+    make_small(progress.folder)
+    progress.publish()
+    kept = [*folder.keep, *_templates(published)]
+    for name in kept:
+        source, target = published / name, progress.folder / name
+        if source.is_file() and not target.is_file():
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(source, target)
+    first = _FIRST_TEMPLATES / f"{folder.name}.md.j2"
+    if first.is_file() and not (progress.folder / "README.md.j2").is_file():
+        shutil.copy(first, progress.folder / "README.md.j2")
+    former = published.with_name(f".former-{published.name}")
+    shutil.rmtree(former, ignore_errors=True)
+    if published.exists():
+        published.rename(former)
+    published.parent.mkdir(parents=True, exist_ok=True)
+    shutil.move(str(progress.folder), published)
+    shutil.rmtree(former, ignore_errors=True)
+    state_file(progress.folder).unlink(missing_ok=True)
+
+
+def _templates(published: Path) -> list[str]:
+    """Templates, and texts that are written by hand."""
+    texts = (*published.rglob("*.md.j2"), *published.glob("README.md"))
+    return [str(path.relative_to(published)) for path in texts]

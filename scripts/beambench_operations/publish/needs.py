@@ -1,0 +1,142 @@
+"""What some folders need beside the built program, and what is there of it."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import shutil
+import subprocess
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from beambench_operations.publish.plan import Folder
+from beambench_operations.publish.setting import Setting
+from beambench_report.base.files import ROOT, Problem, say
+
+_MESH = "mesh:cat"
+_CLONE = "root/beambench"
+_ASIDE = "results/runs/aside"
+"""Below the clone: the folders that are being made."""
+
+
+@dataclass(frozen=True)
+class Given:
+    """What the options name."""
+
+    tinybvh: Path | None = None
+    """Folder with tiny_bvh.h."""
+    madmann91_bvh: Path | None = None
+    """Folder with bvh/v2/bvh.h."""
+    debian_13: Path | None = None
+    """Root folder of a Debian 13; made there by debootstrap where it is none yet."""
+    named: tuple[str, ...] = ()
+    """The folders that are wanted by name."""
+
+
+def missing(folder: Folder, given: Given, beambench: Path, setting: Setting) -> str:
+    """Why a folder cannot be made here, with what to do; empty where it can."""
+    if folder.embree and not setting.embree.startswith(f"{folder.embree}."):
+        return f"it takes Embree {folder.embree}, and this program has {setting.embree}"
+    if folder.needs == "meshes" and not _knows(beambench, _MESH):
+        return "the meshes are not registered; register them with scripts/meshes"
+    if folder.needs == "its name" and folder.name not in given.named:
+        return f"name it, for it takes long: --only {folder.name}"
+    if folder.needs == "libraries" and not (given.tinybvh and given.madmann91_bvh):
+        return "give --tinybvh DIR and --madmann91-bvh DIR; its table keeps its commit"
+    if folder.needs == "debian-13" and not given.debian_13:
+        return "give --debian-13 DIR, as root; its table keeps its commit"
+    return ""
+
+
+def _knows(beambench: Path, scene: str) -> bool:
+    command = [str(beambench), "scene", scene]
+    return subprocess.run(command, capture_output=True, check=False).returncode == 0
+
+
+def plugins_for(given: Given) -> list[Path]:
+    """Builds the adapters of the libraries. Raises Problem where that fails."""
+    if not (given.tinybvh and given.madmann91_bvh):
+        return []
+    say("Building the adapters of the libraries")
+    _run(
+        "cmake",
+        "--preset",
+        "release",
+        f"-DBEAMBENCH_TINYBVH={given.tinybvh.resolve()}",
+        f"-DBEAMBENCH_MADMANN91_BVH={given.madmann91_bvh.resolve()}",
+    )
+    _run("cmake", "--build", "--preset", "release")
+    names = ("libtinybvh.so", "libmadmann91_bvh.so")
+    return [ROOT / "build/release/plugins" / name for name in names]
+
+
+class Debian13:
+    """A Debian 13 in a folder, with its own clone and build of this commit."""
+
+    def __init__(self, root: Path, commit: str) -> None:
+        """Makes or completes it. Raises Problem where that cannot be done."""
+        self.root = root.resolve()
+        if os.geteuid() != 0:
+            raise Problem("a Debian 13 in a folder needs root; leave --debian-13 out")
+        if not (self.root / "etc/debian_version").is_file():
+            self._bootstrap()
+        self._clone(commit)
+        self.build()
+
+    def build(self) -> None:
+        """Installs what is missing there, and builds. Raises Problem where that fails."""
+        say("Building in Debian 13")
+        if code := self._shell("scripts/setup beambench", self.root):
+            raise Problem(f"{self.root}: exit code {code} of: scripts/setup beambench")
+
+    def run(self, command: Sequence[str], aside: Path) -> int:
+        """A command of the program, whose folders lie below `aside`; its exit code."""
+        inside = [word.replace(str(aside), _ASIDE) for word in command]
+        return self._shell(shlex.join(["build/release/bin/beambench", *inside[1:]]), aside)
+
+    def _shell(self, words: str, aside: Path) -> int:
+        """A line in the clone, with /proc, /sys and /dev, and `aside` as a folder of the clone.
+
+        The mounts are of a name space of their own, and so end with it.
+        """
+        line = (
+            "set -e; "
+            "for one in proc sys dev; do "
+            'mkdir -p "$0/$one"; mount --rbind "/$one" "$0/$one"; done; '
+            'mkdir -p "$0/$3/$4"; mount --bind "$2" "$0/$3/$4"; '
+            'exec chroot "$0" /bin/bash -c "cd /$3 && $1"'
+        )
+        words_of = ["unshare", "--mount", "bash", "-c", line]
+        paths = [str(self.root), words, str(aside), _CLONE, _ASIDE]
+        return subprocess.run([*words_of, *paths], check=False).returncode
+
+    def _bootstrap(self) -> None:
+        if shutil.which("debootstrap") is None:
+            raise Problem("debootstrap is not installed; install it, or name a Debian 13")
+        say(f"Making a Debian 13 in {self.root}")
+        _run("debootstrap", "--variant=minbase", "trixie", str(self.root))
+        for name in ("resolv.conf", "apt/apt.conf.d"):
+            self._copy_setting(Path("/etc") / name)
+
+    def _copy_setting(self, file: Path) -> None:
+        """How this machine reaches the network; never which packages it takes."""
+        target = self.root / file.relative_to("/")
+        if file.name == "resolv.conf" and file.is_file():
+            shutil.copy(file, target)
+        if file.is_dir():
+            for own in file.glob("*proxy*"):
+                shutil.copy(own, target / own.name)
+
+    def _clone(self, commit: str) -> None:
+        clone = self.root / _CLONE
+        if not (clone / ".git").is_dir():
+            _run("git", "clone", "--quiet", "--no-hardlinks", str(ROOT), str(clone))
+        _run("git", "-C", str(clone), "fetch", "--quiet", str(ROOT), "HEAD")
+        _run("git", "-C", str(clone), "checkout", "--quiet", "--detach", commit)
+
+
+def _run(*command: str) -> None:
+    done = subprocess.run(command, check=False, cwd=ROOT)
+    if done.returncode:
+        raise Problem(f"{command[0]}: exit code {done.returncode} of: {' '.join(command)}")

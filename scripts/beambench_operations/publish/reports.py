@@ -1,0 +1,86 @@
+"""The reports in results/published that other commands write from the same rows."""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+from collections.abc import Callable, Sequence
+from functools import partial
+from pathlib import Path
+
+from beambench_operations.campaign.record import Record
+from beambench_operations.campaign.report import as_markdown as as_campaigns
+from beambench_operations.publish.images import with_small_images
+from beambench_report.base.records import read_run
+from beambench_report.embree_comparison.pairings import pairings
+from beambench_report.embree_comparison.report import as_markdown as as_comparison
+from beambench_report.haines.report import write_report as write_haines
+from beambench_report.havran.report import write_report as write_havran
+from beambench_report.run.ratio_table import write_ratios
+from beambench_report.run.winners import write_winners
+from beambench_thesis.chapter6.report import write_report as write_cluster
+from beambench_thesis.report.plan import read_plan
+from beambench_thesis.report.report import gather
+from beambench_thesis.report.write import as_markdown as as_thesis
+
+WATERTIGHT = "embree mode=single robust=true coherent=auto"
+BEAT_EMBREE = ("main", "scenes", "soup", "cones", "avx2", "scaling", "resolutions")
+PENCILS = ("shadows", "mirrors", "pictures")
+
+
+def _winners(folder: Path) -> str:
+    return str(write_winners(folder, None))
+
+
+def _ratios(to: str, folder: Path) -> str:
+    return str(write_ratios(folder, to, None))
+
+
+def _comparison(names: Sequence[str], folder: Path) -> str:
+    """With the figures that are drawn beside it."""
+    runs = [read_run(folder / name) for name in names if (folder / name).is_dir()]
+    drawn = {path.stem: path.name for path in sorted(folder.glob("beat-embree*.[ps][nv]g"))}
+    return as_comparison(pairings(runs), [drawn[stem] for stem in sorted(drawn)])
+
+
+def _thesis(folder: Path) -> str:
+    """The pictures of octrees are there already, so that no program draws them."""
+    return as_thesis(gather(folder, read_plan(folder), Path()))
+
+
+def _campaigns(folder: Path) -> str:
+    return as_campaigns(Record(folder).pieces())
+
+
+def _in_copy(write: Callable[[Path], object], folder: Path) -> str:
+    """What a command writes from all tables of a folder that draws plots beside its report, too."""
+    with tempfile.TemporaryDirectory() as copy:
+        for table in (*folder.glob("*.csv"), *folder.glob("*.json")):
+            shutil.copy(table, copy)
+        write(Path(copy))
+        return (Path(copy) / "report.md").read_text("utf-8")
+
+
+_REPORTS: dict[str, Callable[[Path], str]] = {
+    "beat-embree/report.md": partial(_comparison, BEAT_EMBREE),
+    "cluster/report.md": partial(_in_copy, write_cluster),
+    "haines/report.md": partial(_in_copy, write_haines),
+    "havran/report.md": partial(_in_copy, write_havran),
+    "libraries/embree-4/to-embree.md": partial(_ratios, WATERTIGHT),
+    "libraries/to-embree.md": partial(_ratios, WATERTIGHT),
+    "libraries/to-tinybvh.md": partial(_ratios, "tinybvh"),
+    "pencils/report.md": partial(_comparison, PENCILS),
+    "robustness/campaigns.md": _campaigns,
+    "structures/winners.md": _winners,
+    "thesis/report.md": _thesis,
+}
+
+
+def report_names() -> list[str]:
+    """The paths of the reports within results/published."""
+    return list(_REPORTS)
+
+
+def report(name: str, folder: Path) -> str:
+    """The text of a report on the rows in its folder."""
+    return with_small_images(_REPORTS[name](folder), folder)

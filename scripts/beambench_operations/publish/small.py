@@ -1,0 +1,88 @@
+"""What of a run is committed: small files from which every figure can be computed again."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from PIL import Image
+
+from beambench_operations.publish.images import with_small_images
+from beambench_report.base.cell_files import REPETITIONS, write_repetitions
+from beambench_report.base.files import write_text
+from beambench_report.base.run_log import LOG
+
+_COLORS = 256
+_NOT_COMMITTED = ("analysis.json", "google-benchmark.json", "report.html", "*answers.jsonl")
+"""The last: what an interrupted simulation of the cluster goes on from."""
+_FOLDERS_NOT_COMMITTED = ("tasks",)
+"""What single beams cost, from which only simulations of the cluster begin."""
+
+
+def make_small(folder: Path) -> None:
+    """Leaves in a finished folder what is committed.
+
+    The repetitions of all cells become one file each, where there are enough for intervals; of
+    plots the SVG stays, and pictures get a palette.
+    """
+    for log in sorted(folder.rglob(LOG)):
+        if not (log.parent / REPETITIONS).is_file():
+            write_repetitions(log.parent)
+        log.unlink()
+    for name in _NOT_COMMITTED:
+        for file in folder.rglob(name):
+            file.unlink()
+    for name in _FOLDERS_NOT_COMMITTED:
+        for inner in sorted(folder.rglob(name)):
+            shutil.rmtree(inner)
+    make_images_small(folder)
+
+
+def leave_out(folder: Path, patterns: Sequence[str]) -> None:
+    """Removes the files and folders in a finished folder that match a pattern."""
+    for pattern in patterns:
+        for path in sorted(folder.glob(pattern)):
+            if path.is_dir():
+                shutil.rmtree(path)
+            else:
+                path.unlink()
+
+
+def make_images_small(folder: Path) -> None:
+    """Of a plot the SVG stays, a picture gets a palette; texts show what is left."""
+    for picture in sorted(folder.rglob("*.png")):
+        if picture.with_suffix(".svg").is_file():
+            picture.unlink()
+        else:
+            with_palette(picture)
+    for text in folder.rglob("*.md"):
+        write_text(text, with_small_images(text.read_text("utf-8"), text.parent))
+
+
+def with_palette(picture: Path) -> None:
+    """Writes a PNG with a palette of few colors, where that is smaller."""
+    with Image.open(picture) as image:
+        if image.mode == "P":
+            return
+        has_alpha = image.mode in ("RGBA", "LA")
+        opaque = Image.new("RGB", image.size, "white")
+        opaque.paste(image.convert("RGB"), mask=image.getchannel("A") if has_alpha else None)
+    pending = picture.with_name(f".pending-{picture.name}")
+    palette = opaque.quantize(_COLORS)
+    # Dithered, or curved surfaces have steps.
+    small = opaque.quantize(palette=palette, dither=Image.Dither.FLOYDSTEINBERG)
+    small.save(pending, "PNG", optimize=True)
+    if pending.stat().st_size < picture.stat().st_size:
+        pending.replace(picture)
+    else:
+        pending.unlink()
+
+
+def size(folder: Path) -> int:
+    """Bytes of all files."""
+    return sum(file.stat().st_size for file in _files(folder))
+
+
+def _files(folder: Path) -> Iterator[Path]:
+    return (file for file in folder.rglob("*") if file.is_file())

@@ -1,0 +1,166 @@
+"""Two runs of one sweep, cell by cell: ratios within each run, and milliseconds on one machine."""
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from beambench_operations.site.entry import Cell, Ends, Entry
+from beambench_report.base.ratio import Median, Ratio, unpaired_ratio
+from beambench_report.base.records import BASELINE
+
+_MOST = 25
+
+
+@dataclass(frozen=True)
+class Pair:
+    """A cell of both runs."""
+
+    before: Cell
+    after: Cell
+    ratios: tuple[Ends | None, Ends | None]
+    """To the reference, each within its run; None where there is none."""
+    ratio: Ratio | None
+    """The later ratio to the reference over the earlier one; None where there is none."""
+    ms: Ratio | None
+    """The same of milliseconds; None across machines."""
+
+    @property
+    def side(self) -> str:
+        """`slower` or `faster` where the interval of the ratio is on one side of 1."""
+        if self.ratio is None or self.ratio.interval is None:
+            return ""
+        low, high = self.ratio.interval
+        return "slower" if low > 1 else "faster" if high < 1 else ""
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """A later run beside an earlier one."""
+
+    before: Entry
+    after: Entry
+    reference: str
+    """Structure and parameters of what the ratios are to; empty where the runs share none."""
+    warning: str
+    """Empty where both ran on one machine."""
+    sentences: tuple[str, ...]
+    pairs: tuple[Pair, ...]
+
+    @property
+    def reference_label(self) -> str:
+        """The reference as the later run calls it."""
+        names = (cell.contender for cell in self.after.cells if cell.who == self.reference)
+        return next(names, "")
+
+    @property
+    def same_machine(self) -> bool:
+        """Only then are milliseconds compared."""
+        return not self.warning
+
+    @property
+    def slower(self) -> int:
+        """How many ratios are higher, by their intervals."""
+        return sum(pair.side == "slower" for pair in self.pairs)
+
+    @property
+    def faster(self) -> int:
+        """How many ratios are lower, by their intervals."""
+        return sum(pair.side == "faster" for pair in self.pairs)
+
+    @property
+    def compared(self) -> int:
+        """How many ratios both runs have."""
+        return sum(pair.ratio is not None for pair in self.pairs)
+
+
+def compare(before: Entry, after: Entry) -> Comparison:
+    """Pairs the cells of two runs; the largest changes come first."""
+    warning = ""
+    if before.machine.differs_from(after.machine):
+        warning = (
+            f"{before.machine} before, {after.machine} after. Their milliseconds "
+            "are not compared, and ratios depend on the processor, too: these changes are not "
+            "the program's alone."
+        )
+    reference, then_ratios, now_ratios = _ratios(before, after)
+    known = {cell.key: cell for cell in before.cells}
+    pairs, verdicts, others, more = [], [], 0, 0
+    for cell in after.cells:
+        then = known.pop(cell.key, None)
+        if then is None:
+            continue
+        if then.inputs != cell.inputs:
+            others += 1
+            continue
+        if then.verdict != cell.verdict:
+            verdicts.append(
+                f"{cell.contender} in {cell.view} at {cell.size}: {then.verdict} before, "
+                f"{cell.verdict} now."
+            )
+        more += then.work != cell.work
+        ratios = (then_ratios.get(cell.key), now_ratios.get(cell.key))
+        pairs.append(
+            Pair(
+                then,
+                cell,
+                ratios,
+                _change(*ratios),
+                None if warning else _change(then.ms, cell.ms),
+            )
+        )
+    new = len(after.cells) - (len(before.cells) - len(known))
+    sentences = verdicts[:_MOST]
+    sentences += _counted(more, "cells have other counters.", "cell has other counters.")
+    sentences += _counted(others, "cells have other rays or scenes; they are not compared.")
+    sentences += _counted(new, "cells are new.", "cell is new.")
+    sentences += _counted(len(known), "cells are gone.", "cell is gone.")
+    pairs.sort(key=lambda pair: -abs((pair.ratio.value if pair.ratio else 1.0) - 1))
+    return Comparison(before, after, reference, warning, tuple(sentences), tuple(pairs))
+
+
+def _ratios(before: Entry, after: Entry) -> tuple[str, dict[str, Ends], dict[str, Ends]]:
+    """The reference of both runs, and the ratios to it by the keys of the cells.
+
+    Where each has another reference, a contender that both have: Embree's single rays if possible;
+    ratios are of medians then, not paired. What finds nothing has no ratio worth a look.
+    """
+    if before.reference == after.reference != "":
+        name = after.reference
+        then, now = ({cell.key: cell.ratio for cell in run.cells} for run in (before, after))
+    else:
+        timed = [{cell.key: cell for cell in run.cells if cell.ms} for run in (before, after)]
+        common = Counter(
+            cell.who
+            for key, cell in timed[1].items()
+            if key in timed[0] and cell.verdict != BASELINE
+        )
+
+        def preference(who: str) -> tuple[bool, int, str]:
+            return (who.startswith("embree ") and "mode=single" in who, common[who], who)
+
+        name = max(common, key=preference, default="")
+        then, now = (_over(name, list(cells.values())) for cells in timed)
+    leave_out = {cell.key for cell in after.cells if cell.who == name or cell.verdict == BASELINE}
+    return name, *(
+        {key: ratio for key, ratio in ratios.items() if ratio and key not in leave_out}
+        for ratios in (then, now)
+    )
+
+
+def _over(reference: str, cells: Sequence[Cell]) -> dict[str, Ends]:
+    bases = {cell.rays: cell.ms for cell in cells if cell.who == reference}
+    return {
+        cell.key: (ratio.value, ratio.low, ratio.high)
+        for cell in cells
+        if (ratio := _change(bases.get(cell.rays), cell.ms))
+    }
+
+
+def _change(before: Ends | None, after: Ends | None) -> Ratio | None:
+    return unpaired_ratio(Median(*after), Median(*before)) if before and after else None
+
+
+def _counted(count: int, many: str, one: str | None = None) -> list[str]:
+    if count == 0:
+        return []
+    return [f"{count:,} {one if count == 1 and one else many}"]

@@ -1,0 +1,249 @@
+"""What the site keeps of a run: its line in the index, and its cells for comparisons.
+
+Kept as JSON within a script, `runs/<name>/data.js`, so that a page opened as a file can load it. A
+run whose files did not change since is not read again.
+"""
+
+import json
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import asdict, astuple, dataclass
+from functools import cache
+from hashlib import sha256
+from pathlib import Path
+
+from beambench_operations.history.night import comparable, counters_of
+from beambench_report.base.cell_files import (
+    CellFile,
+    Identity,
+    identity,
+    ratio_of,
+    read_cell_files,
+)
+from beambench_report.base.machine import Machine, Manifest, machine_of, read_manifest
+from beambench_report.base.ratio import Median, Ratio, median_of
+from beambench_report.base.records import (
+    FAULTLESS_VERDICTS,
+    NO_RAYS,
+    Run,
+    contenders_with_times,
+    size_of,
+)
+from beambench_report.run.outcome import doubts_about_times
+from beambench_report.run.standings import overall, standings
+
+_BAR = " | "
+_BEGIN, _END = "beambench.add(", ");\n"
+
+
+Ends = tuple[float, float | None, float | None]
+"""A figure and its 95% interval."""
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One cell, small: figures have five digits."""
+
+    key: str
+    """Identifies it in every run: the columns of `IDENTITY`."""
+    view: str
+    size: str
+    contender: str
+    verdict: str
+    inputs: str
+    """Of scene and rays: cells with others are not compared."""
+    work: str
+    """Of its counters."""
+    ms: Ends | None
+    """Median of build and trace with its interval; None where no time counts."""
+    ratio: Ends | None
+    """Of these to the reference of the same run, paired where the repetitions are known."""
+
+    @property
+    def who(self) -> str:
+        """Structure and parameters, as `Entry.reference` has them."""
+        return " ".join(self.key.split(_BAR)[2:4])
+
+    @property
+    def rays(self) -> str:
+        """What identifies the rays: cells with the same ones have one reference."""
+        parts = self.key.split(_BAR)
+        return _BAR.join(parts[:2] + parts[4:])
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One run."""
+
+    run_id: str
+    time: str
+    commit: str
+    dirty: bool
+    machine_ids: tuple[str, ...]
+    processor: str
+    sweep: str
+    cut_off: bool
+    wrong: int
+    without_rays: int
+    doubts: tuple[str, ...] | None
+    """Why the times are worth little; None where the record is silent."""
+    timed: int
+    fastest: tuple[str, ...]
+    """For each kind of rays."""
+    reference: str
+    """What the ratios are to; empty where no contender has times."""
+    cells: tuple[Cell, ...]
+
+    @property
+    def machine(self) -> Machine:
+        """Where it ran."""
+        return Machine(self.machine_ids, self.processor)
+
+    @property
+    def machine_title(self) -> str:
+        """The processor; where it is not known, the machine's number."""
+        return self.processor or " and ".join(self.machine_ids)
+
+    @property
+    def date(self) -> str:
+        """As tables show it."""
+        return self.time.replace("T", " ").replace("Z", "")[:16] or "no date"
+
+
+def entry_of(run: Run) -> Entry:
+    """Reads off a run what the site needs."""
+    rows = run.rows
+    manifest = read_manifest(run.directory) or Manifest()
+    files = read_cell_files(run.directory)
+    newest = rows.iloc[-1]
+    timed = rows[rows["timed"]]
+    machine = machine_of(rows, run.directory)
+    reference = _reference(run)
+    return Entry(
+        run_id=newest["run_id"],
+        time=manifest.begun or str(newest.get("time_utc", "")),
+        commit=newest["commit"],
+        dirty=bool((rows["dirty"] == "true").any()),
+        machine_ids=machine.ids,
+        processor=machine.processor,
+        sweep=manifest.sweep,
+        cut_off=manifest.cut_off,
+        wrong=int((~rows["verdict"].isin(FAULTLESS_VERDICTS)).sum()),
+        without_rays=int((rows["verdict"] == NO_RAYS).sum()),
+        doubts=tuple(doubts_about_times(run, manifest)) if "stop_reason" in timed else None,
+        timed=len(timed),
+        fastest=_fastest(run, files),
+        reference=" ".join(reference) if reference else "",
+        cells=_cells(run, files, reference),
+    )
+
+
+def _reference(run: Run) -> tuple[str, str] | None:
+    """Structure and parameters: Embree's single rays, or else what has times in the most cells."""
+    timed = contenders_with_times(run.rows)
+    counts = Counter(zip(timed["structure"], timed["parameters"], strict=True))
+
+    def preference(who: tuple[str, str]) -> tuple[bool, bool, int, tuple[str, str]]:
+        is_embree = who[0] == "embree"
+        return (is_embree and "mode=single" in who[1], is_embree, counts[who], who)
+
+    return max(counts, key=preference, default=None)
+
+
+def _fastest(run: Run, files: Mapping[Identity, CellFile]) -> tuple[str, ...]:
+    """Who has the least geometric mean of trace times, and in how many views it is ahead."""
+    kinds = overall(standings(run, files))
+    words = []
+    for one in kinds:
+        first = one.means[0]
+        kind = f"{one.ray_kind}: " if len(kinds) > 1 else ""
+        words.append(f"{kind}{first.contender} ({first.wins} of {one.views})")
+    return tuple(words)
+
+
+def _cells(
+    run: Run, files: Mapping[Identity, CellFile], reference: tuple[str, str] | None
+) -> tuple[Cell, ...]:
+    rows = run.rows.to_dict("records")
+    views, work = comparable(run.rows), counters_of(run.rows)
+    bases = {
+        view: row
+        for view, row in zip(views, rows, strict=True)
+        if (row["structure"], row["parameters"]) == reference
+        and row["timed"]
+        and row["total_ms_median"] > 0
+    }
+    cells = []
+    for row, view, counters in zip(rows, views, work, strict=True):
+        timed = row["timed"] and row["total_ms_median"] > 0
+        ratio = ratio_of("total", row, bases[view], files) if timed and view in bases else None
+        cells.append(
+            Cell(
+                _BAR.join(identity(row)),
+                row["view"],
+                size_of(row),
+                row["contender"],
+                row["verdict"],
+                _digest(f"{row.get('scene_hash', '')} {row.get('rays_hash', '')}"),
+                _digest(counters),
+                _small(median_of(row, "total")) if timed else None,
+                _small(ratio) if ratio else None,
+            )
+        )
+    return tuple(cells)
+
+
+def _digest(text: str) -> str:
+    return sha256(text.encode()).hexdigest()[:8]
+
+
+def _small(figure: Median | Ratio) -> Ends:
+    ends = (figure.value, figure.low, figure.high)
+    return tuple(None if end is None else float(f"{end:.5g}") for end in ends)
+
+
+def as_script(name: str, entry: Entry, stamp: str) -> str:
+    """The text of data.js."""
+    source = asdict(entry) | {
+        "name": name,
+        "stamp": stamp,
+        "cells": [astuple(cell) for cell in entry.cells],
+    }
+    return _BEGIN + json.dumps(source, separators=(",", ":")) + _END
+
+
+def read_script(path: Path, name: str, stamp: str) -> Entry | None:
+    """The entry of a file that was written under this name and stamp; None otherwise."""
+    try:
+        text = path.read_text("utf-8")
+        source = json.loads(text.removeprefix(_BEGIN).removesuffix(_END))
+        if (source.pop("name"), source.pop("stamp")) != (name, stamp):
+            return None
+        cells = tuple(Cell(*map(_frozen, cell)) for cell in source.pop("cells"))
+        return Entry(cells=cells, **{key: _frozen(value) for key, value in source.items()})
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        return None  # none yet, or of another version: it is written anew
+
+
+def _frozen(value: object) -> object:
+    return tuple(value) if isinstance(value, list) else value
+
+
+def stamp_of(directory: Path) -> str:
+    """Changes with the files of a run, and with the code that makes pages of them."""
+    return sha256(f"{_state(directory)}{_code()}".encode()).hexdigest()
+
+
+@cache
+def _code() -> str:
+    scripts = Path(__file__).parents[2]
+    return "\n".join(_state(scripts / f"beambench_{name}") for name in ("report", "operations"))
+
+
+def _state(folder: Path) -> str:
+    states = []
+    for path in sorted(folder.resolve().rglob("*")):
+        if path.is_file() and path.suffix != ".pyc":
+            status = path.stat()
+            states.append(f"{path} {status.st_size} {status.st_mtime_ns}")
+    return "\n".join(states)

@@ -1,0 +1,148 @@
+"""Beams through a hierarchy of grids, the thesis's future work: of the sweep grid-beams."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from beambench_report.base.quantities import number
+from beambench_thesis.paper.cells import Cell
+from beambench_thesis.paper.printed import milliseconds, scene_title
+from beambench_thesis.paper.section import Section, section_table
+
+_WORDS = (
+    "The thesis proposes to take beams through other structures than the octree, hierarchies of "
+    "grids among them (section 7.3). Here `grid-beam` does: a beam passes the empty voxels of the "
+    "scene's grid and, where a voxel refers to many primitives, those of the grid in it (Jevans "
+    "and Wyvill 1989). Beams with few samples become single rays. The hits are those of single "
+    "rays, bit for bit. The table has the time of a trace, without building, by single rays and "
+    "by beams through the same grids, and the whole time, building included, of the fastest "
+    "measured octree with beams beside that of the grids."
+)
+
+
+@dataclass(frozen=True)
+class GridBeamRow:
+    """A scene at a resolution."""
+
+    beams: Cell
+    rays: Cell
+    """Single rays through the same grids."""
+    octree: Cell | None
+    """Of beams through octrees, the one with the least time."""
+
+    @property
+    def ratio(self) -> float:
+        """The trace time of single rays over that of beams."""
+        return self.rays.trace / self.beams.trace
+
+    @property
+    def octree_ratio(self) -> float | None:
+        """The whole time over the octree over that over the grids."""
+        if self.octree is None:
+            return None
+        return _whole(self.octree) / _whole(self.beams)
+
+
+def grid_beam_rows(cells: Iterable[Cell]) -> list[GridBeamRow]:
+    """In the order of the cells; where beams and single rays have the same grids."""
+    timed = [cell for cell in cells if cell.time is not None]
+    rays = {
+        _grid(cell): cell
+        for cell in timed
+        if cell.structure == "hierarchical-grid" and cell.parameters.get("inner") == "powers"
+    }
+    rows = []
+    for cell in timed:
+        if cell.structure != "grid-beam" or cell.parameters.get("handover") == "0":
+            continue
+        single = rays.get(_grid(cell))
+        if single is None:
+            continue
+        octrees = [
+            one
+            for one in timed
+            if one.structure == "beam"
+            and (one.scene, one.resolution, one.samples)
+            == (cell.scene, cell.resolution, cell.samples)
+        ]
+        rows.append(GridBeamRow(cell, single, min(octrees, key=_whole, default=None)))
+    return rows
+
+
+def grid_beams_section(cells: Iterable[Cell]) -> Section | None:
+    """Scene by scene; None where nothing was measured."""
+    rows = grid_beam_rows(cells)
+    if not rows:
+        return None
+    ordered = sorted(rows, key=lambda row: (row.beams.scene, row.beams.rays))
+    table = section_table(
+        "Beams through a hierarchy of grids",
+        ("scene", "resolution"),
+        (
+            "single rays, ms",
+            "beams, ms",
+            "rays over beams",
+            "grids with building, ms",
+            "octree with building, ms",
+            "octree's level",
+            "octree over grids",
+        ),
+        [_fields(row) for row in ordered],
+    )
+    return Section(
+        "grid-beams", "Beams through a hierarchy of grids", (_WORDS,), (table,), (), _findings(rows)
+    )
+
+
+def _findings(rows: Sequence[GridBeamRow]) -> tuple[str, ...]:
+    ratios = sorted(row.ratio for row in rows)
+    never = sum(ratio >= 1 for ratio in ratios)
+    found = [
+        f"Beams take no more time than single rays through the same grids in {never} of "
+        f"{len(rows)} rows ({number(ratios[0])} to {number(ratios[-1])} times as fast)."
+    ]
+    octrees = [ratio for row in rows if (ratio := row.octree_ratio) is not None]
+    if octrees:
+        faster = sum(ratio > 1 for ratio in octrees)
+        found.append(
+            f"Building included, beams through grids take less time than beams through the fastest "
+            f"measured octree in {faster} of {len(octrees)} rows ({number(min(octrees))} to "
+            f"{number(max(octrees))} times as fast)."
+        )
+    return tuple(found)
+
+
+def _fields(row: GridBeamRow) -> tuple[str, ...]:
+    octree = row.octree
+    ratio = row.octree_ratio
+    return (
+        scene_title(row.beams.scene),
+        row.beams.resolution,
+        milliseconds(row.rays.trace),
+        milliseconds(row.beams.trace),
+        number(row.ratio),
+        milliseconds(_whole(row.beams)),
+        "" if octree is None else milliseconds(_whole(octree)),
+        "" if octree is None else octree.parameters.get("max_level", ""),
+        "" if ratio is None else number(ratio),
+    )
+
+
+def _grid(cell: Cell) -> tuple[object, ...]:
+    """What decides the grids and the rays."""
+    names = (
+        "resolution",
+        "density",
+        "inner_density",
+        "shape",
+        "max_objects",
+        "max_level",
+        "divide",
+        "assign",
+    )
+    grids = tuple(cell.parameters.get(name) for name in names)
+    return cell.scene, cell.resolution, cell.samples, grids
+
+
+def _whole(cell: Cell) -> float:
+    assert cell.time is not None  # only such cells are compared
+    return cell.time.value

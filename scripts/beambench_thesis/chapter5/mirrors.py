@@ -1,0 +1,113 @@
+"""Beams of what planar mirrors show, the thesis's future work: of `beambench mirrors --json`."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from beambench_report.base.files import load_json
+from beambench_report.base.quantities import number
+from beambench_thesis.paper.printed import scene_title
+from beambench_thesis.paper.section import Section, section_table
+
+
+@dataclass(frozen=True)
+class MirrorRun:
+    """What all mirrors of a picture show, by single rays and by beams of the same octree."""
+
+    scene: str
+    structure: str
+    resolution: str
+    mirrors: int
+    """That are visible."""
+    samples: int
+    different: int
+    """Hits that beams and rays do not have in common."""
+    rays_ms: float
+    beams_ms: float
+
+    @property
+    def ratio(self) -> float:
+        """The time of single rays over that of beams."""
+        return self.rays_ms / self.beams_ms
+
+
+def read_mirrors(files: Iterable[Path]) -> tuple[list[MirrorRun], list[str]]:
+    """Those that can be shown, and a sentence for each file that cannot."""
+    found, unread = [], []
+    for file in files:
+        try:
+            found.append(_run_of(load_json(file)))
+        except (ValueError, KeyError, TypeError, OSError) as error:
+            unread.append(f"{file}: is not what `beambench mirrors --json` prints ({error})")
+    return found, unread
+
+
+def mirrors_section(runs: Sequence[MirrorRun]) -> Section | None:
+    """Scene by scene; None where there is nothing."""
+    if not runs:
+        return None
+    words = (
+        "All rays that a planar mirror sends on seem to come from one point, the mirror image of "
+        "the eye (Heckbert and Hanrahan 1984). The thesis proposes to trace them as beams (section "
+        "7.3). Here `beam` does, in whole pictures (`render --shade whitted --accel beam`) as in "
+        "this table: the time of single rays over that of beams, through the same octree. The hits "
+        "are those of single rays, bit for bit."
+    )
+    ordered = sorted(runs, key=lambda run: (run.scene, _pixels(run.resolution), run.structure))
+    rows = [
+        (
+            _title(run.scene),
+            run.resolution,
+            f"`{run.structure}`",
+            f"{run.mirrors}",
+            f"{run.samples:,}",
+            number(run.rays_ms),
+            number(run.beams_ms),
+            number(run.ratio),
+        )
+        for run in ordered
+    ]
+    table = section_table(
+        "What planar mirrors show",
+        ("scene", "resolution", "structure"),
+        ("mirrors seen", "rays", "rays, ms", "beams, ms", "rays over beams"),
+        rows,
+    )
+    return Section("mirrors", "Beams of what mirrors show", (words,), (table,), (), _findings(runs))
+
+
+def _findings(runs: Sequence[MirrorRun]) -> tuple[str, ...]:
+    faster = sum(run.ratio > 1 for run in runs)
+    ratios = sorted(run.ratio for run in runs)
+    wrong = sum(run.different for run in runs)
+    return (
+        f"Beams take less time than single rays in {faster} of {len(runs)} rows "
+        f"({number(ratios[0])} to {number(ratios[-1])} times as fast).",
+        f"Hits that differ: {wrong:,} of {sum(run.samples for run in runs):,}.",
+    )
+
+
+def _run_of(source: dict[str, Any]) -> MirrorRun:
+    seen = source["seen"]
+    sums = {name: sum(part[name] for part in seen) for name in ("rays_ms", "beams_ms")}
+    if not all(time > 0 for time in sums.values()):
+        raise ValueError("times must be positive")
+    return MirrorRun(
+        *(str(source[name]) for name in ("scene", "structure", "resolution")),
+        len(seen),
+        sum(int(part["samples"]) for part in seen),
+        sum(int(part["different"]) for part in seen),
+        **sums,
+    )
+
+
+def _title(scene: str) -> str:
+    plain = scene.split(":")[0]
+    name = scene_title(plain)
+    return scene if name == plain else name
+
+
+def _pixels(resolution: str) -> int:
+    width, height = resolution.split("x")
+    return int(width) * int(height)

@@ -1,0 +1,167 @@
+"""Static divisions of the image, and 1,024 processes on a large picture: figures and sections."""
+
+from collections.abc import Mapping
+
+import pandas as pd
+from matplotlib.axes import Axes
+
+from beambench_report.base.figure import PAGE_WIDTH, Plot, new_figure
+from beambench_report.base.quantities import markdown_table
+from beambench_thesis.chapter6.machines import Recorded
+from beambench_thesis.chapter6.plots import HIGHER, line_look, name_panel
+from beambench_thesis.chapter6.record import LARGE
+from beambench_thesis.chapter6.results import EQUAL_MACHINES, THESIS_OPTIONS
+from beambench_thesis.chapter6.simulate import (
+    DIVISIONS,
+    ERAS,
+    LARGE_OPTIONS,
+    OLD,
+)
+
+_COMPARED = (THESIS_OPTIONS, "image blocks", *DIVISIONS)
+_CLUSTERS = {OLD: "machines of 1999, 100 Mbit/s", "today": "machines of today, 10 Gbit/s"}
+_SHOWN = (8, 15, 32, 64, 128, 256, 512, 1024)
+
+
+def _divided(simulations: pd.DataFrame) -> pd.DataFrame:
+    """Runs of the thesis's scenes on switched networks, static divisions and what they compare to.
+
+    Nothing where no division was simulated.
+    """
+    rows = simulations[
+        simulations["options"].isin(_COMPARED)
+        & simulations["scene"].ne(LARGE)
+        & simulations["machines"].eq(EQUAL_MACHINES)
+        & ~simulations["network"].str.startswith("shared")
+        & (simulations["consumers"] + 1).isin(_SHOWN)
+    ]
+    rows = rows.drop_duplicates(["era", "scene", "options", "consumers"])
+    return rows if rows["options"].isin(DIVISIONS).any() else rows.iloc[:0]
+
+
+def _large(simulations: pd.DataFrame) -> pd.DataFrame:
+    """Runs of the large picture, with the efficiency of tracing alone."""
+    rows = simulations[simulations["scene"].eq(LARGE)]
+    rows = rows.assign(processes=rows["consumers"] + 1)
+    sequential = rows["sequential_seconds"] - rows["build_seconds"]
+    return rows.assign(
+        efficiency_of_tracing=sequential / (rows["processes"] * rows["traced_seconds"])
+    )
+
+
+def division_plots(simulations: pd.DataFrame) -> list[Plot]:
+    """Efficiency over the processes: of each division, and of the large picture."""
+    plots = []
+    rows = _divided(simulations)
+    if not rows.empty:
+        scenes = list(dict.fromkeys(rows["scene"]))
+        figure, panels = new_figure(PAGE_WIDTH * 0.95, rows=len(ERAS), columns=len(scenes))
+        for number, (era, scene) in enumerate((era, scene) for era in ERAS for scene in scenes):
+            of_panel = rows[rows["era"].eq(era) & rows["scene"].eq(scene)]
+            _efficiency(panels[number], of_panel, _COMPARED, f"{scene}, {_CLUSTERS[era]}")
+        panels[0].legend(fontsize=7, frameon=False)
+        plots.append(Plot("divisions", figure, "efficiency of static divisions and of tiles"))
+    rows = _large(simulations)
+    if not rows.empty:
+        figure, panels = new_figure(PAGE_WIDTH * 0.95, rows=1, columns=len(ERAS))
+        for panel, era in zip(panels, ERAS, strict=True):
+            _efficiency(panel, rows[rows["era"].eq(era)], tuple(LARGE_OPTIONS), _CLUSTERS[era])
+            panel.axhline(0.5, color="#777777", linewidth=0.8, linestyle=(0, (1, 2)))
+        panels[0].legend(fontsize=7, frameon=False)
+        plots.append(Plot("large-picture", figure, f"efficiency on {LARGE}, a large picture"))
+    return plots
+
+
+def _efficiency(panel: Axes, rows: pd.DataFrame, options: tuple[str, ...], title: str) -> None:
+    for index, name in enumerate(options):
+        line = rows[rows["options"].eq(name)].sort_values("consumers")
+        if line.empty:
+            continue
+        panel.plot(line["consumers"] + 1, line["efficiency"], **line_look(index), label=name)
+    panel.set_xscale("log", base=2)
+    panel.xaxis.set_major_formatter("{x:.0f}")
+    panel.set_ylim(0, 1.1)
+    name_panel(panel, title, "processes", f"efficiency {HIGHER}")
+
+
+def divisions_sections(
+    simulations: pd.DataFrame,
+    recorded: Mapping[tuple[str, str], Recorded],
+    shown: Mapping[str, str],
+) -> str:
+    """Both sections of the page; empty where nothing of them was simulated."""
+    parts = []
+    rows = _divided(simulations)
+    if not rows.empty:
+        parts += [
+            "## Static divisions of the image\n",
+            "Section 2.3.2.1 of the thesis: each consumer receives all its work at the beginning, "
+            "rows of individual rays that are neighbors (contiguous) or P apart (interlaced), or "
+            "windows of 16 x 16 pixels, interlaced or divided by what a pre-pass says they cost. "
+            "The pre-pass traces one pixel of each window, all its samples, on process 0, while "
+            "the others wait. Beside them what is given to whoever waits: the thesis's beams, "
+            "image blocks of rays, and tiles, whose beams the consumers make themselves and whose "
+            "results they keep. Efficiency against the sequential beam tracer, process 0 "
+            "counted.\n",
+            shown.get("divisions", ""),
+            _table(rows),
+        ]
+    rows = _large(simulations)
+    if not rows.empty:
+        parts += [
+            "## 1,024 processes on a large picture\n",
+            _of_large(recorded),
+            shown.get("large-picture", ""),
+            _table(rows),
+            _profile(rows),
+        ]
+    return "\n".join(parts)
+
+
+def _table(rows: pd.DataFrame) -> str:
+    counts = sorted(set(rows["consumers"] + 1) & set(_SHOWN))
+    lines = []
+    for (era, scene, options), group in rows.groupby(["era", "scene", "options"], sort=False):
+        by_processes = group.assign(processes=group["consumers"] + 1).set_index("processes")
+        cells = (
+            f"{by_processes.loc[count, 'efficiency']:.2f}" if count in by_processes.index else ""
+            for count in counts
+        )
+        lines.append((era, scene, options, *cells))
+    heads = ("machines of", "scene", "work", *(f"{count:,} processes" for count in counts))
+    return "\n".join(["Efficiency:\n", *markdown_table(heads, lines), ""])
+
+
+def _of_large(recorded: Mapping[tuple[str, str], Recorded]) -> str:
+    beams = recorded[LARGE, "beams"]
+    sequential = beams.build_seconds + beams.walk_seconds + beams.work_seconds
+    return (
+        f"{LARGE}, {beams.samples / 1e6:.0f} million samples, {sequential:.2f} s in one process, "
+        f"{1e3 * beams.build_seconds:.1f} ms of it to build the octree, which every process does. "
+        "Tiles: 16 x 16 pixels, in messages of fewer and fewer (factoring). Their results stay "
+        "with the processes that made them, in files of a file system that takes them as fast as "
+        "this machine's memory does; joining them into one picture is not counted, nor is writing "
+        "it in the sequential time. `results sent`: 8 bytes per sample to process 0, whose time "
+        "to store them is not counted.\n"
+    )
+
+
+def _profile(rows: pd.DataFrame) -> str:
+    """Where the time of the largest runs goes."""
+    most = rows[rows["processes"].eq(rows["processes"].max())]
+    lines = [
+        (
+            *(run["era"], run["options"], f"{run['seconds']:.4g}", f"{run['build_seconds']:.3g}"),
+            *(f"{run['busy_mean']:.3g}" if "busy_mean" in run else "",),
+            *(f"{run['busy_max']:.3g}" if "busy_max" in run else "",),
+            *(f"{run['producer_busy']:.0%}", f"{run['messages_from_producer']:,}"),
+            *(f"{run['efficiency']:.2f}", f"{run['efficiency_of_tracing']:.2f}"),
+        )
+        for _, run in most.iterrows()
+    ]
+    heads = (
+        "machines of; work; seconds; to build; consumers busy, mean; at most; producer busy; "
+        "messages out; efficiency; of tracing alone"
+    )
+    title = f"Profile with {most['processes'].iloc[0]:,} processes, in seconds:\n"
+    return "\n".join([title, *markdown_table(heads.split("; "), lines), ""])

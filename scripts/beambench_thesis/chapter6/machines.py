@@ -1,0 +1,117 @@
+"""The clusters that are simulated, and how much slower the thesis's machines were."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from beambench_report.base.published import RESOLUTIONS, rays
+from beambench_thesis.paper.evidence import published_evidence
+
+
+@dataclass(frozen=True)
+class Network:
+    """Bytes a second are what is left for messages: 7% to 12% of the bits are headers."""
+
+    name: str
+    kind: str  # shared: one medium for all; switched: a line for each machine, in both directions
+    bytes_per_second: float
+    latency_seconds: float
+
+    def arguments(self) -> list[str]:
+        """The simulator's."""
+        return [
+            *("--network", self.kind),
+            *("--bandwidth", str(self.bytes_per_second)),
+            *("--latency", str(self.latency_seconds)),
+        ]
+
+
+@dataclass(frozen=True)
+class Messages:
+    """Processor time that messages cost the sender and the receiver."""
+
+    message_seconds: float
+    byte_seconds: float
+    look_seconds: float
+
+    def arguments(self) -> list[str]:
+        """The simulator's."""
+        return [
+            *("--message-seconds", str(self.message_seconds)),
+            *("--byte-seconds", str(self.byte_seconds)),
+            *("--look-seconds", str(self.look_seconds)),
+        ]
+
+    def times(self, factor: float) -> Messages:
+        """The costs multiplied by a factor."""
+        return Messages(
+            self.message_seconds * factor, self.byte_seconds * factor, self.look_seconds * factor
+        )
+
+
+SHARED = Network("shared 10 Mbit/s", "shared", 1.1e6, 7e-5)
+SWITCHED = Network("switched 100 Mbit/s", "switched", 1.1e7, 7e-5)
+MODERN = Network("switched 10 Gbit/s", "switched", 1.15e9, 1e-5)
+
+MESSAGES_OF_1999 = Messages(7e-5, 1.5e-8, 2e-5)
+MESSAGES_OF_TODAY = Messages(1e-6, 1e-10, 2e-7)
+
+# The thesis sends pixels, not samples: places and a color, in 8 bytes or so; 5 samples make one.
+BYTES_PER_SAMPLE_OF_1999 = 8 / 5
+
+
+# Table 5.5 was measured at 350 MHz, the cluster ran at 330.
+_CLOCKS = 350 / 330
+TRACED = "gato-bill"
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """Sums of a recorded picture, in seconds of the recording machine."""
+
+    build_seconds: float
+    walk_seconds: float
+    work_seconds: float
+    samples: int  # of the whole picture, leaving beams' included
+    pre_pass_seconds: float = 0.0  # to estimate the costs of windows
+
+
+@dataclass(frozen=True)
+class Slowness:
+    """Factors over the times of the recording machine."""
+
+    build: float
+    walk: float
+    work: float
+
+
+NONE = Slowness(1, 1, 1)
+
+
+def thesis_seconds(scene: str = TRACED) -> tuple[float, float]:
+    """Seconds that do not grow with the rays, and seconds per ray, on the cluster's machines."""
+    evidence = published_evidence()
+    seconds = [evidence.time(scene, "beam", resolution) for resolution in RESOLUTIONS]
+    slope, constant = np.polyfit(
+        [rays(resolution) for resolution in RESOLUTIONS],
+        [each.value for each in seconds if each is not None],
+        1,
+    )
+    return float(constant) * _CLOCKS, float(slope) * _CLOCKS
+
+
+CONSTANTS = AS_OURS, ALL_WALKING, ALL_BUILDING = ("as ours", "all walking", "all building")
+
+
+def slowness_of_1999(recorded: Recorded, constant_is: str = AS_OURS) -> Slowness:
+    """From our own picture of the same scene; `constant_is`: how the constant is divided."""
+    constant, per_ray = thesis_seconds()
+    work = per_ray * recorded.samples / recorded.work_seconds
+    if constant_is == ALL_WALKING:
+        return Slowness(0, constant / recorded.walk_seconds, work)
+    if constant_is == ALL_BUILDING:
+        return Slowness(constant / recorded.build_seconds, 1e-9, work)
+    both = constant / (recorded.build_seconds + recorded.walk_seconds)
+    return Slowness(both, both, work)

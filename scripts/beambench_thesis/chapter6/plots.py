@@ -1,0 +1,199 @@
+"""Figures 6.3 and 6.4 of the thesis as the simulation has them, and what came beyond."""
+
+from collections.abc import Sequence
+
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.ticker import MaxNLocator
+
+from beambench_report.base.figure import DASHES, LINE_COLORS, MARKERS, PAGE_WIDTH, Plot, new_figure
+from beambench_report.run.panels import scale_axis
+from beambench_thesis.chapter6.results import EQUAL_MACHINES, THESIS_OPTIONS
+from beambench_thesis.chapter6.simulate import OLD, OPTIONS, STATIONS, TODAY
+from beambench_thesis.paper.evidence import published_evidence
+
+LOWER, HIGHER = "(lower is better)", "(higher is better)"
+IDEAL = {"color": "#777777", "linewidth": 0.8, "linestyle": (0, (1, 2)), "zorder": 1}
+
+
+def cluster_plots(simulations: pd.DataFrame, processes: pd.DataFrame) -> list[Plot]:
+    """All figures that the tables have rows for."""
+    thesis = simulations[
+        simulations["options"].eq(THESIS_OPTIONS)
+        & simulations["machines"].eq(EQUAL_MACHINES)
+        & simulations["era"].eq(OLD)
+        & (simulations["consumers"] < STATIONS)
+    ]
+    plots = []
+    if not thesis.empty:
+        plots += [_times(thesis), _balance(thesis, processes)]
+    many = simulations[
+        simulations["options"].isin(OPTIONS)
+        & simulations["machines"].eq(EQUAL_MACHINES)
+        & (simulations["consumers"] >= STATIONS // 2)
+    ]
+    plots += [_scaling(many[many["era"].eq(era)], era) for era in (OLD, TODAY)]
+    return [plot for plot in plots if plot is not None]
+
+
+def _times(rows: pd.DataFrame) -> Plot:
+    """Figure 6.3: time, speed-up and efficiency over the consumers."""
+    figure, panels = new_figure(PAGE_WIDTH * 0.95, rows=2, columns=2)
+    seconds, speed_up, counted, uncounted = panels
+    for index, ((scene, network), group) in enumerate(_lines(rows)):
+        look = line_look(index) | {"label": f"{scene}, {network}"}
+        processors = group["consumers"] + 1
+        seconds.plot(processors, group["seconds"], **look)
+        speed_up.plot(processors, group["speed_up"], **look)
+        counted.plot(processors, group["efficiency"], **look)
+        uncounted.plot(group["consumers"], group["efficiency_of_consumers"], **look)
+    last = int(rows["consumers"].max()) + 1
+    speed_up.plot([1, last], [1, last], **IDEAL)
+    for panel in (counted, uncounted):
+        panel.axhline(1, **IDEAL)
+        panel.set_ylim(0, 1.1)
+    _overlay_thesis(counted, list(dict.fromkeys(rows["scene"])))
+    name_panel(seconds, "a) Time", "processors, the producer's among them", f"seconds {LOWER}")
+    seconds.set_ylim(bottom=0)
+    name_panel(speed_up, "b) Speed-up", "processors, the producer's among them", f"times {HIGHER}")
+    name_panel(
+        counted,
+        "c) Efficiency",
+        "processors, the producer's among them",
+        f"speed-up / processors {HIGHER}",
+    )
+    name_panel(
+        uncounted,
+        "d) Efficiency, the producer not counted",
+        "consumers",
+        f"speed-up / consumers {HIGHER}",
+    )
+    seconds.legend(fontsize=7.5, frameon=False)
+    return Plot("figure-6.3", figure, "time, speed-up and efficiency of 1 to 14 consumers")
+
+
+def _overlay_thesis(efficiency: Axes, scenes: Sequence[str]) -> None:
+    """Where the thesis's efficiency is best; of torre-eiffel only the mean is known."""
+    cluster = published_evidence().cluster
+    marks = []
+    for scene in scenes:
+        figures = {
+            name: cluster.figure(name, scene, network)
+            for network in cluster.networks
+            for name in ("best_processors", "best_efficiency", "mean_efficiency")
+        }
+        best, height = figures["best_processors"], figures["best_efficiency"]
+        height, what = (height, "best") if height else (figures["mean_efficiency"], "mean, at best")
+        if best is None or height is None:
+            continue
+        marks += efficiency.plot(
+            best.value,
+            height.value,
+            "*",
+            markersize=11,
+            markerfacecolor="none",
+            color="#000000" if what == "best" else "#777777",
+            label=f"thesis, {scene}: {what}",
+        )
+    if marks:
+        efficiency.legend(handles=marks, fontsize=7, frameon=False, loc="lower center")
+
+
+def _balance(thesis: pd.DataFrame, processes: pd.DataFrame) -> Plot | None:
+    """Figure 6.4: beams and busy time of each process, with all 15 machines."""
+    rows = thesis[thesis["consumers"].eq(STATIONS - 1)]
+    rows = rows[rows["network"].eq(rows["network"].iloc[-1])] if not rows.empty else rows
+    if rows.empty:
+        return None
+    figure, panels = new_figure(PAGE_WIDTH * 0.8, rows=2, columns=len(rows))
+    for column, row in enumerate(rows.itertuples()):
+        members = processes[processes["simulation"].eq(row.simulation)]
+        consumers = members[members["role"].eq("consumer")]
+        beams, times = panels[column], panels[column + len(rows)]
+        # From 0, so that a small difference looks small.
+        beams.plot(consumers["process"], consumers["tasks"], "o", color=LINE_COLORS[0])
+        times.plot(
+            consumers["process"], consumers["busy_seconds"], "o", color=LINE_COLORS[0], label="busy"
+        )
+        times.plot(
+            consumers["process"],
+            consumers["last_seconds"],
+            "_",
+            color=LINE_COLORS[1],
+            markersize=9,
+            label="end of the last beam",
+        )
+        name_panel(beams, row.scene, "consumer", "beams")
+        producer = f"{row.scene}, the producer busy {row.producer_busy:.0%}"
+        name_panel(times, producer, "consumer", "seconds")
+        times.set_ylim(0, 1.3 * times.get_ylim()[1])
+        beams.set_ylim(0, 1.08 * consumers["tasks"].max())
+        times.legend(fontsize=7.5, frameon=False, loc="upper right", ncols=2)
+        for panel in (beams, times):
+            panel.xaxis.set_major_locator(MaxNLocator(integer=True))
+    network = rows["network"].iloc[0]
+    return Plot("figure-6.4", figure, f"beams and busy time of each process on {network}")
+
+
+def _scaling(rows: pd.DataFrame, era: str) -> Plot | None:
+    """Speed-up of each option, and how busy the producer is, up to 1,024 processes."""
+    if rows.empty:
+        return None
+    scenes = list(dict.fromkeys(rows["scene"]))
+    usual = rows["network"].mode().iloc[0]
+    figure, panels = new_figure(PAGE_WIDTH * 0.95, rows=2, columns=len(scenes))
+    for column, scene in enumerate(scenes):
+        speed_up, busy = panels[column], panels[column + len(scenes)]
+        of_scene = rows[rows["scene"].eq(scene)]
+        lines = _option_lines(of_scene, usual)
+        for index, ((options, network), group) in enumerate(lines):
+            named = "" if network == usual else f", {network}"
+            look = line_look(index) | {"label": f"{options}{named}"}
+            speed_up.plot(group["consumers"] + 1, group["speed_up"], **look)
+            busy.plot(group["consumers"] + 1, 100 * group["producer_busy"], **look)
+        ends = [of_scene["consumers"].min() + 1, of_scene["consumers"].max() + 1]
+        speed_up.plot(ends, ends, **IDEAL)
+        scale_axis(speed_up, "y", [*of_scene["speed_up"], *ends])
+        for panel in (speed_up, busy):
+            panel.set_xscale("log", base=2)
+            panel.xaxis.set_major_formatter("{x:.0f}")
+        name_panel(speed_up, f"{scene}: speed-up", "processes", f"times {HIGHER}")
+        name_panel(busy, f"{scene}: the producer is busy", "processes", "% of the time")
+        busy.set_ylim(0, 105)
+    panels[0].legend(fontsize=7, frameon=False)
+    machines = "machines of 1999, 100 Mbit/s" if era == OLD else "machines of today, 10 Gbit/s"
+    return Plot(f"many-processes-{era}", figure, f"speed-up and the producer's load on {machines}")
+
+
+def _lines(rows: pd.DataFrame) -> Sequence[tuple[tuple[str, str], pd.DataFrame]]:
+    return [
+        (key, group.sort_values("consumers"))
+        for key, group in rows.groupby(["scene", "network"], sort=False)
+    ]
+
+
+def _option_lines(rows: pd.DataFrame, usual: str) -> Sequence[tuple[tuple[str, str], pd.DataFrame]]:
+    """A line for each option; behind them, those on another than the usual network."""
+    groups = dict(list(rows.groupby(["options", "network"], sort=False)))
+    options = list(OPTIONS)
+    order = sorted(groups, key=lambda key: (key[1] != usual, options.index(key[0])))
+    return [(key, groups[key].sort_values("consumers")) for key in order]
+
+
+def line_look(index: int) -> dict[str, object]:
+    """Of the line of that number: distinguished by color, marker and dashes."""
+    return {
+        "color": LINE_COLORS[index % len(LINE_COLORS)],
+        "marker": MARKERS[index % 7],
+        "linestyle": DASHES[index % len(DASHES)],
+        "markersize": 3.5,
+        "linewidth": 1.2,
+    }
+
+
+def name_panel(panel: Axes, title: str, across: str, up: str) -> None:
+    """Its title and axes."""
+    panel.set_title(title, fontsize=9)
+    panel.set_xlabel(across)
+    panel.set_ylabel(up)
+    panel.grid(alpha=0.3)

@@ -1,0 +1,307 @@
+"""Which simulations are made, and running the simulator for each."""
+
+import json
+import sys
+import threading
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from beambench_report.base.files import Problem, output_of
+from beambench_thesis.chapter6.machines import (
+    ALL_BUILDING,
+    ALL_WALKING,
+    AS_OURS,
+    BYTES_PER_SAMPLE_OF_1999,
+    MESSAGES_OF_1999,
+    MESSAGES_OF_TODAY,
+    MODERN,
+    NONE,
+    SHARED,
+    SWITCHED,
+    TRACED,
+    Messages,
+    Network,
+    Recorded,
+    Slowness,
+    slowness_of_1999,
+)
+from beambench_thesis.chapter6.record import (
+    BEAMS,
+    BLOCKS,
+    LARGE,
+    ROWS,
+    TILES,
+    WINDOWS,
+    read_recorded,
+    tasks_file,
+)
+from beambench_thesis.chapter6.results import EQUAL_MACHINES, THESIS_OPTIONS, write_results
+
+OLD, TODAY = ERAS = ("1999", "today")
+STATIONS = 15
+MANY = tuple(2**power - 1 for power in range(4, 11))  # 16 to 1,024 processes, the producer's one
+
+# What the thesis left for others to try, each against its own scheme.
+OPTIONS: dict[str, tuple[str, ...]] = {
+    THESIS_OPTIONS: (),
+    "8 beams a message": ("--batch", "8"),
+    "two in flight": ("--in-flight", "2"),
+    "8 beams a message, two in flight": ("--batch", "8", "--in-flight", "2"),
+    "image blocks": (),
+    "producer consumes": ("--producer-consumes",),
+}
+# The static divisions of section 2.3.2.1, and tiles whose beams the consumers make themselves. All
+# but tiles trace individual rays.
+DIVISIONS: dict[str, tuple[str, ...]] = {
+    "contiguous rows": ("--division", "contiguous"),
+    "interlaced rows": ("--division", "interlaced"),
+    "interlaced windows": ("--division", "interlaced"),
+    "windows by pre-pass": ("--division", "equal-cost"),
+    "tiles": ("--division", "falling", "--stored"),
+}
+# Of the large picture: where its results go, and messages that are there before they are needed.
+LARGE_OPTIONS: dict[str, tuple[str, ...]] = {
+    "producer's beams": (),
+    "tiles, results sent": ("--division", "falling", "--sample-bytes", "8"),
+    "tiles": DIVISIONS["tiles"],
+    "tiles, two in flight": (*DIVISIONS["tiles"], "--in-flight", "2"),
+}
+_WORK = {
+    "image blocks": BLOCKS,
+    "contiguous rows": ROWS,
+    "interlaced rows": ROWS,
+    "interlaced windows": WINDOWS,
+    "windows by pre-pass": WINDOWS,
+    "tiles, results sent": TILES,
+    "tiles": TILES,
+    "tiles, two in flight": TILES,
+}
+PRE_PASS = "windows by pre-pass"
+MACHINES: dict[str, tuple[str, ...]] = {
+    EQUAL_MACHINES: (),
+    "every other one half as fast": ("--speeds", "1,0.5"),
+    "five used by others half of the time": ("--loaded", "5", "--load-period", "4"),
+}
+
+
+@dataclass(frozen=True)
+class Simulation:
+    """One run of the program on one cluster."""
+
+    era: str
+    scene: str
+    network: Network
+    messages: Messages
+    consumers: int
+    options: str = THESIS_OPTIONS
+    machines: str = EQUAL_MACHINES
+    own_messages: bool = False
+    """Results as our program sends them, 8 bytes a sample, not the thesis's pixels."""
+    constant_is: str = AS_OURS
+    """How the thesis's seconds that do not grow with the rays are divided (calibration.py)."""
+
+    @property
+    def work(self) -> str:
+        """The kind of tasks."""
+        return _WORK.get(self.options, BEAMS)
+
+    def arguments(self) -> list[str]:
+        """Those of the simulator that do not depend on what was recorded."""
+        pixels = self.era == OLD and not self.own_messages and self.work != TILES
+        return [
+            *("--consumers", str(self.consumers)),
+            *self.network.arguments(),
+            *self.messages.arguments(),
+            *(("--sample-bytes", str(BYTES_PER_SAMPLE_OF_1999)) if pixels else ()),
+            *(OPTIONS | DIVISIONS | LARGE_OPTIONS).get(self.options, ()),
+            *MACHINES[self.machines],
+        ]
+
+
+def simulations(scenes: tuple[str, ...], *, most: int = 1024) -> list[Simulation]:
+    """All of them, none with more than `most` processes."""
+    every = [
+        *(each for scene in scenes for each in _thesis(scene)),
+        *(each for scene in scenes for each in _many(scene)),
+        *(each for scene in scenes for each in _divided(scene)),
+        *_large(),
+        *(each for scene in scenes for each in _unlike(scene)),
+        *(each for scene in scenes for each in _assumptions(scene)),
+    ]
+    return [each for each in dict.fromkeys(every) if each.consumers < most]
+
+
+def _old(scene: str, network: Network, consumers: int) -> Simulation:
+    return Simulation(OLD, scene, network, MESSAGES_OF_1999, consumers)
+
+
+def _thesis(scene: str) -> list[Simulation]:
+    """Figures 6.3 and 6.4: 1 to 14 consumers; a few more to see where the producer saturates."""
+    return [
+        _old(scene, network, consumers)
+        for network in (SHARED, SWITCHED)
+        for consumers in (*range(1, STATIONS), 31, 63)
+    ]
+
+
+_CLUSTERS = ((OLD, SWITCHED, MESSAGES_OF_1999), (TODAY, MODERN, MESSAGES_OF_TODAY))
+
+
+def _divided(scene: str) -> list[Simulation]:
+    """Static divisions of the image, and tiles, on both clusters."""
+    return [
+        Simulation(era, scene, network, messages, consumers, options)
+        for era, network, messages in _CLUSTERS
+        for options in DIVISIONS
+        for consumers in (STATIONS // 2, STATIONS - 1, *MANY)
+    ]
+
+
+def _large() -> list[Simulation]:
+    """A picture that is large enough for 1,024 processes."""
+    return [
+        Simulation(era, LARGE, network, messages, consumers, options)
+        for era, network, messages in _CLUSTERS
+        for options in LARGE_OPTIONS
+        for consumers in MANY
+    ]
+
+
+def _many(scene: str) -> list[Simulation]:
+    """Where the producer saturates, and what each option changes."""
+    return [
+        Simulation(era, scene, network, messages, consumers, options)
+        for era, network, messages in _CLUSTERS
+        for options in OPTIONS
+        for consumers in (STATIONS // 2, STATIONS - 1, *MANY)
+    ]
+
+
+def _unlike(scene: str) -> list[Simulation]:
+    """Machines of two speeds, and machines that others use."""
+    return [
+        Simulation(OLD, scene, SWITCHED, MESSAGES_OF_1999, STATIONS - 1, options, machines)
+        for machines in MACHINES
+        for options in (THESIS_OPTIONS, "8 beams a message", "two in flight", "image blocks")
+    ]
+
+
+def _assumptions(scene: str) -> list[Simulation]:
+    """What messages were assumed to cost, halved and doubled; and larger results."""
+    usual = [
+        _old(scene, network, consumers)
+        for network in (SHARED, SWITCHED)
+        for consumers in (STATIONS // 2, STATIONS - 1)
+    ]
+    costs = ((0.5, "messages at half the cost"), (2, "at twice the cost"))
+    changed: list[dict[str, object]] = [
+        *({"messages": MESSAGES_OF_1999.times(by), "options": label} for by, label in costs),
+        {"options": "8 bytes a sample", "own_messages": True},
+        *(
+            {"options": f"constant {constant}", "constant_is": constant}
+            for constant in (ALL_WALKING, ALL_BUILDING)
+        ),
+    ]
+    return [replace(each, **changes) for changes in changed for each in usual]
+
+
+class ResultCache:
+    """Results of the simulator by its arguments, in a file that grows line by line."""
+
+    def __init__(self, path: Path) -> None:
+        """Reads what the file has."""
+        self._path = path
+        self._writing = threading.Lock()
+        self._known: dict[tuple[str, ...], dict[str, object]] = {}
+        for line in path.read_text("utf-8").splitlines() if path.is_file() else []:
+            try:
+                entry = json.loads(line)
+            except ValueError:  # it was cut off
+                continue
+            self._known[tuple(entry["arguments"])] = entry["answer"]
+
+    def result(self, key: list[str], command: list[str]) -> dict[str, object]:
+        """The result under `key`, which the command computes if it is not known; from any thread.
+
+        Raises Problem where the simulator is not there, or fails.
+        """
+        if tuple(key) not in self._known:
+            name = Path(command[0]).name
+            printed = output_of(command, remedy=f"build {name} first (it needs libsimgrid-dev)")
+            result = json.loads(printed)
+            with self._writing, self._path.open("a", encoding="utf-8") as file:
+                # A line of its own, whatever was cut off before.
+                file.write("\n" + json.dumps({"arguments": key, "answer": result}))
+                self._known[tuple(key)] = result
+        return self._known[tuple(key)]
+
+
+def simulate(folder: Path, program: Path, plan: Sequence[Simulation], jobs: int = 1) -> list[Path]:
+    """Writes FOLDER/simulations.csv and processes.csv from what was recorded there.
+
+    `jobs` simulations at a time. What was simulated before is not simulated again:
+    FOLDER/answers.jsonl has its results.
+    """
+    recorded = read_recorded(folder)
+    cache = ResultCache(folder / "answers.jsonl")
+    results = []
+    with ThreadPoolExecutor(jobs) as pool:
+        begun = [pool.submit(_simulate, folder, program, one, recorded, cache) for one in plan]
+        try:
+            for number, each in enumerate(begun, 1):
+                print(f"\r{number} of {len(plan)} simulations", end="", file=sys.stderr, flush=True)
+                results.append(each.result())
+        finally:
+            pool.shutdown(cancel_futures=True)  # where one failed, the others are not begun
+    print(file=sys.stderr)
+    return write_results(folder, results)
+
+
+def slowness_of(recorded: dict[tuple[str, str], Recorded], constant_is: str = AS_OURS) -> Slowness:
+    """By the scene of which the thesis states its seconds."""
+    known = recorded.get((TRACED, BEAMS))
+    if known is None:
+        raise Problem(f"{TRACED} was not recorded, by which machines of 1999 are calibrated")
+    return slowness_of_1999(known, constant_is)
+
+
+def _simulate(
+    folder: Path,
+    program: Path,
+    simulation: Simulation,
+    recorded: dict[tuple[str, str], Recorded],
+    cache: ResultCache,
+) -> dict[str, object]:
+    slow = slowness_of(recorded, simulation.constant_is) if simulation.era == OLD else NONE
+    build = recorded[simulation.scene, simulation.work].build_seconds * slow.build
+    arguments = [
+        *("--walk-scale", str(slow.walk)),
+        *("--work-scale", str(slow.work)),
+        *("--build-seconds", str(build)),
+        *simulation.arguments(),
+    ]
+    if simulation.options == PRE_PASS:
+        seconds = recorded[simulation.scene, simulation.work].pre_pass_seconds
+        arguments += ["--pre-pass-seconds", str(seconds)]
+    tasks = tasks_file(folder, simulation.scene, simulation.work)
+    result = cache.result(
+        [tasks.name, *arguments], [str(program), "cluster", str(tasks), *arguments]
+    )
+    # Whatever is distributed, it is compared with the sequential beam tracer.
+    beams = recorded[simulation.scene, BEAMS]
+    sequential = (
+        beams.build_seconds * slow.build
+        + beams.walk_seconds * slow.walk
+        + beams.work_seconds * slow.work
+    )
+    return result | {
+        "sequential_seconds": sequential,
+        "era": simulation.era,
+        "scene": simulation.scene,
+        "network": simulation.network.name,
+        "options": simulation.options,
+        "machines": simulation.machines,
+        "consumers": simulation.consumers,
+    }

@@ -1,0 +1,301 @@
+"""A divided scene (`--split`) on simulated clusters: how time, traffic and memory grow with parts.
+
+It is really traced while it is simulated, so the times of one run are those of this machine at that
+time: medians of several runs are kept. Machines of 1999 are those of the other simulations
+(`calibration.py`).
+"""
+
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from statistics import median
+
+import pandas as pd
+
+from beambench_report.base.figure import PAGE_WIDTH, Plot, new_figure
+from beambench_report.base.files import Problem, read_table
+from beambench_report.base.quantities import markdown_table
+from beambench_thesis.chapter6.machines import (
+    MESSAGES_OF_1999,
+    MESSAGES_OF_TODAY,
+    MODERN,
+    NONE,
+    SWITCHED,
+    TRACED,
+    Slowness,
+)
+from beambench_thesis.chapter6.plots import HIGHER, IDEAL, LOWER, line_look, name_panel
+from beambench_thesis.chapter6.record import read_recorded
+from beambench_thesis.chapter6.results import write_rows
+from beambench_thesis.chapter6.simulate import OLD, TODAY, ResultCache, slowness_of
+
+SPLIT = "split.csv"
+CELLS_LEVEL = 4
+PARTS = (1, 2, 4, 8, 16, 32, 64)
+
+
+@dataclass(frozen=True)
+class Divided:
+    """A scene, and the octree that suits it."""
+
+    scene: str
+    structure: str
+
+
+SCENES = (
+    Divided(TRACED, "beam:max_level=6"),
+    Divided("tetra:n=7", "beam:max_level=7"),
+    Divided("bumpy:triangles=200000", "beam:max_level=7"),
+)
+CLUSTERS = {OLD: (SWITCHED, MESSAGES_OF_1999), TODAY: (MODERN, MESSAGES_OF_TODAY)}
+
+
+# The table: a row for each simulated run, the median of several. Seconds of the processor are this
+# machine's, sums over all processes.
+COLUMNS = (
+    "era",
+    "scene",
+    "structure",
+    "resolution",
+    "processes",
+    "traced_seconds",  # simulated: since the last process was ready, to the picture
+    # Of tracing. Building is short and measured once a process: of many, the longest is chance.
+    "speed_up",
+    "efficiency",
+    "balance",  # what a process is busy tracing on average, of what the busiest is
+    "build_seconds",  # to divide the scene and build a part: the processes' median
+    "walk_cpu_seconds",
+    "test_cpu_seconds",
+    "take_cpu_seconds",
+    "messages",
+    "bytes",
+    "beams_handed",
+    "rays_handed",
+    "primitives",
+    "largest_primitives",
+    "largest_bytes",  # scene and octree of the largest part
+    "result_hash",
+)
+
+
+def simulate_split(
+    folder: Path, program: Path, resolution: str, repeats: int, most: int
+) -> list[Path]:
+    """Writes FOLDER/split.csv, with machines of 1999 by what was recorded there.
+
+    What was simulated before is not simulated again: FOLDER/split-answers.jsonl has its results.
+    Raises Problem where parts give another picture than the whole.
+    """
+    cache = ResultCache(folder / "split-answers.jsonl")
+    slow_by_era = {OLD: slowness_of(read_recorded(folder)), TODAY: NONE}
+    rows: list[dict[str, object]] = []
+    for era, slow in slow_by_era.items():
+        for divided in SCENES:
+            results = []
+            for parts in (parts for parts in PARTS if parts <= most):
+                what = f"\r{era}: {divided.scene} in {parts} parts   "
+                print(what, end="", file=sys.stderr, flush=True)
+                arguments = arguments_of(era, divided, parts, slow, resolution)
+                results.append(median_run(cache, program, arguments, repeats))
+            rows += [row_of(era, divided, resolution, result, results[0]) for result in results]
+    print(file=sys.stderr)
+    require_one_picture(rows)
+    table = pd.DataFrame(rows, columns=list(COLUMNS))
+    return [write_rows(folder / SPLIT, table)]
+
+
+def median_run(cache: ResultCache, program: Path, arguments: list[str], repeats: int) -> dict:
+    """Of several, the one whose tracing took the median."""
+    runs = [
+        cache.result([str(repeat), *arguments], [str(program), "split", *arguments])
+        for repeat in range(repeats)
+    ]
+    runs.sort(key=lambda run: run["traced_seconds"])
+    return runs[len(runs) // 2]
+
+
+def read_split(folder: Path) -> pd.DataFrame | None:
+    """The table; nothing where there is none. Raises Problem where it lacks a column."""
+    path = folder / SPLIT
+    if not path.is_file():
+        return None
+    remedy = "write it with: python -m beambench_thesis cluster split DIR"
+    types = {"era": str, "result_hash": str}
+    return read_table(path, COLUMNS, remedy, types)
+
+
+def arguments_of(
+    era: str, divided: Divided, parts: int, slow: Slowness, resolution: str
+) -> list[str]:
+    """The simulator's."""
+    network, messages = CLUSTERS[era]
+    return [
+        divided.scene,
+        *("--accel", divided.structure),
+        *("--split", str(CELLS_LEVEL)),
+        *("--processes", str(parts)),
+        *("--resolution", resolution),
+        *("--build-scale", str(slow.build)),
+        *("--walk-scale", str(slow.walk)),
+        *("--work-scale", str(slow.work)),
+        *network.arguments(),
+        *messages.arguments(),
+    ]
+
+
+def total(result: dict, quantity: str) -> float:
+    """Sum over all processes."""
+    return sum(process[quantity] for process in result["processes"])
+
+
+def row_of(
+    era: str, divided: Divided, resolution: str, result: dict, alone: dict
+) -> dict[str, object]:
+    """A row of the table; speed-up is that over `alone`."""
+    processes = result["processes"]
+    speed_up = alone["traced_seconds"] / result["traced_seconds"]
+    busiest = max(process["busy"] for process in processes)
+    return {
+        "era": era,
+        "scene": divided.scene,
+        "structure": divided.structure,
+        "resolution": resolution,
+        "processes": len(processes),
+        "traced_seconds": result["traced_seconds"],
+        "speed_up": speed_up,
+        "efficiency": speed_up / len(processes),
+        "balance": total(result, "busy") / len(processes) / busiest,
+        "build_seconds": median(process["build_seconds"] for process in processes),
+        "walk_cpu_seconds": total(result, "walk_seconds"),
+        "test_cpu_seconds": total(result, "test_seconds"),
+        "take_cpu_seconds": total(result, "take_seconds"),
+        "messages": int(total(result, "messages_out")),
+        "bytes": int(total(result, "bytes_out")),
+        "beams_handed": int(total(result, "beams_out")),
+        "rays_handed": int(total(result, "rays_out")),
+        "primitives": result["primitives"],
+        "largest_primitives": max(process["primitives"] for process in processes),
+        "largest_bytes": max(process["bytes"] for process in processes),
+        "result_hash": result["result_hash"],
+    }
+
+
+def require_one_picture(rows: list[dict[str, object]]) -> None:
+    """Raises Problem where rows of a scene have different pictures."""
+    pictures: dict[str, str] = {}
+    for row in rows:
+        if pictures.setdefault(row["scene"], row["result_hash"]) != row["result_hash"]:
+            raise Problem(
+                f"{row['scene']} in {row['processes']} parts is another picture than the whole; "
+                "that is a fault of beambench"
+            )
+
+
+STEM = "divided-scenes"
+_SUMMARY = "divided scenes: speed-up, memory of the largest part, traffic"
+
+
+def split_plot(rows: pd.DataFrame) -> Plot:
+    """Speed-up on both clusters, the largest part's memory, and what crossed borders."""
+    figure, panels = new_figure(PAGE_WIDTH * 0.85, rows=2, columns=2)
+    memory, crossed = panels[2], panels[3]
+    eras = list(dict.fromkeys(rows["era"]))
+    for panel, era in zip(panels, eras, strict=False):
+        of_era = rows[rows["era"].eq(era)]
+        for index, (scene, group) in enumerate(of_era.groupby("scene", sort=False)):
+            panel.plot(group["processes"], group["speed_up"], label=scene, **line_look(index))
+        panel.plot(of_era["processes"], of_era["processes"], **IDEAL)
+        panel.set_yscale("log", base=2)
+        panel.yaxis.set_major_formatter("{x:.0f}")
+        name_panel(panel, f"Speed-up, {name_of_machines(era)}", "parts", f"times {HIGHER}")
+    last = rows[rows["era"].eq(eras[-1])]
+    for index, (_, group) in enumerate(last.groupby("scene", sort=False)):
+        look = line_look(index)
+        memory.plot(group["processes"], 100 * share_of_memory(group), **look)
+        crossed.plot(group["processes"], 1e-6 * group["bytes"], **look)
+    name_panel(memory, "Scene and octree of the largest part", "parts", f"% of the whole {LOWER}")
+    memory.plot(last["processes"], 100 / last["processes"], **IDEAL)
+    memory.set_yscale("log")
+    memory.yaxis.set_major_formatter("{x:.0f}")
+    name_panel(crossed, "Handed over at borders", "parts", f"MB {LOWER}")
+    for panel in panels:
+        panel.set_xscale("log", base=2)
+        panel.xaxis.set_major_formatter("{x:.0f}")
+    panels[0].legend(fontsize=7.5, frameon=False)
+    return Plot(STEM, figure, _SUMMARY)
+
+
+def split_section(rows: pd.DataFrame) -> str:
+    """Its section of the page, with the figure."""
+    resolution = rows["resolution"].iloc[0]
+    return "\n".join(
+        [
+            "## A divided scene\n",
+            f"`--split {CELLS_LEVEL}`: each machine has the primitives in its share of the "
+            f"octree's {8 ** (CELLS_LEVEL - 1)} cells of that level; {resolution}, one sample per "
+            "pixel. The scene is really traced while it is simulated, and every run gave the hits "
+            "of one process, bit for bit. Times are from when all parts are "
+            "built to the picture: tracing, and gathering what was found.\n",
+            f"![{_SUMMARY}]({STEM}.png)\n",
+            _speed_ups(rows),
+            _costs(rows),
+            "Assumed: machines and messages of 1999, as above. Left out: reading the scene, which "
+            "is the same for all, as parts can only be cut from the whole; two buffers of the "
+            "image's hits, 16 bytes per sample, which each process has beside its part; caches: "
+            "here all processes share one core's.\n",
+        ]
+    )
+
+
+def name_of_machines(era: str) -> str:
+    """Of an era, with their network."""
+    return "1999, 100 Mbit/s" if era == OLD else f"{era}, 10 Gbit/s"
+
+
+def share_of_memory(group: pd.DataFrame) -> pd.Series:
+    """Of what one process has."""
+    return group["largest_bytes"] / group["largest_bytes"].iloc[0]
+
+
+def _speed_ups(rows: pd.DataFrame) -> str:
+    parts = sorted(set(rows["processes"]))
+    lines = []
+    for (era, scene), group in rows.groupby(["era", "scene"], sort=False):
+        first, *others = group.itertuples()
+        speed_ups = (f"{each.speed_up:.1f} ({each.efficiency:.2f})" for each in others)
+        lines.append((name_of_machines(era), scene, f"{first.traced_seconds:.3g} s", *speed_ups))
+    heads = ["machines", "scene", "1 part", *(f"{n} parts" for n in parts[1:])]
+    title = "Seconds of one part, and speed-up (in brackets: efficiency):\n"
+    return "\n".join([title, *markdown_table(heads, lines), ""])
+
+
+def _costs(rows: pd.DataFrame) -> str:
+    """Where the time goes, and what else it costs."""
+    last = rows[rows["era"].eq(rows["era"].iloc[-1])]
+    lines = []
+    for scene, group in last.groupby("scene", sort=False):
+        work = group["walk_cpu_seconds"] + group["test_cpu_seconds"] + group["take_cpu_seconds"]
+        shares = zip(work / work.iloc[0], share_of_memory(group), strict=True)
+        for each, (work_share, memory_share) in zip(group.itertuples(), shares, strict=True):
+            lines.append(
+                (
+                    scene,
+                    f"{each.processes}",
+                    f"{work_share:.2f}",
+                    f"{each.balance:.2f}",
+                    f"{each.messages:,}",
+                    f"{1e-6 * each.bytes:.1f}",
+                    f"{each.beams_handed:,}",
+                    f"{each.rays_handed:,}",
+                    f"{each.largest_primitives / each.primitives:.0%}",
+                    f"{1e-6 * each.largest_bytes:.2f} MB, {memory_share:.0%}",
+                )
+            )
+    heads = "scene, parts, work, balance, messages, MB, beams, rays, "
+    heads += "primitives of the largest part, its memory"
+    title = (
+        f"What it costs ({name_of_machines(last['era'].iloc[0])}). Work: processor time of "
+        "tracing, of what one part takes. Balance: how busy a machine is on average, of what the "
+        "busiest is.\n"
+    )
+    return "\n".join([title, *markdown_table(heads.split(", "), lines), ""])

@@ -1,0 +1,208 @@
+"""The rules of chapter 6: what the simulated cluster must show for its claims to hold.
+
+Written and committed before the cluster was simulated for the first time. The thesis says of its
+network that it is an Ethernet, of its processors that there were 15, and not whether its `p` counts
+the producer's. Its efficiency rises with p at first, which it can only where the producer, who
+traces no beam of the consumers', is counted: so p is counted here. The rules are applied
+to each network that was simulated.
+"""
+
+from collections.abc import Callable
+from functools import wraps
+from pathlib import Path
+
+import pandas as pd
+
+from beambench_thesis.chapter6.results import (
+    EQUAL_MACHINES,
+    THESIS_OPTIONS,
+    read_processes,
+    read_simulations,
+)
+from beambench_thesis.claims.comparisons import ratio_of
+from beambench_thesis.claims.verdict import (
+    Check,
+    Claims,
+    Outcome,
+    Rule,
+    aside,
+    below,
+    between,
+)
+from beambench_thesis.paper.evidence import FIGURES, ClusterEvidence, Evidence, Measured
+
+CLUSTER_CLAIMS = Claims()
+
+_BOTH = _CAT, _TOWER = "gato-bill", "torre-eiffel"
+
+
+def _on_each_network(rule: Callable[[Evidence, str], list[Check]]) -> Rule:
+    """The checks of all networks; one that is missing where there is no network at all."""
+
+    @wraps(rule)
+    def on_all(e: Evidence) -> list[Check]:
+        nothing = [Check("a cluster of 15 processors", Outcome.MISSING)]
+        return [check for network in e.cluster.networks for check in rule(e, network)] or nothing
+
+    return on_all
+
+
+@CLUSTER_CLAIMS.claim(
+    "C22",
+    "6.3, figure 6.3",
+    "The efficiency rises up to about 11 processors for gato-bill (around 0.75) and about 7 for "
+    "torre-eiffel (above 0.6), then falls.",
+    is_figures=True,
+)
+@_on_each_network
+def efficiency_rises_and_falls(e: Evidence, network: str) -> list[Check]:
+    """Best at 9 to 13 and at 5 to 9 processors, 0.65 to 0.85 and above 0.6, less with all 15."""
+    best = {scene: e.cluster.figure("best_efficiency", scene, network) for scene in _BOTH}
+    processors = {scene: e.cluster.figure("best_processors", scene, network) for scene in _BOTH}
+    means = {scene: e.cluster.figure("mean_efficiency", scene, network) for scene in _BOTH}
+    return [
+        between(f"{_CAT}, {network}, best with", processors[_CAT], 9, 13, " processors"),
+        between(f"{_CAT}, {network}, best efficiency", best[_CAT], 0.65, 0.85),
+        between(f"{_TOWER}, {network}, best with", processors[_TOWER], 5, 9, " processors"),
+        below(
+            f"{_TOWER}, {network}, best efficiency above 0.6",
+            Measured.exact(0.6),
+            best[_TOWER],
+        ),
+        below(f"{network}, best of {_TOWER} below that of {_CAT}", best[_TOWER], best[_CAT]),
+        *(
+            below(
+                f"{scene}, {network}, less with 15 processors",
+                e.cluster.figure("last_efficiency", scene, network),
+                best[scene],
+            )
+            for scene in _BOTH
+        ),
+        *(
+            aside(between(f"{scene}, {network}, mean", means[scene], mean - 0.1, mean + 0.1))
+            for scene, mean in ((_CAT, 0.75), (_TOWER, 0.65))
+        ),
+    ]
+
+
+@CLUSTER_CLAIMS.claim(
+    "C23",
+    "6.3, figure 6.4",
+    "Dynamic balancing: consumers get different numbers of beams and finish at nearly the same "
+    "time.",
+)
+@_on_each_network
+def balanced_by_demand(e: Evidence, network: str) -> list[Check]:
+    """With 14 consumers: most beams 1.1 times the fewest; first end at 0.95 of the last."""
+    checks = []
+    for scene in _BOTH:
+        fewest, most, first, last = (
+            e.cluster.figure(name, scene, network)
+            for name in ("fewest_beams", "most_beams", "first_end", "last_end")
+        )
+        cell = f"{scene}, {network}, fewest beams below most, by 1.1"
+        checks.append(below(cell, fewest, most, 1.1))
+        cell = f"{scene}, {network}, first end over last"
+        checks.append(between(cell, ratio_of(first, last), 0.95, 1))
+    return checks
+
+
+@CLUSTER_CLAIMS.claim(
+    "C24",
+    "6.3",
+    "The producer becomes the bottleneck first in the scene that makes more beams (torre-eiffel).",
+)
+@_on_each_network
+def producer_saturates_first(e: Evidence, network: str) -> list[Check]:
+    """torre-eiffel has more beams, a busier producer with 14 consumers, and needs fewer for 90%."""
+
+    def compared(cell: str, quantity: str, less: str, more: str) -> Check:
+        return below(
+            f"{network}, {cell}",
+            e.cluster.figure(quantity, less, network),
+            e.cluster.figure(quantity, more, network),
+        )
+
+    return [
+        compared(f"beams of {_CAT} below {_TOWER}'s", "beams", _CAT, _TOWER),
+        compared("producer busy, with 14 consumers", "producer_busy", _CAT, _TOWER),
+        compared("consumers that saturate it", "consumers_that_saturate", _TOWER, _CAT),
+    ]
+
+
+STATIONS = 15
+_ALIKE = 0.01  # a maximum this flat has no one place
+_SATURATED = 0.9
+_MANY = 4 * STATIONS  # who does not saturate the producer by then does so later than the other
+
+
+def cluster_evidence(folder: Path) -> ClusterEvidence:
+    """The figures of all scenes and networks in the folder that the thesis's program ran on.
+
+    Raises Problem where the folder cannot be read.
+    """
+    simulations = read_simulations(folder)
+    processes = read_processes(folder)
+    thesis = simulations[
+        simulations["options"].eq(THESIS_OPTIONS)
+        & simulations["machines"].eq(EQUAL_MACHINES)
+        & simulations["era"].eq("1999")
+    ]
+    rows: list[dict[str, object]] = []
+    for (scene, network), group in thesis.groupby(["scene", "network"], sort=False):
+        own = processes[processes["simulation"].isin(group["simulation"])]
+        figures = _efficiencies(group) | _balance(group, own) | _bottleneck(group)
+        rows += [
+            {"scene": scene, "network": network, "quantity": quantity}
+            | dict(zip(("value", "low", "high"), interval, strict=True))
+            for quantity, interval in figures.items()
+        ]
+    return ClusterEvidence(pd.DataFrame(rows, columns=list(FIGURES)))
+
+
+_Interval = tuple[float, float, float]
+
+
+def _exact(value: float) -> _Interval:
+    return (value, value, value)
+
+
+def _efficiencies(group: pd.DataFrame) -> dict[str, _Interval]:
+    by_processors = group[group["consumers"] < STATIONS].set_index("consumers")["efficiency"]
+    if len(by_processors) < STATIONS - 1:
+        return {}
+    best = by_processors.idxmax()
+    alike = by_processors.index[by_processors >= (1 - _ALIKE) * by_processors.max()]
+    return {
+        "best_processors": (best + 1, alike.min() + 1, alike.max() + 1),
+        "best_efficiency": _exact(by_processors.max()),
+        "mean_efficiency": _exact(by_processors.mean()),
+        "last_efficiency": _exact(by_processors[STATIONS - 1]),
+    }
+
+
+def _balance(group: pd.DataFrame, processes: pd.DataFrame) -> dict[str, _Interval]:
+    all_busy = group.loc[group["consumers"].eq(STATIONS - 1), "simulation"]
+    consumers = processes[processes["simulation"].isin(all_busy) & processes["role"].eq("consumer")]
+    if consumers.empty:
+        return {}
+    return {
+        "fewest_beams": _exact(consumers["tasks"].min()),
+        "most_beams": _exact(consumers["tasks"].max()),
+        "first_end": _exact(consumers["last_seconds"].min()),
+        "last_end": _exact(consumers["last_seconds"].max()),
+    }
+
+
+def _bottleneck(group: pd.DataFrame) -> dict[str, _Interval]:
+    figures = {"beams": _exact(group["tasks"].iloc[0])}
+    all_busy = group.loc[group["consumers"].eq(STATIONS - 1), "producer_busy"]
+    if not all_busy.empty:
+        figures["producer_busy"] = _exact(all_busy.iloc[0])
+    saturated = group.loc[group["producer_busy"] >= _SATURATED, "consumers"]
+    most = group["consumers"].max()
+    if not saturated.empty:
+        figures["consumers_that_saturate"] = _exact(saturated.min())
+    elif most >= _MANY:
+        figures["consumers_that_saturate"] = _exact(most + 1)  # or more, or never
+    return figures

@@ -1,0 +1,225 @@
+"""Straight lines and cost formulas by least squares."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import product
+from math import log
+
+import numpy as np
+
+from beambench_report.base.published import COARSEST, FINEST, RESOLUTIONS, rays
+from beambench_thesis.chapter5.cost import MIN_CELLS, r_squared
+from beambench_thesis.claims.verdict import Check, Outcome, below
+from beambench_thesis.paper.evidence import LEVEL, Evidence, Measured, smallest, total
+
+
+@dataclass(frozen=True)
+class Line:
+    """Least squares through points whose heights have intervals."""
+
+    slope: Measured
+    """Errors of the heights combined as independent ones."""
+    intercept: float
+    r_squared: float
+    within_intervals: bool
+    """Does the line pass through every interval, so that nothing speaks against it?"""
+
+
+def fit_line(places: Sequence[float], heights: Sequence[Measured]) -> Line:
+    """Fits `heights` over `places`, of which at least three differ."""
+    x = np.asarray(places, dtype=float)
+    weights = (x - x.mean()) / np.sum((x - x.mean()) ** 2)  # the slope is linear in the heights
+    value = np.array([height.value for height in heights])
+    low = np.array([height.low for height in heights])
+    high = np.array([height.high for height in heights])
+    rising = total([height.times(w) for height, w in zip(heights, weights, strict=True) if w > 0])
+    falling = total([height.times(-w) for height, w in zip(heights, weights, strict=True) if w < 0])
+    slope = rising - falling
+    intercept = float(value.mean() - slope.value * x.mean())
+    fitted = intercept + slope.value * x
+    return Line(
+        slope,
+        intercept,
+        r_squared(value, fitted),
+        bool(np.all((low < high) & (low <= fitted) & (fitted <= high))),
+    )
+
+
+_WIDTH = 1.96  # of a 95% interval to either side, in standard deviations of a normal distribution
+_DRAWS = 400
+_SEED = 1999
+
+SAMETS = ("samet", "samet-net")
+FINER = RESOLUTIONS[1:]
+
+
+def beats(
+    e: Evidence, scene: str, winner: str, other: str, resolution: str = FINEST, factor: float = 1
+) -> Check:
+    """Is one structure quicker than another, by `factor` or more?"""
+    twice = f", by {factor:g}" if factor > 1 else ""
+    return below(
+        f"{scene} {resolution}, {winner} before {other}{twice}",
+        e.time(scene, winner, resolution),
+        e.time(scene, other, resolution),
+        factor,
+    )
+
+
+def best_ray(e: Evidence, scene: str, resolution: str) -> Measured | None:
+    """The better of Samet and Samet-Net, where both were timed."""
+    known = [e.time(scene, contender, resolution) for contender in SAMETS]
+    times = [time for time in known if time is not None]
+    return smallest(times) if len(times) == len(SAMETS) else None
+
+
+def line_of(e: Evidence, scene: str, level: int = LEVEL) -> Line | None:
+    """Seconds over rays in tens of thousands, as in the thesis's figures."""
+    times = [e.time(scene, "beam", resolution, level=level) for resolution in RESOLUTIONS]
+    known = [time for time in times if time is not None]
+    return fit_line([rays(at) / 1e4 for at in RESOLUTIONS], known) if known == times else None
+
+
+def slope(line: Line | None) -> Measured | None:
+    """The slope of a line that there is."""
+    return line.slope if line else None
+
+
+def is_linear(scene: str, line: Line | None) -> Check:
+    """Does the line explain 99% of the variance? Not decided if it passes all intervals."""
+    if line is None:
+        return Check(f"{scene}, linear", Outcome.MISSING)
+    outcome = Outcome.UNDECIDED if line.within_intervals else Outcome.NO
+    if line.r_squared >= 0.99:
+        outcome = Outcome.YES
+    return Check(f"{scene}, linear", outcome, f"R2 {line.r_squared:.4f} (at least 0.99)")
+
+
+def growing_share(e: Evidence, scene: str) -> Measured | None:
+    """The part of the time at 1280x1024 that grows with the rays, by the line through all five."""
+    line, whole = line_of(e, scene), e.time(scene, "beam")
+    return line.slope.times(rays(FINEST) / 1e4) / whole if line and whole else None
+
+
+def growth(e: Evidence, scene: str, resolution: str, samples: int = 1) -> Measured | None:
+    """The beams' time over that at 320x200."""
+    return ratio_of(
+        e.time(scene, "beam", resolution, samples=samples),
+        e.time(scene, "beam", COARSEST, samples=samples),
+    )
+
+
+def grows_more(e: Evidence, more: tuple[str, ...], less: tuple[str, ...]) -> list[Check]:
+    """Does each scene of `more` grow more than each of `less`, at each resolution?"""
+    return [
+        below(
+            f"{slow} below {quick}, {resolution} over {COARSEST}",
+            growth(e, slow, resolution),
+            growth(e, quick, resolution),
+        )
+        for quick, slow, resolution in product(more, less, FINER)
+    ]
+
+
+def ratio_of(over: Measured | None, under: Measured | None) -> Measured | None:
+    """The ratio of two figures that there are."""
+    return None if over is None or under is None else over / under
+
+
+def difference(more: Measured | None, less: Measured | None) -> Measured | None:
+    """The difference of two figures that there are."""
+    return None if more is None or less is None else more - less
+
+
+def most(cell: str, shares: dict[str, Measured | None], bound: float, of: int) -> Check:
+    """Do more than half of them exceed the bound, whatever the undecided ones turn out to be?"""
+    known = {scene: share for scene, share in shares.items() if share is not None}
+    figures = ", ".join(f"{scene} {share.value:.0%}" for scene, share in known.items())
+    if len(known) < of or not known:
+        return Check(cell, Outcome.MISSING, figures)
+    surely = sum(share.low > bound for share in known.values())
+    perhaps = sum(share.high > bound for share in known.values())
+    outcome = Outcome.YES if 2 * surely > of else Outcome.NO if 2 * perhaps <= of else None
+    return Check(cell, outcome or Outcome.UNDECIDED, f"{surely} of {of}: {figures}")
+
+
+def any_of(cell: str, checks: Sequence[Check]) -> Check:
+    """Does one of several cells or more say yes?"""
+    outcomes = {check.outcome for check in checks}
+    figures = ", ".join(f"{check.cell}: {check.figures}" for check in checks if check.figures)
+    for outcome in (Outcome.MISSING, Outcome.YES, Outcome.UNDECIDED):
+        if outcome in outcomes:
+            return Check(cell, outcome, figures)
+    return Check(cell, Outcome.NO, figures)
+
+
+def seconds_per_beam(e: Evidence, level: int) -> Measured | None:
+    """What a non-terminal beam of maceta, in the thesis's counting, costs at 320x200."""
+    seconds = e.worked("seconds_nonterminal", "maceta", COARSEST, level=level)
+    return ratio_of(seconds, e.worked("beams_divided", "maceta", level=level))
+
+
+def formula(e: Evidence, task: str, quantities: tuple[str, ...]) -> list[Check]:
+    """Is the time of a task a sum of counts, each times a cost? Asked of ten cells or more."""
+    seconds, counts = [], []
+    for scene, level, resolution in e.beam_cells:
+        time = e.worked(f"seconds_{task}", scene, resolution, level=level)
+        figures = [e.worked(name, scene, resolution, level=level) for name in quantities]
+        known = [figure.value for figure in figures if figure is not None]
+        if time is not None and time.value > 0 and len(known) == len(quantities):
+            seconds.append(time)
+            counts.append(known)
+    explained = error = None
+    if len(seconds) >= MIN_CELLS:
+        explained, error = _fit(seconds, np.array(counts))
+    return [
+        below(f"{task} beams, R2 above 0.9 ({len(seconds)} cells)", Measured.exact(0.9), explained),
+        below(f"{task} beams, median error below 0.25", error, Measured.exact(0.25)),
+    ]
+
+
+def _fit(seconds: Sequence[Measured], counts: np.ndarray) -> tuple[Measured, Measured]:
+    """R2 and median error of a fit, with what the errors of the times make of them.
+
+    The fit is repeated with times that are off as their intervals allow (propagation of
+    distributions, JCGM 101:2008). Such times have their errors twice, which fits worse, as times
+    without errors would fit better: so the interval reaches as far either way.
+    """
+    times = np.array([time.value for time in seconds])
+    widths = np.array([log(time.high / time.value) / _WIDTH for time in seconds])
+    # Plain least squares, as the rule was committed: a cost may be negative.
+    scaled = counts / np.maximum(counts.max(axis=0), 1e-300)
+
+    def quality(times: np.ndarray) -> tuple[float, float]:
+        shares = scaled / times[:, None]
+        predicted = scaled @ np.linalg.lstsq(shares, np.ones_like(times), rcond=None)[0]
+        return r_squared(times, predicted), float(np.median(np.abs(predicted - times) / times))
+
+    random = np.random.default_rng(_SEED)
+    drawn = [quality(times * np.exp(random.normal(0.0, widths))) for _ in range(_DRAWS)]
+    value = np.array(quality(times))
+    reach = np.abs(np.quantile(drawn, (0.025, 0.975), axis=0) - value).max(axis=0)
+    explained, error = map(Measured, value.tolist(), value - reach, value + reach)
+    return explained, error
+
+
+def best_is_inside(scene: str, sweep: dict[int, Measured]) -> list[Check]:
+    """Is some grid of the sweep quicker than the coarsest and than the finest?"""
+    if len(sweep) < 5:
+        return [Check(f"{scene}, a best grid inside the sweep", Outcome.MISSING)]
+    best = min(sweep, key=lambda cells: sweep[cells].value)
+    if best in (min(sweep), max(sweep)):
+        return [Check(f"{scene}, a best grid inside the sweep", Outcome.NO, f"best: {best} cells")]
+    return [
+        below(f"{scene}, {best} cells before {end}", sweep[best], sweep[end])
+        for end in (min(sweep), max(sweep))
+    ]
+
+
+def best_place(sweep: dict[int, Measured]) -> Measured | None:
+    """The best grid; its interval holds all grids that may be as quick."""
+    if len(sweep) < 5:
+        return None
+    best = min(sweep, key=lambda cells: sweep[cells].value)
+    alike = [cells for cells, time in sweep.items() if (time - sweep[best]).low <= 0]
+    return Measured(best, min(alike), max(alike))

@@ -1,0 +1,172 @@
+"""Every claim judged by the thesis's own figures and by a run's, and the table of them."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import pandas as pd
+
+from beambench_report.base.files import Problem
+from beambench_report.base.quantities import markdown_table, number
+from beambench_thesis.chapter6.results import is_cluster_folder
+from beambench_thesis.claims.chapter5 import CLAIMS
+from beambench_thesis.claims.chapter6 import CLUSTER_CLAIMS, cluster_evidence
+from beambench_thesis.claims.text import FURTHER_CLAIMS
+from beambench_thesis.claims.verdict import Check, Claim, Outcome, Verdict, verdict_of
+from beambench_thesis.paper.evidence import NO_CLUSTER, Evidence, published_evidence
+from beambench_thesis.paper.measured import census_work, is_census_folder, measured_evidence
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What one set of measurements says of a claim."""
+
+    verdict: Verdict
+    checks: list[Check]
+
+
+@dataclass(frozen=True)
+class JudgedClaim:
+    """A claim, judged by the thesis's own figures and by ours."""
+
+    claim: Claim
+    thesis: Finding
+    ours: Finding
+    formerly: Finding | None
+    """Ours by the rule that the claim had before, where it was amended."""
+
+
+def judge(claim: Claim, evidence: Evidence) -> Finding:
+    """Applies the claim's rule."""
+    checks = claim.rule(evidence)
+    return Finding(verdict_of(checks), checks)
+
+
+def judge_formerly(claim: Claim, evidence: Evidence) -> Finding | None:
+    """Applies the rule that the claim had before; None where it was not amended."""
+    return judge(replace(claim, rule=claim.amendment.former), evidence) if claim.amendment else None
+
+
+SWEPT_CLAIMS = (*CLAIMS, *FURTHER_CLAIMS)
+"""Those that runs of sweeps and a census decide."""
+
+ALL_CLAIMS = (*CLAIMS, *CLUSTER_CLAIMS, *FURTHER_CLAIMS)
+
+
+def judge_claims(runs: Sequence[Path], claims: Sequence[Claim] = ALL_CLAIMS) -> list[JudgedClaim]:
+    """What is said of the claims by runs of sweeps, a folder of censuses and a simulated cluster.
+
+    Without them ours are not tested. Raises Problem where one cannot be read.
+    """
+    clusters = [run for run in runs if is_cluster_folder(run)]
+    censuses = [run for run in runs if is_census_folder(run)]
+    for kind, folders in (("simulated cluster", clusters), ("folder of censuses", censuses)):
+        if len(folders) > 1:
+            raise Problem(f"{folders[1]}: there is another {kind}, {folders[0]}; name one")
+    swept = measured_evidence([run for run in runs if run not in (*clusters, *censuses)])
+    counted = [swept.work, *(census_work(folder) for folder in censuses)]
+    measured = replace(
+        swept,
+        work=pd.concat(counted, ignore_index=True) if censuses else swept.work,
+        cluster=cluster_evidence(clusters[0]) if clusters else NO_CLUSTER,
+    )
+    published = published_evidence()
+    return [
+        JudgedClaim(
+            claim, judge(claim, published), judge(claim, measured), judge_formerly(claim, measured)
+        )
+        for claim in claims
+    ]
+
+
+_MAX_NAMED = 4
+
+
+def claims_as_markdown(claims: Sequence[JudgedClaim], *, cells: bool = False) -> str:
+    """A row for each claim; with `cells`, also every cell that its verdicts rest on."""
+    rows = []
+    for one in claims:
+        parts = [
+            f"{whose}: {found}"
+            for whose, finding in (("thesis", one.thesis), ("ours", one.ours))
+            if (found := summary(finding))
+        ]
+        bound = " (it is these figures)" if one.claim.is_figures else ""
+        former = f" (formerly: {one.formerly.verdict.value})" if one.formerly else ""
+        verdicts = (f"{one.thesis.verdict.value}{bound}", f"{one.ours.verdict.value}{former}")
+        figures = "; ".join([*parts, *filter(None, [amendment(one)])])
+        rows.append((one.claim.name, one.claim.where, one.claim.says, *verdicts, figures))
+    heads = ("claim", "where", "what the thesis says", "by its own figures", "by ours", "figures")
+    lines = markdown_table(heads, rows)
+    for one in claims if cells else ():
+        lines += ["", *_cells(one)]
+    return "\n".join(lines) + "\n"
+
+
+def summary(finding: Finding) -> str:
+    """How many cells say yes, and those that do not, named; nothing if no cell was measured."""
+    by_outcome = {
+        outcome: [one for one in finding.checks if not one.aside and one.outcome is outcome]
+        for outcome in Outcome
+    }
+    count = sum(map(len, by_outcome.values()))
+    parts = []
+    if len(by_outcome[Outcome.MISSING]) < count:
+        yes = by_outcome.pop(Outcome.YES)
+        parts.append(f"{len(yes)} of {count} cells{_range_of(yes)}")
+        parts += [_named(outcome, checks) for outcome, checks in by_outcome.items() if checks]
+    parts += [
+        f"beside it: {check.cell}: {check.outcome.value} ({check.figures})"
+        for check in finding.checks
+        if check.aside and check.outcome is not Outcome.MISSING
+    ]
+    return "; ".join(parts)
+
+
+def amendment(one: JudgedClaim) -> str:
+    """Why the claim has another rule than it had, and what the former one finds; else nothing."""
+    if one.claim.amendment is None or one.formerly is None:
+        return ""
+    found = summary(one.formerly)
+    former = f"; ours by the former rule: {found}" if found else ""
+    return f"rule amended: {one.claim.amendment.why}{former}"
+
+
+def cells_of(one: JudgedClaim) -> list[tuple[str, Check, Check]]:
+    """Every cell that a claim's verdicts rest on: the thesis's check and ours."""
+    thesis, ours = ({c.cell: c for c in each.checks} for each in (one.thesis, one.ours))
+    nothing = Check("", Outcome.MISSING)
+    return [
+        (cell, thesis.get(cell, nothing), ours.get(cell, nothing))
+        for cell in dict.fromkeys([*thesis, *ours])
+    ]
+
+
+def _range_of(checks: Sequence[Check]) -> str:
+    """The ratios of cells that compare two figures: 1.13 to 2.06 times."""
+    ratios = [check.ratio for check in checks if check.ratio is not None]
+    if not ratios:
+        return "".join(f", {check.cell}: {check.figures}" for check in checks[:_MAX_NAMED])
+    least, most = number(min(ratios)), number(max(ratios))
+    return f" ({least} times)" if least == most else f" ({least} to {most} times)"
+
+
+def _named(outcome: Outcome, checks: Sequence[Check]) -> str:
+    named = [f"{check.cell}{f' ({check.figures})' * bool(check.figures)}" for check in checks]
+    rest = len(named) - _MAX_NAMED
+    more = [f"{rest} more"] if rest > 0 else []
+    return f"{outcome.value}: " + ", ".join(named[:_MAX_NAMED] + more)
+
+
+def _cells(one: JudgedClaim) -> list[str]:
+    rows = (
+        (cell, thesis.outcome.value, thesis.figures, ours.outcome.value, ours.figures)
+        for cell, thesis, ours in cells_of(one)
+    )
+    lines = [f"### {one.claim.name}: {one.claim.says}", ""]
+    lines += markdown_table(("cell", "thesis", "figures", "ours", "figures"), rows)
+    if one.formerly is not None:
+        former = ((check.cell, check.outcome.value, check.figures) for check in one.formerly.checks)
+        lines += ["", "By the former rule, ours:", ""]
+        lines += markdown_table(("cell", "ours", "figures"), former)
+    return lines

@@ -1,0 +1,189 @@
+"""The rules of what the thesis says in its text alone, without a table or a figure about it.
+
+Such sentences have few figures or none: what "few" or "nearly all" is taken to mean stands beside
+each rule. Octrees have level 6, as wherever the thesis does not vary it.
+"""
+
+from dataclasses import replace
+from itertools import product
+
+from beambench_report.base.published import COARSEST, FINEST, RESOLUTIONS
+from beambench_thesis.claims.chapter5 import ALL_SCENES, ON_OCTREES
+from beambench_thesis.claims.comparisons import beats, difference, most, ratio_of
+from beambench_thesis.claims.verdict import Check, Claims, Outcome, below, between
+from beambench_thesis.paper.evidence import (
+    PICTURE,
+    Evidence,
+    Measured,
+    largest,
+    share,
+    total,
+)
+
+FURTHER_CLAIMS = Claims()
+
+
+def _left_over(e: Evidence, scene: str, resolution: str) -> Measured | None:
+    """Of the samples that were tested in the occupied leaves where their beams end, the part that
+    hit nothing there and continued as rays.
+    """
+    return ratio_of(
+        e.worked("rays_after_leaf", scene, resolution),
+        e.worked("samples_in_leaves", scene, resolution),
+    )
+
+
+@FURTHER_CLAIMS.claim(
+    "C25",
+    "5.4.2",
+    "In bola-espacial nearly all rays hit an object in the occupied leaf where their beam ends.",
+)
+def rays_hit_where_their_beam_ends(e: Evidence) -> list[Check]:
+    """Nearly all: nine of ten or more, at each resolution."""
+    return [
+        between(
+            f"bola-espacial {resolution}, part of the samples that continues as rays",
+            _left_over(e, "bola-espacial", resolution),
+            0,
+            0.1,
+        )
+        for resolution in RESOLUTIONS
+    ]
+
+
+@FURTHER_CLAIMS.claim(
+    "C26",
+    "3.6.2",
+    "The rays of a beam that hit nothing in its occupied leaf and have to be traced on are few.",
+)
+def few_rays_are_left_over(e: Evidence) -> list[Check]:
+    """Few: less than half of the samples, in each scene at 1280x1024."""
+    return [
+        between(
+            f"{scene} {FINEST}, part of the samples that continues as rays",
+            _left_over(e, scene, FINEST),
+            0,
+            0.5,
+        )
+        for scene in ALL_SCENES
+    ]
+
+
+@FURTHER_CLAIMS.claim(
+    "C27",
+    "6.2.1",
+    "With a fitting octree, taking beams through it is no more than 10% of the whole time.",
+)
+def walking_takes_little(e: Evidence) -> list[Check]:
+    """In each scene at 1280x1024: the section speaks of high resolutions."""
+    return [
+        between(
+            f"{scene} {FINEST}, share of non-terminal beams",
+            e.share_of_time("nonterminal", scene, FINEST),
+            0,
+            0.1,
+        )
+        for scene in ALL_SCENES
+    ]
+
+
+@FURTHER_CLAIMS.claim("C28", "5.3.3", "Beams that leave the scene are never the critical task.")
+def leaving_is_never_critical(e: Evidence) -> list[Check]:
+    """In each scene, at the lowest and at the highest resolution, another task takes longer."""
+
+    def critical(scene: str, resolution: str) -> Check:
+        leaving, *others = (
+            e.worked(f"seconds_{task}", scene, resolution)
+            for task in ("leaving", "nonterminal", "occupied")
+        )
+        known = [seconds for seconds in others if seconds is not None]
+        longest = largest(known) if len(known) == len(others) else None
+        return below(f"{scene} {resolution}, leaving below the longest task", leaving, longest)
+
+    return [
+        critical(scene, resolution) for scene, resolution in product(ALL_SCENES, (COARSEST, FINEST))
+    ]
+
+
+@FURTHER_CLAIMS.claim(
+    "C29",
+    "5.4.1",
+    "What Samet-Net gains over Samet, and the beams over both, grows with the resolution.",
+    former={"needs_a_gain": False},
+    why="where Samet-Net gains nothing at 1280x1024, no gain has grown; the former rule left that "
+    "undecided",
+)
+def gains_grow_with_the_resolution(e: Evidence, needs_a_gain: bool = True) -> list[Check]:
+    """From 320x200 to 1280x1024. Samet-Net: the seconds saved, for the reason given is that more
+    rays use the links; no where it is not the quicker one at 1280x1024. Beams: how many times as
+    long the rays take.
+    """
+
+    def saves_more(scene: str) -> Check:
+        cell = f"{scene}, seconds that samet-net saves"
+        check = below(cell, saved(scene, COARSEST), saved(scene, FINEST))
+        gain = beats(e, scene, "samet-net", "samet")
+        no_gain = needs_a_gain and gain.outcome is Outcome.NO
+        return replace(gain, cell=f"{cell}, by any at {FINEST}") if no_gain else check
+
+    def saved(scene: str, resolution: str) -> Measured | None:
+        return difference(
+            e.time(scene, "samet", resolution), e.time(scene, "samet-net", resolution)
+        )
+
+    def ratio(scene: str, other: str, resolution: str) -> Measured | None:
+        return ratio_of(e.time(scene, other, resolution), e.time(scene, "beam", resolution))
+
+    return [
+        *(saves_more(scene) for scene in ON_OCTREES),
+        *(
+            below(
+                f"{scene}, {other} over beam",
+                ratio(scene, other, COARSEST),
+                ratio(scene, other, FINEST),
+            )
+            for scene, other in product(ON_OCTREES, ("samet", "samet-net"))
+        ),
+    ]
+
+
+@FURTHER_CLAIMS.claim(
+    "C30", "3.1", "Primary rays are generally more than secondary (reflected, refracted) ones."
+)
+def secondary_rays_are_fewer(e: Evidence) -> list[Check]:
+    """Generally: in more than half of the fifteen scenes, and in all of them taken together."""
+    counts = {
+        scene: tuple(
+            e.worked(kind, scene, contender=PICTURE) for kind in ("eye_rays", "secondary_rays")
+        )
+        for scene in ALL_SCENES
+    }
+    known = {scene: pair for scene, pair in counts.items() if None not in pair}
+    shares = {scene: share(*pair) for scene, pair in known.items()}
+    everything = [total(kind) for kind in zip(*known.values(), strict=True)]
+    complete = len(known) == len(ALL_SCENES)
+    primary, secondary = everything if complete else (None, None)
+    return [
+        most("scenes whose primary rays are more than half", shares, 0.5, len(ALL_SCENES)),
+        below("secondary rays below primary ones, all scenes together", secondary, primary),
+    ]
+
+
+@FURTHER_CLAIMS.claim(
+    "C31", "6.2.2", "The shadow cache succeeds more often where pixels are grouped in beams."
+)
+def shadow_cache_gains_from_beams(e: Evidence) -> list[Check]:
+    """In each scene the cache knows more of the hidden shadow rays, if pixels are shaded beam by
+    beam, than if they are shaded along the rows.
+    """
+    checks = []
+    for scene in ALL_SCENES:
+        hidden = e.worked("shadow_hidden", scene, contender=PICTURE)
+        if hidden is not None and hidden.value == 0:
+            continue
+        known = (
+            ratio_of(e.worked(f"shadow_cached_{order}", scene, contender=PICTURE), hidden)
+            for order in ("scan", "beams")
+        )
+        checks.append(below(f"{scene}, cached part of hidden shadow rays, rows to beams", *known))
+    return checks or [Check("scenes with hidden shadow rays", Outcome.MISSING)]

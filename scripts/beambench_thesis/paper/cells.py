@@ -1,0 +1,197 @@
+"""The cells of a folder of runs, each with the row of results.csv that it comes from."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import pandas as pd
+
+from beambench_report.base.columns import COUNTER_SUFFIX
+from beambench_report.base.fastest import with_fastest
+from beambench_report.base.files import Problem
+from beambench_report.base.machine import require_one_machine
+from beambench_report.base.names import parameter_items
+from beambench_report.base.published import RESOLUTIONS, primitives_by_scene
+from beambench_report.base.records import read_run, size_of
+from beambench_thesis.paper.evidence import SETTING, Measured
+from beambench_thesis.paper.measured import seconds_of, setting_of
+
+_SIZES = ("nodes", "leaves", "empty_leaves", "references", "depth", "hit_share")
+
+Setting = tuple[str | int, ...]
+"""In the order of `evidence.SETTING`."""
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One row of one run."""
+
+    number: int
+    """Its place in the report's list of rows."""
+    run: str
+    line: int
+    """Of the run's results.csv, the head being line 1."""
+    name: str
+    scene: str
+    structure: str
+    parameters: dict[str, str]
+    resolution: str
+    samples: int
+    rays: int
+    verdict: str
+    repetitions: int
+    setting: Setting | None
+    """Its setting in the thesis; None where the thesis has no such parameters."""
+    time: Measured | None
+    """Seconds, building included; None where the hits are not correct."""
+    build: float
+    """Seconds, too."""
+    trace: float
+    megacycles: float
+    memory: float
+    nodes: float
+    leaves: float
+    empty_leaves: float
+    references: float
+    depth: float
+    hit_share: float
+    counters: dict[str, float]
+    """Work per ray, by the counter's name."""
+
+
+@dataclass(frozen=True)
+class Cells:
+    """All cells of all runs of a folder."""
+
+    directory: Path
+    runs: tuple[Path, ...]
+    cells: tuple[Cell, ...]
+    unread: tuple[str, ...] = ()
+    """Why a run could not be read, one sentence each."""
+
+    @property
+    def wrong(self) -> list[Cell]:
+        """The cells without times."""
+        return [cell for cell in self.cells if cell.time is None]
+
+    def at(self, setting: Setting) -> Cell | None:
+        """The cell of a setting of the thesis, where it was measured."""
+        return self._by_setting.get(setting)
+
+    def of(self, scene: str, structure: str, resolution: str, samples: int = 1) -> list[Cell]:
+        """All cells of a structure, whatever its parameters."""
+        return self._by_view.get((scene, structure, resolution, samples), [])
+
+    def without(self, run: str) -> Cells:
+        """All but those of one run."""
+        return Cells(
+            self.directory,
+            tuple(path for path in self.runs if path.name != run),
+            tuple(cell for cell in self.cells if cell.run != run),
+            self.unread,
+        )
+
+    @cached_property
+    def _by_setting(self) -> dict[Setting, Cell]:
+        found: dict[Setting, Cell] = {}
+        for cell in self.cells:
+            if cell.setting is not None:
+                found.setdefault(cell.setting, cell)
+        return found
+
+    @cached_property
+    def _by_view(self) -> dict[tuple[str, str, str, int], list[Cell]]:
+        found: dict[tuple[str, str, str, int], list[Cell]] = {}
+        for cell in self.cells:
+            key = (cell.scene, cell.structure, cell.resolution, cell.samples)
+            found.setdefault(key, []).append(cell)
+        return found
+
+
+def read_cells(directory: Path, names: Iterable[str]) -> Cells:
+    """Reads the runs DIRECTORY/NAME; those that hold nothing yet are left out."""
+    runs, cells, unread = [], [], []
+    for name in names:
+        folder = directory / name
+        if not (folder / "results.csv").exists():
+            continue
+        try:
+            (rows,) = with_fastest([read_run(folder)])
+            require_one_machine(rows, folder)
+        except Problem as problem:
+            unread.append(str(problem))
+            continue
+        runs.append(folder)
+        for line, row in enumerate(rows.to_dict("records"), 2):
+            if row["ray_kind"] == "primary":
+                cells.append(_cell(len(cells) + 1, name, line, row))
+    return Cells(directory, tuple(runs), tuple(cells), tuple(unread))
+
+
+def setting(
+    scene: str,
+    contender: str,
+    resolution: str,
+    *,
+    level: int = 0,
+    objects: int = 0,
+    cells: int = 0,
+    samples: int = 1,
+) -> Setting:
+    """A setting of the thesis as a key."""
+    return (scene, contender, level, objects, cells, resolution, samples)
+
+
+def resolutions_of(cells: Iterable[Cell]) -> list[str]:
+    """Those of the thesis that some cell has, the coarsest first."""
+    there = {cell.resolution for cell in cells}
+    return [resolution for resolution in RESOLUTIONS if resolution in there]
+
+
+def _cell(number: int, run: str, line: int, row: dict) -> Cell:
+    known = setting_of(row)
+    resolution = size_of(row)
+    samples = int(row["samples"])
+    view = f"{row['scene']}/{row['camera']}/{resolution}/{samples}/{row['ray_kind']}"
+    structure = f"{row['structure']}:{row['parameters']}".rstrip(":")
+    time = seconds_of(row) if row["timed"] else None
+    return Cell(
+        number,
+        run,
+        line,
+        f"{view}/{structure}",
+        _plain_scene(str(row["scene"]), row["primitives"]),
+        str(row["structure"]),
+        parameter_items(row["parameters"]),
+        resolution,
+        samples,
+        int(row["rays"]),
+        row["verdict"] or "no verdict",
+        0 if pd.isna(row["repetitions"]) else int(row["repetitions"]),
+        tuple(known[name] for name in SETTING) if known else None,
+        Measured(time["seconds"], time["low"], time["high"]) if time else None,
+        row["build_ms_median"] / 1e3,
+        row["trace_ms_median"] / 1e3,
+        row["fastest_mcycles"] if pd.notna(row["fastest_mcycles"]) else row["total_mcycles_median"],
+        row["memory_bytes"],
+        *(_known(row, name) for name in _SIZES),
+        {
+            name.removesuffix(COUNTER_SUFFIX): value
+            for name, value in row.items()
+            if name.endswith(COUNTER_SUFFIX) and pd.notna(value)
+        },
+    )
+
+
+def _known(row: dict, name: str) -> float:
+    """A figure of the row; NaN where it is missing."""
+    return float(row.get(name, float("nan")))
+
+
+def _plain_scene(scene: str, primitives: float) -> str:
+    """`escena1` of `escena1:seed=1999,spheres=430`, if it is the thesis's by its size."""
+    plain = scene.split(":")[0]
+    return plain if primitives_by_scene().get(plain) == primitives else scene

@@ -1,0 +1,330 @@
+"""What beambench measured, in the shape of the thesis's tables: runs, and censuses.
+
+A folder of censuses holds two files that `beambench census --json` printed, of the same scenes:
+`scan.json`, pixels shaded one after the other along the rows, and `beams.json`, beam by beam, each
+with one shadow cache for the picture (`--shadows cache --order scan` and `--order beams`).
+"""
+
+from collections.abc import Sequence
+from math import hypot, isnan, sqrt
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from beambench_report.base.columns import COUNTER_SUFFIX
+from beambench_report.base.fastest import with_fastest
+from beambench_report.base.files import Problem, load_json
+from beambench_report.base.machine import require_one_machine
+from beambench_report.base.names import parameter_items
+from beambench_report.base.published import FINEST, primitives_by_scene
+from beambench_report.base.records import read_run, size_of
+from beambench_thesis.paper.evidence import (
+    HIERARCHY,
+    NOTHING,
+    OCTREES,
+    PAPER_HIERARCHY,
+    PICTURE,
+    SETTING,
+    TIMES,
+    WORK,
+    Evidence,
+    Measured,
+    share,
+)
+
+# What the thesis did where it varied nothing. A row with another value of these is of a contender
+# that the claims do not speak of. Level, objects and voxels are settings of their own.
+_OCTREE = {"root": "cube", "assign": "surface"}
+_THESIS = {
+    "beam": _OCTREE | {"handover": "0", "continue": "rays", "share_corners": "false"},
+    "samet": _OCTREE,
+    "samet-net": _OCTREE,
+    "voxel-grid": {"fill": "lazy", "mailboxes": "false"},
+    HIERARCHY: {"order": "given", "queue": "heap"},
+}
+
+# Between two runs the virtual machine's clock was up to 14% apart (results/published/README.md).
+# So far a figure may be off that was measured too seldom to have an interval of its own.
+UNKNOWN_SPREAD = 0.15
+
+# What the counting pass of another run differs by in one task over the others. Found by repeating a
+# sweep of 84 cells twice on a disturbed machine: 95% of these ratios were found again within 16% to
+# 20%, 95% of the seconds of the pass only within 37% to 50%.
+SPREAD_OF_PARTS = 0.17
+
+# What another process differs by, its memory lying elsewhere (kBetweenRuns of the harness).
+BETWEEN_RUNS = 0.015
+
+_TASKS = ("nonterminal", "occupied", "leaving")
+_BEAM_COUNTS = ("beams", "beams_nonterminal", "beams_occupied", "beams_made", "beams_divided")
+
+
+def measured_evidence(directories: Sequence[Path]) -> Evidence:
+    """The rows of one or more runs that are of the thesis's scenes and contenders, and were right.
+
+    Of a cell that several runs measured, the repetitions of all count. Raises Problem where a run
+    cannot be read, or is of several machines.
+    """
+    runs = [read_run(directory) for directory in directories]
+    if not runs:
+        return NOTHING
+    for run in runs:
+        require_one_machine(run.rows, run.directory)
+    every = [_compared(rows) for rows in with_fastest(runs)]
+    # One clock for all runs: what they differ by in cycles, they differ by in these seconds.
+    cycles, ms = (
+        pd.concat(rows[f"total_{name}_median"] for rows in every) for name in ("mcycles", "ms")
+    )
+    clock = float((cycles / ms).median())
+    parts = [_evidence_of(rows, clock) for rows in every]
+    times, work, octrees = (
+        pd.concat([getattr(part, name) for part in parts], ignore_index=True)
+        for name in ("times", "work", "octrees")
+    )
+    # In the counting passes of two runs the tasks took other parts of the time: the first's stand.
+    is_time = work["quantity"].str.startswith("seconds_").astype(bool)
+    once = ~work.duplicated([*SETTING, "quantity"])
+    return Evidence(times.drop_duplicates(list(SETTING)), work[once | ~is_time], octrees)
+
+
+def _compared(rows: pd.DataFrame) -> pd.DataFrame:
+    """Those of camera rays from each scene's first camera that have times."""
+    rows = rows[rows["timed"] & rows["ray_kind"].eq("primary")]
+    return rows[rows["camera"].eq(rows.groupby("scene")["camera"].transform("first"))]
+
+
+def _evidence_of(rows: pd.DataFrame, clock: float) -> Evidence:
+    times: list[dict[str, object]] = []
+    work: list[dict[str, object]] = []
+    octrees: list[dict[str, object]] = []
+    for row in rows.to_dict("records"):
+        setting = setting_of(row)
+        if setting is None:
+            continue
+        times.append({"table": ""} | setting | _at_clock(row, clock))
+        work += [setting | entry for entry in _work(row)]
+        if setting["contender"] == "beam" and setting["samples"] == 1:
+            octrees += _octree(row, setting)
+    return Evidence(
+        pd.DataFrame(times, columns=list(TIMES)),
+        pd.DataFrame(work, columns=list(WORK)),
+        pd.DataFrame(octrees, columns=list(OCTREES)),
+    )
+
+
+def setting_of(row: dict[str, object]) -> dict[str, object] | None:
+    """What the row is about; nothing if it is of no scene or contender of the thesis."""
+    contender = str(row["structure"])
+    scene = str(row["scene"]).split(":")[0]
+    if contender not in _THESIS or row["primitives"] != primitives_by_scene().get(scene):
+        return None
+    given = parameter_items(row["parameters"])
+    thesis = _THESIS[contender]
+    if any(given.get(name, value) != value for name, value in thesis.items()):
+        return None
+    numbers = {
+        "level": given.get("max_level", "0"),
+        "objects": given.get("max_objects", "0"),
+        "cells": _cells_per_axis(given.get("resolution", "0")),
+    }
+    if not all(value.isdecimal() for value in numbers.values()):
+        return None  # chosen automatically
+    if contender == HIERARCHY and given.get("insert") != "terminal":
+        contender = PAPER_HIERARCHY
+    return {
+        "scene": scene,
+        "contender": contender,
+        **{name: int(value) for name, value in numbers.items()},
+        "resolution": size_of(row),
+        "samples": int(float(str(row["samples"]))),
+    }
+
+
+def _cells_per_axis(resolution: str) -> str:
+    """`32` of `32` and of `32x32x32`; grids of other shapes are none of the thesis's."""
+    sides = set(resolution.split("x"))
+    return sides.pop() if len(sides) == 1 else resolution
+
+
+def seconds_of(row: dict[str, object]) -> dict[str, float]:
+    """Building included, as in the thesis; the interval is one for the figure of a repeated run.
+
+    Those of the fastest repetitions (base/fastest.py); the median of all where these are not known.
+    """
+    fastest = _number(row, "fastest_ms")
+    return _seconds_by(row, "total_ms", 1e3) if isnan(fastest) else _fastest(row, fastest / 1e3)
+
+
+def _at_clock(row: dict[str, object], gigahertz: float) -> dict[str, float]:
+    """The seconds that the row's cycles take at a clock rate, which for its own was another."""
+    fastest = _number(row, "fastest_mcycles")
+    if not isnan(fastest):
+        return _fastest(row, fastest / (1e3 * gigahertz))
+    if pd.notna(_number(row, "total_mcycles_ci_low")):
+        return _seconds_by(row, "total_mcycles", 1e3 * gigahertz)
+    # Older rows have no interval of the cycles: that of the milliseconds is no narrower.
+    cycles, own = _number(row, "total_mcycles_median"), _number(row, "total_ms_median")
+    scale = cycles / gigahertz / own
+    return {name: seconds * scale for name, seconds in seconds_of(row).items()}
+
+
+def _fastest(row: dict[str, object], seconds: float) -> dict[str, float]:
+    """Those of a cell's fastest repetitions, with the interval for those of a repeated run."""
+    error = seconds * error_between_runs(_number(row, "fastest_error"))
+    return {"seconds": seconds, "low": seconds - error, "high": seconds + error}
+
+
+def error_between_runs(error: float) -> float:
+    """How far the fastest repetitions of another process may lie from this one's, as a part.
+
+    UNKNOWN_SPREAD where those of this process are not known.
+    """
+    return UNKNOWN_SPREAD if isnan(error) else hypot(error, BETWEEN_RUNS)
+
+
+def _seconds_by(row: dict[str, object], figure: str, per_second: float) -> dict[str, float]:
+    """The seconds of the figure's median; UNKNOWN_SPREAD where that has no interval.
+
+    A repeated run's median differs by the errors of both, so that its interval is that of the
+    median times the root of two, and by what another process differs by.
+    """
+    seconds = _number(row, f"{figure}_median") / per_second
+    low, high = (_number(row, f"{figure}_ci_{end}") / per_second for end in ("low", "high"))
+    if pd.isna(low) or pd.isna(high):
+        below = above = UNKNOWN_SPREAD * seconds
+    else:
+        below, above = (
+            hypot(sqrt(2) * error, BETWEEN_RUNS * seconds)
+            for error in (seconds - low, high - seconds)
+        )
+    return {"seconds": seconds, "low": seconds - below, "high": seconds + above}
+
+
+def _work(row: dict[str, object]) -> list[dict[str, object]]:
+    """Counts of the whole image, times of its tasks; sizes of a hierarchy."""
+    if row["structure"] == HIERARCHY:
+        sizes = {"boxes": _number(row, "nodes"), "cost": _number(row, "tree_cost")}
+        return [
+            _entry(name, size) | {"resolution": ""}
+            for name, size in sizes.items()
+            if pd.notna(size)
+        ]
+    if row["structure"] != "beam" or pd.isna(_number(row, f"beams{COUNTER_SUFFIX}")):
+        return []
+    counts = {
+        name.removesuffix(COUNTER_SUFFIX): _number(row, name) * _number(row, "rays")
+        for name in row
+        if name.endswith(COUNTER_SUFFIX)
+    }
+    entries = [
+        _entry(name, value)
+        for name, value in counts.items()
+        if not name.endswith("_ns") and pd.notna(value)
+    ]
+    # Beams do not depend on the resolution (C09 asks whether): one count stands for all.
+    entries += [
+        _entry(name, round(counts[name])) | {"resolution": ""}
+        for name in _BEAM_COUNTS
+        if pd.notna(counts.get(name))
+    ]
+    counted = {task: counts.get(f"beams_{task}_ns", float("nan")) / 1e9 for task in _TASKS}
+    return [*entries, *_seconds_of_tasks(row, counted)]
+
+
+def _seconds_of_tasks(row: dict[str, object], counted: dict[str, float]) -> list[dict[str, object]]:
+    """Each task's part of the least time of a trace, and the building.
+
+    The parts are those of the counting pass. Its seconds are not used: it is made once, and other
+    work on the machine makes it half as long again in one cell and not in another, but most of its
+    tasks alike.
+    """
+    build = _number(row, "build_ms_median") / 1e3
+    entries = [_entry("seconds_build", build, UNKNOWN_SPREAD)] if pd.notna(build) else []
+    fastest = _number(row, "fastest_trace_ms")
+    trace = (_number(row, "trace_ms_min") if isnan(fastest) else fastest) / 1e3
+    if any(map(isnan, (trace, *counted.values()))) or sum(counted.values()) <= 0:
+        return entries
+    error = error_between_runs(_number(row, "fastest_error"))
+    inverse = Measured(1 / trace, 1 / trace / (1 + error), (1 + error) / trace)
+    for task, seconds in counted.items():
+        rest = Measured.exact(sum(counted.values()) - seconds)
+        part = Measured(seconds, seconds / (1 + SPREAD_OF_PARTS), seconds * (1 + SPREAD_OF_PARTS))
+        found = share(part, rest) / inverse
+        figures = {"value": found.value, "low": found.low, "high": found.high}
+        entries.append({"quantity": f"seconds_{task}"} | figures)
+    return entries
+
+
+def _entry(quantity: str, value: float, spread: float = 0.0) -> dict[str, object]:
+    return {
+        "quantity": quantity,
+        "value": value,
+        "low": value * (1 - spread),
+        "high": value * (1 + spread),
+    }
+
+
+def _octree(row: dict[str, object], setting: dict[str, object]) -> list[dict[str, object]]:
+    leaves = _number(row, "leaves") - _number(row, "empty_leaves")
+    pixels = _number(row, f"samples_leaving{COUNTER_SUFFIX}") * _number(row, "rays")
+    if setting["resolution"] != FINEST or pd.isna(leaves) or pd.isna(pixels):
+        return []
+    counts = {"occupied_leaves": round(leaves), "exit_pixels": round(pixels)}
+    return [{name: setting[name] for name in ("scene", "level", "objects")} | counts]
+
+
+def _number(row: dict[str, object], name: str) -> float:
+    value = row.get(name)
+    return float("nan") if value is None else float(str(value))
+
+
+ORDERS = ("scan", "beams")
+"""In which pixels are shaded; a file each."""
+
+
+def is_census_folder(folder: Path) -> bool:
+    """Does it hold both files?"""
+    return all(census_file(folder, order).exists() for order in ORDERS)
+
+
+def census_file(folder: Path, order: str) -> Path:
+    """`FOLDER/scan.json`."""
+    return folder / f"{order}.json"
+
+
+def census_work(folder: Path) -> pd.DataFrame:
+    """Rows of `evidence.WORK`: rays by kind, and the hidden shadow rays that the cache knew.
+
+    Raises Problem where a file is not what `beambench census --json` prints.
+    """
+    rows: list[dict[str, object]] = []
+    for order in ORDERS:
+        for scene, counts in _scenes(census_file(folder, order), order).items():
+            quantities = {f"shadow_cached_{order}": counts["shadow_cached"]}
+            if order == ORDERS[0]:
+                quantities |= {
+                    "eye_rays": counts["eye_rays"],
+                    "secondary_rays": counts["reflected_rays"] + counts["refracted_rays"],
+                    "shadow_hidden": counts["shadow_hidden"],
+                }
+            rows += [_row(scene, name, float(count)) for name, count in quantities.items()]
+    return pd.DataFrame(rows, columns=list(WORK))
+
+
+def _scenes(path: Path, order: str) -> dict[str, dict[str, Any]]:
+    """The thesis's scenes in a file, by their plain names."""
+    try:
+        source = load_json(path)
+        if (source["shadows"], source["order"]) != ("cache", order):
+            raise ValueError(f"not counted with --shadows cache --order {order}")
+        named = {str(entry["scene"]).split(":")[0]: entry for entry in source["scenes"]}
+        return {scene: named[scene] for scene in primitives_by_scene() if scene in named}
+    except (ValueError, KeyError, TypeError, OSError) as error:
+        raise Problem(f"{path}: is not what `beambench census --json` prints ({error})") from None
+
+
+def _row(scene: str, quantity: str, value: float) -> dict[str, object]:
+    setting = {"scene": scene, "contender": PICTURE, "level": 0, "objects": 0, "cells": 0}
+    figures = {"quantity": quantity, "value": value, "low": value, "high": value}
+    return setting | {"resolution": "", "samples": 1} | figures

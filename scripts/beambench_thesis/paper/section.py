@@ -1,0 +1,122 @@
+"""A part of the report beyond the thesis's own tables and figures: words, tables, plots."""
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from beambench_report.base.figure import Plot, house_style, write_plot
+from beambench_report.base.files import write_text
+from beambench_report.base.quantities import markdown_table
+from beambench_thesis.paper.cells import Cell
+
+
+@dataclass(frozen=True)
+class Field:
+    """What stands at a place of a table, and the row of the file behind it."""
+
+    text: str
+    cell: Cell | None = None
+    value: float | None = None
+    """What it sorts by, where that is not the text."""
+
+
+@dataclass(frozen=True)
+class Column:
+    """A heading, and whether figures stand under it."""
+
+    text: str
+    is_figure: bool = True
+
+
+@dataclass(frozen=True)
+class SectionTable:
+    """A table of fields; a long one is looked up rather than read, and folded."""
+
+    title: str
+    columns: tuple[Column, ...]
+    rows: tuple[tuple[Field, ...], ...]
+    is_long: bool = False
+
+
+@dataclass(frozen=True)
+class SectionFigure:
+    """A plot, drawn when the report is written."""
+
+    stem: str
+    title: str
+    caption: str
+    draw: Callable[[], Plot]
+
+
+@dataclass(frozen=True)
+class Section:
+    """One part of the report; `words` are paragraphs, `findings` sentences."""
+
+    anchor: str
+    title: str
+    words: tuple[str, ...]
+    tables: tuple[SectionTable, ...] = ()
+    figures: tuple[SectionFigure, ...] = ()
+    findings: tuple[str, ...] = field(default=())
+
+
+def section_table(
+    title: str,
+    words: Sequence[str],
+    figures: Sequence[str],
+    rows: Iterable[Iterable[str | Field]],
+    *,
+    is_long: bool = False,
+) -> SectionTable:
+    """A table whose first columns, headed by `words`, hold words, and the others figures."""
+    columns = (*(Column(text, False) for text in words), *(Column(text) for text in figures))
+    fields = (tuple(Field(x) if isinstance(x, str) else x for x in row) for row in rows)
+    return SectionTable(title, columns, tuple(fields), is_long)
+
+
+def write_section(section: Section, file: Path, **options: object) -> list[Path]:
+    """Writes the section as FILE.md of its own, its plots beside it."""
+    text = section_as_markdown(section, level=1, folder="", **options)
+    paths = [write_text(file, text)]
+    with house_style():
+        for figure in section.figures:
+            paths += write_plot(figure.draw(), file.parent)
+    return paths
+
+
+Origin = Callable[[Cell], str]
+
+
+def by_number(cell: Cell) -> str:
+    """`#12`: the row of the report's rows.csv."""
+    return f"#{cell.number}"
+
+
+def by_file(cell: Cell) -> str:
+    """`levels:14`: run and line of its results.csv, where there is no rows.csv."""
+    return f"{cell.run}:{cell.line}"
+
+
+def section_as_markdown(
+    section: Section, *, level: int = 2, folder: str = "figures", origin: Origin = by_number
+) -> str:
+    """The section under a heading of that level; plots are in `folder`."""
+    lines = [f"{'#' * level} {section.title}", ""]
+    for paragraph in section.words:
+        lines += [paragraph, ""]
+    if section.findings:
+        lines += [*(f"- {finding}" for finding in section.findings), ""]
+    for figure in section.figures:
+        image = f"{folder}/{figure.stem}.png".removeprefix("/")
+        lines += [f"![{figure.title}]({image})", "", f"{figure.title}. {figure.caption}", ""]
+    for table in section.tables:
+        right = [place for place, column in enumerate(table.columns) if column.is_figure]
+        rows = (
+            [f"{one.text}, {origin(one.cell)}" if one.cell else one.text for one in row]
+            for row in table.rows
+        )
+        title = f"<details><summary>{table.title}</summary>" if table.is_long else ""
+        lines += [title or f"**{table.title}**", ""]
+        lines += markdown_table([column.text for column in table.columns], rows, right)
+        lines += ["", "</details>", ""] if table.is_long else [""]
+    return "\n".join(lines)

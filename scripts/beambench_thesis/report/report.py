@@ -1,0 +1,242 @@
+"""Gathers the report from the runs of a folder, and what it says in words."""
+
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+
+from beambench_report.base.files import Problem, read_json
+from beambench_report.base.machine import Manifest, read_manifest
+from beambench_thesis.chapter5.best import BestTable, best_table
+from beambench_thesis.chapter5.cost import cost_section
+from beambench_thesis.chapter5.facts import (
+    CENSUS,
+    camera_section,
+    scenes_section,
+    visits_section,
+)
+from beambench_thesis.chapter5.grid_beams import grid_beams_section
+from beambench_thesis.chapter5.levels import levels_section
+from beambench_thesis.chapter5.mirrors import mirrors_section, read_mirrors
+from beambench_thesis.chapter5.sampling import read_comparisons, sampling_section
+from beambench_thesis.claims.register import SWEPT_CLAIMS, JudgedClaim, judge_claims
+from beambench_thesis.claims.verdict import Verdict
+from beambench_thesis.paper.cells import Cell, Cells, read_cells
+from beambench_thesis.paper.measured import is_census_folder
+from beambench_thesis.paper.printed import parts_of
+from beambench_thesis.paper.section import Section
+from beambench_thesis.report.drawing import FigureData
+from beambench_thesis.report.figures import make_figures
+from beambench_thesis.report.pictures import PictureFigure, octree_figures
+from beambench_thesis.report.plan import LEVELS, TABLES, Plan, Sweep, Table
+from beambench_thesis.report.runner import state_of
+from beambench_thesis.report.tables import PartTable, WorkTable, fill, work_of_lines
+
+SAMPLING = "sampling"
+"""The folder of what `beambench sampling SCENE --json` printed."""
+MIRRORS = "mirrors"
+"""The folder of what `beambench mirrors SCENE --json` printed."""
+GRID_BEAMS = "grid-beams"
+"""The folder of the run of harness/measure/sweeps/grid-beams.json."""
+
+
+@dataclass(frozen=True)
+class Part:
+    """A part of a table: as in the thesis, memory and work of its cells, and best against best."""
+
+    table: PartTable
+    best: BestTable | None
+
+    @cached_property
+    def work(self) -> WorkTable:
+        """Memory and work of every cell of the table."""
+        return work_of_lines(self.table.lines)
+
+
+@dataclass(frozen=True)
+class RunSummary:
+    """A run and its state."""
+
+    name: str
+    description: str
+    state: str
+    planned: int
+    cells: tuple[Cell, ...]
+    manifest: Manifest
+
+    @property
+    def wrong(self) -> int:
+        """Cells without times."""
+        return sum(cell.time is None for cell in self.cells)
+
+
+@dataclass(frozen=True)
+class Report:
+    """All that is written, in whichever form."""
+
+    directory: Path
+    plan: Plan
+    cells: Cells
+    tables: tuple[tuple[Table, tuple[Part, ...]], ...]
+    figures: tuple[FigureData, ...]
+    pictures: tuple[PictureFigure, ...]
+    claims: tuple[JudgedClaim, ...]
+    sections: tuple[Section, ...]
+    """What goes beyond the thesis's own tables and figures."""
+    runs: tuple[RunSummary, ...]
+
+
+def gather(directory: Path, plan: Plan, beambench: Path | None = None) -> Report:
+    """Reads the runs; what was not measured is left out and listed."""
+    sweeps = [*plan.sweeps, *_extra_sweeps(directory, plan)]
+    every = read_cells(directory, (sweep.name for sweep in sweeps))
+    # Tables, figures and claims have one sweep for each of their cells, and none of them is LEVELS.
+    cells = every.without(LEVELS)
+    sections, unread = sections_of(directory, every)
+    pictures = ()
+    if beambench is not None and cells.cells:
+        pictures = tuple(octree_figures(plan.figures, directory, beambench))
+    censuses = [folder] if is_census_folder(folder := directory / CENSUS) else []
+    return Report(
+        directory,
+        plan,
+        replace(every, unread=(*every.unread, *unread)),
+        tuple(
+            (table, _parts(table, cells, directory, plan))
+            for table in TABLES
+            if table.number in plan.tables
+        ),
+        tuple(make_figures(plan.figures, cells)),
+        pictures,
+        tuple(judge_claims([*cells.runs, *censuses], SWEPT_CLAIMS)),
+        tuple(sections),
+        tuple(_summaries(directory, sweeps, every)),
+    )
+
+
+def sections_of(directory: Path, cells: Cells) -> tuple[list[Section], list[str]]:
+    """Those that were measured, and a sentence for each file that could not be read."""
+    comparisons, unread = read_comparisons(sorted((directory / SAMPLING).glob("*.json")))
+    mirrors, unread_mirrors = read_mirrors(sorted((directory / MIRRORS).glob("*.json")))
+    grid_beams = read_cells(directory, [GRID_BEAMS])
+    sections = (
+        scenes_section(directory),
+        visits_section(directory),
+        camera_section(directory),
+        cost_section(cells.cells),
+        levels_section(cells.cells),
+        sampling_section(comparisons),
+        mirrors_section(mirrors),
+        grid_beams_section(grid_beams.cells),
+    )
+    shown = [section for section in sections if section is not None]
+    return shown, [*unread, *unread_mirrors, *grid_beams.unread]
+
+
+def _extra_sweeps(directory: Path, plan: Plan) -> list[Sweep]:
+    """The sweep of levels, where it was run into DIRECTORY/levels without being planned."""
+    if any(sweep.name == LEVELS for sweep in plan.sweeps):
+        return []
+    try:
+        source = read_json(directory / LEVELS / "config.json")
+    except (OSError, Problem):
+        return []
+    return [Sweep(LEVELS, source)] if isinstance(source, dict) else []
+
+
+def _parts(table: Table, cells: Cells, directory: Path, plan: Plan) -> tuple[Part, ...]:
+    sweeps = [sweep for sweep in plan.sweeps if sweep.name in table.first]
+
+    def why(resolution: str) -> str:
+        wanted = [sweep for sweep in sweeps if resolution in sweep.source["resolutions"]]
+        if not wanted:
+            return "quick run" if plan.is_quick else "not selected"
+        states = {state_of(directory / sweep.name) for sweep in wanted}
+        return {"waiting": "not run", "begun": "run cut off"}.get(states.pop(), "not measured")
+
+    return tuple(
+        Part(fill(part, cells, why), best_table(part, cells)) for part in parts_of(table.number)
+    )
+
+
+def _summaries(directory: Path, sweeps: Iterable[Sweep], cells: Cells) -> Iterable[RunSummary]:
+    for sweep in sweeps:
+        yield RunSummary(
+            sweep.name,
+            sweep.description,
+            state_of(directory / sweep.name),
+            len(sweep.cells()),
+            tuple(cell for cell in cells.cells if cell.run == sweep.name),
+            read_manifest(directory / sweep.name) or Manifest(),
+        )
+
+
+# What the report says in words, the same in Markdown and on the page
+
+TABLE_WORDS = (
+    "Beside the thesis's seconds (a Pentium of 350 MHz, 1999) stand our milliseconds; seconds of "
+    "so different machines are not to be compared. What compares are the shapes, in brackets: each "
+    "time over that of the same part's first row at 320x200, the thesis's and ours. Times contain "
+    "the building of the structure, as the thesis's do; our part of it stands behind the total. "
+    "Parameters are the thesis's: octrees of level 6 unless the table says otherwise, 32 voxels "
+    "per axis filled lazily, objects inserted as given beside terminal nodes (insert=terminal), "
+    "Kay and Kajiya's queue, no handover. Rows marked (of today) or (Goldsmith and Salmon 1987) "
+    "are not the thesis's."
+)
+BEST_WORDS = (
+    "Each contender with those of its parameters that made it fastest, building included, in "
+    "brackets its time over that of the first row and the interval of that ratio."
+)
+
+
+def headline(report: Report) -> str:
+    """How much was measured, and whether the hits were correct."""
+    cells, wrong = len(report.cells.cells), len(report.cells.wrong)
+    if not cells:
+        return "Nothing was measured yet."
+    right = f"{wrong} of them wrong, and without times" if wrong else "all with correct hits"
+    return f"{cells:,} cells in {len(report.cells.runs)} runs, {right}."
+
+
+def notice(report: Report) -> str:
+    """What a reader must know before reading on; nothing where all was measured in full."""
+    sentences = []
+    if any(run.state != "finished" for run in report.runs):
+        sentences.append("Not everything that was planned is there (see Runs).")
+    if report.plan.is_quick:
+        decided = [
+            one.claim.name for one in report.claims if one.ours.verdict is not Verdict.NOT_TESTED
+        ]
+        which = f": {', '.join(decided)}" if decided else ""
+        sentences.append(
+            "This was a quick run: low resolutions and few repetitions, for a look, not for "
+            f"verdicts. Its cells are enough for {len(decided)} of {len(report.claims)} claims"
+            f"{which}; the others need cells that were not measured."
+        )
+    elif not report.plan.is_everything:
+        sentences.append("Only some tables and figures were selected.")
+    return " ".join(sentences)
+
+
+def verdict_counts(report: Report) -> str:
+    """How many claims hold by the thesis's own figures and by ours."""
+    parts = []
+    for whose, verdicts in (
+        ("By the thesis's own figures", [one.thesis.verdict for one in report.claims]),
+        ("by ours", [one.ours.verdict for one in report.claims]),
+    ):
+        counts = Counter(verdicts)
+        listed = ", ".join(f"{counts[v]} {_plural(v, counts[v])}" for v in Verdict if counts[v])
+        parts.append(f"{whose}: {listed}")
+    return f"{'; '.join(parts)}."
+
+
+def _plural(verdict: Verdict, count: int) -> str:
+    words = {
+        Verdict.HOLDS: ("holds", "hold"),
+        Verdict.IN_PART: ("holds in part", "hold in part"),
+        Verdict.FAILS: ("fails", "fail"),
+    }
+    one, more = words.get(verdict, (verdict.value, verdict.value))
+    return one if count == 1 else more
