@@ -313,7 +313,7 @@ exit 1
 
 
 @needs_binary
-@pytest.mark.parametrize("kind", ["sweep", "nights"])
+@pytest.mark.parametrize("kind", ["sweep", pytest.param("nights", marks=pytest.mark.full)])
 def test_kills_lose_nothing(record: Record, kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(night_kills, "_KILLS", 1)  # a night takes seconds
     arguments = ["--only", kind, "--minutes", "0", "--seed", "5", "--beambench", BINARY]

@@ -200,6 +200,7 @@ def divide(folder: Path, program: Path) -> int:
     return main(["cluster", "split", str(folder), *asked])
 
 
+@pytest.mark.full
 def test_the_table_has_speed_ups_and_the_page_shows_them(tmp_path: Path) -> None:
     assert divide(tmp_path, pretended_simulator(tmp_path)) == 0
     rows = read_split(tmp_path)

@@ -42,7 +42,17 @@ def test_help_names_every_command_that_others_rely_on() -> None:
     assert wanted <= set(COMMANDS)
 
 
-@pytest.mark.parametrize("command", ["", *COMMANDS])
+# Their examples measure, or verify whole images, for half a minute.
+SLOW = {"time", "sampling", "verify", "census"}
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        pytest.param(command, marks=[pytest.mark.full] if command in SLOW else [])
+        for command in ("", *COMMANDS)
+    ],
+)
 def test_examples_work_when_they_are_pasted(tmp_path: Path, command: str) -> None:
     (tmp_path / "harness").symlink_to(REPOSITORY / "harness")
     lines = examples(*command.split())

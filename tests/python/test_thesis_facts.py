@@ -135,6 +135,7 @@ def with_times_of_tasks(row: Row) -> Row:
     return row | {f"{name}_per_ray": 50 if row["structure"] == "beam" else "" for name in names}
 
 
+@pytest.mark.full
 def test_a_quick_run_says_which_claims_it_can_decide(stand_in: Path, tmp_path: Path) -> None:
     plan = make_plan([], [], True)
     run = write_runs(tmp_path / "run", plan, with_times_of_tasks)
@@ -157,6 +158,7 @@ def test_the_script_s_help_says_so_too(repository: Path) -> None:
     assert "--levels also how well max_level=auto chooses the level" in text
 
 
+@pytest.mark.full
 def test_octrees_are_drawn_with_their_level_stated(tmp_path: Path) -> None:
     if not BINARY.exists():
         pytest.skip("beambench is not built; run scripts/setup")
