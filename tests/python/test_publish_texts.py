@@ -138,13 +138,14 @@ def test_a_wrong_digit_in_a_text_is_found(copied: Path) -> None:
 def test_a_wrong_digit_in_the_rows_is_found(copied: Path) -> None:
     table = copied / "structures/results.csv"
     head, *rows = table.read_text("utf-8").splitlines()
-    place = head.split(",").index("trace_ms_median") - len(head.split(","))
-    row = next(i for i, row in enumerate(rows) if ",kd-tree," in row and ",primary," in row)
-    fields = rows[row].split(",")
-    fields[place] = f"{10 * float(fields[place])}"
-    rows[row] = ",".join(fields)
+    place = head.split(",").index("build_ms_median") - len(head.split(","))
+    for number, row in enumerate(rows):
+        fields = row.split(",")
+        if ",kd-tree," in row and fields[place]:
+            fields[place] = f"{10 * float(fields[place])}"
+            rows[number] = ",".join(fields)
     table.write_text("\n".join([head, *rows]) + "\n", "utf-8")
-    assert {one.file.name for one in differences(copied)} == {"README.md", "winners.md"}
+    assert "winners.md" in {one.file.name for one in differences(copied)}
 
 
 def test_the_command_writes_what_differs_and_nothing_else(copied: Path) -> None:
