@@ -90,7 +90,7 @@ def _parsed(arguments: list[str]) -> _Options:
 
 
 def _check(options: _Options) -> None:
-    """Raises Problem for names that are none."""
+    """Raises Problem for unknown names."""
     if options.folder is not None:
         if len(options.names) != 1:
             raise Problem(f"--from needs one name, not {len(options.names)}")

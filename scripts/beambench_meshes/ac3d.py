@@ -2,8 +2,8 @@
 
 usage: .venv/bin/python -m beambench_meshes.ac3d INPUT.ac OUTPUT.obj
 
-Assimp's importer knows no strips. Lines are left out, and so are the triangles without area with
-which strips are joined. Coordinates stay those of the file: y is up.
+Assimp's importer does not support strips. Lines are left out, and so are the degenerate triangles
+that join strips. Coordinates stay those of the file: y is up.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ _UNTURNED = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 
 @dataclass
 class Model:
-    """What was converted, and what was left out."""
+    """The converted model, and counts of what was left out."""
 
     mesh: SurfaceMesh = field(default_factory=SurfaceMesh)
     surfaces: Counter[str] = field(default_factory=Counter)  # by kind
     triangles: Counter[str] = field(default_factory=Counter)  # by kind
 
     def report(self) -> str:
-        """One line for each kind of surface."""
+        """Returns one line for each kind of surface."""
         return "\n".join(
             f"{kind}: {count} surfaces, {self.triangles[kind]} triangles"
             for kind, count in sorted(self.surfaces.items())

@@ -31,7 +31,7 @@ class Camera:
 
 @dataclass(frozen=True)
 class Loaded:
-    """What beambench made of a mesh."""
+    """A mesh as beambench read it."""
 
     triangles: int
     without_area: int  # left out
@@ -68,6 +68,6 @@ def load(beambench: Path, name: str) -> Loaded:
 
 
 def sha256(file: Path) -> str:
-    """The SHA-256 of a file, in hexadecimal."""
+    """Returns the SHA-256 of a file, in hexadecimal."""
     with file.open("rb") as opened:
         return hashlib.file_digest(opened, "sha256").hexdigest()

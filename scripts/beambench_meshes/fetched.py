@@ -66,10 +66,10 @@ class Registry:
         return True
 
     def _compare_sources(self, recipe: Recipe, folder: Path) -> None:
-        """Says so where a package holds other files than its recipe knows.
+        """Warns if a package has other files than those of its recipe.
 
-        That is no error: a later version of a package may hold the same mesh, which its number of
-        triangles shows.
+        This is not an error: a later version of a package may have the same mesh, which its number
+        of triangles shows.
         """
         for source in recipe.sources:
             if source.member:
@@ -85,7 +85,7 @@ class Registry:
                 )
 
     def _mesh_file(self, recipe: Recipe, folder: Path) -> Path:
-        """What beambench reads: made of the package's file, unless that was done since."""
+        """Returns the file that beambench reads; converts the package's file if needed."""
         source = folder / recipe.sources[0].path
         if recipe.conversion == AS_IT_IS:
             return source

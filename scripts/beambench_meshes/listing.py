@@ -1,4 +1,4 @@
-"""What scripts/meshes can register, as a table."""
+"""The table of meshes that scripts/meshes can register."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What goes wrong because of a user's files or arguments."""
+"""Errors in a user's files or arguments."""
 
 from __future__ import annotations
 

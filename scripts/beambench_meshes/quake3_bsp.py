@@ -48,7 +48,7 @@ _START = ("info_player_deathmatch", "info_player_start")
 
 @dataclass
 class Level:
-    """What was converted, and what was left out."""
+    """The converted level, and counts of what was left out."""
 
     mesh: SurfaceMesh = field(default_factory=SurfaceMesh)
     entities: list[dict[str, str]] = field(default_factory=list)
@@ -56,7 +56,7 @@ class Level:
     triangles: Counter[str] = field(default_factory=Counter)  # by kind
 
     def report(self) -> str:
-        """One line for each kind of face."""
+        """Returns one line for each kind of face."""
         return "\n".join(
             f"{kind}: {count} faces, {self.triangles[kind]} triangles"
             for kind, count in sorted(self.faces.items())
@@ -128,7 +128,7 @@ class _Reader:
         return list(record.iter_unpack(lump))
 
     def _offsets(self, entities: list[dict[str, str]]) -> dict[int, Point]:
-        """How far faces of doors and the like are moved: those whose models turn about a point."""
+        """Returns offsets for faces of doors and other models that turn about a point."""
         offsets: dict[int, Point] = {}
         for entity in entities:
             name = entity.get("model", "")
@@ -276,7 +276,7 @@ def _number(entity: dict[str, str], key: str) -> float:
 
 
 def _finite(text: str) -> float:
-    """A number that a scene can have. Raises ValueError for another text."""
+    """Returns a number that a scene can have. Raises ValueError for another text."""
     number = float(text)
     if not math.isfinite(number):
         raise ValueError(text)
@@ -284,7 +284,7 @@ def _finite(text: str) -> float:
 
 
 def read_map(archive: Path, member: str) -> bytes:
-    """The bytes of one map of an archive."""
+    """Returns the bytes of one map of an archive."""
     try:
         with zipfile.ZipFile(archive) as opened:
             if opened.getinfo(member).file_size > _LARGEST_MAP:

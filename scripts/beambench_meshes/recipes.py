@@ -66,7 +66,7 @@ class Source:
 
 @dataclass(frozen=True)
 class Recipe:
-    """How to get one mesh."""
+    """The way to get one mesh."""
 
     name: str
     what: str

@@ -2,8 +2,8 @@
 
 usage: .venv/bin/python -m beambench_meshes.room FURNITURE_FOLDER OUTPUT.obj
 
-The room has a floor and two walls, so that it can be looked into. Meters, y up. The pieces have the
-sizes that their catalogs give them. Needs nothing but Python.
+The room has a floor and two open sides. Meters, y up. The pieces have the sizes that their catalogs
+give them. It needs only Python.
 """
 
 from __future__ import annotations

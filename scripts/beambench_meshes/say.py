@@ -1,4 +1,4 @@
-"""What scripts/meshes says about its progress."""
+"""Progress messages of scripts/meshes."""
 
 from __future__ import annotations
 

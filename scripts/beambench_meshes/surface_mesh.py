@@ -16,7 +16,7 @@ _FLOAT = struct.Struct("<f")
 
 
 def _as_written(number: float) -> str:
-    """A number as the nearest float, in digits that give it back."""
+    """Returns a number as the nearest float, in digits that give it back."""
     rounded: float = _FLOAT.unpack(_FLOAT.pack(number))[0]
     return f"{rounded + 0.0:.9g}"  # -0 and 0 are one place
 
@@ -31,7 +31,7 @@ class SurfaceMesh:
     _places: dict[Point, int] = field(default_factory=dict)
 
     def vertex(self, place: Point) -> int:
-        """The number of the vertex at a place."""
+        """Returns the number of the vertex at a place."""
         if not all(abs(part) <= _LARGEST for part in place):  # catches NaN too
             raise Problem(f"it has a vertex at {place}, beyond all that is meant")
         number = self._places.setdefault(place, len(self.vertices))
@@ -40,7 +40,7 @@ class SurfaceMesh:
         return number
 
     def triangles(self) -> int:
-        """How many there are when each polygon is cut into triangles."""
+        """The number of triangles after each polygon is cut into triangles."""
         return sum(len(corners) - 2 for _, corners in self.faces)
 
     def write(self, output: Path) -> None:

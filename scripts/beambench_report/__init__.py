@@ -1,4 +1,4 @@
-"""Turns the records of a beambench run into plots and pictures.
+"""Plots and pictures of a beambench run.
 
-It knows a run by its files alone (results.csv and its columns), never by the C++ behind them.
+They are made from its files alone (results.csv and its columns), independently of the C++ code.
 """

@@ -9,8 +9,8 @@ from random import Random
 import pytest
 
 from beambench_thesis.claims.chapter5 import CLAIMS, ON_OCTREES
+from beambench_thesis.claims.prose import PROSE_CLAIMS
 from beambench_thesis.claims.register import SWEPT_CLAIMS, judge, judge_formerly
-from beambench_thesis.claims.text import FURTHER_CLAIMS
 from beambench_thesis.claims.verdict import Claim, Verdict
 from beambench_thesis.paper.evidence import HIERARCHY, NOTHING, PAPER_HIERARCHY, PICTURE
 from synthetic_evidence import RAYS, SCENES, Row, holding, without
@@ -219,7 +219,7 @@ def test_there_is_a_rule_for_each_claim_of_chapter_five() -> None:
 
 
 def test_there_is_a_rule_for_each_claim_of_the_text_alone() -> None:
-    assert [claim.name for claim in FURTHER_CLAIMS] == [f"C{number}" for number in range(25, 32)]
+    assert [claim.name for claim in PROSE_CLAIMS] == [f"C{number}" for number in range(25, 32)]
 
 
 @every_claim
@@ -327,7 +327,7 @@ def test_beams_are_counted_where_cutting_makes_them(name: str) -> None:
 
 
 def test_a_gain_that_is_none_has_not_grown() -> None:
-    (claim,) = (claim for claim in FURTHER_CLAIMS if claim.name == "C29")
+    (claim,) = (claim for claim in PROSE_CLAIMS if claim.name == "C29")
 
     def one_time(row: Row) -> Row:
         times = "seconds" in row and row["contender"] in ("samet", "samet-net")
@@ -349,7 +349,7 @@ def test_rays_can_win_where_one_scene_of_each_table_shows_it() -> None:
 
 
 def test_a_scene_without_hidden_shadow_rays_says_nothing_of_the_cache() -> None:
-    (claim,) = (claim for claim in FURTHER_CLAIMS if claim.name == "C31")
+    (claim,) = (claim for claim in PROSE_CLAIMS if claim.name == "C31")
     found = judge(claim, holding(work("shadow_hidden", 0), scene("stetra")))
     assert found.verdict is Verdict.HOLDS
     assert not any("stetra" in check.cell for check in found.checks)

@@ -23,13 +23,18 @@ from beambench_operations.publish.make import Interrupted, Place, make_folder, r
 from beambench_operations.publish.needs import Given, missing
 from beambench_operations.publish.plan import Command, Folder, Sweep, as_table, read_plan
 from beambench_operations.publish.progress import RECORD, is_published, progress_of, seconds_of
-from beambench_operations.publish.setting import Setting, preflight, require_clean, same_sources
+from beambench_operations.publish.provenance import (
+    Provenance,
+    preflight,
+    require_clean,
+    same_sources,
+)
 from beambench_operations.publish.small import make_small, size
 from beambench_report.base.files import Problem, read_json
 from program import BINARY
 from synthetic_run import synthetic_rows, write_cell, write_run
 
-HERE = Setting("c0ffee", False, "machine-1", "A Xeon", 2, "3.13.5", 0.01, 0.2)
+HERE = Provenance("c0ffee", False, "machine-1", "A Xeon", 2, "3.13.5", 0.01, 0.2)
 ELSEWHERE = replace(HERE, machine_id="machine-2")
 
 needs_binary = pytest.mark.skipif(not BINARY.exists(), reason="beambench is not built")
@@ -341,7 +346,7 @@ def tree(tmp_path: Path) -> Path:
     return tree
 
 
-def of_head(tree: Path) -> Setting:
+def of_head(tree: Path) -> Provenance:
     return replace(HERE, commit=git(tree, "rev-parse", "HEAD"))
 
 

@@ -108,7 +108,7 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _next(work: Work, options: argparse.Namespace, record: Record, busy: Collection[str]) -> Task:
-    """The subject of which least was done so far."""
+    """Returns the subject with the least work so far."""
     done = partial(record.total, options.command, what=_MEASURE[options.command])
     subject = min((one for one in work if one not in busy), key=lambda one: done(one))
     return Task(subject, partial(work[subject], options.seed))

@@ -1,5 +1,4 @@
-"""Processes of the cluster program that are killed or stopped: the picture is right, or a message
-comes."""
+"""Killing processes of the cluster program: the picture is right, or a message states why."""
 
 from __future__ import annotations
 
@@ -23,12 +22,12 @@ _WORK = ["balls:n=2", "--shade", "whitted", "--depth", "6", "--resolution", "320
 
 
 def is_possible(beambench: Path) -> bool:
-    """Is MPI there, and was the program built?"""
+    """Is MPI installed, and was the program built?"""
     return shutil.which("mpirun") is not None and beambench.with_name(PROGRAM).exists()
 
 
 def kill_cluster(beambench: Path, folder: Path, random: Random, programs: Programs) -> Tally:
-    """One process of three is killed or stopped in each of some runs."""
+    """Kills or stops one process of three in each of some runs."""
     tally = Tally()
     right = folder / "right.png"
 
@@ -62,7 +61,7 @@ def kill_cluster(beambench: Path, folder: Path, random: Random, programs: Progra
 
 
 def _processes(run: Program) -> list[int]:
-    """The processes of the program that mpirun has begun."""
+    """Returns the processes of the program that mpirun has started."""
     try:
         children = Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split()
         names = {int(child): Path(f"/proc/{child}/comm").read_text() for child in children}

@@ -1,4 +1,4 @@
-"""How kills are made: signals at random moments, and what a program may answer them with."""
+"""Kills: signals at random moments, and the exit codes that they may cause."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def write_sweep(folder: Path) -> Path:
 
 @dataclass
 class Tally:
-    """What happened in a piece so far."""
+    """The counts and faults of a piece so far."""
 
     kills: int = 0
     runs: int = 0
@@ -44,7 +44,7 @@ class Tally:
 
 
 def finished(program: Program, tally: Tally) -> Ended:
-    """How a program ended; one that does not within five minutes is ended, and that is a fault."""
+    """Returns how a program ended. After five minutes it is killed, which counts as a fault."""
     ended = program.wait(_HANGING)
     if ended is None:
         tally.faults.append(f"it did not end within {_HANGING:.0f} s")
@@ -59,7 +59,7 @@ def finished(program: Program, tally: Tally) -> Ended:
 def killed(
     program: Program, random: Random, whole: float, tally: Tally, *, to_all: bool = False
 ) -> Ended:
-    """Sends a signal at a moment of the first `whole` seconds; how the program ended."""
+    """Sends a signal at a moment of the first `whole` seconds; returns how the program ended."""
     number = random.choice(SIGNALS)
     if program.wait(random.uniform(0, whole)) is None:
         program.send(number, to_all=to_all)
@@ -68,7 +68,7 @@ def killed(
 
 
 def undisturbed(program: Program, tally: Tally) -> float:
-    """Waits for a program that must succeed; how long it took."""
+    """Waits for a program that must succeed; returns its duration."""
     begin = time.monotonic()
     ended = finished(program, tally)
     if ended.code != 0:
@@ -77,5 +77,5 @@ def undisturbed(program: Program, tally: Tally) -> float:
 
 
 def ended_as_killed(ended: Ended) -> bool:
-    """By the signal, or in good order because of it."""
+    """Did the program end by the signal, or properly because of it?"""
     return ended.code in (130, 143, *(-number for number in SIGNALS))

@@ -1,4 +1,4 @@
-"""Pieces of kills: of a sweep, of nightly runs, of the cluster program."""
+"""Pieces that kill a sweep, nightly runs, or the cluster program."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ _KINDS: dict[str, Callable[[Path, Path, Random, Programs], Tally]] = {
 
 
 def killable(beambench: Path) -> list[str]:
-    """What can be killed here."""
+    """Returns the subjects that can be killed on this machine."""
     return [kind for kind in _KINDS if kind != "cluster" or is_possible(beambench)]
 
 
 def kill(beambench: Path, kind: str, seed: int, record: Record, programs: Programs) -> Piece:
-    """Kills something some times in a folder of its own, which is kept where something is wrong."""
+    """Kills a subject several times in a folder of its own, which is kept if something is wrong."""
     with TemporaryDirectory(prefix="beambench-campaign-", ignore_cleanup_errors=True) as name:
         folder = Path(name)
         tally = _KINDS[kind](beambench.resolve(), folder, Random(seed), programs)

@@ -38,18 +38,18 @@ class Target:
     program: Path
 
     def seeds(self) -> list[Path]:
-        """The folders of inputs in the repository."""
+        """Returns the folders of inputs in the repository."""
         folders = [SOURCES / kind / self.name for kind in ("corpus", "regressions")]
         return [folder for folder in folders if folder.is_dir()]
 
     def dictionary(self) -> list[str]:
-        """The option that names its dictionary, if it has one."""
+        """Returns the option that names its dictionary, if it has one."""
         file = SOURCES / f"{_DICTIONARIES.get(self.name, self.name)}.dict"
         return [f"-dict={file}"] if file.exists() else []
 
 
 def targets_in(folder: Path) -> list[Target]:
-    """The targets that were built. Raises Problem where there is none."""
+    """Returns the targets that were built. Raises Problem where there is none."""
     programs = sorted(path for path in folder.glob("fuzz_*") if os.access(path, os.X_OK))
     if not programs:
         raise Problem(f"{folder}: there is no fuzz target; scripts/setup fuzz builds them")
@@ -90,7 +90,7 @@ def fuzz(target: Target, seed: int, seconds: float, record: Record, programs: Pr
 
 
 def status(log: str) -> tuple[int, dict[str, int]]:
-    """How many inputs were run, and the coverage at last, by libFuzzer's messages."""
+    """Returns the number of inputs and the final coverage, from libFuzzer's messages."""
     found = _STATUS.findall(log)
     if not found:
         return 0, {}
@@ -102,7 +102,7 @@ def status(log: str) -> tuple[int, dict[str, int]]:
 def _minimize(
     target: Target, corpus: Path, scratch: Path, programs: Programs, environment: dict[str, str]
 ) -> Ended:
-    """Leaves only inputs that add to the coverage; all of them where that does not succeed."""
+    """Leaves only inputs that add to the coverage; leaves all of them if that fails."""
     fresh = scratch / "fresh"
     fresh.mkdir()
     folders: Sequence[Path] = (fresh, corpus, *target.seeds())
@@ -122,9 +122,9 @@ def _minimize(
 def _findings(
     target: Target, faults: Path, record: Record, programs: Programs, environment: dict[str, str]
 ) -> Iterator[Finding]:
-    """One for each message with which the target ends when it is given the input again.
+    """Yields a finding for each message with which the target fails again on the same input.
 
-    Not for an input that took too long while the machine was busy, and does not any more.
+    An input that took too long while the machine was busy, but does not any more, is left out.
     """
     messages = set()
     for file in sorted(path for kind in _FAULTS for path in faults.glob(kind))[:_MOST_REPEATED]:
@@ -139,7 +139,7 @@ def _findings(
 
 
 def _message(ended: Ended) -> str:
-    """What went wrong, without what differs from run to run."""
+    """Returns the error message without the parts that differ from run to run."""
     if ended.code == 0:
         return "it did not fail when it was repeated"
     lines = ended.errors.splitlines()

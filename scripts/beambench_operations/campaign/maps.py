@@ -19,7 +19,7 @@ _FOLDERS = [ROOT / f"tests/fuzz/{kind}/{SUBJECT}" for kind in ("corpus", "regres
 
 
 def fuzz_maps(seed: int, seconds: float, record: Record, programs: Programs) -> Piece:
-    """Mutates maps for some time, and keeps one for each place that fails."""
+    """Mutates maps for some time, and keeps one for each place in the code that fails."""
     with TemporaryDirectory(prefix="beambench-campaign-") as name:
         faults = Path(name)
         folders = [folder for folder in _FOLDERS if folder.is_dir()]
@@ -37,6 +37,6 @@ def fuzz_maps(seed: int, seconds: float, record: Record, programs: Programs) -> 
 
 
 def _path() -> Mapping[str, str]:
-    """The packages of scripts/, also where .venv does not know them."""
+    """Returns an environment that finds the packages of scripts/, even if .venv does not."""
     before = os.environ.get("PYTHONPATH")
     return {"PYTHONPATH": ":".join(filter(None, (str(ROOT / "scripts"), before)))}

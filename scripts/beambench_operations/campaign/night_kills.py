@@ -1,4 +1,4 @@
-"""Nightly runs that are killed and resumed: no night of the history is lost or doubled."""
+"""Killing and resuming nightly runs: no night of the history is lost or doubled."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _IN_PROGRESS = ("a nightly run is in progress", "no run was cut off")
 
 
 def kill_nights(beambench: Path, folder: Path, random: Random, programs: Programs) -> Tally:
-    """A night that nothing disturbs, then others, until so many kills were made and the last one is
+    """Runs an undisturbed night, then kills others until enough kills were made and the last is
     complete.
     """
     tally = Tally()
@@ -66,7 +66,7 @@ def kill_nights(beambench: Path, folder: Path, random: Random, programs: Program
 
 
 def _fault(home: Path) -> str:
-    """What is wrong with the history, if anything."""
+    """Returns what is wrong with the history; empty if nothing is."""
     with closing(sqlite3.connect(home / "history.sqlite")) as history:
         nights = sorted(folder for (folder,) in history.execute("SELECT folder FROM nights"))
     if nights != sorted(_nights(home)):
@@ -81,7 +81,7 @@ def _fault(home: Path) -> str:
 
 
 def _nights(home: Path) -> set[str]:
-    """Those that came to their end."""
+    """Returns the nights that finished."""
     return {run.name for run in home.glob("[0-9]*") if _is_finished(run)}
 
 

@@ -1,4 +1,4 @@
-"""What a campaign consists of: pieces, each of which counts as a whole or not at all."""
+"""The pieces of a campaign, each of which counts as a whole or not at all."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class Finding:
 
 @dataclass(frozen=True)
 class Piece:
-    """What was done, and what came of it."""
+    """A finished piece of work and its result."""
 
     command: str
     """`fuzz`, `rays` or `kills`."""
@@ -34,7 +34,7 @@ class Piece:
     findings: list[Finding] = field(default_factory=list)
 
     def __str__(self) -> str:
-        """One line, for the progress."""
+        """Returns one line, for the progress."""
         counts = ", ".join(f"{count:,} {what}" for what, count in self.counts.items())
         findings = f", {len(self.findings)} FINDINGS" if self.findings else ""
         return f"{self.command} {self.subject}, seed {self.seed}: {counts}{findings}"
@@ -42,7 +42,7 @@ class Piece:
 
 @dataclass(frozen=True)
 class Task:
-    """A piece that is to be done."""
+    """A piece of work to do."""
 
     subject: str
     run: Callable[[], Piece]

@@ -1,4 +1,4 @@
-"""Does pieces, several at once, until the time is up."""
+"""Running pieces, several at once, until the time is up."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ Choose = Callable[[Collection[str]], Task]
 def do_pieces(
     choose: Choose, record: Record, programs: Programs, seconds: float, jobs: int
 ) -> list[Piece]:
-    """Records each piece when it is done, and returns them; at least one is begun.
+    """Records each piece when it is done, and returns them; at least one is started.
 
-    What is under way at the end of the time is finished. Where this ends by an exception, such as
-    a keyboard's interrupt, the pieces under way are ended, and not counted.
+    Pieces under way at the end of the time are finished. If an exception ends this, such as a
+    keyboard interrupt, the pieces under way are stopped and not counted.
     """
     end = time.monotonic() + seconds
     said = time.monotonic()

@@ -1,4 +1,4 @@
-"""Programs that are run, measured, killed, and ended together."""
+"""Programs that are run, measured, killed and ended together."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ _PATIENCE = 3.0  # seconds from SIGTERM to SIGKILL
 
 
 class Stopped(Exception):  # noqa: N818 (the user's wish is no error)
-    """The campaign ends: what is under way is not counted."""
+    """The campaign ends: pieces under way are not counted."""
 
 
 @dataclass(frozen=True)
 class Ended:
-    """How a program ended; a negative code is a signal."""
+    """The end of a program; a negative code is a signal."""
 
     code: int
     output: str
@@ -34,7 +34,7 @@ class Ended:
     cpu_seconds: float
 
     def last_words(self) -> str:
-        """The last line that it printed, as a reason."""
+        """Returns the last line that it printed, as a reason."""
         lines = (self.errors.strip() or self.output.strip()).splitlines()
         return lines[-1] if lines else f"it ended with {self.code} and said nothing"
 
@@ -45,7 +45,7 @@ class Program:
     def __init__(
         self, command: Sequence[str | Path], cwd: Path | None, env: Mapping[str, str]
     ) -> None:
-        """Raises Problem where the program cannot be run."""
+        """Starts the program. Raises Problem where it cannot be run."""
         self._output, self._errors = TemporaryFile(), TemporaryFile()  # noqa: SIM115
         try:
             self._process = subprocess.Popen(
@@ -64,14 +64,14 @@ class Program:
         self._reaping = threading.Lock()
 
     def wait(self, seconds: float = float("inf")) -> Ended | None:
-        """How it ended; None where it goes on for longer than that."""
+        """Waits for the program; returns None if it runs longer than that."""
         end = time.monotonic() + seconds
         while (ended := self._reaped()) is None and time.monotonic() < end:
             time.sleep(_POLL)
         return ended
 
     def _reaped(self) -> Ended | None:
-        """How it ended, if it has: several threads may ask."""
+        """Returns how the program ended, or None; several threads may call it."""
         with self._reaping:
             if self._ended is None:
                 done, status, usage = os.wait4(self.pid, os.WNOHANG)
@@ -98,7 +98,7 @@ class Program:
 
 
 def _contents(file: IO[bytes]) -> str:
-    """All that was written to it; it is closed."""
+    """Returns everything that was written to the file, and closes it."""
     with file:
         file.seek(0)
         return file.read().decode(errors="replace")
@@ -108,7 +108,7 @@ class Programs:
     """All programs of a campaign, started by any of its threads."""
 
     def __init__(self) -> None:
-        """None is running."""
+        """Begins with no programs."""
         self._lock = threading.Lock()
         self._begun: list[Program] = []
         self._stopped = False
@@ -134,7 +134,7 @@ class Programs:
         cwd: Path | None = None,
         env: Mapping[str, str] | None = None,
     ) -> Ended:
-        """Runs a program, which is ended after that time. Raises Stopped as `start`."""
+        """Runs a program and ends it after that time. Raises Stopped like `start`."""
         program = self.start(command, cwd, env)
         ended = program.wait(seconds)
         if ended is None:

@@ -29,7 +29,7 @@ _WORDS = (b"inf", b"nan", b"-1", b"1e400", b'"origin"', b'"model" "*9"', b"{", b
 
 
 def read(data: bytes) -> None:
-    """What scripts/meshes does with a map. Passes on all but Problem."""
+    """Converts a map as scripts/meshes does. Ignores Problem and passes on other exceptions."""
     signal.alarm(_SECONDS_FOR_ONE)
     try:
         level = convert(data, 2)
@@ -42,7 +42,7 @@ def read(data: bytes) -> None:
 
 
 def mutated(data: bytes, others: list[bytes], random: Random) -> bytes:
-    """The bytes with some of them changed, left out, repeated, or taken from another input."""
+    """Returns the bytes with some changed, left out, repeated, or taken from another input."""
     result = bytearray(data)
     for _ in range(random.choice((1, 1, 2, 4, 8))):
         place = random.randrange(len(result) + 1)
@@ -68,7 +68,7 @@ def mutated(data: bytes, others: list[bytes], random: Random) -> bytes:
 
 
 def fault(data: bytes) -> str:
-    """The exception of an input with its place; empty where there is none."""
+    """Returns the exception of an input with its place; empty if there is none."""
     try:
         read(data)
     except Exception as error:

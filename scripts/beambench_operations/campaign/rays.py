@@ -23,13 +23,13 @@ FIRST_SEED = 100_000
 
 
 def structures(beambench: Path) -> list[str]:
-    """Those whose hits can be verified."""
+    """Returns the structures whose hits can be verified."""
     listed = json.loads(output_of([str(beambench), "list", "--json"]))["structures"]
     return [one["name"] for one in listed if one["name"] != "null"]
 
 
 def trace(beambench: Path, structure: str, seed: int, record: Record, programs: Programs) -> Piece:
-    """Runs the self-test and keeps what it says of each check that failed."""
+    """Runs the self-test and keeps its output for each failed check."""
     with TemporaryDirectory(prefix="beambench-campaign-") as name:
         file = Path(name) / "selftest.json"
         command: list[str | Path] = [
@@ -56,7 +56,7 @@ def trace(beambench: Path, structure: str, seed: int, record: Record, programs: 
 def _kept(
     check: dict, file: Path, title: str, command: list[str | Path], record: Record
 ) -> Finding:
-    """The failure, reduced where it is a wrong hit."""
+    """Returns the failure, reduced if it is a wrong hit."""
     message = f"{check['check']}: {check['failure']}"
     if check["case"]:
         stem = f"{title}-{check['check']}"
@@ -74,5 +74,5 @@ def _cut_off(
 
 
 def next_seed(record: Record, structure: str) -> int:
-    """One from which on no random scene was made yet."""
+    """Returns the first seed of the structure that was not used yet."""
     return FIRST_SEED + record.total("rays", structure, "scenes")

@@ -1,4 +1,4 @@
-"""The record of all campaigns, to which pieces are added, and what is kept beside it."""
+"""The record of all campaigns, to which pieces are added, and its folder."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Record:
     """The folder `results/robustness`, or another one."""
 
     def __init__(self, folder: Path) -> None:
-        """Nothing is made before the first piece is added."""
+        """Creates nothing until the first piece is added."""
         self.folder = folder
         self.file = folder / "record.json"
         self.findings = folder / "findings"
@@ -32,11 +32,11 @@ class Record:
         self._machine = _machine()
 
     def corpus(self, target: str) -> Path:
-        """Where libFuzzer keeps the inputs of a target."""
+        """Returns the folder in which libFuzzer keeps the inputs of a target."""
         return self.folder / "corpus" / target
 
     def pieces(self) -> list[dict]:
-        """All of them, the oldest first. Raises Problem for a file that is no record."""
+        """Returns all pieces, the oldest first. Raises Problem for a file that is not a record."""
         record = read_json(self.file)
         if record is None:
             return []
@@ -45,12 +45,12 @@ class Record:
         return record["pieces"]
 
     def total(self, command: str, subject: str, what: str) -> int:
-        """The sum of a count, or of seconds, over the pieces of one subject."""
+        """Returns the sum of a count, or of seconds, over the pieces of one subject."""
         ours = (p for p in self.pieces() if (p["command"], p["subject"]) == (command, subject))
         return int(sum(p["counts"].get(what, p.get(what, 0)) for p in ours))
 
     def add(self, piece: Piece) -> None:
-        """Adds a piece; of several campaigns at once, each keeps what the others added."""
+        """Adds a piece; campaigns that run at once keep each other's pieces."""
         self.folder.mkdir(parents=True, exist_ok=True)
         with (self.folder / "record.lock").open("w") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
@@ -63,7 +63,7 @@ class Record:
             write_text(self.file, as_json(pieces))
 
     def keep(self, source: Path, name: str, message: str, command: list[str | Path]) -> Finding:
-        """Copies what belongs to a finding; `source` in its command becomes the copy."""
+        """Copies the files of a finding; `source` in its command becomes the copy."""
         self.findings.mkdir(parents=True, exist_ok=True)
         kept = self.findings / re.sub(r"[^A-Za-z0-9._=-]", "-", name)
         if source.is_dir():
@@ -75,13 +75,13 @@ class Record:
 
 
 def as_json(pieces: list[dict]) -> str:
-    """A record of pieces, one a line."""
+    """Returns a record of pieces, one a line."""
     lines = ",\n".join(json.dumps(piece) for piece in pieces)
     return f'{{"version": {VERSION}, "pieces": [\n{lines}\n]}}\n'
 
 
 def _shown(word: str | Path) -> str:
-    """A path below the repository as it is named at its top."""
+    """Returns a path below the repository relative to its top."""
     path = Path(word)
     return str(path.relative_to(ROOT)) if path.is_relative_to(ROOT) else str(word)
 

@@ -32,7 +32,7 @@ single rays, images, and batches with pencils, from cameras anywhere.
 
 
 def write_report(pieces: list[dict], folder: Path) -> list[Path]:
-    """Writes campaigns.md, campaigns.csv, and the record, from which campaigns elsewhere go on.
+    """Writes campaigns.md, campaigns.csv, and the record, from which other campaigns continue.
 
     Raises Problem where no piece was recorded.
     """
@@ -48,9 +48,9 @@ def write_report(pieces: list[dict], folder: Path) -> list[Path]:
 
 
 def merged(pieces: list[dict]) -> list[dict]:
-    """Pieces of one subject, commit and machine as one, but for those with findings.
+    """Merges pieces of one subject, commit and machine, except those with findings.
 
-    What is published need not say when each of thousands was done.
+    The published record does not list the time of each of thousands of pieces.
     """
     groups: dict[tuple[object, ...], list[dict]] = defaultdict(list)
     for number, piece in enumerate(pieces):
@@ -80,7 +80,7 @@ def _first(piece: dict) -> str:
 
 
 def summed(pieces: list[dict]) -> list[dict[str, object]]:
-    """A row for each command and subject."""
+    """Returns a row for each command and subject."""
     groups: dict[tuple[str, str], list[dict]] = defaultdict(list)
     for piece in pieces:
         groups[piece["command"], piece["subject"]].append(piece)
@@ -112,7 +112,7 @@ def _csv(rows: list[dict[str, object]]) -> str:
 
 
 def as_markdown(pieces: list[dict]) -> str:
-    """The table of all subjects, and every finding."""
+    """Returns the table of all subjects, and every finding."""
     rows = summed(pieces)
     lines = [
         "| campaign | subject | pieces | amount | hours of processor time | edges | features "
@@ -149,7 +149,7 @@ def _commands(rows: list[dict[str, object]]) -> list[str]:
 
 
 def _total(command: str, rows: list[dict[str, object]]) -> str:
-    """Of the subjects of a command."""
+    """Returns the sentence on the subjects of a command."""
     ours = [row for row in rows if row["command"] == command]
 
     def total(what: str) -> float:
@@ -160,6 +160,6 @@ def _total(command: str, rows: list[dict[str, object]]) -> str:
 
 
 def _plain(text: str) -> str:
-    """What a program said of an input of anyone's, as text in Markdown."""
+    """Returns a program's message about an untrusted input as plain text in Markdown."""
     printable = "".join(letter if letter.isprintable() else " " for letter in text)
     return "`" + printable.replace("`", "'") + "`"

@@ -1,4 +1,4 @@
-"""What two runs of one sweep have in common, and whether they do."""
+"""Comparison of two runs of one sweep, times left out."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Rows = dict[tuple[str, ...], dict[str, str]]
 
 
 def cells_of(results: Path) -> tuple[Rows, str]:
-    """What was found in each cell, times left out; and what is wrong with the file, if anything."""
+    """Returns the results of each cell without times, and any fault of the file."""
     rows: Rows = {}
     try:
         with results.open(encoding="utf-8", newline="") as file:
@@ -31,7 +31,7 @@ def cells_of(results: Path) -> tuple[Rows, str]:
 
 
 def difference(undisturbed: Rows, disturbed: Rows) -> str:
-    """A sentence; empty where there is none."""
+    """Returns the difference in a sentence; empty if there is none."""
     for key in undisturbed.keys() | disturbed.keys():
         name = "/".join(key)
         if key not in disturbed:

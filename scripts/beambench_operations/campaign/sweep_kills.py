@@ -1,4 +1,4 @@
-"""A sweep that is killed and resumed until it is complete."""
+"""Killing and resuming a sweep until it is complete."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _MOST_KILLS = 12
 
 
 def kill_sweep(beambench: Path, folder: Path, random: Random, programs: Programs) -> Tally:
-    """Each cell must be there once at the end, as in a run that nothing disturbed."""
+    """Kills a sweep. Each cell must be there once at the end, as in an undisturbed run."""
     tally = Tally()
     sweep = write_sweep(folder)
     begin = [beambench, "run", sweep, "-o", folder / "undisturbed"]

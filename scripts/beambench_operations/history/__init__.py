@@ -1,1 +1,1 @@
-"""The history of runs on one machine, and what got slower or wrong in it."""
+"""The history of runs on one machine, and its alarms: cells that got slower or wrong."""

@@ -1,4 +1,4 @@
-"""What a night raises an alarm about: slower times, more work, wrong hits."""
+"""Alarms of a night: slower times, more work, wrong hits."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -27,12 +27,12 @@ class Increase:
 
     @property
     def share(self) -> float:
-        """The part of it that was added; infinite where there was none before."""
+        """The relative increase; infinite where the counter was 0 before."""
         return self.after / self.before - 1 if self.before > 0 else float("inf")
 
 
 def find_increases(nights: Nights, share: float = SHARE) -> list[Increase]:
-    """What the last night counted more of than any night since the counter was last reported."""
+    """Returns counters that are higher in the last night than ever since the last report."""
     if len(nights.nights) < 2:
         return []
     found = []
@@ -51,7 +51,7 @@ def find_increases(nights: Nights, share: float = SHARE) -> list[Increase]:
 
 
 def _values(nights: Nights, name: str) -> np.ndarray:
-    """A counter in each night of each cell; NaN where it was not counted."""
+    """Returns a counter in each night of each cell; NaN where it was not counted."""
     numbers = np.fromiter(nights.counters, int, len(nights.counters))
     known = np.full(max(numbers, default=0) + 2, np.nan)  # the last place is that of -1
     for number, counters in nights.counters.items():
@@ -76,7 +76,7 @@ _MANY = 5
 
 
 def find_alarms(history: History, night: int) -> list[Alarm]:
-    """The alarms of a night that is in the history, in the light of the nights before it."""
+    """Returns the alarms of a night of the history, compared with the nights before it."""
     nights = read_nights(history, night, NIGHTS)
     before = set(nights.nights["number"][:-1])
     earlier = [one for one in history.alarms() if one.kind == "time" and one.night in before]
@@ -139,7 +139,7 @@ def series_key(pool: pd.Series) -> str:
 
 
 def reported_starts(nights: Nights, earlier: list[Alarm]) -> np.ndarray:
-    """The night from which each pool is tested: where its last reported step was."""
+    """Returns the night from which each pool is tested: that of its last reported step."""
     place = {run_id: place for place, run_id in enumerate(nights.nights["run_id"])}
     starts: dict[str, int] = {}
     for alarm in earlier:
@@ -150,7 +150,7 @@ def reported_starts(nights: Nights, earlier: list[Alarm]) -> np.ndarray:
 
 
 def doubt(alarms: Iterable[Alarm], series: int) -> str:
-    """Where most series got slower at once, the contender they are measured by got faster."""
+    """Returns a caveat if most series got slower at once: then their reference got faster."""
     slower = sum(alarm.kind == "time" for alarm in alarms)
     if slower < _MANY or slower * 2 < series:
         return ""
@@ -161,7 +161,7 @@ def doubt(alarms: Iterable[Alarm], series: int) -> str:
 
 
 def cell_title(cell: pd.Series) -> str:
-    """A cell as people read it."""
+    """Returns the title of a cell."""
     title = f"{cell['contender']} in {cell['scene']} at {cell['width']}x{cell['height']}"
     if cell["samples"] > 1:
         title += f" with {cell['samples']} samples"
@@ -169,7 +169,7 @@ def cell_title(cell: pd.Series) -> str:
 
 
 def sentence(alarm: Alarm) -> str:
-    """An alarm in words."""
+    """Returns an alarm in words."""
     d = alarm.details
     if alarm.kind == "verdict":
         return f"{d['title']}: wrong hits ({d['verdict']})"

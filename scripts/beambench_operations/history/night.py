@@ -54,7 +54,7 @@ class Night:
 
 
 def night_of(run: Run) -> Night:
-    """Reads a night off a run. Raises Problem where its rows are not those of one run."""
+    """Reads a night from a run. Raises Problem where its rows are not those of one run."""
     rows = run.rows
     _require_one_run(run)
     times = cycles(rows)
@@ -92,12 +92,12 @@ def night_of(run: Run) -> Night:
 
 
 def is_work(column: str) -> bool:
-    """Is it a count of work? Some structures add times per ray, which are no such thing."""
+    """Is it a count of work? Some structures also add times per ray."""
     return column.endswith(COUNTER_SUFFIX) and not column.endswith(f"_ns{COUNTER_SUFFIX}")
 
 
 def counters_of(rows: pd.DataFrame) -> list[str]:
-    """The counts of work of each row as JSON, sorted by name."""
+    """Returns the counts of work of each row as JSON, sorted by name."""
     names = sorted(str(name) for name in rows if is_work(str(name)))
     return [
         json.dumps(
@@ -108,7 +108,7 @@ def counters_of(rows: pd.DataFrame) -> list[str]:
 
 
 def keys_of(rows: pd.DataFrame) -> list[Key]:
-    """What identifies each row within its run."""
+    """Returns the key that identifies each row within its run."""
     columns = [
         rows[name].astype(int) if name in ("width", "height", "samples") else rows[name]
         for name in IDENTITY
@@ -117,28 +117,28 @@ def keys_of(rows: pd.DataFrame) -> list[Key]:
 
 
 def cell_titles(rows: pd.DataFrame) -> dict[Key, str]:
-    """What reports call each row, by its key."""
+    """Returns the title of each row in reports, by its key."""
     named = (f"{row['contender']} in {row['view']} at {size_of(row)}" for _, row in rows.iterrows())
     return dict(zip(keys_of(rows), named, strict=True))
 
 
 def views_of(rows: pd.DataFrame) -> list[tuple]:
-    """The view of each row; the rays of one view are the same."""
+    """Returns the view of each row; the rays of one view are the same."""
     return list(zip(*(rows[name].tolist() for name in VIEW), strict=True))
 
 
 def comparable(rows: pd.DataFrame) -> list[tuple]:
-    """The view and the machine of each row: what rows with comparable times have in common."""
+    """Returns the view and the machine of each row, shared by rows with comparable times."""
     return list(zip(views_of(rows), rows["machine_id"], strict=True))
 
 
 def cycles(rows: pd.DataFrame) -> pd.Series:
-    """What each row is compared by: the total in clock cycles during which its thread ran.
+    """Returns the figure to compare rows by: total clock cycles during which the thread ran.
 
-    Wall time in cycles, less the part in which others had the core: machines that are shared are
-    busy at night, too. The clock is known for each repetition and the waiting only by medians, so
-    that where a thread waited a lot, CPU time by the median clock is the better guess. Runs that
-    lack what this needs are compared by wall time.
+    It is wall time in cycles, less the share in which other processes had the core: shared machines
+    are busy at night, too. The clock is known for each repetition, but the waiting only by medians,
+    so where a thread waited a lot, CPU time at the median clock is the better estimate. Runs that
+    lack these columns are compared by wall time.
     """
     needed = ("total_mcycles_median", "clock_ghz_median", "build_cpu_ms_median")
     timed = rows["timed"]
@@ -152,7 +152,7 @@ def cycles(rows: pd.DataFrame) -> pd.Series:
 
 
 def _references(rows: pd.DataFrame, times: pd.Series) -> dict[tuple, int]:
-    """The row that the others of each view are measured by: Embree's single rays, where it can be.
+    """Returns the reference row of each view: Embree's single rays, if possible.
 
     Embree is the one contender that no commit of ours changes.
     """

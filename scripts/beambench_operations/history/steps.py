@@ -26,7 +26,7 @@ from beambench_operations.history.nights import nan_median
 
 @dataclass(frozen=True)
 class Rule:
-    """When an alarm is raised."""
+    """The conditions for an alarm."""
 
     side: int = 12
     """Least number of nights on each side of a step."""
@@ -43,7 +43,7 @@ class Rule:
 
 @dataclass(frozen=True)
 class Step:
-    """One series stepped up."""
+    """A step of one series."""
 
     series: int
     change: int
@@ -69,9 +69,9 @@ _RESAMPLES = 2000
 def find_steps(
     values: np.ndarray, starts: Sequence[int] | None = None, rule: Rule | None = None
 ) -> list[Step]:
-    """The series (columns) that stepped up, as seen after the last night (row).
+    """Returns the series (columns) that stepped up, as seen after the last night (row).
 
-    What lies before `starts` is left out: steps that were reported already.
+    Nights before `starts` are left out: their steps were reported already.
     """
     rule = rule or Rule()
     count = values.shape[1]
@@ -92,7 +92,7 @@ def find_steps(
 
 
 def _may_have_risen(recent: np.ndarray, rule: Rule) -> np.ndarray:
-    """Spares the search where the last nights are not clearly slower than those before: mostly."""
+    """Are the last nights clearly slower than those before? If not, no search is needed."""
     side = rule.side
     if len(recent) < 2 * side:
         return np.zeros(recent.shape[1], bool)
@@ -107,7 +107,7 @@ def _may_have_risen(recent: np.ndarray, rule: Rule) -> np.ndarray:
 
 
 def _last_step(values: np.ndarray, rule: Rule) -> tuple[int, int] | None:
-    """Where the last change is, and where the level before it began; None without any change."""
+    """Returns the start of the last change, and of the level before it; None without a change."""
     noise = max(_scale(np.diff(values)) / sqrt(2), _LEAST_NOISE)
     search = ruptures.Binseg(model="l1", min_size=rule.side, jump=1).fit(values.reshape(-1, 1))
     ends = search.predict(pen=2 * noise * log(len(values)))[:-1]
@@ -132,12 +132,12 @@ def _measure(
 
 
 def _scale(deviations: np.ndarray) -> float:
-    """The standard deviation of normal noise with this median absolute deviation."""
+    """Returns the standard deviation of normal noise with this median absolute deviation."""
     return 1.4826 * float(np.median(np.abs(deviations - np.median(deviations))))
 
 
 def _drag(deviations: np.ndarray) -> float:
-    """By what neighboring nights that resemble each other widen the error of a mean."""
+    """Returns the factor by which correlated neighboring nights widen the error of a mean."""
     variance = float(np.mean(deviations**2))
     if variance == 0:
         return 1.0
@@ -147,7 +147,7 @@ def _drag(deviations: np.ndarray) -> float:
 
 
 def _bootstrap(before: np.ndarray, after: np.ndarray) -> tuple[float, float]:
-    """95% interval of the difference of medians; blocks keep what neighbors have in common."""
+    """Returns the 95% interval of the difference of medians; blocks keep neighbors together."""
     random = np.random.default_rng(1999)
     shifts = np.median(_resample(after, random), axis=1)
     shifts -= np.median(_resample(before, random), axis=1)
@@ -163,7 +163,7 @@ def _resample(values: np.ndarray, random: np.random.Generator) -> np.ndarray:
 
 
 def holm(candidates: Iterable[Tested], tested: int, level: float) -> list[Tested]:
-    """Holm's procedure: the chance of any false one among them is at most `level`."""
+    """Applies Holm's procedure: the chance of any false positive is at most `level`."""
     kept = []
     for rank, step in enumerate(sorted(candidates, key=lambda step: step.p_value)):
         if step.p_value > level / (tested - rank):

@@ -84,7 +84,7 @@ _REMEDY = "rebuild it from the runs: python -m beambench_operations nightly rebu
 
 @dataclass(frozen=True)
 class Alarm:
-    """What a night raised an alarm about."""
+    """An alarm of a night."""
 
     night: int
     kind: str
@@ -98,10 +98,10 @@ FindAlarms = Callable[["History", int], list[Alarm]]
 
 
 class History:
-    """The open file. Every change is one transaction: all of it is there, or nothing."""
+    """The open file. Every change is one transaction, stored completely or not at all."""
 
     def __init__(self, path: Path) -> None:
-        """Opens the file, or begins it. Raises Problem where it is no history of this version."""
+        """Opens or creates the file. Raises Problem where it is not a history of this version."""
         self.path = path
         path.parent.mkdir(parents=True, exist_ok=True)
         self._base = sqlite3.connect(path, timeout=30, isolation_level=None)
@@ -114,7 +114,7 @@ class History:
             raise
 
     def __enter__(self) -> Self:
-        """For `with`."""
+        """Returns itself, for `with`."""
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -122,7 +122,7 @@ class History:
         self._base.close()
 
     def add(self, night: Night, folder: Path, find_alarms: FindAlarms | None = None) -> int | None:
-        """Adds a night with its alarms; returns its number, or None where it is there already."""
+        """Adds a night with its alarms; returns its number, or None if it is there already."""
         if self.number_of(night.run_id) is not None:
             return None
         with self.change():
@@ -153,23 +153,23 @@ class History:
         return number
 
     def alarms(self) -> list[Alarm]:
-        """All alarms, the oldest first."""
+        """Returns all alarms, the oldest first."""
         rows = self.read("SELECT night, kind, series, details FROM alarms ORDER BY night, series")
         return [Alarm(night, kind, series, json.loads(text)) for night, kind, series, text in rows]
 
     def number_of(self, run_id: str) -> int | None:
-        """The number of a run, if the history has it."""
+        """Returns the number of a run, if the history has it."""
         found = self.read("SELECT id FROM nights WHERE run_id = ?", (run_id,))
         return found[0][0] if found else None
 
     def read(self, query: str, values: tuple = ()) -> list[tuple]:
-        """The rows of a query."""
+        """Returns the rows of a query."""
         with self._problems():
             return self._base.execute(query, values).fetchall()
 
     @contextmanager
     def change(self) -> Iterator[None]:
-        """A transaction."""
+        """Opens a transaction."""
         with self._problems():
             self._base.execute("BEGIN IMMEDIATE")
             try:
@@ -232,7 +232,7 @@ class History:
         return {tuple(key): number for number, *key in known}
 
     def _numbers(self, table: str, column: str, texts: Iterable[str]) -> dict[str, int]:
-        """The number of each text in a table that keeps every text once."""
+        """Returns the number of each text in a table that stores every text once."""
         wanted = sorted(set(texts))
         self._base.executemany(
             f"INSERT OR IGNORE INTO {table} VALUES (NULL, ?)", [(text,) for text in wanted]
@@ -245,7 +245,7 @@ class History:
 
 
 def recorded_folders(runs: Path) -> list[Path]:
-    """The folders of finished runs, the oldest first: names begin with the time."""
+    """Returns the folders of finished runs, the oldest first: names begin with the time."""
     return sorted(path.parent for path in runs.glob("[0-9]*/results.csv"))
 
 
@@ -254,9 +254,10 @@ def rebuild(
     folders: Iterable[Path],
     find_alarms: FindAlarms | None = None,
 ) -> int:
-    """Makes the history anew from the CSVs of runs; the old one stays until the new one is whole.
+    """Rebuilds the history from the CSVs of runs; the old one stays until the new one is complete.
 
-    `find_alarms` is applied to each night once it is in, as when it was new. Returns their count.
+    `find_alarms` is applied to each night as it is added, as when it was new. Returns the number of
+    nights.
     """
     nights = [(night_of(read_run(folder)), folder) for folder in folders]
     nights.sort(key=lambda one: (one[0].time_utc, one[0].run_id))

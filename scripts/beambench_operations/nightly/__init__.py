@@ -1,1 +1,1 @@
-"""Nightly runs: measured, kept, reported; and two programs or files beside each other."""
+"""Nightly runs: measured, kept, reported; comparisons of two programs or files."""

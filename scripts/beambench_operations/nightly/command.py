@@ -23,7 +23,7 @@ _PUBLISHED = ROOT / "results/published/nightly"
 
 
 def add_nightly_command(commands: argparse._SubParsersAction, built: Path) -> None:
-    """Adds the command and its parts; `built` is where the program is if not given."""
+    """Adds the command and its parts; `built` is the default path of the program."""
     parser = commands.add_parser("nightly", help="measure, record and report nightly runs")
     parser.set_defaults(handler=nightly)
     parts = parser.add_subparsers(dest="part", required=True)

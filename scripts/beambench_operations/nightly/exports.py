@@ -27,7 +27,7 @@ def write_exports(run: Run) -> list[Path]:
 
 
 def bigger_is_better(run: Run) -> str:
-    """Million rays per second, build included, as customBiggerIsBetter wants them."""
+    """Returns million rays per second, build included, in the format customBiggerIsBetter."""
     entries = []
     for _, row in contenders_with_times(run.rows).iterrows():
         total = row["total_ms_median"]

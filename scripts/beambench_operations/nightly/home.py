@@ -1,4 +1,4 @@
-"""Where nightly runs are stored: a folder with the history, and a folder for each run."""
+"""Storage of nightly runs: a folder with the history, and a folder for each run."""
 
 import fcntl
 import os
@@ -20,8 +20,8 @@ from beambench_report.base.run_log import LOG, logged_cells
 def only_one(path: Path) -> Iterator[int]:
     """Holds the lock file while the block runs; the system frees it, however the process ends.
 
-    Gives the file's descriptor: a child that inherits it holds the lock, too, and keeps doing so
-    where its parent is killed. Raises Problem, and waits for nothing, where another process has it.
+    Yields the file's descriptor: a child that inherits it holds the lock, too, even after its
+    parent is killed. Raises Problem at once where another process has the lock.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     with path.open("a+", encoding="utf-8") as file:
@@ -59,7 +59,7 @@ class Home:
 
     @property
     def lock(self) -> Path:
-        """Held while a run is in progress."""
+        """The file that is locked while a run is in progress."""
         return self.folder / "nightly.lock"
 
     @property
@@ -83,7 +83,7 @@ class Home:
 
 
 def adopt(home: Home, run: Path, run_id: str) -> Path:
-    """The folder of a run below the home, where a rebuild finds it; copied there if it is not."""
+    """Copies a run below the home, unless it is there, so that a rebuild finds it."""
     if run.resolve().parent == home.folder.resolve():
         return run
     target = home.folder / re.sub(r"[^A-Za-z0-9._-]", "-", run_id)
@@ -113,9 +113,9 @@ def abandon(run: Path) -> Path:
 
 
 def prune(home: Home, keep: int = KEEP_SAMPLES) -> list[Path]:
-    """Deletes raw samples of all but the newest runs, and runs that were abandoned before them.
+    """Deletes raw samples of old runs, and abandoned runs before the newest `keep`.
 
-    A run with wrong cells keeps its log, which has the examples.
+    A run with wrong cells keeps its log, which contains the examples.
     """
     runs = home.finished()
     old, kept = (runs[:-keep], runs[-keep:]) if keep > 0 else (runs, [])

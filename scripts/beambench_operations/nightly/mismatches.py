@@ -1,4 +1,4 @@
-"""Pictures of what a night got wrong."""
+"""Pictures of a night's wrong hits."""
 
 import json
 import subprocess
@@ -15,9 +15,9 @@ _SECONDS = 120
 
 
 def picture_mismatches(run: Run, beambench: Path) -> list[Path]:
-    """Renders RUN/mismatches/*.png for cells of primary rays; returns what could be rendered.
+    """Renders RUN/mismatches/*.png for cells of primary rays; returns the rendered pictures.
 
-    A picture that cannot be made keeps no page from being written: the index is without it.
+    If a picture cannot be made, the page is written without it.
     """
     wrong = run.rows[~run.rows["verdict"].isin((*FAULTLESS_VERDICTS, ERROR))]
     wrong = wrong[wrong["ray_kind"] == "primary"]

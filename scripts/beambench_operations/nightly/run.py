@@ -19,7 +19,7 @@ from beambench_report.base.run_log import has_log
 
 @dataclass(frozen=True)
 class Request:
-    """What is wanted of a night."""
+    """The options of a night."""
 
     home: Home
     sweep: Path
@@ -30,7 +30,7 @@ class Request:
 
 
 def run_night(request: Request, lock: int) -> int:
-    """Measures and reports a night; the exit code: 1 where something regressed or was wrong.
+    """Measures and reports a night; returns 1 where something regressed or was wrong.
 
     `lock` is the descriptor of the lock that keeps other runs away.
     """
@@ -64,7 +64,7 @@ def record(home: Home, folder: Path, beambench: Path, published: Path | None, ke
 
 
 def catch_up(home: Home) -> None:
-    """Adds runs that ended, but whose process was killed before the history had them."""
+    """Adds runs that finished, but whose process was killed before they were in the history."""
     with History(home.history) as history:
         known = {folder for (folder,) in history.read("SELECT folder FROM nights")}
         for folder in home.finished():
@@ -84,7 +84,7 @@ def rebuild_history(home: Home) -> int:
 
 
 def report_alarms(alarms: list[Alarm], series: int) -> None:
-    """Prints what is wrong, one line each; nothing where nothing is."""
+    """Prints alarms, one line each."""
     if doubtful := doubt(alarms, series):
         say(doubtful)
     for alarm in alarms:
@@ -92,7 +92,7 @@ def report_alarms(alarms: list[Alarm], series: int) -> None:
 
 
 def describe(request: Request) -> str:
-    """What a night would do."""
+    """Returns a description of what a night would do."""
     sweep = load_json(request.sweep)
     runs = request.home.finished()
     lines = [
@@ -108,7 +108,7 @@ def describe(request: Request) -> str:
 
 
 def _folder_for(request: Request) -> Path:
-    """The run to resume, or a new one; otherwise renames those that were cut off."""
+    """Returns the run to resume, or a new one after renaming interrupted runs."""
     unfinished = request.home.unfinished()
     if request.resume:
         if not unfinished:
@@ -121,7 +121,7 @@ def _folder_for(request: Request) -> Path:
 
 
 def _free_folder(home: Path, time: datetime) -> Path:
-    """The run that begins at this time, or the first second after it that has no run yet."""
+    """Returns a folder named by this time, or by the first later second without a run."""
     folder = home / time.strftime("%Y%m%dT%H%M%SZ")
     return _free_folder(home, time + timedelta(seconds=1)) if folder.exists() else folder
 

@@ -1,1 +1,1 @@
-"""Makes everything in results/published: the runs, and the texts from their committed rows."""
+"""Making results/published: the runs, and the texts from their committed rows."""

@@ -14,7 +14,7 @@ from beambench_operations.publish.make import Interrupted, Place, make_folder
 from beambench_operations.publish.needs import Debian13, Given, missing, plugins_for
 from beambench_operations.publish.plan import Folder, Plan, as_table, read_plan
 from beambench_operations.publish.progress import Progress, is_published, progress_of, seconds_of
-from beambench_operations.publish.setting import Setting, git, preflight, require_clean
+from beambench_operations.publish.provenance import Provenance, git, preflight, require_clean
 from beambench_operations.publish.small import size
 from beambench_operations.publish.verified_again import verify_again, write_summary
 from beambench_operations.site.write import write_site
@@ -72,8 +72,8 @@ def _run(options: argparse.Namespace) -> int:
     if options.verify_again:
         return _verify_again(options, beambench)
     if options.plan:
-        setting = preflight(beambench) if beambench.is_file() else None
-        print(as_table(plan, _states(plan, options, setting), _took(plan, options.published)))
+        provenance = preflight(beambench) if beambench.is_file() else None
+        print(as_table(plan, _states(plan, options, provenance), _took(plan, options.published)))
         return 0
     return _make(plan, options, preflight(beambench))
 
@@ -86,7 +86,7 @@ def _check(published: Path) -> int:
 
 
 def _verify_again(options: argparse.Namespace, beambench: Path) -> int:
-    """Verifies all committed cells; writes what differs beside them."""
+    """Verifies all committed cells; writes the differences to results/published."""
     commit = preflight(beambench).commit
     record = options.aside.parent / f"verified-again-{commit[:12]}.jsonl"
     lines = verify_again(options.published, beambench, record)
@@ -103,15 +103,17 @@ def _given(options: argparse.Namespace) -> Given:
     return Given(options.tinybvh, options.madmann91_bvh, options.debian_13, tuple(options.only))
 
 
-def _states(plan: Plan, options: argparse.Namespace, setting: Setting | None) -> dict[str, str]:
-    """What is there of each folder."""
-    if setting is None:
+def _states(
+    plan: Plan, options: argparse.Namespace, provenance: Provenance | None
+) -> dict[str, str]:
+    """Returns the state of each folder."""
+    if provenance is None:
         return {}
     states = {}
     for folder in plan.folders:
-        lack = missing(folder, _given(options), options.beambench, setting)
-        begun = progress_of(options.aside / folder.name, setting)
-        if is_published(options.published / folder.name, setting):
+        lack = missing(folder, _given(options), options.beambench, provenance)
+        begun = progress_of(options.aside / folder.name, provenance)
+        if is_published(options.published / folder.name, provenance):
             states[folder.name] = "complete"
         elif lack:
             states[folder.name] = f"left as it is: {lack}"
@@ -121,23 +123,23 @@ def _states(plan: Plan, options: argparse.Namespace, setting: Setting | None) ->
 
 
 def _took(plan: Plan, published: Path) -> dict[str, float]:
-    """The seconds that the published folders took."""
+    """Returns the seconds that the published folders took."""
     known = {folder.name: seconds_of(published / folder.name) for folder in plan.folders}
     return {name: seconds for name, seconds in known.items() if seconds is not None}
 
 
-def _make(plan: Plan, options: argparse.Namespace, setting: Setting) -> int:
-    require_clean(setting)
+def _make(plan: Plan, options: argparse.Namespace, provenance: Provenance) -> int:
+    require_clean(provenance)
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     given = _given(options)
-    say(f"Commit {setting.commit[:7]} on {setting.cpu}, {setting.cores} cores")
-    for warning in setting.warnings:
+    say(f"Commit {provenance.commit[:7]} on {provenance.cpu}, {provenance.cores} cores")
+    for warning in provenance.warnings:
         say(f"warning: {warning}")
     wrong = False
     for folder in plan.folders:
         published = options.published / folder.name
-        lack = missing(folder, given, options.beambench, setting)
-        if is_published(published, setting):
+        lack = missing(folder, given, options.beambench, provenance)
+        if is_published(published, provenance):
             say(f"== {folder.name} is complete")
         elif lack:
             say(f"== {folder.name} is left as it is: {lack}")
@@ -145,14 +147,14 @@ def _make(plan: Plan, options: argparse.Namespace, setting: Setting) -> int:
             progress = _made(folder, given, options)
             has_texts = _write_texts(options.published)
             wrong = wrong or bool(progress.wrong) or not has_texts
-            _commit(folder, setting, options)
+            _commit(folder, provenance, options)
     site = write_site([options.published], options.aside / "site")
     say(f"{size_in_words(size(options.published))} are published; look at {site}")
     return 1 if wrong else 0
 
 
 def _write_texts(published: Path) -> bool:
-    """Were they written? A sentence that the new rows do not bear out is to be changed by hand."""
+    """Writes the texts; returns whether their sentences hold for the new rows."""
     try:
         write_documents(published)
     except Problem as problem:
@@ -163,21 +165,21 @@ def _write_texts(published: Path) -> bool:
 
 def _made(folder: Folder, given: Given, options: argparse.Namespace) -> Progress:
     beambench = options.beambench.absolute()
-    setting = preflight(beambench)
-    for warning in setting.warnings:
+    provenance = preflight(beambench)
+    for warning in provenance.warnings:
         say(f"warning before {folder.name}: {warning}")
     place = Place(options.aside, options.published, beambench)
     if folder.needs == "libraries":
         place = replace(place, plugins=plugins_for(given))
     if folder.needs == "debian-13" and given.debian_13:
-        system = Debian13(given.debian_13, setting.commit)
+        system = Debian13(given.debian_13, provenance.commit)
         place = replace(place, run=lambda command, _: system.run(command, options.aside))
-    return make_folder(folder, place, setting)
+    return make_folder(folder, place, provenance)
 
 
-def _commit(folder: Folder, setting: Setting, options: argparse.Namespace) -> None:
+def _commit(folder: Folder, provenance: Provenance, options: argparse.Namespace) -> None:
     relative = options.published.relative_to(ROOT)
-    words = f"Published: {folder.title} ({setting.commit[:7]})"
+    words = f"Published: {folder.title} ({provenance.commit[:7]})"
     if options.commit:
         git("add", "--all", "--", str(relative))
         git("commit", "--quiet", "-m", words)

@@ -1,4 +1,4 @@
-"""Finds figures that a template states without computing them."""
+"""Figures that a template states without computing them."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ _FIGURE = re.compile(
 
 @dataclass(frozen=True)
 class BareFigure:
-    """A figure that stands in the sentences of a template."""
+    """A figure in the sentences of a template."""
 
     file: Path
     line: int
     figure: str
 
     def __str__(self) -> str:
-        """What is at fault, and what to do."""
+        """Returns the fault and the remedy."""
         return (
             f"{self.file}:{self.line}: states {self.figure} without computing it; name it in an "
             "expression, or with cited() where another work states it"
@@ -37,7 +37,7 @@ class BareFigure:
 
 
 def bare_figures(template: Path) -> Iterator[BareFigure]:
-    """Decimal fractions, percentages, counts of thousands, and numbers with a unit."""
+    """Yields decimal fractions, percentages, counts of thousands, and numbers with a unit."""
     text = template.read_text("utf-8")
     left = _COMPUTED.sub(lambda found: re.sub(r"[^\n]", " ", found[0]), text)
     for found in _FIGURE.finditer(left):

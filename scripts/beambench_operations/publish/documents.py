@@ -1,8 +1,8 @@
-"""The texts of results/published, each made of the rows that are committed beside it.
+"""The texts of results/published, each made from the rows in its folder.
 
-A template FOLDER/README.md.j2 makes FOLDER/README.md: it has the sentences, and an expression
-wherever a figure stands. What it may name is computed by `figures/FOLDER.py`. The template of the
-whole page may name the figures of every folder, by the folder's name with _ for -.
+A template FOLDER/README.md.j2 makes FOLDER/README.md: it has the sentences, and an expression for
+each figure. Its variables are computed by `figures/FOLDER.py`. The template of the whole page uses
+the figures of every folder, by the folder's name with _ for -.
 """
 
 from __future__ import annotations
@@ -41,12 +41,12 @@ class Document:
 
 
 def documents(published: Path = PUBLISHED) -> list[Document]:
-    """Every text of the published runs that is computed, in the order of their paths."""
+    """Returns every computed text of the published runs, in the order of their paths."""
     return sorted((*_rendered(published), *_reports(published)), key=lambda one: one.path)
 
 
 def write_documents(published: Path = PUBLISHED) -> list[Path]:
-    """Writes those that differ from what is there; returns them."""
+    """Writes the texts that changed; returns them."""
     changed = []
     for document in documents(published):
         text = document.text()
@@ -57,7 +57,7 @@ def write_documents(published: Path = PUBLISHED) -> list[Path]:
 
 @dataclass(frozen=True)
 class Difference:
-    """A line of a text that its rows do not give."""
+    """A line of a text that does not follow from its rows."""
 
     file: Path
     line: int
@@ -65,7 +65,7 @@ class Difference:
     computed: str
 
     def __str__(self) -> str:
-        """What is at fault, and what to do."""
+        """Returns the fault and the remedy."""
         return (
             f"{self.file}:{self.line}: states '{self.stated}', and the rows give "
             f"'{self.computed}'; edit the template, or run scripts/publish --texts"
@@ -73,7 +73,7 @@ class Difference:
 
 
 def differences(published: Path = PUBLISHED) -> list[Difference]:
-    """The first line of each text that differs from what is computed."""
+    """Returns the first line of each text that differs from what is computed."""
     found = (_difference(document) for document in documents(published))
     return [one for one in found if one is not None]
 
@@ -139,7 +139,7 @@ def _render(environment: Environment, template: Path, name: str, known: _Folders
 
 
 def _line_of(error: BaseException, template: Path) -> int | None:
-    """The line of a template at which rendering stopped."""
+    """Returns the line of a template at which rendering stopped."""
     trace, line = error.__traceback__, None
     while trace:
         if trace.tb_frame.f_code.co_filename == str(template):
@@ -149,7 +149,7 @@ def _line_of(error: BaseException, template: Path) -> int | None:
 
 
 class _Folders:
-    """The figures of the published folders, each computed when it is needed, once."""
+    """The figures of the published folders, each computed once, when needed."""
 
     def __init__(self, published: Path) -> None:
         self.published = published
@@ -162,7 +162,7 @@ class _Folders:
         return computed | {"origins": origins(folder)}
 
     def all(self) -> dict[str, Any]:
-        """For the page over all of them."""
+        """Returns the variables of the page over all folders."""
         names = sorted(one.name for one in self.published.iterdir() if one.is_dir())
         lazy = {_identifier(name): _Lazy(self, name) for name in names}
         return {"folders": names, "every": counted(self.published)} | lazy
@@ -183,6 +183,6 @@ def _identifier(name: str) -> str:
 
 
 def module_of(name: str) -> str | None:
-    """The module that computes a folder's figures; None where it has none of its own."""
+    """Returns the module that computes a folder's figures; None if there is none."""
     module = f"beambench_operations.publish.figures.{_identifier(name)}"
     return module if find_spec(module) else None

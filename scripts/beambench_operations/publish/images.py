@@ -1,4 +1,4 @@
-"""Which images a text shows: SVG where there is one, as PNG of the same plots are not committed."""
+"""The images of a text: SVG where there is one, since PNGs of the same plots are not committed."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ _IMAGE = re.compile(r"\]\(([^)\s:]+)\.png\)")
 
 
 def with_small_images(text: str, folder: Path) -> str:
-    """The text with links to SVG where FOLDER has them in place of the PNG."""
+    """Returns the text with links to SVG where FOLDER has them in place of the PNG."""
 
     def smaller(found: re.Match[str]) -> str:
         has_svg = (folder / f"{found[1]}.svg").is_file()

@@ -1,4 +1,4 @@
-"""Breaks the lines of Markdown anew, since figures are longer or shorter than their expressions."""
+"""Line breaks in Markdown, since figures are longer or shorter than their expressions."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _ITEM = re.compile(r"^\s*- ")
 
 
 def laid_out(text: str) -> str:
-    """The text with paragraphs and items of lists in lines of at most 120 columns.
+    """Returns the text with paragraphs and items of lists in lines of at most 120 columns.
 
     Headings, tables, images, comments and fenced code stay as they are.
     """
@@ -34,7 +34,7 @@ def laid_out(text: str) -> str:
 
 
 def _filled(block: list[str]) -> list[str]:
-    """A paragraph or an item; the lines of an item after the first are indented."""
+    """Fills a paragraph or an item; the lines of an item after the first are indented."""
     if not block:
         return []
     first = block[0]

@@ -1,4 +1,4 @@
-"""Makes one folder: its steps aside, then into results/published, whole."""
+"""Making one folder: first aside, step by step, then moved into results/published."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from pathlib import Path
 
 from beambench_operations.publish.plan import Command, Folder, Step, Sweep
 from beambench_operations.publish.progress import Progress, progress_of, state_file
-from beambench_operations.publish.setting import Setting
+from beambench_operations.publish.provenance import Provenance
 from beambench_operations.publish.small import leave_out, make_small
 from beambench_report.base.files import INTERRUPTED, ROOT, Problem, read_json, say, write_text
 from beambench_report.base.quantities import duration_in_words
@@ -32,7 +32,7 @@ class Interrupted(Exception):  # noqa: N818 (no error)
 
 @dataclass(frozen=True)
 class Place:
-    """Where a folder is made, by which programs, and where it goes."""
+    """The place where a folder is made, its programs, and its destination."""
 
     aside: Path
     published: Path
@@ -41,7 +41,7 @@ class Place:
     run: Run = field(default=lambda command, into: run_program(command, into))
 
     def names(self, folder: Path) -> dict[str, str]:
-        """What the words of commands may name."""
+        """Returns the names that words of commands may contain."""
         return {
             "beambench": str(self.beambench),
             "bin": str(self.beambench.parent),
@@ -51,17 +51,17 @@ class Place:
         }
 
 
-def make_folder(folder: Folder, place: Place, setting: Setting) -> Progress:
-    """Does the steps that are left, and publishes the folder.
+def make_folder(folder: Folder, place: Place, provenance: Provenance) -> Progress:
+    """Runs the remaining steps and publishes the folder.
 
-    Raises Problem where a step fails, Interrupted where the user ends one; called again on this
-    machine, it goes on there, and on another machine it begins anew.
+    Raises Problem where a step fails, Interrupted where the user ends one. When called again, it
+    continues on the same machine, and starts over on another one.
     """
     target = place.aside / folder.name
-    progress = progress_of(target, setting)
+    progress = progress_of(target, provenance)
     if progress is None:
         shutil.rmtree(target, ignore_errors=True)
-        progress = Progress(target, setting.as_record())
+        progress = Progress(target, provenance.as_record())
         progress.keep()
     target.mkdir(parents=True, exist_ok=True)
     for number, step in enumerate(folder.steps):
@@ -82,7 +82,7 @@ def make_folder(folder: Folder, place: Place, setting: Setting) -> Progress:
 
 
 def run_program(command: Sequence[str], into: Path | None) -> int:
-    """Its messages go to the terminal; what it prints, into a file or nowhere."""
+    """Runs a program; messages go to the terminal, its output into a file or nowhere."""
     if into is None:
         return _wait(subprocess.Popen(command, stdout=subprocess.DEVNULL))
     into.parent.mkdir(parents=True, exist_ok=True)
@@ -123,7 +123,7 @@ def _sweep(step: Sweep, target: Path, place: Place) -> int:
 
 
 def _is_finished(run: Path) -> bool:
-    """Did the run end before its end could be noted here?"""
+    """Did the run finish before that could be recorded here?"""
     manifest = read_json(run / "manifest.json")
     return isinstance(manifest, dict) and bool(manifest.get("finished_utc"))
 
@@ -136,7 +136,7 @@ def _command(step: Command, target: Path, place: Place) -> int:
 
 
 def _publish(folder: Folder, progress: Progress, published: Path) -> None:
-    """Replaces the published folder; its texts' templates and what it keeps stay."""
+    """Replaces the published folder; templates and files to keep stay."""
     leave_out(progress.folder, folder.leave_out)
     make_small(progress.folder)
     progress.publish()
@@ -160,6 +160,6 @@ def _publish(folder: Folder, progress: Progress, published: Path) -> None:
 
 
 def _templates(published: Path) -> list[str]:
-    """Templates, and texts that are written by hand."""
+    """Returns templates and texts that are written by hand."""
     texts = (*published.rglob("*.md.j2"), *published.glob("README.md"))
     return [str(path.relative_to(published)) for path in texts]

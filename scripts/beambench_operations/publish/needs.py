@@ -1,4 +1,4 @@
-"""What some folders need beside the built program, and what is there of it."""
+"""Requirements of some folders beyond the built program."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from beambench_operations.publish.plan import Folder
-from beambench_operations.publish.setting import Setting
+from beambench_operations.publish.provenance import Provenance
 from beambench_report.base.files import ROOT, Problem, say
 
 _MESH = "mesh:cat"
@@ -22,7 +22,7 @@ _ASIDE = "results/runs/aside"
 
 @dataclass(frozen=True)
 class Given:
-    """What the options name."""
+    """The paths given by options."""
 
     tinybvh: Path | None = None
     """Folder with tiny_bvh.h."""
@@ -34,10 +34,10 @@ class Given:
     """The folders that are wanted by name."""
 
 
-def missing(folder: Folder, given: Given, beambench: Path, setting: Setting) -> str:
-    """Why a folder cannot be made here, with what to do; empty where it can."""
-    if folder.embree and not setting.embree.startswith(f"{folder.embree}."):
-        return f"it takes Embree {folder.embree}, and this program has {setting.embree}"
+def missing(folder: Folder, given: Given, beambench: Path, provenance: Provenance) -> str:
+    """Returns why a folder cannot be made here, with the remedy; empty if it can."""
+    if folder.embree and not provenance.embree.startswith(f"{folder.embree}."):
+        return f"it takes Embree {folder.embree}, and this program has {provenance.embree}"
     if folder.needs == "meshes" and not _knows(beambench, _MESH):
         return "the meshes are not registered; register them with scripts/meshes"
     if folder.needs == "its name" and folder.name not in given.named:
@@ -75,7 +75,7 @@ class Debian13:
     """A Debian 13 in a folder, with its own clone and build of this commit."""
 
     def __init__(self, root: Path, commit: str) -> None:
-        """Makes or completes it. Raises Problem where that cannot be done."""
+        """Creates or completes it. Raises Problem where that fails."""
         self.root = root.resolve()
         if os.geteuid() != 0:
             raise Problem("a Debian 13 in a folder needs root; leave --debian-13 out")
@@ -91,14 +91,15 @@ class Debian13:
             raise Problem(f"{self.root}: exit code {code} of: scripts/setup beambench")
 
     def run(self, command: Sequence[str], aside: Path) -> int:
-        """A command of the program, whose folders lie below `aside`; its exit code."""
+        """Runs a command of the program, whose folders are below `aside`; returns its exit code."""
         inside = [word.replace(str(aside), _ASIDE) for word in command]
         return self._shell(shlex.join(["build/release/bin/beambench", *inside[1:]]), aside)
 
     def _shell(self, words: str, aside: Path) -> int:
-        """A line in the clone, with /proc, /sys and /dev, and `aside` as a folder of the clone.
+        """Runs a line in the clone, with /proc, /sys and /dev, and `aside` as a folder of the
+        clone.
 
-        The mounts are of a name space of their own, and so end with it.
+        The mounts have a namespace of their own, so they end with it.
         """
         line = (
             "set -e; "
@@ -120,7 +121,7 @@ class Debian13:
             self._copy_setting(Path("/etc") / name)
 
     def _copy_setting(self, file: Path) -> None:
-        """How this machine reaches the network; never which packages it takes."""
+        """Copies network settings of this machine, never its package sources."""
         target = self.root / file.relative_to("/")
         if file.name == "resolv.conf" and file.is_file():
             shutil.copy(file, target)

@@ -1,4 +1,4 @@
-"""What is published, in which order, by which commands, and how long each takes: plan.json."""
+"""The plan of publication, plan.json: folders in order, their commands and durations."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SWEEPS = ROOT / "harness/bench/sweeps"
 
 @dataclass(frozen=True)
 class Sweep:
-    """A sweep that beambench runs, into a folder of its own; cut off, it is resumed."""
+    """A sweep that beambench runs into a folder of its own; if interrupted, it is resumed."""
 
     source: Path
     into: str
@@ -26,12 +26,12 @@ class Sweep:
 
     @property
     def words(self) -> str:
-        """What the plan shows."""
+        """The step as the plan shows it."""
         changed = f", with other {', '.join(self.changes)}" if self.changes else ""
         return f"beambench run {self.source.name}{changed}"
 
     def config(self) -> dict[str, Any]:
-        """The sweep as it is run. Raises Problem where its file cannot be read."""
+        """Returns the sweep as it is run. Raises Problem where its file cannot be read."""
         try:
             config = load_json(self.source)
         except (OSError, ValueError) as error:
@@ -52,7 +52,7 @@ class Command:
 
     @property
     def words(self) -> str:
-        """What the plan shows."""
+        """The step as the plan shows it."""
         named = [word for word in self.words_of if not word.startswith("{folder}")]
         text = " ".join(named).replace("{python} -m ", "").replace("{beambench}", "beambench")
         return text.replace(" --beambench beambench", "").split(" --program")[0]
@@ -63,7 +63,7 @@ Step = Sweep | Command
 
 @dataclass(frozen=True)
 class Folder:
-    """A folder of results/published, which one commit on one machine makes."""
+    """A folder of results/published, made by one commit on one machine."""
 
     name: str
     title: str
@@ -83,24 +83,24 @@ class Folder:
 
     @property
     def seconds(self) -> float:
-        """How long it may take."""
+        """The expected seconds."""
         return sum(step.seconds for step in self.steps)
 
 
 @dataclass(frozen=True)
 class Plan:
-    """All of it, in order."""
+    """The whole plan, in order."""
 
     folders: tuple[Folder, ...]
     most_minutes: float
 
     @property
     def minutes(self) -> float:
-        """How long all may take, but for what is apart."""
+        """The expected minutes of all folders, except separate ones."""
         return sum(one.seconds for one in self.folders if not one.is_apart) / 60
 
     def only(self, names: Iterable[str]) -> Plan:
-        """Some of its folders; all, if none is named. Raises Problem for an unknown one."""
+        """Returns the named folders, or all if none is named. Raises Problem for an unknown one."""
         wanted = list(names)
         known = [one.name for one in self.folders]
         for name in wanted:
@@ -112,7 +112,7 @@ class Plan:
 
 
 def read_plan(path: Path = PLAN) -> Plan:
-    """Raises Problem where the file is no plan."""
+    """Reads the plan. Raises Problem where the file is not a plan."""
     try:
         source = load_json(path)
         folders = tuple(_folder(entry) for entry in source["folders"])
@@ -122,9 +122,9 @@ def read_plan(path: Path = PLAN) -> Plan:
 
 
 def as_table(plan: Plan, states: dict[str, str], took: dict[str, float]) -> str:
-    """The plan as people read it.
+    """Returns the plan as a table.
 
-    `states` says what is there of each folder, `took` the seconds that the published one took.
+    `states` has the state of each folder, `took` the seconds that the published one took.
     """
     rows = [
         (

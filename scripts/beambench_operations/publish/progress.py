@@ -1,4 +1,4 @@
-"""How far a folder is: beside the folder that is being made, and in the published one."""
+"""The progress of a folder, stored next to it while it is made and inside it once published."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import json
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from beambench_operations.publish.setting import Setting
+from beambench_operations.publish.provenance import Provenance
 from beambench_report.base.files import read_json, write_text
 from beambench_report.base.machine import read_manifest
 
@@ -16,7 +16,7 @@ RECORD = "published.json"
 
 @dataclass
 class Progress:
-    """Of a folder that is being made at `folder`."""
+    """The progress of a folder that is being made at `folder`."""
 
     folder: Path
     made_by: dict[str, object]
@@ -26,19 +26,19 @@ class Progress:
     """The steps in which a structure's hits were wrong."""
 
     def done(self, seconds: float, *, wrong: bool = False) -> None:
-        """Keeps that one more step is finished."""
+        """Records that one more step is finished."""
         if wrong:
             self.wrong.append(len(self.seconds))
         self.seconds.append(round(seconds, 1))
         self.keep()
 
     def keep(self) -> None:
-        """Writes it beside the folder, so that a run that is cut off can go on."""
+        """Writes the progress next to the folder, so that an interrupted run can continue."""
         self.folder.parent.mkdir(parents=True, exist_ok=True)
         write_text(state_file(self.folder), json.dumps(self._document(), indent=1) + "\n")
 
     def publish(self) -> None:
-        """Writes it into the folder, which is complete."""
+        """Writes the progress into the folder, which is complete."""
         write_text(self.folder / RECORD, json.dumps(self._document(), indent=1) + "\n")
 
     def _document(self) -> dict[str, object]:
@@ -46,20 +46,20 @@ class Progress:
 
 
 def state_file(folder: Path) -> Path:
-    """Where the progress of a folder that is being made is kept."""
+    """Returns the file that stores the progress of a folder while it is made."""
     return folder.with_name(f"{folder.name}.progress.json")
 
 
-def progress_of(folder: Path, setting: Setting) -> Progress | None:
-    """What was begun there by the same sources on the same machine; None where nothing was."""
+def progress_of(folder: Path, provenance: Provenance) -> Progress | None:
+    """Returns progress made by the same sources on the same machine; None without any."""
     source = read_json(state_file(folder))
-    if not isinstance(source, dict) or not setting.is_of(source.get("made_by", {})):
+    if not isinstance(source, dict) or not provenance.is_of(source.get("made_by", {})):
         return None
     return Progress(folder, source["made_by"], source["seconds"], source["wrong"])
 
 
 def seconds_of(folder: Path) -> float | None:
-    """What a published folder took: by its record, else by the manifests of its runs."""
+    """Returns the seconds a published folder took, by its record or the manifests of its runs."""
     source = read_json(folder / RECORD)
     if isinstance(source, dict):
         return sum(source["seconds"])
@@ -68,7 +68,7 @@ def seconds_of(folder: Path) -> float | None:
     return sum(known) if known else None
 
 
-def is_published(folder: Path, setting: Setting) -> bool:
+def is_published(folder: Path, provenance: Provenance) -> bool:
     """Is this folder complete, by the same sources on the same machine?"""
     source = read_json(folder / RECORD)
-    return isinstance(source, dict) and setting.is_of(source.get("made_by", {}))
+    return isinstance(source, dict) and provenance.is_of(source.get("made_by", {}))

@@ -1,4 +1,4 @@
-"""The reports in results/published that other commands write from the same rows."""
+"""Reports in results/published that other commands write from the same rows."""
 
 from __future__ import annotations
 
@@ -37,14 +37,14 @@ def _ratios(to: str, folder: Path) -> str:
 
 
 def _comparison(names: Sequence[str], folder: Path) -> str:
-    """With the figures that are drawn beside it."""
+    """Returns the comparison, with the figures in its folder."""
     runs = [read_run(folder / name) for name in names if (folder / name).is_dir()]
     drawn = {path.stem: path.name for path in sorted(folder.glob("beat-embree*.[ps][nv]g"))}
     return as_comparison(pairings(runs), [drawn[stem] for stem in sorted(drawn)])
 
 
 def _thesis(folder: Path) -> str:
-    """The pictures of octrees are there already, so that no program draws them."""
+    """Returns the report on the thesis; the pictures of octrees exist, so none are drawn."""
     return as_thesis(gather(folder, read_plan(folder), Path()))
 
 
@@ -53,7 +53,7 @@ def _campaigns(folder: Path) -> str:
 
 
 def _in_copy(write: Callable[[Path], object], folder: Path) -> str:
-    """What a command writes from all tables of a folder that draws plots beside its report, too."""
+    """Returns the report of a command that also draws plots, run in a copy of the folder."""
     with tempfile.TemporaryDirectory() as copy:
         for table in (*folder.glob("*.csv"), *folder.glob("*.json")):
             shutil.copy(table, copy)
@@ -77,10 +77,10 @@ _REPORTS: dict[str, Callable[[Path], str]] = {
 
 
 def report_names() -> list[str]:
-    """The paths of the reports within results/published."""
+    """Returns the paths of the reports within results/published."""
     return list(_REPORTS)
 
 
 def report(name: str, folder: Path) -> str:
-    """The text of a report on the rows in its folder."""
+    """Returns the text of a report on the rows in its folder."""
     return with_small_images(_REPORTS[name](folder), folder)

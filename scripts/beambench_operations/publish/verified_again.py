@@ -1,4 +1,4 @@
-"""Verifies the committed rows again, and lists what the present program changes of them.
+"""Verifies the committed rows again, and lists what differs with the present program.
 
 Each view of the published runs is traced once by each of its contenders. Times are not compared.
 """
@@ -135,7 +135,7 @@ def _contender(row: dict[str, Any]) -> str:
 
 
 def _lines(record: Path) -> Iterator[dict[str, Any]]:
-    """What a run that was interrupted has found; a line that is cut off is left out."""
+    """Yields the findings of an interrupted run; an incomplete line is left out."""
     if not record.is_file():
         return
     for line in record.read_text("utf-8").splitlines():

@@ -1,4 +1,4 @@
-"""What changed in the program between two runs, from git, where this is a repository."""
+"""Changes of the program between two runs, from git, if this is a repository."""
 
 import re
 import subprocess
@@ -17,7 +17,7 @@ _MOST = 20
 
 
 def web_address(origin: str) -> str:
-    """The pages of a repository on GitHub or GitLab, without names and passwords; or empty."""
+    """Returns the address of a repository on GitHub or GitLab, without credentials; or empty."""
     found = _ADDRESS.fullmatch(origin.strip())
     if not found or not {"github", "gitlab"} & set(found["host"].split(".")):
         return ""
@@ -26,7 +26,7 @@ def web_address(origin: str) -> str:
 
 @dataclass(frozen=True)
 class Change:
-    """From one commit to another."""
+    """The change from one commit to another."""
 
     subjects: tuple[str, ...]
     """Of the commits between, the newest first; the first twenty."""
@@ -38,25 +38,25 @@ class Change:
 
 @dataclass(frozen=True)
 class Repository:
-    """A clone; what it does not know has no subject."""
+    """A clone; commits that it lacks have no subject."""
 
     folder: Path = ROOT
 
     @cached_property
     def url(self) -> str:
-        """Of its origin's pages; empty where there are none."""
+        """The web address of its origin; empty if there is none."""
         return web_address(self._git("remote", "get-url", "origin"))
 
     def commit_url(self, commit: str) -> str:
-        """The page of a commit."""
+        """Returns the page of a commit."""
         return f"{self._pages}/commit/{commit}" if self.url and _HASH.fullmatch(commit) else ""
 
     def subject(self, commit: str) -> str:
-        """The first line of a commit's message."""
+        """Returns the first line of a commit's message."""
         return self._git("log", "-1", "--format=%s", commit, "--") if self._known(commit) else ""
 
     def change(self, before: str, after: str) -> Change | None:
-        """From one commit to another; None where they are the same, or one is no hash."""
+        """Returns the change between two commits; None if they are equal or one is not a hash."""
         if before == after or not _HASH.fullmatch(before) or not _HASH.fullmatch(after):
             return None
         log = ""

@@ -11,10 +11,10 @@ HISTORY = "history.sqlite"
 
 
 def find_runs(folders: Iterable[Path]) -> tuple[list[Path], list[Path]]:
-    """Folders of runs, each once, and the histories of nightly runs beside them.
+    """Returns folders of runs, each once, and the histories of nightly runs.
 
-    Runs that were abandoned and hidden folders are left out. Raises Problem where a folder is none,
-    or where no run is found.
+    Abandoned runs and hidden folders are left out. Raises Problem where a folder does not exist, or
+    where no run is found.
     """
     runs: dict[Path, Path] = {}
     histories: dict[Path, Path] = {}

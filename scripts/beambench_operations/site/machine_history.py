@@ -15,7 +15,7 @@ from beambench_report.base.records import read_run
 
 @dataclass(frozen=True)
 class MachineHistory:
-    """What is known of them."""
+    """The runs and their alarms."""
 
     nights: Nights
     alarms: list[Alarm]
@@ -34,9 +34,9 @@ class MachineHistory:
 
 
 def history_of(runs: Sequence[tuple[str, Path]], known: Sequence[Path]) -> MachineHistory | None:
-    """Of runs by their ids, the oldest first: as a known history has them, or made anew.
+    """Returns the history of runs by their ids, the oldest first, from a known history or rebuilt.
 
-    None where fewer than two runs are in it: there is nothing to follow.
+    None if it has fewer than two runs.
     """
     with ExitStack() as stack:
         best, most = None, 0

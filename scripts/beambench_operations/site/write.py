@@ -54,7 +54,7 @@ class _Run:
 
 @dataclass
 class _Site:
-    """What is being written; `written` are its files, relative to `target`."""
+    """The site while it is written; `written` has its files, relative to `target`."""
 
     target: Path
     repository: Repository
@@ -80,8 +80,8 @@ def write_site(
 ) -> Path:
     """Writes the site of all runs below the folders; returns its first page.
 
-    The newest run of the sweep of the run `published` is compared with that one, too. Raises
-    Problem where there is no run, or where `target` holds something else.
+    The newest run of the sweep of the run `published` is also compared with that run. Raises
+    Problem if there is no run, or if `target` contains other files.
     """
     found, histories = find_runs([*folders, *([published] if published else [])])
     site = _Site(target, repository or Repository())
@@ -107,7 +107,7 @@ def write_site(
 
 
 def _former_files(target: Path) -> set[str]:
-    """The files of the site that is there. Raises Problem for a folder of anything else."""
+    """Returns the files of the existing site. Raises Problem for a folder of anything else."""
     files = read_json(target / _FILES)
     if files is None and target.exists() and (not target.is_dir() or any(target.iterdir())):
         raise Problem(f"{target}: is not empty, and no site; give a new folder")
@@ -117,7 +117,7 @@ def _former_files(target: Path) -> set[str]:
 def _write_runs(
     site: _Site, folders: Sequence[Path]
 ) -> tuple[list[_Run], list[tuple[Path, str]], list[str]]:
-    """The runs, those that cannot be read with the reason, and a sentence for each double id."""
+    """Writes the runs; returns them, unreadable ones with the reason, and doubled ids."""
     runs, broken, doubles = [], [], []
     names: dict[str, Path] = {}
     for run_id, folder in sorted((_run_id(folder), folder) for folder in folders):
@@ -138,7 +138,7 @@ def _write_runs(
 
 
 def _run_id(folder: Path) -> str:
-    """What the run's last row says, without a look at the others; that it is one is seen later."""
+    """Returns the id in the run's last row; whether the run is valid is checked later."""
     path = folder / "results.csv"
     try:
         rows = pd.read_csv(path, usecols=["run_id"], dtype=str, keep_default_na=False)
@@ -160,7 +160,7 @@ def _free_name(run_id: str, taken: Iterable[str]) -> str:
 
 
 def _write_run(site: _Site, name: str, folder: Path) -> tuple[Entry, bool]:
-    """The page and the data of a run, and whether they had to be made: else they stay."""
+    """Writes page and data of a run if they changed; returns the entry and whether they did."""
     page, data = f"runs/{name}/index.html", f"runs/{name}/data.js"
     stamp = stamp_of(folder)
     entry = read_script(site.target / data, name, stamp)
@@ -178,7 +178,7 @@ def _write_run(site: _Site, name: str, folder: Path) -> tuple[Entry, bool]:
 
 
 def _write_comparisons(site: _Site, runs: Sequence[_Run], published: Path | None) -> None:
-    """Each run with the one before it on its sweep, and the one before on its machine."""
+    """Compares each run with its predecessor on the sweep, and with that on its machine."""
     known = published.resolve() if published else None
     by_sweep: dict[str, list[_Run]] = {}
     for run in runs:
@@ -217,7 +217,7 @@ def _write_comparison(site: _Site, before: _Run, after: _Run) -> str:
 def _write_histories(
     site: _Site, runs: Sequence[_Run], known: Sequence[Path]
 ) -> list[dict[str, object]]:
-    """A page for each sweep on each machine with two runs or more; what the index says of them."""
+    """Writes a page for each sweep and machine with two or more runs; returns their index lines."""
     groups: dict[tuple[str, str], list[_Run]] = {}
     for run in runs:
         if run.entry.sweep and not run.entry.cut_off:
@@ -275,7 +275,7 @@ def _comparisons_of(run: _Run, runs: Sequence[_Run]) -> list[tuple[str, str, Com
 
 
 def _choices(runs: Sequence[_Run]) -> str:
-    """JSON for any.js: the runs that can be chosen."""
+    """Returns JSON for any.js: the runs that can be chosen."""
     choices = [
         {
             "name": run.name,

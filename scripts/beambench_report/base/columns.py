@@ -91,19 +91,19 @@ class Dictionary:
         return tuple(column for group in self.groups for column in group.columns)
 
     def find(self, name: str) -> Column | None:
-        """The entry of a column of a file: that of its name, or of the narrowest pattern."""
+        """Returns the entry of a file's column: that of its name, or of the narrowest pattern."""
         found = [column for column in self.columns if column.is_that(name)]
         return min(found, key=_width, default=None)
 
 
 def _width(column: Column) -> int:
-    """How much a pattern covers: one that names the kind of rays is narrower than any counter."""
+    """Returns how much a pattern covers; one with the kind of rays is narrower than any counter."""
     return 0 if not column.is_pattern else 1 if column.is_of_a_kind else 2
 
 
 @cache
 def dictionary() -> Dictionary:
-    """The dictionary of the records that this version reads."""
+    """Returns the dictionary of the records that this version reads."""
     source = json.loads(_SOURCE.read_text("utf-8"))
     columns = [Column(**entry) for entry in source["columns"]]
     groups = tuple(
@@ -134,7 +134,7 @@ _READING = (
 
 
 def as_markdown(known: Dictionary) -> str:
-    """The dictionary as the text of results/README.md."""
+    """Returns the dictionary as the text of results/README.md."""
     introduction = (
         f"Schema version {known.schema_version}. A row is a cell of a sweep: one structure with "
         "one set of parameters, tracing one set of rays. The file is UTF-8 with one header row "

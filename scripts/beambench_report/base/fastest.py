@@ -41,11 +41,11 @@ COLUMNS = tuple(f"fastest_{name}" for name in _FIGURES)
 
 
 def fastest_of(files: Sequence[CellFile]) -> Fastest | None:
-    """By the repetitions of all files together, which are of one cell in several runs.
+    """Returns the fastest repetitions of one cell over the files of several runs.
 
-    None where no clock rate is known. The error is the range of the fastest ones' cycles, or that
-    of their wall times, if it is less: a clock that was read wrong widens only the former, one that
-    changed only the latter.
+    None if no clock rate is known. The error is the range of the fastest repetitions' cycles or of
+    their wall times, whichever is less: a clock that was read wrong widens only the former, one
+    that changed only the latter.
     """
     repetitions = sorted(
         (ms, ms * file.clock_ghz[turn], file.trace_ms[turn])
@@ -63,7 +63,8 @@ def fastest_of(files: Sequence[CellFile]) -> Fastest | None:
 
 
 def _rank(repetitions: int) -> int | None:
-    """How many count: the least rank that all of as many further ones exceed with 2.5% at most.
+    """Returns the number that count: the least rank that all of as many further repetitions exceed
+    with a probability of at most 2.5%.
 
     None for fewer than four, five for six to twenty-four (repeat_spread_of_minimum of the harness).
     """
@@ -76,7 +77,7 @@ def _rank(repetitions: int) -> int | None:
 
 
 def with_fastest(runs: Sequence[Run]) -> list[pd.DataFrame]:
-    """The rows of each run, and COLUMNS: NaN where the repetitions of a row are not known.
+    """Returns the rows of each run, and COLUMNS: NaN where the repetitions of a row are not known.
 
     Of a cell that several runs measured, all repetitions count, in each of its rows.
     """

@@ -73,7 +73,7 @@ def new_figure(
     columns: int = 1,
     height_ratios: Sequence[float] | None = None,
 ) -> tuple[Figure, list[Axes]]:
-    """A page-wide figure and its panels, row by row."""
+    """Returns a page-wide figure and its panels, row by row."""
     figure = Figure(figsize=(PAGE_WIDTH, height), layout="constrained")
     panels = figure.subplots(rows, columns, squeeze=False, height_ratios=height_ratios)
     return figure, list(panels.flat)
@@ -101,7 +101,7 @@ def write_below(figure: Figure, paragraphs: Iterable[str]) -> None:
 
 
 def untimed(rows: pd.DataFrame) -> list[str]:
-    """The contenders whose times do not count, with the view and the verdict."""
+    """Returns the contenders whose times do not count, with the view and the verdict."""
     kept_out = rows[~rows["timed"]]
     verdicts = kept_out["verdict"].replace("", "no verdict")
     return list(dict.fromkeys(kept_out["contender"] + " in " + kept_out["view"] + ": " + verdicts))
@@ -120,7 +120,7 @@ def write_plot(plot: Plot, directory: Path) -> list[Path]:
 
 
 def svg_of(plot: Plot) -> str:
-    """The text of the figure's SVG file."""
+    """Returns the text of the figure's SVG file."""
     drawn = io.StringIO()
     # Of its stem, so that no two plots on one page have the same ids.
     with mpl.rc_context({"svg.hashsalt": f"beambench-{plot.stem}"}):
@@ -146,7 +146,7 @@ DASHES = ("-", "--", "-.", ":")
 
 @dataclass(frozen=True)
 class Look:
-    """How one contender is drawn."""
+    """The appearance of one contender."""
 
     color: str
     marker: str
@@ -154,7 +154,7 @@ class Look:
 
 
 def looks(rows: pd.DataFrame) -> dict[str, Look]:
-    """The look of every contender of a run."""
+    """Returns the look of every contender of a run."""
     result = {}
     for structure, group in rows.groupby("structure", sort=False):
         for index, contender in enumerate(dict.fromkeys(group["contender"])):
@@ -163,7 +163,7 @@ def looks(rows: pd.DataFrame) -> dict[str, Look]:
 
 
 def variant_look(structure: str, index: int) -> Look:
-    """The look of one of several variants of a structure, counted from 0."""
+    """Returns the look of one of several variants of a structure, counted from 0."""
     return Look(
         structure_color(structure),
         MARKERS[index % len(MARKERS)],

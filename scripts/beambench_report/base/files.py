@@ -1,7 +1,7 @@
-"""What can go wrong, running programs, and reading and writing files.
+"""Errors, running programs, and reading and writing files.
 
-Files are written beside their place and renamed, so that none is ever incomplete. Symbolic links
-stay links: what they lead to is replaced. Devices and pipes are written into.
+Files are written under a temporary name and renamed, so that none is ever incomplete. Symbolic
+links stay links: their targets are replaced. Devices and pipes are written into.
 """
 
 import json
@@ -72,10 +72,10 @@ def read_table(
 
 
 def load_json(path: Path) -> Any:  # noqa: ANN401 (as of json.loads)
-    """What a JSON file holds; a byte order mark is skipped.
+    """Returns the contents of a JSON file; a byte order mark is skipped.
 
-    Raises ValueError where it is no JSON or nests too deep for a parser, OSError where it cannot
-    be read.
+    Raises ValueError where the file is not JSON or nests too deep for a parser, OSError where it
+    cannot be read.
     """
     try:
         return json.loads(path.read_text("utf-8-sig"))
@@ -84,7 +84,7 @@ def load_json(path: Path) -> Any:  # noqa: ANN401 (as of json.loads)
 
 
 def read_json(path: Path) -> object:
-    """What a JSON file holds; None where there is no file. Raises Problem where it is no JSON."""
+    """Returns the contents of a JSON file; None without a file. Raises Problem for others."""
     try:
         return load_json(path)
     except FileNotFoundError:
@@ -123,8 +123,8 @@ def output_of(
     success: Collection[int] = (0,),
     env: dict[str, str] | None = None,
 ) -> str:
-    """The standard output of a program. Raises Problem, with the last line that it printed as an
-    error, where it cannot be run or does not succeed.
+    """Returns the standard output of a program. Raises Problem, with the last line that it printed
+    as an error, where it cannot be run or does not succeed.
     """
     try:
         done = subprocess.run(command, capture_output=True, text=True, check=False, env=env)

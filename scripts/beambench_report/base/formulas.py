@@ -1,10 +1,10 @@
-"""Cells of CSV files that no spreadsheet takes for a formula; needs nothing but Python."""
+"""Cells of CSV files that no spreadsheet takes for a formula; needs only Python."""
 
 _FIRST_OF_FORMULAS = ("=", "+", "-", "@", "\t", "\r", "'")
 
 
 def guarded(value: object) -> object:
-    """A cell as it is written: numbers stay as they are.
+    """Returns a cell as it is written: numbers stay as they are.
 
     A text that begins with one of `=+-@`, a tab or a carriage return, or with an apostrophe, has an
     apostrophe before it. beambench writes results.csv like that, too

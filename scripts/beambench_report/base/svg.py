@@ -1,4 +1,4 @@
-"""What matplotlib cannot write into an SVG: hover titles; and what it need not."""
+"""Additions to matplotlib's SVG (hover titles), and removal of what is not needed."""
 
 import re
 from collections.abc import Iterator
@@ -31,7 +31,7 @@ def hover(artist: _Drawn, text: str) -> _Drawn:
 
 
 def compact(svg: str) -> str:
-    """A plot with hover titles in place; a third as long, and drawn the same."""
+    """Returns a plot with hover titles in place; a third as long, and drawn the same."""
     root = ElementTree.fromstring(svg)
     for child in list(root):
         if child.tag.endswith("metadata") or _is_style_sheet(child):
@@ -53,7 +53,7 @@ def _is_style_sheet(element: Element) -> bool:
 
 
 def _used_ids(root: Element) -> dict[str, str]:
-    """The ids that something refers to, each with a short one."""
+    """Returns the ids that something refers to, each with a short one."""
 
     def used() -> Iterator[str]:
         for element in root.iter():

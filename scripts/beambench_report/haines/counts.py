@@ -32,7 +32,7 @@ def read_tests(path: Path) -> dict[str, Tests]:
 
 
 def measure_tests(folder: Path, program: Path) -> Path:
-    """Counts into FOLDER/tests.csv, but for what FOLDER/census has already."""
+    """Counts into FOLDER/tests.csv; skips scenes that FOLDER/census has already."""
     folder.joinpath("census").mkdir(parents=True, exist_ok=True)
     published = published_tests()
     rows = []

@@ -10,14 +10,14 @@ from beambench_report.havran.contenders import SCENES
 
 
 class Census(TypedDict):
-    """What `beambench census --count --json` prints of one scene, as far as it is used."""
+    """The used part of the output of `beambench census --count --json` on one scene."""
 
     size: dict[str, float]
     work: dict[str, float]
 
 
 def require_program(program: Path) -> Path:
-    """The program's absolute path. Raises Problem where it does not exist."""
+    """Returns the program's absolute path. Raises Problem where it does not exist."""
     found = program.absolute()
     if not found.exists():
         raise Problem(f"{found}: there is no such program; build it with scripts/setup")

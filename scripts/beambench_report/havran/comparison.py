@@ -29,7 +29,7 @@ class Ratios:
 
     @property
     def within(self) -> int:
-        """How many differ by no more than `WITHIN`."""
+        """The number of counts that differ by at most `WITHIN`."""
         return sum(abs(value - 1) <= WITHIN for value in self.values)
 
 
@@ -52,7 +52,7 @@ def ratios(
     structure: str | None = None,
     scene: str | None = None,
 ) -> Ratios | None:
-    """Of all cases that both have; None where there is no case whose published count is not 0."""
+    """Returns ratios over all common cases; None if all published counts are 0."""
     values = tuple(
         ours[case][quantity] / published[case][quantity]
         for case in ours

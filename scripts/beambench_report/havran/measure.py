@@ -25,7 +25,7 @@ def quantities_of(census: Census) -> dict[str, float]:
 
 
 def measure(folder: Path, program: Path, scenes: list[str]) -> list[Path]:
-    """Counts on these scenes into FOLDER/counts.csv, but for what FOLDER/census has already."""
+    """Counts on these scenes into FOLDER/counts.csv; skips what FOLDER/census has already."""
     folder.joinpath("census").mkdir(parents=True, exist_ok=True)
     published = read_counts(PUBLISHED)
     cases = [

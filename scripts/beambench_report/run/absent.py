@@ -1,4 +1,4 @@
-"""What the folder of a run lacks, in sentences, and how it is made."""
+"""Missing parts of the folder of a run, in sentences with the remedy."""
 
 import shlex
 from collections.abc import Iterator, Mapping, Sequence
@@ -12,12 +12,12 @@ _REPORT = "python -m beambench_report"
 
 
 def command(run: Run, name: str, *options: str) -> str:
-    """The command of this package that adds something to the folder of the run."""
+    """Returns the command of this package that adds something to the folder of the run."""
     return " ".join((_REPORT, name, shlex.quote(str(run.directory)), *options))
 
 
 def not_begun(run: Run, manifest: Manifest) -> list[str]:
-    """Of a run that was cut off, the scenes without any cell."""
+    """Returns the scenes without any cell in an interrupted run."""
     known = set(run.rows["scene"])
     return [scene for scene in manifest.scenes if manifest.cut_off and scene not in known]
 
@@ -29,7 +29,7 @@ def absent(
     figures: Figures,
     pictures: Sequence[Image],
 ) -> list[str]:
-    """What is not on the page, for the folder does not hold it."""
+    """Returns what the page lacks because the folder lacks it."""
     return [
         *_records(run, manifest),
         *_repetitions(run, files),

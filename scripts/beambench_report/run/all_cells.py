@@ -69,7 +69,7 @@ def pack(run: Run, own: Mapping[str, Column] | None = None) -> AllCells:
 
 
 def _unknown(series: pd.Series) -> Column:
-    """A newer beambench may add columns."""
+    """Returns a newer beambench may add columns."""
     kind = "number" if is_numeric_dtype(series) else "text"
     return Column(str(series.name), "", kind, "", "Not in the data dictionary.", "")
 
@@ -107,7 +107,7 @@ def _pack_figures(series: pd.Series) -> dict:
 
 
 def _rounded(values: np.ndarray) -> np.ndarray:
-    """To some significant digits: np.round alone counts digits behind the point."""
+    """Rounds to some significant digits; np.round counts digits after the point."""
     magnitude = np.floor(np.log10(np.abs(values), where=values != 0, out=np.zeros_like(values)))
     factor = 10.0 ** (_DIGITS - 1 - magnitude)
     return np.round(values * factor) / factor

@@ -26,7 +26,7 @@ _EXPLANATION = (
 
 
 def distributions(measured: Measured) -> list[Plot]:
-    """A figure for each view of which two contenders have two repetitions."""
+    """Returns a figure for each view of which two contenders have two repetitions."""
     plots = []
     for view, stem in file_stems(measured.run.views).items():
         rows = measured.finest(view)
@@ -98,7 +98,7 @@ def _range(row: pd.Series) -> str:
 
 
 def _reach(rows: pd.DataFrame) -> float:
-    """In percent: a little beyond most repetitions, so that few outliers do not flatten all."""
+    """Returns percent: a little beyond most repetitions, so that outliers do not flatten all."""
     off = [abs(100 * (ns / row["ns"] - 1)) for _, row in rows.iterrows() for ns in row["repeated"]]
     usual = float(np.quantile(off, 0.97))
     return min(_FARTHEST, max(1.0, 1.3 * usual))
@@ -141,5 +141,5 @@ def _draw_row(
 
 
 def _jitter(count: int) -> np.ndarray:
-    """The same for every run: what lies beside each other must not be hidden."""
+    """Returns the same for every run: what lies beside each other must not be hidden."""
     return ((np.arange(count) * 0.618) % 1 - 0.5) * 0.5

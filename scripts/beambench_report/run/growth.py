@@ -1,4 +1,4 @@
-"""How generated scenes grow: `beambench scene NAME --growth --csv` as a plot."""
+"""Growth of generated scenes: `beambench scene NAME --growth --csv` as a plot."""
 
 from pathlib import Path
 
@@ -32,7 +32,7 @@ def write_growth(files: list[Path], output: Path | None = None) -> list[Path]:
 
 
 def read_growth(file: Path) -> pd.DataFrame:
-    """The rows of one file; raises Problem where it is not what beambench writes."""
+    """Returns the rows of one file; raises Problem where it is not what beambench writes."""
     rows = read_table(file, _COLUMNS, "write it with: beambench scene NAME --growth --csv")
     if rows.empty:
         raise Problem(f"{file}: it has no rows")
@@ -45,7 +45,7 @@ def read_growth(file: Path) -> pd.DataFrame:
 
 
 def growth_plot(tables: list[pd.DataFrame], stem: str) -> Plot:
-    """Two panels over one axis of primitives: memory above, seconds below."""
+    """Returns two panels over one axis of primitives: memory above, seconds below."""
     figure, (memory, seconds) = new_figure(PAGE_WIDTH * 0.95, rows=2)
     for index, rows in enumerate(tables):
         look = {

@@ -9,7 +9,7 @@ _PIXELS_PER_POINT = 5 / 3
 
 
 def inline_svg(text: str, stem: str) -> str:
-    """The `<svg>` element of an SVG, as wide as the page lets it be; its ids begin with `stem`."""
+    """Returns the `<svg>` element of an SVG, as wide as the page; its ids begin with `stem`."""
     svg = re.sub(r"<svg[^>]*>", _root, text[text.index("<svg") :], count=1)
     prefix = f"plot-{stem}-"
     svg = svg.replace("xlink:href=", "href=")
@@ -18,7 +18,7 @@ def inline_svg(text: str, stem: str) -> str:
 
 
 def dark_variables() -> dict[str, str]:
-    """For the stylesheet of a dark page: the CSS variables of all plots, each with its color."""
+    """Returns the CSS variables of all plots for a dark page, with their colors."""
     return {f"--{tint.name}": tint.dark for tint in TINTS}
 
 

@@ -34,11 +34,11 @@ def place_labels(
     lines: Sequence[Sequence[tuple[float, float]]] = (),
     colors: Sequence[str] = (),
 ) -> set[int] | None:
-    """Writes beside each point its name, or where there is no room its number; none on another.
+    """Writes beside each point its name, or its number if there is no room; labels do not overlap.
 
-    Returns the points that have numbers; None where even these crowd, and then nothing is written.
-    Labels are off the lines if that is possible, and have the color of their place in `colors`,
-    where those are given. The figure's layout must be settled.
+    Returns the points that have numbers; None if even these crowd, in which case nothing is
+    written. Labels are clear of the lines if possible, and have the color of their place in
+    `colors`, if given. The figure's layout must be settled.
     """
     room = _Room(panel, points, lines)
     places: dict[int, _Place] = {}
@@ -82,7 +82,7 @@ class _Room:
         ]
 
     def places(self, index: int, text: str, others: Mapping[int, _Place]) -> Iterator[_Place]:
-        """Where the text has room beside its point, the other points and the labels that are."""
+        """Yields places where the text has room beside its point, other points and labels."""
         taken = [*self._points, *(other.box for other in others.values())]
         width, height, _ = self._renderer.get_text_width_height_descent(text, self._font, False)
         for offset in _offsets():
@@ -97,13 +97,13 @@ class _Room:
         return min(away, default=inf) >= own
 
     def best(self, places: Sequence[_Place]) -> _Place:
-        """The first of the places that is off the lines; the first, where none is."""
+        """Returns the first of the places that is off the lines; the first, where none is."""
         off = (one for one in places if not any(map(one.box.overlaps, self._crossed)))
         return next(off, places[0])
 
 
 def _offsets() -> list[tuple[float, float]]:
-    """To the right first, then around."""
+    """Returns offsets, to the right first, then around."""
     turns = sorted(range(_DIRECTIONS), key=lambda k: min(k, _DIRECTIONS - k))
     return [
         (distance * cos(2 * pi * k / _DIRECTIONS), distance * sin(2 * pi * k / _DIRECTIONS))

@@ -31,21 +31,21 @@ _Item = TypeVar("_Item")
 
 
 def chunks(items: Sequence[_Item], most: int) -> list[Sequence[_Item]]:
-    """As few parts as hold at most `most` each, and as even as can be."""
+    """Splits items into as few parts of at most `most` as possible, as evenly as possible."""
     parts = ceil(len(items) / most)
     size = ceil(len(items) / parts) if parts else 1
     return [items[start : start + size] for start in range(0, len(items), size)]
 
 
 def numbered(stem: str, index: int) -> str:
-    """The stem of one of several figures, counted from 0: memory, memory-2, memory-3."""
+    """Returns the stem of one of several figures, counted from 0: memory, memory-2, memory-3."""
     return stem if index == 0 else f"{stem}-{index + 1}"
 
 
 def parts_by_kind(
     rows: pd.DataFrame, views: Iterable[str], stem: str, most: int
 ) -> Iterator[tuple[str, Sequence[str], str]]:
-    """The figures that show the views, a kind of rays after the other: kind, views, stem."""
+    """Yields the figures that show the views, one kind of rays at a time: kind, views, stem."""
     groups = by_kind(rows, views)
     kinds = file_stems(groups)
     for kind, own in groups.items():
@@ -63,7 +63,7 @@ def panels_with_legend(
     width_ratios: Sequence[float] | None = None,
     with_lines: bool = True,
 ) -> tuple[Figure, list[Axes]]:
-    """A figure of `count` panels and below them, where there is one, the legend of contenders."""
+    """Returns a figure of `count` panels and, below them, any legend of contenders."""
     rows = ceil(count / columns)
     longest = max((len(name) for name in legend), default=0)
     legend_columns = max(1, int(PAGE_WIDTH / (0.45 + _LEGEND_CHARACTER * longest)))
@@ -141,7 +141,7 @@ def scale_axis(panel: Axes, which: str, values: Iterable[float], ticks: int = 9)
 
 
 def hide_repeated_labels(panels: Sequence[Axes], columns: int) -> None:
-    """Of panels with shared axes, only those at the left and at the lower end have labels."""
+    """Hides labels in panels with shared axes, except at the left and at the lower end."""
     for place, panel in enumerate(panels):
         if place % columns:
             panel.set_ylabel("")

@@ -54,7 +54,7 @@ def write_pictures(directory: Path, beambench: Path) -> list[Path]:
 
 
 def _heatmap_structure(run: Run, scene: str) -> str | None:
-    """The first of the structure's variants that was right on this scene, as `--accel` takes it."""
+    """Returns the structure's first variant that was right on this scene, as `--accel` takes it."""
     rows = run.rows[
         (run.rows["scene"] == scene)
         & (run.rows["structure"] == _HEATMAP_STRUCTURE)
@@ -142,7 +142,7 @@ def write_contact_sheet(output: Path, beambench: Path, scenes: list[str] | None 
 
 
 def registered_meshes(beambench: Path) -> list[str]:
-    """The names of the meshes that scripts/meshes, or a user, registered."""
+    """Returns the names of the meshes that scripts/meshes, or a user, registered."""
     meshes = json.loads(output_of([str(beambench), "list", "--json"]))["meshes"]
     if not meshes:
         raise Problem("no mesh is registered; run scripts/meshes first")
@@ -150,7 +150,7 @@ def registered_meshes(beambench: Path) -> list[str]:
 
 
 def _counts(beambench: Path, scene: str) -> str:
-    """What the scene holds, for its label."""
+    """Returns the contents of the scene, for its label."""
     about = json.loads(_run(beambench, scene, "scene", scene, "--json"))
     numbers = {kind: about[f"{kind}s"] for kind in ("polygon", "sphere", "cone")}
     # A number and its noun stay on one line.
@@ -171,7 +171,7 @@ def _render_all(beambench: Path, counts: dict[str, str], folder: Path) -> dict[s
 
 
 def _run(beambench: Path, scene: str, *arguments: str) -> str:
-    """The standard output of beambench."""
+    """Returns the standard output of beambench."""
     try:
         return output_of([str(beambench), *arguments])
     except Problem as problem:

@@ -1,4 +1,4 @@
-"""How the cost of a ray changes with the number of rays: small multiples of all views."""
+"""The cost of a ray over the number of rays: small multiples of all views."""
 
 from collections.abc import Sequence
 from math import nan
@@ -32,7 +32,7 @@ _APART = 0.13  # of the axis, between two sizes that are named
 
 
 def resolutions(measured: Measured) -> list[Plot]:
-    """The figures of all views with times at two resolutions at least."""
+    """Returns the figures of all views with times at two resolutions at least."""
     timed = measured.timed
     sizes = timed.groupby(["view", "contender"])["rays"].nunique()
     several = sizes[sizes > 1].index.get_level_values("view")
@@ -101,7 +101,7 @@ def _draw_line(panel: Axes, line: pd.DataFrame, look: Look) -> None:
 
 
 def _ends(row: pd.Series) -> tuple[float, float, float]:
-    """Of a stroke over the interval; what follows is no number, so that the next one is apart."""
+    """Returns the ends of a stroke over the interval, followed by NaN to separate the next one."""
     return row["ns_low"], row["ns_high"], nan
 
 

@@ -1,4 +1,4 @@
-"""Where pictures stand on a contact sheet: rows of one height that fill the sheet's width."""
+"""The layout of a contact sheet: rows of one height that fill the sheet's width."""
 
 import math
 import textwrap
@@ -45,7 +45,7 @@ class Row:
 
     @property
     def height(self) -> float:
-        """With its heading, its labels and the space below."""
+        """The height with heading, labels and the space below."""
         lines = max(len(label(picture, self.picture_height)) for picture in self.pictures)
         return (HEADING if self.heading else 0) + self.picture_height + LINE * lines + 2 * GAP
 
@@ -61,9 +61,9 @@ class Row:
 
 
 def even_rows(heading: str, pictures: list[Picture]) -> list[Row]:
-    """As few rows as can be, of as equal numbers of pictures; each fills the sheet's width.
+    """Returns as few rows as possible, of about equal numbers of pictures; each fills the width.
 
-    Only a few pictures, which would be too high for that, leave room beside them.
+    A few pictures, which would be too high for that, leave room beside them.
     """
     count = math.ceil(len(pictures) / _LONGEST_ROW)
     ends = [math.ceil(len(pictures) * number / count) for number in range(count + 1)]
@@ -82,7 +82,7 @@ def _space(row: list[Picture]) -> float:
 
 
 def label(picture: Picture, height: float) -> list[tuple[str, str]]:
-    """The lines under a picture that is so high, each with its weight."""
+    """Returns the lines under a picture that is so high, each with its weight."""
     letters = max(12, int(height * picture.aspect / _LETTER))
     name = [(line, "bold") for line in textwrap.wrap(picture.scene, letters - 1)]
     return name + [(line, "normal") for line in textwrap.wrap(picture.counts, letters)]

@@ -29,7 +29,7 @@ _EXPLANATION = (
 
 
 def trade_offs(measured: Measured) -> list[Plot]:
-    """A figure for each view in which two contenders have times."""
+    """Returns a figure for each view in which two contenders have times."""
     plots = []
     for view, stem in file_stems(measured.run.views).items():
         rows = measured.finest(view)
@@ -42,7 +42,8 @@ def trade_offs(measured: Measured) -> list[Plot]:
 
 
 def pareto_front(points: Sequence[tuple[float, float]]) -> list[int]:
-    """The points that no other one beats in one coordinate and equals in the other; by the first.
+    """Returns the points that no other one beats in one coordinate and equals in the other; by the
+    first.
 
     Of points in the same place, the first.
     """
@@ -69,7 +70,7 @@ def _trade_off(
 def _figure(
     measured: Measured, view: str, rows: pd.DataFrame, costs: list[str], numbered: list[str]
 ) -> tuple[Figure, list[str]]:
-    """The figure with a legend of those `numbered`, and who has no name at all points."""
+    """Returns the figure with a legend of those `numbered`, and who has no name at all points."""
     numbers = {contender: str(place) for place, contender in enumerate(numbered, 1)}
     legend = {f"{number}  {name}": measured.looks[name] for name, number in numbers.items()}
     figure, panels = panels_with_legend(len(costs), len(costs), 3.5, legend, with_lines=False)
@@ -132,7 +133,7 @@ def _is_linear(panel: Axes, axis: str) -> bool:
 
 
 def _stairs(panel: Axes, points: list[tuple[float, float]]) -> list[tuple[float, float]]:
-    """From the upper end of the panel over the front to its right end."""
+    """Returns the stairs from the upper end of the panel over the front to its right end."""
     panel.autoscale_view()
     for axis in ("x", "y"):
         low, high = getattr(panel, f"get_{axis}lim")()

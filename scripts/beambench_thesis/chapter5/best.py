@@ -1,4 +1,4 @@
-"""Best against best: each contender with those of its parameters that suit the view best."""
+"""Best against best: each contender with the parameters that suit the view best."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -43,7 +43,7 @@ class BestTable:
 
 
 def best_table(part: PrintedPart, cells: Cells) -> BestTable | None:
-    """The resolutions at which some contender had a choice; None if none had."""
+    """Returns the table of resolutions at which some contender had a choice; None if none had."""
     structures = [*part.structures, *REFERENCES]
     resolutions = [
         resolution
@@ -77,7 +77,7 @@ def best_table(part: PrintedPart, cells: Cells) -> BestTable | None:
 
 
 def choose(candidates: Sequence[Cell]) -> Choice:
-    """The fastest in total, building included, of those with correct hits.
+    """Returns the candidate with correct hits and the least total time, building included.
 
     By clock cycles, where they were counted: candidates of two runs may have met two clock rates.
     """
@@ -95,7 +95,7 @@ def choose(candidates: Sequence[Cell]) -> Choice:
 
 
 def _is_edge(best: Cell, timed: Sequence[Cell]) -> bool:
-    """Is it at an end of the levels or grids that were tried, of grids filled alike?"""
+    """Is it at an end of the levels or grids that were tried, among grids filled alike?"""
     fill = best.parameters.get("fill")
     alike = [cell.parameters for cell in timed if cell.parameters.get("fill") == fill]
     for name in ("max_level", "resolution"):
@@ -107,7 +107,7 @@ def _is_edge(best: Cell, timed: Sequence[Cell]) -> bool:
 
 
 def _pools(structure: str) -> list[tuple[str, dict[str, str]]]:
-    """A contender; the thesis's form of it beside the best where we have others.
+    """Returns the forms of a contender: the thesis's own, and the best where we have others.
 
     The thesis's beams hand nothing over; its hierarchy places objects beside terminal nodes.
     """

@@ -77,12 +77,12 @@ class Fit:
 
     @property
     def scenes(self) -> int:
-        """How many scenes the cells are of."""
+        """The number of scenes that the cells come from."""
         return len({observation.cell.scene for observation in self.observations})
 
 
 def thesis_formulas() -> tuple[Formula, Formula]:
-    """Of beams that pass empty leaves, and of beams that end at occupied ones."""
+    """Returns the formulas for beams that pass empty leaves or end at occupied ones."""
     nonterminal = {
         "beams_nonterminal": Term("a beam: directions of exit", "C_d"),
         "beam_edges": Term("an edge met with a plane", "I_r-p"),
@@ -113,7 +113,7 @@ def thesis_formulas() -> tuple[Formula, Formula]:
 
 
 def sums_of_auto() -> tuple[Formula, Formula, Formula]:
-    """The estimated cost of building an octree, of tracing single rays, and of tracing beams."""
+    """Returns the sums for building an octree, for tracing single rays, and for tracing beams."""
     return (
         Formula(
             "Building the octree",
@@ -146,7 +146,7 @@ def sums_of_auto() -> tuple[Formula, Formula, Formula]:
 def fit_costs(
     counts: np.ndarray, times: np.ndarray, weights: np.ndarray | None = None
 ) -> np.ndarray:
-    """Costs, none negative, of least squared relative error; each cell counts as its weight."""
+    """Returns nonnegative costs of least squared relative error; each cell counts by its weight."""
     shares = counts / times[:, None]
     lengths = np.sqrt((shares**2).sum(axis=0))  # counts differ by orders of magnitude
     scale = np.where(lengths > 0, lengths, 1.0)
@@ -155,7 +155,7 @@ def fit_costs(
 
 
 def r_squared(measured: np.ndarray, predicted: np.ndarray) -> float:
-    """The part of the variance that the prediction explains."""
+    """Returns the part of the variance that the prediction explains."""
     spread = float(np.sum((measured - measured.mean()) ** 2))
     return 1.0 - float(np.sum((measured - predicted) ** 2)) / spread if spread > 0 else 1.0
 
@@ -197,14 +197,14 @@ def _errors(predicted: np.ndarray, times: np.ndarray) -> tuple[float, ...]:
 
 
 def _usable(cells: Iterable[Cell], *structures: str) -> Iterable[Cell]:
-    """Verified, and with the thesis's parameters but for level and objects."""
+    """Yields verified cells with the thesis's parameters, whatever their level and objects."""
     for cell in cells:
         if cell.structure in structures and cell.setting is not None and cell.time is not None:
             yield cell
 
 
 def _tasks(task: str, counts: tuple[str, ...], cells: Iterable[Cell]) -> list[Observation]:
-    """Time and counts of a task of an image, both of the counting pass."""
+    """Returns time and counts of one task of an image, both from the counting pass."""
     return [
         Observation(cell, tuple(cell.counters[name] * cell.rays for name in counts), time)
         for cell in _usable(cells, "beam")
@@ -257,7 +257,7 @@ def _walk(cell: Cell) -> tuple[float, float] | None:
 
 
 def _octree(cell: Cell) -> tuple[object, ...]:
-    """Scene and octree; root, assignment and padding are the thesis's in all usable cells."""
+    """Returns scene and octree; root and assignment are the thesis's in all usable cells."""
     given = cell.parameters
     return cell.scene, given.get("max_level"), given.get("max_objects"), given.get("pad")
 
@@ -270,7 +270,7 @@ _NANOSECONDS = {"ms": 1e-6, "ns per ray": 1.0}
 
 
 def draw_fits(stem: str, fits: Sequence[Fit]) -> Plot:
-    """A panel for each formula, a point for each cell; on the line, the prediction is exact."""
+    """Draws a panel for each formula, a point for each cell; on the line, predictions are exact."""
     figure, panels = new_figure(_HEIGHTS[len(fits)], 1, len(fits))
     for panel, one in zip(panels, fits, strict=True):
         scale = _NANOSECONDS[one.formula.unit]
@@ -326,7 +326,7 @@ _CAPTION = (
 
 
 def cost_section(cells: Iterable[Cell]) -> Section | None:
-    """The fits and their figures; None where nothing can be fitted."""
+    """Returns the fits and their figures; None where nothing can be fitted."""
     cells = list(cells)
     thesis, sums = _fits(thesis_formulas(), cells), _fits(sums_of_auto(), cells)
     fits = [*thesis, *sums]

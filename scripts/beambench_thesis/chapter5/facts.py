@@ -1,4 +1,4 @@
-"""What the report states beside the sweeps: counts that single commands of beambench print.
+"""Facts that the report adds to the sweeps: counts printed by single commands of beambench.
 
 `gather_facts` runs the commands and keeps what they print in folders beside the runs; each section
 reads one of these folders.
@@ -25,7 +25,7 @@ Read = TypeVar("Read")
 
 
 def _read(path: Path, take: Callable[[dict], Read]) -> Read | None:
-    """What is taken from a file; None where there is none, or it is not what was printed."""
+    """Returns what `take` finds in a file; None where the file is missing or has other contents."""
     try:
         return take(load_json(path))
     except (OSError, ValueError, KeyError, TypeError):
@@ -38,12 +38,12 @@ _KINDS = ("polygons", "spheres", "cones")
 
 
 def scene_file(directory: Path, scene: str) -> Path:
-    """What `beambench scene NAME --json` printed."""
+    """Returns the path of the output of `beambench scene NAME --json`."""
     return directory / "scenes" / f"{scene}.json"
 
 
 def scenes_section(directory: Path) -> Section | None:
-    """Table 5.1 with our counts; None where no scene was counted."""
+    """Returns table 5.1 with our counts; None where no scene was counted."""
     printed = read_published("scenes.csv").to_dict("records")
     counted = {row["scene"]: _read(scene_file(directory, row["scene"]), _counts) for row in printed}
     if not any(counted.values()):
@@ -109,12 +109,12 @@ class Level:
 
 
 def visits_file(directory: Path, scene: str) -> Path:
-    """What `beambench stats --levels --json` printed."""
+    """Returns the path of the output of `beambench stats --levels --json`."""
     return directory / "visits" / f"{scene}.json"
 
 
 def visits_section(directory: Path) -> Section | None:
-    """A table for each scene; None where no visits were counted."""
+    """Returns a table for each scene; None where no visits were counted."""
     read = {scene: _read(visits_file(directory, scene), _visits) for scene in VISITED_SCENES}
     known = {scene: found for scene, found in read.items() if found is not None}
     if not known:
@@ -128,7 +128,7 @@ def visits_section(directory: Path) -> Section | None:
 
 
 def _visits(source: dict) -> tuple[int, list[Level]]:
-    """The number of rays, and the levels that have nodes."""
+    """Returns the number of rays, and the levels that have nodes."""
     (structure,) = source["structures"]
     return int(source["rays"]), [Level(**level) for level in structure["levels"]]
 
@@ -153,7 +153,7 @@ def _visits_table(scene: str, rays: int, levels: list[Level]) -> SectionTable:
 
 
 def _visits_finding(scene: str, rays: int, levels: list[Level]) -> str:
-    """How visits fall around level 6."""
+    """Returns a sentence on how visits fall around level 6."""
     by_level = {level.level: level for level in levels}
     wanted = [by_level[level] for level in (_SIX - 1, _SIX, _SIX + 1) if level in by_level]
     if len(wanted) < 3:
@@ -175,7 +175,7 @@ OBJECTS = (0, 40)
 
 @dataclass(frozen=True)
 class Turn:
-    """How a camera is moved around the point that it looks at."""
+    """The movement of a camera around the point that it looks at."""
 
     azimuth: float
     """Degrees around the z axis, beside where it was."""
@@ -191,12 +191,12 @@ TURN = Turn(azimuth=29.6, elevation=4.0, distance=1.34, angle=9.74)
 
 
 def view_file(directory: Path, *, turned: bool, objects: int) -> Path:
-    """What `beambench stats` printed of the beams from one of the two cameras."""
+    """Returns the path of the output of `beambench stats` on beams from one of the two cameras."""
     return directory / "views" / f"{TURNED_SCENE}-{'turned' if turned else 'own'}-{objects}.json"
 
 
 def camera_section(directory: Path) -> Section | None:
-    """Exit pixels from both cameras beside the thesis's; None where they were not counted."""
+    """Returns exit pixels from both cameras and the thesis's; None where they were not counted."""
     pixels = {
         (turned, objects): _read(view_file(directory, turned=turned, objects=objects), _exit_pixels)
         for turned in (False, True)
@@ -257,7 +257,7 @@ class Fact:
 
 
 def facts(directory: Path) -> list[Fact]:
-    """All but those of the turned camera, which need a scene file of their own."""
+    """Returns all facts except those of the turned camera, which need a scene file of their own."""
     scenes = tuple(primitives_by_scene())
     census = (
         "census",
@@ -277,7 +277,7 @@ def facts(directory: Path) -> list[Fact]:
 
 
 def gather_facts(directory: Path, beambench: Path) -> list[str]:
-    """Makes those that are not there; returns a sentence for each that could not be made."""
+    """Makes the missing files; returns a sentence for each that could not be made."""
     failed = _make(facts(directory), beambench)
     if all(fact.path.exists() for fact in _views(directory, TURNED_SCENE, turned=True)):
         return failed
@@ -293,7 +293,7 @@ def gather_facts(directory: Path, beambench: Path) -> list[str]:
 
 
 def turn_camera(scene: str, camera: dict, turn: Turn) -> str:
-    """The text of an NFF scene with its camera turned around the point that it looks at.
+    """Returns the text of an NFF scene with its camera turned around the point that it looks at.
 
     Raises ValueError where the text has no camera of its own.
     """

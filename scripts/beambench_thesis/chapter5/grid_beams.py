@@ -1,4 +1,4 @@
-"""Beams through a hierarchy of grids, the thesis's future work: of the sweep grid-beams."""
+"""Beams through a hierarchy of grids, the thesis's future work, from the sweep grid-beams."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -36,14 +36,14 @@ class GridBeamRow:
 
     @property
     def octree_ratio(self) -> float | None:
-        """The whole time over the octree over that over the grids."""
+        """The total time with the octree over the total time with the grids."""
         if self.octree is None:
             return None
         return _whole(self.octree) / _whole(self.beams)
 
 
 def grid_beam_rows(cells: Iterable[Cell]) -> list[GridBeamRow]:
-    """In the order of the cells; where beams and single rays have the same grids."""
+    """Returns rows, in the order of the cells, where beams and single rays have the same grids."""
     timed = [cell for cell in cells if cell.time is not None]
     rays = {
         _grid(cell): cell
@@ -69,7 +69,7 @@ def grid_beam_rows(cells: Iterable[Cell]) -> list[GridBeamRow]:
 
 
 def grid_beams_section(cells: Iterable[Cell]) -> Section | None:
-    """Scene by scene; None where nothing was measured."""
+    """Returns the section, scene by scene; None where nothing was measured."""
     rows = grid_beam_rows(cells)
     if not rows:
         return None
@@ -128,7 +128,7 @@ def _fields(row: GridBeamRow) -> tuple[str, ...]:
 
 
 def _grid(cell: Cell) -> tuple[object, ...]:
-    """What decides the grids and the rays."""
+    """Returns everything that determines the grids and the rays."""
     names = (
         "resolution",
         "density",

@@ -1,4 +1,4 @@
-"""The level that max_level=auto chooses beside the best of the levels that were measured."""
+"""The level that max_level=auto chooses, compared with the best of the measured levels."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
@@ -38,7 +38,7 @@ _WORST = 5
 
 @dataclass(frozen=True)
 class LevelChoice:
-    """One cell of max_level=auto, and those of fixed levels of the same octree otherwise."""
+    """One cell of max_level=auto, and the cells of the same octree with fixed levels."""
 
     auto: Cell
     fixed: dict[int, Cell]
@@ -71,7 +71,7 @@ class LevelChoice:
 
     @property
     def loss_of_level(self) -> float | None:
-        """What the level itself loses, without the cost of choosing it."""
+        """The loss of the level itself, without the cost of choosing it."""
         return None if self.chosen is None else self._over_best(self.chosen)
 
     def _over_best(self, cell: Cell) -> float:
@@ -79,36 +79,36 @@ class LevelChoice:
 
     @cached_property
     def _by_cycles(self) -> bool:
-        """Clock cycles, as cells may have met different clock rates; if all were counted."""
+        """Are clock cycles compared? Only if all were counted; cells may differ in clock rate."""
         return all(pd.notna(cell.megacycles) for cell in (self.auto, *self.fixed.values()))
 
     def _time(self, cell: Cell) -> float:
-        """Building included."""
+        """Returns the time, building included."""
         assert cell.time is not None  # only such cells are compared
         return cell.megacycles if self._by_cycles else cell.time.value
 
 
 @dataclass(frozen=True)
 class Losses:
-    """Several choices in short."""
+    """A summary of several choices."""
 
     choices: tuple[LevelChoice, ...]
 
     @property
     def good(self) -> int:
-        """How many lose less than the target."""
+        """The number of choices that lose less than the target."""
         return sum(choice.loss < TARGET for choice in self.choices)
 
     @property
     def good_levels(self) -> tuple[int, int]:
-        """How many chosen levels lose less than the target, of how many that were measured."""
+        """The numbers of chosen levels that lose less than the target, and that were measured."""
         known = [choice.loss_of_level for choice in self.choices]
         losses = [loss for loss in known if loss is not None]
         return sum(loss < TARGET for loss in losses), len(losses)
 
     @property
     def share(self) -> float:
-        """Of choices that lose less than the target."""
+        """The share of choices that lose less than the target."""
         return self.good / len(self.choices)
 
     @property
@@ -123,9 +123,9 @@ class Losses:
 
 
 def level_choices(cells: Iterable[Cell]) -> list[LevelChoice]:
-    """Every cell of max_level=auto that has fixed levels beside it, in the order of the cells.
+    """Returns every cell of max_level=auto with measured fixed levels, in the order of the cells.
 
-    Of a level that several runs measured, the cell of the choice's own run counts, or the first.
+    If several runs measured a level, the cell of the choice's own run counts, or else the first.
     """
     timed = [cell for cell in cells if cell.time is not None and "max_level" in cell.parameters]
     fixed: dict[tuple[object, ...], list[Cell]] = {}
@@ -143,12 +143,12 @@ def level_choices(cells: Iterable[Cell]) -> list[LevelChoice]:
 
 
 def losses(choices: Sequence[LevelChoice], structure: str = "") -> Losses:
-    """Those of one structure, or all."""
+    """Returns the losses of one structure, or of all."""
     return Losses(tuple(choice for choice in choices if structure in ("", choice.auto.structure)))
 
 
 def _key(cell: Cell) -> tuple[object, ...]:
-    """All but the level."""
+    """Returns all settings except the level."""
     others = sorted((k, v) for k, v in cell.parameters.items() if k != "max_level")
     return cell.scene, cell.structure, cell.resolution, cell.samples, tuple(others)
 
@@ -162,9 +162,10 @@ _HOLLOW = {"markersize": 5.5, "markerfacecolor": "none", "markeredgewidth": 0.7}
 
 
 def draw_losses(stem: str, choices: Sequence[LevelChoice]) -> Plot:
-    """A row for each scene, a panel for each structure.
+    """Draws a row for each scene and a panel for each structure.
 
-    Filled: with the choosing; hollow: what the chosen level loses by itself.
+    Filled markers include the cost of choosing; hollow ones show the loss of the chosen level
+    alone.
     """
     structures = list(dict.fromkeys(choice.auto.structure for choice in choices))
     scenes = list(dict.fromkeys(choice.auto.scene for choice in choices))
@@ -249,7 +250,7 @@ _CAPTION = (
 
 
 def levels_section(cells: Iterable[Cell]) -> Section | None:
-    """The choices and what they lose; None where none was measured."""
+    """Returns the choices and their losses; None where none was measured."""
     choices = level_choices(cells)
     if not choices:
         return None
@@ -277,7 +278,7 @@ def levels_section(cells: Iterable[Cell]) -> Section | None:
 
 
 def levels_of_runs(runs: Sequence[Path], file: Path | None = None) -> list[Path] | str:
-    """The section on some runs: its text, or the files written, FILE.md and the figure beside it.
+    """Returns the section on some runs as text, or writes FILE.md and its figure.
 
     Raises Problem where a run cannot be read, or none holds a choice.
     """
@@ -349,7 +350,7 @@ def _time(cell: Cell) -> Field:
 
 
 def _levels(levels: Sequence[int]) -> str:
-    """`4 to 8`, or all of them where some between are missing."""
+    """Returns `4 to 8`, or lists all levels if some in between are missing."""
     first, last = levels[0], levels[-1]
     if len(levels) == last - first + 1 and len(levels) > 1:
         return f"{first} to {last}"

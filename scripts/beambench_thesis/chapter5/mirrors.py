@@ -1,4 +1,4 @@
-"""Beams of what planar mirrors show, the thesis's future work: of `beambench mirrors --json`."""
+"""Beams reflected by planar mirrors, the thesis's future work (`beambench mirrors --json`)."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from beambench_thesis.paper.section import Section, section_table
 
 @dataclass(frozen=True)
 class MirrorRun:
-    """What all mirrors of a picture show, by single rays and by beams of the same octree."""
+    """The reflections in all mirrors of a picture, by single rays and by beams; one octree."""
 
     scene: str
     structure: str
@@ -33,7 +33,7 @@ class MirrorRun:
 
 
 def read_mirrors(files: Iterable[Path]) -> tuple[list[MirrorRun], list[str]]:
-    """Those that can be shown, and a sentence for each file that cannot."""
+    """Returns the readable runs, and a sentence for each file that cannot be shown."""
     found, unread = [], []
     for file in files:
         try:
@@ -44,7 +44,7 @@ def read_mirrors(files: Iterable[Path]) -> tuple[list[MirrorRun], list[str]]:
 
 
 def mirrors_section(runs: Sequence[MirrorRun]) -> Section | None:
-    """Scene by scene; None where there is nothing."""
+    """Returns the section, scene by scene; None where there is nothing."""
     if not runs:
         return None
     words = (

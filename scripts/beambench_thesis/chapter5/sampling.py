@@ -57,7 +57,7 @@ class Comparison:
 
     @property
     def title(self) -> str:
-        """Scene and resolution, and the structure where it is not the beams' usual."""
+        """Scene and resolution, and the structure unless it is `beam`."""
         plain = self.scene.split(":")[0]
         name = scene_title(plain)
         own = "" if self.structure == "beam" else f", {self.structure}"
@@ -65,7 +65,7 @@ class Comparison:
 
     @property
     def methods(self) -> list[str]:
-        """Each once, in the order of the file."""
+        """The methods, each once, in the order of the file."""
         return list(dict.fromkeys(point.method for point in self.points))
 
     @property
@@ -75,20 +75,20 @@ class Comparison:
         return next((point for point in self.points if (point.method, point.setting) == own), None)
 
     def of(self, method: str) -> list[Point]:
-        """The settings of a method, the fastest first."""
+        """Returns the settings of a method, the fastest first."""
         points = (point for point in self.points if point.method == method)
         return sorted(points, key=lambda point: point.milliseconds)
 
     def time_at_error(self, method: str, error: float) -> float | None:
-        """Milliseconds in which a method reaches an error, between two settings as they are
-        drawn, by a straight line of logarithms; None beyond what was tried.
+        """Returns the milliseconds in which a method reaches an error, interpolated between two
+        settings on logarithmic axes; None outside the range that was tried.
         """
         return _between([(point.error, point.milliseconds) for point in self.of(method)], error)
 
     def reached(self, method: str, error: float) -> tuple[float, bool] | None:
-        """The least time in which a method reaches an error or a smaller one; is it that error
-        between two settings, and not a smaller one of a setting that was tried? None where every
-        setting has a larger error.
+        """Returns the least time in which a method reaches at most this error, and whether that
+        error is exact (interpolated) rather than the smaller one of a measured setting. None where
+        every setting has a larger error.
         """
         crossing = self.time_at_error(method, error)
         settings = [point.milliseconds for point in self.of(method) if point.error <= error]
@@ -97,14 +97,14 @@ class Comparison:
         return (min(settings), False) if settings else None
 
     def error_at_time(self, method: str, milliseconds: float) -> float | None:
-        """The error that a method reaches in a time; None beyond what was tried."""
+        """Returns the error that a method reaches in a time; None outside the tried range."""
         return _between(
             [(point.milliseconds, point.error) for point in self.of(method)], milliseconds
         )
 
 
 def read_comparison(path: Path) -> Comparison:
-    """Raises Problem where the file is not what `beambench sampling --json` prints."""
+    """Reads a file. Raises Problem where it is not output of `beambench sampling --json`."""
     try:
         source = load_json(path)
         points = tuple(_point(entry) for entry in source["results"])
@@ -123,7 +123,7 @@ def read_comparison(path: Path) -> Comparison:
 
 
 def read_comparisons(files: Iterable[Path]) -> tuple[list[Comparison], list[str]]:
-    """What can be shown, one file for each view, and a sentence for each file that cannot."""
+    """Returns one comparison for each view, and a sentence for each file that cannot be shown."""
     found: dict[str, Comparison] = {}
     unread = []
     for path in files:
@@ -147,7 +147,7 @@ def _point(entry: dict[str, Any]) -> Point:
 
 
 def _between(points: Sequence[tuple[float, float]], at: float) -> float | None:
-    """The first crossing along a line of logarithms."""
+    """Returns the first crossing along a line with logarithmic axes."""
     logs = [(math.log(x), math.log(y)) for x, y in points if x > 0 and y > 0]
     wanted = math.log(at) if at > 0 else math.inf
     for (x0, y0), (x1, y1) in pairwise(logs):
@@ -170,7 +170,7 @@ _OTHER = Look(structure_color("samet"), "^", ":")
 
 
 def draw_comparison(comparison: Comparison, stem: str) -> Plot:
-    """A line for each method, a point for each setting, both axes logarithmic."""
+    """Draws a line for each method and a point for each setting; both axes are logarithmic."""
     figure, (panel,) = new_figure(_HEIGHT)
     lines = {
         method: [point for point in comparison.of(method) if point.error > 0]
@@ -210,9 +210,10 @@ def draw_comparison(comparison: Comparison, stem: str) -> Plot:
 
 
 def _name_settings(panel: Axes, lines: Mapping[str, Sequence[Point]], ringed: Point | None) -> None:
-    """Beside every point its setting, off the lines; where they crowd, at the ends of each line.
+    """Labels every point with its setting, clear of the lines, or only line ends if there is no
+    room.
 
-    The ringed one has its name in the legend.
+    The ringed point is named in the legend.
     """
     corners = [[(point.milliseconds, point.error) for point in own] for own in lines.values()]
     for shown in (lines, {method: own[:: max(1, len(own) - 1)] for method, own in lines.items()}):
@@ -249,7 +250,7 @@ _CAPTION = (
 
 
 def sampling_section(comparisons: Sequence[Comparison]) -> Section | None:
-    """Scene by scene; None where there is nothing."""
+    """Returns the section, scene by scene; None where there is nothing."""
     if not comparisons:
         return None
     stems = file_stems(f"sampling {comparison.title}" for comparison in comparisons).values()
@@ -324,9 +325,7 @@ def _points(comparison: Comparison) -> SectionTable:
 
 
 def _findings(comparisons: Sequence[Comparison]) -> Iterable[str]:
-    """Of each other method: in how many scenes it is faster to the thesis's error, or a smaller
-    one.
-    """
+    """Yields, for each other method, in how many scenes it reaches the thesis's error faster."""
     compared = [comparison for comparison in comparisons if comparison.thesis]
     for method in dict.fromkeys(name for one in compared for name in one.methods):
         if method == UNIFORM:

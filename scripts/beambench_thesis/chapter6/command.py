@@ -20,7 +20,7 @@ from beambench_thesis.chapter6.split import simulate_split
 
 
 def add_cluster_command(commands: argparse._SubParsersAction, programs: Path) -> None:
-    """Adds `cluster` with its steps; `programs` is where the built ones are."""
+    """Adds `cluster` with its steps; `programs` is the folder of the built programs."""
     cluster = commands.add_parser(
         "cluster", help="simulate the thesis's cluster (chapter 6) with the costs of real beams"
     )

@@ -24,9 +24,9 @@ _SHOWN = (8, 15, 32, 64, 128, 256, 512, 1024)
 
 
 def _divided(simulations: pd.DataFrame) -> pd.DataFrame:
-    """Runs of the thesis's scenes on switched networks, static divisions and what they compare to.
+    """Returns runs of the thesis's scenes on switched networks: static divisions and their rivals.
 
-    Nothing where no division was simulated.
+    Empty where no division was simulated.
     """
     rows = simulations[
         simulations["options"].isin(_COMPARED)
@@ -40,7 +40,7 @@ def _divided(simulations: pd.DataFrame) -> pd.DataFrame:
 
 
 def _large(simulations: pd.DataFrame) -> pd.DataFrame:
-    """Runs of the large picture, with the efficiency of tracing alone."""
+    """Returns runs of the large picture, with the efficiency of tracing alone."""
     rows = simulations[simulations["scene"].eq(LARGE)]
     rows = rows.assign(processes=rows["consumers"] + 1)
     sequential = rows["sequential_seconds"] - rows["build_seconds"]
@@ -50,7 +50,7 @@ def _large(simulations: pd.DataFrame) -> pd.DataFrame:
 
 
 def division_plots(simulations: pd.DataFrame) -> list[Plot]:
-    """Efficiency over the processes: of each division, and of the large picture."""
+    """Plots efficiency over the processes, for each division and for the large picture."""
     plots = []
     rows = _divided(simulations)
     if not rows.empty:
@@ -89,7 +89,7 @@ def divisions_sections(
     recorded: Mapping[tuple[str, str], Recorded],
     shown: Mapping[str, str],
 ) -> str:
-    """Both sections of the page; empty where nothing of them was simulated."""
+    """Returns both sections of the page; empty where nothing was simulated for them."""
     parts = []
     rows = _divided(simulations)
     if not rows.empty:
@@ -147,7 +147,7 @@ def _of_large(recorded: Mapping[tuple[str, str], Recorded]) -> str:
 
 
 def _profile(rows: pd.DataFrame) -> str:
-    """Where the time of the largest runs goes."""
+    """Returns a table of how the largest runs spend their time."""
     most = rows[rows["processes"].eq(rows["processes"].max())]
     lines = [
         (

@@ -12,7 +12,7 @@ from beambench_thesis.paper.evidence import published_evidence
 
 @dataclass(frozen=True)
 class Network:
-    """Bytes a second are what is left for messages: 7% to 12% of the bits are headers."""
+    """A network. Its bytes per second exclude headers, which are 7% to 12% of the bits."""
 
     name: str
     kind: str  # shared: one medium for all; switched: a line for each machine, in both directions
@@ -20,7 +20,7 @@ class Network:
     latency_seconds: float
 
     def arguments(self) -> list[str]:
-        """The simulator's."""
+        """Arguments of the simulator."""
         return [
             *("--network", self.kind),
             *("--bandwidth", str(self.bytes_per_second)),
@@ -30,14 +30,14 @@ class Network:
 
 @dataclass(frozen=True)
 class Messages:
-    """Processor time that messages cost the sender and the receiver."""
+    """The processor time that messages cost the sender and the receiver."""
 
     message_seconds: float
     byte_seconds: float
     look_seconds: float
 
     def arguments(self) -> list[str]:
-        """The simulator's."""
+        """Arguments of the simulator."""
         return [
             *("--message-seconds", str(self.message_seconds)),
             *("--byte-seconds", str(self.byte_seconds)),
@@ -45,7 +45,7 @@ class Messages:
         ]
 
     def times(self, factor: float) -> Messages:
-        """The costs multiplied by a factor."""
+        """Returns the costs multiplied by a factor."""
         return Messages(
             self.message_seconds * factor, self.byte_seconds * factor, self.look_seconds * factor
         )
@@ -69,7 +69,7 @@ TRACED = "gato-bill"
 
 @dataclass(frozen=True)
 class Recorded:
-    """Sums of a recorded picture, in seconds of the recording machine."""
+    """Totals of a recorded picture, in seconds of the recording machine."""
 
     build_seconds: float
     walk_seconds: float
@@ -91,7 +91,7 @@ NONE = Slowness(1, 1, 1)
 
 
 def thesis_seconds(scene: str = TRACED) -> tuple[float, float]:
-    """Seconds that do not grow with the rays, and seconds per ray, on the cluster's machines."""
+    """Returns the constant seconds and the seconds per ray on the cluster's machines."""
     evidence = published_evidence()
     seconds = [evidence.time(scene, "beam", resolution) for resolution in RESOLUTIONS]
     slope, constant = np.polyfit(
@@ -106,7 +106,7 @@ CONSTANTS = AS_OURS, ALL_WALKING, ALL_BUILDING = ("as ours", "all walking", "all
 
 
 def slowness_of_1999(recorded: Recorded, constant_is: str = AS_OURS) -> Slowness:
-    """From our own picture of the same scene; `constant_is`: how the constant is divided."""
+    """Derives the factors from our picture of the scene; `constant_is` divides the constant."""
     constant, per_ray = thesis_seconds()
     work = per_ray * recorded.samples / recorded.work_seconds
     if constant_is == ALL_WALKING:

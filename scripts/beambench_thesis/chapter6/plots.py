@@ -1,4 +1,4 @@
-"""Figures 6.3 and 6.4 of the thesis as the simulation has them, and what came beyond."""
+"""Figures 6.3 and 6.4 of the thesis by our simulation, and figures beyond the thesis."""
 
 from collections.abc import Sequence
 
@@ -17,7 +17,7 @@ IDEAL = {"color": "#777777", "linewidth": 0.8, "linestyle": (0, (1, 2)), "zorder
 
 
 def cluster_plots(simulations: pd.DataFrame, processes: pd.DataFrame) -> list[Plot]:
-    """All figures that the tables have rows for."""
+    """Returns all figures that the tables have rows for."""
     thesis = simulations[
         simulations["options"].eq(THESIS_OPTIONS)
         & simulations["machines"].eq(EQUAL_MACHINES)
@@ -37,7 +37,7 @@ def cluster_plots(simulations: pd.DataFrame, processes: pd.DataFrame) -> list[Pl
 
 
 def _times(rows: pd.DataFrame) -> Plot:
-    """Figure 6.3: time, speed-up and efficiency over the consumers."""
+    """Draws figure 6.3: time, speedup and efficiency over the number of consumers."""
     figure, panels = new_figure(PAGE_WIDTH * 0.95, rows=2, columns=2)
     seconds, speed_up, counted, uncounted = panels
     for index, ((scene, network), group) in enumerate(_lines(rows)):
@@ -73,7 +73,7 @@ def _times(rows: pd.DataFrame) -> Plot:
 
 
 def _overlay_thesis(efficiency: Axes, scenes: Sequence[str]) -> None:
-    """Where the thesis's efficiency is best; of torre-eiffel only the mean is known."""
+    """Marks the thesis's best efficiency; for torre-eiffel only the mean is known."""
     cluster = published_evidence().cluster
     marks = []
     for scene in scenes:
@@ -100,7 +100,7 @@ def _overlay_thesis(efficiency: Axes, scenes: Sequence[str]) -> None:
 
 
 def _balance(thesis: pd.DataFrame, processes: pd.DataFrame) -> Plot | None:
-    """Figure 6.4: beams and busy time of each process, with all 15 machines."""
+    """Draws figure 6.4: beams and busy time of each process, with all 15 machines."""
     rows = thesis[thesis["consumers"].eq(STATIONS - 1)]
     rows = rows[rows["network"].eq(rows["network"].iloc[-1])] if not rows.empty else rows
     if rows.empty:
@@ -136,7 +136,7 @@ def _balance(thesis: pd.DataFrame, processes: pd.DataFrame) -> Plot | None:
 
 
 def _scaling(rows: pd.DataFrame, era: str) -> Plot | None:
-    """Speed-up of each option, and how busy the producer is, up to 1,024 processes."""
+    """Draws the speedup of each option and the load of the producer, up to 1,024 processes."""
     if rows.empty:
         return None
     scenes = list(dict.fromkeys(rows["scene"]))
@@ -173,7 +173,7 @@ def _lines(rows: pd.DataFrame) -> Sequence[tuple[tuple[str, str], pd.DataFrame]]
 
 
 def _option_lines(rows: pd.DataFrame, usual: str) -> Sequence[tuple[tuple[str, str], pd.DataFrame]]:
-    """A line for each option; behind them, those on another than the usual network."""
+    """Returns a line for each option, then lines for other networks than the usual one."""
     groups = dict(list(rows.groupby(["options", "network"], sort=False)))
     options = list(OPTIONS)
     order = sorted(groups, key=lambda key: (key[1] != usual, options.index(key[0])))
@@ -181,7 +181,7 @@ def _option_lines(rows: pd.DataFrame, usual: str) -> Sequence[tuple[tuple[str, s
 
 
 def line_look(index: int) -> dict[str, object]:
-    """Of the line of that number: distinguished by color, marker and dashes."""
+    """Returns the look of a line by its number: color, marker and dashes."""
     return {
         "color": LINE_COLORS[index % len(LINE_COLORS)],
         "marker": MARKERS[index % 7],
@@ -192,7 +192,7 @@ def line_look(index: int) -> dict[str, object]:
 
 
 def name_panel(panel: Axes, title: str, across: str, up: str) -> None:
-    """Its title and axes."""
+    """Sets the title and the axis labels of a panel."""
     panel.set_title(title, fontsize=9)
     panel.set_xlabel(across)
     panel.set_ylabel(up)

@@ -56,7 +56,7 @@ ENVIRONMENT = {
 
 @dataclass(frozen=True)
 class Picture:
-    """What is traced: as in section 6.3 of the thesis, but for tests."""
+    """The picture to trace; by default as in section 6.3 of the thesis."""
 
     scene: str
     width: int = 1280
@@ -66,7 +66,7 @@ class Picture:
     works: tuple[str, ...] = WORKS
 
     def arguments(self) -> list[str]:
-        """Those of beambench-cluster."""
+        """Arguments of beambench-cluster."""
         return [
             *(self.scene, "--accel", self.structure),
             *("--resolution", f"{self.width}x{self.height}", "--samples", str(self.samples)),
@@ -107,12 +107,12 @@ def record(folder: Path, program: Path, pictures: list[Picture], repeats: int) -
 
 
 def tasks_file(folder: Path, scene: str, work: str) -> Path:
-    """Where the tasks of a scene are kept."""
+    """Returns the path of the tasks of a scene."""
     return folder / "tasks" / f"{scene}-{work}.csv"
 
 
 def read_recorded(folder: Path) -> dict[tuple[str, str], Recorded]:
-    """Sums by scene and kind of work. Raises Problem where nothing was recorded."""
+    """Returns totals by scene and kind of work. Raises Problem where nothing was recorded."""
     path = folder / "recorded.json"
     try:
         sums = load_json(path)
@@ -131,7 +131,7 @@ def read_recorded(folder: Path) -> dict[tuple[str, str], Recorded]:
 
 
 def measure(folder: Path, program: Path, pictures: list[Picture], repeats: int) -> list[Path]:
-    """Writes FOLDER/measured.csv: each setting over each picture, seconds as medians of repeats.
+    """Writes FOLDER/measured.csv: each setting for each picture, seconds as medians of repeats.
 
     Raises Problem where mpirun is missing, a run fails, or two runs have other pictures.
     """
@@ -175,7 +175,7 @@ def measure(folder: Path, program: Path, pictures: list[Picture], repeats: int) 
 
 
 def measured_section(folder: Path) -> str | None:
-    """The page's section on this machine; None where nothing was measured."""
+    """Returns the page's section on this machine; None where nothing was measured."""
     if not (folder / MEASURED).is_file():
         return None
     rows = unguarded(pd.read_csv(folder / MEASURED, keep_default_na=False))
@@ -226,7 +226,7 @@ def _record_once(program: Path, picture: Picture, work: str) -> tuple[pd.DataFra
 
 
 def _medians(runs: list[pd.DataFrame]) -> pd.DataFrame:
-    """One table; raises Problem where two runs had other tasks."""
+    """Returns one table of medians. Raises Problem where two runs have different tasks."""
     first = runs[0]
     for other in runs[1:]:
         if not other.drop(columns=_COSTS).equals(first.drop(columns=_COSTS)):

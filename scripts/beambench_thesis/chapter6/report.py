@@ -1,4 +1,4 @@
-"""The page of the simulated cluster: Markdown with its figures beside it."""
+"""The page of the simulated cluster: Markdown and its figures."""
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -152,7 +152,7 @@ def _by_consumers(
     counts: Sequence[int],
     cell: Callable[[pd.Series], str],
 ) -> str:
-    """A column for each number of consumers."""
+    """Returns a table with a column for each number of consumers."""
     heads = {n: f"{n} consumers" for n in counts}
     return _pivot(title, rows, by, "consumers", heads, cell)
 
@@ -165,7 +165,7 @@ def _pivot(
     heads: Mapping[object, str],
     cell: Callable[[pd.Series], str],
 ) -> str:
-    """A row for each scene and value of `by`, a column for each of `heads`, values of `across`."""
+    """Returns a row for each scene and value of `by`; `heads` are the values of `across`."""
     lines = []
     for (scene, which), group in rows.groupby(["scene", by], sort=False):
         runs = group.drop_duplicates(across).set_index(across)

@@ -1,4 +1,4 @@
-"""What was simulated, as CSV: a row for each simulation, and one for each of its processes."""
+"""Results of simulations as CSV: a row for each simulation, and one for each of its processes."""
 
 from pathlib import Path
 
@@ -34,20 +34,20 @@ def is_cluster_folder(folder: Path) -> bool:
 
 
 def read_simulations(folder: Path) -> pd.DataFrame:
-    """Raises Problem where the table is missing or lacks a column."""
+    """Reads a table. Raises Problem where it is missing or lacks a column."""
     return read_table(folder / SIMULATIONS, _OF_SIMULATIONS, _REMEDY, {"era": str})
 
 
 def read_processes(folder: Path) -> pd.DataFrame:
-    """Raises Problem where the table is missing or lacks a column."""
+    """Reads a table. Raises Problem where it is missing or lacks a column."""
     return read_table(folder / PROCESSES, _OF_PROCESSES, _REMEDY)
 
 
 def write_results(folder: Path, results: list[dict[str, object]]) -> list[Path]:
-    """Writes both tables from what the simulator printed, each result with its setting.
+    """Writes both tables from the simulator's output, each result with its setting.
 
-    With the thesis's formulas 6.1 and 6.2: speed-up, and the efficiency with the producer counted,
-    and without.
+    Speedup and efficiency follow the thesis's formulas 6.1 and 6.2; the efficiency is given with
+    the producer counted and without.
     """
     rows = pd.DataFrame(results).assign(simulation=range(1, len(results) + 1))
     rows["speed_up"] = rows["sequential_seconds"] / rows["seconds"]

@@ -41,10 +41,9 @@ _COLUMNS = ("division", *COLUMNS, "busy_share")
 def simulate_scene_divisions(
     folder: Path, program: Path, resolution: str, repeats: int, most: int
 ) -> list[Path]:
-    """Writes FOLDER/scene-divisions.csv. The speed-up is that over one part of the same scene.
+    """Writes FOLDER/scene-divisions.csv. The speedup is relative to one part of the same scene.
 
-    What was simulated before is not simulated again. Raises Problem where parts give another
-    picture than the whole.
+    Earlier results are reused. Raises Problem where parts give another picture than the whole.
     """
     cache = ResultCache(folder / "scene-divisions-answers.jsonl")
     rows: list[dict[str, object]] = []
@@ -68,7 +67,7 @@ def simulate_scene_divisions(
 
 
 def read_scene_divisions(folder: Path) -> pd.DataFrame | None:
-    """The table; nothing where there is none. Raises Problem where it lacks a column."""
+    """Returns the table; None where there is none. Raises Problem where it lacks a column."""
     path = folder / DIVISIONS_TABLE
     if not path.is_file():
         return None
@@ -92,7 +91,7 @@ _SUMMARY = "ways to divide a scene: efficiency, and memory of the largest part"
 
 
 def scene_divisions_plot(rows: pd.DataFrame) -> Plot:
-    """Efficiency and memory of each division, a column for each scene."""
+    """Draws efficiency and memory of each division, a column for each scene."""
     scenes = list(dict.fromkeys(rows["scene"]))
     figure, panels = new_figure(PAGE_WIDTH, rows=2, columns=len(scenes))
     for column, scene in enumerate(scenes):
@@ -118,7 +117,7 @@ def scene_divisions_plot(rows: pd.DataFrame) -> Plot:
 
 
 def scene_divisions_section(rows: pd.DataFrame) -> str:
-    """Its section of the page, with the figure."""
+    """Returns the section of the page, with the figure."""
     lines = []
     for scene, of_scene in rows.groupby("scene", sort=False):
         alone = of_scene.iloc[0]

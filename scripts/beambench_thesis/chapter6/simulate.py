@@ -1,4 +1,4 @@
-"""Which simulations are made, and running the simulator for each."""
+"""The list of simulations, and running the simulator for each."""
 
 import json
 import sys
@@ -108,7 +108,7 @@ class Simulation:
         return _WORK.get(self.options, BEAMS)
 
     def arguments(self) -> list[str]:
-        """Those of the simulator that do not depend on what was recorded."""
+        """Arguments of the simulator that do not depend on recordings."""
         pixels = self.era == OLD and not self.own_messages and self.work != TILES
         return [
             *("--consumers", str(self.consumers)),
@@ -121,7 +121,7 @@ class Simulation:
 
 
 def simulations(scenes: tuple[str, ...], *, most: int = 1024) -> list[Simulation]:
-    """All of them, none with more than `most` processes."""
+    """Returns all simulations with at most `most` processes."""
     every = [
         *(each for scene in scenes for each in _thesis(scene)),
         *(each for scene in scenes for each in _many(scene)),
@@ -138,7 +138,7 @@ def _old(scene: str, network: Network, consumers: int) -> Simulation:
 
 
 def _thesis(scene: str) -> list[Simulation]:
-    """Figures 6.3 and 6.4: 1 to 14 consumers; a few more to see where the producer saturates."""
+    """Simulates figures 6.3 and 6.4: 1 to 14 consumers, and more until the producer saturates."""
     return [
         _old(scene, network, consumers)
         for network in (SHARED, SWITCHED)
@@ -150,7 +150,7 @@ _CLUSTERS = ((OLD, SWITCHED, MESSAGES_OF_1999), (TODAY, MODERN, MESSAGES_OF_TODA
 
 
 def _divided(scene: str) -> list[Simulation]:
-    """Static divisions of the image, and tiles, on both clusters."""
+    """Returns static divisions of the image, and tiles, on both clusters."""
     return [
         Simulation(era, scene, network, messages, consumers, options)
         for era, network, messages in _CLUSTERS
@@ -160,7 +160,7 @@ def _divided(scene: str) -> list[Simulation]:
 
 
 def _large() -> list[Simulation]:
-    """A picture that is large enough for 1,024 processes."""
+    """Returns simulations of a picture large enough for 1,024 processes."""
     return [
         Simulation(era, LARGE, network, messages, consumers, options)
         for era, network, messages in _CLUSTERS
@@ -170,7 +170,7 @@ def _large() -> list[Simulation]:
 
 
 def _many(scene: str) -> list[Simulation]:
-    """Where the producer saturates, and what each option changes."""
+    """Returns simulations that show when the producer saturates, and the effect of each option."""
     return [
         Simulation(era, scene, network, messages, consumers, options)
         for era, network, messages in _CLUSTERS
@@ -180,7 +180,7 @@ def _many(scene: str) -> list[Simulation]:
 
 
 def _unlike(scene: str) -> list[Simulation]:
-    """Machines of two speeds, and machines that others use."""
+    """Returns simulations with machines of two speeds, and with machines that others use."""
     return [
         Simulation(OLD, scene, SWITCHED, MESSAGES_OF_1999, STATIONS - 1, options, machines)
         for machines in MACHINES
@@ -189,7 +189,7 @@ def _unlike(scene: str) -> list[Simulation]:
 
 
 def _assumptions(scene: str) -> list[Simulation]:
-    """What messages were assumed to cost, halved and doubled; and larger results."""
+    """Returns simulations with half and double the assumed cost of messages, and larger results."""
     usual = [
         _old(scene, network, consumers)
         for network in (SHARED, SWITCHED)
@@ -211,7 +211,7 @@ class ResultCache:
     """Results of the simulator by its arguments, in a file that grows line by line."""
 
     def __init__(self, path: Path) -> None:
-        """Reads what the file has."""
+        """Reads the file."""
         self._path = path
         self._writing = threading.Lock()
         self._known: dict[tuple[str, ...], dict[str, object]] = {}
@@ -223,7 +223,8 @@ class ResultCache:
             self._known[tuple(entry["arguments"])] = entry["answer"]
 
     def result(self, key: list[str], command: list[str]) -> dict[str, object]:
-        """The result under `key`, which the command computes if it is not known; from any thread.
+        """Returns the result stored under `key`, or computes it by the command; callable from any
+        thread.
 
         Raises Problem where the simulator is not there, or fails.
         """
@@ -239,10 +240,9 @@ class ResultCache:
 
 
 def simulate(folder: Path, program: Path, plan: Sequence[Simulation], jobs: int = 1) -> list[Path]:
-    """Writes FOLDER/simulations.csv and processes.csv from what was recorded there.
+    """Writes FOLDER/simulations.csv and processes.csv from the recordings there.
 
-    `jobs` simulations at a time. What was simulated before is not simulated again:
-    FOLDER/answers.jsonl has its results.
+    Runs `jobs` simulations at a time. Earlier results are reused: FOLDER/answers.jsonl has them.
     """
     recorded = read_recorded(folder)
     cache = ResultCache(folder / "answers.jsonl")
@@ -260,7 +260,7 @@ def simulate(folder: Path, program: Path, plan: Sequence[Simulation], jobs: int 
 
 
 def slowness_of(recorded: dict[tuple[str, str], Recorded], constant_is: str = AS_OURS) -> Slowness:
-    """By the scene of which the thesis states its seconds."""
+    """Returns the slowness, from the scene whose seconds the thesis states."""
     known = recorded.get((TRACED, BEAMS))
     if known is None:
         raise Problem(f"{TRACED} was not recorded, by which machines of 1999 are calibrated")

@@ -1,8 +1,8 @@
-"""A divided scene (`--split`) on simulated clusters: how time, traffic and memory grow with parts.
+"""A divided scene (`--split`) on simulated clusters: growth of time, traffic and memory with parts.
 
-It is really traced while it is simulated, so the times of one run are those of this machine at that
-time: medians of several runs are kept. Machines of 1999 are those of the other simulations
-(`calibration.py`).
+The scene is really traced during the simulation, so the times of one run depend on the state of
+this machine: medians of several runs are kept. Machines of 1999 are as in the other simulations
+(`machines.py`).
 """
 
 import sys
@@ -36,7 +36,7 @@ PARTS = (1, 2, 4, 8, 16, 32, 64)
 
 @dataclass(frozen=True)
 class Divided:
-    """A scene, and the octree that suits it."""
+    """A scene and the octree that suits it."""
 
     scene: str
     structure: str
@@ -81,10 +81,10 @@ COLUMNS = (
 def simulate_split(
     folder: Path, program: Path, resolution: str, repeats: int, most: int
 ) -> list[Path]:
-    """Writes FOLDER/split.csv, with machines of 1999 by what was recorded there.
+    """Writes FOLDER/split.csv; machines of 1999 follow from the recordings there.
 
-    What was simulated before is not simulated again: FOLDER/split-answers.jsonl has its results.
-    Raises Problem where parts give another picture than the whole.
+    Earlier results are reused: FOLDER/split-answers.jsonl has them. Raises Problem where parts give
+    another picture than the whole.
     """
     cache = ResultCache(folder / "split-answers.jsonl")
     slow_by_era = {OLD: slowness_of(read_recorded(folder)), TODAY: NONE}
@@ -105,7 +105,7 @@ def simulate_split(
 
 
 def median_run(cache: ResultCache, program: Path, arguments: list[str], repeats: int) -> dict:
-    """Of several, the one whose tracing took the median."""
+    """Returns the run with the median tracing time, out of `repeats`."""
     runs = [
         cache.result([str(repeat), *arguments], [str(program), "split", *arguments])
         for repeat in range(repeats)
@@ -115,7 +115,7 @@ def median_run(cache: ResultCache, program: Path, arguments: list[str], repeats:
 
 
 def read_split(folder: Path) -> pd.DataFrame | None:
-    """The table; nothing where there is none. Raises Problem where it lacks a column."""
+    """Returns the table; None where there is none. Raises Problem where it lacks a column."""
     path = folder / SPLIT
     if not path.is_file():
         return None
@@ -127,7 +127,7 @@ def read_split(folder: Path) -> pd.DataFrame | None:
 def arguments_of(
     era: str, divided: Divided, parts: int, slow: Slowness, resolution: str
 ) -> list[str]:
-    """The simulator's."""
+    """Returns arguments of the simulator."""
     network, messages = CLUSTERS[era]
     return [
         divided.scene,
@@ -144,14 +144,14 @@ def arguments_of(
 
 
 def total(result: dict, quantity: str) -> float:
-    """Sum over all processes."""
+    """Returns the sum over all processes."""
     return sum(process[quantity] for process in result["processes"])
 
 
 def row_of(
     era: str, divided: Divided, resolution: str, result: dict, alone: dict
 ) -> dict[str, object]:
-    """A row of the table; speed-up is that over `alone`."""
+    """Returns a row of the table; the speedup is relative to `alone`."""
     processes = result["processes"]
     speed_up = alone["traced_seconds"] / result["traced_seconds"]
     busiest = max(process["busy"] for process in processes)
@@ -196,7 +196,7 @@ _SUMMARY = "divided scenes: speed-up, memory of the largest part, traffic"
 
 
 def split_plot(rows: pd.DataFrame) -> Plot:
-    """Speed-up on both clusters, the largest part's memory, and what crossed borders."""
+    """Draws the speedup on both clusters, the largest part's memory, and traffic across borders."""
     figure, panels = new_figure(PAGE_WIDTH * 0.85, rows=2, columns=2)
     memory, crossed = panels[2], panels[3]
     eras = list(dict.fromkeys(rows["era"]))
@@ -226,7 +226,7 @@ def split_plot(rows: pd.DataFrame) -> Plot:
 
 
 def split_section(rows: pd.DataFrame) -> str:
-    """Its section of the page, with the figure."""
+    """Returns the section of the page, with the figure."""
     resolution = rows["resolution"].iloc[0]
     return "\n".join(
         [
@@ -248,12 +248,12 @@ def split_section(rows: pd.DataFrame) -> str:
 
 
 def name_of_machines(era: str) -> str:
-    """Of an era, with their network."""
+    """Returns the machines of an era in words, with their network."""
     return "1999, 100 Mbit/s" if era == OLD else f"{era}, 10 Gbit/s"
 
 
 def share_of_memory(group: pd.DataFrame) -> pd.Series:
-    """Of what one process has."""
+    """Returns the memory of each part as a share of one process's memory."""
     return group["largest_bytes"] / group["largest_bytes"].iloc[0]
 
 
@@ -270,7 +270,7 @@ def _speed_ups(rows: pd.DataFrame) -> str:
 
 
 def _costs(rows: pd.DataFrame) -> str:
-    """Where the time goes, and what else it costs."""
+    """Returns a table of time and other costs."""
     last = rows[rows["era"].eq(rows["era"].iloc[-1])]
     lines = []
     for scene, group in last.groupby("scene", sort=False):

@@ -1,4 +1,4 @@
-"""The rules: what must be measured for each claim of the thesis's chapter 5 to hold.
+"""The rules: the measurements by which each claim of the thesis's chapter 5 holds.
 
 A rule gives one check for each cell of a table that it looks at; `verdict.py` makes one verdict of
 them. Thresholds stand in words beside each rule. Seconds contain the building of the structure, and
@@ -61,7 +61,7 @@ ALL_SCENES = tuple(
     "At level 6, more objects per leaf make the beams slower from 640x480.",
 )
 def more_objects_are_slower(e: Evidence) -> list[Check]:
-    """At each resolution each step, 0 to 10 to 20 to 40 objects, takes longer."""
+    """Each step, 0 to 10 to 20 to 40 objects, takes longer at each resolution."""
     return [
         below(
             f"{scene} {resolution}, {fewer} to {more} objects",
@@ -79,7 +79,7 @@ def more_objects_are_slower(e: Evidence) -> list[Check]:
     "More objects per leaf leave fewer occupied leaves and far fewer pixels in exit beams.",
 )
 def more_objects_leave_fewer_exits(e: Evidence) -> list[Check]:
-    """Fewer of both at each step; far fewer pixels: a tenth or less with 40 objects as with 0."""
+    """Both numbers fall at each step; "far fewer" means at most a tenth with 40 objects."""
     steps = [
         below(
             f"{scene} {what.replace('_', ' ')}, {fewer} to {more} objects",
@@ -106,7 +106,7 @@ def more_objects_leave_fewer_exits(e: Evidence) -> list[Check]:
     "A deeper octree helps up to level 6 and hurts at level 7, from 640x480.",
 )
 def level_six_is_best(e: Evidence) -> list[Check]:
-    """Of levels 4 to 7: 5 is quicker than 4, 6 than 5, and 6 than 7."""
+    """Level 5 is quicker than 4, and 6 is quicker than 5 and than 7."""
     return [
         below(
             f"{scene} {resolution}, level {quicker} before {slower}",
@@ -124,7 +124,7 @@ def level_six_is_best(e: Evidence) -> list[Check]:
     "The slope of time over rays falls with every level, level 7 included.",
 )
 def slopes_fall_with_the_level(e: Evidence) -> list[Check]:
-    """Least squares over the five resolutions; seconds for each 10,000 rays."""
+    """Slopes are least squares over the five resolutions, in seconds for each 10,000 rays."""
     return [
         below(
             f"{scene}, level {deeper} flatter than {deeper - 1}",
@@ -141,7 +141,7 @@ def slopes_fall_with_the_level(e: Evidence) -> list[Check]:
     "Pixels in exit beams grow with the level, and are more for delfines than for maceta.",
 )
 def exits_grow_with_the_level(e: Evidence) -> list[Check]:
-    """More at each step from level 4 to 7; more for delfines at each level."""
+    """Numbers rise at each step from level 4 to 7, and are larger for delfines at each level."""
     steps = [
         below(
             f"{scene} exit pixels, level {level} to {level + 1}",
@@ -169,7 +169,7 @@ def exits_grow_with_the_level(e: Evidence) -> list[Check]:
     "The beams' time is linear in the rays; relative growth is larger for escena1 than escena2.",
 )
 def time_is_linear(e: Evidence) -> list[Check]:
-    """Linear: R2 of 0.99 or more. Growth: over the time at 320x200."""
+    """Linear means R2 of 0.99 or more. Growth is relative to the time at 320x200."""
     return [
         *(is_linear(scene, line_of(e, scene)) for scene in ("escena1", "escena2")),
         *grows_more(e, ("escena1",), ("escena2",)),
@@ -182,7 +182,7 @@ def time_is_linear(e: Evidence) -> list[Check]:
     "Relative growth is larger for bola-espacial and caracol than for tetera and torre-eiffel.",
 )
 def crowded_scenes_grow_more(e: Evidence) -> list[Check]:
-    """Each of the two grows more than each of the others, at each resolution."""
+    """Returns each of the two grows more than each of the others, at each resolution."""
     return grows_more(e, _CROWDED, _SPACIOUS)
 
 
@@ -204,7 +204,7 @@ def samples_widen_the_gap(e: Evidence) -> list[Check]:
 
 @CLAIMS.claim("C09", "5.3.3", "Time spent on non-terminal beams does not depend on the resolution.")
 def nonterminal_time_is_constant(e: Evidence) -> list[Check]:
-    """Where rays grow twentyfold, the maximum is less than one and a half times the minimum."""
+    """The maximum is less than 1.5 times the minimum while rays grow twentyfold."""
     checks = []
     for scene, level in dict.fromkeys((scene, level) for scene, level, _ in e.beam_cells):
         seconds = {
@@ -240,7 +240,7 @@ _CUT_BEAMS = (
 def beams_of_maceta(
     e: Evidence, every: str = "beams_made", inner: str = "beams_divided"
 ) -> list[Check]:
-    """Beams that cutting made, and those of them that were cut.
+    """Counts beams made by cutting, and those of them that were cut.
 
     A stand-in's counts are to be within a factor of 2, shares within 10 points.
     """
@@ -277,9 +277,9 @@ def beams_of_maceta(
     why=_CUT_BEAMS,
 )
 def occupied_leaves_take_the_time(e: Evidence, every: str = "beams_made") -> list[Check]:
-    """Most: more than half of all fifteen scenes. bola-espacial: 95% or more, and 63 +- 10%.
+    """Most means more than half of the scenes; bola-espacial: 95% or more, and 63 +- 10%.
 
-    All beams: those that cutting made.
+    All beams are those that cutting made.
     """
     beams = e.worked("share_of_beams_occupied", "bola-espacial")
     if beams is None:
@@ -305,7 +305,7 @@ def occupied_leaves_take_the_time(e: Evidence, every: str = "beams_made") -> lis
 
 @CLAIMS.claim("C12", "5.3.3", "Two cost formulas, of counts for each task, explain the time.")
 def formulas_explain_the_time(e: Evidence) -> list[Check]:
-    """Fitted to ten cells or more: R2 of 0.9 or more, median error below a quarter."""
+    """Fits to ten cells or more have R2 of 0.9 or more and a median error below a quarter."""
     return [
         *formula(e, "nonterminal", ("beams_nonterminal", "beam_clips", "neighbor_searches")),
         *formula(
@@ -333,7 +333,7 @@ def formulas_explain_the_time(e: Evidence) -> list[Check]:
     "At 1280x1024 the beams beat Samet and Samet-Net on the same octree in all six scenes.",
 )
 def beams_win_at_high_resolution(e: Evidence) -> list[Check]:
-    """Six scenes, two opponents."""
+    """Compares six scenes with two opponents each."""
     return [beats(e, scene, "beam", other) for scene, other in product(ON_OCTREES, SAMETS)]
 
 
@@ -347,7 +347,7 @@ def _rays_before_beams(e: Evidence, scene: str, resolution: str = COARSEST) -> C
 
 
 def _rays_win_wherever_named(e: Evidence) -> list[Check]:
-    """In each of the four scenes the better of Samet and Samet-Net beats the beams."""
+    """The better of Samet and Samet-Net beats the beams in each of the four scenes."""
     named = ("escena1", "escena2", "gato-bill", "stetra")
     return [_rays_before_beams(e, scene) for scene in named]
 
@@ -361,7 +361,7 @@ def _rays_win_wherever_named(e: Evidence) -> list[Check]:
     "four scenes where they do in the thesis",
 )
 def rays_can_win_at_low_resolution(e: Evidence) -> list[Check]:
-    """In one scene or more of table 5.4, and in one or more of table 5.5."""
+    """Rays win in at least one scene of table 5.4 and in at least one of table 5.5."""
     synthetic, real = ON_OCTREES[:2], ON_OCTREES[2:]
     said = replace(
         _rays_before_beams(e, "gato-bill", "640x480"),
@@ -376,7 +376,7 @@ def rays_can_win_at_low_resolution(e: Evidence) -> list[Check]:
 
 @CLAIMS.claim("C15", "5.4.1", "Samet-Net beats Samet in every scene and resolution.")
 def links_pay(e: Evidence) -> list[Check]:
-    """Six scenes, five resolutions."""
+    """Compares six scenes at five resolutions each."""
     return [
         beats(e, scene, "samet-net", "samet", resolution)
         for scene, resolution in product(ON_OCTREES, RESOLUTIONS)
@@ -389,7 +389,7 @@ def links_pay(e: Evidence) -> list[Check]:
     "At high resolution the beams win when Samet and Samet-Net have their own best level.",
 )
 def beams_win_at_best_levels(e: Evidence) -> list[Check]:
-    """At 1280x1024, each at the best of its levels; opponents have three levels or more."""
+    """Compares the best levels at 1280x1024; opponents need three levels or more."""
     checks = []
     for scene, other in product(("casa-de-campo", "gato-bill"), SAMETS):
         beams = list(e.times_by("level", scene, "beam").values())
@@ -422,7 +422,7 @@ _FORMER_HIERARCHY = {"hierarchy": PAPER_HIERARCHY}
     why=_INSERTION,
 )
 def distribution_decides(e: Evidence, hierarchy: str = HIERARCHY) -> list[Check]:
-    """At every resolution; by far: twice as fast at 1280x1024."""
+    """Holds at every resolution; "by far" means twice as fast at 1280x1024."""
     return [
         *(beats(e, "escena1", "voxel-grid", hierarchy, at) for at in RESOLUTIONS),
         beats(e, "escena1", "voxel-grid", hierarchy, factor=2),
@@ -438,7 +438,7 @@ def distribution_decides(e: Evidence, hierarchy: str = HIERARCHY) -> list[Check]
     why=_INSERTION,
 )
 def beams_win_against_other_structures(e: Evidence, hierarchy: str = HIERARCHY) -> list[Check]:
-    """Four scenes, two opponents."""
+    """Compares four scenes with two opponents each."""
     scenes = ("escena1", "escena2", "tetera", "bola-espacial")
     others = ("voxel-grid", hierarchy)
     return [beats(e, scene, "beam", other) for scene, other in product(scenes, others)]
@@ -452,7 +452,7 @@ def beams_win_against_other_structures(e: Evidence, hierarchy: str = HIERARCHY) 
     why=_INSERTION,
 )
 def hierarchy_falls_behind(e: Evidence, hierarchy: str = HIERARCHY) -> list[Check]:
-    """From each scene to the next larger one (1,004 to 34,110 objects), time and ratio grow."""
+    """Time and ratio grow from each scene to the next larger one (1,004 to 34,110 objects)."""
     seconds = {scene: e.time(scene, hierarchy) for scene in _BY_COUNT}
     ratios = {scene: ratio_of(seconds[scene], e.time(scene, "beam")) for scene in _BY_COUNT}
     return [
@@ -469,7 +469,7 @@ def hierarchy_falls_behind(e: Evidence, hierarchy: str = HIERARCHY) -> list[Chec
     "beat the grid at its best.",
 )
 def beams_win_against_the_best_grid(e: Evidence) -> list[Check]:
-    """At 1280x1024, of five grids or more: best between both ends, at 13 or 15 within half."""
+    """The best of five or more grids lies between both ends, within half of 13 or 15; 1280x1024."""
     checks = []
     for scene, best in (("flamenco", 13), ("ajedrez", 15)):
         sweep = e.times_by("cells", scene, "voxel-grid")
@@ -496,7 +496,7 @@ def beams_win_against_the_best_grid(e: Evidence) -> list[Check]:
     why=_INSERTION,
 )
 def sizes_of_hierarchies(e: Evidence, hierarchy: str = HIERARCHY) -> list[Check]:
-    """A stand-in's boxes are to be within a factor of 1.5, its cost within 2; costs in order."""
+    """A stand-in's boxes are within a factor of 1.5, its cost within 2; costs are in order."""
     printed = (
         ("bola-espacial", "boxes", 1154, 1.5),
         ("tetera", "boxes", 731, 1.5),

@@ -1,10 +1,10 @@
-"""The rules of chapter 6: what the simulated cluster must show for its claims to hold.
+"""The rules of chapter 6: the measurements on the simulated cluster by which its claims hold.
 
-Written and committed before the cluster was simulated for the first time. The thesis says of its
-network that it is an Ethernet, of its processors that there were 15, and not whether its `p` counts
-the producer's. Its efficiency rises with p at first, which it can only where the producer, who
-traces no beam of the consumers', is counted: so p is counted here. The rules are applied
-to each network that was simulated.
+Written and committed before the cluster was simulated for the first time. The thesis says that its
+network is an Ethernet and that there were 15 processors, but not whether its `p` counts the
+producer. Its efficiency rises with p at first, which is possible only if the producer, which traces
+no beams of the consumers, is counted: so p counts it here. The rules are applied to each simulated
+network.
 """
 
 from collections.abc import Callable
@@ -37,7 +37,7 @@ _BOTH = _CAT, _TOWER = "gato-bill", "torre-eiffel"
 
 
 def _on_each_network(rule: Callable[[Evidence, str], list[Check]]) -> Rule:
-    """The checks of all networks; one that is missing where there is no network at all."""
+    """Combines the checks of all networks; without a network, there is one missing check."""
 
     @wraps(rule)
     def on_all(e: Evidence) -> list[Check]:
@@ -56,7 +56,7 @@ def _on_each_network(rule: Callable[[Evidence, str], list[Check]]) -> Rule:
 )
 @_on_each_network
 def efficiency_rises_and_falls(e: Evidence, network: str) -> list[Check]:
-    """Best at 9 to 13 and at 5 to 9 processors, 0.65 to 0.85 and above 0.6, less with all 15."""
+    """Best at 9 to 13 and at 5 to 9 processors, 0.65 to 0.85 and above 0.6; lower with all 15."""
     best = {scene: e.cluster.figure("best_efficiency", scene, network) for scene in _BOTH}
     processors = {scene: e.cluster.figure("best_processors", scene, network) for scene in _BOTH}
     means = {scene: e.cluster.figure("mean_efficiency", scene, network) for scene in _BOTH}
@@ -93,7 +93,7 @@ def efficiency_rises_and_falls(e: Evidence, network: str) -> list[Check]:
 )
 @_on_each_network
 def balanced_by_demand(e: Evidence, network: str) -> list[Check]:
-    """With 14 consumers: most beams 1.1 times the fewest; first end at 0.95 of the last."""
+    """The most beams of 14 consumers are 1.1 times the fewest; the first ends after 0.95."""
     checks = []
     for scene in _BOTH:
         fewest, most, first, last = (
@@ -137,7 +137,7 @@ _MANY = 4 * STATIONS  # who does not saturate the producer by then does so later
 
 
 def cluster_evidence(folder: Path) -> ClusterEvidence:
-    """The figures of all scenes and networks in the folder that the thesis's program ran on.
+    """Returns the figures of all scenes and networks that the thesis's program ran on.
 
     Raises Problem where the folder cannot be read.
     """

@@ -1,4 +1,4 @@
-"""Straight lines and cost formulas by least squares."""
+"""Comparisons that rules are made of; straight lines and cost formulas by least squares."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -67,21 +67,21 @@ def beats(
 
 
 def best_ray(e: Evidence, scene: str, resolution: str) -> Measured | None:
-    """The better of Samet and Samet-Net, where both were timed."""
+    """Returns the better of Samet and Samet-Net, where both were timed."""
     known = [e.time(scene, contender, resolution) for contender in SAMETS]
     times = [time for time in known if time is not None]
     return smallest(times) if len(times) == len(SAMETS) else None
 
 
 def line_of(e: Evidence, scene: str, level: int = LEVEL) -> Line | None:
-    """Seconds over rays in tens of thousands, as in the thesis's figures."""
+    """Fits seconds over rays in tens of thousands, as in the thesis's figures."""
     times = [e.time(scene, "beam", resolution, level=level) for resolution in RESOLUTIONS]
     known = [time for time in times if time is not None]
     return fit_line([rays(at) / 1e4 for at in RESOLUTIONS], known) if known == times else None
 
 
 def slope(line: Line | None) -> Measured | None:
-    """The slope of a line that there is."""
+    """Returns the slope of a line, if there is one."""
     return line.slope if line else None
 
 
@@ -96,13 +96,13 @@ def is_linear(scene: str, line: Line | None) -> Check:
 
 
 def growing_share(e: Evidence, scene: str) -> Measured | None:
-    """The part of the time at 1280x1024 that grows with the rays, by the line through all five."""
+    """Returns the share of the time at 1280x1024 that grows with the rays, by the fitted line."""
     line, whole = line_of(e, scene), e.time(scene, "beam")
     return line.slope.times(rays(FINEST) / 1e4) / whole if line and whole else None
 
 
 def growth(e: Evidence, scene: str, resolution: str, samples: int = 1) -> Measured | None:
-    """The beams' time over that at 320x200."""
+    """Returns the beams' time over that at 320x200."""
     return ratio_of(
         e.time(scene, "beam", resolution, samples=samples),
         e.time(scene, "beam", COARSEST, samples=samples),
@@ -122,12 +122,12 @@ def grows_more(e: Evidence, more: tuple[str, ...], less: tuple[str, ...]) -> lis
 
 
 def ratio_of(over: Measured | None, under: Measured | None) -> Measured | None:
-    """The ratio of two figures that there are."""
+    """Returns the ratio of two figures, if both are known."""
     return None if over is None or under is None else over / under
 
 
 def difference(more: Measured | None, less: Measured | None) -> Measured | None:
-    """The difference of two figures that there are."""
+    """Returns the difference of two figures, if both are known."""
     return None if more is None or less is None else more - less
 
 
@@ -144,7 +144,7 @@ def most(cell: str, shares: dict[str, Measured | None], bound: float, of: int) -
 
 
 def any_of(cell: str, checks: Sequence[Check]) -> Check:
-    """Does one of several cells or more say yes?"""
+    """Does at least one of several cells say yes?"""
     outcomes = {check.outcome for check in checks}
     figures = ", ".join(f"{check.cell}: {check.figures}" for check in checks if check.figures)
     for outcome in (Outcome.MISSING, Outcome.YES, Outcome.UNDECIDED):
@@ -154,13 +154,13 @@ def any_of(cell: str, checks: Sequence[Check]) -> Check:
 
 
 def seconds_per_beam(e: Evidence, level: int) -> Measured | None:
-    """What a non-terminal beam of maceta, in the thesis's counting, costs at 320x200."""
+    """Returns the cost of a non-terminal beam of maceta at 320x200, counted as in the thesis."""
     seconds = e.worked("seconds_nonterminal", "maceta", COARSEST, level=level)
     return ratio_of(seconds, e.worked("beams_divided", "maceta", level=level))
 
 
 def formula(e: Evidence, task: str, quantities: tuple[str, ...]) -> list[Check]:
-    """Is the time of a task a sum of counts, each times a cost? Asked of ten cells or more."""
+    """Is the time of a task a sum of counts, each times a cost? Needs ten cells or more."""
     seconds, counts = [], []
     for scene, level, resolution in e.beam_cells:
         time = e.worked(f"seconds_{task}", scene, resolution, level=level)
@@ -179,7 +179,7 @@ def formula(e: Evidence, task: str, quantities: tuple[str, ...]) -> list[Check]:
 
 
 def _fit(seconds: Sequence[Measured], counts: np.ndarray) -> tuple[Measured, Measured]:
-    """R2 and median error of a fit, with what the errors of the times make of them.
+    """Returns R2 and median error of a fit, with the intervals that follow from those of the times.
 
     The fit is repeated with times that are off as their intervals allow (propagation of
     distributions, JCGM 101:2008). Such times have their errors twice, which fits worse, as times
@@ -217,7 +217,7 @@ def best_is_inside(scene: str, sweep: dict[int, Measured]) -> list[Check]:
 
 
 def best_place(sweep: dict[int, Measured]) -> Measured | None:
-    """The best grid; its interval holds all grids that may be as quick."""
+    """Returns the best grid; its interval contains all grids that may be as quick."""
     if len(sweep) < 5:
         return None
     best = min(sweep, key=lambda cells: sweep[cells].value)

@@ -11,7 +11,7 @@ from beambench_report.base.quantities import markdown_table, number
 from beambench_thesis.chapter6.results import is_cluster_folder
 from beambench_thesis.claims.chapter5 import CLAIMS
 from beambench_thesis.claims.chapter6 import CLUSTER_CLAIMS, cluster_evidence
-from beambench_thesis.claims.text import FURTHER_CLAIMS
+from beambench_thesis.claims.prose import PROSE_CLAIMS
 from beambench_thesis.claims.verdict import Check, Claim, Outcome, Verdict, verdict_of
 from beambench_thesis.paper.evidence import NO_CLUSTER, Evidence, published_evidence
 from beambench_thesis.paper.measured import census_work, is_census_folder, measured_evidence
@@ -19,7 +19,7 @@ from beambench_thesis.paper.measured import census_work, is_census_folder, measu
 
 @dataclass(frozen=True)
 class Finding:
-    """What one set of measurements says of a claim."""
+    """The verdict of one set of measurements on a claim."""
 
     verdict: Verdict
     checks: list[Check]
@@ -47,14 +47,14 @@ def judge_formerly(claim: Claim, evidence: Evidence) -> Finding | None:
     return judge(replace(claim, rule=claim.amendment.former), evidence) if claim.amendment else None
 
 
-SWEPT_CLAIMS = (*CLAIMS, *FURTHER_CLAIMS)
+SWEPT_CLAIMS = (*CLAIMS, *PROSE_CLAIMS)
 """Those that runs of sweeps and a census decide."""
 
-ALL_CLAIMS = (*CLAIMS, *CLUSTER_CLAIMS, *FURTHER_CLAIMS)
+ALL_CLAIMS = (*CLAIMS, *CLUSTER_CLAIMS, *PROSE_CLAIMS)
 
 
 def judge_claims(runs: Sequence[Path], claims: Sequence[Claim] = ALL_CLAIMS) -> list[JudgedClaim]:
-    """What is said of the claims by runs of sweeps, a folder of censuses and a simulated cluster.
+    """Judges the claims by runs of sweeps, a folder of censuses and a simulated cluster.
 
     Without them ours are not tested. Raises Problem where one cannot be read.
     """
@@ -83,7 +83,7 @@ _MAX_NAMED = 4
 
 
 def claims_as_markdown(claims: Sequence[JudgedClaim], *, cells: bool = False) -> str:
-    """A row for each claim; with `cells`, also every cell that its verdicts rest on."""
+    """Returns a row for each claim; with `cells`, also every cell that its verdicts rest on."""
     rows = []
     for one in claims:
         parts = [
@@ -104,7 +104,7 @@ def claims_as_markdown(claims: Sequence[JudgedClaim], *, cells: bool = False) ->
 
 
 def summary(finding: Finding) -> str:
-    """How many cells say yes, and those that do not, named; nothing if no cell was measured."""
+    """Returns the number of cells that say yes and names the others; empty if none was measured."""
     by_outcome = {
         outcome: [one for one in finding.checks if not one.aside and one.outcome is outcome]
         for outcome in Outcome
@@ -124,7 +124,7 @@ def summary(finding: Finding) -> str:
 
 
 def amendment(one: JudgedClaim) -> str:
-    """Why the claim has another rule than it had, and what the former one finds; else nothing."""
+    """Returns why the rule was amended, and the verdict of the former one; else an empty string."""
     if one.claim.amendment is None or one.formerly is None:
         return ""
     found = summary(one.formerly)
@@ -133,7 +133,7 @@ def amendment(one: JudgedClaim) -> str:
 
 
 def cells_of(one: JudgedClaim) -> list[tuple[str, Check, Check]]:
-    """Every cell that a claim's verdicts rest on: the thesis's check and ours."""
+    """Returns every cell that a claim's verdicts rest on: the thesis's check and ours."""
     thesis, ours = ({c.cell: c for c in each.checks} for each in (one.thesis, one.ours))
     nothing = Check("", Outcome.MISSING)
     return [
@@ -143,7 +143,7 @@ def cells_of(one: JudgedClaim) -> list[tuple[str, Check, Check]]:
 
 
 def _range_of(checks: Sequence[Check]) -> str:
-    """The ratios of cells that compare two figures: 1.13 to 2.06 times."""
+    """Returns the ratios of cells that compare two figures: 1.13 to 2.06 times."""
     ratios = [check.ratio for check in checks if check.ratio is not None]
     if not ratios:
         return "".join(f", {check.cell}: {check.figures}" for check in checks[:_MAX_NAMED])

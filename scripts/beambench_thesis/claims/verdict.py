@@ -1,4 +1,4 @@
-"""A claim of the thesis, the rule that tests it, and from its cells to a verdict."""
+"""A claim of the thesis, the rule that tests it, and the verdict on all its cells."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -10,7 +10,7 @@ from beambench_thesis.paper.evidence import Evidence, Measured
 
 
 class Outcome(Enum):
-    """Whether one cell supports the claim."""
+    """The outcome of one cell for the claim."""
 
     YES = "yes"
     NO = "no"
@@ -48,8 +48,8 @@ ALIKE = 1.05
 def below(cell: str, smaller: Measured | None, larger: Measured | None, factor: float = 1) -> Check:
     """Is one figure below the other, by `factor` or more?
 
-    Yes and no where the interval of the difference says so; no where the two are surely alike. An
-    exact figure that meets the factor to the digit does meet it.
+    The interval of the difference decides between yes and no; figures that are surely alike give
+    no. An exact figure that meets the factor to the digit gives yes.
     """
     if smaller is None or larger is None:
         return Check(cell, Outcome.MISSING)
@@ -70,7 +70,7 @@ def below(cell: str, smaller: Measured | None, larger: Measured | None, factor: 
 
 
 def _are_alike(one: Measured, other: Measured) -> bool:
-    """Is their ratio between 1 / ALIKE and ALIKE with all of its interval? A bound is like none."""
+    """Does the interval of the ratio lie between 1 / ALIKE and ALIKE? Bounds are never alike."""
     is_bound = any(figure.low == figure.high for figure in (one, other))
     if is_bound or min(one.low, other.low) <= 0:
         return False
@@ -79,7 +79,7 @@ def _are_alike(one: Measured, other: Measured) -> bool:
 
 
 def between(cell: str, figure: Measured | None, low: float, high: float, unit: str = "") -> Check:
-    """Does a figure lie between two bounds? Not decided where its interval has a bound in it."""
+    """Does a figure lie between two bounds? Undecided where its interval contains a bound."""
     if figure is None:
         return Check(cell, Outcome.MISSING)
     if low <= figure.low and figure.high <= high:
@@ -94,14 +94,14 @@ def between(cell: str, figure: Measured | None, low: float, high: float, unit: s
 
 
 def aside(check: Check) -> Check:
-    """The cell as one that does not count."""
+    """Returns the cell as one that does not count."""
     return replace(check, aside=True)
 
 
 def verdict_of(checks: Sequence[Check]) -> Verdict:
-    """One verdict of all cells.
+    """Combines all cells into one verdict.
 
-    With a cell missing the claim is not tested. Undecided cells may be yes or no: the verdict
+    If a cell is missing, the claim is not tested. Undecided cells may be yes or no: the verdict
     stands if it is the same in either case.
     """
     outcomes = {check.outcome for check in checks if not check.aside}
@@ -119,7 +119,7 @@ Rule = Callable[[Evidence], list[Check]]
 
 @dataclass(frozen=True)
 class Amendment:
-    """The rule that a claim had before; its verdict is printed beside that of the present one."""
+    """The former rule of a claim; its verdict is printed with that of the present one."""
 
     former: Rule
     why: str
@@ -154,8 +154,8 @@ class Claims(list[Claim]):
     ) -> Callable[[Rule], Rule]:
         """Decorates the rule of a claim.
 
-        `former` is the rule before the amendment, or the arguments that make it of the present one;
-        `why` it was amended.
+        `former` is the rule before the amendment, or arguments that turn the present rule into it;
+        `why` is the reason for the amendment.
         """
 
         def register(rule: Rule) -> Rule:

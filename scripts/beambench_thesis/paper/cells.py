@@ -78,15 +78,15 @@ class Cells:
         return [cell for cell in self.cells if cell.time is None]
 
     def at(self, setting: Setting) -> Cell | None:
-        """The cell of a setting of the thesis, where it was measured."""
+        """Returns the cell of a setting of the thesis, if it was measured."""
         return self._by_setting.get(setting)
 
     def of(self, scene: str, structure: str, resolution: str, samples: int = 1) -> list[Cell]:
-        """All cells of a structure, whatever its parameters."""
+        """Returns all cells of a structure, whatever its parameters."""
         return self._by_view.get((scene, structure, resolution, samples), [])
 
     def without(self, run: str) -> Cells:
-        """All but those of one run."""
+        """Returns the cells of all other runs."""
         return Cells(
             self.directory,
             tuple(path for path in self.runs if path.name != run),
@@ -112,7 +112,7 @@ class Cells:
 
 
 def read_cells(directory: Path, names: Iterable[str]) -> Cells:
-    """Reads the runs DIRECTORY/NAME; those that hold nothing yet are left out."""
+    """Reads the runs DIRECTORY/NAME; empty ones are left out."""
     runs, cells, unread = [], [], []
     for name in names:
         folder = directory / name
@@ -141,12 +141,12 @@ def setting(
     cells: int = 0,
     samples: int = 1,
 ) -> Setting:
-    """A setting of the thesis as a key."""
+    """Returns a setting of the thesis as a key."""
     return (scene, contender, level, objects, cells, resolution, samples)
 
 
 def resolutions_of(cells: Iterable[Cell]) -> list[str]:
-    """Those of the thesis that some cell has, the coarsest first."""
+    """Returns the thesis's resolutions that some cell has, the coarsest first."""
     there = {cell.resolution for cell in cells}
     return [resolution for resolution in RESOLUTIONS if resolution in there]
 
@@ -187,11 +187,11 @@ def _cell(number: int, run: str, line: int, row: dict) -> Cell:
 
 
 def _known(row: dict, name: str) -> float:
-    """A figure of the row; NaN where it is missing."""
+    """Returns a figure of the row; NaN where it is missing."""
     return float(row.get(name, float("nan")))
 
 
 def _plain_scene(scene: str, primitives: float) -> str:
-    """`escena1` of `escena1:seed=1999,spheres=430`, if it is the thesis's by its size."""
+    """Returns `escena1` for `escena1:seed=1999,spheres=430`, if its size is the thesis's."""
     plain = scene.split(":")[0]
     return plain if primitives_by_scene().get(plain) == primitives else scene

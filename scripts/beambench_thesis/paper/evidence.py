@@ -1,4 +1,4 @@
-"""The tidy tables that rules are applied to: the same for the thesis's figures and for a run's."""
+"""Evidence that rules are applied to, in one form for the thesis's figures and for a run's."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from beambench_report.base.published import FINEST, FOLDER, read_published
 
 @dataclass(frozen=True)
 class Measured:
-    """A positive figure and its 95% interval; one that was counted or printed is its own interval.
+    """A positive figure and its 95% interval; a counted or printed one is its own interval.
 
     Figures are measured independently of one another, so their errors are combined as independent
     ones are: by the root of the sum of their squares (propagation of uncertainty, JCGM 100:2008,
@@ -28,11 +28,11 @@ class Measured:
 
     @classmethod
     def exact(cls, value: float) -> Measured:
-        """A figure without an interval."""
+        """Returns a figure without an interval."""
         return cls(value, value, value)
 
     def __truediv__(self, other: Measured) -> Measured:
-        """The ratio; relative errors are combined, as differences of logarithms.
+        """Returns the ratio; relative errors are combined, as differences of logarithms.
 
         Where a figure may be zero, which has no logarithm, from the smallest to the largest ratio
         that the intervals allow.
@@ -45,14 +45,14 @@ class Measured:
         return Measured(ratio, ratio * exp(-below), ratio * exp(above))
 
     def __sub__(self, other: Measured) -> Measured:
-        """The difference; absolute errors are combined."""
+        """Returns the difference; absolute errors are combined."""
         below = hypot(self.value - self.low, other.high - other.value)
         above = hypot(self.high - self.value, other.value - other.low)
         gap = self.value - other.value
         return Measured(gap, gap - below, gap + above)
 
     def times(self, factor: float) -> Measured:
-        """The figure in another unit, the factor being positive."""
+        """Returns the figure in another unit, the factor being positive."""
         return Measured(self.value * factor, self.low * factor, self.high * factor)
 
 
@@ -69,17 +69,17 @@ def share(part: Measured, rest: Measured) -> Measured:
 
 
 def smallest(figures: Sequence[Measured]) -> Measured:
-    """The least of several: its true value is no larger than the least upper end."""
+    """Returns the least figure: its true value is at most the least upper end."""
     return _each(min, figures)
 
 
 def largest(figures: Sequence[Measured]) -> Measured:
-    """The greatest of several: its true value is no less than the greatest lower end."""
+    """Returns the greatest figure: its true value is at least the greatest lower end."""
     return _each(max, figures)
 
 
 def total(figures: Sequence[Measured]) -> Measured:
-    """The sum; absolute errors are combined."""
+    """Returns the sum; absolute errors are combined."""
     value = sum(figure.value for figure in figures)
     below = hypot(*(figure.value - figure.low for figure in figures))
     above = hypot(*(figure.high - figure.value for figure in figures))
@@ -87,7 +87,7 @@ def total(figures: Sequence[Measured]) -> Measured:
 
 
 def _each(of: Callable[[list[float]], float], figures: Sequence[Measured]) -> Measured:
-    """A function of the values, of the lower and of the upper ends."""
+    """Applies a function to the values, to the lower and to the upper ends."""
     ends = ("value", "low", "high")
     return Measured(*(of([getattr(figure, end) for figure in figures]) for end in ends))
 
@@ -112,11 +112,11 @@ class ClusterEvidence:
 
     @property
     def networks(self) -> list[str]:
-        """Those with figures."""
+        """The networks with figures."""
         return list(dict.fromkeys(self.figures["network"]))
 
     def figure(self, quantity: str, scene: str, network: str) -> Measured | None:
-        """One figure, if it is known."""
+        """Returns one figure, if it is known."""
         return self._figures.get((scene, network, quantity))
 
     @cached_property
@@ -154,7 +154,7 @@ LEVEL, OBJECTS, CELLS = 6, 0, 32
 
 @dataclass(frozen=True)
 class Evidence:
-    """What was measured, by the thesis or in a run.
+    """The figures of the thesis, or of a run.
 
     times: table, setting, seconds with the building of the structure, and their interval.
     work: setting, the name of a quantity, its value and interval; a row for each quantity.
@@ -178,19 +178,19 @@ class Evidence:
         cells: int = CELLS,
         samples: int = 1,
     ) -> Measured | None:
-        """Seconds of one cell, by the thesis's parameters if not given."""
+        """Returns the seconds of one cell; parameters that are not given are the thesis's."""
         level, objects = (level, objects) if contender in ON_OCTREES else (0, 0)
         cells = cells if contender == "voxel-grid" else 0
         return self.at((scene, contender, level, objects, cells, resolution, samples))
 
     def at(self, setting: tuple[str | int, ...]) -> Measured | None:
-        """Seconds of one cell by its setting, in the order of SETTING."""
+        """Returns the seconds of one cell by its setting, in the order of SETTING."""
         return self._times.get(setting)
 
     def times_by(
         self, setting: str, scene: str, contender: str, resolution: str = FINEST
     ) -> dict[int, Measured]:
-        """Seconds of one contender by the value of one of its settings, `level` or `cells`."""
+        """Returns the seconds of one contender by one of its settings, `level` or `cells`."""
         at = {name: place for place, name in enumerate(SETTING)}
         wanted = {"scene": scene, "contender": contender, "resolution": resolution}
         wanted |= {"objects": OBJECTS, "samples": 1}
@@ -204,7 +204,7 @@ class Evidence:
     def count(
         self, quantity: str, scene: str, *, level: int = LEVEL, objects: int = OBJECTS
     ) -> Measured | None:
-        """A count of the octree: `occupied_leaves` or `exit_pixels`."""
+        """Returns a count of the octree: `occupied_leaves` or `exit_pixels`."""
         return self._octrees.get((quantity, scene, level, objects))
 
     def worked(
@@ -216,14 +216,16 @@ class Evidence:
         contender: str = "beam",
         level: int = LEVEL,
     ) -> Measured | None:
-        """A quantity of the beams' work by the thesis's parameters, or of another structure."""
+        """Returns a quantity of work of another structure, or of beams with the thesis's
+        parameters.
+        """
         level = level if contender == "beam" else 0
         return self._work.get((quantity, scene, contender, level, resolution))
 
     def share_of_time(
         self, task: str, scene: str, resolution: str, *, level: int = LEVEL
     ) -> Measured | None:
-        """A task of the beams over the whole, building included; as printed, or made of times."""
+        """Returns a task's share of the beams' total time, building included."""
         printed = self.worked(f"share_{task}", scene, resolution, level=level)
         if printed is not None:
             return printed
@@ -243,7 +245,7 @@ class Evidence:
 
     @cached_property
     def _times(self) -> dict[tuple[str | int, ...], Measured]:
-        """Where two tables print the same cell the first one counts; they agree."""
+        """The times by setting. Where two tables print the same cell, they agree."""
         found: dict[tuple[str | int, ...], Measured] = {}
         for row in self.times.itertuples():
             key = tuple(getattr(row, name) for name in SETTING)
@@ -285,7 +287,7 @@ _MADE_BY_CUTTING = {"beams": "beams_made", "beams_nonterminal": "beams_divided"}
 
 @cache
 def published_evidence(folder: Path = FOLDER) -> Evidence:
-    """Tables 5.2 to 5.8 and the figures that stand in the text.
+    """Returns tables 5.2 to 5.8 and the figures in the text.
 
     The thesis gives no intervals: what it prints counts as exact.
     """
@@ -301,7 +303,7 @@ def published_evidence(folder: Path = FOLDER) -> Evidence:
 
 
 def _times(rows: pd.DataFrame) -> pd.DataFrame:
-    """Tables 5.4 to 5.8 do not repeat that a leaf is split as soon as it holds anything."""
+    """Fills in what tables 5.4 to 5.8 do not repeat: a leaf with any object is split."""
     rows["contender"] = rows["algorithm"]
     rows["level"] = rows["max_level"].fillna(0).astype(int)
     rows["objects"] = rows["max_objects"].fillna(0).astype(int)
@@ -326,7 +328,7 @@ def _work(text: pd.DataFrame, times: pd.DataFrame) -> pd.DataFrame:
 
 
 def _seconds_of_shares(work: pd.DataFrame, times: pd.DataFrame) -> pd.DataFrame:
-    """A share of a time that is printed is a time: what C09 needs, where the thesis states it."""
+    """Turns printed shares of a time into times, which C09 needs."""
     setting = ["scene", "contender", "level", "objects", "resolution"]
     known = times.drop_duplicates(setting)[[*setting, "seconds"]]
     shares = work[work["quantity"].eq("share_nonterminal")].merge(known, on=setting)
@@ -345,12 +347,12 @@ def _octrees(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 def _cluster(text: pd.DataFrame) -> ClusterEvidence:
-    """The thesis says no more of its network than that it is an Ethernet."""
+    """Returns the figures of the cluster; the thesis only says that its network is an Ethernet."""
     rows = text.assign(network="Ethernet", low=text["value"], high=text["value"])
     return ClusterEvidence(rows[list(FIGURES)])
 
 
 def _resolution(rows: pd.DataFrame) -> pd.Series:
-    """`320x200`, or nothing where a figure is of no resolution."""
+    """Returns `320x200`, or an empty string where a figure has no resolution."""
     width, height = (rows[side].astype("Int64").astype(str) for side in ("width", "height"))
     return (width + "x" + height).where(rows["width"].notna(), "")

@@ -1,8 +1,8 @@
-"""What beambench measured, in the shape of the thesis's tables: runs, and censuses.
+"""Measurements of beambench in the shape of the thesis's tables: runs and censuses.
 
-A folder of censuses holds two files that `beambench census --json` printed, of the same scenes:
-`scan.json`, pixels shaded one after the other along the rows, and `beams.json`, beam by beam, each
-with one shadow cache for the picture (`--shadows cache --order scan` and `--order beams`).
+A folder of censuses holds two outputs of `beambench census --json` on the same scenes: `scan.json`,
+with pixels shaded one after the other along the rows, and `beams.json`, beam by beam. Each has one
+shadow cache for the picture (`--shadows cache --order scan` and `--order beams`).
 """
 
 from collections.abc import Sequence
@@ -61,10 +61,10 @@ _BEAM_COUNTS = ("beams", "beams_nonterminal", "beams_occupied", "beams_made", "b
 
 
 def measured_evidence(directories: Sequence[Path]) -> Evidence:
-    """The rows of one or more runs that are of the thesis's scenes and contenders, and were right.
+    """Returns the correct rows of one or more runs that have the thesis's scenes and contenders.
 
-    Of a cell that several runs measured, the repetitions of all count. Raises Problem where a run
-    cannot be read, or is of several machines.
+    If several runs measured a cell, the repetitions of all count. Raises Problem where a run cannot
+    be read, or has rows of several machines.
     """
     runs = [read_run(directory) for directory in directories]
     if not runs:
@@ -89,7 +89,7 @@ def measured_evidence(directories: Sequence[Path]) -> Evidence:
 
 
 def _compared(rows: pd.DataFrame) -> pd.DataFrame:
-    """Those of camera rays from each scene's first camera that have times."""
+    """Returns timed rows of camera rays from each scene's first camera."""
     rows = rows[rows["timed"] & rows["ray_kind"].eq("primary")]
     return rows[rows["camera"].eq(rows.groupby("scene")["camera"].transform("first"))]
 
@@ -114,7 +114,7 @@ def _evidence_of(rows: pd.DataFrame, clock: float) -> Evidence:
 
 
 def setting_of(row: dict[str, object]) -> dict[str, object] | None:
-    """What the row is about; nothing if it is of no scene or contender of the thesis."""
+    """Returns the setting of a row; None unless scene and contender are the thesis's."""
     contender = str(row["structure"])
     scene = str(row["scene"]).split(":")[0]
     if contender not in _THESIS or row["primitives"] != primitives_by_scene().get(scene):
@@ -142,22 +142,23 @@ def setting_of(row: dict[str, object]) -> dict[str, object] | None:
 
 
 def _cells_per_axis(resolution: str) -> str:
-    """`32` of `32` and of `32x32x32`; grids of other shapes are none of the thesis's."""
+    """Returns `32` for `32` and for `32x32x32`; other shapes are returned unchanged."""
     sides = set(resolution.split("x"))
     return sides.pop() if len(sides) == 1 else resolution
 
 
 def seconds_of(row: dict[str, object]) -> dict[str, float]:
-    """Building included, as in the thesis; the interval is one for the figure of a repeated run.
+    """Returns seconds, building included, with the interval for the figure of a repeated run.
 
-    Those of the fastest repetitions (base/fastest.py); the median of all where these are not known.
+    They are those of the fastest repetitions (base/fastest.py), or the median of all where these
+    are not known.
     """
     fastest = _number(row, "fastest_ms")
     return _seconds_by(row, "total_ms", 1e3) if isnan(fastest) else _fastest(row, fastest / 1e3)
 
 
 def _at_clock(row: dict[str, object], gigahertz: float) -> dict[str, float]:
-    """The seconds that the row's cycles take at a clock rate, which for its own was another."""
+    """Returns the seconds that the row's cycles take at another clock rate."""
     fastest = _number(row, "fastest_mcycles")
     if not isnan(fastest):
         return _fastest(row, fastest / (1e3 * gigahertz))
@@ -170,13 +171,13 @@ def _at_clock(row: dict[str, object], gigahertz: float) -> dict[str, float]:
 
 
 def _fastest(row: dict[str, object], seconds: float) -> dict[str, float]:
-    """Those of a cell's fastest repetitions, with the interval for those of a repeated run."""
+    """Returns seconds of the fastest repetitions, with the interval for those of a repeated run."""
     error = seconds * error_between_runs(_number(row, "fastest_error"))
     return {"seconds": seconds, "low": seconds - error, "high": seconds + error}
 
 
 def error_between_runs(error: float) -> float:
-    """How far the fastest repetitions of another process may lie from this one's, as a part.
+    """Returns the relative difference to expect from the fastest repetitions of another process.
 
     UNKNOWN_SPREAD where those of this process are not known.
     """
@@ -184,10 +185,10 @@ def error_between_runs(error: float) -> float:
 
 
 def _seconds_by(row: dict[str, object], figure: str, per_second: float) -> dict[str, float]:
-    """The seconds of the figure's median; UNKNOWN_SPREAD where that has no interval.
+    """Returns the seconds of the figure's median; its spread is UNKNOWN_SPREAD without an interval.
 
-    A repeated run's median differs by the errors of both, so that its interval is that of the
-    median times the root of two, and by what another process differs by.
+    A repeated run's median differs by the errors of both runs and by the difference between
+    processes, so the interval is that of the median times the root of two, widened by BETWEEN_RUNS.
     """
     seconds = _number(row, f"{figure}_median") / per_second
     low, high = (_number(row, f"{figure}_ci_{end}") / per_second for end in ("low", "high"))
@@ -202,7 +203,7 @@ def _seconds_by(row: dict[str, object], figure: str, per_second: float) -> dict[
 
 
 def _work(row: dict[str, object]) -> list[dict[str, object]]:
-    """Counts of the whole image, times of its tasks; sizes of a hierarchy."""
+    """Returns counts for the whole image, times of its tasks, and sizes of a hierarchy."""
     if row["structure"] == HIERARCHY:
         sizes = {"boxes": _number(row, "nodes"), "cost": _number(row, "tree_cost")}
         return [
@@ -233,11 +234,11 @@ def _work(row: dict[str, object]) -> list[dict[str, object]]:
 
 
 def _seconds_of_tasks(row: dict[str, object], counted: dict[str, float]) -> list[dict[str, object]]:
-    """Each task's part of the least time of a trace, and the building.
+    """Returns each task's part of the least time of a trace, and the building.
 
-    The parts are those of the counting pass. Its seconds are not used: it is made once, and other
-    work on the machine makes it half as long again in one cell and not in another, but most of its
-    tasks alike.
+    The parts are those of the counting pass. Its seconds are not used: the pass is made once, and
+    other work on the machine can slow one cell by half and spare another, but it slows most tasks
+    of a cell alike.
     """
     build = _number(row, "build_ms_median") / 1e3
     entries = [_entry("seconds_build", build, UNKNOWN_SPREAD)] if pd.notna(build) else []
@@ -289,12 +290,12 @@ def is_census_folder(folder: Path) -> bool:
 
 
 def census_file(folder: Path, order: str) -> Path:
-    """`FOLDER/scan.json`."""
+    """Returns `FOLDER/scan.json` or `FOLDER/beams.json`."""
     return folder / f"{order}.json"
 
 
 def census_work(folder: Path) -> pd.DataFrame:
-    """Rows of `evidence.WORK`: rays by kind, and the hidden shadow rays that the cache knew.
+    """Returns rows of `evidence.WORK`: rays by kind, and the hidden shadow rays found by the cache.
 
     Raises Problem where a file is not what `beambench census --json` prints.
     """
@@ -313,7 +314,7 @@ def census_work(folder: Path) -> pd.DataFrame:
 
 
 def _scenes(path: Path, order: str) -> dict[str, dict[str, Any]]:
-    """The thesis's scenes in a file, by their plain names."""
+    """Returns the thesis's scenes in a file, by their plain names."""
     try:
         source = load_json(path)
         if (source["shadows"], source["order"]) != ("cache", order):

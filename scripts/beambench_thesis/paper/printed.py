@@ -47,7 +47,7 @@ class PrintedRow:
     seconds: dict[str, float]
 
     def setting(self, scene: str, resolution: str) -> Setting:
-        """The setting of one of its cells."""
+        """Returns the setting of one of its cells."""
         cells = CELLS if self.structure == "voxel-grid" else 0
         return setting(
             scene, self.structure, resolution, level=self.level, objects=self.objects, cells=cells
@@ -56,7 +56,7 @@ class PrintedRow:
 
 @dataclass(frozen=True)
 class PrintedPart:
-    """Part (a), (b), ... of a table: one scene."""
+    """Part (a), (b), ... of a table, which is about one scene."""
 
     table: str
     letter: str
@@ -80,18 +80,18 @@ class PrintedPart:
 
 
 def scene_title(scene: str) -> str:
-    """The thesis's name of a scene."""
+    """Returns the thesis's name of a scene."""
     return _SCENES.get(scene, scene)
 
 
 def contender_title(structure: str) -> str:
-    """What the thesis's tables call a contender, in English."""
+    """Returns the name of a contender in the thesis's tables, in English."""
     return _NAMES.get(structure, structure)
 
 
 @cache
 def printed_parts(folder: Path = FOLDER) -> tuple[PrintedPart, ...]:
-    """All parts of all tables, in the order of the thesis."""
+    """Returns all parts of all tables, in the order of the thesis."""
     rows = read_published("times.csv", folder)
     rows["resolution"] = rows["width"].astype(str) + "x" + rows["height"].astype(str)
     rows[["max_level", "max_objects"]] = rows[["max_level", "max_objects"]].fillna(0).astype(int)
@@ -102,7 +102,7 @@ def printed_parts(folder: Path = FOLDER) -> tuple[PrintedPart, ...]:
 
 
 def parts_of(table: str) -> list[PrintedPart]:
-    """The parts of one table."""
+    """Returns the parts of one table."""
     return [part for part in printed_parts() if part.table == table]
 
 
@@ -130,22 +130,22 @@ def _label(table: str, structure: str, level: int, objects: int) -> str:
 
 
 def milliseconds(seconds: float) -> str:
-    """`43.9 ms`, also of long times: one unit for all that is ours."""
+    """Returns `43.9 ms`; long times have the same unit."""
     return f"{number(1e3 * seconds)} ms"
 
 
 def thesis_seconds(seconds: float | None) -> str:
-    """`2.21 s`, as printed."""
+    """Returns `2.21 s`, as printed."""
     return DASH if seconds is None else f"{seconds:,g} s"
 
 
 def interval(figure: Measured, factor: float = 1e3, unit: str = " ms") -> str:
-    """`43.1 to 45.0 ms`."""
+    """Returns `43.1 to 45.0 ms`."""
     return f"{number(factor * figure.low)} to {number(factor * figure.high)}{unit}"
 
 
 def origin(cell: Cell) -> str:
-    """Where a figure comes from: row of which file, which cell, how often, which verdict."""
+    """Returns the origin of a figure: row, file, cell, repetitions and verdict."""
     time = f"; {interval(cell.time)}" if cell.time else ""
     return (
         f"row {cell.number}: {cell.run}/results.csv, line {cell.line}; {cell.name}; "

@@ -12,7 +12,7 @@ from beambench_thesis.paper.cells import Cell
 
 @dataclass(frozen=True)
 class Field:
-    """What stands at a place of a table, and the row of the file behind it."""
+    """An entry of a table, and the row of the file behind it."""
 
     text: str
     cell: Cell | None = None
@@ -22,7 +22,7 @@ class Field:
 
 @dataclass(frozen=True)
 class Column:
-    """A heading, and whether figures stand under it."""
+    """A heading, and whether the column contains figures."""
 
     text: str
     is_figure: bool = True
@@ -30,7 +30,7 @@ class Column:
 
 @dataclass(frozen=True)
 class SectionTable:
-    """A table of fields; a long one is looked up rather than read, and folded."""
+    """A table of fields; a long one is folded, for looking up rather than reading."""
 
     title: str
     columns: tuple[Column, ...]
@@ -68,14 +68,14 @@ def section_table(
     *,
     is_long: bool = False,
 ) -> SectionTable:
-    """A table whose first columns, headed by `words`, hold words, and the others figures."""
+    """Returns a table: columns headed by `words` contain words, those by `figures` figures."""
     columns = (*(Column(text, False) for text in words), *(Column(text) for text in figures))
     fields = (tuple(Field(x) if isinstance(x, str) else x for x in row) for row in rows)
     return SectionTable(title, columns, tuple(fields), is_long)
 
 
 def write_section(section: Section, file: Path, **options: object) -> list[Path]:
-    """Writes the section as FILE.md of its own, its plots beside it."""
+    """Writes the section as a FILE.md of its own, with its plots."""
     text = section_as_markdown(section, level=1, folder="", **options)
     paths = [write_text(file, text)]
     with house_style():
@@ -88,19 +88,19 @@ Origin = Callable[[Cell], str]
 
 
 def by_number(cell: Cell) -> str:
-    """`#12`: the row of the report's rows.csv."""
+    """Returns `#12`: the row of the report's rows.csv."""
     return f"#{cell.number}"
 
 
 def by_file(cell: Cell) -> str:
-    """`levels:14`: run and line of its results.csv, where there is no rows.csv."""
+    """Returns `levels:14`: run and line of its results.csv, if there is no rows.csv."""
     return f"{cell.run}:{cell.line}"
 
 
 def section_as_markdown(
     section: Section, *, level: int = 2, folder: str = "figures", origin: Origin = by_number
 ) -> str:
-    """The section under a heading of that level; plots are in `folder`."""
+    """Returns the section under a heading of that level; plots are in `folder`."""
     lines = [f"{'#' * level} {section.title}", ""]
     for paragraph in section.words:
         lines += [paragraph, ""]

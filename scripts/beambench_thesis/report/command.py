@@ -26,7 +26,7 @@ _EXAMPLES = """examples:
 
 
 def add_run_command(commands: argparse._SubParsersAction, built: Path) -> None:
-    """Adds the command and its options; `built` is where the program is if not given."""
+    """Adds the command and its options; `built` is the default path of the program."""
     parser = commands.add_parser(
         "run",
         help="measure the tables and figures of the thesis again, and report on them",

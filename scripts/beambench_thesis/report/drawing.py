@@ -1,4 +1,4 @@
-"""Draws a figure of the thesis beside ours: one axis for both, shapes compared."""
+"""Drawing of the thesis's figures and ours on one axis, to compare shapes."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ _MARGIN = 1.06
 
 @dataclass(frozen=True)
 class Points:
-    """One line: places along the axis and figures with their intervals."""
+    """One line: positions along the axis and figures with their intervals."""
 
     label: str
     structure: str
@@ -30,7 +30,7 @@ class Points:
 
 @dataclass(frozen=True)
 class Side:
-    """The lines of one panel, and what its figures are multiples of."""
+    """The lines of one side of a panel, and the unit of their figures."""
 
     lines: tuple[Points, ...]
     title: str
@@ -40,7 +40,7 @@ class Side:
 
 @dataclass(frozen=True)
 class Panel:
-    """Two sides with one vertical axis: the thesis's left, ours right."""
+    """Two sides with one vertical axis: the thesis's on the left, ours on the right."""
 
     title: str
     unit: str
@@ -50,7 +50,7 @@ class Panel:
 
 @dataclass(frozen=True)
 class FigureData:
-    """All that is drawn, and the caption that stands under it."""
+    """Everything that is drawn, and the caption."""
 
     number: str
     title: str
@@ -73,7 +73,7 @@ class FigureData:
 
 
 def draw(data: FigureData) -> Plot:
-    """The figure, one row per panel."""
+    """Draws the figure, one row per panel."""
     names = _names(data)
     columns = max(1, min(len(names), _LEGEND_COLUMNS // (4 + max(map(len, names), default=1))))
     legend = _LEGEND_HEIGHT * (1 + len(names) // columns)

@@ -36,24 +36,24 @@ Line = list[tuple[float, Measured]]
 
 
 def measured(cells: Cells, keys: Iterable[Setting]) -> Line:
-    """Our seconds, where there are any."""
+    """Returns our seconds, where there are any."""
     found = ((key, cells.at(key)) for key in keys)
     return [(place(key), cell.time) for key, cell in found if cell and cell.time]
 
 
 def seconds_printed(keys: Iterable[Setting]) -> Line:
-    """The thesis's seconds, where some table has them."""
+    """Returns the thesis's seconds, where some table has them."""
     found = ((key, published_evidence().at(key)) for key in keys)
     return [(place(key), seconds) for key, seconds in found if seconds]
 
 
 def place(key: Setting) -> float:
-    """Ten thousands of rays of one sample per pixel, as the thesis counts them."""
+    """Returns ten thousands of rays at one sample per pixel, as the thesis counts them."""
     return rays(str(key[_RESOLUTION])) / 1e4
 
 
 def over(line: Sequence[tuple[float, Measured]], base: float) -> Line:
-    """The line as multiples of a figure."""
+    """Returns the line as multiples of a figure."""
     return [(at, figure.times(1 / base)) for at, figure in line]
 
 
@@ -62,7 +62,7 @@ _LEVEL, _CELLS = SETTING.index("level"), SETTING.index("cells")
 
 
 def figure_5_14(cells: Cells) -> FigureData:
-    """Time over the level; the thesis prints no number of this figure."""
+    """Returns time over the level; the thesis prints no numbers for this figure."""
     panels = tuple(
         Panel(
             f"({letter}) {scene_title(scene)}",
@@ -91,7 +91,7 @@ def figure_5_14(cells: Cells) -> FigureData:
 
 
 def figure_5_17(cells: Cells) -> FigureData:
-    """Time of the lazy grid over its cells per axis."""
+    """Returns the time of the lazy grid over its cells per axis."""
     at = _swept_at(cells)
     named = (("a", "ajedrez"), ("b", "flamenco"))
     sides = (
@@ -121,19 +121,19 @@ def figure_5_17(cells: Cells) -> FigureData:
 
 
 def _grids_of(cells: Cells, title: str, scene: str, resolution: str) -> Side:
-    """Our grids of a scene, and over them the thesis's points."""
+    """Returns our grids of a scene with the thesis's points."""
     lines, _ = _own_grids(cells, scene, resolution)
     return Side((*_printed_grids(scene, resolution), *lines) if lines else (), title)
 
 
 def _swept_at(cells: Cells) -> str:
-    """1280x1024, or what a quick run has instead."""
+    """Returns 1280x1024, or the best resolution of a quick run."""
     swept = [at for at in (FINEST, COARSEST) if len(_lazy(cells, "flamenco", at)) > 1]
     return swept[0] if swept else FINEST
 
 
 def figure_5_18(cells: Cells) -> FigureData:
-    """The beams beside grids: the thesis's 32 cells, those it found best, and those we found."""
+    """Compares beams with grids: the thesis's 32 cells, its best, and our best."""
     panels = []
     for letter, scene in (("a", "ajedrez"), ("b", "flamenco")):
         beam = [setting(scene, "beam", at, level=6) for at in RESOLUTIONS]
@@ -214,7 +214,7 @@ def _over(
 
 
 def _own_grids(cells: Cells, scene: str, resolution: str) -> tuple[tuple[Points, ...], str]:
-    """The line of our grids, and what it is a multiple of."""
+    """Returns the line of our grids, and its unit."""
     base = cells.at(setting(scene, "voxel-grid", resolution, cells=CELLS))
     found = _over(cells, scene, ("voxel-grid",), resolution, _CELLS)
     if base is None or base.time is None or not found:
@@ -249,13 +249,13 @@ _TIME = "time (1: first contender, 320x200)"
 
 
 def make_figures(numbers: Iterable[str], cells: Cells) -> list[FigureData]:
-    """The figures that can be drawn; 5.9 is made of pictures (`pictures`)."""
+    """Returns the figures that can be drawn; 5.9 is made of pictures (`pictures`)."""
     made = [_FIGURES[number](cells) for number in numbers if number in _FIGURES]
     return [figure for figure in made if not figure.is_empty]
 
 
 def _of_table(figure: str, title: str, table: str, *, is_log: bool = False) -> Callable:
-    """A figure that draws the rows of a table over the number of rays."""
+    """Returns a figure that draws the rows of a table over the number of rays."""
 
     def make(cells: Cells) -> FigureData:
         parts = parts_of(table)
@@ -295,7 +295,7 @@ def _table_panel(part: PrintedPart, cells: Cells) -> Panel:
 
 
 def _caption_of(parts: Sequence[PrintedPart]) -> str:
-    """What the thesis's table says from the coarsest to the finest resolution."""
+    """Returns the thesis's figures at the coarsest and the finest resolution, in words."""
     texts = []
     for part in parts:
         rows = (
@@ -307,7 +307,7 @@ def _caption_of(parts: Sequence[PrintedPart]) -> str:
 
 
 def _of_scenes(figure: str, title: str, scenes: tuple[str, ...]) -> Callable[[Cells], FigureData]:
-    """A figure of the beams' time (a) and of its increase over 320x200 (b), by scene."""
+    """Returns a figure of the beams' time (a) and of its increase over 320x200 (b), by scene."""
 
     def make(cells: Cells) -> FigureData:
         thesis = {scene: _printed_beams(scene) for scene in scenes}
@@ -328,7 +328,7 @@ def _of_scenes(figure: str, title: str, scenes: tuple[str, ...]) -> Callable[[Ce
 
 
 def _absolute(thesis: dict, ours: dict, first: str) -> Panel:
-    """Seconds as multiples of one scene's at 320x200: seconds of 1999 compare to none of today."""
+    """Returns seconds over those of one scene at 320x200, to compare 1999 with today."""
     sides = []
     for whose, lines, unit, factor in (("thesis", thesis, "s", 1), ("ours", ours, "ms", 1e3)):
         base = lines[first][0][1].value if lines[first] else None
@@ -339,7 +339,7 @@ def _absolute(thesis: dict, ours: dict, first: str) -> Panel:
 
 
 def _samples(cells: Cells) -> FigureData:
-    """Figure 5.11 beside 5.10 b: the thesis's points of both scenes that no table has are lost."""
+    """Returns figure 5.11 with 5.10 b; the thesis's points that no table has are lost."""
     scenes = ("bola-espacial", "tetera", "torre-eiffel", "caracol")
     one = {scene: _measured_beams(cells, scene, 1) for scene in scenes}
     five = {scene: _measured_beams(cells, scene, 5) for scene in scenes}
@@ -364,7 +364,7 @@ def _samples(cells: Cells) -> FigureData:
 
 
 def _printed_beams(scene: str) -> list[tuple[float, Measured]]:
-    """The beams' times at level 6 in the first table that has the scene."""
+    """Returns the beams' times at level 6 in the first table that has the scene."""
     return seconds_printed(setting(scene, "beam", at, level=6) for at in RESOLUTIONS)
 
 
@@ -375,7 +375,7 @@ def _measured_beams(cells: Cells, scene: str, samples: int) -> list[tuple[float,
 
 
 def _increases(lines: dict) -> dict:
-    """Percent over the first point, with the interval of that ratio."""
+    """Returns percent over the first point, with the interval of that ratio."""
     return {
         scene: [
             (place, _percent(figure, points[0][1], is_base=index == 0))

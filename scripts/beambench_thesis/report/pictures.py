@@ -20,7 +20,7 @@ _DPI = 150
 
 @dataclass(frozen=True)
 class Division:
-    """One octree: the leaves of a scene divided to a level, unless they hold so few objects."""
+    """One octree: leaves are divided down to a level, unless they have few objects."""
 
     scene: str
     level: int
@@ -33,7 +33,7 @@ class Division:
 
 
 def _criteria(scene: str) -> tuple[Division, ...]:
-    """The divisions of tables 5.2 and 5.3."""
+    """Returns the divisions of tables 5.2 and 5.3."""
     return (
         *(Division(scene, level, 0) for level in (4, 5, 6, 7)),
         *(Division(scene, 6, objects) for objects in (10, 20, 40)),
@@ -59,7 +59,7 @@ _CAPTION = (
 
 @dataclass(frozen=True)
 class PictureFigure:
-    """A figure of pictures; nothing but a caption that says why where it could not be made."""
+    """A figure of pictures, or only a caption that states why it could not be made."""
 
     number: str
     title: str
@@ -70,7 +70,7 @@ class PictureFigure:
 def octree_figures(
     numbers: tuple[str, ...], directory: Path, beambench: Path
 ) -> list[PictureFigure]:
-    """Renders those that DIRECTORY/figures does not have yet, each as one sheet."""
+    """Renders the figures that are missing in DIRECTORY/figures, each as one sheet."""
     folder = directory / "figures"
     folder.mkdir(exist_ok=True)
     return [
@@ -103,7 +103,7 @@ def _figure(
 
 
 def _render(division: Division, path: Path, beambench: Path) -> str:
-    """Why it could not be rendered; else nothing."""
+    """Renders a division; returns why that failed, or an empty string."""
     accel = f"samet:max_level={division.level},max_objects={division.objects}"
     options = ["--accel", accel, "--overlay", "cells", "--resolution", _SIZE]
     command = [str(beambench), "render", division.scene, *options, "-o", str(path)]

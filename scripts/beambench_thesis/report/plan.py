@@ -1,4 +1,4 @@
-"""Which sweeps are run for the tables and figures that a user asked for."""
+"""The sweeps for the tables and figures that a user requests."""
 
 import json
 from collections.abc import Iterator, Sequence, Set
@@ -135,7 +135,7 @@ class PlannedCell:
 
 @dataclass(frozen=True)
 class Sweep:
-    """A sweep file: `name` is that of the file and of the folder of its run."""
+    """A sweep file; the file and the folder of its run have the same `name`."""
 
     name: str
     source: dict[str, Any]
@@ -147,11 +147,11 @@ class Sweep:
 
     @property
     def budget_seconds(self) -> float:
-        """How long it may take; cells short of their minimum of repetitions may take more."""
+        """The time budget; cells below their minimum number of repetitions may exceed it."""
         return self.source["budget_seconds"]
 
     def cells(self) -> list[PlannedCell]:
-        """Every cell, in no particular order."""
+        """Returns every cell, in no particular order."""
         contenders = list(dict.fromkeys(self._contenders()))
         views = product(
             self.source["scenes"], self.source["resolutions"], self.source.get("samples", [1])
@@ -164,7 +164,7 @@ class Sweep:
         ]
 
     def _is_excluded(self, scene: str, structure: str, resolution: str, samples: int) -> bool:
-        """By the conditions that the thesis's sweeps use: `primitives_above` is not among them."""
+        """Evaluates the conditions that the thesis's sweeps use: not `primitives_above`."""
         own = {"scene": scene, "structure": structure}
         return any(
             all(entry.get(name, value) == value for name, value in own.items())
@@ -198,7 +198,7 @@ def read_sweep(name: str, folder: Path = FOLDER) -> Sweep:
 
 
 def quick(sweep: Sweep) -> Sweep | None:
-    """The sweep at its low resolutions only, with a short budget; None if it has no low one."""
+    """Returns the sweep at its low resolutions, with a short budget; None if it has none."""
     resolutions = [size for size in sweep.source["resolutions"] if size in _QUICK_RESOLUTIONS]
     if not resolutions:
         return None
@@ -218,7 +218,7 @@ _PLAN = "thesis.json"
 
 @dataclass(frozen=True)
 class Plan:
-    """What is shown and what has to be measured for it."""
+    """The tables and figures to show, and the sweeps to measure for them."""
 
     tables: tuple[str, ...]
     figures: tuple[str, ...]
@@ -227,7 +227,7 @@ class Plan:
 
     @property
     def is_everything(self) -> bool:
-        """Nothing of chapter 5 is left out."""
+        """Does the plan cover all of chapter 5?"""
         return len(self.tables) == len(TABLES) and len(self.figures) == len(FIGURES)
 
 
@@ -239,7 +239,7 @@ def make_plan(
     *,
     with_levels: bool = False,
 ) -> Plan:
-    """The sweeps for some tables and figures, or for all. Raises Problem for an unknown one.
+    """Returns the plan for some tables and figures, or for all. Raises Problem for an unknown one.
 
     `with_levels` adds the sweep that tests max_level=auto.
     """
@@ -264,7 +264,7 @@ def make_plan(
 
 
 def add_levels(plan: Plan, folder: Path | None = None) -> Plan:
-    """The same plan with the sweep that tests max_level=auto, if it lacks it."""
+    """Returns the plan with the sweep that tests max_level=auto."""
     if any(sweep.name == LEVELS for sweep in plan.sweeps):
         return plan
     levels = read_sweep(LEVELS, (folder or FOLDER).parent)
@@ -305,7 +305,7 @@ def read_plan(directory: Path) -> Plan:
 
 
 def _figures_of(sweeps: Set[str]) -> list[str]:
-    """Those that need no other sweeps: they cost nothing more."""
+    """Returns the figures that need no other sweeps, so cost nothing more."""
     return [figure.number for figure in FIGURES if sweeps >= set(figure.sweeps)]
 
 

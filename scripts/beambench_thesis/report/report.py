@@ -1,4 +1,4 @@
-"""Gathers the report from the runs of a folder, and what it says in words."""
+"""Gathering the report from the runs of a folder, and its sentences."""
 
 from collections import Counter
 from collections.abc import Iterable
@@ -43,7 +43,7 @@ GRID_BEAMS = "grid-beams"
 
 @dataclass(frozen=True)
 class Part:
-    """A part of a table: as in the thesis, memory and work of its cells, and best against best."""
+    """A part of a table as in the thesis, with memory and work, and best against best."""
 
     table: PartTable
     best: BestTable | None
@@ -73,7 +73,7 @@ class RunSummary:
 
 @dataclass(frozen=True)
 class Report:
-    """All that is written, in whichever form."""
+    """Everything that a report states, in any format."""
 
     directory: Path
     plan: Plan
@@ -88,7 +88,7 @@ class Report:
 
 
 def gather(directory: Path, plan: Plan, beambench: Path | None = None) -> Report:
-    """Reads the runs; what was not measured is left out and listed."""
+    """Reads the runs; parts that were not measured are left out and listed."""
     sweeps = [*plan.sweeps, *_extra_sweeps(directory, plan)]
     every = read_cells(directory, (sweep.name for sweep in sweeps))
     # Tables, figures and claims have one sweep for each of their cells, and none of them is LEVELS.
@@ -116,7 +116,7 @@ def gather(directory: Path, plan: Plan, beambench: Path | None = None) -> Report
 
 
 def sections_of(directory: Path, cells: Cells) -> tuple[list[Section], list[str]]:
-    """Those that were measured, and a sentence for each file that could not be read."""
+    """Returns the measured sections, and a sentence for each file that could not be read."""
     comparisons, unread = read_comparisons(sorted((directory / SAMPLING).glob("*.json")))
     mirrors, unread_mirrors = read_mirrors(sorted((directory / MIRRORS).glob("*.json")))
     grid_beams = read_cells(directory, [GRID_BEAMS])
@@ -135,7 +135,7 @@ def sections_of(directory: Path, cells: Cells) -> tuple[list[Section], list[str]
 
 
 def _extra_sweeps(directory: Path, plan: Plan) -> list[Sweep]:
-    """The sweep of levels, where it was run into DIRECTORY/levels without being planned."""
+    """Returns the sweep of levels, if it was run into DIRECTORY/levels without being planned."""
     if any(sweep.name == LEVELS for sweep in plan.sweeps):
         return []
     try:
@@ -191,7 +191,7 @@ BEST_WORDS = (
 
 
 def headline(report: Report) -> str:
-    """How much was measured, and whether the hits were correct."""
+    """Returns the number of measured cells, and whether the hits were correct."""
     cells, wrong = len(report.cells.cells), len(report.cells.wrong)
     if not cells:
         return "Nothing was measured yet."
@@ -200,7 +200,7 @@ def headline(report: Report) -> str:
 
 
 def notice(report: Report) -> str:
-    """What a reader must know before reading on; nothing where all was measured in full."""
+    """Returns warnings for the reader; empty where everything was measured in full."""
     sentences = []
     if any(run.state != "finished" for run in report.runs):
         sentences.append("Not everything that was planned is there (see Runs).")
@@ -220,7 +220,7 @@ def notice(report: Report) -> str:
 
 
 def verdict_counts(report: Report) -> str:
-    """How many claims hold by the thesis's own figures and by ours."""
+    """Returns the number of claims that hold, by the thesis's own figures and by ours."""
     parts = []
     for whose, verdicts in (
         ("By the thesis's own figures", [one.thesis.verdict for one in report.claims]),

@@ -15,7 +15,7 @@ _NOT_RIGHT = 1
 
 @dataclass(frozen=True)
 class Outcome:
-    """How the runs ended."""
+    """The outcome of the runs."""
 
     not_right: tuple[str, ...]
     """Sweeps in which some structure had wrong hits."""
@@ -25,14 +25,14 @@ class Outcome:
 
     @property
     def exit_code(self) -> int:
-        """2 where something could not be run, 1 where a hit was wrong."""
+        """The exit code: 2 where something could not be run, 1 where a hit was wrong."""
         if self.interrupted:
             return 130
         return 2 if self.not_made else 1 if self.not_right else 0
 
 
 def run_sweeps(plan: Plan, directory: Path, beambench: Path) -> Outcome:
-    """Runs what is not finished yet. A sweep that cannot be run does not keep others from it."""
+    """Runs sweeps that are not finished. If one cannot be run, the others still are."""
     not_right, not_made = [], []
     for number, sweep in enumerate(plan.sweeps, 1):
         where = f"run {number} of {len(plan.sweeps)}: {sweep.name}"
@@ -54,7 +54,7 @@ def run_sweeps(plan: Plan, directory: Path, beambench: Path) -> Outcome:
 
 
 def state_of(folder: Path) -> str:
-    """`finished`, `begun` or `waiting`: what the folder of a sweep's run holds."""
+    """Returns the state of a sweep's run by its folder: `finished`, `begun` or `waiting`."""
     try:
         manifest = load_json(folder / "manifest.json")
     except (FileNotFoundError, ValueError):
@@ -65,7 +65,7 @@ def state_of(folder: Path) -> str:
 
 
 def describe(plan: Plan, directory: Path | None = None) -> str:
-    """A line for each sweep: its cells, the time it may take, and what is done of it."""
+    """Returns a line for each sweep: its cells, its time budget, and its state."""
     lines, cells, seconds = [], 0, 0.0
     for sweep in plan.sweeps:
         count, state = len(sweep.cells()), "waiting"

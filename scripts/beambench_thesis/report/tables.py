@@ -1,4 +1,4 @@
-"""The tables of the thesis with our cells in them: times, shapes, memory and work."""
+"""The thesis's tables with our cells: times, shapes, memory and work."""
 
 import math
 from collections.abc import Callable, Iterable, Sequence
@@ -29,7 +29,7 @@ It is an extra beside the thesis's, which places objects beside terminal nodes a
 
 @dataclass(frozen=True)
 class Entry:
-    """One cell of a table. Shapes are times over that of the part's first row at 320x200."""
+    """One cell of a table. Its shape is its time over that of the part's first row at 320x200."""
 
     thesis: float | None
     thesis_shape: float | None
@@ -62,7 +62,7 @@ class PartTable:
 
     @property
     def has_counts(self) -> bool:
-        """Does the thesis print leaves and pixels with it?"""
+        """Does the thesis print leaves and pixels with this part?"""
         return any(line.counts for line in self.lines)
 
     @property
@@ -72,7 +72,7 @@ class PartTable:
 
 
 def fill(part: PrintedPart, cells: Cells, why: Reasons) -> PartTable:
-    """Puts what was measured into a part."""
+    """Fills a part with our measurements."""
     lines = [_line(part, row, cells, why) for row in part.rows]
     added = [(name, f"{name} (of today)", {}) for name in REFERENCES]
     if _HIERARCHY in part.structures:
@@ -102,7 +102,7 @@ def _not_printed(
     cells: Cells,
     why: Reasons,
 ) -> Line:
-    """A row that the thesis does not have: the first cell of the structure with the parameters."""
+    """Returns a row that the thesis lacks: the structure's first cell with the parameters."""
     base = _base(part, cells)
     entries = []
     for resolution in RESOLUTIONS:
@@ -132,7 +132,7 @@ def _entry(ours: Cell | None, base: Cell | None, empty: Entry) -> Entry:
 def _counts(
     part: PrintedPart, row: PrintedRow, ours: Cell | None
 ) -> tuple[tuple[int | None, int | None], ...]:
-    """Tables 5.2 and 5.3 print them, for 1280x1024."""
+    """Returns the counts that tables 5.2 and 5.3 print, for 1280x1024."""
     if part.table not in ("5.2", "5.3"):
         return ()
     evidence = published_evidence()
@@ -185,7 +185,7 @@ class WorkTable:
 
 
 def work_of_lines(lines: Iterable[Line]) -> WorkTable:
-    """A row for each cell that was measured."""
+    """Returns a row for each measured cell."""
     return _work([(line.label, entry.ours) for line in lines for entry in line.entries])
 
 

@@ -68,7 +68,7 @@ def write_report(directory: Path, plan: Plan, beambench: Path | None = None) -> 
 
 
 def _write_rows(cells: Cells, path: Path) -> Path:
-    """The numbers that figures carry in the report, and the row of the file behind each."""
+    """Writes the row numbers that figures have in the report, and the file's row behind each."""
 
     def write(pending: Path) -> None:
         with pending.open("w", newline="", encoding="utf-8") as file:
@@ -82,7 +82,7 @@ def _write_rows(cells: Cells, path: Path) -> Path:
 
 
 def as_markdown(report: Report) -> str:
-    """The whole report."""
+    """Returns the whole report."""
     lines = ["# Chapter 5 of the thesis, measured again", ""]
     lines += [f"{headline(report)} {notice(report)}".strip(), ""]
     lines += ["## The claims of the thesis", "", verdict_counts(report), ""]
@@ -202,7 +202,7 @@ def _run(run: RunSummary) -> list[str]:
 
 
 def as_page(report: Report) -> str:
-    """The text of the page."""
+    """Returns the text of the page."""
     made = environment(Path(__file__).with_name("templates"))
     made.filters |= {
         "milliseconds": milliseconds,

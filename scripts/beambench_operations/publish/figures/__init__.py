@@ -1,1 +1,1 @@
-"""What the texts of results/published state: a module for each folder computes it from its rows."""
+"""Figures of the texts of results/published: a module for each folder computes them from rows."""

@@ -15,7 +15,7 @@ _THESIS, _HANDOVER = "0", "48"
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """How many times as fast the beams are as Samet's rays, by level and by option."""
+    """Returns the speedup of the beams over Samet's rays, by level and by option."""
     cells = Cells(folder)
     return {
         "scenes": cells.scenes,

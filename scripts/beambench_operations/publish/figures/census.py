@@ -13,7 +13,7 @@ _SHOWN = ("lattice", "rings", "escena1", "finishes", "balls", "maceta", "misil",
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """Our counts beside Haines's, and what the shadow cache, light buffers and depth change."""
+    """Returns our counts and Haines's, and the effects of shadow cache, light buffers and depth."""
     spd = _scenes(folder / "spd.json")
     published = {name: one["published"] for name, one in spd.items() if one.get("published")}
     return {
@@ -45,7 +45,7 @@ def _hidden(one: dict[str, Any]) -> float:
 
 
 def _shadows(folder: Path) -> dict[str, Any]:
-    """By scene: what is hidden, found by the cache, and times over those of plain queries."""
+    """Returns shadow rays hidden and found by the cache, and relative times, by scene."""
     plain, cache, buffer = (
         _scenes(folder / f"shadows-{name}.json") for name in ("rays", "cache", "light-buffer")
     )

@@ -16,7 +16,7 @@ _REMEDY = "restore it with git"
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """Functions that find a simulation by what it is of, and what is counted over several."""
+    """Returns functions that find a simulation by its settings, and counts over several."""
     simulations, processes = read_simulations(folder), read_processes(folder)
     split = read_table(folder / "split.csv", ("era", "scene", "processes"), _REMEDY, {"era": str})
     measured = read_table(folder / "measured.csv", ("scene", "setting", "seconds"), _REMEDY)
@@ -53,7 +53,7 @@ def figures(folder: Path) -> dict[str, Any]:
 
 
 def _one(table: pd.DataFrame, values: dict[str, object], file: Path) -> pd.Series:
-    """The only row with these values. Raises Problem where there is none, or several."""
+    """Returns the only row with these values. Raises Problem where there is none, or several."""
     for name, value in values.items():
         table = table[table[name] == value]
     if len(table) != 1:
@@ -62,7 +62,7 @@ def _one(table: pd.DataFrame, values: dict[str, object], file: Path) -> pd.Serie
 
 
 def _finder(simulations: pd.DataFrame) -> Callable[..., pd.Series]:
-    """One simulation, of the thesis's options and machines where nothing else is named."""
+    """Returns a finder of simulations, by default with the thesis's options and machines."""
 
     def at(scene: str, network: str, consumers: int, **columns: str) -> pd.Series:
         own = _THESIS | {"scene": scene, "network": network, "consumers": consumers} | columns
@@ -79,7 +79,7 @@ def _of(simulations: pd.DataFrame, scene: str, network: str) -> pd.DataFrame:
 
 
 def _best(simulations: pd.DataFrame, scene: str, network: str) -> pd.Series:
-    """The simulation of the highest efficiency."""
+    """Returns the simulation of the highest efficiency."""
     rows = _of(simulations, scene, network)
     return rows.loc[rows["efficiency"].idxmax()]
 
@@ -87,7 +87,7 @@ def _best(simulations: pd.DataFrame, scene: str, network: str) -> pd.Series:
 def _balance(
     at: Callable[..., pd.Series], processes: pd.DataFrame, scene: str, network: str
 ) -> dict[str, float]:
-    """Of 14 consumers: the most beams over the fewest, and the first one's end over the last's."""
+    """Returns the most beams over the fewest, and the first end over the last, of 14 consumers."""
     number = at(scene, network, 14)["simulation"]
     own = processes[(processes["simulation"] == number) & (processes["role"] == "consumer")]
     return {

@@ -18,12 +18,12 @@ class Counted:
 
     @property
     def all_wrong(self) -> int:
-        """Of whichever structure."""
+        """The number of wrong cells of all structures."""
         return sum(self.wrong.values())
 
 
 def counted(published: Path) -> Counted:
-    """Of every results.csv of a run."""
+    """Counts the cells of every results.csv."""
     cells, wrong = 0, {}
     for file in sorted(published.rglob("results.csv")):
         with file.open(encoding="utf-8", newline="") as table:

@@ -30,7 +30,7 @@ _KINDS = ("primary", "shadow", "diffuse")
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """Geometric means over watertight Embree, and sah-bvh over the best of tinybvh."""
+    """Returns geometric means over watertight Embree, and sah-bvh over the best of tinybvh."""
     cells = Cells(folder)
     of_embree_4 = _of_embree_4(folder / "embree-4")
     return {
@@ -49,7 +49,7 @@ def figures(folder: Path) -> dict[str, Any]:
 
 
 def _over_tinybvh(cells: Cells, contender: str) -> dict[str, Any]:
-    """Over the fastest correct configuration of tinybvh in each view."""
+    """Returns ratios over the fastest correct configuration of tinybvh in each view."""
     correct = cells.rows[cells.rows["timed"] & (cells.rows["structure"] == "tinybvh")]
     best = correct.groupby(["scene", "ray_kind"])[NET].min()
     ratios = {

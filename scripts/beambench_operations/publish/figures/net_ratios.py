@@ -15,7 +15,7 @@ NET = "trace_net_ms_median"
 def net_ratios(
     cells: Cells, base: str, contenders: Mapping[str, str], kind: str = ""
 ) -> dict[str, dict[str, dict[str, float]]]:
-    """By the name that `contenders` gives each, scene and kind of rays; `kind` means that alone."""
+    """Returns ratios by name in `contenders`, scene and kind of rays; `kind` selects one kind."""
     kinds = [kind] if kind else list(dict.fromkeys(cells.rows["ray_kind"]))
     found: dict[str, dict[str, dict[str, float]]] = {}
     for name, contender in contenders.items():
@@ -30,7 +30,7 @@ def net_ratios(
 
 
 def means(ratios: Mapping[str, Mapping[str, Mapping[str, float]]], scenes: int) -> dict[str, Any]:
-    """The geometric mean of each name over all scenes, by kind; where one is missing, none."""
+    """Returns the geometric mean of each name over all scenes, by kind, if all scenes have it."""
     result: dict[str, dict[str, float]] = {}
     for name, by_scene in ratios.items():
         kinds = dict.fromkeys(kind for own in by_scene.values() for kind in own)

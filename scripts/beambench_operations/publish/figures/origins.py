@@ -1,4 +1,4 @@
-"""Which commit and machine made what lies in a published folder."""
+"""The commits and machines that made a published folder."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from beambench_report.base.files import Problem, read_json
 
 @dataclass(frozen=True)
 class Origin:
-    """Of one run."""
+    """The origin of one run."""
 
     path: str
     """Within the published folder; empty for the folder itself."""
@@ -27,12 +27,12 @@ class Origin:
 
     @property
     def short_commit(self) -> str:
-        """As the texts name it."""
+        """The commit as the texts name it."""
         return self.commit[:7]
 
 
 def origins(folder: Path) -> list[Origin]:
-    """Of every run in a published folder, by path; of a folder without runs, its record's.
+    """Returns the origin of every run in a folder, by path; without runs, that of its record.
 
     Raises Problem for a manifest without them.
     """
@@ -50,13 +50,13 @@ def _of_record(file: Path) -> list[Origin]:
 
 
 def machine_in_words(processor: str) -> str:
-    """What the texts call a processor: `Xeon`, `EPYC`."""
+    """Returns the name of a processor in the texts: `Xeon`, `EPYC`."""
     known = re.search(r"\b(Xeon|EPYC|Core|Ryzen)\b", processor)
     return known[1] if known else processor
 
 
 def made(folder: Path) -> str:
-    """The commits and machines of a folder's runs: `654e80c, EPYC`."""
+    """Returns the commits and machines of a folder's runs: `654e80c, EPYC`."""
     found = dict.fromkeys(
         (one.short_commit, machine_in_words(one.processor)) for one in origins(folder)
     )

@@ -18,7 +18,7 @@ _NOT_OLDER = ("embree", "tile-beam", "sah-bvh", "kd-tree", "beam", "grid-beam")
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """Of each structure, by kind of rays: the mean over the scenes, and how often it wins."""
+    """Returns the mean over the scenes and the wins of each structure, by kind of rays."""
     cells = Cells(folder)
     found = races(cells.rows, cells.files)
     by_kind = {kind: [race for race in found if race.ray_kind == kind] for kind in _KINDS}

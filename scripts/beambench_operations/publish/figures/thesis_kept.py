@@ -1,4 +1,4 @@
-"""results/published/thesis: rows that an earlier version measured, and the texts still need."""
+"""results/published/thesis: rows of an earlier version that the texts still need."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _GOOD_PERCENT = 10
 
 
 def samplings(file: Path) -> dict[str, Any]:
-    """Of each scene, the setting of each method that comes nearest to the thesis's time."""
+    """Returns for each scene and method the setting with the time closest to the thesis's."""
     rows = pd.read_csv(file, dtype={"setting": str})
     return {scene: _nearest(rows[rows["scene"] == scene]) for scene in dict.fromkeys(rows["scene"])}
 
@@ -30,7 +30,7 @@ def _nearest(rows: pd.DataFrame) -> dict[str, Any]:
 
 
 def chosen_levels(file: Path) -> dict[str, Any]:
-    """How much time max_level=auto loses to the best fixed level, by structure."""
+    """Returns the time that max_level=auto loses to the best fixed level, by structure."""
     losses = pd.read_csv(file).groupby("structure", sort=False)["loss_percent"]
     return {
         structure: {

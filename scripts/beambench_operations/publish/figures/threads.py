@@ -9,7 +9,7 @@ from beambench_operations.publish.figures.cells import Cells
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """How many times as fast two threads trace as one, by scene and structure."""
+    """Returns the speedup of two threads over one, by scene and structure."""
     one, two = Cells(folder / "1"), Cells(folder / "2")
     gain = {
         name: {

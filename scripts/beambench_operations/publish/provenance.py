@@ -1,4 +1,4 @@
-"""Which commit and machine make a folder, and whether the tree is fit for it."""
+"""The commit and machine that make a folder, and checks that the working tree is clean."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ _SWEEP = {
 
 
 @dataclass(frozen=True)
-class Setting:
-    """Of what the built program measures now."""
+class Provenance:
+    """The provenance of measurements by the built program."""
 
     commit: str
     dirty: bool
@@ -40,7 +40,7 @@ class Setting:
 
     @property
     def warnings(self) -> list[str]:
-        """What makes times worth less."""
+        """Reasons to distrust the times."""
         found = []
         if self.noise > _LOOKS_BUSY:
             found.append(f"equal work takes up to {self.noise:.0%} longer than usual")
@@ -51,18 +51,18 @@ class Setting:
         return found
 
     def is_of(self, other: dict[str, object]) -> bool:
-        """Were this machine and the same sources at work in what `as_record` kept?"""
+        """Is a record of `as_record` from this machine and the same sources?"""
         return other.get("machine_id") == self.machine_id and same_sources(
             str(other.get("commit", "")), self.commit
         )
 
     def as_record(self) -> dict[str, object]:
-        """For the file that a folder keeps."""
+        """Returns the record for the file in a folder."""
         return asdict(self)
 
 
-def preflight(beambench: Path) -> Setting:
-    """Runs a cell that takes a second, whose manifest says all of it.
+def preflight(beambench: Path) -> Provenance:
+    """Runs a cell that takes a second, and reads the provenance from its manifest.
 
     Raises Problem where the program cannot be run.
     """
@@ -73,7 +73,7 @@ def preflight(beambench: Path) -> Setting:
         source = read_json(run / "manifest.json")
     try:
         program, machine, measured = (source[key] for key in ("program", "machine", "measurement"))
-        return Setting(
+        return Provenance(
             program["commit"],
             bool(program["dirty"]),
             machine["id"],
@@ -88,28 +88,28 @@ def preflight(beambench: Path) -> Setting:
         raise Problem(f"{beambench}: its manifest lacks {error}; run scripts/setup") from None
 
 
-def require_clean(setting: Setting, root: Path = ROOT) -> None:
-    """Raises Problem for uncommitted changes, and for a program of other sources.
+def require_clean(provenance: Provenance, root: Path = ROOT) -> None:
+    """Raises Problem for uncommitted changes, and for a program built from other sources.
 
-    results/published may change: it is what a publication writes.
+    results/published may change: that is where a publication writes.
     """
     changed = git("status", "--porcelain", "--", ".", f":!{_KEPT_APART}", root=root)
     if changed:
         raise Problem(
             f"there are changes that are not committed: {changed.splitlines()[0].strip()}"
         )
-    if setting.dirty:
+    if provenance.dirty:
         raise Problem("the program was built from a changed tree; run scripts/setup")
     head = git("rev-parse", "HEAD", root=root)
-    if not same_sources(setting.commit, head, root):
+    if not same_sources(provenance.commit, head, root):
         raise Problem(
-            f"the program is of commit {setting.commit[:7]} and the tree of {head[:7]}, which "
+            f"the program is of commit {provenance.commit[:7]} and the tree of {head[:7]}, which "
             "differ in more than results/published; run scripts/setup"
         )
 
 
 def same_sources(one: str, other: str, root: Path = ROOT) -> bool:
-    """Do two commits differ at most in what is published?"""
+    """Do two commits differ at most in results/published?"""
     if one == other:
         return True
     command = ["git", "-C", str(root), "diff", "--quiet", one, other, "--", ".", f":!{_KEPT_APART}"]
@@ -117,5 +117,5 @@ def same_sources(one: str, other: str, root: Path = ROOT) -> bool:
 
 
 def git(*arguments: str, root: Path = ROOT) -> str:
-    """What git prints. Raises Problem where it fails."""
+    """Returns the output of git. Raises Problem where it fails."""
     return output_of(["git", "-C", str(root), *arguments], remedy="install git").strip()

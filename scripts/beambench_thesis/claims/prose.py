@@ -1,4 +1,4 @@
-"""The rules of what the thesis says in its text alone, without a table or a figure about it.
+"""Rules for claims that the thesis makes in prose only, without a table or a figure.
 
 Such sentences have few figures or none: what "few" or "nearly all" is taken to mean stands beside
 each rule. Octrees have level 6, as wherever the thesis does not vary it.
@@ -20,12 +20,12 @@ from beambench_thesis.paper.evidence import (
     total,
 )
 
-FURTHER_CLAIMS = Claims()
+PROSE_CLAIMS = Claims()
 
 
 def _left_over(e: Evidence, scene: str, resolution: str) -> Measured | None:
-    """Of the samples that were tested in the occupied leaves where their beams end, the part that
-    hit nothing there and continued as rays.
+    """Returns the share of samples that miss everything in the occupied leaf where their beam ends,
+    and continue as rays.
     """
     return ratio_of(
         e.worked("rays_after_leaf", scene, resolution),
@@ -33,13 +33,13 @@ def _left_over(e: Evidence, scene: str, resolution: str) -> Measured | None:
     )
 
 
-@FURTHER_CLAIMS.claim(
+@PROSE_CLAIMS.claim(
     "C25",
     "5.4.2",
     "In bola-espacial nearly all rays hit an object in the occupied leaf where their beam ends.",
 )
 def rays_hit_where_their_beam_ends(e: Evidence) -> list[Check]:
-    """Nearly all: nine of ten or more, at each resolution."""
+    """Nearly all means 90% or more, at each resolution."""
     return [
         between(
             f"bola-espacial {resolution}, part of the samples that continues as rays",
@@ -51,13 +51,13 @@ def rays_hit_where_their_beam_ends(e: Evidence) -> list[Check]:
     ]
 
 
-@FURTHER_CLAIMS.claim(
+@PROSE_CLAIMS.claim(
     "C26",
     "3.6.2",
     "The rays of a beam that hit nothing in its occupied leaf and have to be traced on are few.",
 )
 def few_rays_are_left_over(e: Evidence) -> list[Check]:
-    """Few: less than half of the samples, in each scene at 1280x1024."""
+    """Few means less than half of the samples, in each scene at 1280x1024."""
     return [
         between(
             f"{scene} {FINEST}, part of the samples that continues as rays",
@@ -69,13 +69,13 @@ def few_rays_are_left_over(e: Evidence) -> list[Check]:
     ]
 
 
-@FURTHER_CLAIMS.claim(
+@PROSE_CLAIMS.claim(
     "C27",
     "6.2.1",
     "With a fitting octree, taking beams through it is no more than 10% of the whole time.",
 )
 def walking_takes_little(e: Evidence) -> list[Check]:
-    """In each scene at 1280x1024: the section speaks of high resolutions."""
+    """Holds in each scene at 1280x1024: the section is about high resolutions."""
     return [
         between(
             f"{scene} {FINEST}, share of non-terminal beams",
@@ -87,9 +87,9 @@ def walking_takes_little(e: Evidence) -> list[Check]:
     ]
 
 
-@FURTHER_CLAIMS.claim("C28", "5.3.3", "Beams that leave the scene are never the critical task.")
+@PROSE_CLAIMS.claim("C28", "5.3.3", "Beams that leave the scene are never the critical task.")
 def leaving_is_never_critical(e: Evidence) -> list[Check]:
-    """In each scene, at the lowest and at the highest resolution, another task takes longer."""
+    """Another task takes longer in each scene, at the lowest and at the highest resolution."""
 
     def critical(scene: str, resolution: str) -> Check:
         leaving, *others = (
@@ -105,7 +105,7 @@ def leaving_is_never_critical(e: Evidence) -> list[Check]:
     ]
 
 
-@FURTHER_CLAIMS.claim(
+@PROSE_CLAIMS.claim(
     "C29",
     "5.4.1",
     "What Samet-Net gains over Samet, and the beams over both, grows with the resolution.",
@@ -114,9 +114,9 @@ def leaving_is_never_critical(e: Evidence) -> list[Check]:
     "undecided",
 )
 def gains_grow_with_the_resolution(e: Evidence, needs_a_gain: bool = True) -> list[Check]:
-    """From 320x200 to 1280x1024. Samet-Net: the seconds saved, for the reason given is that more
-    rays use the links; no where it is not the quicker one at 1280x1024. Beams: how many times as
-    long the rays take.
+    """Compares 320x200 with 1280x1024. The gain of Samet-Net is the seconds saved, since the reason
+    given is that more rays use the links; it fails where it is not faster at 1280x1024. The gain of
+    the beams is a ratio of times.
     """
 
     def saves_more(scene: str) -> Check:
@@ -147,11 +147,11 @@ def gains_grow_with_the_resolution(e: Evidence, needs_a_gain: bool = True) -> li
     ]
 
 
-@FURTHER_CLAIMS.claim(
+@PROSE_CLAIMS.claim(
     "C30", "3.1", "Primary rays are generally more than secondary (reflected, refracted) ones."
 )
 def secondary_rays_are_fewer(e: Evidence) -> list[Check]:
-    """Generally: in more than half of the fifteen scenes, and in all of them taken together."""
+    """Generally means in more than half of the fifteen scenes, and in all of them together."""
     counts = {
         scene: tuple(
             e.worked(kind, scene, contender=PICTURE) for kind in ("eye_rays", "secondary_rays")
@@ -169,12 +169,12 @@ def secondary_rays_are_fewer(e: Evidence) -> list[Check]:
     ]
 
 
-@FURTHER_CLAIMS.claim(
+@PROSE_CLAIMS.claim(
     "C31", "6.2.2", "The shadow cache succeeds more often where pixels are grouped in beams."
 )
 def shadow_cache_gains_from_beams(e: Evidence) -> list[Check]:
-    """In each scene the cache knows more of the hidden shadow rays, if pixels are shaded beam by
-    beam, than if they are shaded along the rows.
+    """The cache finds more hidden shadow rays, in each scene, if pixels are shaded beam by beam
+    than along the rows.
     """
     checks = []
     for scene in ALL_SCENES:
