@@ -217,16 +217,21 @@ void GoogleBenchmark::run_once(const std::string& name, const TimedWork& work) c
   benchmark::RunSpecifiedBenchmarks(&collector, ".");
 }
 
-void write_google_benchmark_json(std::ostream& out, const Json& context,
-                                 std::span<const CellRecord> cells) {
+Json GoogleBenchmark::context() const {
   std::ostringstream start;
   benchmark::JSONReporter reporter;
   reporter.SetOutputStream(&start);
   reporter.ReportContext(benchmark::BenchmarkReporter::Context());
-  Json document = Json::parse(start.str() + "]}");  // it ends within the list of benchmarks
-  document["context"].update(context);
-  const std::string text = json_text(document);
+  Json context = Json::parse(start.str() + "]}").at("context");  // it ends within a list
+  context.erase("host_name");
+  return context;
+}
+
+void write_google_benchmark_json(std::ostream& out, const Json& context,
+                                 std::span<const CellRecord> cells) {
+  const std::string text = json_text(Json{{"context", context}, {"benchmarks", Json::array()}});
   out << text.substr(0, text.rfind("[]")) << "[\n";
+  benchmark::JSONReporter reporter;
   reporter.SetOutputStream(&out);
   std::int64_t index = 0;
   for (const CellRecord& cell : cells) reporter.ReportRuns(runs_of(cell, index++));

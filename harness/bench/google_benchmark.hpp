@@ -48,10 +48,13 @@ class GoogleBenchmark {
   /// library's own interleaving shuffles all repetitions at once and cannot stop one contender
   /// earlier than another.
   void run_once(const std::string& name, const TimedWork& work) const;
+
+  /// What the library states of the machine and this moment: date, load, processor and caches. The
+  /// host's name, which stays out of records, is left out.
+  nlohmann::ordered_json context() const;
 };
 
-/// Writes cells as Google Benchmark writes its results: one entry each repetition, `context` put
-/// into its context.
+/// Writes cells as Google Benchmark writes its results: one entry for each repetition.
 void write_google_benchmark_json(std::ostream& out, const nlohmann::ordered_json& context,
                                  std::span<const CellRecord> cells);
 

@@ -131,7 +131,9 @@ class SweepRun {
         throttling_(options.root, manifest_.measurement.throttling),
         names_(names_of(plan)),
         plan_(unfinished(std::move(plan))),
-        progress_(plan_.cell_count(), messages) {}
+        progress_(plan_.cell_count(), messages) {
+    if (!options.resume) manifest_.google_benchmark = benchmark.context();
+  }
 
   std::filesystem::path run() && {
     {
@@ -146,7 +148,7 @@ class SweepRun {
       base::print_message(messages_, fmt::format("{}\n", line));
     }
     if (options_.resume) {
-      log_.resume(to_json(manifest_));
+      log_.resume(to_json(manifest_), log_bytes_);
     } else {
       log_.begin(to_json(manifest_), config_.source, names_);
     }
@@ -177,6 +179,7 @@ class SweepRun {
     }
     RunLog log = RunLog::open(options_.folder.value());
     Run run = read_run(log.folder());
+    log_bytes_ = run.log_bytes;
     require_same_run(log.folder(), run, config_.source, to_json(manifest_));
     read_as_written((log.folder() / kLogName).string(), "begin a new run with -o",
                     [&] { continue_with(manifest_, run.manifest); });
@@ -385,6 +388,7 @@ class SweepRun {
   Manifest manifest_;
   std::set<std::size_t> finished_;                ///< by an earlier part of the run: cells
   std::map<std::size_t, CellRecord> unfinished_;  ///< begun by it
+  std::uint64_t log_bytes_ = 0;                   ///< that it wrote
   RunLog log_;
   ThrottlingWatch throttling_;
   std::vector<PlannedName> names_;  ///< of all cells

@@ -281,7 +281,7 @@ TEST(RunLog, LaterEventsChangeTheManifest) {
     auto resumed = small_manifest();
     resumed["part_begun_utc"] = "later";
     RunLog log = RunLog::open(folder.path());
-    log.resume(resumed);
+    log.resume(resumed, run.log_bytes);
     log.end("2026-01-01T00:00:00Z");
   }
   run = read_run(folder.path());
@@ -357,7 +357,7 @@ TEST_F(WrittenLog, CutAtAnyByteIsContinuedBehindItsLastWholeLine) {
   for (std::size_t bytes = text_.find('\n') + 1; bytes <= text_.size(); ++bytes) {
     const std::string cut = text_.substr(0, bytes);
     write(cut);
-    RunLog::open(folder()).resume(small_manifest());
+    RunLog::open(folder()).resume(small_manifest(), read_run(folder()).log_bytes);
     const std::string whole = cut.substr(0, cut.rfind('\n') + 1);
     const nlohmann::ordered_json resumed{{"event", "resumed"}, {"manifest", small_manifest()}};
     ASSERT_EQ(read_text(file()), whole + resumed.dump() + '\n') << bytes;

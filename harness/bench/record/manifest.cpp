@@ -152,6 +152,7 @@ void continue_with(Manifest& now, const Json& before) {
   now.run.run_id = before.at("run_id").get<std::string>();
   now.begun_utc = before.at("time_utc").get<std::string>();
   now.measurement.throttling = conditions_of(before).throttling;
+  now.google_benchmark = before.value("google_benchmark", now.google_benchmark);
   now.earlier_parts = before.value("earlier_parts", Json::array());
   Json part = Json::object();
   for (const char* member : {"part_begun_utc", "machine", "measurement", "uncontrolled"}) {
@@ -176,6 +177,7 @@ Json to_json(const Manifest& manifest) {
             {"uncontrolled", manifest.uncontrolled},
             {"part_begun_utc", manifest.part_begun_utc},
             {"earlier_parts", manifest.earlier_parts},
+            {"google_benchmark", manifest.google_benchmark},
             {"notes", {kLibraryNote}}};
   if (manifest.shard) json["shard"] = to_json(*manifest.shard);
   return json;

@@ -48,7 +48,8 @@ struct Manifest {
   std::vector<plugin::LoadedPlugin> plugins;
   std::vector<SceneFacts> scenes;   ///< of the sweep; of a shard, those of the other shards, too
   std::optional<ShardFacts> shard;  ///< nothing: the run is the whole sweep
-  std::vector<std::string> uncontrolled;  ///< sentences
+  std::vector<std::string> uncontrolled;                                       ///< sentences
+  nlohmann::ordered_json google_benchmark = nlohmann::ordered_json::object();  ///< its context
   /// The conditions of the parts before the run was cut off and resumed.
   nlohmann::ordered_json earlier_parts = nlohmann::ordered_json::array();
 };

@@ -1,11 +1,14 @@
 #include "harness/bench/record/run_log.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <memory>
 #include <set>
 #include <system_error>
 
 #include <fmt/format.h>
+#include <zlib.h>
 
 #include "harness/bench/record/cell_json.hpp"
 #include "harness/bench/record/conditions.hpp"
@@ -41,6 +44,34 @@ std::uint64_t for_each_line(const fs::path& log,
     whole = input.position();
   }
   return whole;
+}
+
+/// The same for a log that was packed by gzip.
+std::uint64_t for_each_packed_line(const fs::path& log,
+                                   const std::function<void(std::string_view line)>& visit) {
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(log.c_str(), "rb"), gzclose);
+  std::array<char, 1U << 16U> buffer;
+  std::string pending;
+  std::uint64_t whole = 0;
+  for (int count = 1; count != 0;) {
+    count = file ? gzread(file.get(), buffer.data(), buffer.size()) : -1;
+    if (count < 0) throw InputError(fmt::format("{}: cannot be unpacked", log.string()));
+    pending.append(buffer.data(), static_cast<std::size_t>(count));
+    std::size_t begin = 0;
+    for (std::size_t end; (end = pending.find('\n', begin)) != std::string::npos; begin = end + 1) {
+      visit(std::string_view(pending).substr(begin, end - begin));
+    }
+    pending.erase(0, begin);
+    whole += begin;
+  }
+  return whole;
+}
+
+/// The log of a folder, packed or not.
+fs::path log_in(const fs::path& folder) {
+  const fs::path log = folder / kLogName;
+  const fs::path packed = folder / kPackedLogName;
+  return !fs::exists(log) && fs::exists(packed) ? packed : log;
 }
 
 /// Puts an event of a log into the run that is read.
@@ -139,10 +170,11 @@ Json event_of(const char* kind, const CellRecord& cell, const Json& members) {
 
 }  // namespace
 
-void for_each_event(const fs::path& folder, const std::function<void(const Json&)>& visit) {
-  const fs::path log = folder / kLogName;
+std::uint64_t for_each_event(const fs::path& folder,
+                             const std::function<void(const Json&)>& visit) {
+  const fs::path log = log_in(folder);
   std::size_t number = 0;
-  for_each_line(log, [&](std::string_view line) {
+  const auto visit_line = [&](std::string_view line) {
     const std::string place = fmt::format("{}, line {}", log.string(), ++number);
     const Json event = parse_json<Json>(line, place);
     try {
@@ -152,15 +184,18 @@ void for_each_event(const fs::path& folder, const std::function<void(const Json&
       if (message.starts_with(log.string())) throw;
       throw InputError(fmt::format("{}: {}; {}", place, message, kRemedy));
     }
-  });
+  };
+  return log.filename() == kPackedLogName ? for_each_packed_line(log, visit_line)
+                                          : for_each_line(log, visit_line);
 }
 
 Run read_run(const fs::path& folder) {
   require_run(folder);
-  const std::string log = (folder / kLogName).string();
+  const std::string log = log_in(folder).string();
   Reader reader;
-  for_each_event(folder, [&](const Json& event) { reader.take(event); });
+  const std::uint64_t bytes = for_each_event(folder, [&](const Json& e) { reader.take(e); });
   Run run = std::move(reader).result();
+  run.log_bytes = bytes;
   if (run.manifest.is_null()) {
     throw InputError(fmt::format("{}: it has no whole line; {}", log, kRemedy));
   }
@@ -169,7 +204,7 @@ Run read_run(const fs::path& folder) {
 }
 
 void require_run(const fs::path& folder) {
-  if (fs::exists(folder / kLogName)) return;
+  if (fs::exists(log_in(folder))) return;
   throw InputError(fmt::format("'{}' holds no run: there is no {}; begin one with -o",
                                folder.string(), kLogName));
 }
@@ -208,9 +243,8 @@ void RunLog::begin(const Json& manifest, const nlohmann::json& config,
   file_.emplace(folder_ / kLogName, line.size());
 }
 
-void RunLog::resume(const Json& manifest) {
-  const fs::path log = folder_ / kLogName;
-  file_.emplace(log, for_each_line(log, [](std::string_view) {}));
+void RunLog::resume(const Json& manifest, std::uint64_t log_bytes) {
+  file_.emplace(folder_ / kLogName, log_bytes);
   add({{"event", "resumed"}, {"manifest", manifest}});
 }
 

@@ -4,7 +4,9 @@
 // One JSON object a line, in the order of events, never rewritten:
 //   header        schema_version, manifest, config, plan: index and name of each cell
 //   resumed       manifest: the run goes on in another process
-//   cell          the timing of a cell begins: what it is, its rays, its counters and sizes
+//   cell          the timing of a cell begins: what it is, its rays, its counters and sizes; in
+//   logs
+//                 without repetitions, `columns`: the figures of results.csv that were made of them
 //   repetition    a timed one of a cell, with its second trace
 //   verification  of the hits of a cell's first repetition
 //   warning       a sentence on what could not be controlled
@@ -37,6 +39,8 @@ inline constexpr int kLogVersion = 1;
 
 /// The name of the log in a run's folder.
 inline constexpr const char* kLogName = "run.jsonl";
+/// The name of a log that was packed by gzip to be kept; it is read where there is no other.
+inline constexpr const char* kPackedLogName = "run.jsonl.gz";
 
 /// A cell of a plan.
 struct PlannedName {
@@ -53,6 +57,7 @@ struct Run {
   /// Those that were begun, in the order of the plan. A cell that is not finished has the verdict
   /// of its verification; without one it is not here.
   std::vector<CellRecord> cells;
+  std::uint64_t log_bytes = 0;  ///< of the whole lines of the log
 
   bool is_ended() const { return manifest.at("finished_utc").is_string(); }
 };
@@ -80,8 +85,8 @@ class RunLog {
   /// Writes the header of a new run.
   void begin(const nlohmann::ordered_json& manifest, const nlohmann::json& config,
              std::span<const PlannedName> plan);
-  /// Continues an opened log behind its last whole line.
-  void resume(const nlohmann::ordered_json& manifest);
+  /// Continues an opened log behind its whole lines, which have that many bytes.
+  void resume(const nlohmann::ordered_json& manifest, std::uint64_t log_bytes);
 
   void begin_cell(const CellRecord& cell);
   /// The last of the cell's repetitions.
@@ -104,9 +109,10 @@ class RunLog {
   std::optional<GrowingFile> file_;
 };
 
-/// Calls `visit` with each event of the log in a folder, in order. Throws as `read_run`.
-void for_each_event(const std::filesystem::path& folder,
-                    const std::function<void(const nlohmann::ordered_json& event)>& visit);
+/// Calls `visit` with each event of the log in a folder, in order; returns the bytes of its whole
+/// lines. Throws as `read_run`.
+std::uint64_t for_each_event(const std::filesystem::path& folder,
+                             const std::function<void(const nlohmann::ordered_json& event)>& visit);
 
 /// What differs between the runs of two manifests and makes their cells incomparable, in a clause:
 /// the program, the plug-ins or a scene that both have; empty where nothing does.

@@ -4,6 +4,7 @@ The events are described in harness/bench/record/run_log.hpp. What follows the l
 left out: there the run was cut off.
 """
 
+import gzip
 import json
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -12,6 +13,7 @@ from pathlib import Path
 from beambench_report.base.files import Problem
 
 LOG = "run.jsonl"
+PACKED_LOG = "run.jsonl.gz"
 
 Event = dict[str, object]
 Repetition = dict[str, float]
@@ -32,8 +34,12 @@ class LoggedCell:
 
 
 def has_log(run: Path) -> bool:
-    """Was a run begun in this folder, whose log is still there?"""
-    return (run / LOG).is_file()
+    """Was a run begun in this folder, whose log is still there, packed or not?"""
+    return _log_in(run).is_file()
+
+
+def _log_in(run: Path) -> Path:
+    return run / (LOG if (run / LOG).is_file() else PACKED_LOG)
 
 
 def logged_cells(run: Path) -> list[LoggedCell]:
@@ -54,10 +60,10 @@ def logged_cells(run: Path) -> list[LoggedCell]:
 
 def _events(run: Path) -> Iterator[tuple[str, Event]]:
     """Each event, and where it stands."""
-    path = run / LOG
+    path = _log_in(run)
     if not path.is_file():
         return
-    with path.open(encoding="utf-8") as file:
+    with (gzip.open if path.name == PACKED_LOG else open)(path, "rt", encoding="utf-8") as file:
         for number, line in enumerate(file, 1):
             if not line.endswith("\n"):
                 return
