@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/analysis/words.hpp"
 #include "harness/base/messages.hpp"
 #include "harness/bench/record/conditions.hpp"
 #include "harness/bench/record/machine.hpp"
@@ -18,19 +19,27 @@ namespace {
 using bench::CellRecord;
 using bench::Conditions;
 using bench::QueryPath;
-using bench::Repetition;
 using Json = nlohmann::ordered_json;
 
-std::optional<Overhead> overhead_of(const CellRecord& cell) {
-  if (cell.verdict != verify::Verdict::kOk || !cell.has_times() || !cell.harness ||
+std::optional<Overhead> overhead_of(const CellRecord& cell, const Names& names) {
+  const std::optional<Median> trace = trace_median(cell);
+  if (cell.verdict != verify::Verdict::kOk || !trace || !cell.harness ||
       cell.harness->path == QueryPath::kImageOwn || cell.harness->path == QueryPath::kPicture) {
     return std::nullopt;
   }
-  const double trace_ms = bench::median(bench::collect(cell, &Repetition::trace_ms));
   // A plug-in that is faster than making rays one by one does not do so, whatever it states.
-  if (trace_ms <= cell.harness->ms) return std::nullopt;
-  return Overhead{std::string(to_string(cell.harness->path)), cell.id.name(),
-                  cell.harness->ms / trace_ms};
+  if (trace->value <= cell.harness->ms) return std::nullopt;
+  const std::string title = fmt::format("{} in {} at {}", names.contender, names.view,
+                                        rays::to_string(cell.id.resolution));
+  return Overhead{std::string(to_string(cell.harness->path)), cell.id.name(), title,
+                  cell.harness->ms / trace->value};
+}
+
+/// How often a cell was repeated.
+std::size_t repetitions_of(const CellRecord& cell) {
+  const auto summed_up = cell.columns.find("repetitions");
+  return summed_up == cell.columns.end() ? cell.repetitions.size()
+                                         : static_cast<std::size_t>(summed_up->second);
 }
 
 /// A number, or null where JSON has none for it: infinity.
@@ -71,9 +80,12 @@ Json to_json(const Standings& view) {
             {"rays", view.rays},
             {"ranked", to_json(view.ranked)},
             {"references", to_json(view.references)},
-            {"left_out", left_out}};
+            {"left_out", left_out},
+            {"in_means", view.in_means}};
   if (const auto rays = view.break_even_rays()) {
-    json["break_even"] = {{"rays", number(*rays)}, {"over", view.last_overtaken()->contender}};
+    json["break_even"] = {{"rays", number(*rays)},
+                          {"over", view.last_overtaken()->contender},
+                          {"in_words", rays_in_words(*rays)}};
   }
   return json;
 }
@@ -92,10 +104,11 @@ Json to_json(const std::vector<MeanStanding>& means) {
 
 }  // namespace
 
-std::vector<Overhead> largest_overheads(std::span<const CellRecord> cells) {
+std::vector<Overhead> largest_overheads(const bench::Run& run) {
+  const std::vector<Names> names = names_of(run);
   std::vector<Overhead> largest;
-  for (const CellRecord& cell : cells) {
-    const std::optional<Overhead> found = overhead_of(cell);
+  for (std::size_t i = 0; i < run.cells.size(); ++i) {
+    const std::optional<Overhead> found = overhead_of(run.cells[i], names[i]);
     if (!found) continue;
     const auto same = std::ranges::find(largest, found->path, &Overhead::path);
     if (same == largest.end()) {
@@ -113,10 +126,10 @@ std::vector<std::string> reasons_for_care(const bench::Run& run) {
   constexpr std::size_t kLeastForInterval = 6;
   std::size_t timed = 0, imprecise = 0, without_interval = 0;
   for (const CellRecord& cell : run.cells) {
-    if (!cell.has_times()) continue;
+    if (!trace_median(cell)) continue;
     ++timed;
     if (cell.stop_reason != bench::StopReason::kPrecision) ++imprecise;
-    if (cell.repetitions.size() < kLeastForInterval) ++without_interval;
+    if (repetitions_of(cell) < kLeastForInterval) ++without_interval;
   }
   const Conditions conditions = bench::conditions_of(run.manifest);
   std::vector<std::string> reasons;
@@ -156,7 +169,7 @@ Analysis analyze(const bench::Run& run) {
   analysis.reasons_for_care = reasons_for_care(run);
   analysis.views = standings(run);
   analysis.means = overall(analysis.views);
-  analysis.overheads = largest_overheads(run.cells);
+  analysis.overheads = largest_overheads(run);
   return analysis;
 }
 
@@ -176,7 +189,8 @@ Json to_json(const Analysis& analysis) {
                      {"references", to_json(one.references)}});
   }
   for (const Overhead& one : analysis.overheads) {
-    overheads.push_back({{"query_path", one.path}, {"cell", one.cell}, {"part", one.part}});
+    overheads.push_back(
+        {{"query_path", one.path}, {"cell", one.cell}, {"title", one.title}, {"part", one.part}});
   }
   return {{"schema_version", 1},
           {"cells", analysis.cells},

@@ -16,9 +16,10 @@ namespace beambench::analysis {
 /// The harness's own share of a trace (`harness_ms`) in the cell where it is the largest part of
 /// the contender's time, among those of one query path.
 struct Overhead {
-  std::string path;  ///< the QueryPath, by name
-  std::string cell;  ///< its name
-  double part;       ///< of its median trace time
+  std::string path;   ///< the QueryPath, by name
+  std::string cell;   ///< its name
+  std::string title;  ///< `samet max_level=5 in escena1 at 640x480`
+  double part;        ///< of its median trace time
 };
 
 /// What a run comes to.
@@ -39,7 +40,7 @@ Analysis analyze(const bench::Run& run);
 
 /// One for each path with right answers, the largest first. Structures that trace images by
 /// samples of their own have none, nor whole pictures, whose shading is wanted.
-std::vector<Overhead> largest_overheads(std::span<const bench::CellRecord> cells);
+std::vector<Overhead> largest_overheads(const bench::Run& run);
 
 /// Why the times of a run are worth little: noise of equal work, other work (a load average), a
 /// CPU quota, missed precision, too few repetitions for an interval. Clauses; none where nothing

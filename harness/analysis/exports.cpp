@@ -21,19 +21,9 @@ using Json = nlohmann::ordered_json;
 /// The manifest mentions the harness's own time above this part of the fastest contender's.
 constexpr double kWantedOverhead = 0.02;
 
-Json overhead_json(const std::vector<Overhead>& overheads) {
-  if (overheads.empty()) return {};
-  Json json{{"part", overheads.front().part}, {"cell", overheads.front().cell}};
-  for (const Overhead& each : overheads) {
-    json["by_query_path"][each.path] = {{"part", each.part}, {"cell", each.cell}};
-  }
-  return json;
-}
-
 /// The manifest of a run with what its cells show.
 Json whole_manifest(const bench::Run& run, const Analysis& analysis) {
   Json manifest = run.manifest;
-  manifest["harness_overhead"] = overhead_json(analysis.overheads);
   Json& uncontrolled = manifest.at("uncontrolled");
   if (const auto throttled = bench::describe(bench::conditions_of(manifest).throttling)) {
     uncontrolled.push_back(fmt::format("During the run, {}.", *throttled));
@@ -44,16 +34,18 @@ Json whole_manifest(const bench::Run& run, const Analysis& analysis) {
   return manifest;
 }
 
-/// The context of google-benchmark.json. The host's name stays out of records; library_build_type
-/// is of Google Benchmark alone.
+/// The context of google-benchmark.json: what the library stated as the run began, and the program.
+/// library_build_type is of Google Benchmark alone.
 Json benchmark_context(const Json& manifest) {
   const Json& program = manifest.at("program");
-  return {{"host_name", manifest.at("machine").at("id")},
-          {"beambench_run_id", manifest.at("run_id")},
-          {"beambench_commit", program.at("commit")},
-          {"beambench_dirty", program.at("dirty")},
-          {"beambench_build_type", program.at("build_type")},
-          {"beambench_isa", manifest.at("measurement").at("isa")}};
+  Json context = manifest.value("google_benchmark", Json::object());
+  context.update({{"host_name", manifest.at("machine").at("id")},
+                  {"beambench_run_id", manifest.at("run_id")},
+                  {"beambench_commit", program.at("commit")},
+                  {"beambench_dirty", program.at("dirty")},
+                  {"beambench_build_type", program.at("build_type")},
+                  {"beambench_isa", manifest.at("measurement").at("isa")}});
+  return context;
 }
 
 void write_exports(const fs::path& folder, const bench::Run& run, const Analysis& analysis) {

@@ -307,6 +307,7 @@ Row to_row(const RunFacts& run, const CellRecord& cell) {
   add_counters(row, cell);
   add_kinds(row, cell);
   add_verification(row, cell);
+  for (const auto& [column, figure] : cell.columns) row[column] = figure;
   return row;
 }
 

@@ -7,19 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "harness/bench/record/robust_statistics.hpp"
+#include "harness/analysis/names.hpp"
+#include "harness/analysis/ratio.hpp"
 #include "harness/bench/record/run_log.hpp"
 
 namespace beambench::analysis {
-
-using bench::Interval;
-
-/// How many times one time is of another, with a 95% interval where there are repetitions enough.
-struct TimeRatio {
-  double value = 1.0;
-  std::optional<Interval> interval{};
-  bool is_paired = false;  ///< was it made round by round?
-};
 
 /// One contender in one view.
 struct Standing {
@@ -52,6 +44,7 @@ struct Standings {
   std::vector<Standing> ranked;      ///< the fastest first; empty where no hits were correct
   std::vector<Standing> references;  ///< `null`, which finds nothing; `exhaustive`, which tests all
   std::vector<LeftOut> left_out;
+  bool in_means = false;  ///< is it among the views that means are over?
 
   /// The first that is not tied with the fastest; null where there is none.
   const Standing* behind() const;
@@ -81,18 +74,19 @@ struct OverallStandings {
   std::vector<MeanStanding> references;
 };
 
-/// The median ratio of the rounds that both cells have, with the 95% interval of that median: what
-/// disturbs a round disturbs both. Nothing where they have no round in common.
-std::optional<TimeRatio> paired_trace_ratio(const bench::CellRecord& over,
-                                            const bench::CellRecord& under);
+/// Returns the names of each cell of a run.
+std::vector<Names> names_of(const bench::Run& run);
+
+/// The median trace time of a cell: of its repetitions, or as it was summed up. Nothing where its
+/// hits are not correct.
+std::optional<Median> trace_median(const bench::CellRecord& cell);
 
 /// Of each view, in the order of the plan. The conditions of the sweep explain why a contender is
 /// absent.
 std::vector<Standings> standings(const bench::Run& run);
 
-/// Of each kind of rays. Where several machines measured a view, one at each resolution, the
-/// highest resolution counts. The views' noise is independent, so that the distances to the ends of
-/// their intervals add up in quadrature.
+/// The means over the views of each kind of rays. Where several machines measured a view, one at
+/// each resolution, the highest resolution counts.
 std::vector<OverallStandings> overall(std::span<const Standings> views);
 
 }  // namespace beambench::analysis

@@ -27,18 +27,6 @@ std::string in_words(const TimeRatio& ratio) {
                      ratio.interval->high);
 }
 
-std::string rays_in_words(const std::optional<double>& rays) {
-  if (!rays) return "";
-  if (*rays <= 0.0) return "the first ray";
-  if (!std::isfinite(*rays)) return "never";
-  constexpr std::array<std::pair<double, const char*>, 4> kUnits{
-      {{1e3, ""}, {1e6, " k"}, {1e9, " M"}, {1e12, " G"}}};
-  for (const auto& [limit, unit] : kUnits) {
-    if (*rays < limit) return fmt::format("{:.3g}{} rays", *rays * 1e3 / limit, unit);
-  }
-  return fmt::format("{:.3g} rays", *rays);
-}
-
 std::string table(const std::vector<std::vector<std::string>>& lines) {
   std::string out;
   for (const std::string& line : base::aligned(lines, lines.front().size())) {
@@ -100,6 +88,17 @@ std::string_view subject_of(const std::string& path) {
 
 }  // namespace
 
+std::string rays_in_words(double rays) {
+  if (rays <= 0.0) return "the first ray";
+  if (!std::isfinite(rays)) return "never";
+  constexpr std::array<std::pair<double, const char*>, 4> kUnits{
+      {{1e3, ""}, {1e6, " k"}, {1e9, " M"}, {1e12, " G"}}};
+  for (const auto& [limit, unit] : kUnits) {
+    if (rays < limit) return fmt::format("{:.3g}{} rays", rays * 1e3 / limit, unit);
+  }
+  return fmt::format("{:.3g} rays", rays);
+}
+
 std::string describe(std::span<const Standings> views) {
   std::vector<std::vector<std::string>> lines{
       {"view", "fastest", "the next", "Embree's best", "pays off from"}};
@@ -109,8 +108,9 @@ std::string describe(std::span<const Standings> views) {
       lines.push_back({title, "no contender has a time", "", "", ""});
       continue;
     }
+    const std::optional<double> pays_off = view.break_even_rays();
     lines.push_back({title, winners(view), against(view.behind(), true),
-                     against(view.embree(), false), rays_in_words(view.break_even_rays())});
+                     against(view.embree(), false), pays_off ? rays_in_words(*pays_off) : ""});
   }
   std::string out =
       "Fastest by trace time, build apart. Figures: how many times as long the others take, with "

@@ -8,6 +8,9 @@
 
 namespace beambench::analysis {
 
+/// A break-even ray count: `the first ray`, `2.16 k rays`, `never`.
+std::string rays_in_words(double rays);
+
 /// A line for each view: the fastest, the next, Embree's best, and from how many rays on the
 /// fastest pays off; then the geometric means over all views, where there are several.
 std::string describe(std::span<const Standings> views);

@@ -103,7 +103,11 @@ std::string shortened(const Infos& infos, const std::string& label) {
   const std::string name = label.substr(0, label.find(':'));
   const auto info = std::ranges::find_if(infos, [&](const auto& i) { return i.name == name; });
   if (info == infos.end() || name.size() == label.size()) return label;
-  return Parameters(name, info->parameters, parse_spec(label).parameters).short_label();
+  try {
+    return Parameters(name, info->parameters, parse_spec(label).parameters).short_label();
+  } catch (const InputError&) {
+    return label;  // in a record of another version, whose parameters were others
+  }
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ using Records = nanobind::typed<nanobind::list, Record>;
 /// Returns a name or a path as Python's `os.fsencode` makes it: any bytes, UTF-8 or not.
 inline std::string text_of(const nanobind::bytes& given) { return {given.c_str(), given.size()}; }
 
+void bind_analysis(nanobind::module_& module);
 void bind_catalogue(nanobind::module_& module);
 void bind_scene(nanobind::module_& module);
 void bind_structure(nanobind::module_& module);

@@ -37,6 +37,7 @@ NB_MODULE(_beambench, module) {
       "The program's version.");
   module.attr("NO_PRIMITIVE") = beambench::scenes::kNoPrimitive;
 
+  beambench::python::bind_analysis(module);
   beambench::python::bind_catalogue(module);
   beambench::python::bind_scene(module);
   beambench::python::bind_structure(module);

@@ -15,7 +15,7 @@ from beambench_operations.nightly.home import Home
 from beambench_report.base.records import read_run
 from synthetic_run import synthetic_rows, without_times, write_run
 
-SCENES = ("escena1", "tetra:n=6")
+SCENES = ("escena1", "tetra:n=5")
 NOISE = 0.01
 
 Row = dict[str, object]

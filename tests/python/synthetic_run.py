@@ -5,12 +5,14 @@ from __future__ import annotations
 import csv
 import json
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 
 from PIL import Image
 
 from beambench_report.base.columns import dictionary
 from beambench_report.run.plots import write_plots
+from synthetic_analysis import write_analysis
 
 COLUMNS = [column.name for column in dictionary().columns if not column.is_pattern]
 
@@ -23,13 +25,13 @@ _STRUCTURES = {
     ("null", ""): (0.0, 4e-6, 0, 0),
 }
 _RESOLUTIONS = ((320, 200), (640, 480), (1280, 1024))
-_SCENES = ("escena1", "tetra:n=6")
+_SCENES = ("escena1", "tetra:n=5")
 
 # The entry of a cell's file for a ray whose hit was wrong.
 EXAMPLE = (
     "pixel (3, 4) sample 0: structure_error, another primitive\n"
     "  structure miss\n"
-    "  replay beambench trace 'tetra:n=6' --accel samet:max_level=6 --pixel 3,4\n"
+    "  replay beambench trace 'tetra:n=5' --accel samet:max_level=6 --pixel 3,4\n"
 )
 
 
@@ -45,12 +47,14 @@ def synthetic_rows() -> list[dict[str, object]]:
 
 def write_run(folder: Path, rows: list[dict[str, object]], without: tuple[str, ...] = ()) -> Path:
     """Writes rows into FOLDER/results.csv (missing fields stay empty); returns FOLDER."""
+    """Writes rows (fields not given stay empty) and their analysis; returns FOLDER."""
     columns = [name for name in COLUMNS if name not in without]
     columns += [name for name in rows[0] if name not in COLUMNS] if rows else []
     with (folder / "results.csv").open("w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, columns, extrasaction="ignore")
         writer.writeheader()
         writer.writerows(rows)
+    _analyze(folder)
     return folder
 
 
@@ -119,13 +123,20 @@ def write_manifest(folder: Path, **changes: object) -> None:
         "notes": ["A note."],
     }
     (folder / "manifest.json").write_text(json.dumps(manifest | changes))
+    _analyze(folder)
+
+
+def _analyze(folder: Path) -> None:
+    """Writes the analysis, which depends on all other files; a table with a fault has none."""
+    with suppress(FileNotFoundError, IndexError, KeyError, ValueError):
+        write_analysis(folder)
 
 
 def write_full_run(folder: Path) -> Path:
     """Writes a run with everything that scripts/run produces, and one wrong structure."""
     rows = [
         without_times(row, "mismatch")
-        if row["parameters"] == "max_level=6,max_objects=0" and row["scene"] == "tetra:n=6"
+        if row["parameters"] == "max_level=6,max_objects=0" and row["scene"] == "tetra:n=5"
         else row
         for row in synthetic_rows()
     ]
@@ -142,7 +153,7 @@ def write_full_run(folder: Path) -> Path:
     write_manifest(folder)
     write_plots(folder)
     (folder / "pictures").mkdir()
-    for name in ("escena1", "tetra-n-6", "tetra-n-6-samet-traversal_steps"):
+    for name in ("escena1", "tetra-n-5", "tetra-n-5-samet-traversal_steps"):
         Image.new("RGB", (8, 6), "teal").save(folder / "pictures" / f"{name}.png")
     return folder
 

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
+from beambench.analysis import Ratio
 from beambench_report.__main__ import main
 from beambench_report.base.files import Problem
 from beambench_report.base.palette import PAPER, structure_color
-from beambench_report.base.ratio import Ratio
 from beambench_report.base.records import read_run
 from beambench_report.embree_comparison.pairings import Pairing, pairings
 from beambench_report.embree_comparison.plots import plots

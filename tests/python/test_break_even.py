@@ -7,34 +7,28 @@ from pathlib import Path
 import pytest
 
 from beambench_report.base.records import read_run
-from beambench_report.run.break_even import AT_ONCE, NEVER, break_even_rays, break_even_table
+from beambench_report.run.crossings import break_even, break_even_table
 from synthetic_run import synthetic_rows, write_run
 
 
 @pytest.mark.parametrize(
-    ("times", "rays", "words"),
+    ("costs", "rays", "words"),
     [
-        # build, trace per ray, and the baseline's
-        ((10.0, 1e-3, 0.0, 2e-3), 10_000, "from 10.0 k"),
-        ((0.0, 2e-3, 10.0, 1e-3), 10_000, "up to 10.0 k"),
-        ((1.0, 1e-3, 0.5, 3e-3), 250, "from 250"),
-        ((1.0, 1e-3, 2.0, 2e-3), None, AT_ONCE),
-        ((1.0, 1e-3, 1.0, 2e-3), None, AT_ONCE),
-        ((2.0, 2e-3, 1.0, 1e-3), None, NEVER),
-        ((2.0, 1e-3, 1.0, 1e-3), None, NEVER),
-        ((1.0, 2e-3, 1.0, 1e-3), None, NEVER),
+        # build in ms, trace in ns a ray, and the baseline's
+        ((10.0, 1e3, 0.0, 2e3), 10_000, "from 10.0 k"),
+        ((0.0, 2e3, 10.0, 1e3), 10_000, "up to 10.0 k"),
+        ((1.0, 1e3, 0.5, 3e3), 250, "from 250"),
+        ((1.0, 1e3, 2.0, 2e3), None, "at once"),
+        ((1.0, 1e3, 1.0, 2e3), None, "at once"),
+        ((2.0, 2e3, 1.0, 1e3), None, "never"),
+        ((2.0, 1e3, 1.0, 1e3), None, "never"),
+        ((1.0, 2e3, 1.0, 1e3), None, "never"),
     ],
 )
-def test_break_even(times: tuple[float, ...], rays: float | None, words: str) -> None:
-    found, found_words = break_even_rays(*times)
+def test_break_even(costs: tuple[float, ...], rays: float | None, words: str) -> None:
+    found, found_words = break_even(costs[:2], costs[2:])
     assert found == (None if rays is None else pytest.approx(rays))
     assert found_words == words
-
-
-def test_both_pay_the_same_at_the_break_even() -> None:
-    rays, _ = break_even_rays(7.0, 3e-4, 2.0, 9e-4)
-    assert rays is not None
-    assert 7.0 + 3e-4 * rays == pytest.approx(2.0 + 9e-4 * rays)
 
 
 def test_a_pair_is_compared_over_the_largest_image_that_both_traced(tmp_path: Path) -> None:

@@ -42,38 +42,38 @@ def test_pure_noise_passes(home: Home) -> None:
 
 
 def test_a_structure_slower_by_5_percent_in_one_scene_is_found_and_named_once(home: Home) -> None:
-    plant = slower("exhaustive", "tetra:n=6", 1.05, 16)
+    plant = slower("exhaustive", "tetra:n=5", 1.05, 16)
     told = add_all(home, write_nights(home, NIGHTS, plant))
     [alarm] = flat(told)
     assert alarm.kind == "time"
-    assert alarm.details["title"] == "exhaustive in tetra:n=6"
+    assert alarm.details["title"] == "exhaustive in tetra:n=5"
     assert alarm.details["low"] < 0.05 < alarm.details["high"]
     assert "20260114T030000Z" <= alarm.details["since_run"] <= "20260119T030000Z"
     assert alarm.details["last_good_commit"] < "0000010def5678"  # that of the first slow night
     assert alarm.details["since_commit"] >= "0000010def5678"
     assert alarm.night <= 29, "as soon as some twelve nights were slower"
-    assert "exhaustive in tetra:n=6: +" in sentence(alarm)
+    assert "exhaustive in tetra:n=5: +" in sentence(alarm)
 
 
 def test_a_structure_that_got_faster_is_no_regression(home: Home) -> None:
-    plant = slower("exhaustive", "tetra:n=6", 0.9, 16)
+    plant = slower("exhaustive", "tetra:n=5", 0.9, 16)
     assert flat(add_all(home, write_nights(home, NIGHTS, plant))) == []
 
 
 def test_a_kind_of_rays_that_a_scene_has_none_of_raises_no_alarm(home: Home) -> None:
     def without_rays(_: int, row: Row) -> Row:
-        return without_times(row, "no_rays") if row["scene"] == "tetra:n=6" else row
+        return without_times(row, "no_rays") if row["scene"] == "tetra:n=5" else row
 
     assert flat(add_all(home, write_nights(home, 3, without_rays))) == []
 
 
 def test_a_wrong_hit_is_found_and_named(home: Home) -> None:
-    told = add_all(home, write_nights(home, 2, wrong("samet", "tetra:n=6", 1)))
+    told = add_all(home, write_nights(home, 2, wrong("samet", "tetra:n=5", 1)))
     assert told[0] == []
     assert {alarm.kind for alarm in told[1]} == {"verdict"}
     assert len(told[1]) == 6
     sentences = [sentence(alarm) for alarm in told[1]]
-    assert "samet max_level=6 in tetra:n=6 at 320x200: wrong hits (mismatch)" in sentences
+    assert "samet max_level=6 in tetra:n=5 at 320x200: wrong hits (mismatch)" in sentences
 
 
 @pytest.mark.parametrize(
@@ -219,7 +219,7 @@ def test_noise_can_be_drawn_from_raw_samples(tmp_path: Path) -> None:
 
 
 def test_a_night_that_is_judged_again_raises_the_same(home: Home) -> None:
-    folders = write_nights(home, NIGHTS, slower("exhaustive", "tetra:n=6", 1.08, 16))
+    folders = write_nights(home, NIGHTS, slower("exhaustive", "tetra:n=5", 1.08, 16))
     told = add_all(home, folders)
     [number] = [place for place, night in enumerate(told, 1) if night]
     with History(home.history) as history:

@@ -12,10 +12,11 @@ from PIL import Image
 from work import calls_during
 
 from beambench_report.__main__ import main
+from beambench_report.base.analysis import read_analysis
 from beambench_report.base.records import read_run
 from beambench_report.run.all_cells import pack
 from beambench_report.run.page import render
-from beambench_report.run.standings import standings
+from synthetic_analysis import write_analysis
 from synthetic_run import synthetic_rows, without_times, write_cell, write_manifest, write_run
 
 VOID = {"meta", "link", "img", "input", "br", "wbr", "hr"}
@@ -85,7 +86,7 @@ def test_a_right_run_says_so_first(run_folder: Path) -> None:
 
 def test_the_fastest_is_named_with_its_margin(run_folder: Path) -> None:
     text = text_of(run_folder)
-    best = standings(read_run(run_folder), {})[0]
+    best = read_analysis(run_folder).views[0]
     assert f"Fastest: {best.fastest.contender} , " in text or "Tied for the fastest" in text
     table = text[text.index("pays off from") :]
     assert best.fastest.contender in table[:300]
@@ -176,7 +177,7 @@ def test_the_kinds_of_primitives_are_told_where_embree_tells_them(tmp_path: Path
     Image.new("RGB", (8, 6), "teal").save(tmp_path / "pictures/escena1.png")
     reader = page_of(write_run(tmp_path, rows))
     assert "430 primitives: polygons and spheres · picture" in reader.text
-    assert "#pictures-view-tetra-n-6" not in reader.addresses
+    assert "#pictures-view-tetra-n-5" not in reader.addresses
     assert "#pictures-view-escena1" in reader.addresses
 
 
@@ -191,7 +192,7 @@ def test_words_of_this_project_lead_to_what_they_mean(tmp_path: Path) -> None:
 
 
 def test_references_never_win_and_stand_last(run_folder: Path) -> None:
-    for view in standings(read_run(run_folder), {}):
+    for view in read_analysis(run_folder).views:
         assert {"null", "exhaustive"}.isdisjoint(one.structure for one in view.ranked)
     page = text_of(run_folder)
     table = page[page.index("escena1 2") if "escena1 2" in page else 0 :]
@@ -207,8 +208,10 @@ def test_who_was_left_out_has_a_row_with_the_reason(run_folder: Path) -> None:
     write_run(run_folder, rows)
     exclude = [{"structure": "exhaustive", "scene": "escena1"}]
     (run_folder / "config.json").write_text(json.dumps({"exclude": exclude}))
+    write_analysis(run_folder)
     assert "exhaustive left out by the sweep (this scene)" in text_of(run_folder)
     (run_folder / "config.json").unlink()
+    write_analysis(run_folder)
     assert "exhaustive not in the record" in text_of(run_folder)
 
 
@@ -246,11 +249,11 @@ def test_a_wrong_cell_is_shown_with_its_reason_and_how_to_replay_it(
     text = text_of(full_run)
     assert "3 of 30 cells were wrong" in text
     assert (
-        "mismatch samet max_level=6 in tetra:n=6 at 320x200, 640x480, 1280x1024: "
+        "mismatch samet max_level=6 in tetra:n=5 at 320x200, 640x480, 1280x1024: "
         "wrong hits 3 of 64000 hits were wrong"
     ) in text
     assert "pixel (3, 4) sample 0: structure_error" in text
-    replay = "beambench trace 'tetra:n=6' --accel samet:max_level=6 --pixel 3,4"
+    replay = "beambench trace 'tetra:n=5' --accel samet:max_level=6 --pixel 3,4"
     assert f"See this ray's path: {replay}" in text
     assert f"replay {replay}" not in text
 
@@ -363,14 +366,6 @@ def test_a_machine_that_nothing_is_known_of_was_not_quiet(run_folder: Path) -> N
     assert "The machine was quiet" in text_of(run_folder)
 
 
-def test_precision_that_was_not_recorded_is_not_praised(tmp_path: Path) -> None:
-    rows = [{**row, "repetitions": 9} for row in synthetic_rows()]
-    write_run(tmp_path, rows, without=("stop_reason",))
-    text = text_of(tmp_path)
-    assert "How precise the times are is unknown" in text
-    assert "The times are precise" not in text
-
-
 def test_a_run_of_plug_ins_has_a_whole_page(tmp_path: Path) -> None:
     rows = [
         {**row, "structure": "my/tree", "parameters": "depth=3"}
@@ -433,16 +428,16 @@ def test_a_run_that_was_cut_off_is_compared_where_two_contenders_were_measured(
         and (row["width"] == 320 or (row["width"] == 640 and row["structure"] == "exhaustive"))
     ]
     write_run(tmp_path, rows)
-    scenes = [{"name": "escena1"}, {"name": "tetra:n=6"}]
+    scenes = [{"name": "escena1"}, {"name": "tetra:n=5"}]
     write_manifest(tmp_path, finished_utc=None, scenes=scenes)
     text = page_of(tmp_path).text
-    assert "Scenes without any cell: tetra:n=6." in text
+    assert "Scenes without any cell: tetra:n=5." in text
     assert "Fastest: embree" in text
     assert "escena1 430 primitives 320x200 embree" in text
     assert "no contender has a time" not in text
     assert "1 other resolution" in text
     assert "contender not measured" not in text
-    missing = {**rows[0], "scene": "tetra:n=6"}
+    missing = {**rows[0], "scene": "tetra:n=5"}
     write_run(tmp_path, [*rows, missing])
     assert "320x200, 4 contenders not measured" in text_of(tmp_path)
 
@@ -497,22 +492,13 @@ def test_a_structure_names_its_only_contender_as_the_reference(
 
 
 def test_the_trace_of_which_the_harness_has_the_largest_part_is_named(run_folder: Path) -> None:
-    cell = "escena1/default/640x480/1/primary/samet:max_level=5,max_objects=0"
-    name = "samet max_level=5 in escena1 at 640x480"
-    write_manifest(run_folder, harness_overhead={"part": 3.71, "cell": cell})
-    words = f"371% of the time of a trace is what null takes, at most: {name}"
-    assert words in text_of(run_folder)  # the query path is not in the record
-    write_run(run_folder, [{**row, "query_path": "image-single"} for row in synthetic_rows()])
-    write_manifest(run_folder, harness_overhead={"part": 0.071, "cell": cell})
-    words = "7.1% of a trace is the harness's, at most: {}"
-    assert words.format(name) in text_of(run_folder)
-    write_manifest(run_folder, harness_overhead={"part": 0.071, "cell": "of/another/run"})
-    assert words.format("of/another/run") in text_of(run_folder)
-
-
-def test_the_harness_s_own_part_is_told(run_folder: Path) -> None:
-    write_manifest(run_folder, harness_overhead={"part": 0.0123})
-    assert "1.2% of the fastest trace is the harness's, at most" in text_of(run_folder)
+    path = run_folder / "analysis.json"
+    one = {"query_path": "image-single", "cell": "a/b", "title": "samet in escena1 at 640x480"}
+    for part, figure in ((0.071, "7.1%"), (3.71, "371%")):
+        changes = {"harness_overheads": [one | {"part": part}]}
+        path.write_text(json.dumps(json.loads(path.read_text()) | changes))
+        words = f"{figure} of a trace is the harness's, at most: samet in escena1 at 640x480"
+        assert words in text_of(run_folder)
 
 
 def test_a_manifest_that_is_none_is_one_sentence_and_exit_code_2(
@@ -549,6 +535,7 @@ def test_the_work_of_a_page_grows_little_with_its_rows(tmp_path: Path) -> None:
         copies = count // len(rows) + 1
         many = [lines[0], *(lines[1:] * copies)[:count]]
         (tmp_path / "results.csv").write_text("\n".join(many) + "\n")
+        write_analysis(tmp_path)
         calls.append(calls_during(lambda: pages.append(render(read_run(tmp_path)))))
     assert (calls[1] - calls[0]) / 20_000 < 200, "of Python functions for each row"
     assert re.search(r"all 22,000 <a [^>]*>cells</a> are correct", pages[1])

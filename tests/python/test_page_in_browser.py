@@ -100,7 +100,7 @@ def test_the_filter_reports_what_it_does_not_understand(opened: Browser) -> None
 
 
 def test_what_was_not_measured_stays_last(opened: Browser) -> None:
-    table = "#view-tetra-n-6 > .wide table"
+    table = "#view-tetra-n-5 > .wide table"
     for _ in range(2):
         opened.evaluate(f"document.querySelector('{table} th:nth-child(3) button').click()")
         assert column(opened, table, 0)[-1].startswith("samet max_level=6")

@@ -27,8 +27,8 @@ def test_each_scene_is_rendered_and_has_a_heat_map(run_folder: Path, painter: Pa
     assert {path.name for path in (run_folder / "pictures").iterdir()} == {
         "escena1.png",
         "escena1-samet-traversal_steps.png",
-        "tetra-n-6.png",
-        "tetra-n-6-samet-traversal_steps.png",
+        "tetra-n-5.png",
+        "tetra-n-5-samet-traversal_steps.png",
     }
     calls = (painter.parent / "calls.txt").read_text().splitlines()
     pictures = run_folder / "pictures"

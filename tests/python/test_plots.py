@@ -34,11 +34,11 @@ SVG = "{http://www.w3.org/2000/svg}"
 PLOTS = {
     "overall",
     "trade-offs-escena1",
-    "trade-offs-tetra-n-6",
+    "trade-offs-tetra-n-5",
     "resolutions",
     "break-even",
     "counters-escena1",
-    "counters-tetra-n-6",
+    "counters-tetra-n-5",
 }
 
 
@@ -141,7 +141,7 @@ def test_a_wrong_contender_has_no_line_and_is_named_in_the_caption(tmp_path: Pat
     assert untimed(run.view("escena1")) == ["samet max_level=6 in escena1: mismatch"]
     assert main(["plots", str(tmp_path), "--kinds", "trade-offs"]) == 0
     wrong, right = (
-        tmp_path / "plots" / f"trade-offs-{stem}.svg" for stem in ("escena1", "tetra-n-6")
+        tmp_path / "plots" / f"trade-offs-{stem}.svg" for stem in ("escena1", "tetra-n-5")
     )
     named = "samet max_level=6 in escena1: mismatch"
     assert named in svg_text(wrong)
@@ -174,7 +174,7 @@ def test_a_run_in_which_nothing_was_right_shows_its_counters_and_says_what_is_mi
 ) -> None:
     rows = [without_times(row, "error") for row in synthetic_rows()]
     assert main(["plots", str(write_run(tmp_path, rows))]) == 0
-    assert plotted(tmp_path) == {"counters-escena1", "counters-tetra-n-6"}
+    assert plotted(tmp_path) == {"counters-escena1", "counters-tetra-n-5"}
     readme = (tmp_path / "plots" / "README.md").read_text()
     missing = readme[readme.index("Not drawn") :]
     kinds = ("overall", "trade-offs", "resolutions", "break-even", "distributions")
@@ -218,7 +218,7 @@ def test_a_run_that_was_cut_off_is_drawn_at_the_size_that_two_contenders_have(
 def test_repetitions_are_drawn_each(tmp_path: Path) -> None:
     run = with_cells(tmp_path, synthetic_rows())
     assert main(["plots", str(run), "--kinds", "distributions"]) == 0
-    stems = {"distributions-escena1", "distributions-tetra-n-6"}
+    stems = {"distributions-escena1", "distributions-tetra-n-5"}
     assert plotted(tmp_path) == stems
     assert missing_in(tmp_path) == {}
     for stem in stems:

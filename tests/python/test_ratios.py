@@ -8,30 +8,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from beambench_report.base.cell_files import read_cell_files
-from beambench_report.base.files import Problem
-from beambench_report.base.ratio import (
+from beambench.analysis import (
     Median,
     Ratio,
     geometric_mean,
-    interval_rank,
     paired_ratio,
     unpaired_ratio,
 )
+from beambench_report.base.cell_files import read_cell_files
+from beambench_report.base.files import Problem
 from beambench_report.base.records import read_run
 from beambench_report.base.run_log import logged_cells
 from beambench_report.run.reference import choose_reference, compared
 from beambench_report.run.tables import ratio_field
 from synthetic_run import synthetic_rows, without_times, write_cell, write_run
-
-
-@pytest.mark.parametrize(
-    ("count", "rank"),
-    # Conover, "Practical Nonparametric Statistics", table A3
-    [(0, 0), (5, 0), (6, 1), (8, 1), (9, 2), (11, 2), (12, 3), (15, 4), (20, 6), (50, 18)],
-)
-def test_the_interval_has_the_tabulated_ranks(count: int, rank: int) -> None:
-    assert interval_rank(count) == rank
 
 
 def test_intervals_may_overlap_and_the_paired_ratio_be_clear_of_1() -> None:

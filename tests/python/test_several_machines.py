@@ -7,14 +7,14 @@ from pathlib import Path
 import pytest
 
 from beambench_operations.site.entry import entry_of
+from beambench_report.base.analysis import read_analysis
 from beambench_report.base.files import Problem
 from beambench_report.base.machine import Machine
 from beambench_report.base.records import read_run
-from beambench_report.run.break_even import break_even_table
+from beambench_report.run.crossings import break_even_table
 from beambench_report.run.page import render
 from beambench_report.run.ratio_table import write_ratios
 from beambench_report.run.reference import compared
-from beambench_report.run.standings import counted, overall, standings
 from beambench_report.run.winners import races
 from beambench_thesis.paper.measured import measured_evidence
 from synthetic_run import synthetic_rows, write_run
@@ -47,24 +47,24 @@ def test_a_view_is_what_one_machine_measured(folder: Path) -> None:
     assert run.views == [
         "escena1, machine 01234567",
         "escena1, machine fedcba98",
-        "tetra:n=6, machine 01234567",
-        "tetra:n=6, machine fedcba98",
+        "tetra:n=5, machine 01234567",
+        "tetra:n=5, machine fedcba98",
     ]
-    assert set(run.rows["subject"]) == {"escena1", "tetra:n=6"}
+    assert set(run.rows["subject"]) == {"escena1", "tetra:n=5"}
     for view in run.views:
         assert run.view(view)["machine_id"].nunique() == 1
 
 
 def test_means_are_over_the_highest_resolution_of_each_view(folder: Path) -> None:
-    every = standings(read_run(folder), {})
-    assert [(one.view, one.size) for one in every] == [
+    analysis = read_analysis(folder)
+    assert [(one.view, one.size) for one in analysis.views] == [
         ("escena1, machine 01234567", "640x480"),
         ("escena1, machine fedcba98", "1280x1024"),
-        ("tetra:n=6, machine 01234567", "640x480"),
-        ("tetra:n=6, machine fedcba98", "1280x1024"),
+        ("tetra:n=5, machine 01234567", "640x480"),
+        ("tetra:n=5, machine fedcba98", "1280x1024"),
     ]
-    assert {one.size for one in counted(every)} == {"1280x1024"}
-    (whole,) = overall(every)
+    assert {one.size for one in analysis.views if one.in_means} == {"1280x1024"}
+    (whole,) = analysis.means
     assert whole.views == 2
 
 

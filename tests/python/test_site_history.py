@@ -50,12 +50,12 @@ def home(tmp_path_factory: pytest.TempPathFactory) -> Home:
     folder = tmp_path_factory.mktemp("nightly")
     home = Home(folder / "home")
     more = counting("samet", "escena1", [1, 1, 1.5])
-    bad = wrong("exhaustive", "tetra:n=6", 2)
+    bad = wrong("exhaustive", "tetra:n=5", 2)
     folders = write_nights(home, 3, lambda night, row: bad(night, more(night, row)))
     add_all(home, folders)
     picture_mismatches(read_run(folders[-1]), a_program_that_renders(folder))
     asked = (folder / "asked").read_text().splitlines()
-    assert asked[1].startswith("render tetra:n=6 --accel exhaustive -o ")
+    assert asked[1].startswith("render tetra:n=5 --accel exhaustive -o ")
     assert asked[1].endswith(
         "--resolution 320x200 --samples 1 --camera default --difference oracle"
     )
@@ -81,7 +81,7 @@ def test_it_says_first_what_is_wrong(page: Path, home: Home) -> None:
     text = page.read_text()
     head = text[text.index('<header id="result">') : text.index("</header>")]
     assert "9 alarms" in head
-    assert "exhaustive in tetra:n=6 at 320x200: wrong hits (mismatch)" in head
+    assert "exhaustive in tetra:n=5 at 320x200: wrong hits (mismatch)" in head
     assert "samet max_level=5 in escena1 at 640x480: traversal steps per ray from 11.5 to" in head
     assert "Times are not tested yet: this machine has 3 runs" in head
     assert "Since the run before" in head
@@ -108,11 +108,11 @@ def test_the_first_night_has_a_page_but_no_history(tmp_path: Path) -> None:
 
 def test_alarms_are_found_without_the_history_of_the_nights_too(tmp_path: Path) -> None:
     home = Home(tmp_path / "home")
-    write_nights(home, 30, slower("exhaustive", "tetra:n=6", 1.05, 16))
+    write_nights(home, 30, slower("exhaustive", "tetra:n=5", 1.05, 16))
     write_site([home.folder], home.site)
     assert not home.history.exists()
     text = history_of(home).read_text()
-    assert text.count("exhaustive in tetra:n=6: +") == 1
+    assert text.count("exhaustive in tetra:n=5: +") == 1
     assert "slower (+" in text
     assert "between the commits" in text
 
@@ -181,9 +181,9 @@ def test_the_chart_holds_every_night_and_contender(opened: Browser, page: Path) 
 def test_the_keyboard_chooses_a_scene(opened: Browser) -> None:
     opened.evaluate("document.querySelector('#pick [name=view]').focus()")
     opened.press(*DOWN)
-    assert opened.evaluate("document.querySelector('#pick [name=view]').value") == "tetra:n=6"
+    assert opened.evaluate("document.querySelector('#pick [name=view]').value") == "tetra:n=5"
     label = "document.getElementById('series').getAttribute('aria-label')"
-    assert opened.evaluate(label) == "Ratios to Embree, run by run, in tetra:n=6 at 1280x1024"
+    assert opened.evaluate(label) == "Ratios to Embree, run by run, in tetra:n=5 at 1280x1024"
     opened.evaluate("document.querySelector('#pick [name=contender]').focus()")
     opened.press(*DOWN)
     opened.press(*DOWN)

@@ -10,9 +10,6 @@ from pathlib import Path
 import jsonschema
 import pytest
 
-from beambench_report.base.cell_files import read_cell_files
-from beambench_report.base.records import read_run
-from beambench_report.run.standings import overall, standings
 from program import BINARY, beambench, output_of, refused
 
 QUICK = ("--resolution", "32x20", "--seconds", "0.2")
@@ -76,45 +73,3 @@ def test_nothing_is_left_behind(tmp_path: Path) -> None:
     )
     assert done.returncode == 0, done.stderr
     assert list(tmp_path.iterdir()) == []
-
-
-def test_the_program_and_the_page_name_the_same_winners(tmp_path: Path) -> None:
-    sweep = {
-        "name": "both",
-        "scenes": ["tetra:n=3", "balls:n=2"],
-        "structures": ["null", "exhaustive", "samet:max_level=4", "samet:max_level=6", "embree"],
-        "resolutions": ["32x20", "64x40"],
-        "rays": ["primary", "shadow"],
-        "repetitions": {"minimum": 7, "maximum": 7},
-        "budget_seconds": 1,
-        "exclude": [{"structure": "exhaustive", "primitives_above": 70}],
-    }
-    (tmp_path / "sweep.json").write_text(json.dumps(sweep))
-    run = tmp_path / "run"
-    done = beambench("run", str(tmp_path / "sweep.json"), "-o", str(run))
-    assert done.returncode == 0, done.stderr
-    views = standings(read_run(run), read_cell_files(run), sweep["exclude"])
-    printed = [re.split(r"  +", line.strip()) for line in done.stderr.splitlines()]
-    for view in views:
-        line = next(
-            words
-            for words in printed
-            if words[0].endswith(f"{view.size}")
-            and view.ray_kind in words[0]
-            and words[0].split(",")[0] in view.view
-        )
-        names = ", ".join(one.contender for one in view.ranked if one.is_tied)
-        assert line[1].removeprefix("tie: ") == names
-        if view.behind:
-            assert line[2].startswith(f"{view.behind.contender} {view.behind.ratio.value:.3g} [")
-    for kind in overall(views):
-        for mean in kind.means:
-            interval = f" [{mean.ratio.low:.3g}, {mean.ratio.high:.3g}]"
-            is_certain = mean.ratio.low == mean.ratio.high
-            ratio = f"{mean.ratio.value:.3g}{'' if is_certain else interval}"
-            wins = f"{mean.wins} of {kind.views}"
-            assert any(words[:3] == [mean.contender, ratio, wins] for words in printed), mean
-    assert any(
-        "no time for exhaustive in 2 views: left out by the sweep" in " ".join(words)
-        for words in printed
-    )

@@ -176,6 +176,7 @@ Json facts_json(const CellRecord& cell) {
   if (cell.harness) {
     json["harness"] = {{"path", to_string(cell.harness->path)}, {"ms", cell.harness->ms}};
   }
+  if (!cell.columns.empty()) json["columns"] = cell.columns;
   return json;
 }
 
@@ -203,6 +204,7 @@ void read_facts(const Json& event, CellRecord& cell) {
     cell.harness = HarnessShare{named(harness.at("path"), QueryPath::kPicture),
                                 harness.at("ms").get<double>()};
   }
+  cell.columns = event.value("columns", decltype(cell.columns)());
   cell.shard = event.value("shard", 0);
 }
 

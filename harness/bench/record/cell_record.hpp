@@ -147,6 +147,8 @@ struct CellRecord {
   std::optional<std::uint64_t> allocated_bytes;  ///< by which the heap grew (`heap_in_use`)
   std::optional<HarnessShare> harness;
   std::vector<Repetition> repetitions;
+  /// Figures that the repetitions, or what is left of them, do not give: by columns of results.csv.
+  std::map<std::string, double, std::less<>> columns;
   std::optional<StopReason> stop_reason;
   /// The verification of the timed buffer, and its fingerprint.
   std::optional<verify::DiffReport> diff;

@@ -13,7 +13,7 @@ from beambench_operations.history.store import History
 from beambench_report.base.cell_files import IDENTITY
 from beambench_report.base.columns import RENAMED_COLUMNS
 from beambench_report.base.files import Problem
-from beambench_report.base.names import contender_labels
+from beambench_report.base.names import with_names
 from beambench_report.base.records import BASELINE
 
 _DISTINGUISHING = {"camera": ", camera {}", "samples": ", {} samples", "ray_kind": ", {} rays"}
@@ -30,7 +30,7 @@ class Nights:
     nights: pd.DataFrame
     """number, run_id, time_utc, commit, dirty, folder, cells, wrong"""
     cells: pd.DataFrame
-    """IDENTITY, `contender` (its label), `verdict` tonight, `is_reference`"""
+    """IDENTITY, the names of `with_names`, `verdict` tonight, `is_reference`"""
     ratios: np.ndarray
     works: np.ndarray
     """Number of the counters of each cell in each night; -1 where its inputs differ."""
@@ -143,5 +143,4 @@ def _cells_of(history: History, night: int) -> pd.DataFrame:
     )
     cells = pd.DataFrame(rows, columns=["cell", *IDENTITY, "verdict", "is_reference"])
     cells["is_reference"] = cells["is_reference"].astype(bool)
-    cells["contender"] = contender_labels(cells)
-    return cells
+    return with_names(cells)

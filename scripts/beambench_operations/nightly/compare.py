@@ -20,11 +20,11 @@ import numpy as np
 import pandas as pd
 from scipy import stats
 
+from beambench.analysis import Ratio, paired_ratio
 from beambench_operations.history.night import cell_titles, cycles, keys_of
 from beambench_operations.history.steps import holm
 from beambench_report.base.cell_files import IDENTITY
 from beambench_report.base.files import Problem, output_of, say
-from beambench_report.base.ratio import Ratio, paired_ratio
 from beambench_report.base.records import BASELINE, NO_RAYS, TIMED_VERDICTS, read_run
 
 LEVEL = 0.01

@@ -13,11 +13,17 @@ from pathlib import Path
 
 import pandas as pd
 
+from beambench.analysis import Median, Ratio, unpaired_ratio
 from beambench_operations.history.night import cell_titles, comparable, keys_of, views_of
-from beambench_report.base.cell_files import CellFile, Identity, ratio_of, read_cell_files
+from beambench_report.base.cell_files import (
+    CellFile,
+    Identity,
+    median_of,
+    ratio_of,
+    read_cell_files,
+)
 from beambench_report.base.files import Problem
 from beambench_report.base.machine import Machine, machine_of
-from beambench_report.base.ratio import Median, Ratio, median_of, unpaired_ratio
 from beambench_report.base.records import NO_RAYS, contenders_with_times, read_run
 
 Key = tuple

@@ -4,8 +4,8 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from beambench.analysis import Median, Ratio, unpaired_ratio
 from beambench_operations.site.entry import Cell, Ends, Entry
-from beambench_report.base.ratio import Median, Ratio, unpaired_ratio
 from beambench_report.base.records import BASELINE
 
 _MOST = 25

@@ -12,16 +12,18 @@ from functools import cache
 from hashlib import sha256
 from pathlib import Path
 
+from beambench.analysis import Median, Ratio
 from beambench_operations.history.night import comparable, counters_of
+from beambench_report.base.analysis import Analysis, has_analysis, read_analysis
 from beambench_report.base.cell_files import (
     CellFile,
     Identity,
     identity,
+    median_of,
     ratio_of,
     read_cell_files,
 )
 from beambench_report.base.machine import Machine, Manifest, machine_of, read_manifest
-from beambench_report.base.ratio import Median, Ratio, median_of
 from beambench_report.base.records import (
     FAULTLESS_VERDICTS,
     NO_RAYS,
@@ -29,8 +31,6 @@ from beambench_report.base.records import (
     contenders_with_times,
     size_of,
 )
-from beambench_report.run.outcome import doubts_about_times
-from beambench_report.run.standings import overall, standings
 
 _BAR = " | "
 _BEGIN, _END = "beambench.add(", ");\n"
@@ -116,7 +116,7 @@ def entry_of(run: Run) -> Entry:
     manifest = read_manifest(run.directory) or Manifest()
     files = read_cell_files(run.directory)
     newest = rows.iloc[-1]
-    timed = rows[rows["timed"]]
+    analysis = read_analysis(run.directory) if has_analysis(run.directory) else None
     machine = machine_of(rows, run.directory)
     reference = _reference(run)
     return Entry(
@@ -130,9 +130,9 @@ def entry_of(run: Run) -> Entry:
         cut_off=manifest.cut_off,
         wrong=int((~rows["verdict"].isin(FAULTLESS_VERDICTS)).sum()),
         without_rays=int((rows["verdict"] == NO_RAYS).sum()),
-        doubts=tuple(doubts_about_times(run, manifest)) if "stop_reason" in timed else None,
-        timed=len(timed),
-        fastest=_fastest(run, files),
+        doubts=analysis.reasons_for_care if analysis else None,
+        timed=int(rows["timed"].sum()),
+        fastest=_fastest(analysis) if analysis else (),
         reference=" ".join(reference) if reference else "",
         cells=_cells(run, files, reference),
     )
@@ -150,13 +150,12 @@ def _reference(run: Run) -> tuple[str, str] | None:
     return max(counts, key=preference, default=None)
 
 
-def _fastest(run: Run, files: Mapping[Identity, CellFile]) -> tuple[str, ...]:
+def _fastest(analysis: Analysis) -> tuple[str, ...]:
     """Who has the least geometric mean of trace times, and in how many views it is ahead."""
-    kinds = overall(standings(run, files))
     words = []
-    for one in kinds:
+    for one in analysis.means:
         first = one.means[0]
-        kind = f"{one.ray_kind}: " if len(kinds) > 1 else ""
+        kind = f"{one.ray_kind}: " if len(analysis.means) > 1 else ""
         words.append(f"{kind}{first.contender} ({first.wins} of {one.views})")
     return tuple(words)
 

@@ -16,7 +16,6 @@ from beambench_operations.site.changes import Repository
 from beambench_operations.site.machine_history import MachineHistory
 from beambench_report.base.figure import structure_color
 from beambench_report.base.files import load_json
-from beambench_report.base.names import subjects
 from beambench_report.base.records import size_of
 from beambench_report.run.html import data_uri
 
@@ -107,7 +106,7 @@ def _not_tested(nights: Nights) -> str:
 
 def chart_data(nights: Nights, alarms: Sequence[Alarm], rows: Sequence[Mapping]) -> str:
     """JSON for charts.js; `rows` are the lines of the runs."""
-    cells = nights.cells.assign(view=subjects(nights.cells))
+    cells = nights.cells
     views: dict[str, dict[str, list[dict]]] = {}
     for (view, *_), group in cells.groupby(["view", "width", "height", "samples"], sort=False):
         variants: dict[str, int] = {}

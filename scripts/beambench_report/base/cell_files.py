@@ -14,9 +14,9 @@ from typing import Literal
 
 import pandas as pd
 
+from beambench.analysis import Median, Ratio, paired_ratio, unpaired_ratio
 from beambench_report.base.csv_texts import csv_of, unguarded
 from beambench_report.base.files import Problem, write_text
-from beambench_report.base.ratio import Ratio, median_of, paired_ratio, unpaired_ratio
 from beambench_report.base.records import TIMED_VERDICTS, read_run
 from beambench_report.base.run_log import LoggedCell, Repetition, has_log, logged_cells
 
@@ -111,6 +111,13 @@ def _without_gaps(repetition: Repetition) -> Repetition:
 def repetitions_of(cell: LoggedCell) -> list[Repetition]:
     """The repetitions of a cell whose times count; of another, none."""
     return cell.repetitions if cell.verdict in TIMED_VERDICTS else []
+
+
+def median_of(row: Mapping[str, object], phase: str) -> Median:
+    """The median of a phase, "total" or "trace", of a row of results.csv, with its interval."""
+    middle, low, high = (row.get(f"{phase}_ms_{what}") for what in ("median", "ci_low", "ci_high"))
+    known = [None if end is None or pd.isna(end) else float(end) for end in (low, high)]
+    return Median(float(middle), *known)
 
 
 def ratio_of(

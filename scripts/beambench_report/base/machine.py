@@ -11,7 +11,7 @@ import pandas as pd
 from beambench_report.base.files import Problem, read_json
 from beambench_report.base.quantities import size_in_words
 
-_SENTENCES = ("uncontrolled", "notes")
+_NOT_FACTS = ("uncontrolled", "notes", "google_benchmark")
 
 
 @dataclass(frozen=True)
@@ -43,10 +43,6 @@ class Manifest:
     seconds: float | None = None
     cut_off: bool = False
     machine: str = ""
-    overhead: float | None = None
-    """What part of a contender's trace time the harness itself takes, at most."""
-    overhead_cell: str = ""
-    """The cell of that trace: `tetra:n=6/default/1280x1024/1/primary/sah-bvh:max_leaf=8`."""
     noise: float | None = None
     """How much longer than usual the slowest twentieth of equal work took before the run."""
     load: float | None = None
@@ -73,8 +69,6 @@ def read_manifest(directory: Path) -> Manifest | None:
         seconds=_seconds_between(begun, finished),
         cut_off="finished_utc" in source and not finished,
         machine=_dictionary(source, "machine").get("cpu", ""),
-        overhead=_dictionary(source, "harness_overhead").get("part"),
-        overhead_cell=_dictionary(source, "harness_overhead").get("cell", ""),
         noise=_dictionary(source, "measurement").get("noise"),
         load=_dictionary(source, "machine").get("load_average"),
         throttling=_throttling(_dictionary(source, "measurement")),
@@ -90,11 +84,6 @@ def read_description(directory: Path) -> str:
     return str((_read_object(directory / "config.json") or {}).get("description", ""))
 
 
-def read_exclusions(directory: Path) -> list[dict]:
-    """The conditions of DIRECTORY/config.json under which the sweep leaves cells out."""
-    return list((_read_object(directory / "config.json") or {}).get("exclude", []))
-
-
 def _read_object(path: Path) -> dict | None:
     source = read_json(path)
     if not isinstance(source, dict | None):
@@ -107,7 +96,7 @@ def _facts(source: dict) -> list[Facts]:
     plain = Facts("Run")
     groups = [plain]
     for name, value in source.items():
-        if name in _SENTENCES:
+        if name in _NOT_FACTS:
             continue
         if isinstance(value, dict):
             groups.append(Facts(_label(name), _pairs(value)))

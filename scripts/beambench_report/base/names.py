@@ -6,50 +6,29 @@ from collections.abc import Iterable
 
 import pandas as pd
 
+from beambench.analysis import name_cells
+
 # Lists the plots of a run for programs, as plots/README.md does for people.
 PLOT_INDEX = "index.json"
 
 
-def contender_labels(rows: pd.DataFrame) -> pd.Series:
-    """Structure names, with those parameters that differ between rows of one structure.
+def with_names(rows: pd.DataFrame) -> pd.DataFrame:
+    """Returns the rows with what plots and pages call their cells.
 
-    `samet` when the run has it once; `samet max_level=6` when it sweeps the level.
+    `contender`: the structure, with those parameters that differ between its rows. `subject`: what
+    the rays see, the scene and what else varies. `view`: the same on one machine, what is compared.
     """
-    keys = list(zip(rows["structure"], rows["parameters"], strict=True))
-    items = {key: parameter_items(key[1]) for key in dict.fromkeys(keys)}
-    varying = {
-        structure: varying_parameters(text for name, text in items if name == structure)
-        for structure in dict.fromkeys(key[0] for key in items)
-    }
-    labels = {
-        key: " ".join([key[0], *(f"{n}={v}" for n, v in own.items() if n in varying[key[0]])])
-        for key, own in items.items()
-    }
-    return pd.Series([labels[key] for key in keys], index=rows.index)
-
-
-def view_titles(rows: pd.DataFrame) -> pd.Series:
-    """`subjects`, and the machine where a run has several: only its own times are compared."""
-    if rows["machine_id"].nunique() < 2:
-        return subjects(rows)
-    return subjects(rows) + ", " + rows["machine_id"].map(machine_label)
+    machines = rows["machine_id"] if "machine_id" in rows else [""] * len(rows)
+    columns = (rows[name] for name in ("scene", "camera", "structure", "parameters"))
+    samples = rows["samples"].fillna(0).astype(int)
+    names = name_cells(list(zip(*columns, samples, rows["ray_kind"], machines, strict=True)))
+    found = pd.DataFrame(names, columns=["contender", "subject", "view"], index=rows.index)
+    return pd.concat([rows, found], axis="columns")
 
 
 def machine_label(machine_id: str) -> str:
     """What titles and captions call a machine."""
     return f"machine {machine_id[:8]}"
-
-
-def subjects(rows: pd.DataFrame) -> pd.Series:
-    """What the rays see: the scene, and camera, samples and ray kind where a run has several."""
-    titles = rows["scene"].copy()
-    if (rows.groupby("scene")["camera"].nunique() > 1).any():
-        titles += ", camera " + rows["camera"]
-    if rows["samples"].nunique() > 1:
-        titles += ", " + rows["samples"].map("{:.0f} samples".format)
-    if rows["ray_kind"].nunique() > 1:
-        titles += ", " + rows["ray_kind"] + " rays"
-    return titles
 
 
 def path_of_name(name: str) -> str:

@@ -7,10 +7,11 @@ from pathlib import Path
 import pandas as pd
 from pandas.api.types import is_bool_dtype, is_numeric_dtype
 
+from beambench import InputError
 from beambench_report.base.columns import COUNTER_SUFFIX, RENAMED_COLUMNS, dictionary
 from beambench_report.base.csv_texts import unguarded
 from beambench_report.base.files import Problem
-from beambench_report.base.names import contender_labels, subjects, view_titles
+from beambench_report.base.names import with_names
 from beambench_report.base.run_log import has_log
 
 # The columns without which there is nothing to show.
@@ -118,10 +119,10 @@ def read_run(directory: Path) -> Run:
             rows[name] = rows[name].astype(str).where(rows[name].notna(), "")
     _require_values(rows, path, ("scene", "structure", "rays"))
 
-    rows = rows.copy()  # in one piece: pandas warns of many columns that were set one by one
-    rows["contender"] = contender_labels(rows)
-    rows["subject"] = subjects(rows)
-    rows["view"] = view_titles(rows)
+    try:
+        rows = with_names(rows)
+    except InputError as error:
+        raise Problem(f"{path}: {error}") from None
     rows["timed"] = rows["verdict"].isin(TIMED_VERDICTS) & rows["total_ms_median"].notna()
     return Run(directory, rows)
 

@@ -5,10 +5,16 @@ from dataclasses import dataclass
 
 import pandas as pd
 
-from beambench_report.base.cell_files import CellFile, Identity, identity, read_cell_files
+from beambench.analysis import Median, Ratio, paired_ratio, unpaired_ratio
+from beambench_report.base.cell_files import (
+    CellFile,
+    Identity,
+    identity,
+    median_of,
+    read_cell_files,
+)
 from beambench_report.base.files import Problem
 from beambench_report.base.names import parameter_items
-from beambench_report.base.ratio import Median, Ratio, median_of, paired_ratio, unpaired_ratio
 from beambench_report.base.records import OK, Run, size_of
 
 _STRUCTURES = ("tile-beam", "embree")

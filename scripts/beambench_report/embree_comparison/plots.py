@@ -7,9 +7,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, NullLocator
 
+from beambench.analysis import Ratio
 from beambench_report.base.figure import Plot, new_figure, write_below
 from beambench_report.base.palette import INK, PAPER, structure_color
-from beambench_report.base.ratio import Ratio
 from beambench_report.embree_comparison.growth import PIXELS, PRIMITIVES, growth
 from beambench_report.embree_comparison.pairings import PRIMARY, Pairing
 from beambench_report.embree_comparison.targets import (

@@ -4,10 +4,10 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+from beambench.analysis import Ratio, geometric_mean
 from beambench_report.base.figure import house_style, write_plot
 from beambench_report.base.files import Problem, write_text
 from beambench_report.base.quantities import markdown_table, number
-from beambench_report.base.ratio import Ratio, geometric_mean
 from beambench_report.base.records import read_run
 from beambench_report.embree_comparison.pairings import Pairing, pairings
 from beambench_report.embree_comparison.plots import plots

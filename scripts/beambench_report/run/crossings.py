@@ -1,5 +1,7 @@
-"""Break-even as lines that cross: what a ray costs with its share of the build."""
+"""Break-even as lines that cross, what a ray costs with its share of the build; and as a table."""
 
+import itertools
+from math import isfinite
 from textwrap import fill
 
 import numpy as np
@@ -7,12 +9,12 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.ticker import EngFormatter, LogLocator
 
+from beambench.analysis import break_even_rays
 from beambench_report.base.figure import Look, Plot
 from beambench_report.base.palette import INK, PAPER
 from beambench_report.base.quantities import number
-from beambench_report.base.records import size_of
+from beambench_report.base.records import OK, Run, size_of
 from beambench_report.base.svg import hover
-from beambench_report.run.break_even import break_even_rays, rays_in_words
 from beambench_report.run.measured import Measured, short_title
 from beambench_report.run.panels import (
     MOST_LINES,
@@ -155,10 +157,57 @@ def overtakes(rows: pd.DataFrame) -> list[tuple[float, str]]:
     first = rows.iloc[0]
     found = []
     for _, other in rows.iloc[1:].iterrows():
-        rays, _ = break_even_rays(
-            first["build_ms_median"], first["ns"] / 1e6,
-            other["build_ms_median"], other["ns"] / 1e6,
-        )  # fmt: skip
-        if rays is not None:
+        rays = break_even_rays(
+            first["build_ms_median"], first["ns"], other["build_ms_median"], other["ns"]
+        )
+        if rays > 0 and isfinite(rays):
             found.append((rays, other["contender"]))
     return sorted(found)
+
+
+def rays_in_words(rays: float) -> str:
+    """A number of rays: 250, 10.0 k, 3.2 M."""
+    return EngFormatter(places=None if rays < 1000 else 1, sep=" ")(round(rays))
+
+
+def break_even_table(run: Run) -> pd.DataFrame:
+    """The break-even of every ordered pair of contenders of every view but null."""
+    records = []
+    for title in run.views:
+        rows = run.view(title)
+        rows = rows[rows["timed"] & (rows["verdict"] == OK)]
+        rows = rows.dropna(subset=["build_ms_median", "trace_ms_median"])
+        rows = rows.drop_duplicates(["contender", "rays"])
+        contenders = {name: own.set_index("rays") for name, own in rows.groupby("contender")}
+        for one, other in itertools.permutations(rows["contender"].unique(), 2):
+            common = contenders[one].index.intersection(contenders[other].index)
+            if common.empty:
+                continue
+            mine, theirs = (contenders[name].loc[common.max()] for name in (one, other))
+            records.append(
+                (title, one, other, size_of(mine), *break_even(_cost(mine), _cost(theirs)))
+            )
+    return pd.DataFrame(
+        records,
+        columns=["view", "contender", "baseline", "resolution", "break_even_rays", "in_words"],
+    )
+
+
+Cost = tuple[float, float]
+"""Of a contender: ms to build, ns a ray."""
+
+
+def _cost(row: pd.Series) -> Cost:
+    return row["build_ms_median"], 1e6 * row["trace_ms_median"] / row.name
+
+
+def break_even(mine: Cost, other: Cost) -> tuple[float | None, str]:
+    """The number of rays, if there is one, and the same in words."""
+    since, until = break_even_rays(*mine, *other), break_even_rays(*other, *mine)
+    if since == 0:
+        return None, "at once"
+    if isfinite(since):
+        return since, f"from {rays_in_words(since)}"
+    if 0 < until < since:
+        return until, f"up to {rays_in_words(until)}"
+    return None, "never"

@@ -1,11 +1,11 @@
 """What the head of a page says of a run: what was traced, how much, and what references are."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import pandas as pd
 
-from beambench_report.base.machine import Manifest
+from beambench_report.base.analysis import Overhead
 from beambench_report.base.records import REFERENCES, Run, size_of
 
 _MOST_SIZES = 4
@@ -27,7 +27,7 @@ class Tile:
     note: str = ""
 
 
-def tiles(run: Run, manifest: Manifest) -> list[Tile]:
+def tiles(run: Run, overheads: Sequence[Overhead]) -> list[Tile]:
     """A few figures that say how large the run was and how well it could measure."""
     of_references = run.rows["structure"].isin(REFERENCES)
     references = list(dict.fromkeys(run.rows.loc[of_references, "contender"]))
@@ -40,34 +40,10 @@ def tiles(run: Run, manifest: Manifest) -> list[Tile]:
     if references:
         words = _plural("reference", len(references))
         made.append(Tile(f"{len(references):,}", words, "reference", f"({', '.join(references)})"))
-    if manifest.overhead is not None:
-        made.append(_overhead(run, manifest.overhead, manifest.overhead_cell))
+    for one in overheads[:1]:
+        figure = f"{100 * one.part:,.0f}%" if one.part >= 0.1 else f"{100 * one.part:.2g}%"
+        made.append(Tile(figure, f"of a trace is the harness's, at most: {one.title}"))
     return made
-
-
-def _overhead(run: Run, part: float, cell: str) -> Tile:
-    figure = f"{100 * part:,.0f}%" if part >= 0.1 else f"{100 * part:.2g}%"
-    if not cell:
-        return Tile(figure, "of the fastest trace is the harness's, at most")
-    row = _row_of(run, cell)
-    name = cell if row is None else f"{row['contender']} in {row['view']} at {size_of(row)}"
-    if row is not None and not row.get("query_path"):
-        # Earlier records have the time of null by single rays, whichever way the rays are made.
-        return Tile(figure, f"of the time of a trace is what null takes, at most: {name}")
-    return Tile(figure, f"of a trace is the harness's, at most: {name}")
-
-
-def _row_of(run: Run, cell: str) -> pd.Series | None:
-    """The row of a cell that the manifest names."""
-    pairs = zip(run.rows["scene"], run.rows["parameters"], strict=True)
-    near = [cell.startswith(f"{scene}/") and cell.endswith(words) for scene, words in pairs]
-    for _, row in run.rows[near].iterrows():
-        samples = f"{row['samples']:.0f}"
-        parameters = f":{row['parameters']}" if row["parameters"] else ""
-        place = (row["scene"], row["camera"], size_of(row), samples, row["ray_kind"])
-        if cell == "/".join((*place, row["structure"] + parameters)):
-            return row
-    return None
 
 
 def traced(rows: pd.DataFrame) -> str:

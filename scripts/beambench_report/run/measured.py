@@ -8,13 +8,19 @@ from pathlib import Path
 
 import pandas as pd
 
-from beambench_report.base.cell_files import CellFile, Identity, identity, read_cell_files
+from beambench.analysis import median_interval
+from beambench_report.base.analysis import Analysis, read_analysis
+from beambench_report.base.cell_files import (
+    CellFile,
+    Identity,
+    identity,
+    median_of,
+    read_cell_files,
+)
 from beambench_report.base.figure import Look, looks
 from beambench_report.base.names import machine_label
 from beambench_report.base.quantities import number
-from beambench_report.base.ratio import interval_rank, median_of
 from beambench_report.base.records import REFERENCES, Run, finest_rays, read_run
-from beambench_report.run.standings import Standings, standings
 
 
 @dataclass(frozen=True)
@@ -30,9 +36,9 @@ class Measured:
         return looks(self.run.rows)
 
     @cached_property
-    def standings(self) -> list[Standings]:
-        """Of each view, in the order of the file."""
-        return standings(self.run, self.files)
+    def analysis(self) -> Analysis:
+        """The conclusions from the run."""
+        return read_analysis(self.run.directory)
 
     @cached_property
     def timed(self) -> pd.DataFrame:
@@ -61,9 +67,8 @@ class Measured:
         file = self.files.get(identity(row))
         times = sorted(file.trace_ms.values()) if file else []
         low, high = middle.low, middle.high
-        rank = interval_rank(len(times))
-        if (low is None or high is None) and rank:
-            low, high = times[rank - 1], times[-rank]
+        if (low is None or high is None) and (found := median_interval(times)):
+            low, high = found
         return (
             scale * middle.value,
             nan if low is None else scale * low,

@@ -5,22 +5,15 @@ from collections.abc import Sequence
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, LogLocator
 
+from beambench.analysis import Ratio
+from beambench_report.base.analysis import Mean, Overall, Standing, Standings
 from beambench_report.base.figure import Look, Plot
 from beambench_report.base.names import file_stems
 from beambench_report.base.palette import INK, PAPER, SOFT
 from beambench_report.base.quantities import number
-from beambench_report.base.ratio import Ratio
 from beambench_report.base.svg import hover
 from beambench_report.run.measured import Measured, between
 from beambench_report.run.panels import MOST_ROWS, finish, panels_with_legend
-from beambench_report.run.standings import (
-    Mean,
-    Overall,
-    Standing,
-    Standings,
-    counted,
-    overall,
-)
 
 _MOST_DOTS = 150  # with a hover title each; beyond, one title for all dots of a row
 _GAP = 1.1  # rows between contenders and references
@@ -33,7 +26,7 @@ _EXPLANATION = (
 
 def overalls(measured: Measured) -> list[Plot]:
     """A figure for each kind of rays of which two contenders have times."""
-    found = [one for one in overall(measured.standings) if len(one.means) > 1]
+    found = [one for one in measured.analysis.means if len(one.means) > 1]
     stems = file_stems(one.ray_kind for one in found)
     return [
         _overall(measured, one, "overall" if len(found) == 1 else f"overall-{stems[one.ray_kind]}")
@@ -42,7 +35,9 @@ def overalls(measured: Measured) -> list[Plot]:
 
 
 def _overall(measured: Measured, one: Overall, stem: str) -> Plot:
-    standings = [s for s in counted(measured.standings) if s.ray_kind == one.ray_kind]
+    standings = [
+        view for view in measured.analysis.views if view.in_means and view.ray_kind == one.ray_kind
+    ]
     means = one.means[:MOST_ROWS]
     rows = [*enumerate(means)]
     rows += [(len(means) + _GAP + place, mean) for place, mean in enumerate(one.references)]

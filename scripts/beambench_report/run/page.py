@@ -7,15 +7,11 @@ from pathlib import Path
 
 import pandas as pd
 
+from beambench_report.base.analysis import Standings
 from beambench_report.base.cell_files import read_cell_files
 from beambench_report.base.columns import dictionary
 from beambench_report.base.files import write_text
-from beambench_report.base.machine import (
-    Manifest,
-    read_description,
-    read_exclusions,
-    read_manifest,
-)
+from beambench_report.base.machine import Manifest, read_description, read_manifest
 from beambench_report.base.names import file_stems
 from beambench_report.base.palette import css_color
 from beambench_report.base.records import Run, read_run, size_of
@@ -31,18 +27,9 @@ from beambench_report.run.introduction import (
     traced,
 )
 from beambench_report.run.measured import Measured
-from beambench_report.run.outcome import doubts_about_times, summarize_verdicts
+from beambench_report.run.outcome import summarize_verdicts
 from beambench_report.run.plots import KINDS, Kind
 from beambench_report.run.reference import Compared, choose_reference, compared, why_reference
-from beambench_report.run.standings import (
-    Standings,
-    in_words,
-    overall,
-    ratios_are_paired,
-    standings,
-    ties_are_known,
-    without_times,
-)
 from beambench_report.run.tables import Table, compare, ratio_field, view_table, work_table
 
 
@@ -126,10 +113,10 @@ def render(
     reference = choose_reference(run, wanted_reference)
     resolutions = {view: compared(run, view, reference, files) for view in run.views}
     finest = {view: groups[0] for view, groups in resolutions.items()}
-    figures = figures_of(Measured(run, files), drawn_kinds)
+    measured = Measured(run, files)
+    figures = figures_of(measured, drawn_kinds)
     pictures = read_pictures(run.directory, run.rows["scene"])
-    every = standings(run, files, read_exclusions(run.directory))
-    by_view = {one.view: one for one in every}
+    analysis = measured.analysis
     return (
         environment()
         .get_template("page.html.j2")
@@ -137,29 +124,23 @@ def render(
             manifest=manifest,
             description=read_description(run.directory),
             newest=run.rows.iloc[-1].to_dict(),
-            outcome=summarize_verdicts(run, files),
+            outcome=summarize_verdicts(run, files, analysis),
             not_begun=not_begun(run, manifest),
             folder=shlex.quote(str(run.directory)),
-            doubts=doubts_about_times(run, manifest),
-            precision_is_known="stop_reason" in run.rows,
             noise_is_known=manifest.noise is not None,
             is_timed=bool(run.rows["timed"].any()),
-            means=overall(every),
-            ties_are_known=ties_are_known(every),
+            analysis=analysis,
             absent=absent(run, manifest, files, figures, pictures),
             color=css_color,
             dark=dark_variables(),
             interval=ratio_field,
-            in_words=in_words,
             traced=traced(run.rows),
-            tiles=tiles(run, manifest),
+            tiles=tiles(run, analysis.overheads),
             about_references=about_references(run.rows),
-            without_times=without_times(every),
-            ratios_are_paired=ratios_are_paired(every),
             comparison=compare(reference, finest) if reference else None,
             why_reference=why_reference(reference, wanted_reference) if reference else "",
             views=make_views(
-                resolutions, by_view, run.counters, pictures, figures.images, reference
+                resolutions, analysis.by_view, run.counters, pictures, figures.images, reference
             ),
             plots=[plot for plot in figures.images if not plot.subject],
             undrawn=figures.undrawn,

@@ -10,9 +10,8 @@ from beambench_report.base.figure import Plot, house_style, write_plot
 from beambench_report.base.files import load_json, write_text
 from beambench_report.base.names import PLOT_INDEX
 from beambench_report.base.records import Run
-from beambench_report.run.break_even import break_even_table
 from beambench_report.run.counters import counters
-from beambench_report.run.crossings import crossings
+from beambench_report.run.crossings import break_even_table, crossings
 from beambench_report.run.distributions import distributions
 from beambench_report.run.measured import Measured, read_measured
 from beambench_report.run.overall_plot import overalls

@@ -7,9 +7,9 @@ from math import inf
 import numpy as np
 import pandas as pd
 
+from beambench.analysis import Ratio
 from beambench_report.base.cell_files import CellFile, Identity, ratio_of
 from beambench_report.base.files import Problem
-from beambench_report.base.ratio import Ratio
 from beambench_report.base.records import OK, Run, finest_rays
 
 

@@ -8,12 +8,12 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.ticker import LogLocator, NullLocator
 
+from beambench.analysis import Ratio
 from beambench_report.base.cell_files import ratio_of
 from beambench_report.base.figure import Look, Plot, variant_look
 from beambench_report.base.names import file_stems, parameter_items, varying_parameters
 from beambench_report.base.palette import INK, PAPER
 from beambench_report.base.quantities import number
-from beambench_report.base.ratio import Ratio
 from beambench_report.base.records import size_of
 from beambench_report.base.svg import hover
 from beambench_report.run.measured import Measured, between, short_title

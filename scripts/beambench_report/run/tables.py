@@ -7,10 +7,10 @@ from math import log2
 
 import pandas as pd
 
+from beambench.analysis import Ratio
 from beambench_report.base.columns import COUNTER_SUFFIX
 from beambench_report.base.palette import css_color
 from beambench_report.base.quantities import number, size_in_words
-from beambench_report.base.ratio import Ratio
 from beambench_report.base.records import BASELINE, REFERENCES, size_of
 from beambench_report.run.reference import Compared
 

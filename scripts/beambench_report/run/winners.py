@@ -1,9 +1,9 @@
 """Which structure wins where: each structure with its own best parameters, view by view.
 
-Beside `standings`, which ranks every contender, a structure counts once here: with the parameters
-that give it the least median trace time in the view. A structure is tied with the fastest where the
-interval of the ratio of their times holds 1 (`base.ratio`), as in `standings`. Where a ratio has no
-interval, because a cell was repeated too seldom, the medians decide.
+Beside the analysis of a run, which ranks every contender, a structure counts once here: with the
+parameters that give it the least median trace time in the view. A structure is tied with the
+fastest where the interval of the ratio of their times holds 1, as in the analysis of a run. Where a
+ratio has no interval, because a cell was repeated too seldom, the medians decide.
 """
 
 from collections import Counter
@@ -67,7 +67,7 @@ def races(rows: pd.DataFrame, files: Mapping[Identity, CellFile]) -> list[Race]:
 def with_ratios(rows: pd.DataFrame, files: Mapping[Identity, CellFile]) -> pd.DataFrame:
     """Returns the rows of one view, the fastest first, compared with it.
 
-    `ratio` is that of the trace times, as in the plots (`base.ratio`). `is_tied` is true of the
+    `ratio` is that of the trace times, as in the plots. `is_tied` is true of the
     fastest, and where the interval of the ratio holds 1.
     """
     ranked = rows.sort_values("trace_ms_median")

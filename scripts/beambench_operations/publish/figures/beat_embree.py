@@ -7,10 +7,10 @@ from typing import Any
 
 import pandas as pd
 
+from beambench.analysis import Ratio
 from beambench_operations.publish.figures.cells import Cells
 from beambench_operations.publish.figures.comparison import figures_of, read_pairings
 from beambench_operations.publish.reports import BEAT_EMBREE
-from beambench_report.base.ratio import Ratio
 
 _MILLION = "bumpy:triangles=1000000"
 _FEWER = "bumpy:triangles=200000"

@@ -9,10 +9,10 @@ from typing import Literal
 
 import pandas as pd
 
+from beambench.analysis import Ratio, geometric_mean
 from beambench_report.base.cell_files import CellFile, Identity, ratio_of, read_cell_files
 from beambench_report.base.files import Problem
 from beambench_report.base.names import parameter_items
-from beambench_report.base.ratio import Ratio, geometric_mean
 from beambench_report.base.records import read_run
 
 Phase = Literal["total", "trace"]

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from beambench.analysis import Ratio, geometric_mean
 from beambench_operations.publish.figures.formats import brief
-from beambench_report.base.ratio import Ratio, geometric_mean
 from beambench_report.base.records import read_run
 from beambench_report.embree_comparison.pairings import Pairing, pairings
 from beambench_report.embree_comparison.report import outcome

@@ -6,11 +6,9 @@ from pathlib import Path
 from typing import Any
 
 from beambench_operations.publish.figures.cells import Cells
-from beambench_report.base.cell_files import read_cell_files
-from beambench_report.base.machine import read_exclusions
+from beambench_report.base.analysis import read_analysis
 from beambench_report.base.records import read_run
 from beambench_report.run.repeatability import repeatability
-from beambench_report.run.standings import overall, standings
 
 _LEVEL_6 = ("beam:max_level=6", "samet:max_level=6")
 _TETRA = "tetra:n=6"
@@ -19,14 +17,14 @@ _TETRA = "tetra:n=6"
 def figures(folder: Path) -> dict[str, Any]:
     """Who is fastest at the highest resolution; beams beside single rays; the second run."""
     cells = Cells(folder)
-    every = standings(read_run(folder), read_cell_files(folder), read_exclusions(folder))
-    (of_primary,) = overall(every)
+    analysis = read_analysis(folder)
+    (of_primary,) = analysis.means
     return {
         "cells": len(cells.rows),
         "wrong": len(cells.wrong),
-        "views": every,
+        "views": analysis.views,
         "means": of_primary.means,
-        "size": every[0].size,
+        "size": analysis.views[0].size,
         "beams": {
             scene: {
                 size: cells.ratio(_LEVEL_6[1], _LEVEL_6[0], "total", scene=scene, size=size)

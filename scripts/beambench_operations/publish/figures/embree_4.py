@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from beambench.analysis import geometric_mean
 from beambench_operations.publish.figures.cells import Cells
 from beambench_operations.publish.figures.comparison import figures_of, read_pairings
-from beambench_report.base.ratio import geometric_mean
 
 
 def figures(folder: Path) -> dict[str, Any]:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from beambench.analysis import Ratio
 from beambench_report.base.quantities import number
-from beambench_report.base.ratio import Ratio
 
 
 def fixed(value: float | Ratio, digits: int = 2) -> str:

@@ -29,7 +29,7 @@
     String(a.machine_ids) !== String(b.machine_ids) ||
     Boolean(a.processor && b.processor && a.processor !== b.processor);
 
-  // Distances to the ends add up in quadrature, on a logarithmic scale, as in base/ratio.py.
+  // Distances to the ends add up in quadrature, on a logarithmic scale, as in harness/analysis/ratio.cpp.
   const change = (before, after) => {
     if (!before || !after) return null;
     const value = after[0] / before[0];

@@ -1,0 +1,98 @@
+#include "harness/analysis/names.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "harness/bench/plan.hpp"
+#include "scenes/core/parameters.hpp"
+
+namespace beambench::analysis {
+namespace {
+
+using Parameters = std::vector<std::pair<std::string, std::string>>;
+
+/// Returns the parameters in the order of the record.
+Parameters parameters_of(const NamedCell& cell) {
+  return parse_spec(cell.structure + (cell.parameters.empty() ? "" : ":" + cell.parameters))
+      .parameters;
+}
+
+/// The variants of one structure.
+struct Variants {
+  std::set<std::string> seen;
+  /// How many variants have each value of each parameter.
+  std::map<std::string, std::map<std::string, std::size_t>> counts;
+
+  void add(const NamedCell& cell) {
+    if (!seen.insert(cell.parameters).second) return;
+    for (const auto& [name, value] : parameters_of(cell)) ++counts[name][value];
+  }
+
+  /// A parameter that only some variants have differs, too.
+  bool differ_in(const std::string& name, const std::string& value) const {
+    return counts.at(name).at(value) < seen.size();
+  }
+};
+
+/// What the cells of a run differ in.
+struct Differences {
+  std::map<std::string, Variants> structures;
+  std::map<std::string, std::set<std::string>> cameras;  ///< by scene
+  std::set<int> samples;
+  std::set<std::string> ray_kinds;
+  std::set<std::string> machines;
+
+  explicit Differences(std::span<const NamedCell> cells) {
+    for (const NamedCell& cell : cells) {
+      structures[cell.structure].add(cell);
+      cameras[cell.scene].insert(cell.camera);
+      samples.insert(cell.samples);
+      ray_kinds.insert(cell.ray_kind);
+      machines.insert(cell.machine_id);
+    }
+  }
+
+  std::string contender(const NamedCell& cell) const {
+    std::string label = cell.structure;
+    for (const auto& [name, value] : parameters_of(cell)) {
+      if (structures.at(cell.structure).differ_in(name, value)) {
+        label += fmt::format(" {}={}", name, value);
+      }
+    }
+    return label;
+  }
+
+  std::string subject(const NamedCell& cell) const {
+    std::string title = bench::shown_scene(cell.scene);
+    const auto has_several = [](const auto& entry) { return entry.second.size() > 1; };
+    if (std::ranges::any_of(cameras, has_several)) title += ", camera " + cell.camera;
+    if (samples.size() > 1) title += fmt::format(", {} samples", cell.samples);
+    if (ray_kinds.size() > 1) title += ", " + cell.ray_kind + " rays";
+    return title;
+  }
+
+  std::string machine(const NamedCell& cell) const {
+    constexpr std::size_t kShownDigits = 8;
+    if (machines.size() == 1) return "";
+    return ", machine " + cell.machine_id.substr(0, kShownDigits);
+  }
+};
+
+}  // namespace
+
+std::vector<Names> name_cells(std::span<const NamedCell> cells) {
+  const Differences differences(cells);
+  std::vector<Names> names;
+  names.reserve(cells.size());
+  for (const NamedCell& cell : cells) {
+    const std::string subject = differences.subject(cell);
+    names.push_back({differences.contender(cell), subject, subject + differences.machine(cell)});
+  }
+  return names;
+}
+
+}  // namespace beambench::analysis

@@ -1,0 +1,31 @@
+#pragma once
+// What the contenders and the views of a run are called: by what differs between its cells.
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace beambench::analysis {
+
+/// What a name may have to state of a cell.
+struct NamedCell {
+  std::string scene;
+  std::string camera;
+  std::string structure;
+  std::string parameters;
+  int samples;
+  std::string ray_kind;
+  std::string machine_id;
+};
+
+/// The names of a cell among others.
+struct Names {
+  std::string contender;  ///< the structure, with the parameters by which its variants differ
+  std::string subject;    ///< the scene, with camera, samples and kind of rays where it varies
+  std::string view;       ///< the same with the machine: what is compared
+};
+
+/// Returns the names of each cell.
+std::vector<Names> name_cells(std::span<const NamedCell> cells);
+
+}  // namespace beambench::analysis

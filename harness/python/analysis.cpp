@@ -1,0 +1,118 @@
+// The analysis of runs: its statistics, and its result.
+
+#include "harness/analysis/analysis.hpp"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include "harness/analysis/names.hpp"
+#include "harness/analysis/ratio.hpp"
+#include "harness/python/bindings.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/core/json_text.hpp"
+
+namespace beambench::python {
+namespace {
+
+namespace nb = nanobind;
+using analysis::Median;
+using analysis::TimeRatio;
+
+/// A value and the ends of its interval.
+using Ends = std::tuple<double, std::optional<double>, std::optional<double>>;
+/// The same, and whether the ratio is paired.
+using RatioFields = std::tuple<double, std::optional<double>, std::optional<double>, bool>;
+
+std::optional<bench::Interval> interval_of(std::optional<double> low, std::optional<double> high) {
+  return low && high ? std::optional(bench::Interval{*low, *high}) : std::nullopt;
+}
+
+Median median_of(const Ends& ends) {
+  const auto& [value, low, high] = ends;
+  return {value, interval_of(low, high)};
+}
+
+RatioFields fields_of(const TimeRatio& ratio) {
+  if (!ratio.interval) return {ratio.value, std::nullopt, std::nullopt, ratio.is_paired};
+  return {ratio.value, ratio.interval->low, ratio.interval->high, ratio.is_paired};
+}
+
+RatioFields mean_of(const std::vector<RatioFields>& list) {
+  std::vector<TimeRatio> ratios;
+  for (const auto& [value, low, high, is_paired] : list) {
+    ratios.push_back({value, interval_of(low, high), is_paired});
+  }
+  return fields_of(analysis::geometric_mean(ratios));
+}
+
+using CellFields =
+    std::tuple<std::string, std::string, std::string, std::string, int, std::string, std::string>;
+using NameFields = std::tuple<std::string, std::string, std::string>;
+
+std::vector<NameFields> name_cells(const std::vector<CellFields>& list) {
+  std::vector<analysis::NamedCell> cells;
+  for (const CellFields& fields : list) {
+    cells.push_back(std::make_from_tuple<analysis::NamedCell>(fields));
+  }
+  std::vector<NameFields> names;
+  for (const auto& [contender, subject, view] : analysis::name_cells(cells)) {
+    names.emplace_back(contender, subject, view);
+  }
+  return names;
+}
+
+}  // namespace
+
+void bind_analysis(nb::module_& module) {
+  module.def(
+      "analyze",
+      [](const nb::bytes& folder) {
+        return json_text(analysis::to_json(analysis::analyze(bench::read_run(text_of(folder)))));
+      },
+      nb::arg("folder"), "Analyzes the log of a run; returns the text of analysis.json.");
+  module.def("name_cells", &name_cells, nb::arg("cells"),
+             "Returns contender, subject and view of each cell.");
+  module.def(
+      "paired_ratio",
+      [](const analysis::TimesByRound& over, const analysis::TimesByRound& under) {
+        const auto ratio = analysis::paired_ratio(over, under);
+        return ratio ? std::optional(fields_of(*ratio)) : std::nullopt;
+      },
+      nb::arg("over"), nb::arg("under"), "Returns the median ratio of the common rounds.");
+  module.def(
+      "unpaired_ratio",
+      [](const Ends& over, const Ends& under) {
+        return fields_of(analysis::unpaired_ratio(median_of(over), median_of(under)));
+      },
+      nb::arg("over"), nb::arg("under"), "Returns the ratio of two medians.");
+  module.def("geometric_mean", &mean_of, nb::arg("ratios"),
+             "Returns the geometric mean of at least one ratio.");
+  module.def(
+      "median_interval",
+      [](const std::vector<double>& samples) {
+        const auto interval = bench::median_interval(samples);
+        return interval ? std::optional(std::pair(interval->low, interval->high)) : std::nullopt;
+      },
+      nb::arg("samples"), "Returns the 95% interval of the median of some samples.");
+  module.def(
+      "break_even_rays",
+      [](double build_ms, double ns_per_ray, double other_build_ms, double other_ns_per_ray) {
+        return analysis::break_even_rays({build_ms, ns_per_ray},
+                                         {other_build_ms, other_ns_per_ray});
+      },
+      nb::arg("build_ms"), nb::arg("ns_per_ray"), nb::arg("other_build_ms"),
+      nb::arg("other_ns_per_ray"), "Returns from how many rays on one contender is ahead.");
+}
+
+}  // namespace beambench::python

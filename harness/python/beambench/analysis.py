@@ -1,0 +1,77 @@
+"""The analysis of runs, as `beambench run` and `analyze` make it.
+
+It is implemented once, in harness/analysis; ratio.hpp there states the methods.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import astuple, dataclass
+from typing import Any
+
+from beambench import _beambench
+from beambench._beambench import break_even_rays, median_interval, name_cells
+from beambench.arrays import encoded
+
+__all__ = [
+    "Median",
+    "Ratio",
+    "analyze",
+    "break_even_rays",
+    "geometric_mean",
+    "median_interval",
+    "name_cells",
+    "paired_ratio",
+    "unpaired_ratio",
+]
+
+
+@dataclass(frozen=True)
+class Ratio:
+    """A ratio of two times and its 95% interval, which too few repetitions do not have."""
+
+    value: float
+    low: float | None = None
+    high: float | None = None
+    paired: bool = False
+    """Was it made round by round?"""
+
+    @property
+    def interval(self) -> tuple[float, float] | None:
+        """Both ends, or None: then nothing can be decided by this ratio."""
+        return None if self.low is None or self.high is None else (self.low, self.high)
+
+
+@dataclass(frozen=True)
+class Median:
+    """A median and its 95% interval, all above 0."""
+
+    value: float
+    low: float | None = None
+    high: float | None = None
+
+
+def analyze(folder: str | bytes | os.PathLike[Any]) -> dict[str, Any]:
+    """Analyzes the log of a run, which may have been cut off; returns what analysis.json has.
+
+    Raises InputError where the folder holds no log, or it cannot be read.
+    """
+    return json.loads(_beambench.analyze(encoded("folder", folder)))
+
+
+def paired_ratio(over: Mapping[int, float], under: Mapping[int, float]) -> Ratio | None:
+    """Returns the median ratio of the rounds that both have; None where they share no round."""
+    found = _beambench.paired_ratio(dict(over), dict(under))
+    return Ratio(*found) if found else None
+
+
+def unpaired_ratio(over: Median, under: Median) -> Ratio:
+    """Returns the ratio of two medians; with an interval where both have one."""
+    return Ratio(*_beambench.unpaired_ratio(astuple(over), astuple(under)))
+
+
+def geometric_mean(ratios: Sequence[Ratio]) -> Ratio:
+    """Returns the geometric mean of at least one ratio; with an interval where all have one."""
+    return Ratio(*_beambench.geometric_mean([astuple(ratio) for ratio in ratios]))

@@ -1,0 +1,251 @@
+"""The conclusions from a run, as beambench draws them: who is fastest, and what times are worth.
+
+They are computed by harness/analysis and read here: from analysis.json, or where a run was cut off
+before it was written, from the log.
+"""
+
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import inf
+from pathlib import Path
+from typing import Any
+
+from beambench import InputError
+from beambench.analysis import Ratio, analyze
+from beambench_report.base.files import Problem, read_json
+from beambench_report.base.run_log import has_log
+
+ANALYSIS = "analysis.json"
+_EMBREE = "embree"
+_UNRECORDED = "not in the record"
+_Json = Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class Standing:
+    """One contender in one view."""
+
+    contender: str
+    structure: str
+    build_ms: float
+    ns_per_ray: float
+    ratio: Ratio
+    """Its trace time over that of the fastest."""
+    is_tied: bool
+    """Is it the fastest, or does the interval of its ratio to the fastest hold 1?"""
+
+    @property
+    def mrays_per_s(self) -> float:
+        """Millions of rays per second."""
+        return 1e3 / self.ns_per_ray
+
+
+@dataclass(frozen=True)
+class BreakEven:
+    """From how many rays on the fastest is ahead of all that are not tied, build included."""
+
+    rays: float
+    """0: from the first; infinite: never, by the medians."""
+    over: str
+    """The last contender that it overtakes."""
+    in_words: str
+
+
+@dataclass(frozen=True)
+class Standings:
+    """The contenders of one view at its highest resolution."""
+
+    view: str
+    subject: str
+    """The view, whichever machine measured it."""
+    ray_kind: str
+    size: str
+    rays: int
+    ranked: tuple[Standing, ...]
+    """The fastest first; empty where no contender's hits were correct."""
+    references: tuple[Standing, ...]
+    left_out: tuple[tuple[str, str], ...]
+    """Contenders of the run without a time here, each with the reason."""
+    in_means: bool
+    """Is it among the views that means are over?"""
+    break_even: BreakEven | None
+    """None: there is nobody to compare with."""
+
+    @property
+    def unrecorded(self) -> int:
+        """How many contenders have no row here, and no condition of the sweep leaves them out."""
+        return sum(reason == _UNRECORDED for _, reason in self.left_out)
+
+    @property
+    def fastest(self) -> Standing | None:
+        """The contender of the least median; `tied` has those that may be as fast."""
+        return self.ranked[0] if self.ranked else None
+
+    @property
+    def tied(self) -> tuple[Standing, ...]:
+        """The other contenders that may be as fast."""
+        return tuple(one for one in self.ranked[1:] if one.is_tied)
+
+    @property
+    def behind(self) -> Standing | None:
+        """The first contender that is not tied with the fastest."""
+        return next((one for one in self.ranked if not one.is_tied), None)
+
+    @property
+    def embree(self) -> Standing | None:
+        """Embree's fastest mode."""
+        return next((one for one in self.ranked if one.structure == _EMBREE), None)
+
+    def trace_ms(self, one: Standing) -> float:
+        """The median time of one trace."""
+        return 1e-6 * one.ns_per_ray * self.rays
+
+
+@dataclass(frozen=True)
+class Mean:
+    """A contender over all views of one kind of rays."""
+
+    contender: str
+    structure: str
+    ratio: Ratio
+    """Geometric mean of its ratios to the fastest of each view."""
+    views: int
+    wins: int
+    """Views in which it is the fastest or tied with it."""
+
+
+@dataclass(frozen=True)
+class Overall:
+    """All contenders over all views of one kind of rays."""
+
+    ray_kind: str
+    views: int
+    means: tuple[Mean, ...]
+    """Those with times in every view, the fastest first; then the others."""
+    references: tuple[Mean, ...]
+
+
+@dataclass(frozen=True)
+class Overhead:
+    """The largest part of a contender's trace time that the harness itself takes."""
+
+    query_path: str
+    cell: str
+    title: str
+    """The cell of that trace, as plots and pages call it."""
+    part: float
+
+
+@dataclass(frozen=True)
+class Analysis:
+    """What a run comes to."""
+
+    cells: int
+    failed: int
+    """Wrong or not built."""
+    without_rays: int
+    reasons_for_care: tuple[str, ...]
+    """Why the times are worth little, in clauses."""
+    views: tuple[Standings, ...]
+    means: tuple[Overall, ...]
+    """Of each kind of rays."""
+    overheads: tuple[Overhead, ...]
+    """Of each query path, the largest first."""
+
+    @property
+    def by_view(self) -> dict[str, Standings]:
+        """The views by their titles."""
+        return {one.view: one for one in self.views}
+
+    @property
+    def without_times(self) -> list[str]:
+        """The contenders and references of which no view has a time, in the order of the run."""
+        timed = {one.contender for view in self.views for one in (*view.ranked, *view.references)}
+        names = dict.fromkeys(name for view in self.views for name, _ in view.left_out)
+        return [name for name in names if name not in timed]
+
+    @property
+    def ratios_are_paired(self) -> bool:
+        """Was any ratio to the fastest made round by round?"""
+        return any(ratio.paired for ratio in self._ratios)
+
+    @property
+    def ties_are_known(self) -> bool:
+        """Has any ratio an interval, where there are ratios?"""
+        return not self._ratios or any(ratio.interval for ratio in self._ratios)
+
+    @property
+    def _ratios(self) -> list[Ratio]:
+        return [other.ratio for one in self.views for other in one.ranked[1:]]
+
+
+def has_analysis(directory: Path) -> bool:
+    """Can the conclusions from a run in this folder be had?"""
+    return (directory / ANALYSIS).is_file() or has_log(directory)
+
+
+def read_analysis(directory: Path) -> Analysis:
+    """Reads DIRECTORY/analysis.json; where there is none, analyzes the log of the run.
+
+    Raises Problem where there is neither, or one that cannot be read.
+    """
+    path = directory / ANALYSIS
+    source = read_json(path)
+    if source is None:
+        if not has_log(directory):
+            raise Problem(
+                f"{directory}: holds neither {ANALYSIS} nor the log of a run; give the folder that "
+                "`beambench run` wrote"
+            )
+        try:
+            source = analyze(directory)
+        except InputError as error:
+            raise Problem(str(error)) from None
+    try:
+        return _analysis(source)
+    except (KeyError, TypeError, AttributeError) as error:
+        raise Problem(
+            f"{path}: is not an analysis of this version ({type(error).__name__}: {error}); "
+            f"write it again: beambench analyze --write {os.fspath(directory)}"
+        ) from None
+
+
+def _analysis(source: _Json) -> Analysis:
+    return Analysis(
+        source["cells"],
+        source["failed"],
+        source["without_rays"],
+        tuple(source["reasons_for_care"]),
+        tuple(_view(view) for view in source["views"]),
+        tuple(
+            Overall(one["ray_kind"], one["views"], _means(one["means"]), _means(one["references"]))
+            for one in source["means"]
+        ),
+        tuple(Overhead(**one) for one in source["harness_overheads"]),
+    )
+
+
+def _view(source: _Json) -> Standings:
+    break_even = source.get("break_even")
+    return Standings(
+        **{name: source[name] for name in ("view", "subject", "ray_kind", "size", "rays")},
+        ranked=_standings(source["ranked"]),
+        references=_standings(source["references"]),
+        left_out=tuple((one["contender"], one["reason"]) for one in source["left_out"]),
+        in_means=source["in_means"],
+        break_even=break_even
+        and BreakEven(
+            inf if break_even["rays"] is None else break_even["rays"],
+            break_even["over"],
+            break_even["in_words"],
+        ),
+    )
+
+
+def _standings(source: Sequence[_Json]) -> tuple[Standing, ...]:
+    return tuple(Standing(**{**one, "ratio": Ratio(**one["ratio"])}) for one in source)
+
+
+def _means(source: Sequence[_Json]) -> tuple[Mean, ...]:
+    return tuple(Mean(**{**one, "ratio": Ratio(**one["ratio"])}) for one in source)
