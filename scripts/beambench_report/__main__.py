@@ -5,7 +5,6 @@ import sys
 from importlib import import_module
 from pathlib import Path
 
-from beambench_report.base.cell_files import write_repetitions
 from beambench_report.base.columns import as_markdown, dictionary
 from beambench_report.base.command_line import (
     BEAMBENCH,
@@ -98,13 +97,7 @@ def _add_commands_on_runs(commands: Commands) -> None:
         lambda o: repeatability(read_run(o.run), read_run(o.second)).summary() + "\n",
         help="count the medians of SECOND that lie within the intervals of RUN",
     )
-    repetitions = add_command(
-        commands,
-        "repetitions",
-        lambda o: [write_repetitions(o.run, o.output)],
-        help="write every repetition of a run into one file, for a run that is published",
-    )
-    for command in (plots, pictures, page, repeated, repetitions):
+    for command in (plots, pictures, page, repeated):
         command("run", type=Path, metavar="RUN", help="folder of a run")
     names = [kind.name for kind in KINDS]
     plots(
@@ -122,12 +115,6 @@ def _add_commands_on_runs(commands: Commands) -> None:
         metavar="CONTENDER",
         help="whose times are 1 in the ratios, as the plots call it; if not given, the contender "
         "with correct hits in the most views, Embree's fastest rather than others",
-    )
-    repetitions(
-        *("-o", "--output"),
-        type=Path,
-        metavar="FILE.csv",
-        help="if not given, RUN/repetitions.csv; beside a published results.csv it is read as such",
     )
 
 

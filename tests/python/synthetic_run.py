@@ -76,7 +76,7 @@ def write_cell(
         {"round": turn, "position": 0, "build_ms": 0.25 * total, "trace_ms": 0.75 * total}
         for turn, total in (total_ms or {}).items()
     ]
-    _write_cell(folder, row, repetitions, message, examples)
+    write_repeated_cell(folder, row, repetitions, message, examples)
 
 
 def write_trace_cell(
@@ -89,10 +89,10 @@ def write_trace_cell(
     ]
     for repetition, time in zip(repetitions, warm, strict=False):
         repetition["warm_trace_ms"] = time
-    _write_cell(folder, row, repetitions)
+    write_repeated_cell(folder, row, repetitions)
 
 
-def _write_cell(
+def write_repeated_cell(
     folder: Path,
     row: dict[str, object],
     repetitions: list[dict[str, float]],

@@ -12,7 +12,6 @@ from statistics import median
 import numpy as np
 import pytest
 
-from beambench_report.base.cell_files import REPETITIONS
 from beambench_report.base.fastest import with_fastest
 from beambench_report.base.files import Problem
 from beambench_report.base.published import COARSEST, FINEST
@@ -47,7 +46,7 @@ from beambench_thesis.paper.measured import (
     measured_evidence,
     seconds_of,
 )
-from synthetic_run import synthetic_rows, without_times, write_run
+from synthetic_run import synthetic_rows, without_times, write_repeated_cell, write_run
 
 YES, NO, UNDECIDED, MISSING = Outcome
 
@@ -269,9 +268,14 @@ def write_repeated(
     folder.mkdir(exist_ok=True)
     trace = [ms for ms, _ in repetitions]
     write_run(folder, [row | {"trace_ms_median": median(trace), "trace_ms_min": min(trace)}])
-    lines = [f"2,{turn},0,{ms},{ghz}" for turn, (ms, ghz) in enumerate(repetitions)]
-    text = "\n".join(["line,round,build_ms,trace_ms,clock_ghz", *lines, ""])
-    (folder / REPETITIONS).write_text(text, "utf-8")
+    write_repeated_cell(
+        folder,
+        row,
+        [
+            {"round": turn, "position": 0, "build_ms": 0.0, "trace_ms": ms, "clock_ghz": ghz}
+            for turn, (ms, ghz) in enumerate(repetitions)
+        ],
+    )
     return folder
 
 

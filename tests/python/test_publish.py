@@ -31,6 +31,7 @@ from beambench_operations.publish.provenance import (
 )
 from beambench_operations.publish.small import make_small, size
 from beambench_report.base.files import Problem, read_json
+from beambench_report.base.run_log import logged_cells
 from program import BINARY
 from synthetic_run import synthetic_rows, write_cell, write_run
 
@@ -291,7 +292,7 @@ def test_a_folder_that_is_new_gets_its_page(place: Place) -> None:
     make_folder(folder, replace(place, beambench=BINARY, run=run_program), HERE)
     published = place.published / "embree-4"
     files = {file.name for file in published.iterdir()}
-    assert files >= {"README.md.j2", "config.json", "manifest.json", "repetitions.csv", RECORD}
+    assert files >= {"README.md.j2", "config.json", "manifest.json", "run.jsonl.gz", RECORD}
     assert not files & {"run.jsonl", "google-benchmark.json"}
     assert read_json(published / "config.json")["name"] == "embree-4"
     assert published / "README.md" in write_documents(place.published)
@@ -415,7 +416,8 @@ def test_what_is_committed_is_small(tmp_path: Path) -> None:
     before = size(run)
     make_small(run)
     assert {"run.jsonl", "tasks", "answers.jsonl"}.isdisjoint(file.name for file in run.iterdir())
-    assert (run / "repetitions.csv").is_file()
+    (cell,) = logged_cells(run)
+    assert [one["round"] for one in cell.repetitions] == [1]
     assert {file.name for file in plots.iterdir()} == {"drawn.svg", "rendered.png"}
     with Image.open(plots / "rendered.png") as small:
         assert (small.mode, small.size) == ("P", (200, 200))

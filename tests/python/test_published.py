@@ -6,8 +6,12 @@ import csv
 import json
 import re
 from pathlib import Path
+from statistics import median
 
 import pytest
+
+from beambench_report.base.cell_files import identity, read_cell_files
+from beambench_report.base.records import read_run
 
 
 @pytest.fixture
@@ -39,6 +43,17 @@ def test_the_row_states_the_commit_of_each_run(published: Path) -> None:
         program = json.loads(manifest.read_text("utf-8"))["program"]
         assert program["commit"][:7] in rows[folder], manifest
         assert not program["dirty"], manifest
+
+
+def test_the_logs_have_the_repetitions_of_their_rows(published: Path) -> None:
+    """The repetitions have six digits."""
+    logs = sorted(published.rglob("run.jsonl.gz"))
+    assert len(logs) > 50
+    for log in logs:
+        cells = read_cell_files(log.parent)
+        for row in read_run(log.parent).rows.to_dict("records"):
+            if times := cells[identity(row)].trace_ms.values():
+                assert median(times) == pytest.approx(row["trace_ms_median"], rel=1e-5), log
 
 
 def test_the_finding_of_the_root_readme(repository: Path, published: Path) -> None:

@@ -18,14 +18,9 @@ from scipy import stats
 from beambench_operations.history.night import VIEW
 from beambench_operations.history.nights import Nights
 from beambench_operations.history.steps import Rule, find_steps
-from beambench_report.base.cell_files import (
-    REPETITIONS,
-    Row,
-    published_repetitions,
-    repetitions_of,
-)
+from beambench_report.base.cell_files import repetitions_of
 from beambench_report.base.files import Problem
-from beambench_report.base.run_log import LOG, Repetition, has_log, logged_cells
+from beambench_report.base.run_log import LOG, logged_cells
 
 BLOCK = 5
 SCENES = 15
@@ -274,8 +269,8 @@ def noise_of_samples(folders: Iterable[Path], seed: int = 1999) -> Noise:
             scenes.setdefault(f"{folder}/{scene}", []).append(nights)
     if not scenes:
         raise Problem(
-            f"no run has a view with Embree, others, and {_ROUNDS} repetitions in {LOG} "
-            f"or {REPETITIONS}; give runs whose raw samples were not pruned"
+            f"no run has a view with Embree, others, and {_ROUNDS} repetitions in {LOG}; "
+            "give runs whose raw samples were not pruned"
         )
     parts = []
     for views in scenes.values():
@@ -292,7 +287,8 @@ def _views(folder: Path) -> Iterable[tuple[str, list[dict[int, float]]]]:
     """Scene and contenders of each view, Embree's single rays first."""
     views: dict[tuple, list[tuple[bool, dict[int, float]]]] = {}
     scenes: dict[tuple, str] = {}
-    for place, row, repetitions in _cells(folder):
+    for cell in logged_cells(folder):
+        row, repetitions = cell.facts, repetitions_of(cell)
         try:
             if len(repetitions) < _ROUNDS or row["structure"] == "null":
                 continue
@@ -300,7 +296,7 @@ def _views(folder: Path) -> Iterable[tuple[str, list[dict[int, float]]]]:
             logs = {one["round"]: log(_cycles(one)) for one in repetitions}
         except (ValueError, KeyError, TypeError) as error:
             raise Problem(
-                f"{place}: has no repetitions of a run ({error}); measure it anew"
+                f"{folder / LOG}: has no repetitions of a run ({error}); measure it anew"
             ) from None
         is_reference = row["structure"] == "embree" and "mode=single" in row["parameters"]
         views.setdefault(view, []).append((is_reference, logs))
@@ -309,16 +305,6 @@ def _views(folder: Path) -> Iterable[tuple[str, list[dict[int, float]]]]:
         cells.sort(key=lambda cell: not cell[0])
         if cells[0][0] and len(cells) > 1:
             yield scenes[view], [logs for _, logs in cells]
-
-
-def _cells(folder: Path) -> Iterable[tuple[Path, Row, list[Repetition]]]:
-    """The file, row and repetitions of each cell."""
-    if has_log(folder):
-        for cell in logged_cells(folder):
-            yield folder / LOG, cell.facts, repetitions_of(cell)
-    else:
-        for row, repetitions in published_repetitions(folder):
-            yield folder / REPETITIONS, row, repetitions
 
 
 def _cycles(repetition: dict) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import shutil
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -9,9 +10,8 @@ from pathlib import Path
 from PIL import Image
 
 from beambench_operations.publish.images import with_small_images
-from beambench_report.base.cell_files import REPETITIONS, write_repetitions
 from beambench_report.base.files import write_text
-from beambench_report.base.run_log import LOG
+from beambench_report.base.run_log import LOG, PACKED_LOG
 
 _COLORS = 256
 _NOT_COMMITTED = ("analysis.json", "google-benchmark.json", "report.html", "*answers.jsonl")
@@ -23,13 +23,10 @@ _FOLDERS_NOT_COMMITTED = ("tasks",)
 def make_small(folder: Path) -> None:
     """Leaves in a finished folder what is committed.
 
-    The repetitions of all cells become one file each, where there are enough for intervals; of
-    plots the SVG stays, and pictures get a palette.
+    Logs are packed by gzip; of plots the SVG stays, and pictures get a palette.
     """
     for log in sorted(folder.rglob(LOG)):
-        if not (log.parent / REPETITIONS).is_file():
-            write_repetitions(log.parent)
-        log.unlink()
+        _pack(log)
     for name in _NOT_COMMITTED:
         for file in folder.rglob(name):
             file.unlink()
@@ -37,6 +34,16 @@ def make_small(folder: Path) -> None:
         for inner in sorted(folder.rglob(name)):
             shutil.rmtree(inner)
     make_images_small(folder)
+
+
+def _pack(log: Path) -> None:
+    """Puts the packed log in the place of a log; the same bytes from the same log."""
+    with (
+        log.with_name(PACKED_LOG).open("wb") as file,
+        gzip.GzipFile("", "wb", fileobj=file, mtime=0) as packed,
+    ):
+        packed.write(log.read_bytes())
+    log.unlink()
 
 
 def leave_out(folder: Path, patterns: Sequence[str]) -> None:

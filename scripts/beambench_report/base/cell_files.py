@@ -1,29 +1,21 @@
 """The repetitions, messages and examples of single cells, which results.csv does not have.
 
-They are in the log of a run (`run_log`). A published run has one compact file instead,
-repetitions.csv, a line for each repetition: `line` is that of its cell in results.csv, whose header
-is line 1. From it paired ratios and the noise of a calibration can be computed again.
+They are in the log of a run (`run_log`).
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from math import isclose
 from pathlib import Path
-from statistics import median
 from typing import Literal
 
 import pandas as pd
 
 from beambench.analysis import Median, Ratio, paired_ratio, unpaired_ratio
-from beambench_report.base.csv_texts import csv_of, unguarded
-from beambench_report.base.files import Problem, write_text
-from beambench_report.base.records import TIMED_VERDICTS, read_run
-from beambench_report.base.run_log import LoggedCell, Repetition, has_log, logged_cells
+from beambench_report.base.records import TIMED_VERDICTS
+from beambench_report.base.run_log import LoggedCell, Repetition, logged_cells
 
 IDENTITY = ("scene", "camera", "structure", "parameters", "width", "height", "samples", "ray_kind")
 Identity = tuple[str, ...]
-Row = dict[str, object]
-REPETITIONS = "repetitions.csv"
 
 
 @dataclass(frozen=True)
@@ -56,56 +48,14 @@ def identity(row: Mapping[str, object]) -> Identity:
 
 
 def read_cell_files(directory: Path) -> dict[Identity, CellFile]:
-    """Every cell of the log that has an end or repetitions.
-
-    Where there is no log, what the compact file of repetitions holds; it has no messages.
-    """
-    if has_log(directory):
-        return {
-            identity(cell.facts): _cell_file(
-                cell.message, tuple(_example(text) for text in cell.examples), repetitions_of(cell)
-            )
-            for cell in logged_cells(directory)
-            if cell.is_finished or cell.verdict
-        }
+    """Reads every cell of the log that has an end or repetitions; none where there is no log."""
     return {
-        identity(row): _cell_file("", (), repetitions)
-        for row, repetitions in published_repetitions(directory)
+        identity(cell.facts): _cell_file(
+            cell.message, tuple(_example(text) for text in cell.examples), repetitions_of(cell)
+        )
+        for cell in logged_cells(directory)
+        if cell.is_finished or cell.verdict
     }
-
-
-def published_repetitions(directory: Path) -> list[tuple[Row, list[Repetition]]]:
-    """Rows of DIRECTORY/results.csv with their repetitions, of DIRECTORY/repetitions.csv.
-
-    None where there is no such file. Raises Problem where the two files are not of one run.
-    """
-    path = directory / REPETITIONS
-    if not path.is_file():
-        return []
-    try:
-        table = unguarded(pd.read_csv(path))
-        by_line = {
-            int(line): own.drop(columns="line").to_dict("records")
-            for line, own in table.groupby("line", sort=False)
-        }
-        rows = read_run(directory).rows
-        found = [(rows.loc[line - 2].to_dict(), own) for line, own in by_line.items()]
-        for row, own in found:
-            if not isclose(
-                row["trace_ms_median"], median(o["trace_ms"] for o in own), rel_tol=1e-4
-            ):
-                raise ValueError(f"the repetitions of {row['contender']} are not those of its row")
-    except (ValueError, KeyError) as error:
-        raise Problem(
-            f"{path}: does not belong to the results.csv beside it ({error}); write it again: "
-            "python -m beambench_report repetitions RUN"
-        ) from None
-    return [(row, [_without_gaps(one) for one in own]) for row, own in found]
-
-
-def _without_gaps(repetition: Repetition) -> Repetition:
-    known = {name: value for name, value in repetition.items() if not pd.isna(value)}
-    return known | {"round": int(repetition["round"])}
 
 
 def repetitions_of(cell: LoggedCell) -> list[Repetition]:
@@ -161,29 +111,3 @@ def _example(text: str) -> Example:
 
 def _plain(value: object) -> str:
     return str(int(value)) if isinstance(value, float) else str(value)
-
-
-_FIGURES = "build_ms trace_ms warm_trace_ms build_cpu_ms trace_cpu_ms clock_ghz".split()
-
-
-def write_repetitions(run: Path, output: Path | None = None) -> Path:
-    """Writes the repetitions of RUN's log into `output`; six significant digits.
-
-    Into RUN/repetitions.csv if not given.
-
-    Raises Problem where the run has no repetitions, or a cell that results.csv has not.
-    """
-    rows = read_run(run).rows
-    lines = {identity(row): place + 2 for place, row in rows.iterrows()}
-    table = []
-    for cell in logged_cells(run):
-        for one in repetitions_of(cell):
-            figures = {name: one[name] for name in _FIGURES if name in one}
-            table.append({"line": lines[identity(cell.facts)], "round": one["round"], **figures})
-    if not table:
-        raise Problem(f"{run}: holds no log with repetitions; give the folder that a run left")
-    columns = ["line", "round", *_FIGURES]
-    whole = pd.DataFrame(table, columns=columns).sort_values(["line", "round"])
-
-    text = csv_of(whole.dropna(axis="columns", how="all"), float_format="%.6g")
-    return write_text(output or run / REPETITIONS, text)

@@ -23,7 +23,7 @@ def with_names(rows: pd.DataFrame) -> pd.DataFrame:
     samples = rows["samples"].fillna(0).astype(int)
     names = name_cells(list(zip(*columns, samples, rows["ray_kind"], machines, strict=True)))
     found = pd.DataFrame(names, columns=["contender", "subject", "view"], index=rows.index)
-    return pd.concat([rows, found], axis="columns")
+    return pd.concat([rows, found], axis="columns").copy()  # in one piece: it had many columns
 
 
 def machine_label(machine_id: str) -> str:

@@ -49,8 +49,9 @@ def _records(run: Run, manifest: Manifest) -> Iterator[str]:
 
 def _repetitions(run: Run, files: Mapping[Identity, CellFile]) -> Iterator[str]:
     timed = run.rows[run.rows["timed"]]
-    without = sum(identity(row) not in files for row in timed.to_dict("records")) if files else 0
-    if not files:
+    repeated = {cell for cell, file in files.items() if file.total_ms}
+    without = sum(identity(row) not in repeated for row in timed.to_dict("records"))
+    if not repeated:
         yield (
             "The repetitions of the cells are not in this folder: ratios are of medians and have "
             "wider intervals."

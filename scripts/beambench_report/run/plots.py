@@ -35,7 +35,7 @@ KINDS = (
     Kind(resolutions, "resolutions", "times of a contender at two resolutions"),
     Kind(swept, "by a parameter", "a parameter that two structures sweep"),
     Kind(crossings, "break-even", "two contenders with times in one view"),
-    Kind(distributions, "distributions", "repetitions: run.jsonl, or repetitions.csv"),
+    Kind(distributions, "distributions", "repetitions, which the log has: run.jsonl"),
     Kind(counters, "counters", "a counter that two contenders have"),
 )
 
