@@ -42,7 +42,7 @@ std::size_t repetitions_of(const CellRecord& cell) {
                                          : static_cast<std::size_t>(summed_up->second);
 }
 
-/// A number, or null where JSON has none for it: infinity.
+/// Returns a number, or null for infinity, which JSON lacks.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 Json to_json(const TimeRatio& ratio) {

@@ -18,7 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// The manifest mentions the harness's own time above this part of the fastest contender's.
+/// The part of the fastest contender's time above which the manifest mentions the harness's own
+/// time.
 constexpr double kWantedOverhead = 0.02;
 
 /// The manifest of a run with what its cells show.

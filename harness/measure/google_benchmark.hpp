@@ -1,5 +1,5 @@
 #pragma once
-// Google Benchmark's command-line flags, as far as they mean something here.
+// Google Benchmark's command-line flags, as far as they apply here.
 
 #include <functional>
 #include <iosfwd>
@@ -40,11 +40,11 @@ class GoogleBenchmark {
   /// Throws InputError when the library refuses a flag.
   explicit GoogleBenchmark(const BenchmarkFlags& flags);
 
-  /// The names that --benchmark_filter selects, by the library's own matching. Throws InputError
-  /// when it selects none.
+  /// Returns the names that --benchmark_filter selects, by the library's own matching. Throws
+  /// InputError when it selects none.
   std::set<std::string> select(std::span<const std::string> names) const;
 
-  /// Runs the work for one iteration. Which contender's turn it is, the caller decides: the
+  /// Runs the work for one iteration. The caller decides which contender's turn it is: the
   /// library's own interleaving shuffles all repetitions at once and cannot stop one contender
   /// earlier than another.
   void run_once(const std::string& name, const TimedWork& work) const;

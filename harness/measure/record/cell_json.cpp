@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The enumerator of a name that `to_string` gives, from 0 to `last`.
+/// Returns the enumerator of a name that `to_string` gives, from 0 to `last`.
 template <class Enum>
 Enum named(const Json& value, Enum last) {
   const auto& name = value.get_ref<const std::string&>();

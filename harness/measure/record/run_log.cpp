@@ -33,7 +33,7 @@ void remove_left_behind(const fs::path& folder) {
   }
 }
 
-/// Calls `visit` with each whole line; returns the bytes of all of them.
+/// Calls `visit` with each whole line; returns the size of all of them in bytes.
 std::uint64_t for_each_line(const fs::path& log,
                             const std::function<void(std::string_view line)>& visit) {
   InputStream input(log);
@@ -134,7 +134,7 @@ class Reader {
   std::map<std::size_t, CellRecord> cells_;
 };
 
-/// Throws InputError where a cell is of a shard that the manifest does not have.
+/// Throws InputError where a cell is of a shard that is not in the manifest.
 void require_known_shards(const Run& run, const std::string& log) {
   std::set<int> known{0};
   for (const Json& shard : run.manifest.value("shards", Json::array())) {
@@ -147,13 +147,13 @@ void require_known_shards(const Run& run, const std::string& log) {
   }
 }
 
-/// A member of a manifest as text, whatever it is; empty where there is none.
+/// Returns a member of a manifest as text, whatever its type; empty where there is none.
 std::string member(const Json& manifest, const char* pointer) {
   const Json::json_pointer place(pointer);
   return manifest.contains(place) ? json_text(manifest.at(place), -1) : "";
 }
 
-/// The hashes of a manifest's plug-ins or scenes, by file or name.
+/// Returns the hashes of a manifest's plug-ins or scenes, by file or name.
 std::map<std::string, std::string> hashes(const Json& manifest, const char* list, const char* key) {
   std::map<std::string, std::string> found;
   for (const Json& each : manifest.value(list, Json::array())) {
@@ -301,7 +301,7 @@ std::string program_difference(const Json& first, const Json& second) {
 
 namespace {
 
-/// Why the run cannot be resumed; empty where nothing speaks against it.
+/// Returns why the run cannot be resumed; empty where it can.
 std::string other_run(const Run& run, const nlohmann::json& config, const Json& now) {
   const Json& then = run.manifest;
   const auto differs = [&](const char* pointer) {
