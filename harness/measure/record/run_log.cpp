@@ -98,7 +98,7 @@ class Reader {
     } else if (kind == "end") {
       run_.manifest["finished_utc"] = event.at("time_utc");
     } else {
-      throw InputError(fmt::format("'{}' is no event that this version knows", kind));
+      throw InputError(fmt::format("'{}' is not an event that this version supports", kind));
     }
   }
 
