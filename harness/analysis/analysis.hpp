@@ -44,8 +44,8 @@ struct Analysis {
 /// Draws the conclusions from a run, which may have been cut off. Depends on nothing else.
 Analysis analyze(const measure::Run& run);
 
-/// One for each path with right answers, the largest first. Structures that trace images by
-/// samples of their own have none, nor whole pictures, whose shading is wanted.
+/// Returns one for each path with correct hits, the largest first. Structures that trace images by
+/// samples of their own have none, nor do whole pictures, which include shading by design.
 std::vector<Overhead> largest_overheads(const measure::Run& run);
 
 /// Returns why the times of a run cannot be fully trusted: noise of equal work, other work (a load

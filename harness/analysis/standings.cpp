@@ -160,7 +160,7 @@ std::vector<MeanStanding> means(const std::vector<const Standing*>& standings) {
   return found;
 }
 
-/// Where several machines measured a view, one at each resolution, the highest counts.
+/// Selects the highest resolution where several machines measured a view, one at each resolution.
 void mark_counted(std::vector<Standings>& views) {
   std::map<std::string, std::uint64_t> most;  // rays of each view, whichever machine traced them
   for (const Standings& view : views) {

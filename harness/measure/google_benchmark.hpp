@@ -49,12 +49,12 @@ class GoogleBenchmark {
   /// earlier than another.
   void run_once(const std::string& name, const TimedWork& work) const;
 
-  /// What the library states of the machine and this moment: date, load, processor and caches. The
-  /// host's name, which stays out of records, is left out.
+  /// Returns the library's description of the machine and this moment: date, load, processor and
+  /// caches. The host's name is left out, because it stays out of records.
   nlohmann::ordered_json context() const;
 };
 
-/// Writes cells as Google Benchmark writes its results: one entry for each repetition.
+/// Writes cells in the format of Google Benchmark's results: one entry for each repetition.
 void write_google_benchmark_json(std::ostream& out, const nlohmann::ordered_json& context,
                                  std::span<const CellRecord> cells);
 

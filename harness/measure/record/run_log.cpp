@@ -46,7 +46,7 @@ std::uint64_t for_each_line(const fs::path& log,
   return whole;
 }
 
-/// The same for a log that was packed by gzip.
+/// Does the same for a log that was packed by gzip.
 std::uint64_t for_each_packed_line(const fs::path& log,
                                    const std::function<void(std::string_view line)>& visit) {
   const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(log.c_str(), "rb"), gzclose);
@@ -67,14 +67,14 @@ std::uint64_t for_each_packed_line(const fs::path& log,
   return whole;
 }
 
-/// The log of a folder, packed or not.
+/// Returns the log of a folder, packed or not.
 fs::path log_in(const fs::path& folder) {
   const fs::path log = folder / kLogName;
   const fs::path packed = folder / kPackedLogName;
   return !fs::exists(log) && fs::exists(packed) ? packed : log;
 }
 
-/// Puts an event of a log into the run that is read.
+/// Adds the events of a log to the run that is read.
 class Reader {
  public:
   void take(const Json& event) {

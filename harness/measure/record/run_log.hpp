@@ -4,9 +4,8 @@
 // One JSON object a line, in the order of events, never rewritten:
 //   header        schema_version, manifest, config, plan: index and name of each cell
 //   resumed       manifest: the run goes on in another process
-//   cell          the timing of a cell begins: what it is, its rays, its counters and sizes; in
-//   logs
-//                 without repetitions, `columns`: the figures of results.csv that were made of them
+//   cell          the timing of a cell begins: what it is, its rays, its counters and sizes;
+//                 in logs without repetitions, `columns`: figures of results.csv made from them
 //   repetition    a timed one of a cell, with its second trace
 //   verification  of the hits of a cell's first repetition
 //   warning       a sentence on what could not be controlled
@@ -39,7 +38,7 @@ inline constexpr int kLogVersion = 1;
 
 /// The name of the log in a run's folder.
 inline constexpr const char* kLogName = "run.jsonl";
-/// The name of a log that was packed by gzip to be kept; it is read where there is no other.
+/// The name of a log that was packed by gzip for keeping; it is read where the other is missing.
 inline constexpr const char* kPackedLogName = "run.jsonl.gz";
 
 /// A cell of a plan.
@@ -109,7 +108,7 @@ class RunLog {
 };
 
 /// Calls `visit` with each event of the log in a folder, in order; returns the bytes of its whole
-/// lines. Throws as `read_run`.
+/// lines. Throws like `read_run`.
 std::uint64_t for_each_event(const std::filesystem::path& folder,
                              const std::function<void(const nlohmann::ordered_json& event)>& visit);
 
