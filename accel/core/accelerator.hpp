@@ -14,20 +14,20 @@
 
 namespace beambench::accel {
 
-/// What a query gets besides its rays.
+/// The arguments of a query besides its rays.
 struct QueryContext {
-  /// The query adds its work to them. Null in timed code, which counts nothing: a structure has two
-  /// instantiations of its traversal.
+  /// The query adds its work to these. Null in timed code, which counts nothing: a structure has
+  /// two instantiations of its traversal.
   WorkCounters* counters = nullptr;
-  /// How many threads may share the rays of an image (`thread_count`; 0: the default number). A
-  /// structure may use fewer, but hits and counters do not depend on the number, except for
-  /// counters of time. Rays alone and batches are traced on the calling thread.
+  /// The maximum number of threads that share the rays of an image (`thread_count`; 0: the default
+  /// number). A structure may use fewer, but hits and counters do not depend on the number, except
+  /// for counters of time. Single rays and batches are traced on the calling thread.
   int threads = 1;
 };
 
 /// A structure built over a scene. Queries are const and safe from several threads. The scene must
-/// outlive it. Rays must pass `require_valid`. Which rays and primitives it takes is registered
-/// with it (`StructureInfo::support`).
+/// outlive it. Rays must pass `require_valid`. The rays and primitives that it supports are
+/// registered with it (`StructureInfo::support`).
 ///
 /// By deriving from `TraversalAccelerator` (traversal_accelerator.hpp) a structure gets the queries
 /// and the paths of an inspector from one traversal of single rays; a wrapper derives from
@@ -41,35 +41,35 @@ class [[gnu::visibility("default")]] Accelerator {
   Accelerator& operator=(const Accelerator&) = delete;
   virtual ~Accelerator() = default;
 
-  /// The nearest hit of each ray in [t_min, t_max], ties to the lowest primitive id. `hits` has the
-  /// size of the source, and the shape of an image. Throws what the structure cannot do now, such
-  /// as an InputError where a limit is exceeded on demand.
+  /// Finds the closest hit of each ray in [t_min, t_max]; ties go to the lowest primitive id.
+  /// `hits` has the size of the source, and the shape of an image. Throws where the structure
+  /// cannot trace the rays now, such as an InputError where a limit is exceeded on demand.
   virtual void closest_hits(const RaySource& rays, const HitSpan& hits, const QueryContext& context)
       const = 0;
-  /// For each ray: is there a hit in [t_min, t_max] (1) or none (0)? `hits` has the size of the
-  /// source. Throws as `closest_hits`.
+  /// Finds for each ray whether there is a hit in [t_min, t_max]: 1 or 0. `hits` has the size of
+  /// the source. Throws like `closest_hits`.
   virtual void any_hits(const RaySource& rays, std::span<std::uint8_t> hits,
                         const QueryContext& context) const = 0;
-  /// Sizes of the structure as it is now: queries may divide a structure further.
+  /// Returns the current sizes of the structure: queries may divide it further.
   virtual Statistics statistics() const = 0;
 
-  /// Shows paths, cells and beams; null where the structure shows nothing. Lives as long as the
-  /// structure.
+  /// Returns the object that shows paths, cells and beams; null where the structure shows nothing.
+  /// It lives as long as the structure.
   virtual const Inspector* inspector() const { return nullptr; }
 
   /// Adapts the structure to its scene after coordinates have changed in place: `scene` is the one
-  /// that it was built over, with the same primitives. No query may run meanwhile. Returns false,
+  /// over which it was built, with the same primitives. No query may run meanwhile. Returns false,
   /// having done nothing, where the structure must be built anew.
   virtual bool update(const scenes::Scene& /*scene*/) { return false; }
 
-  /// `closest_hits` of one ray.
+  /// Runs `closest_hits` for one ray.
   std::optional<Hit> closest_hit(const Ray& ray, WorkCounters* counters = nullptr) const {
     Hit hit{kInfinity, scenes::kNoPrimitive};
     closest_hits(ray, HitSpan(hit), {counters});
     if (hit.primitive == scenes::kNoPrimitive) return std::nullopt;
     return hit;
   }
-  /// `any_hits` of one ray.
+  /// Runs `any_hits` for one ray.
   bool any_hit(const Ray& ray, WorkCounters* counters = nullptr) const {
     std::uint8_t hit = 0;
     any_hits(ray, {&hit, 1}, {counters});

@@ -18,12 +18,13 @@ enum class BeamKind {
 /// A beam's cross-section on the image, and its samples.
 struct BeamOutline {
   BeamKind kind;
-  /// Of a convex polygon, in pixels; (0, 0) is the image's top left corner.
+  /// The corners of a convex polygon, in pixels; (0, 0) is the image's top left corner.
   std::vector<glm::dvec2> corners;
-  /// The leaf that the beam enters, as `TraceStep::index`; of a leaving beam the one it comes from.
+  /// The leaf that the beam enters, as `TraceStep::index`; for a leaving beam, the leaf it comes
+  /// from.
   std::size_t node = 0;
-  /// Those that the beam decided or made rays, as a HitBuffer numbers them, in increasing order.
-  /// None of a leaving beam.
+  /// The samples that the beam decided or turned into rays, numbered as in a HitBuffer, in
+  /// increasing order. A leaving beam has none.
   std::vector<std::size_t> samples{};
 };
 

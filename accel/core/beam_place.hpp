@@ -18,7 +18,7 @@ struct BeamPlace {
   static constexpr int kSides = 6;
 
   Way way = Way::kSingle;
-  /// Of the cube about a pencil's apex that the ray passes: +x, -x, +y, -y, +z, -z.
+  /// The side of the cube about a pencil's apex that the ray passes: +x, -x, +y, -y, +z, -z.
   std::uint8_t side = 0;
   std::uint32_t beam = 0;   ///< a tile of the image, or a part of a pencil
   std::uint32_t block = 0;  ///< each number is used in one beam only

@@ -13,14 +13,15 @@
 namespace beambench::accel {
 namespace {
 
-/// No build is known to take more for a primitive, where no list is longer than its cap.
+/// The maximum number of bytes that any build is known to take per primitive, where no list is
+/// longer than its cap.
 constexpr std::uint64_t kMaxBytesPerPrimitive = 2048;
 
-/// Below this, what an allocator keeps in reserve is more than what is measured.
+/// Below this, an allocator's reserve exceeds the memory to be measured.
 constexpr std::size_t kMinPrimitives = std::size_t{1} << 17U;
 
-/// Every `stride`-th run of primitives: neighbors in a mesh stay together, so that they share
-/// vertices and leaves as they do in the whole.
+/// Returns every `stride`-th run of primitives: neighbors in a mesh stay together, so that they
+/// share vertices and leaves as they do in the whole scene.
 scenes::Scene part_of(const scenes::Scene& scene, std::size_t stride) {
   constexpr std::size_t kRun = 4096;
   std::vector<scenes::PrimitiveId> ids;

@@ -9,17 +9,17 @@
 
 namespace beambench::accel {
 
-/// By how many bytes a build is expected to raise the memory of this process at its peak: measured
-/// at a build over an eighth of the primitives, in runs that are evenly spread, and multiplied.
-/// Meshes of 2 to 8 million triangles took 0.7 to 1.1 times of it. Nothing where that build is
-/// refused, or where the system does not say what it takes.
+/// Predicts the number of bytes by which a build raises the memory of this process at its peak.
+/// Measures a build over an eighth of the primitives, in runs that are evenly spread, and
+/// multiplies. Meshes of 2 to 8 million triangles took 0.7 to 1.1 times the prediction. Returns
+/// nothing where that build is refused, or where the system does not report its memory.
 std::optional<std::uint64_t> predicted_build_bytes(const StructureChoice& choice,
                                                    const scenes::Scene& scene,
                                                    const Workload& workload);
 
-/// Throws InputError, with the figures, when a build is expected to take more memory than there is
-/// (`available_memory`). Predicts only for scenes so large, for the memory there is, that this is
-/// conceivable: others cost nothing.
+/// Throws InputError, with the figures, when a build is expected to take more memory than is
+/// available (`available_memory`). Predicts only for scenes so large that this is conceivable; for
+/// others the check costs nothing.
 void require_build_memory(const StructureChoice& choice, const scenes::Scene& scene,
                           const Workload& workload);
 

@@ -18,13 +18,13 @@
 
 namespace beambench::accel {
 
-/// What a ray-primitive test returns when there is no hit: a NaN, so that it neither precedes nor
-/// equals any t. (An optional<float> would be passed through memory in two halves, which cost more
-/// than the tests themselves.)
+/// The result of a ray-primitive test for a miss: a NaN, so that it neither precedes nor equals any
+/// t. (An optional<float> would be passed through memory in two halves, which cost more than the
+/// tests themselves.)
 inline constexpr float kMiss = std::numeric_limits<float>::quiet_NaN();
 inline bool is_hit(float t) { return t == t; }
 
-/// The axis along which a direction is longest; the last of equals.
+/// Returns the axis along which a direction is longest; the last among equals.
 inline std::size_t longest_axis(const glm::vec3& direction) {
   // By table: directions of secondary rays mislead a processor's prediction of branches.
   static constexpr std::array<std::uint8_t, 8> kAxes{2, 2, 2, 0, 1, 2, 1, 0};
@@ -68,9 +68,9 @@ struct CanonicalRay {
 
   float accept(double t) const { return accel::accept(t, t_min, t_max); }
 
-  /// A point's place beside the ray: relative to the origin and sheared along the main axis so that
-  /// the ray becomes that axis (Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection",
-  /// 2013).
+  /// Returns a point's place beside the ray: relative to the origin and sheared along the main axis
+  /// so that the ray becomes that axis (Woop, Benthin and Wald, "Watertight Ray/Triangle
+  /// Intersection", 2013).
   glm::dvec2 beside(const glm::vec3& point) const {
     // By address: glm's operator[] is a chain of branches, which cost 5% of a trace of triangles.
     const float* place = glm::value_ptr(point);

@@ -6,7 +6,7 @@ namespace beambench::accel {
 
 namespace {
 
-/// The cell that holds a coordinate: the last one whose lower boundary is not above it.
+/// Returns the cell that contains a coordinate: the last one whose lower boundary is not above it.
 std::int32_t cell_of(const CellGrid& grid, int axis, double coordinate) {
   const std::int32_t last = grid.cells[axis] - 1;
   // A guess to round-off; `plane` decides.

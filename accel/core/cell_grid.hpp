@@ -18,10 +18,10 @@ struct CellGrid {
   glm::dvec3 cell{1.0};  ///< size of a cell
   glm::ivec3 cells{1};
 
-  /// The coordinate of the boundary below cell `index` (0 ... cells) on an axis.
+  /// Returns the coordinate of the boundary below cell `index` (0 ... cells) on an axis.
   double plane(int axis, std::int32_t index) const { return lower[axis] + cell[axis] * index; }
 
-  /// The box of `size` cells along each axis, the first of them at `corner`.
+  /// Returns the box of `size` cells along each axis, the first of them at `corner`.
   Box box(const glm::ivec3& corner, const glm::ivec3& size) const {
     Box result{};
     for (int axis = 0; axis < 3; ++axis) {
@@ -35,8 +35,8 @@ struct CellGrid {
   }
 };
 
-/// A grid over a box of `size` around the middle of `bounds`, `margin` wider on every side; the
-/// grid of the unit cube when there is nothing to bound.
+/// Makes a grid over a box of `size` around the middle of `bounds`, `margin` wider on every side;
+/// the grid of the unit cube when there is nothing to bound.
 CellGrid make_cell_grid(const scenes::Bounds& bounds, const glm::dvec3& size,
                         const glm::dvec3& margin, const glm::ivec3& cells);
 
@@ -51,7 +51,7 @@ struct CellRange {
   }
 };
 
-/// The closed cells that bounds, widened by the tolerance, reach into.
+/// Returns the closed cells that bounds, widened by the tolerance, overlap.
 CellRange cell_range(const CellGrid& grid, const scenes::Bounds& bounds, double tolerance);
 
 }  // namespace beambench::accel

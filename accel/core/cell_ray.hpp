@@ -29,14 +29,15 @@ class CellRay {
   /// +1, -1 or 0: the direction in which the ray crosses the planes of the axis.
   int step(int axis) const { return step_[static_cast<std::size_t>(axis)]; }
 
-  /// Where the ray crosses a plane; monotonic in `index`. Not for axes with step 0.
+  /// Returns the t at which the ray crosses a plane; monotonic in `index`. Must not be called for
+  /// axes with step 0.
   [[gnu::always_inline]] double plane_t(int axis, std::int32_t index) const {
     const auto slot = static_cast<std::size_t>(axis);
     return (grid_->plane(axis, index) - origin_[slot]) * inverse_[slot];
   }
 
-  /// At parameter t, is the ray on the upper side of a plane? On the plane itself it is on the side
-  /// it is going to.
+  /// Returns whether at parameter t the ray is on the upper side of a plane. On the plane itself it
+  /// is on the side toward which it moves.
   [[gnu::always_inline]] bool above(int axis, std::int32_t index, double t) const {
     switch (step(axis)) {
       case 1:
@@ -48,8 +49,8 @@ class CellRay {
     }
   }
 
-  /// The t at which the ray leaves the cube of `size` cells at `corner` through an axis' planes;
-  /// infinite when it is parallel to them.
+  /// Returns the t at which the ray leaves the cube of `size` cells at `corner` through an axis'
+  /// planes; infinite when it is parallel to them.
   [[gnu::always_inline]] double exit_t(int axis, const glm::ivec3& corner,
                                        std::int32_t size) const {
     switch (step(axis)) {
@@ -62,13 +63,13 @@ class CellRay {
     }
   }
 
-  /// The same of a box of `size` cells along each axis.
+  /// Returns the same for a box of `size` cells along each axis.
   [[gnu::always_inline]] double exit_t(int axis, const glm::ivec3& corner,
                                        const glm::ivec3& size) const {
     return exit_t(axis, corner, size[axis]);
   }
 
-  /// The cell along an axis that the ray is in at t, a t in the grid.
+  /// Returns the cell along an axis that contains the ray at t, a t in the grid.
   std::int32_t cell_at(int axis, double t) const {
     const auto slot = static_cast<std::size_t>(axis);
     const std::int32_t last = grid_->cells[axis] - 1;
@@ -81,14 +82,14 @@ class CellRay {
     return index;
   }
 
-  /// How much t grows from one plane of an axis to the next; infinite when the ray is parallel to
-  /// them.
+  /// Returns the difference in t between one plane of an axis and the next; infinite when the ray
+  /// is parallel to them.
   double delta_t(int axis) const {
     return grid_->cell[axis] * std::abs(inverse_[static_cast<std::size_t>(axis)]);
   }
 
-  /// The t from which on the ray is in the grid, but not before t_min (rounded down, for a hit's t
-  /// may round up to t_min); infinite when it never is.
+  /// Returns the t from which the ray is in the grid, but not before t_min (rounded down, because a
+  /// hit's t may round up to t_min); infinite when it never enters the grid.
   double enter(float t_min) const {
     double first = std::nextafter(t_min, -kInfinity);
     constexpr double kNever = std::numeric_limits<double>::infinity();

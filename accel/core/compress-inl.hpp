@@ -1,4 +1,4 @@
-// Moving the lanes of a mask to the front of a register, for the instruction set being compiled.
+// Moves the lanes of a mask to the front of a register, for the instruction set being compiled.
 
 #if defined(ACCEL_CORE_COMPRESS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_CORE_COMPRESS_INL
@@ -18,7 +18,7 @@ namespace beambench::accel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// For each mask of eight lanes the numbers of its lanes, four bits each, the first lowest.
+/// The numbers of the lanes of each mask of eight, four bits each, the first lowest.
 inline constexpr std::array<std::uint32_t, 256> kLanesOfMask = [] {
   std::array<std::uint32_t, 256> lanes{};
   for (std::uint32_t mask = 0; mask < 256; ++mask) {
@@ -32,9 +32,10 @@ inline constexpr std::array<std::uint32_t, 256> kLanesOfMask = [] {
   return lanes;
 }();
 
-/// The values of the lanes of a mask one after the other, anything behind them; for four bytes a
-/// lane. Highway's Compress is one instruction on AVX-512; elsewhere Highway 1.0.3 compiled by GCC
-/// copies its table of 1 KiB to the stack each time, which took a third of all time.
+/// Returns the values of the lanes of a mask in sequence, followed by unspecified values; for lanes
+/// of four bytes. Highway's Compress is one instruction on AVX-512; elsewhere Highway 1.0.3
+/// compiled by GCC copies its table of 1 KiB to the stack each time, which took a third of all
+/// time.
 template <class D>
 HWY_INLINE hn::Vec<D> compress([[maybe_unused]] D d, hn::Vec<D> values, hn::Mask<D> mask) {
   static_assert(sizeof(hn::TFromD<D>) == 4);

@@ -1,5 +1,5 @@
 #pragma once
-// The references of a tree that is not made yet, from a few of its nodes.
+// Estimates the references of a tree, before it is made, from a few of its nodes.
 
 #include <algorithm>
 #include <cstddef>
@@ -107,13 +107,13 @@ class ReferenceEstimate {
   Level first_;               ///< the first that is sampled; none where that is not needed
 };
 
-/// Whether the expected value of a nonnegative estimate exceeds `most`. A false positive has a
-/// probability below one in a million, whatever the distribution: where the expected value is
+/// Returns whether the expected value of a nonnegative estimate exceeds `most`. A false positive
+/// has a probability below one in a million, whatever the distribution: where the expected value is
 /// `most` or less, so is that of the product of estimates / most 1 or less after each of them, and
 /// that the product ever exceeds 2^20 has a probability below 2^-20 (Ville's inequality; Shafer,
 /// "Testing by betting", Journal of the Royal Statistical Society A 184(2), 2021). Estimates of
 /// twice the limit decide after 20 of them, and less than 1.42 times the limit is not detected. The
-/// random numbers are the same each time; where the limit is kept, one estimate is made or few.
+/// random numbers are the same each time; where the limit is kept, one or a few estimates are made.
 template <class Estimate>
 bool surely_more_than(std::uint64_t most, Estimate estimate) {
   constexpr int kMaxEstimates = 40;
@@ -127,8 +127,8 @@ bool surely_more_than(std::uint64_t most, Estimate estimate) {
   return false;
 }
 
-/// A random part of a list: one of each `stride` neighbors, so that each member of the list is in
-/// it with a probability of 1 / stride at most.
+/// Returns a random part of a list: one of each `stride` neighbors, so that each member of the list
+/// is in it with a probability of at most 1 / stride.
 template <class T>
 struct RandomPart {
   static constexpr std::size_t kMembers = 16;
@@ -146,8 +146,8 @@ struct RandomPart {
 
 /// Predicts whether a tree over a list will have more than `most` references, if its nodes are
 /// divided at fixed planes as long as they refer to more than a given number of members. Longer
-/// lists take no longer: `references(members, random)` estimates the references of a tree over a
-/// random part of the list. That tree is the whole one, except that some branches end earlier. So
+/// lists do not take longer: `references(members, random)` estimates the references of a tree over
+/// a random part of the list. That tree is the whole one, except that some branches end earlier. So
 /// each member has at least as many references in the whole tree (or nearly: a leaf may refer to it
 /// where smaller cells are found not to hold it), and those of the part times `stride` are not
 /// expected to exceed those of all. False for short lists, which are quickly divided, and possibly

@@ -1,5 +1,5 @@
 #pragma once
-// What a structure is expected to cost, in the same terms for all of them.
+// The expected cost of a structure, in the same terms for all structures.
 
 #include <cstddef>
 
@@ -13,8 +13,8 @@ namespace beambench::accel {
 
 /// The surface area heuristic's estimate (Goldsmith and Salmon 1987; MacDonald and Booth 1990): a
 /// random line that meets the scene's box meets a convex cell in it with the ratio of their surface
-/// areas. Summed over the cells of a structure, this is the number of interior nodes and
-/// leaves that such a line meets and of references that it tests, were it never to end at a hit.
+/// areas. Summed over the cells of a structure, this is the number of interior nodes and leaves
+/// that such a line meets and of references that it tests, if it never ends at a hit.
 class ExpectedVisits {
  public:
   ExpectedVisits() = default;  ///< of an empty scene
@@ -45,7 +45,7 @@ class ExpectedVisits {
   static Box boxed(const scenes::Bounds& cell) {
     return {glm::dvec3(cell.lower), glm::dvec3(cell.upper)};
   }
-  /// Half the surface area of the part in the scene's box; 0 where there is none.
+  /// Returns half the surface area of the part inside the scene's box; 0 if it is empty.
   double area(const Box& cell) const {
     const glm::dvec3 size = glm::min(cell.upper, scene_.upper) - glm::max(cell.lower, scene_.lower);
     if (!(size.x >= 0.0 && size.y >= 0.0 && size.z >= 0.0)) return 0.0;

@@ -9,9 +9,9 @@
 
 namespace beambench::accel {
 
-/// For each sample of each pixel the t of its hit and the primitive hit; a miss is t = infinity
-/// and kNoPrimitive. Samples of one pixel are neighbors; pixels go row by row from the top left.
-/// The hits of a list of rays are an image of one row.
+/// Stores the t of its hit and the primitive hit for each sample of each pixel; a miss is t =
+/// infinity and kNoPrimitive. Samples of one pixel are neighbors; pixels go row by row from the top
+/// left. The hits of a list of rays are an image of one row.
 class HitBuffer {
  public:
   HitBuffer(int width, int height, int samples)
@@ -61,7 +61,8 @@ class HitBuffer {
   LargePageVector<scenes::PrimitiveId> primitive_;
 };
 
-/// Where a query writes closest hits: a view of a HitBuffer or of one hit, which must outlive it.
+/// The place to which a query writes closest hits: a view of a HitBuffer or of one hit, which must
+/// outlive it.
 class HitSpan {
  public:
   // Implicit, so that a query is given the buffer itself.
@@ -83,7 +84,7 @@ class HitSpan {
            static_cast<std::size_t>(samples_);
   }
 
-  /// As of a HitBuffer.
+  /// Returns the same index as a HitBuffer.
   std::size_t index(int x, int y, int sample) const {
     return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
             static_cast<std::size_t>(x)) *

@@ -1,5 +1,5 @@
 #pragma once
-// What a structure shows of its work, for `beambench trace`, pictures and counts.
+// Shows a structure's work, for `beambench trace`, pictures and counts.
 
 #include <cstddef>
 #include <cstdint>
@@ -31,34 +31,35 @@ struct NodeFacts {
 };
 
 /// The optional part of the contract of a structure. Each method has a default for structures that
-/// have no such thing. Nothing is timed; calls are const and safe from several threads.
+/// lack the feature. Nothing is timed; calls are const and safe from several threads.
 class [[gnu::visibility("default")]] Inspector {
  public:
   Inspector() = default;
   Inspector(const Inspector&) = delete;
   Inspector& operator=(const Inspector&) = delete;
 
-  /// The traversal path of a ray alone, step by step; empty where none is recorded.
+  /// Returns the traversal path of a single ray, step by step; empty where none is recorded.
   virtual std::vector<TraceStep> path(const Ray&) const { return {}; }
-  /// The path of a sample of an image, as a query of the whole image traces it: with the beams that
-  /// contain it, where the structure has beams; otherwise as a ray alone. x, y: a pixel of the
-  /// image, (0, 0) the top left one; `sample` of that pixel.
+  /// Returns the path of a sample of an image, as a query of the whole image traces it: with the
+  /// beams that contain it, where the structure has beams; otherwise as a single ray. x, y: a pixel
+  /// of the image, (0, 0) the top left one; `sample` of that pixel.
   virtual SampleSteps path(const PrimaryRays& image, int x, int y, int sample) const {
     return {{}, path(image.ray(x, y, sample))};
   }
 
-  /// The cells that hold references, in scene units; empty where the structure has no cells.
+  /// Returns the cells that hold references, in scene units; empty where the structure has no
+  /// cells.
   virtual std::vector<Box> occupied_cells() const { return {}; }
-  /// All nodes, the root first; empty where steps do not number them.
+  /// Returns all nodes, the root first; empty where steps do not number them.
   virtual std::vector<NodeFacts> nodes() const { return {}; }
 
-  /// The beams of an image in the order in which they are traced; nothing where the structure has
-  /// none.
+  /// Returns the beams of an image in the order in which they are traced; nothing where the
+  /// structure has none.
   virtual std::optional<std::vector<BeamOutline>> beams(const PrimaryRays&) const {
     return std::nullopt;
   }
-  /// Where each ray of an image is when `closest_hits` traces it, and each ray of a batch when
-  /// `any_hits` does; empty where the structure has no blocks of rays.
+  /// Returns the place of each ray of an image when `closest_hits` traces it, or of each ray of a
+  /// batch when `any_hits` does; empty where the structure has no blocks of rays.
   virtual std::vector<BeamPlace> places(const RaySource&) const { return {}; }
 
  protected:

@@ -9,15 +9,15 @@
 
 namespace beambench::accel {
 
-/// `isa`: "best" (the default) is the best that the machine has; "avx512", "avx2" and "sse4"
-/// restrict the structure.
+/// Returns the parameter `isa`: "best" (the default) is the best that the machine has; "avx512",
+/// "avx2" and "sse4" restrict the structure.
 ParameterInfo isa_parameter();
 
-/// Highway's targets that a value of `isa_parameter` allows. Throws InputError when this machine
-/// (or what was compiled for it) has none of them.
+/// Returns Highway's targets that a value of `isa_parameter` allows. Throws InputError when this
+/// machine (or the compiled code) has none of them.
 std::int64_t targets_of(const std::string& isa);
 
-/// Highway's name for the best of them: "AVX3".
+/// Returns Highway's name for the best of them: "AVX3".
 std::string best_simd_target();
 
 }  // namespace beambench::accel

@@ -13,7 +13,7 @@
 
 namespace beambench::accel {
 
-/// The nearest t in the ray's interval over the polygon's triangles, or kMiss.
+/// Returns the nearest t in the ray's interval over the polygon's triangles, or kMiss.
 inline float intersect_polygon(const CanonicalRay& ray, const scenes::Scene& scene,
                                const scenes::Polygon& polygon) {
   float nearest = kMiss;
@@ -26,7 +26,7 @@ inline float intersect_polygon(const CanonicalRay& ray, const scenes::Scene& sce
   return nearest;
 }
 
-/// The smallest t in the ray's interval at which it meets the primitive, or kMiss: the
+/// Returns the smallest t in the ray's interval at which it meets the primitive, or kMiss: the
 /// definition that all classic structures share.
 inline float intersect(const CanonicalRay& ray, const scenes::Scene& scene,
                        scenes::PrimitiveId id) {

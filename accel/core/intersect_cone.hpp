@@ -23,9 +23,10 @@ struct Linear {
   T at(double t) const { return value + slope * t; }
 };
 
-/// The smallest t in the ray's interval at which it meets the lateral surface of the cone frustum
-/// or cylinder (no caps); of a cone seen from the inside only, the smallest at which it leaves.
-/// With m = o + t d - middle and the axis parameter s(t) = m . axis / |axis|^2, the surface is
+/// Returns the smallest t in the ray's interval at which it meets the lateral surface of the cone
+/// frustum or cylinder (no caps); of a cone seen from the inside only, the smallest at which it
+/// leaves. With m = o + t d - middle and the axis parameter s(t) = m . axis / |axis|^2, the surface
+/// is
 /// |m - s axis| = r_middle + s (r_apex - r_base) for s in [-1/2, 1/2]: squared, a quadratic in t.
 /// The origin is first moved to the point of the ray closest to the axis' middle, so that distant
 /// cones do not cancel: closest when heights are stretched until the surface is nowhere flatter
@@ -44,7 +45,7 @@ inline float intersect_cone(const CanonicalRay& ray, const scenes::Cone& cone) {
                               glm::dot(ray.direction, axis) / axis_squared};
   const Linear<glm::dvec3> across{from_middle - axis * height.value,
                                   ray.direction - axis * height.slope};
-  // The point closest to the middle; its height written so that nothing cancels.
+  // The point closest to the middle; its height is written so that nothing cancels.
   const double stretched = std::max(axis_squared, taper * taper);
   const double spread = glm::dot(across.slope, across.slope);
   const double drift = glm::dot(across.value, across.slope);

@@ -10,8 +10,8 @@
 
 namespace beambench::accel {
 
-/// The smallest t in the ray's interval at which it meets the (hollow) sphere; of a sphere seen
-/// from the inside only, the t at which it leaves. The discriminant is taken from the vector
+/// Returns the smallest t in the ray's interval at which it meets the (hollow) sphere; of a sphere
+/// seen from the inside only, the t at which it leaves. The discriminant is taken from the vector
 /// between the center and the ray's closest point, which does not cancel for small or distant
 /// spheres (Haines et al., "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems,
 /// 2019); the point at t is then within some ulps of its distance from the surface.

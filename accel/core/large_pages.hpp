@@ -9,10 +9,10 @@
 
 namespace beambench::accel {
 
-/// For arrays of many megabytes with scattered accesses: with pages of 4 KiB most accesses miss the
-/// translation cache, and the first touch of a page costs more than what is written there. Linux
-/// gives pages of 2 MiB on request ("madvise"); where it does not, these are ordinary pages. Memory
-/// always begins with a cache line.
+/// Allocates arrays of many megabytes with scattered accesses: with pages of 4 KiB most accesses
+/// miss the translation cache, and the first touch of a page costs more than writing its contents.
+/// Linux provides pages of 2 MiB on request ("madvise"); where it does not, these are ordinary
+/// pages. Memory always begins with a cache line.
 template <class T>
 struct LargePages {
   using value_type = T;

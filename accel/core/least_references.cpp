@@ -15,7 +15,7 @@ namespace {
 
 double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
 
-/// The areas that the largest triangle of a polygon projects to along each axis.
+/// Returns the areas that the largest triangle of a polygon projects to along each axis.
 glm::dvec3 projected_areas(const scenes::Scene& scene, const scenes::Polygon& polygon,
                            const glm::dvec3& faces) {
   glm::dvec3 most(0.0);
@@ -30,9 +30,9 @@ glm::dvec3 projected_areas(const scenes::Scene& scene, const scenes::Polygon& po
   return most;
 }
 
-/// The same of the lateral surface of a cone, at least. Along an axis, the section through the
-/// cone's own axis is seen, but for what may be seen through both open ends; or the ring between
-/// the ends.
+/// Returns a lower bound of the same areas for the lateral surface of a cone. Along an axis, the
+/// section through the cone's own axis is visible, except what may be seen through both open ends;
+/// or the ring between the ends.
 glm::dvec3 projected_areas(const scenes::Cone& cone) {
   const glm::dvec3 along = glm::dvec3(cone.apex) - glm::dvec3(cone.base);
   const double length = glm::length(along);
@@ -49,8 +49,8 @@ glm::dvec3 projected_areas(const scenes::Cone& cone) {
   return areas;
 }
 
-/// The areas that a primitive's surface projects to along each axis, at least; `faces` are those of
-/// a cell, across each axis.
+/// Returns lower bounds of the areas that a primitive's surface projects to along each axis;
+/// `faces` are those of a cell, across each axis.
 glm::dvec3 projected_areas(const scenes::Scene& scene, scenes::PrimitiveId id,
                            const glm::dvec3& faces) {
   const scenes::Primitive& primitive = scene.primitives[id];
@@ -67,9 +67,9 @@ glm::dvec3 projected_areas(const scenes::Scene& scene, scenes::PrimitiveId id,
   return glm::dvec3(0.0);
 }
 
-/// How many edges of cells a sphere crosses at least: twice each line along an axis that lies no
-/// nearer to its edge, seen along that axis, than half a cell's diagonal. Where a line is longer in
-/// the sphere than a cell, it crosses two edges, each once.
+/// Returns a lower bound of the number of cell edges that a sphere crosses: twice each line along
+/// an axis that lies no nearer to its edge, seen along that axis, than half a cell's diagonal.
+/// Where a line is longer in the sphere than a cell, it crosses two edges, each once.
 double crossed_edges(const scenes::Sphere& sphere, const glm::dvec3& cell,
                      const glm::dvec3& faces) {
   double edges = 0.0;
@@ -83,9 +83,10 @@ double crossed_edges(const scenes::Sphere& sphere, const glm::dvec3& cell,
   return edges;
 }
 
-/// Of each edge that a sphere crosses once, it reaches into the four cells around it, and of a
-/// cell, it crosses six edges at most: the corners lie on a sphere of their own, so that those
-/// inside are cut off by a plane, and a plane crosses six edges at most.
+/// The minimum number of cells per crossed edge. A sphere that crosses an edge once overlaps the
+/// four cells around it, and of one cell it crosses at most six edges: the corners lie on a sphere
+/// of their own, so that those inside are cut off by a plane, and a plane crosses at most six
+/// edges.
 constexpr double kCellsPerCrossedEdge = 4.0 / 6.0;
 
 }  // namespace
@@ -112,8 +113,8 @@ double least_references(const scenes::Scene& scene, const CellGrid& grid) {
   return references;
 }
 
-// So many references for each primitive that computing their least number takes no time beside
-// them; small scenes have made the first of them in some milliseconds.
+// So many references for each primitive that computing their minimum number takes negligible time;
+// small scenes have made the first of them in some milliseconds.
 ReferenceLimit::ReferenceLimit(std::uint64_t most, const scenes::Scene& scene,
                                std::function<bool()> will_exceed)
     : most_(most),

@@ -82,7 +82,7 @@ bool sphere_overlaps(const scenes::Sphere& sphere, const Box& box, double tolera
 
 namespace {
 
-/// The half sizes of a disc's box: r sqrt(1 - axis_i^2) for the unit axis.
+/// Returns the half sizes of a disc's box: r sqrt(1 - axis_i^2) for the unit axis.
 glm::dvec3 disc_extent(const glm::dvec3& unit_axis, double radius) {
   return radius * glm::sqrt(glm::max(glm::dvec3(1.0) - unit_axis * unit_axis, glm::dvec3(0.0)));
 }
@@ -144,9 +144,9 @@ namespace {
 /// Rounding of the axis tests relative to the products they are made of, amply.
 constexpr double kRounding = 0x1p-48;
 
-/// One bit for each of the box's 6 face, 12 edge and 8 corner planes that the point is outside of.
-/// `p` is relative to the center of the box; the edge planes are |x| + |y| = h_x + h_y and so on,
-/// the corner planes |x| + |y| + |z| = h_x + h_y + h_z.
+/// Returns one bit for each of the box's 6 face, 12 edge and 8 corner planes that the point is
+/// outside of. `p` is relative to the center of the box; the edge planes are |x| + |y| = h_x + h_y
+/// and so on, the corner planes |x| + |y| + |z| = h_x + h_y + h_z.
 std::uint32_t outcode(const glm::dvec3& p, const glm::dvec3& half) {
   std::uint32_t code = 0;
   std::uint32_t bit = 1;
@@ -175,7 +175,8 @@ std::uint32_t outcode(const glm::dvec3& p, const glm::dvec3& half) {
   return code;
 }
 
-/// Do the projections on `axis` of the triangle `v` and of the centered box `half` lie apart?
+/// Returns whether the projections on `axis` of the triangle `v` and of the centered box `half` are
+/// disjoint.
 bool separated(const glm::dvec3& axis, const std::array<glm::dvec3, 3>& v, const glm::dvec3& half,
                double slack) {
   const double p0 = glm::dot(axis, v[0]);

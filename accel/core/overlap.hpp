@@ -1,5 +1,5 @@
 #pragma once
-// Box-primitive overlap: does a primitive's surface reach into a closed box?
+// Box-primitive overlap: whether a primitive's surface overlaps a closed box.
 
 #include <array>
 
@@ -15,28 +15,29 @@ struct Box {
   glm::dvec3 upper;
 };
 
-/// Does the surface come within `tolerance` of the box? Never false when it does; true for a little
-/// more where noted. The box is solid, the primitive hollow: a box wholly inside a sphere does not
-/// overlap it.
+/// Returns whether the surface comes within `tolerance` of the box. Never false when it does; where
+/// noted, also true slightly beyond. The box is solid, the primitive hollow: a box wholly inside a
+/// sphere does not overlap it.
 bool surface_overlaps(const scenes::Scene& scene, scenes::PrimitiveId id, const Box& box,
                       double tolerance);
 
-/// Do two primitives have the same surface, number by number? They overlap the same boxes then. Not
-/// true of the same surface in other words, such as a polygon that begins at another corner.
+/// Returns whether two primitives have the same surface, number by number, and so overlap the same
+/// boxes. False for the same surface in another form, such as a polygon that begins at another
+/// corner.
 bool same_surface(const scenes::Scene& scene, scenes::PrimitiveId a, scenes::PrimitiveId b);
 
 /// Exact, by interval evaluation of |x - c|^2 - r^2 over the box (Ratschek and Rokne, "Test for
 /// intersection between box and sphere", 1994; Arvo, Graphics Gems, 1990).
 bool sphere_overlaps(const scenes::Sphere& sphere, const Box& box, double tolerance);
 
-/// Exact but for the widening at corners. The polygon's corners are first held against the 6 face,
-/// 12 edge and 8 corner planes of the box (Voorhies, Graphics Gems III, 1992; as outcodes: Green
-/// and Hatch, Graphics Gems V, 1995); what remains is decided triangle by triangle of its surface,
-/// so that concave polygons need no case of their own.
+/// Exact except for the widening at corners. The polygon's corners are first tested against the 6
+/// face, 12 edge and 8 corner planes of the box (Voorhies, Graphics Gems III, 1992; as outcodes:
+/// Green and Hatch, Graphics Gems V, 1995); the rest is decided triangle by triangle of its
+/// surface, so that concave polygons need no special case.
 bool polygon_overlaps(const scenes::Scene& scene, const scenes::Polygon& polygon, const Box& box,
                       double tolerance);
 
-/// Exact but for the widening at corners, by the 13 separating axes of box and triangle
+/// Exact except for the widening at corners, by the 13 separating axes of box and triangle
 /// (Akenine-Möller, "Fast 3D triangle-box overlap testing", 2001).
 bool triangle_overlaps(const std::array<glm::dvec3, 3>& corners, const Box& box, double tolerance);
 

@@ -13,15 +13,16 @@
 
 namespace beambench::accel {
 
-/// The direction in which a mirror of this unit normal reflects `incoming`; lengths are kept.
+/// Returns the direction in which a mirror of this unit normal reflects `incoming`; lengths are
+/// kept.
 inline glm::dvec3 mirrored(const glm::dvec3& incoming, const glm::dvec3& normal) {
   return incoming - 2.0 * glm::dot(incoming, normal) * normal;
 }
 
-/// Where the samples of a pixel lie, as offsets in [0, 1]^2 from its top left corner: 1 is the
-/// center; 5 the four corners and the center (thesis, section 5.3.2; corners are not shared between
-/// pixels); any other square number n x n is a regular grid of cell centers, row by row.
-/// Throws InputError for other counts.
+/// Returns the positions of the samples of a pixel, as offsets in [0, 1]^2 from its top left
+/// corner: 1 is the center; 5 the four corners and the center (thesis, section 5.3.2; corners are
+/// not shared between pixels); any other square number n x n is a regular grid of cell centers, row
+/// by row. Throws InputError for other counts.
 std::vector<glm::dvec2> sample_offsets(int samples);
 
 /// The rays of an image, made on demand. Directions satisfy forward . d = 1 before rounding, so t
@@ -31,14 +32,14 @@ class PrimaryRays {
   /// Throws InputError when width or height is not in 1 ... 16384 or samples has no pattern.
   PrimaryRays(const scenes::Camera& camera, int width, int height, int samples);
 
-  /// The rays of the same samples behind a mirror, the plane through `point` with a unit `normal`:
-  /// those of the virtual eye, the mirror image of the eye (Heckbert and Hanrahan, "Beam tracing
-  /// polygonal objects", SIGGRAPH 1984). A ray's t continues from where the real ray met the
-  /// mirror. The eye is rounded to float.
+  /// Returns the rays of the same samples behind a mirror, the plane through `point` with a unit
+  /// `normal`: those of the virtual eye, the mirror image of the eye (Heckbert and Hanrahan, "Beam
+  /// tracing polygonal objects", SIGGRAPH 1984). A ray's t continues from where the real ray met
+  /// the mirror. The eye is rounded to float.
   PrimaryRays mirrored(const glm::dvec3& point, const glm::dvec3& normal) const;
 
-  /// The rays through the corners of these pixels, one each, as an image that is one larger in
-  /// width and height.
+  /// Returns the rays through the corners of these pixels, one each, as an image that is one larger
+  /// in width and height.
   PrimaryRays at_corners() const;
 
   int width() const { return width_; }
@@ -47,7 +48,7 @@ class PrimaryRays {
   /// width * height * samples.
   std::size_t count() const;
 
-  /// The ray of a sample; (0, 0) is the top left pixel.
+  /// Returns the ray of a sample; (0, 0) is the top left pixel.
   Ray ray(int x, int y, int sample) const {
     const glm::dvec2& offset = offsets_[static_cast<std::size_t>(sample)];
     return ray_at(x + offset.x, y + offset.y);
@@ -66,7 +67,8 @@ class PrimaryRays {
       }
     }
   }
-  /// The ray through a point of the image plane in pixel units, (0, 0) being its top left corner.
+  /// Returns the ray through a point of the image plane in pixel units, (0, 0) being its top left
+  /// corner.
   Ray ray_at(double px, double py) const {
     Ray ray;
     ray.origin = eye_;
@@ -81,7 +83,7 @@ class PrimaryRays {
   const glm::dvec3& top_left() const { return top_left_; }
   const glm::dvec3& right() const { return right_; }
   const glm::dvec3& down() const { return down_; }
-  /// From one side of the image to the other, the same at every resolution.
+  /// The vector from one side of the image to the other, the same at every resolution.
   const glm::dvec3& across() const { return across_; }
   const glm::dvec3& all_down() const { return all_down_; }
   const std::vector<glm::dvec2>& offsets() const { return offsets_; }

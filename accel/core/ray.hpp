@@ -12,9 +12,9 @@ namespace beambench::accel {
 
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// The length that the longest component of a direction has at least. With smaller ones, the other
-/// components are soon too small for a normal float and lose digits, or count as 0 where denormals
-/// do.
+/// The minimum length of the longest component of a direction. With smaller ones, the other
+/// components soon become too small for a normal float and lose digits, or count as 0 where
+/// denormals do.
 inline constexpr float kShortestDirection = 1e-30F;
 
 /// The points origin + t * direction with t in the interval of `in_interval`. The direction need

@@ -12,8 +12,8 @@
 
 namespace beambench::accel {
 
-/// The rays [first, first + count) of a batch, whose lines pass through one common point but for
-/// the rounding of their numbers. Neighbors in the list are mostly neighbors in the picture.
+/// The rays [first, first + count) of a batch, whose lines pass through one common point, up to the
+/// rounding of their numbers. Neighbors in the list are mostly neighbors in the picture.
 struct Pencil {
   std::size_t first;
   std::size_t count;
@@ -26,8 +26,8 @@ struct Pencil {
   /// beyond it.
   bool toward;
   /// The rays of an image that look from the apex, as far as `RayBatch::samples` says
-  /// (`PrimaryRays::mirrored`): the same lines but for rounding, with directions of other lengths
-  /// and other origins. Null where there is no such image. Lives as long as the batch.
+  /// (`PrimaryRays::mirrored`): the same lines up to rounding, with directions of other lengths and
+  /// other origins. Null where there is no such image. Lives as long as the batch.
   const PrimaryRays* view = nullptr;
 };
 
@@ -41,8 +41,8 @@ struct BatchMarks;
 struct RayBatch {
   std::span<const Ray> rays;
   std::span<const Pencil> pencils{};
-  /// From which sample of `image` each ray came, directly or by others, as a HitBuffer of the image
-  /// numbers them; empty where rays do not come from an image.
+  /// The sample of `image` from which each ray came, directly or through other rays, numbered as in
+  /// a HitBuffer of the image; empty where rays do not come from an image.
   std::span<const std::uint32_t> samples{};
   const PrimaryRays* image = nullptr;  ///< null where `samples` is empty
   const BatchMarks* marks = nullptr;   ///< null in this version

@@ -18,7 +18,7 @@ class RaySource {
   RaySource(const PrimaryRays& image) : image_(&image) {}
   RaySource(const RayBatch& batch) : batch_(&batch) {}
 
-  /// The source, if it is of this type; null otherwise.
+  /// Returns the source, if it is of this type; null otherwise.
   const Ray* ray() const { return ray_; }
   const PrimaryRays* image() const { return image_; }
   const RayBatch* batch() const { return batch_; }

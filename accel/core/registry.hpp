@@ -17,22 +17,22 @@
 
 namespace beambench::accel {
 
-/// How a structure's hits are verified.
+/// The way in which a structure's hits are verified.
 enum class Conformance {
   kBitExact,   ///< equal to `exhaustive` bit for bit, id and t
   kTolerance,  ///< arithmetic of its own: classified by the differ
   kBaseline    ///< returns misses by design (`null`), and nothing else
 };
 
-/// What a structure is built for, as far as it is known; structures choose `auto` parameters by it.
-/// It changes no hit.
+/// The purpose of a structure, as far as it is known; structures choose `auto` parameters by it. It
+/// changes no hit.
 struct Workload {
   scenes::Camera camera;  ///< of the primary rays, or of those that secondary rays start from
   std::size_t rays;       ///< their approximate number
   int threads = 1;        ///< for tracing an image; 0: see `thread_count`
 };
 
-/// Where none is known: 640x480 rays from the scene's first camera.
+/// Returns the workload to assume where none is known: 640x480 rays from the scene's first camera.
 inline Workload usual_workload(const scenes::Scene& scene) {
   constexpr std::size_t kUsual = 640UL * 480UL;
   return {scene.cameras.front(), kUsual, 1};
@@ -44,9 +44,8 @@ struct StructureInfo {
   std::string summary;  ///< one sentence with the source in the literature
   Conformance conformance;
   std::vector<ParameterInfo> parameters;
-  /// Builds it over a scene that outlives it, for a workload. Throws InputError when the scene and
-  /// the parameters do not go together (a cap is exceeded); the message names the parameter to
-  /// change.
+  /// Builds it over a scene that outlives it, for a workload. Throws InputError when the parameters
+  /// do not suit the scene (a cap is exceeded); the message names the parameter to change.
   std::function<std::unique_ptr<Accelerator>(const scenes::Scene&, const Parameters&,
                                              const Workload&)>
       build;
@@ -54,7 +53,7 @@ struct StructureInfo {
   std::string origin{};  ///< the file of the plug-in that it comes from; empty: built in
 };
 
-/// A structure picked by the user, its parameters checked: `samet:max_level=6`.
+/// A structure chosen by the user, with checked parameters: `samet:max_level=6`.
 class StructureChoice {
  public:
   StructureChoice(const StructureInfo& info, Parameters parameters)
@@ -67,11 +66,11 @@ class StructureChoice {
   /// The name and the parameters that are not at their defaults.
   std::string short_label() const { return parameters_.short_label(); }
 
-  /// Builds the structure. Throws UnsupportedError over primitives that it does not take;
-  /// InputError also when it is expected to take more memory than there is
+  /// Builds the structure. Throws UnsupportedError over primitives that it does not support;
+  /// InputError also when it is expected to take more memory than is available
   /// (`require_build_memory`); std::logic_error when it ignores a parameter it was given.
   std::unique_ptr<Accelerator> build(const scenes::Scene& scene, const Workload& workload) const;
-  /// For the usual workload.
+  /// Builds it for the usual workload.
   std::unique_ptr<Accelerator> build(const scenes::Scene& scene) const;
 
  private:
@@ -85,39 +84,39 @@ struct CounterInfo {
   std::string meaning;  ///< one sentence
 };
 
-/// The counters of every structure, in the order of `Counter`.
+/// Returns the counters of every structure, in the order of `Counter`.
 std::span<const CounterInfo> common_counters();
 
 class Registry {
  public:
   void add(StructureInfo info);
-  /// What that structure counts besides `common_counters()`.
+  /// Registers the counters that a structure has besides `common_counters()`.
   void describe_counters(const std::string& structure, std::vector<CounterInfo> counters);
-  /// Empty for a structure without counters of its own.
+  /// Returns nothing for a structure without counters of its own.
   std::span<const CounterInfo> own_counters(const std::string& structure) const;
 
-  /// In the order of registration.
+  /// Returns the structures in the order of registration.
   std::span<const StructureInfo> structures() const { return structures_; }
-  /// Throws InputError for an unknown name (with the nearest valid name and all valid ones) or
-  /// parameter.
+  /// Chooses a structure. Throws InputError for an unknown name (with the nearest valid name and
+  /// all valid ones) or parameter.
   StructureChoice choose(const Spec& spec) const;
-  /// A comma-separated list as typed after --accel; `all` is every structure with its defaults.
+  /// Reads a comma-separated list as typed after --accel; `all` is every structure with its
+  /// defaults.
   std::vector<StructureChoice> choose_list(std::string_view text) const;
 
  private:
-  /// Refuses a parameter that other structures have, and names them. Others are left to
-  /// `Parameters`.
+  /// Refuses a parameter that other structures have, and names them. Leaves others to `Parameters`.
   void require_own_parameter(const StructureInfo& structure, const std::string& name) const;
 
   std::vector<StructureInfo> structures_;
   std::map<std::string, std::vector<CounterInfo>> own_counters_;
 };
 
-/// All structures of this program: those that were built into it, then those of plug-ins.
+/// Returns all structures of this program: the built-in ones, then those of plug-ins.
 const Registry& registry();
 
 /// Adds the structures of a plug-in, which were validated (harness/plugin/validation.hpp), to
-/// `registry()`. To be called before the first choice is made: choices point into the registry.
+/// `registry()`. Must be called before the first choice is made: choices point into the registry.
 void register_plugin_structures(std::vector<StructureInfo> structures);
 
 }  // namespace beambench::accel

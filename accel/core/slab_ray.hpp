@@ -41,7 +41,7 @@ class SlabRay {
       const float far = backward_[slot] ? box.lower[axis] : box.upper[axis];
       const double t_near = (near - origin_[slot]) * inverse_[slot];
       const double t_far = (far - origin_[slot]) * inverse_[slot];
-      // In this form a NaN is ignored: 0 x infinity, for a ray that runs in a face of the box.
+      // In this form NaN is ignored: 0 x infinity, for a ray that runs in a face of the box.
       if (t_near > enter) enter = t_near;
       if (t_far < exit) exit = t_far;
     }

@@ -1,5 +1,5 @@
 #pragma once
-// What a structure reports of itself after it was built.
+// Statistics that a structure reports after it was built.
 
 #include <cstdint>
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace beambench::accel {
 
-/// How a structure gets the rays of an image (`Accelerator::trace`): making them and storing the
-/// hits is the harness's own share of a trace.
+/// The way in which a structure receives the rays of an image (`Accelerator::closest_hits`): making
+/// them and storing the hits is the harness's own share of a trace.
 enum class ImageRays : std::uint8_t {
   kSingle,  ///< one by one, from `PrimaryRays::ray`
   kSimd,    ///< in packets made (of a list: filled) by SIMD, hits stored by SIMD
-  kOwn      ///< it makes samples of its own, or needs no rays: the harness has no share in it
+  kOwn      ///< makes samples of its own, or needs no rays: the harness has no share
 };
 
 /// Sizes of a built structure; 0 where a family has no such thing.
@@ -24,7 +24,8 @@ struct Statistics {
   std::uint64_t references = 0;    ///< entries in the leaves' lists of primitives
   std::uint64_t depth = 0;         ///< levels of the deepest leaf, the root being level 1
   std::uint64_t bytes = 0;         ///< memory the structure holds, without the scene
-  /// What it runs on where it chooses among several; empty: that of the build's flags.
+  /// The instruction set that it selected, where it selects among several; empty: that of the
+  /// build's flags.
   std::string instruction_set;
   ImageRays image_rays = ImageRays::kSingle;
   /// The types in which a library holds the primitives, joined by '+'; empty where they are tested

@@ -1,13 +1,13 @@
 #pragma once
-// What a structure can do at all.
+// The rays and primitives that a structure supports.
 
 #include "scenes/base/error.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::accel {
 
-/// The ray sources and the kinds of primitives that a structure takes. Where it takes less than is
-/// wanted, records have the verdict `unsupported`: neither a time nor an error.
+/// The ray sources and the kinds of primitives that a structure takes. Where it lacks one that is
+/// requested, records have the verdict `unsupported`: neither a time nor an error.
 struct Support {
   bool single_rays = true;
   bool images = true;
@@ -16,7 +16,7 @@ struct Support {
   bool cones = true;
   bool polygons = true;
 
-  /// Does it take each kind of primitive that the scene has?
+  /// Returns whether it takes each kind of primitive in the scene.
   bool includes(const scenes::Scene& scene) const {
     return (spheres || scene.spheres.empty()) && (cones || scene.cones.empty()) &&
            (polygons || scene.polygons.empty());
@@ -25,7 +25,7 @@ struct Support {
   friend bool operator==(const Support&, const Support&) = default;
 };
 
-/// Thrown where a structure does not take what it is given (`Support`).
+/// Thrown where a structure does not support its input (`Support`).
 class UnsupportedError : public InputError {
  public:
   using InputError::InputError;

@@ -1,5 +1,5 @@
 #pragma once
-// How many threads there are by default, and work shared among several.
+// The default number of threads, and work shared among several.
 
 #include <functional>
 #include <mutex>

@@ -1,6 +1,6 @@
 #pragma once
 // How far a computed hit may lie from its primitive, by how much overlaps are widened for it, and
-// how far from surfaces rays begin and before lights they end.
+// the distances from surfaces and lights at which rays begin and end.
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,8 @@ namespace beambench::accel {
 /// same t as the best (a tie, which goes to the lowest id) is still tested.
 inline constexpr double kHitSlack = 0x1p-35;
 
-/// By how much box-primitive overlaps over this scene are widened on every side, in scene units.
+/// The amount by which box-primitive overlaps over this scene are widened on every side, in scene
+/// units.
 inline double overlap_tolerance(const scenes::Scene& scene) {
   if (scene.bounds.empty()) return 0.0;
   const glm::dvec3 lower(scene.bounds.lower);

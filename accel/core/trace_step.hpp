@@ -31,8 +31,7 @@ struct TraceStep {
   std::vector<TestedPrimitive> tests{};  ///< in the order they were made
 };
 
-/// The policy of `Accelerator::explain`: records the places and tests that the other policies
-/// ignore.
+/// The policy of `Inspector::path`: records the places and tests that the other policies ignore.
 class StepRecorder : public NoCounting {
  public:
   template <class Make>

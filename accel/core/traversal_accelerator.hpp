@@ -1,5 +1,5 @@
 #pragma once
-// From one traversal, written once, to the whole contract of a structure.
+// Derives the whole contract of a structure from one traversal, written once.
 
 #include <cstddef>
 #include <cstdint>
@@ -53,7 +53,7 @@ class TraversalAccelerator : public Accelerator, public Inspector {
   }
 
  protected:
-  // Functions of their own, so that what is inlined into one loop does not depend on the others.
+  // Separate functions, so that inlining into one loop does not depend on the others.
   [[gnu::noinline]] void closest_of_image(const PrimaryRays& image, const HitSpan& hits,
                                           const QueryContext& context) const {
     for_rows(context, image.height(), [&](int begin, int end, auto& counting) {

@@ -1,5 +1,5 @@
 #pragma once
-// Counting the work of a traversal: a compile-time policy, so that timed code counts nothing.
+// Counts the work of a traversal by a compile-time policy, so that timed code counts nothing.
 
 #include <array>
 #include <cstddef>
@@ -57,8 +57,8 @@ class WorkCounters {
   }
   void add(std::string_view name, std::uint64_t amount = 1);
   void add(const WorkCounters& other);
-  /// Ray-primitive tests of one kind: `Counter::kPrimitiveTests`, split. Triangles of polygons are
-  /// tests of polygons.
+  /// Counts ray-primitive tests of one kind: `Counter::kPrimitiveTests`, split. Triangles of
+  /// polygons are tests of polygons.
   void add_tests(scenes::PrimitiveKind kind, std::uint64_t amount = 1) {
     add(Counter::kPrimitiveTests, amount);
     const auto index = static_cast<std::size_t>(kind);
@@ -66,8 +66,8 @@ class WorkCounters {
   }
 
   std::uint64_t get(Counter counter) const { return standard_[static_cast<std::size_t>(counter)]; }
-  /// All counters by name: the standard ones, then the family's own; `sphere_tests`, `cone_tests`
-  /// and `polygon_tests` where there were tests and all were counted by kind.
+  /// Returns all counters by name: the standard ones, then the family's own; `sphere_tests`,
+  /// `cone_tests` and `polygon_tests` where there were tests and all were counted by kind.
   std::map<std::string, std::uint64_t, std::less<>> by_name() const;
 
  private:

@@ -49,7 +49,7 @@ class OctreeTracer : public TraversalAccelerator<OctreeTracer<Search>> {
 
   std::vector<Box> occupied_cells() const override { return octree_.occupied_cells(); }
 
-  /// For searches that name leaves by the numbers of their nodes.
+  /// Used by searches that name leaves by the numbers of their nodes.
   std::vector<NodeFacts> nodes() const override {
     std::vector<NodeFacts> facts;
     if constexpr (requires { requires Search::kNeighborSteps; }) {

@@ -116,8 +116,8 @@ struct RayRange {
   const Pencil* pencil;  ///< or null
 };
 
-/// All rays of a batch in its order. Pencils that run in the other direction than `toward` says are
-/// traced as single rays.
+/// Returns all rays of a batch in order. Pencils whose direction is not that of `toward` are traced
+/// as single rays.
 std::vector<RayRange> ranges_of(const RayBatch& batch, bool toward) {
   std::vector<RayRange> ranges;
   std::size_t next = 0;

@@ -27,7 +27,7 @@ std::optional<Overhead> overhead_of(const CellRecord& cell, const Names& names) 
       cell.harness->path == QueryPath::kImageOwn || cell.harness->path == QueryPath::kPicture) {
     return std::nullopt;
   }
-  // A plug-in that is faster than making rays one by one does not do so, whatever it states.
+  // A plug-in that is faster than making rays one by one does not make them so, whatever it states.
   if (trace->value <= cell.harness->ms) return std::nullopt;
   const std::string title = fmt::format("{} in {} at {}", names.contender, names.view,
                                         rays::to_string(cell.id.resolution));
@@ -35,14 +35,14 @@ std::optional<Overhead> overhead_of(const CellRecord& cell, const Names& names) 
                   cell.harness->ms / trace->value};
 }
 
-/// How often a cell was repeated.
+/// Returns the number of repetitions of a cell.
 std::size_t repetitions_of(const CellRecord& cell) {
   const auto summed_up = cell.columns.find("repetitions");
   return summed_up == cell.columns.end() ? cell.repetitions.size()
                                          : static_cast<std::size_t>(summed_up->second);
 }
 
-/// A number, or null where JSON has none for it: infinity.
+/// Returns a number, or null for infinity, which JSON lacks.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 Json to_json(const TimeRatio& ratio) {

@@ -1,5 +1,6 @@
 #pragma once
-// The conclusions from a run: who is fastest, what the times are worth, what the harness adds.
+// The conclusions from a run: who is fastest, how far times can be trusted, and the harness's own
+// share.
 
 #include <cstddef>
 #include <span>
@@ -22,7 +23,7 @@ struct Overhead {
   double part;        ///< of its median trace time
 };
 
-/// What a run comes to.
+/// The conclusions from a run.
 struct Analysis {
   std::size_t cells = 0;         ///< in the record
   std::size_t planned = 0;       ///< of the sweep, or of its shard
@@ -30,7 +31,7 @@ struct Analysis {
   std::size_t without_rays = 0;  ///< of a kind of rays that their scene has none of
   std::size_t unsupported = 0;   ///< of rays or primitives the structure does not take
 
-  /// The cells that could be measured.
+  /// Returns the number of cells that could be measured.
   std::size_t possible() const { return cells - without_rays - unsupported; }
 
   bool is_part = false;                       ///< is the run a shard of a sweep?
@@ -43,20 +44,20 @@ struct Analysis {
 /// Draws the conclusions from a run, which may have been cut off. Depends on nothing else.
 Analysis analyze(const measure::Run& run);
 
-/// One for each path with right answers, the largest first. Structures that trace images by
-/// samples of their own have none, nor whole pictures, whose shading is wanted.
+/// Returns one for each path with correct hits, the largest first. Structures that trace images by
+/// samples of their own have none, nor do whole pictures, which include shading by design.
 std::vector<Overhead> largest_overheads(const measure::Run& run);
 
-/// Why the times of a run are worth little: noise of equal work, other work (a load average), a
-/// CPU quota, missed precision, too few repetitions for an interval. Clauses; none where nothing
-/// speaks against them.
+/// Returns why the times of a run cannot be fully trusted: noise of equal work, other work (a load
+/// average), a CPU quota, missed precision, too few repetitions for an interval. Each is a clause;
+/// nothing speaks against the times if there are none.
 std::vector<std::string> reasons_for_care(const measure::Run& run);
 
-/// A mismatch where hits were wrong; invalid input where no scene of a whole sweep had any rays to
-/// measure. A shard may have none.
+/// Returns the code for a mismatch if hits were wrong, or for invalid input if no scene of a whole
+/// sweep had any rays to measure. A shard may have none.
 int exit_code_of(const Analysis& analysis);
 
-/// The text of analysis.json.
+/// Returns the text of analysis.json.
 nlohmann::ordered_json to_json(const Analysis& analysis);
 
 }  // namespace beambench::analysis

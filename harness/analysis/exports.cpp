@@ -18,10 +18,11 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// The manifest mentions the harness's own time above this part of the fastest contender's.
+/// The part of the fastest contender's time above which the manifest mentions the harness's own
+/// time.
 constexpr double kWantedOverhead = 0.02;
 
-/// The manifest of a run with what its cells show.
+/// Returns the manifest of a run, completed by facts from its cells.
 Json whole_manifest(const measure::Run& run, const Analysis& analysis) {
   Json manifest = run.manifest;
   Json& uncontrolled = manifest.at("uncontrolled");
@@ -34,8 +35,8 @@ Json whole_manifest(const measure::Run& run, const Analysis& analysis) {
   return manifest;
 }
 
-/// The context of google-benchmark.json: what the library stated as the run began, and the program.
-/// library_build_type is of Google Benchmark alone.
+/// Returns the context of google-benchmark.json: what the library reported as the run began, and
+/// the program. library_build_type is that of Google Benchmark only.
 Json benchmark_context(const Json& manifest) {
   const Json& program = manifest.at("program");
   Json context = manifest.value("google_benchmark", Json::object());

@@ -40,7 +40,7 @@ using Json = nlohmann::ordered_json;
 
 /// A folder that holds a shard.
 struct ShardFolder {
-  RunLog log;  ///< nobody else has the folder
+  RunLog log;  ///< no other process has the folder
   Run run;
   ShardFacts facts;
 
@@ -105,7 +105,7 @@ void require_one_sweep(const ShardFolder& first, const ShardFolder& other) {
   }
 }
 
-/// Does a column have the same value whenever a cell is measured by one program?
+/// Returns whether a column has the same value whenever a cell is measured by one program.
 bool is_repeatable(std::string_view column) {
   if (column.ends_with("_per_ray")) return !column.ends_with("_ns_per_ray");
   return column.ends_with("_rays") || column == "rays" || column == "rays_hash" ||
@@ -176,7 +176,7 @@ void require_intact(const ShardFolder& shard) {
 /// The shards in the order of their numbers.
 using InOrder = std::vector<const ShardFolder*>;
 
-/// Refuses a division of which a shard is missing or there twice.
+/// Refuses a division in which a shard is missing or there twice.
 InOrder require_all(const std::vector<ShardFolder>& shards) {
   std::map<int, const ShardFolder*> by_number;
   for (const ShardFolder& shard : shards) {
@@ -235,7 +235,7 @@ class FolderAside {
   }
 
  private:
-  /// What a killed process left; another process may be at work in it.
+  /// Removes what a killed process left; another process may be working in it.
   static void remove_abandoned(const fs::path& folder) {
     try {
       const FolderLock lock(folder);
@@ -249,7 +249,7 @@ class FolderAside {
   fs::path path_;
 };
 
-/// Copies what the log of a shard says of its cells.
+/// Copies the events of a cell from the log of a shard.
 void copy_cells(const ShardFolder& shard, RunLog& log) {
   measure::for_each_event(shard.log.folder(), [&](Json event) {
     if (!event.contains("index")) return;

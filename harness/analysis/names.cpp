@@ -24,7 +24,7 @@ Parameters parameters_of(const NamedCell& cell) {
 /// The variants of one structure.
 struct Variants {
   std::set<std::string> seen;
-  /// How many variants have each value of each parameter.
+  /// The number of variants that have each value of each parameter.
   std::map<std::string, std::map<std::string, std::size_t>> counts;
 
   void add(const NamedCell& cell) {
@@ -38,7 +38,7 @@ struct Variants {
   }
 };
 
-/// What the cells of a run differ in.
+/// The differences between the cells of a run.
 struct Differences {
   std::map<std::string, Variants> structures;
   std::map<std::string, std::set<std::string>> cameras;  ///< by scene

@@ -1,5 +1,5 @@
 #pragma once
-// What the contenders and the views of a run are called: by what differs between its cells.
+// The names of the contenders and the views of a run, by what differs between its cells.
 
 #include <span>
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace beambench::analysis {
 
-/// What a name may have to state of a cell.
+/// The facts that a name may have to state about a cell.
 struct NamedCell {
   std::string scene;
   std::string camera;

@@ -6,8 +6,8 @@
 // of the machine is in both of them, and their ratio has less noise than either. Where both have
 // their repetitions, the ratio is therefore paired: the median of the rounds' ratios, with the 95%
 // interval of that median (`measure::median_interval`). Where only medians and their intervals are
-// known, the ratio is not paired, and its interval is wider than it need be. Whether two intervals
-// overlap decides nothing: they may, and the ratio be clearly off 1.
+// known, the ratio is not paired, and its interval is wider than necessary. Whether two intervals
+// overlap decides nothing: the ratio of two times with overlapping intervals may be clearly off 1.
 
 #include <map>
 #include <optional>
@@ -19,7 +19,7 @@ namespace beambench::analysis {
 
 using measure::Interval;
 
-/// How many times one time is of another, with a 95% interval where there are repetitions enough.
+/// The ratio of one time to another, with a 95% interval where there are enough repetitions.
 struct TimeRatio {
   double value = 1.0;
   std::optional<Interval> interval{};
@@ -35,26 +35,29 @@ struct Median {
 /// Times by the rounds in which they were measured.
 using TimesByRound = std::map<int, double>;
 
-/// The median ratio of the rounds that both have. Nothing where they have no round in common.
+/// Returns the median ratio of the rounds that both have; nothing where they have no round in
+/// common.
 std::optional<TimeRatio> paired_ratio(const TimesByRound& over, const TimesByRound& under);
 
-/// The ratio of two medians. It has an interval where both have one: their distances to the ends
-/// add up in quadrature on a logarithmic scale (Zou and Donner, Statistics in Medicine 27, 2008).
+/// Returns the ratio of two medians. It has an interval where both have one: their distances to the
+/// ends add up in quadrature on a logarithmic scale (Zou and Donner, Statistics in Medicine 27,
+/// 2008).
 TimeRatio unpaired_ratio(const Median& over, const Median& under);
 
-/// The geometric mean of at least one ratio. It has an interval where all have one: views are
-/// measured one after another, so their noise is independent, and the distances to their ends add
-/// up in quadrature.
+/// Returns the geometric mean of at least one ratio. It has an interval where all have one: views
+/// are measured one after another, so their noise is independent, and the distances to their ends
+/// add up in quadrature.
 TimeRatio geometric_mean(std::span<const TimeRatio> ratios);
 
-/// What a contender takes to build, and for each ray.
+/// The time that a contender takes to build, and for each ray.
 struct Cost {
   double build_ms;
   double ns_per_ray;
 };
 
-/// From how many rays on one contender, its build included, is ahead of another: the dearer build
-/// over what each ray saves. 0: from the first; infinite: never, or only up to some number of rays.
+/// Returns the number of rays from which one contender, its build included, is ahead of another:
+/// the additional build time over the time saved per ray. 0: from the first; infinite: never, or
+/// only up to some number of rays.
 double break_even_rays(const Cost& mine, const Cost& other);
 
 }  // namespace beambench::analysis

@@ -69,14 +69,14 @@ void add_identity(Row& row, const CellRecord& cell) {
   row["coherence"] = or_null(cell.rays.coherence);
 }
 
-/// The 95% interval of a figure's median.
+/// Adds the 95% interval of a figure's median.
 void add_interval(Row& row, const std::string& figure, const std::vector<double>& samples) {
   const std::optional<Interval> interval = median_interval(samples);
   row[figure + "_ci_low"] = interval ? Json(interval->low) : Json();
   row[figure + "_ci_high"] = interval ? Json(interval->high) : Json();
 }
 
-/// A statistic of samples; null where there are none.
+/// Returns a statistic of samples; null where there are none.
 template <class Statistic>
 Json statistic(Statistic figure, const std::vector<double>& samples) {
   return samples.empty() ? Json() : Json(figure(samples));
@@ -88,8 +88,8 @@ void add_wall_time(Row& row, const std::string& phase, const std::vector<double>
   row[phase + "_ms_mad"] = statistic(median_absolute_deviation, samples);
 }
 
-/// Null where nothing is left: of `null`, and of a plug-in that does not state that it makes no
-/// rays one by one.
+/// Returns null where nothing is left: for `null`, and for a plug-in that does not state that it
+/// makes no rays one by one.
 Json net_of_harness(const CellRecord& cell) {
   if (!cell.harness || cell.verdict == verify::Verdict::kBaseline) return {};
   const double net = median(collect(cell, &Repetition::trace_ms)) - cell.harness->ms;
@@ -133,7 +133,7 @@ void add_times(Row& row, const CellRecord& cell) {
   }
 }
 
-/// The median count of an event; null where not every repetition has one.
+/// Returns the median count of an event; null if a repetition lacks it.
 Json median_count(const CellRecord& cell, HardwareCounts Repetition::*counts, std::size_t event) {
   std::vector<double> values;
   for (const Repetition& repetition : cell.repetitions) {
@@ -156,7 +156,7 @@ void add_hardware_counts(Row& row, const CellRecord& cell) {
   add("trace", &Repetition::trace_counts);
 }
 
-/// A figure that a family adds to its statistics; null where it does not.
+/// Returns a figure that a family adds to its statistics; null where it does not.
 Json own_figure(const accel::Statistics& statistics, std::string_view name) {
   const auto found =
       std::ranges::find(statistics.more, name, &std::pair<std::string, double>::first);
@@ -197,9 +197,9 @@ void add_counters(Row& row, const CellRecord& cell) {
   }
 }
 
-/// Adds those of whole pictures: `shadow_rays`, and `shadow_box_tests_per_ray` of the shadow rays
-/// alone. A family's own counters are not split by kind: most are of beams, which only camera rays
-/// have.
+/// Adds the columns of whole pictures: `shadow_rays`, and `shadow_box_tests_per_ray` of the shadow
+/// rays alone. A family's own counters are not split by kind: most are of beams, which only camera
+/// rays have.
 void add_kinds(Row& row, const CellRecord& cell) {
   for (const RaysOfKind& kind : cell.work.kinds) {
     row[kind.kind + "_rays"] = kind.rays;
@@ -234,7 +234,7 @@ void merge_columns(Columns& columns, const Row& row) {
   }
 }
 
-/// A value as a CSV field.
+/// Returns a value as a CSV field.
 std::string field_of(const Row& value) {
   if (value.is_null()) return "";
   if (value.is_string()) return csv_field(value.get<std::string>());
@@ -263,8 +263,8 @@ std::string csv_line(const Columns& columns, const Row& row) {
   return csv_line(fields);
 }
 
-/// Writes header and rows. `row` makes each of the rows twice, because all of them take far more
-/// memory than the cells that they are of.
+/// Writes header and rows. `row` makes each of the rows twice, because all of them together take
+/// far more memory than the cells that they describe.
 void write_table(std::ostream& out, std::size_t count, const std::function<Row(std::size_t)>& row) {
   Columns columns;
   for (std::size_t i = 0; i < count; ++i) merge_columns(columns, row(i));

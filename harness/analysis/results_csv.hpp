@@ -13,19 +13,19 @@
 
 namespace beambench::analysis {
 
-/// A row: column names to numbers, texts, flags, or null for what was not measured. The order is
-/// that of the columns.
+/// A row: column names to numbers, texts, flags, or null for what was not measured, in the order of
+/// the columns.
 using Row = nlohmann::ordered_json;
 
-/// The version of the columns of results.csv, their first one. Incremented when a column changes
-/// its name, meaning or unit or goes away, since a reader of the old ones would err; a new column
-/// alone is no new version. What each means is in scripts/beambench_report/columns.json.
+/// The version of the columns of results.csv, and its first column. Incremented when a column
+/// changes its name, meaning or unit or is removed, since a reader of the old columns would err,
+/// but not for a new column. The meaning of each is in scripts/beambench_report/columns.json.
 inline constexpr int kSchemaVersion = 1;
 
-/// What two runs differ by however often each repeats: another process has its code and data at
-/// other addresses (Mytkowicz et al., Producing Wrong Data Without Doing Anything Obviously Wrong!,
-/// ASPLOS 2009), of which a run alone knows nothing. Found by repeating a sweep of 48 cells:
-/// without this allowance 81% and 88% of the medians were found again, not 95%.
+/// The relative difference between two runs, however often each repeats: another process has its
+/// code and data at other addresses (Mytkowicz et al., Producing Wrong Data Without Doing Anything
+/// Obviously Wrong!, ASPLOS 2009), which a run by itself cannot show. Determined by repeating a
+/// sweep of 48 cells: without this allowance 81% and 88% of the medians were found again, not 95%.
 inline constexpr double kBetweenRuns = 0.015;
 
 /// Returns what every row of a run has in common.
@@ -35,18 +35,18 @@ measure::RunFacts facts_of(const nlohmann::ordered_json& manifest);
 /// machine that measured it. Number 0 has the cells of a run that was not merged.
 std::map<int, measure::RunFacts> facts_by_shard(const nlohmann::ordered_json& manifest);
 
-/// Returns the row of a cell. One that does not keep its times has null there.
+/// Returns the row of a cell. A cell that does not keep its times has null there.
 Row to_row(const measure::RunFacts& run, const measure::CellRecord& cell);
 
-/// A text as a CSV field: in quotes, inner quotes doubled, when it holds a comma, quote or line
-/// end. One that begins with a character at which a spreadsheet takes it for a formula (=, +, -, @,
-/// tab, carriage return), or with an apostrophe, gets an apostrophe before it, which readers drop
-/// (scripts/beambench_report/base/csv_texts.py).
+/// Returns a text as a CSV field: in quotes, inner quotes doubled, if it contains a comma, quote or
+/// line end. A text that begins with a character at which a spreadsheet takes it for a formula (=,
+/// +, -, @, tab, carriage return), or with an apostrophe, gets an apostrophe before it, which
+/// readers drop (scripts/beambench_report/base/csv_texts.py).
 std::string csv_field(std::string_view text);
 
-/// Header and rows, lines ending with a line feed. The columns are those of the first row; columns
-/// that only later rows have are inserted after the one they follow there. What a row lacks, and
-/// null, is an empty field; numbers are in their shortest exact form.
+/// Returns header and rows, lines ending with a line feed. The columns are those of the first row;
+/// columns that only later rows have are inserted after the one they follow there. Columns missing
+/// from a row, and null, are empty fields; numbers are in their shortest exact form.
 std::string csv_table(std::span<const Row> rows);
 
 /// Writes the table of a run's cells. Each row of a merged run has the machine of its shard.

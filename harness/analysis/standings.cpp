@@ -58,7 +58,7 @@ TimeRatio trace_ratio(const CellRecord& cell, const CellRecord& base) {
   return paired ? *paired : unpaired_ratio(*trace_median(cell), *trace_median(base));
 }
 
-/// The condition of the sweep that leaves a contender out of a view.
+/// Returns the condition of the sweep that leaves a contender out of a view.
 std::string why_absent(const std::string& structure, const CellRecord& cell, const Json& exclude) {
   for (const Json& entry : exclude) {
     if (entry.value("structure", structure) != structure) continue;
@@ -84,7 +84,7 @@ std::string why_absent(const std::string& structure, const CellRecord& cell, con
 /// The cells of a view, by contender.
 using ViewCells = std::vector<std::pair<std::string, const CellRecord*>>;
 
-/// The highest number of rays that two contenders have; of fewer contenders, the highest.
+/// Returns the highest number of rays that two contenders have; of fewer contenders, the highest.
 std::uint64_t finest_rays(const ViewCells& all) {
   std::map<std::uint64_t, std::set<std::string>> contenders;
   for (const auto& [contender, cell] : all) {
@@ -160,7 +160,7 @@ std::vector<MeanStanding> means(const std::vector<const Standing*>& standings) {
   return found;
 }
 
-/// Where several machines measured a view, one at each resolution, the highest counts.
+/// Selects the highest resolution where several machines measured a view, one at each resolution.
 void mark_counted(std::vector<Standings>& views) {
   std::map<std::string, std::uint64_t> most;  // rays of each view, whichever machine traced them
   for (const Standings& view : views) {

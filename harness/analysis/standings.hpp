@@ -21,7 +21,7 @@ struct Standing {
   double ns_per_ray;      ///< median of the first trace after a build
   TimeRatio ratio;        ///< its trace time over that of the fastest
 
-  /// Is it the fastest, or does the interval of its ratio to the fastest hold 1?
+  /// Returns whether it is the fastest, or the interval of its ratio to the fastest contains 1.
   bool is_tied() const { return ratio.interval && ratio.interval->low <= 1.0; }
 };
 
@@ -31,7 +31,7 @@ struct LeftOut {
   std::string reason;
 };
 
-/// The contenders of one view (scene, camera, samples, kind of rays) at the highest resolution at
+/// All contenders of one view (scene, camera, samples, kind of rays) at the highest resolution at
 /// which one machine measured two of them: a run that was cut off may have one contender at its
 /// last resolution. Times of two machines are not compared.
 struct Standings {
@@ -46,19 +46,19 @@ struct Standings {
   std::vector<LeftOut> left_out;
   bool in_means = false;  ///< is it among the views that means are over?
 
-  /// The first that is not tied with the fastest; null where there is none.
+  /// Returns the first that is not tied with the fastest; null where there is none.
   const Standing* behind() const;
-  /// Embree's fastest mode; null where there is none.
+  /// Returns Embree's fastest mode; null where there is none.
   const Standing* embree() const;
-  /// From how many rays on the fastest, build included, is ahead of all that are not tied with it:
-  /// the dearer build over what each ray saves. 0: from the first; infinite: never; none: there is
-  /// nobody to compare with.
+  /// Returns the number of rays from which the fastest, build included, is ahead of all that are
+  /// not tied with it: the additional build time over the time saved per ray. 0: from the first;
+  /// infinite: never; none: there are no contenders to compare with.
   std::optional<double> break_even_rays() const;
-  /// The contender over which `break_even_rays` is; null where there is none.
+  /// Returns the contender that determines `break_even_rays`; null where there is none.
   const Standing* last_overtaken() const;
 };
 
-/// A contender over all views of one kind of rays.
+/// A contender, over all views of one kind of rays.
 struct MeanStanding {
   std::string contender;
   std::string structure;
@@ -81,8 +81,8 @@ std::vector<Names> names_of(const measure::Run& run);
 /// hits are not correct.
 std::optional<Median> trace_median(const measure::CellRecord& cell);
 
-/// Of each view, in the order of the plan. The conditions of the sweep explain why a contender is
-/// absent.
+/// Returns the standings of each view, in the order of the plan. The conditions of the sweep
+/// explain why a contender is absent.
 std::vector<Standings> standings(const measure::Run& run);
 
 /// The means over the views of each kind of rays. Where several machines measured a view, one at

@@ -35,7 +35,7 @@ std::string table(const std::vector<std::vector<std::string>>& lines) {
   return out;
 }
 
-/// The fastest, and those that may be as fast.
+/// Returns the fastest, and those that may be as fast.
 std::string winners(const Standings& view) {
   std::vector<std::string> names;
   for (const Standing& one : view.ranked) {
@@ -49,7 +49,7 @@ std::string against(const Standing* other, bool with_name) {
   return (with_name ? other->contender + " " : "") + in_words(other->ratio);
 }
 
-/// `exhaustive: left out by the sweep (more than 1000 primitives), in 3 views`.
+/// Returns `exhaustive: left out by the sweep (more than 1000 primitives), in 3 views`.
 std::string describe_left_out(std::span<const Standings> views) {
   std::map<std::pair<std::string, std::string>, std::size_t> counts;
   for (const Standings& view : views) {

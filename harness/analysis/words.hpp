@@ -1,5 +1,5 @@
 #pragma once
-// The conclusions of a run as texts.
+// Describes the conclusions of a run in words.
 
 #include <span>
 #include <string>
@@ -15,18 +15,19 @@ std::string rays_in_words(double rays);
 /// fastest pays off; then the geometric means over all views, where there are several.
 std::string describe(std::span<const Standings> views);
 
-/// A table for each view with a line for each contender: build, trace, ratio to the fastest.
+/// Returns a table for each view with a line for each contender: build, trace, ratio to the
+/// fastest.
 std::string describe_contenders(std::span<const Standings> views);
 
-/// Two lines, one on the hits and one on what the times are worth; a third on rays that scenes
-/// lack.
+/// Returns two lines, one on the hits and one on how far times can be trusted; a third on rays that
+/// scenes lack.
 std::string describe_verdicts(const Analysis& analysis);
 
-/// `harness overhead: at most 1.2% of a contender's trace time for images by single rays
-/// (tetra.../samet), ...`, and where the times without it are. Of at least one.
+/// Returns `harness overhead: at most 1.2% of a contender's trace time for images by single rays
+/// (tetra.../samet), ...`, and where the times without it are. `overheads` is not empty.
 std::string describe(std::span<const Overhead> overheads);
 
-/// The text of summary.txt: who is fastest, and the verdicts.
+/// Returns the text of summary.txt: who is fastest, and the verdicts.
 std::string summary(const Analysis& analysis);
 
 }  // namespace beambench::analysis

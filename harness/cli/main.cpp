@@ -50,7 +50,7 @@ int fail_to_print() {
 
 using Arguments = std::vector<std::string>;
 
-/// For --help, completions and the manual page: the option is removed from the command line
+/// Adds the option to --help, completions and the manual page; it is removed from the command line
 /// earlier.
 void add_plugin_option(CLI::App& app) {
   app.add_option("--plugin",

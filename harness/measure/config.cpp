@@ -13,20 +13,21 @@
 namespace beambench::measure {
 namespace {
 
-/// More cells than any run could measure: with six repetitions of a millisecond each, ten minutes.
+/// The maximum number of cells, more than any run could measure: with six repetitions of a
+/// millisecond each, ten minutes.
 constexpr double kMaxCells = 100'000;
 
-/// How long a list is; 1 of any other value.
+/// Returns the length of a list; 1 for any other value.
 double length(const nlohmann::json& value) {
   return value.is_array() ? static_cast<double>(value.size()) : 1.0;
 }
 
-/// The same of a member; 1 where there is none.
+/// Returns the same for a member; 1 where there is none.
 double length_of(const nlohmann::json& object, const char* key) {
   return object.is_object() && object.contains(key) ? length(object[key]) : 1.0;
 }
 
-/// The combinations of the lists of parameters of one entry.
+/// Returns the combinations of the lists of parameters of one entry.
 double combinations(const nlohmann::json& entry) {
   double product = 1.0;
   if (!entry.is_object() || !entry.contains("parameters")) return product;
@@ -36,7 +37,7 @@ double combinations(const nlohmann::json& entry) {
   return product;
 }
 
-/// The sum over the entries of a list; 1 where there is none.
+/// Returns the sum over the entries of a list; 1 where there is none.
 template <class Count>
 double sum_of(const nlohmann::json& root, const char* key, Count count) {
   if (!root.is_object() || !root.contains(key) || !root[key].is_array()) return 1.0;
@@ -45,13 +46,14 @@ double sum_of(const nlohmann::json& root, const char* key, Count count) {
   return sum;
 }
 
-/// How many structures the document lists, before any is made. A text counts once, `all` too.
+/// Returns the number of structures that the document lists, before any is made. A text counts
+/// once, even `all`.
 double listed_structures(const JsonNode& root) {
   return sum_of(root.value(), "structures", combinations);
 }
 
-/// Refuses a sweep whose lists multiply to too many cells. Takes no notice of mistakes in the
-/// lists, which are found when they are read.
+/// Refuses a sweep whose lists multiply to too many cells. Ignores mistakes in the lists, which are
+/// found when they are read.
 void require_affordable(const JsonNode& root, double structures) {
   const nlohmann::json& json = root.value();
   const double views =
@@ -88,7 +90,7 @@ SweptParameter read_parameter(const std::string& structure, const std::string& n
   return parameter;
 }
 
-/// All combinations, as specs of `structure`.
+/// Returns all combinations, as specs of `structure`.
 std::vector<Spec> multiply_out(const std::string& structure,
                                const std::vector<SweptParameter>& parameters) {
   std::vector<Spec> specs{{structure, {}}};
@@ -105,9 +107,9 @@ std::vector<Spec> multiply_out(const std::string& structure,
   return specs;
 }
 
-/// The structures that an entry stands for: a text as after `--accel` ("samet:max_level=6", "all"),
-/// or an object {"structure": name, "parameters": {name: value or list of values}} whose lists are
-/// multiplied out, the alphabetically last parameter varying fastest.
+/// Returns the structures that an entry stands for: a text as after `--accel` ("samet:max_level=6",
+/// "all"), or an object {"structure": name, "parameters": {name: value or list of values}} whose
+/// lists are multiplied out, the alphabetically last parameter varying fastest.
 std::vector<accel::StructureChoice> read_structure_entry(const JsonNode& node,
                                                          const accel::Registry& structures) {
   if (node.value().is_string()) {
@@ -231,7 +233,7 @@ void read_effort(const JsonNode& root, SweepConfig& config) {
   read_repetitions(root, config);
 }
 
-/// Refuses a file of rays that is not there before hours are spent on other cells.
+/// Refuses a file of rays that does not exist before hours are spent on other cells.
 rays::RayChoice existing(rays::RayChoice choice) {
   if (!choice.file.empty() && !std::filesystem::is_regular_file(choice.file)) {
     throw InputError(fmt::format("there is no ray file '{}'; 'beambench rays' writes one",

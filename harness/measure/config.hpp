@@ -1,5 +1,5 @@
 #pragma once
-// The configuration of a sweep: what is to be measured, read from JSON.
+// The configuration of a sweep, which states what to measure, read from JSON.
 
 #include <chrono>
 #include <cstdint>
@@ -23,7 +23,7 @@ struct SceneEntry {
   std::string place;                 ///< its place in the file, for messages
 };
 
-/// Cells to leave out: those to which everything that is given applies.
+/// Cells to leave out: those that meet all the given conditions.
 struct Exclusion {
   std::optional<std::string> structure;  ///< the bare name
   std::optional<std::string> scene;      ///< as the configuration spells it
@@ -59,10 +59,10 @@ struct SweepConfig {
 /// harness/measure/sweep.schema.json). Structures and their parameters are checked against
 /// `structures`, which outlives the result. Throws InputError `file:
 /// /structures/1/parameters/max_level: ...`, and where the lists multiply to more than 100,000
-/// cells, which is known before any is made.
+/// cells, which is determined before any is made.
 SweepConfig read_sweep(const std::string& asked, const accel::Registry& structures);
 
-/// The same of a configuration in memory; `name` stands for it in messages.
+/// Reads the same from a configuration in memory; `name` stands for it in messages.
 SweepConfig parse_sweep(nlohmann::json source, const std::string& name,
                         const accel::Registry& structures);
 

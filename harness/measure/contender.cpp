@@ -77,7 +77,8 @@ void Contender::count(RunLog& log) {
   } catch (const std::exception& error) {
     fail(verify::Verdict::kError, message_of(error));
   }
-  // A structure that counts nothing at all cannot count; zeros would claim that it does no work.
+  // A structure without any counts does not support counting; zeros would claim that it does no
+  // work.
   if (is_all_zero(record_.work.counters)) record_.work.counters.clear();
   log.begin_cell(record_);
 }
@@ -152,7 +153,7 @@ Repetition Contender::time_once(const Instruments& instruments,
         repetition.trace_counts = trace_counts;
       }
     } catch (...) {
-      // The library is not made for exceptions to pass through it.
+      // The library is not designed for exceptions to pass through it.
       problem = std::current_exception();
       state.SkipWithError("the structure threw");
     }

@@ -1,5 +1,6 @@
 #pragma once
-// One structure in the group of those that trace the same rays, and when it was repeated enough.
+// One structure in the group of those that trace the same rays, and when it has been repeated
+// enough.
 
 #include <cstdint>
 #include <memory>
@@ -17,7 +18,7 @@
 
 namespace beambench::measure {
 
-/// What a repetition is measured with.
+/// The instruments and conditions of a repetition.
 struct Instruments {
   const GoogleBenchmark& benchmark;
   const HardwareCounters& counters;
@@ -25,40 +26,40 @@ struct Instruments {
   int threads;  ///< that trace an image
 };
 
-/// A cell while it is measured. The differ verifies its first timed answers, and those of every
-/// other pass, the counting one included, must equal them bit for bit: so the verdict holds for all
-/// answers that a timed repetition wrote. Whatever a structure does wrong is recorded and ends its
+/// A cell while it is measured. The differ verifies its first timed results, and those of every
+/// other pass, including the counting one, must equal them bit for bit: so the verdict holds for
+/// all results that a timed repetition wrote. Every fault of a structure is recorded and ends its
 /// measurement; nothing is thrown.
 class Contender {
  public:
-  /// So many of the repetitions are followed by a second trace of the same structure. `earlier` is
-  /// what a part of the run that was cut off has of the cell: its repetitions count, and its
-  /// answers must be the same.
+  /// The first `second_traces` repetitions are followed by a second trace of the same structure.
+  /// `earlier` is the record of the cell from an interrupted part of the run: its repetitions
+  /// count, and its results must be the same.
   Contender(const PlannedCell& cell, Task& task, int second_traces,
             std::optional<CellRecord> earlier);
 
-  /// The untimed pass: sizes and counters. Logs that the cell begins.
+  /// Runs the untimed pass, for sizes and counters. Logs that the cell begins.
   void count(RunLog& log);
-  /// One timed repetition, run through Google Benchmark; the first ones followed by a second trace.
-  /// Logs it, and the first one's verification.
+  /// Runs one timed repetition through Google Benchmark; the first ones are followed by a second
+  /// trace. Logs it, and the first one's verification.
   void repeat(const Instruments& instruments, int round, int position, RunLog& log);
 
   const CellId& id() const { return cell_->id; }
   bool failed() const { return failed_; }
   int repetitions() const { return static_cast<int>(record_.repetitions.size()); }
-  /// The first round that none of its repetitions was in.
+  /// Returns the first round without any of its repetitions.
   int next_round() const {
     return record_.repetitions.empty() ? 0 : record_.repetitions.back().round + 1;
   }
-  /// The total of each repetition by which it is decided whether such a figure is precise: of the
-  /// median millions of cycles, because the clock's rate changes; of the minimum milliseconds,
+  /// Returns the total of each repetition, as used to decide whether a figure is precise: for the
+  /// median millions of cycles, because the clock's rate changes; for the minimum milliseconds,
   /// because a rate that was read in a disturbed moment makes the cycles too few.
   std::span<const double> totals(Figure figure) const {
     return figure == Figure::kMinimum ? milliseconds_ : cycles_;
   }
-  /// Warm traces included.
+  /// Returns the time spent, including warm traces.
   double spent_ms() const { return spent_ms_; }
-  /// The finished cell.
+  /// Returns the finished cell.
   CellRecord finish(std::optional<StopReason> reason) &&;
 
  private:
@@ -90,15 +91,15 @@ struct StoppingRule {
   int maximum;
 };
 
-/// Is the precision tested after that many repetitions? At the minimum, then each time a quarter
-/// more have been made: a test after each one would stop at a lucky moment, when the interval
-/// happens to be narrower than it should.
+/// Returns whether the precision is tested after that many repetitions: at the minimum, then each
+/// time a quarter more have been made. A test after each one would stop at a lucky moment, when the
+/// interval happens to be narrower than it should.
 bool is_look(int repetitions, int minimum);
 
-/// Why to stop, or nothing while another repetition is due. `totals` are those of the repetitions,
-/// `spent_ms` what they took, `allowance_ms` the cell's share of the budget, which the minimum of
-/// repetitions may exceed. The precision is reached when `repeat_interval` of the median, or
-/// `repeat_spread_of_minimum`, is known and narrow.
+/// Returns why to stop, or nothing while another repetition is due. `totals` are those of the
+/// repetitions, `spent_ms` is the time they took, `allowance_ms` the cell's share of the budget,
+/// which the minimum of repetitions may exceed. The precision is reached when `repeat_interval` of
+/// the median, or `repeat_spread_of_minimum`, is known and narrow.
 std::optional<StopReason> reason_to_stop(std::span<const double> totals, double spent_ms,
                                          double allowance_ms, const StoppingRule& rule);
 

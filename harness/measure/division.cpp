@@ -25,7 +25,7 @@ std::vector<double> costs_of(const Plan& plan, const SweepConfig& config) {
   return costs;
 }
 
-/// The shard of each group, from 0.
+/// Returns the shard of each group, from 0.
 std::vector<std::size_t> shards_of(const std::vector<double>& costs, std::size_t count) {
   std::vector<std::size_t> order(costs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

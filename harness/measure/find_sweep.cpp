@@ -18,14 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where an installed program has its sweeps, or else where they lie in the sources.
+/// Returns the folder of an installed program's sweeps, or else that of the sources.
 fs::path sweep_folder() {
   const fs::path installed = base::code_folder().parent_path() / "share/beambench/sweeps";
   std::error_code error;
   return fs::is_directory(installed, error) ? installed : fs::path(BEAMBENCH_SWEEPS);
 }
 
-/// The name in a path of the former folder; empty for other paths.
+/// Returns the name in a path of the former folder; empty for other paths.
 std::string former_name(const std::string& asked) {
   constexpr std::string_view kFormer = "harness/bench/sweeps/";
   const std::size_t at = asked.find(kFormer);
@@ -53,7 +53,7 @@ fs::path find_sweep(const std::string& asked) {
   if (fs::exists(asked, error)) return asked;
   const std::vector<std::string> names = sweep_names();
   const std::string former = former_name(asked);
-  if (former.empty() && asked.ends_with(".json")) return asked;  // its reader says what is missing
+  if (former.empty() && asked.ends_with(".json")) return asked;  // its reader reports the error
   const std::string& name = former.empty() ? asked : former;
   if (std::ranges::find(names, name) == names.end()) {
     throw InputError(

@@ -21,7 +21,7 @@ namespace {
 constexpr std::array<std::string_view, 3> kPassedOn{"--benchmark_filter", "--benchmark_context",
                                                     "--v"};
 
-/// A flag that beambench takes no notice of, and why.
+/// A flag that beambench ignores, and why.
 struct Ineffective {
   std::string_view flag;
   std::string_view reason;
@@ -70,7 +70,7 @@ int parse_repetitions(std::string_view value) {
 
 using Json = nlohmann::ordered_json;
 
-/// Keeps the names of what ran; prints nothing.
+/// Keeps the names of the benchmarks that ran; prints nothing.
 class NameCollector : public benchmark::BenchmarkReporter {
  public:
   NameCollector() { SetErrorStream(&messages_); }
@@ -86,7 +86,7 @@ class NameCollector : public benchmark::BenchmarkReporter {
   std::ostringstream messages_;
 };
 
-/// Takes the benchmarks out of the library's global list again, whatever happens.
+/// Removes the benchmarks from the library's global list again, whatever happens.
 struct RegisteredBenchmarks {
   RegisteredBenchmarks() = default;
   RegisteredBenchmarks(const RegisteredBenchmarks&) = delete;
@@ -99,7 +99,7 @@ void do_nothing(benchmark::State& state) { state.SkipWithError("not meant to be 
 
 benchmark::BenchmarkReporter::Run base_run(const CellRecord& cell) {
   benchmark::BenchmarkReporter::Run run;
-  // The library writes control characters of names as they are, which is no JSON.
+  // The library writes control characters of names unescaped, which is invalid JSON.
   run.run_name.function_name = printable(cell.id.name());
   run.run_name.time_type = "manual_time";
   run.family_index = 0;
@@ -179,7 +179,7 @@ BenchmarkFlags parse_benchmark_flags(const std::vector<std::string>& arguments) 
 
 GoogleBenchmark::GoogleBenchmark(const BenchmarkFlags& flags) {
   // The library also reads flags from the environment. Those that would repeat, redirect or list
-  // are set back: repetitions, files and lists are made here.
+  // are reset: repetitions, files and lists are made here.
   std::vector<std::string> arguments{"beambench", "--benchmark_min_warmup_time=0",
                                      "--benchmark_repetitions=1", "--benchmark_list_tests=false",
                                      "--benchmark_out="};

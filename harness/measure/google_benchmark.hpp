@@ -1,5 +1,5 @@
 #pragma once
-// Google Benchmark's command-line flags, as far as they mean something here.
+// Google Benchmark's command-line flags, as far as they apply here.
 
 #include <functional>
 #include <iosfwd>
@@ -40,21 +40,21 @@ class GoogleBenchmark {
   /// Throws InputError when the library refuses a flag.
   explicit GoogleBenchmark(const BenchmarkFlags& flags);
 
-  /// The names that --benchmark_filter selects, by the library's own matching. Throws InputError
-  /// when it selects none.
+  /// Returns the names that --benchmark_filter selects, by the library's own matching. Throws
+  /// InputError when it selects none.
   std::set<std::string> select(std::span<const std::string> names) const;
 
-  /// Runs the work for one iteration. Which contender's turn it is, the caller decides: the
+  /// Runs the work for one iteration. The caller decides which contender's turn it is: the
   /// library's own interleaving shuffles all repetitions at once and cannot stop one contender
   /// earlier than another.
   void run_once(const std::string& name, const TimedWork& work) const;
 
-  /// What the library states of the machine and this moment: date, load, processor and caches. The
-  /// host's name, which stays out of records, is left out.
+  /// Returns the library's description of the machine and this moment: date, load, processor and
+  /// caches. The host's name is left out, because it stays out of records.
   nlohmann::ordered_json context() const;
 };
 
-/// Writes cells as Google Benchmark writes its results: one entry for each repetition.
+/// Writes cells in the format of Google Benchmark's results: one entry for each repetition.
 void write_google_benchmark_json(std::ostream& out, const nlohmann::ordered_json& context,
                                  std::span<const CellRecord> cells);
 

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-/// A value as a message shows it.
+/// Returns a value as a message shows it.
 std::string shown(const json& value) {
   if (value.is_object()) return "an object";
   if (value.is_array()) return value.empty() ? "an empty list" : "a list";
@@ -88,7 +88,7 @@ std::string JsonNode::text() const {
 std::int64_t JsonNode::integer(std::int64_t minimum, std::int64_t maximum) const {
   const std::string expected = fmt::format("a whole number from {} to {}", minimum, maximum);
   if (!value_->is_number_integer()) fail_expecting(expected);
-  // A number beyond 2^63 - 1 is held unsigned and would wrap.
+  // A number beyond 2^63 - 1 is stored as unsigned and would wrap.
   const bool huge = value_->is_number_unsigned() && value_->get<std::uint64_t>() > INT64_MAX;
   const auto number = value_->get<std::int64_t>();
   if (huge || number < minimum || number > maximum) fail_expecting(expected);

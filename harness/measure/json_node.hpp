@@ -1,5 +1,5 @@
 #pragma once
-// The values of a JSON document that people write: every message names the place.
+// The values of a JSON document that people write, with messages that state the place.
 
 #include <cstdint>
 #include <functional>
@@ -16,15 +16,15 @@
 
 namespace beambench::measure {
 
-/// A value in a JSON document and its place. Whatever is not as expected throws InputError
-/// `file: /structures/1/parameters: expected ...`, with the value's JSON pointer (RFC 6901).
+/// A value in a JSON document and its place. An unexpected value throws InputError `file:
+/// /structures/1/parameters: expected ...`, with the value's JSON pointer (RFC 6901).
 class JsonNode {
  public:
   /// The whole document, which outlives the node and all nodes taken from it.
   JsonNode(const nlohmann::json& document, std::string file);
 
   const nlohmann::json& value() const { return *value_; }
-  /// `file: /structures/1`, as messages begin.
+  /// Returns `file: /structures/1`, the beginning of messages.
   std::string place() const;
   [[noreturn]] void fail(std::string_view message) const;
   /// Runs `work`, putting the place in front of an InputError that it throws.
@@ -37,20 +37,20 @@ class JsonNode {
     }
   }
 
-  /// Expects an object that has no keys but these.
+  /// Requires an object that has no keys but these.
   void require_object(std::initializer_list<std::string_view> known_keys) const;
-  /// A member of an object.
+  /// Returns a member of an object.
   std::optional<JsonNode> find(std::string_view key) const;
   JsonNode require(std::string_view key) const;
-  /// All members of an object, by key.
+  /// Returns all members of an object, by key.
   std::vector<std::pair<std::string, JsonNode>> members() const;
-  /// The elements of an array that has at least one.
+  /// Returns the elements of an array that has at least one.
   std::vector<JsonNode> elements() const;
 
   std::string text() const;
   std::int64_t integer(std::int64_t minimum, std::int64_t maximum) const;
   double number(double minimum, double maximum) const;
-  /// A number, flag or text as it is written after `key=` on a command line.
+  /// Returns a number, flag or text as it is written after `key=` on a command line.
   std::string parameter_text() const;
 
  private:

@@ -44,7 +44,7 @@ void write_mode(unsigned) {}
 
 constexpr int kMultiplications = 8000;
 
-/// Each factor is the product before it: no two of them can run at once.
+/// Each factor is the product before it, so that no two of them can run at once.
 std::uint64_t chain(std::uint64_t value) {
   for (int i = 0; i < kMultiplications; ++i) {
     value *= value;
@@ -76,7 +76,7 @@ perf_event_attr attributes_of(std::uint64_t config) {
   attributes.type = PERF_TYPE_HARDWARE;
   attributes.size = sizeof(attributes);
   attributes.config = config;
-  attributes.exclude_kernel = 1;  // also what unprivileged users may count
+  attributes.exclude_kernel = 1;  // also the only events that unprivileged users may count
   attributes.exclude_hv = 1;
   attributes.read_format = PERF_FORMAT_TOTAL_TIME_ENABLED | PERF_FORMAT_TOTAL_TIME_RUNNING;
   return attributes;

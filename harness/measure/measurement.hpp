@@ -1,5 +1,6 @@
 #pragma once
-// How timed code is run and measured: the same conditions and instruments for every contender.
+// Runs and measures timed code, under the same conditions and with the same instruments for every
+// contender.
 
 #include <array>
 #include <chrono>
@@ -20,7 +21,7 @@
 namespace beambench::measure {
 
 /// Sets the processor's floating-point mode while it lives: round to nearest, no traps, denormals
-/// flushed to zero and read as zero (MXCSR's FTZ and DAZ), as Embree asks for. Hits are verified
+/// flushed to zero and read as zero (MXCSR's FTZ and DAZ), as Embree requires. Hits are verified
 /// outside of it.
 class MeasuringFloatMode {
  public:
@@ -29,20 +30,20 @@ class MeasuringFloatMode {
   MeasuringFloatMode(const MeasuringFloatMode&) = delete;
   MeasuringFloatMode& operator=(const MeasuringFloatMode&) = delete;
 
-  /// Does this processor have such a mode that we know how to set?
+  /// Returns whether this processor has such a mode and the program can set it.
   static bool available();
-  /// Its MXCSR; 0 where there is none.
+  /// Returns its MXCSR; 0 where there is none.
   static unsigned control_word();
 
  private:
   unsigned previous_;
 };
 
-/// The core that the calling thread is on, or -1 where the system does not report it.
+/// Returns the core that the calling thread is on, or -1 where the system does not report it.
 int present_core();
 
 /// Pins the calling thread to a core while it lives, where the system allows that (and `core` is
-/// not -1). Threads started meanwhile inherit the pin, so wide work belongs outside of it.
+/// not -1). Threads started meanwhile inherit the pin, so parallel work belongs outside of it.
 class PinnedThread {
  public:
   explicit PinnedThread(int core);
@@ -62,7 +63,7 @@ struct PhaseTime {
   double cpu_ms;  ///< of this thread, or of all
 };
 
-/// The clock of the CPU time of work on that many threads.
+/// Returns the clock of the CPU time of work on that many threads.
 inline clockid_t cpu_clock(int threads) {
   return threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_PROCESS_CPUTIME_ID;
 }
@@ -77,18 +78,18 @@ PhaseTime time_phase(Work&& work, clockid_t clock = CLOCK_THREAD_CPUTIME_ID) {
   return {wall_ms, cpu.milliseconds()};
 }
 
-/// The rate of the core's clock in GHz: from the time of a chain of dependent integer
+/// Returns the rate of the core's clock in GHz: from the time of a chain of dependent integer
 /// multiplications, three cycles each on the x86 processors of the last fifteen years (Fog,
-/// Instruction tables); elsewhere it is right but for a constant factor. The fastest of a few
-/// slices, some 30 us in all: an interrupt makes a slice longer, nothing makes one shorter.
+/// Instruction tables); elsewhere it is off by a constant factor. Uses the fastest of a few slices,
+/// some 30 us in all: an interrupt makes a slice longer, nothing makes one shorter.
 double clock_ghz();
 
-/// Bytes in use in all of the heap, headers and rounding included, by glibc's mallinfo2; nothing
-/// where the allocator does not report it. Memory that a library maps past the allocator is left
-/// out.
+/// Returns the bytes in use in the whole heap, including headers and rounding, by glibc's
+/// mallinfo2; nothing where the allocator does not report it. Memory that a library maps past the
+/// allocator is not included.
 std::optional<std::uint64_t> heap_in_use();
 
-/// The growth between two readings; 0 when it shrank, nothing when one is missing.
+/// Returns the growth between two readings; 0 when it shrank, nothing when one is missing.
 std::optional<std::uint64_t> heap_growth(std::optional<std::uint64_t> before,
                                          std::optional<std::uint64_t> after);
 
@@ -97,13 +98,13 @@ std::optional<std::uint64_t> heap_growth(std::optional<std::uint64_t> before,
 /// half; nothing when the time was too short.
 std::optional<double> warm_up(std::chrono::duration<double> duration);
 
-/// How much longer than the median slice the slowest twentieth took, as a part of the median: equal
-/// work takes longer only because of others (interrupts, other tenants, the clock).
+/// Returns the additional time of the slowest twentieth over the median slice, as a part of the
+/// median: equal work takes longer only because of others (interrupts, other tenants, the clock).
 /// Nothing for fewer than 40 slices.
 std::optional<double> noise(std::span<const double> slices);
 
-/// The time of a trace that costs a structure nothing: the median of several in milliseconds, after
-/// one that is not timed. `core` is to pin to; -1: any.
+/// Returns the time of a trace that costs a structure nothing: the median of several in
+/// milliseconds, after one that is not timed. `core` is to pin to; -1: any.
 double harness_ms(int core, const std::function<void()>& trace);
 
 /// Opens an event of the calling thread: a file descriptor, or -1 and errno (perf_event_open(2)).
@@ -119,14 +120,14 @@ class HardwareCounters {
   HardwareCounters(const HardwareCounters&) = delete;
   HardwareCounters& operator=(const HardwareCounters&) = delete;
 
-  /// Why an event is not counted, in a sentence; empty when all are.
+  /// Returns why an event is not counted, in a sentence; empty when all are counted.
   const std::string& problem() const { return problem_; }
 
-  /// Runs `work` and returns what was counted meanwhile.
+  /// Runs `work` and returns the counts during it.
   HardwareCounts count(const std::function<void()>& work) const;
 
  private:
-  /// As read from an event: its count, and for how long it was enabled and running (the system lets
+  /// The state of an event: its count, and for how long it was enabled and running (the system lets
   /// events take turns when there are too few counters).
   struct Reading {
     std::uint64_t value;

@@ -76,7 +76,7 @@ void add_group(const SweepConfig& config, const SceneEntry& entry, CellGroup gro
   if (!group.cells.empty()) plan.groups.push_back(std::move(group));
 }
 
-/// The groups of a scene in one of its views.
+/// Returns the groups of a scene in one of its views.
 std::vector<CellGroup> groups_of(const SweepConfig& config,
                                  const std::shared_ptr<const scenes::Scene>& scene,
                                  std::uint64_t hash, const scenes::Camera& camera) {
@@ -96,8 +96,8 @@ std::vector<CellGroup> groups_of(const SweepConfig& config,
   return groups;
 }
 
-/// `label`, a structure or scene with all parameters, without those at their defaults; whatever
-/// `infos` do not have, such as a file, as it is.
+/// Returns `label`, a structure or scene with all parameters, without those at their defaults;
+/// anything that is not in `infos`, such as a file, stays as it is.
 template <class Infos>
 std::string shortened(const Infos& infos, const std::string& label) {
   const std::string name = label.substr(0, label.find(':'));

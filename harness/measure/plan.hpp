@@ -32,7 +32,7 @@ struct CellGroup {
   int threads = 1;  ///< that trace an image
   std::vector<PlannedCell> cells;
 
-  /// `escena1/default/320x200/1/primary`.
+  /// Returns `escena1/default/320x200/1/primary`.
   std::string name() const;
   rays::ImageOfRays image() const { return {camera, resolution, samples}; }
 };
@@ -49,7 +49,7 @@ struct Plan {
 /// loaded, has no camera of that name, or nothing is left to measure.
 Plan make_plan(const SweepConfig& config);
 
-/// The scenes that the plan measures, each once.
+/// Returns the scenes that the plan measures, each once.
 std::vector<SceneFacts> scene_facts(const Plan& plan);
 
 /// Leaves out the cells that `keep` refuses, and groups without cells.
@@ -61,11 +61,12 @@ void filter_cells(Plan& plan, Keep keep) {
   std::erase_if(plan.groups, [](const CellGroup& group) { return group.cells.empty(); });
 }
 
-/// `CellId::name` without the parameters of the scene and the structure that are at their defaults,
-/// which would fill lines: `escena1/default/320x200/1/primary/samet:max_level=6`.
+/// Returns `CellId::name` without the parameters of the scene and the structure that are at their
+/// defaults, which would fill lines: `escena1/default/320x200/1/primary/samet:max_level=6`.
 std::string shown_name(const CellId& id);
 
-/// A scene's name likewise: `tetra:n=4`, or `tetra` for `tetra:n=6`. A path stays as it is.
+/// Returns the same for a scene's name: `tetra:n=4`, or `tetra` for `tetra:n=6`. A path stays as it
+/// is.
 std::string shown_scene(const std::string& scene);
 
 }  // namespace beambench::measure

@@ -22,10 +22,10 @@ namespace {
 /// The share of the limit to aim at: a generator may round its size up.
 constexpr double kNearLimit = 0.99;
 
-/// A size gets a row of its own from this many times the primitives of the last one on.
+/// The factor in primitives over the last row from which a size gets a row of its own.
 constexpr double kMinGrowth = 1.02;
 
-/// A generator, its parameters as they were given, and the one that is its size.
+/// A generator, the given parameters, and the one that is its size.
 struct Growing {
   const scenes::SceneInfo& info;
   Spec spec;
@@ -72,7 +72,7 @@ GrownScene measure(const Growing& growing, std::int64_t size) {
 
 /// The sizes of a scene whose growth is unknown. Between two sizes, and a little beyond, it is
 /// assumed to grow by a power of the size; a scene that doubles with each step has growing powers,
-/// so that this errs to the low side.
+/// so that the estimates are too low rather than too high.
 class Sizes {
  public:
   Sizes(const ParameterInfo& parameter, std::size_t limit)
@@ -82,18 +82,19 @@ class Sizes {
 
   std::int64_t first() const { return minimum_; }
 
-  /// The size after `size`, which has this many primitives; nothing when it would be too large.
+  /// Returns the size after `size`, which has this many primitives; nothing when it would be too
+  /// large.
   std::optional<std::int64_t> after(std::int64_t size, std::size_t primitives) {
     const Point last{shifted(size), static_cast<double>(primitives)};
     const double power = power_at(last);
     before_ = last;
-    // Twice the primitives, or as many as the limit allows.
+    // Aims at twice the primitives, or as many as the limit allows.
     const double factor = std::min(2.0, kNearLimit * limit_ / last.primitives);
     const double step = power > 0.0 ? std::pow(factor, 1.0 / power) : 2.0;
     const auto wanted = last.size * std::clamp(step, 1.0, 4.0);
     std::int64_t next = std::llround(std::floor(wanted)) + minimum_ - 1;
     const double one_more = last.primitives * std::pow((last.size + 1.0) / last.size, power);
-    // Where not even one step fits in, it may be a large one; many small ones would show nothing.
+    // If not even one step fits, a single step may be large; many small ones would show nothing.
     const bool worth_it = one_more <= limit_ && one_more >= kMinGrowth * last.primitives;
     if (next <= size && (worth_it || power <= 0.0)) next = size + 1;
     next = std::min(next, maximum_);

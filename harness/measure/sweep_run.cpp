@@ -35,13 +35,13 @@
 namespace beambench::measure {
 namespace {
 
-/// The core to pin to, or -1 where pinning does not work.
+/// Returns the core to pin to, or -1 where pinning does not work.
 int pinnable_core() {
   const int core = present_core();
   return PinnedThread(core).pinned() ? core : -1;
 }
 
-/// `35.1 ms [34.9, 35.6]`: the median of times, and its interval where there is one.
+/// Returns `35.1 ms [34.9, 35.6]`: the median of times, and its interval where there is one.
 std::string with_interval(const std::vector<double>& times) {
   const std::string text = fmt::format("{:.4g} ms", median(times));
   const std::optional<Interval> interval = median_interval(times);
@@ -49,8 +49,8 @@ std::string with_interval(const std::vector<double>& times) {
   return fmt::format("{} [{:.4g}, {:.4g}]", text, interval->low, interval->high);
 }
 
-/// `build 1.23 ms, trace 35.1 ms [34.9, 35.6], second trace 34.0 ms [33.8, 34.3], 37.0 Mrays/s, ok
-/// after 12 repetitions (precision)`; the second trace where there was one.
+/// Returns `build 1.23 ms, trace 35.1 ms [34.9, 35.6], second trace 34.0 ms [33.8, 34.3], 37.0
+/// Mrays/s, ok after 12 repetitions (precision)`; the second trace where there was one.
 std::string result_line(const CellRecord& cell) {
   if (!cell.keeps_times()) return fmt::format("{}: {}", to_string(cell.verdict), cell.message);
   const std::vector<double> trace = collect(cell, &Repetition::trace_ms);
@@ -64,7 +64,7 @@ std::string result_line(const CellRecord& cell) {
                      to_string(*cell.stop_reason));
 }
 
-/// The cells of a plan by name.
+/// Returns the cells of a plan by name.
 std::vector<PlannedName> names_of(const Plan& plan) {
   std::vector<PlannedName> names;
   for (const CellGroup& group : plan.groups) {
@@ -73,13 +73,13 @@ std::vector<PlannedName> names_of(const Plan& plan) {
   return names;
 }
 
-/// A group's name without what is at its default.
+/// Returns a group's name without the parameters at their defaults.
 std::string shown(const CellGroup& group) {
   std::string name = group.name();
   return name.replace(0, group.scene->name.size(), shown_scene(group.scene->name));
 }
 
-/// Fisher and Yates's shuffle, with random numbers that are the same on every machine.
+/// Shuffles as Fisher and Yates do, with random numbers that are the same on every machine.
 template <class T>
 void shuffle(std::vector<T>& values, Random& random) {
   for (std::size_t left = values.size(); left > 1; --left) {
@@ -94,9 +94,10 @@ struct OpenGroup {
   std::vector<Contender> contenders;
 };
 
-/// How many groups from `first` on are measured together: views of one scene, few enough that their
-/// rays fit into memory and that an interrupted run has little to repeat. One that is larger is
-/// measured alone, and one whose rays are in a file, since their number is not known yet.
+/// Returns the number of groups from `first` that are measured together: views of one scene, few
+/// enough that their rays fit into memory and that an interrupted run has little to repeat. A
+/// larger one is measured alone, and one whose rays are in a file, since their number is not known
+/// yet.
 std::size_t batch_size(std::span<const CellGroup> groups, std::size_t first) {
   constexpr double kMaxRays = 4e6;
   constexpr std::size_t kMaxGroups = 8;
@@ -193,7 +194,7 @@ class SweepRun {
     return log;
   }
 
-  /// What an earlier part of the run has of a cell.
+  /// The record of a cell from an earlier part of the run.
   std::optional<CellRecord> earlier(const PlannedCell& cell) {
     auto found = unfinished_.extract(cell.index);
     return found ? std::optional(std::move(found.mapped())) : std::nullopt;
@@ -226,8 +227,8 @@ class SweepRun {
   }
 
   /// Measures groups together, so that the repetitions of a cell are as far apart in time as those
-  /// of all: what disturbs the machine for half a minute meets some repetitions of each view, not
-  /// all of one.
+  /// of all: a disturbance of the machine for half a minute affects some repetitions of each view,
+  /// not all of one.
   void run_batch(std::span<const CellGroup> groups, double share_ms) {
     const base::Stopwatch watch;
     std::vector<OpenGroup> open;
@@ -236,12 +237,13 @@ class SweepRun {
       cells += static_cast<double>(group.cells.size());
       if (std::optional<OpenGroup> opened = open_group(group)) open.push_back(std::move(*opened));
     }
-    // The time of the oracle and of the counting passes is the groups' own.
+    // The time of the oracle and of the counting passes belongs to the groups.
     measure(std::move(open), std::max(share_ms - watch.milliseconds() / cells, 0.0));
     set_activity("");
   }
 
-  /// Its rays made, its contenders counted; nothing where there are no rays, which is recorded.
+  /// Makes the rays of a group and counts the work of its contenders. Where the scene has no rays,
+  /// records that and returns nothing.
   std::optional<OpenGroup> open_group(const CellGroup& group) {
     progress_.start(shown(group));
     options_.before_each_piece();
@@ -273,8 +275,8 @@ class SweepRun {
   }
 
   /// Runs rounds of one repetition for each contender until all are done. A round goes from group
-  /// to group, and within one from contender to contender, in orders shuffled anew: what slows the
-  /// machine down for a while slows all that are compared.
+  /// to group, and within one from contender to contender, in orders shuffled anew, so that a
+  /// temporary slowdown of the machine affects all that are compared.
   void measure(std::vector<OpenGroup> groups, double allowance_ms) {
     if (groups.empty()) return;
     const Instruments instruments{benchmark_, counters_, core_, config_.threads};
@@ -293,7 +295,7 @@ class SweepRun {
           set_activity(each->id().key());
           options_.before_each_piece();
           each->repeat(instruments, round, position, log_);
-          // At once: a run that is cut off now must not resume with a wrong repetition.
+          // Immediately: a run that is cut off now must not resume with a wrong repetition.
           each = each->failed() ? finish(open, each) : std::next(each);
           progress_.advance(work_done(groups, allowance_ms));
         }
@@ -326,8 +328,8 @@ class SweepRun {
     std::erase_if(groups, [](const OpenGroup& open) { return open.contenders.empty(); });
   }
 
-  /// How far the unfinished are, in whole contenders: by the larger of the time and the repetitions
-  /// that they have used up.
+  /// Returns the progress of the unfinished, in whole contenders: by the larger of the time and the
+  /// repetitions that they have used up.
   double work_done(const std::vector<OpenGroup>& groups, double allowance_ms) const {
     double done = 0.0;
     for (const OpenGroup& open : groups) {

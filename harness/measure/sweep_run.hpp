@@ -15,29 +15,28 @@
 namespace beambench::measure {
 
 struct SweepOptions {
-  /// Where to; nothing: a new folder in results/runs, named after the run.
+  /// The output folder; nothing: a new folder in results/runs, named after the run.
   std::optional<std::filesystem::path> folder{};
-  /// Continue the run in `folder`.
+  /// Continues the run in `folder`.
   bool resume = false;
   /// The part of a sweep that the plan is; nothing: all of it.
   std::optional<PlannedShard> shard{};
   /// Called with the run's folder as soon as the run can be resumed.
   std::function<void(const std::filesystem::path&)> begun = [](const std::filesystem::path&) {};
-  /// Gets the key of the cell that is being measured, for the process that cleans up after a crash.
-  /// Cells that crashed an earlier process are recorded and not measured again.
+  /// Receives the key of the cell that is being measured, for the process that cleans up after a
+  /// crash. Cells that crashed an earlier process are recorded and not measured again.
   plugin::Activity* activity = nullptr;
   /// The folder that holds /proc and the control groups, from which CPU quotas are read.
   std::filesystem::path root = "/";
-  /// Called before each group's rays are made, each counting pass and each repetition. What it
-  /// throws ends the run; every repetition is kept.
+  /// Called before each group's rays are made, each counting pass and each repetition. An exception
+  /// ends the run; every repetition is kept.
   std::function<void()> before_each_piece = [] {};
 };
 
-/// Measures all cells of `plan` that the log in the folder does not have yet; an unfinished one
-/// goes on behind its last repetition. Only the log is written (`RunLog`). Progress, mismatches and
-/// notes go to `messages`. Returns the folder. Throws InputError when it cannot be written, already
-/// holds a run, or holds one that cannot be resumed; a structure's fault is recorded and never
-/// thrown.
+/// Measures all cells of `plan` that are not in the folder's log yet; an unfinished one continues
+/// after its last repetition. Only the log is written (`RunLog`). Progress, mismatches and notes go
+/// to `messages`. Returns the folder. Throws InputError when it cannot be written, already holds a
+/// run, or holds one that cannot be resumed; a structure's fault is recorded and never thrown.
 std::filesystem::path run_sweep(const SweepConfig& config, Plan plan,
                                 const GoogleBenchmark& benchmark, const SweepOptions& options,
                                 std::FILE* messages);

@@ -103,7 +103,7 @@ class RaysTask : public Task {
   int core_;
 };
 
-/// Of all rays, camera rays first.
+/// Returns the hash of all rays, camera rays first.
 std::uint64_t hash_of(const accel::PrimaryRays& rays, const render::RecordedPicture& picture) {
   std::string hashes = rays::hex_digits(rays::fingerprint(rays));
   for (const render::AskedRays& asked : picture.asked) {
@@ -113,10 +113,10 @@ std::uint64_t hash_of(const accel::PrimaryRays& rays, const render::RecordedPict
   return rays::fingerprint(hashes);
 }
 
-/// The picture of `render --shade whitted`, on one thread: camera rays by what the structure has
-/// for images (beams), the rest in waves, shading included. Not the picture is verified but every
-/// answer that it depends on, reflected, refracted and shadow rays too: a second drawing, with all
-/// of them recorded, must give the same bits as the timed one.
+/// The picture of `render --shade whitted`, on one thread: camera rays by the structure's traversal
+/// for images (beams), the rest in waves, shading included. Not the picture itself but every hit
+/// that it depends on is verified, reflected, refracted and shadow rays too: a second drawing, with
+/// all of them recorded, must give the same bits as the timed one.
 class PictureTask : public Task {
  public:
   PictureTask(const CellGroup& group, int core)
@@ -132,7 +132,7 @@ class PictureTask : public Task {
         render::record_picture(shaded_, render::OracleQueries(oracle), rays_, reference_.rounded(),
                                options_, rays::HitCheck(scene(), "the oracle"));
     set_facts(picture);
-    // What the picture takes without a structure: its results are known.
+    // Measures the time of the picture without a structure: its results are known.
     hits_ = picture.primary;
     const auto& [reflected, refracted, shadow] = picture.asked;
     shading_ms_ = harness_ms(core, [&] {
@@ -186,7 +186,7 @@ class PictureTask : public Task {
                               const accel::StructureChoice& choice) override {
     poison();
     render::RecordedPicture picture = [&] {
-      const MeasuringFloatMode mode;  // as it was timed
+      const MeasuringFloatMode mode;  // in the mode in which it was timed
       structure.closest_hits(rays_, hits_, {});
       return render::record_picture(shaded_, structure, rays_, hits_, options_,
                                     rays::HitCheck(scene(), choice));

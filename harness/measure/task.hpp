@@ -1,5 +1,5 @@
 #pragma once
-// What the contenders of a group trace: rays, or a whole picture.
+// The work that the contenders of a group trace: rays, or a whole picture.
 
 #include <cstdint>
 #include <map>
@@ -22,7 +22,7 @@ struct Verification {
   std::vector<std::string> examples;  ///< disputed rays, described, where the verdict is bad
 };
 
-/// Rays, and one buffer for their results: contenders take turns.
+/// Rays, and one buffer for their results, which contenders use in turns.
 class Task {
  public:
   Task(const Task&) = delete;
@@ -35,25 +35,26 @@ class Task {
     return {group_.camera, static_cast<std::size_t>(facts_.rays), group_.threads};
   }
 
-  /// A clause about rays that are not as expected.
+  /// Returns a clause about unexpected rays.
   virtual std::optional<std::string> warning() const { return std::nullopt; }
 
-  /// Overwrites all results with invalid ones: the differ finds each that is left unwritten.
+  /// Overwrites all results with invalid ones, so that the differ finds each one that is not
+  /// written.
   virtual void poison() = 0;
-  /// Throws UnsupportedError where a structure does not take these rays.
+  /// Throws UnsupportedError where a structure does not support these rays.
   virtual void require_support(const accel::StructureChoice& choice) const = 0;
-  /// Traces with a structure. This is what is timed.
+  /// Traces with a structure. This is timed.
   virtual void trace(const accel::Accelerator& structure) = 0;
-  /// The same, counting work.
+  /// Traces in the same way, counting work.
   virtual CountedWork count(const accel::Accelerator& structure) = 0;
-  /// Of all results, bit for bit.
+  /// Returns a fingerprint of all results, bit for bit.
   virtual std::uint64_t fingerprint() const = 0;
-  /// Verifies the answers; may have `structure`, which `choice` has built, trace again for it.
+  /// Verifies the results; may have `structure`, which `choice` has built, trace again for this.
   virtual Verification verify_results(const accel::Accelerator& structure,
                                       const accel::StructureChoice& choice) = 0;
 
-  /// The query path of `structure`, and the harness's own share of a trace by it, which is measured
-  /// when it is first wanted. Overwrites all answers.
+  /// Returns the query path of `structure`, and the harness's own share of a trace by it, which is
+  /// measured when it is first needed. Overwrites all results.
   HarnessShare harness_share(const accel::Accelerator& structure);
 
  protected:
@@ -61,7 +62,8 @@ class Task {
   explicit Task(const CellGroup& group) : group_(group) {}
 
   virtual QueryPath path_of(const accel::Accelerator& structure) const = 0;
-  /// What a trace by `path`, which is not the structure's own, takes where answers cost nothing.
+  /// Returns the time of a trace by `path`, which is not the structure's own, where results cost
+  /// nothing.
   virtual double measure_harness_ms(QueryPath path) = 0;
 
   const CellGroup& group_;
@@ -71,8 +73,8 @@ class Task {
   std::map<QueryPath, double> harness_ms_;
 };
 
-/// The task of a group. `core` is to measure the harness's own time on (-1: any). Throws as
-/// `make_trace_input`.
+/// Makes the task of a group. `core` is the core to measure the harness's own time on (-1: any).
+/// Throws like `make_trace_input`.
 std::unique_ptr<Task> make_task(const CellGroup& group, int core);
 
 }  // namespace beambench::measure

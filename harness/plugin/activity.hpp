@@ -30,7 +30,7 @@ class Activity {
   void clear(Line line) { write(line, ""); }
   std::string read(Line line) const;
 
-  /// Records that a cell crashed: its key and a sentence. Returns false if there is no space left.
+  /// Records that a cell crashed: its key and a sentence. Returns false if the space is used up.
   bool add_crashed_cell(std::string_view key, std::string_view how);
   /// Returns the sentences by key.
   std::map<std::string, std::string> crashed_cells() const;
@@ -46,10 +46,10 @@ class Activity {
 
 /// Runs this program again with the same arguments in a guarded process (see `guarded_activity`),
 /// and returns the exit code for this one: that of the guarded process or, if foreign code crashed,
-/// hung while being loaded or ended the process, 1 after a sentence on stderr with the code and the
-/// place (2 if it was being loaded). If that happened in a cell of a sweep, the program is run
-/// again, with the cell among the broken ones. Termination signals are passed on. Called at the
-/// start of a program.
+/// did not return from being loaded, or ended the process, 1 after a sentence on stderr with the
+/// code and the place (2 if it was being loaded). If that happened in a cell of a sweep, the
+/// program is run again, with the cell among the broken ones. Termination signals are passed on.
+/// Called at the start of a program.
 int run_guarded(char** arguments);
 
 /// Returns where a guarded process records what it is doing; nullptr in other processes.

@@ -33,7 +33,7 @@ decltype(auto) foreign_call(std::string_view who, std::string_view what, Code&& 
     throw PluginError(fmt::format("the plug-in {} threw {}: {}", who, what, error.what()));
   } catch (...) {
     throw PluginError(
-        fmt::format("the plug-in {} threw {} something that is no std::exception", who, what));
+        fmt::format("the plug-in {} threw {} something that is not a std::exception", who, what));
   }
 }
 

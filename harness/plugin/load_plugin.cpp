@@ -85,9 +85,10 @@ const Plugin& open(const std::string& file) {
   }
   const void* entry = ::dlsym(object, kEntry);
   if (entry == nullptr) {
-    refuse(file, fmt::format("is no plug-in of beambench: it defines no '{}'; see 'Bring your own "
-                             "structure' in the README",
-                             kEntry));
+    refuse(file,
+           fmt::format("is not a beambench plug-in: it does not define '{}'; see 'Bring your own "
+                       "structure' in the README",
+                       kEntry));
   }
   return *static_cast<const Plugin*>(entry);
 }
@@ -126,7 +127,7 @@ void require_same_version(const std::string& file, std::uint32_t version) {
 /// Reads `layout` and the following members only if the version guarantees that they exist.
 void require_same_stamp(const std::string& file, const PluginStamp& stamp) {
   if (stamp.magic != kPluginStamp.magic) {
-    refuse(file, fmt::format("is no plug-in of beambench: its '{}' is something else", kEntry));
+    refuse(file, fmt::format("is not a beambench plug-in: its '{}' is something else", kEntry));
   }
   require_same_version(file, stamp.interface_version);
   if (std::strcmp(stamp.library, kPluginStamp.library) != 0) {

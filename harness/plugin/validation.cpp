@@ -38,40 +38,40 @@ bool lies_within(std::uint64_t first, std::uint64_t count, std::size_t size) {
 }
 
 void check_sphere(const scenes::Sphere& sphere, scenes::PrimitiveId id) {
-  require(is_point(sphere.center), id, "has a center that is no point");
-  require(is_radius(sphere.radius) && sphere.radius > 0.0F, id, "has a radius that is none");
+  require(is_point(sphere.center), id, "has a center that is not a point");
+  require(is_radius(sphere.radius) && sphere.radius > 0.0F, id, "has an invalid radius");
 }
 
 void check_cone(const scenes::Cone& cone, scenes::PrimitiveId id) {
   require(is_point(cone.base) && is_point(cone.apex) && cone.base != cone.apex, id,
-          "has an axis that is none");
+          "has an invalid axis");
   require(is_radius(cone.base_radius) && is_radius(cone.apex_radius) &&
               cone.base_radius + cone.apex_radius > 0.0F,
-          id, "has radii that are none");
+          id, "has invalid radii");
 }
 
 void check_polygon(const scenes::Scene& scene, const scenes::Polygon& polygon,
                    scenes::PrimitiveId id) {
   require(polygon.corner_count >= 3 &&
               lies_within(polygon.first_corner, polygon.corner_count, scene.corners.size()),
-          id, "has corners that are not there");
+          id, "has corners that do not exist");
   require(polygon.triangle_count >= 1 &&
               lies_within(polygon.first_triangle, polygon.triangle_count, scene.triangles.size()),
-          id, "has triangles that are not there");
+          id, "has triangles that do not exist");
   require(polygon.first_normal == scenes::Polygon::kFlat ||
               lies_within(polygon.first_normal, polygon.corner_count, scene.normals.size()),
-          id, "has normals that are not there");
+          id, "has normals that do not exist");
   for (std::uint32_t i = 0; i < polygon.corner_count; ++i) {
     const std::uint32_t vertex = scene.corners[polygon.first_corner + i];
-    require(vertex < scene.vertices.size(), id, "has a corner that is no vertex");
-    require(is_point(scene.vertices[vertex]), id, "has a corner that is no point");
+    require(vertex < scene.vertices.size(), id, "has a corner that is not a vertex");
+    require(is_point(scene.vertices[vertex]), id, "has a corner that is not a point");
   }
   for (std::uint32_t i = 0; i < polygon.triangle_count; ++i) {
     const scenes::Triangle& triangle = scene.triangles[polygon.first_triangle + i];
     require(triangle.primitive == id, id, "has a triangle that belongs to another");
     for (const std::uint32_t vertex : triangle.vertex) {
       require(vertex < scene.vertices.size() && is_point(scene.vertices[vertex]), id,
-              "has a triangle with a corner that is no point");
+              "has a triangle with a corner that is not a point");
     }
   }
 }

@@ -125,7 +125,7 @@ SceneHandle unpickled(const nb::bytes& given, std::vector<std::string> warnings)
 ArrayOut<std::uint32_t> without_area(const Vertices& vertices, const Triangles& triangles) {
   for (const auto& corners : triples_of(triangles)) {
     for (const std::uint32_t corner : corners) {
-      if (corner >= vertices.shape(0)) throw InputError("a corner is no vertex");
+      if (corner >= vertices.shape(0)) throw InputError("a corner is not a vertex");
     }
   }
   std::vector<std::uint32_t> found;

@@ -13,8 +13,8 @@
 namespace beambench::rays {
 
 /// Arrays with one element for each ray, in the order of the rays; missing ones are empty. For
-/// closest hits: `t` or `points` and, if the program knows them, `primitives` or `triangles`. For
-/// any hits: only `occluded`.
+/// closest hits: `t` or `points` and, if the program provides them, `primitives` or `triangles`.
+/// For any hits: only `occluded`.
 struct ClaimedHits {
   std::span<const float> t{};           ///< the hit is at origin + t * direction; infinity: a miss
   std::span<const glm::vec3> points{};  ///< the point that is hit; infinite: a miss

@@ -100,9 +100,10 @@ class Columns {
 
  private:
   [[noreturn]] static void refuse_names(const std::filesystem::path& path) {
-    fail(path, fmt::format("this is no file of hits: its first line is neither '{}' nor the names "
-                           "of columns, {}",
-                           kFirstLine, kColumnHelp));
+    fail(path,
+         fmt::format("this is not a file of hits: its first line is neither '{}' nor the names "
+                     "of columns, {}",
+                     kFirstLine, kColumnHelp));
   }
 
   [[noreturn]] static void refuse_missing(const std::string& place, Column column) {

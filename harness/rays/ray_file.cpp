@@ -257,9 +257,10 @@ class CsvRays : public RayReader::Format {
 
  private:
   [[noreturn]] void refuse_columns() const {
-    fail(path_, fmt::format("this is no file of rays: its first line is neither '{}' nor the names "
-                            "of columns, ox,oy,oz,t_min,dx,dy,dz,t_max",
-                            kFirstLine));
+    fail(path_,
+         fmt::format("this is not a file of rays: its first line is neither '{}' nor the names "
+                     "of columns, ox,oy,oz,t_min,dx,dy,dz,t_max",
+                     kFirstLine));
   }
 
   std::filesystem::path path_;

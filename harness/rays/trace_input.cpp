@@ -232,7 +232,7 @@ TraceInput make_trace_input(const scenes::Scene& scene, const ImageOfRays& image
   }
   if (choice.kind == RayKind::kWhitted) {
     throw InputError(
-        "the rays of a whole picture follow from a structure's own hits, so they are no list; "
+        "the rays of a whole picture follow from a structure's own hits, so they are not a list; "
         "'whitted' is for the sweeps of 'beambench run', 'beambench verify' and 'render --shade', "
         "and 'beambench census' counts its rays");
   }

@@ -20,7 +20,8 @@
 namespace beambench::render {
 namespace {
 
-/// In increasing severity; the position is the category in the map, except for agreement.
+/// The classes in increasing severity; the position is the category in the map, except for
+/// agreement.
 constexpr std::array kBySeverity{verify::DiffClass::kTie, verify::DiffClass::kGraze,
                                  verify::DiffClass::kEmbreeError,
                                  verify::DiffClass::kStructureError};

@@ -27,8 +27,7 @@ struct RayPath {
   Mismatch verified;
   std::optional<accel::Hit> alone;  ///< its closest hit, traced alone
   bool asked_all = true;            ///< whether all rays of the input were traced
-  /// For beams: those that contain the sample. The steps are then those of the sample with its
-  /// beams.
+  /// The beams that contain the sample. The steps are then those of the sample with its beams.
   std::vector<accel::BeamPassage> beams;
 };
 

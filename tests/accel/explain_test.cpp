@@ -1,4 +1,4 @@
-// A ray's traversal path, step by step: what is reported is what was done.
+// A ray's traversal path, step by step: the report matches the actual work.
 
 #include <algorithm>
 #include <array>
@@ -53,8 +53,8 @@ TEST(Explain, SametTraversesASmallOctreeAsByHand) {
   ray.origin = {3.25F, 0.25F, 1.5F};
   ray.direction = {-1.0F, 0.0F, -0.5F};
 
-  // From the empty leaf at (2, 0, 0), left at x = 2, into that at the origin, whose triangle is met
-  // where the ray leaves it.
+  // From the empty leaf at (2, 0, 0), left at x = 2, into the leaf at the origin, whose triangle is
+  // hit where the ray leaves it.
   const std::vector<TraceStep> steps = samet.path(ray);
   ASSERT_EQ(steps.size(), 2U);
   expect_leaf(steps[0], 2, {2.0, 0.0, 0.0}, 0.0, 1.25);
@@ -99,7 +99,7 @@ std::optional<Hit> nearest(const std::vector<TraceStep>& steps) {
   return best;
 }
 
-// Holds for every structure that reports steps, and for those that are still to come.
+// Holds for every structure that reports steps, including future ones.
 TEST(Explain, ReportsTheWorkThatIsCountedAndTheHitThatIsFound) {
   int reported = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {

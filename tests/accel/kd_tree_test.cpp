@@ -231,7 +231,7 @@ TEST(KdTree, CapOnReferencesFollowsThePrimitives) {
   EXPECT_EQ(given.references_for(5'000'000), 5U);
 }
 
-TEST(KdTree, RefusesWhatIsOutOfRange) {
+TEST(KdTree, RefusesParametersOutOfRange) {
   for (const char* spec : {"kd-tree:traversal_cost=0", "kd-tree:empty_bonus=1.5",
                            "kd-tree:max_depth=65", "kd-tree:builder=mean"}) {
     EXPECT_THROW(registry().choose(parse_spec(spec)), InputError) << spec;

@@ -63,7 +63,7 @@ void expect_no_more_than_there_are(const scenes::Scene& scene) {
   }
 }
 
-TEST(LeastReferences, AreNoMoreThanThereAre) {
+TEST(LeastReferences, NeverExceedTheActualNumber) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
     expect_no_more_than_there_are(tests::random_scene(seed, 1));
@@ -75,7 +75,7 @@ TEST(LeastReferences, AreNoMoreThanThereAre) {
   }
 }
 
-TEST(LeastReferences, OfOneConeAreNoMoreThanThereAre) {
+TEST(LeastReferences, OfOneConeNeverExceedTheActualNumber) {
   for (const double radius : {0.0, 0.3, 1.0, 1.9}) {
     for (const glm::dvec3& apex : std::vector<glm::dvec3>{
              {0.0, 0.0, 3.0}, {1e-6, 0.0, 0.0}, {0.1, 0.0, 0.0}, {1.0, 2.0, 3.0}}) {

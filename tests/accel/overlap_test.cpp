@@ -137,7 +137,7 @@ RC_GTEST_PROP(OverlapTriangle, AgreesWithClipping, (std::uint32_t seed)) {
   }
 }
 
-TEST(SameSurface, HoldsForEqualNumbersAlone) {
+TEST(SameSurface, HoldsOnlyForEqualNumbers) {
   scenes::SceneBuilder builder("pairs");
   const std::vector<glm::dvec3> corners{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   std::vector<glm::dvec3> moved = corners;

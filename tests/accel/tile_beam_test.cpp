@@ -1,4 +1,4 @@
-// tile-beam: images to within rounding, without a gap, and single rays bit for bit.
+// tile-beam: images correct to within rounding, without gaps, and single rays bit for bit.
 
 #include "accel/tile_beam/tile_beam.hpp"
 
@@ -35,14 +35,14 @@ scenes::Camera random_camera(const scenes::Scene& scene, Random& random) {
   return camera;
 }
 
-/// The distance below which float cannot tell two places apart: K u of the differ.
+/// The distance below which float cannot distinguish two places: K u of the differ.
 double indistinct(const scenes::Scene& scene, const glm::vec3& eye) {
   return 16.0 * 0x1p-24 *
          (static_cast<double>(scene.bounds.largest_coordinate()) + glm::length(glm::dvec3(eye)));
 }
 
-/// Do rays near the given one, at the distance of the hits in question, have both results? Then the
-/// results differ by rounding only.
+/// Returns whether rays near the given one, at the distance of the hits in question, produce both
+/// results. If so, the results differ only by rounding.
 bool is_close_call(const exhaustive::Exhaustive& exhaustive, const Ray& ray,
                    const std::optional<Hit>& answer, double slack) {
   const float t = answer ? answer->t : 1.0F;
@@ -107,7 +107,7 @@ Comparison compare(const scenes::Scene& scene, const PrimaryRays& rays, const Hi
 
 HitBuffer image_of(const tile_beam::TileBeam& structure, const PrimaryRays& rays) {
   HitBuffer image(rays.width(), rays.height(), rays.samples());
-  std::fill_n(image.t(), image.size(), -1.0F);  // what is not written shows
+  std::fill_n(image.t(), image.size(), -1.0F);  // reveals entries that are not written
   structure.closest_hits(rays, image, {});
   return image;
 }
@@ -149,7 +149,7 @@ TEST(TileBeam, ImagesOfCatalogueScenesAreThoseOfExhaustive) {
   }
 }
 
-/// An eye that touches what it looks at: hits at t = 0 lie in the interval.
+/// An eye that touches the scene: hits at t = 0 lie in the interval.
 struct Touching {
   std::string name;
   scenes::Scene scene;
@@ -208,7 +208,7 @@ std::vector<Touching> touching_eyes() {
   return all;
 }
 
-/// Looking along an axis, a diagonal, and neither.
+/// Cameras that look along an axis, along a diagonal, and in another direction.
 std::vector<scenes::Camera> cameras_at(const glm::vec3& eye) {
   std::vector<scenes::Camera> cameras;
   for (const glm::vec3& direction : {glm::vec3(1, 0, 0), glm::vec3(0, 0, -1), glm::vec3(-1, 1, 0),
@@ -223,7 +223,7 @@ std::vector<scenes::Camera> cameras_at(const glm::vec3& eye) {
   return cameras;
 }
 
-/// Sample for sample what exhaustive search finds at the eye. Elsewhere float may differ.
+/// Counts the samples that differ from exhaustive search at the eye. Elsewhere float may differ.
 std::size_t wrong_at_eye(const scenes::Scene& scene, const PrimaryRays& rays,
                          const HitBuffer& image) {
   const exhaustive::Exhaustive exhaustive(scene);
@@ -235,7 +235,7 @@ std::size_t wrong_at_eye(const scenes::Scene& scene, const PrimaryRays& rays,
         const auto actual = image.get(image.index(x, y, sample));
         const auto at_eye = [](const auto& hit) { return hit && !(hit->t > 1e-5F); };
         if (!at_eye(expected) && !at_eye(actual)) continue;
-        // Of several at one place either may be named.
+        // Any of several at one place is valid.
         if (!expected || !actual || !(std::abs(expected->t - actual->t) <= 1e-12F)) ++wrong;
       }
     }
@@ -299,7 +299,7 @@ TEST(TileBeam, OnePixelIsAnImage) {
   }
 }
 
-/// A closed mesh seen from within: every sample must be covered, wherever edges and vertices lie.
+/// A closed mesh seen from inside: every sample must be covered, wherever edges and vertices lie.
 TEST(TileBeam, AClosedMeshHasNoGap) {
   for (const char* name : {"bumpy:triangles=768", "bumpy:triangles=12288"}) {
     const scenes::Scene scene = scenes::load_scene(name);
@@ -309,7 +309,8 @@ TEST(TileBeam, AClosedMeshHasNoGap) {
     for (int view = 0; view < 200; ++view) {
       scenes::Camera camera = random_camera(scene, random);
       const glm::vec3 middle = 0.5F * (scene.bounds.lower + scene.bounds.upper);
-      // Well within: the mesh is a sphere with bumps, of a quarter of its box's side at least.
+      // Well inside: the mesh is a bumpy sphere with a radius of at least a quarter of its box's
+      // side.
       const glm::vec3 to = 0.2F * (scene.bounds.upper - scene.bounds.lower);
       for (int axis = 0; axis < 3; ++axis) {
         camera.from[axis] = middle[axis] + to[axis] * static_cast<float>(random.uniform(-1.0, 1.0));

@@ -219,7 +219,7 @@ TEST(VoxelGrid, AutomaticVoxelsAreFewerForACluster) {
   EXPECT_LE(build("voxel-grid:max_references=100000", scene)->statistics().references, 100'000U);
 }
 
-TEST(VoxelGrid, RefusesWhatIsTooLargeBeforeItIsMade) {
+TEST(VoxelGrid, RefusesAGridThatIsTooLargeBeforeItIsMade) {
   const scenes::Scene scene = scenes::load_scene("escena1");
   const std::string voxels = refusal("voxel-grid:resolution=4096", scene);
   for (const char* word : {"4096x4096x4096", "68719476736 voxels", "max_voxels", "resolution"}) {

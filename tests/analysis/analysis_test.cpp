@@ -257,7 +257,7 @@ TEST(Analysis, OfALogIsThatOfTheRun) {
   EXPECT_EQ(to_json(analyze(measure::read_run(folder.path() / "cut off"))), to_json(analyze(run)));
 }
 
-TEST(Conclude, MakesEveryFileFromTheLogAlone) {
+TEST(Conclude, MakesEveryFileFromOnlyTheLog) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "run";
   const measure::Run run = run_of_all_kinds();

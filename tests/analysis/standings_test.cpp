@@ -52,7 +52,7 @@ TEST(Standings, WhatTheNoiseHidesIsATie) {
   EXPECT_NE(describe(views).find("tie: "), std::string::npos);
 }
 
-TEST(Standings, FewRoundsDecideNothingAndAreNoTieEither) {
+TEST(Standings, FewRoundsDecideNothingNotEvenATie) {
   const std::vector<CellRecord> cells{cell_of({"samet", {1.0, 1.0, 1.0}}),
                                       cell_of({"embree", {2.0, 2.0, 2.0}})};
   const Standings view = standings(run_of(cells)).at(0);
@@ -149,7 +149,7 @@ TEST(Standings, TimesOfTwoMachinesAreNotCompared) {
   EXPECT_EQ(all.means[0].contender, "embree");
 }
 
-TEST(Standings, AViewWithoutTimesSaysSo) {
+TEST(Standings, AViewWithoutTimesIsReportedAsSuch) {
   const std::vector<CellRecord> cells{cell_of({"samet", {}, 0.0, "", Verdict::kError})};
   const auto views = standings(run_of(cells));
   EXPECT_TRUE(views[0].ranked.empty());

@@ -260,7 +260,7 @@ TEST_F(Config, CellsRequestedTwiceAreMadeOnce) {
   EXPECT_EQ(plan.merged, 12U);
 }
 
-TEST_F(Config, ExclusionsLeaveOutWhatMeetsAllTheirConditions) {
+TEST_F(Config, ExclusionsLeaveOutCellsThatMeetAllTheirConditions) {
   json document = fine();
   document["exclude"] = json::parse(
       R"([{"structure": "samet", "primitives_above": 3, "rays_above": 100}, {"scene": "balls:n=0"}])");

@@ -118,7 +118,7 @@ TEST(Shard, IsReadAndWritten) {
   EXPECT_EQ(to_string(Shard{2, 4}), "2/4");
 }
 
-TEST(Shard, WhatIsNoShardIsRefused) {
+TEST(Shard, InvalidShardsAreRefused) {
   for (const char* text : {"", "/", "2", "0/4", "5/4", "-1/4", "1/0", "1/-4", "1/4/2", "1/4 ",
                            " 1/4", "a/b", "1.5/4", "99999999999/99999999999"}) {
     EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { parse_shard(text); }),

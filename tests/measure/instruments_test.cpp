@@ -77,7 +77,7 @@ TEST(HardwareCounters, OfThisMachineCountOrSayWhyNot) {
   EXPECT_GT(counts[0], 1000U);
 }
 
-TEST(Heap, GrowsByWhatIsAllocated) {
+TEST(Heap, GrowsByTheAllocatedAmount) {
   const auto before = heap_in_use();
   if (!before) GTEST_SKIP() << "this allocator does not report its bytes";
   for (const std::size_t size : {std::size_t{20'000}, std::size_t{8'000'000}}) {

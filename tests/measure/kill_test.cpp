@@ -233,7 +233,7 @@ TEST_F(Kill, AtRandomMomentsLosesNothing) {
 
 class Interrupted : public Kill, public testing::WithParamInterface<int> {};
 
-TEST_P(Interrupted, EndsAtOnceAndSaysHowToContinue) {
+TEST_P(Interrupted, EndsAtOnceAndPrintsHowToContinue) {
   make_second_cell_long();
   const Process process = start("my run");
   wait_for_a_cell("my run");
@@ -316,7 +316,7 @@ struct FullDisk {
 
 class AFullDisk : public Kill, public testing::WithParamInterface<FullDisk> {};
 
-TEST_P(AFullDisk, KeepsWhatIsInTheLog) {
+TEST_P(AFullDisk, KeepsTheContentOfTheLog) {
   const TinyDisk disk(folder_.path() / "disk", GetParam().size);
   if (!disk.mounted()) GTEST_SKIP() << "this process may not mount a small disk";
   EXPECT_EQ(WEXITSTATUS(start("disk/run").wait()), 2);

@@ -59,7 +59,7 @@ class RunCommand : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(RunCommand, MeasuresAndSaysWhereTheRecordIs) {
+TEST_F(RunCommand, MeasuresAndPrintsWhereTheRecordIs) {
   write_sweep({"exhaustive", "null"});
   const Result result = run("tiny.json -o record");
   EXPECT_EQ(result.exit_code, 0) << result.err;

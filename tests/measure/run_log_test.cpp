@@ -445,7 +445,7 @@ TEST(RunLog, RefusesAPlaceWhereNoFolderCanBe) {
                    {"cannot make", "file/run", "-o"}));
 }
 
-TEST(RunLog, RefusesToResumeWhatIsNoRun) {
+TEST(RunLog, RefusesToResumeAFolderWithoutARun) {
   const TemporaryFolder folder;
   for (const auto& read : {+[](const std::filesystem::path& path) { read_run(path); },
                            +[](const std::filesystem::path& path) { RunLog::open(path); }}) {

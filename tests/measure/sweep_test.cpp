@@ -1,5 +1,5 @@
-// Whole sweeps over tiny scenes: what is right keeps its times, what is wrong loses them, and what
-// is finished is not repeated.
+// Whole sweeps over tiny scenes: correct cells keep their times, wrong cells lose them, and
+// finished cells are not repeated.
 
 #include <algorithm>
 #include <cstdint>
@@ -40,10 +40,10 @@ namespace {
 
 using nlohmann::json;
 
-/// A trace that a broken structure spoils.
+/// A trace that a faulty structure corrupts.
 struct Traced {
   const accel::HitSpan& buffer;    ///< with the right hits
-  const accel::HitBuffer& before;  ///< what was in it before
+  const accel::HitBuffer& before;  ///< the contents before the trace
   int pass;  ///< counts the traces: the counting one is 0, the two of repetition n 2n - 1 and 2n
 };
 using Fault = std::function<void(const Traced&)>;
@@ -154,8 +154,8 @@ class Sweep : public testing::Test {
   TemporaryFolder folder_;
 };
 
-/// Intervals aside: four repetitions have none. A quick trace may have nothing beyond the
-/// harness's.
+/// Excludes intervals: four repetitions have none. A quick trace may take no longer than the
+/// harness.
 bool is_time(const std::string& column) {
   return column.find("_ms_") != std::string::npos && column.find("_ci_") == std::string::npos &&
          column != "trace_net_ms_median";
@@ -255,7 +255,7 @@ TEST_F(Sweep, AListOfRaysIsReadOneByOneOrInPackets) {
   EXPECT_GT(row("embree")["harness_ms"], 0.0);
 }
 
-/// The resident memory of this process, in bytes; 0 where the system does not say.
+/// Returns the resident memory of this process, in bytes; 0 if unknown.
 std::uint64_t resident_bytes() {
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;) {
@@ -265,7 +265,7 @@ std::uint64_t resident_bytes() {
   return 0;
 }
 
-/// A cell took 20 kB or more, for as long as the run went on, and at its end as much again.
+/// Formerly, a cell took 20 kB or more during the run, and as much again at its end.
 TEST_F(Sweep, MemoryDoesNotGrowWithTheCells) {
   json document = config({"null", "exhaustive"});
   document["scenes"] = {"tetra:n=1"};
@@ -275,7 +275,7 @@ TEST_F(Sweep, MemoryDoesNotGrowWithTheCells) {
     document["resolutions"].push_back(fmt::format("{}x1", width));
   }
 #ifdef __GLIBC__
-  malloc_trim(0);  // what earlier tests of this process have freed would hide growth
+  malloc_trim(0);  // memory freed by earlier tests of this process would hide growth
 #endif
   std::vector<std::uint64_t> resident;
   SweepOptions options;
@@ -323,7 +323,7 @@ TEST_F(Sweep, ContendersTakeTurns) {
   for (const auto& [round, taken] : positions) EXPECT_EQ(taken, (std::set<int>{0, 1, 2}));
 }
 
-/// So that a slow half of a minute meets some repetitions of each view, not all of one.
+/// Ensures that a slow half-minute affects some repetitions of each view, not all of one.
 TEST_F(Sweep, ViewsOfASceneTakeTurns) {
   std::vector<std::size_t> rays;  // of each trace
   add_faulty([&](const Traced& traced) { rays.push_back(traced.buffer.size()); });
@@ -343,8 +343,8 @@ TEST_F(Sweep, ViewsOfASceneTakeTurns) {
   }
 }
 
-/// Rays of several views are in memory together, so they are few; and no more than eight views, so
-/// that an interrupted run loses little.
+/// Limits the number of rays in memory together. There are at most eight views, so that an
+/// interrupted run loses little.
 TEST_F(Sweep, NoMoreThanEightViewsTakeTurns) {
   std::vector<std::size_t> rays;
   add_faulty([&](const Traced& traced) { rays.push_back(traced.buffer.size()); });
@@ -361,7 +361,7 @@ TEST_F(Sweep, NoMoreThanEightViewsTakeTurns) {
   EXPECT_TRUE(at_most(8)) << "the ninth view does not wait for the eighth to end";
 }
 
-/// A fault in the hits, and what the message says of it.
+/// A fault in the hits, and the message about it.
 struct Planted {
   const char* name;
   Fault fault;
@@ -554,7 +554,7 @@ TEST_F(Sweep, AnExceptionInATimedRepetitionEndsThatCellOnly) {
 class Resume : public Sweep {
  protected:
   Resume() {
-    // Right, and counted, unless `fault_` is set.
+    // Correct and counted, unless `fault_` is set.
     add_faulty([this](const Traced& traced) {
       ++traces_;
       fault_(traced);
@@ -589,7 +589,7 @@ class Resume : public Sweep {
   Fault fault_ = [](const Traced&) {};
 };
 
-/// Ends a run as Ctrl-C does.
+/// Ends a run like Ctrl-C.
 struct SweepStopped : std::runtime_error {
   SweepStopped() : std::runtime_error("interrupted") {}
 };
@@ -641,8 +641,8 @@ TEST_F(Resume, MakesUpForTheCellsThatAreMissing) {
   EXPECT_EQ(read_json("google-benchmark.json")["benchmarks"].size(), 16U);
 }
 
-/// How many traces a resumed run owes its cell `faulty`: none of a finished one; else the counting
-/// pass, and two of each repetition that is not in the log yet.
+/// Returns the number of traces missing for the cell `faulty` of a resumed run: none for a finished
+/// cell; otherwise the counting pass, and two for each repetition not in the log.
 int owed_traces(std::span<const std::string> lines, int index) {
   const auto count = [&](const char* kind) {
     return static_cast<int>(std::ranges::count_if(lines, [&](const std::string& line) {
@@ -660,7 +660,7 @@ TEST_F(Resume, NoRepetitionInTheLogIsMadeAgain) {
   const int faulty = json::parse(lines[1]).at("structure") == "faulty" ? 0 : 1;
   for (std::size_t kept = 1; kept <= lines.size(); ++kept) {
     const auto begin = std::span(lines).first(kept);
-    // It may be cut off within a line, too.
+    // The log may also be truncated within a line.
     const std::string part = kept < lines.size() ? lines[kept].substr(0, kept) : "";
     write_log(begin, part);
     const std::vector<json> before = all_cells();
@@ -687,7 +687,7 @@ TEST_F(Resume, NoRepetitionInTheLogIsMadeAgain) {
   }
 }
 
-/// So that a contender's repetitions and those of the others still meet in rounds.
+/// Ensures that a contender's repetitions still form rounds with those of the others.
 TEST_F(Resume, RoundsOfOneViewGoOnBehindTheLastOfAll) {
   run(config_);
   const std::vector<std::string> lines = log();
@@ -718,7 +718,7 @@ TEST_F(Resume, OtherAnswersThanBeforeAreAMismatch) {
   expect_times(faulty, false);
 }
 
-/// Whatever comes before the others' turn is over: a time without correct hits would remain.
+/// Otherwise a time without correct hits would remain.
 TEST_F(Resume, AWrongRepetitionIsNotForgotten) {
   for (const int wrong : {1, 2, 3, 5, 7}) {
     std::filesystem::remove_all(results());

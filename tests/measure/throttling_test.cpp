@@ -121,7 +121,7 @@ class ThrottledSweep : public testing::Test {
   int throttled_ = 0;
 };
 
-TEST_F(ThrottledSweep, SaysSoInSummaryAndManifest) {
+TEST_F(ThrottledSweep, IsReportedInSummaryAndManifest) {
   system_.write("sys/fs/cgroup/a/cpu.max", "20000 100000\n");
   system_.count_throttling("/a", 70, 50);  // before the run
   throttled_ = 50;

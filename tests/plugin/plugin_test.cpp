@@ -81,7 +81,7 @@ TEST(RequestedPlugins, TheEnvironmentsComeFirst) {
   ::unsetenv("BEAMBENCH_PLUGINS");
 }
 
-TEST(Activity, KeepsLinesApartAndCutsOffWhatIsTooLong) {
+TEST(Activity, KeepsLinesApartAndTruncatesLongOnes) {
   Activity activity;
   activity.write(Activity::Line::kForeign, "asking ", "'mine'");
   activity.write(Activity::Line::kRunFolder, std::string(10'000, 'x'));
@@ -100,7 +100,7 @@ TEST(CheckScene, PassesWhatTheBuilderMakes) {
   EXPECT_NO_THROW(check_scene(scenes::SceneBuilder("empty").build()));
 }
 
-TEST(CheckScene, RefusesWhatLeavesItsArraysOrIsNoNumber) {
+TEST(CheckScene, RefusesInvalidIndicesAndNumbers) {
   const scenes::Scene sound = tests::random_scene(7, 60);
   ASSERT_FALSE(sound.spheres.empty());
   ASSERT_FALSE(sound.cones.empty());

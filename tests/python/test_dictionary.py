@@ -148,7 +148,7 @@ def test_every_example_and_reader_of_results_keeps_the_name_null(repository: Pat
         check=False,
     ).stdout.split()
     if not texts:
-        pytest.skip("this is no repository")
+        pytest.skip("this is not a repository")
     calls = [
         call
         for name in texts

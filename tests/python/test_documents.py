@@ -195,7 +195,7 @@ def test_links_lead_somewhere() -> None:
     listed = shell("git ls-files --cached --others --exclude-standard '*.md'", REPOSITORY)
     texts = [REPOSITORY / name for name in listed.stdout.split() if (REPOSITORY / name).is_file()]
     if not texts:
-        pytest.skip("this is no repository")
+        pytest.skip("this is not a repository")
     broken = []
     for text in texts:
         for link in re.findall(r"\]\(([^)\s]+)\)", text.read_text("utf-8")):

@@ -343,7 +343,7 @@ NOT_A_NUMBER = SQUARE.copy()
 NOT_A_NUMBER[2, 1] = np.nan
 
 INVALID: dict[str, tuple[Callable[[], object], type[Exception], str]] = {
-    "a coordinate that is no number": (
+    "a coordinate that is not a number": (
         lambda: bb.Scene.from_triangles(NOT_A_NUMBER, HALVES),
         bb.InputError,
         r"vertices\[2\] is \(1, nan, 0\)",
@@ -353,7 +353,7 @@ INVALID: dict[str, tuple[Callable[[], object], type[Exception], str]] = {
         bb.InputError,
         r"vertices\[1\] is \(2e\+09, 0, 0\)",
     ),
-    "an index that is no vertex": (
+    "an index that is not a vertex": (
         lambda: bb.Scene.from_triangles(SQUARE, [[0, 1, 2], [0, 2, 4]]),
         bb.InputError,
         r"triangles\[1\] is \(0, 2, 4\), but there are 4 vertices",
@@ -373,7 +373,7 @@ INVALID: dict[str, tuple[Callable[[], object], type[Exception], str]] = {
         bb.InputError,
         r"triangles has shape \(1, 4\); expected \(T, 3\)",
     ),
-    "triangles that are no integers": (
+    "triangles that are not integers": (
         lambda: bb.Scene.from_triangles(SQUARE, HALVES.astype(float)),
         TypeError,
         r"triangles has dtype float64; expected integers",
@@ -391,14 +391,14 @@ INVALID: dict[str, tuple[Callable[[], object], type[Exception], str]] = {
     "vertices of unequal length": (
         lambda: bb.Scene.from_triangles([[0, 0, 0], [1, 0]], HALVES),
         bb.InputError,
-        r"vertices is no array",
+        r"vertices is not an array",
     ),
     "a scene too small": (
         lambda: bb.Scene.from_triangles(SQUARE * 1e-12, HALVES),
         bb.InputError,
         r"diagonal of its box",
     ),
-    "up that is no axis": (
+    "up that is not an axis": (
         lambda: bb.Scene.from_triangles(SQUARE, HALVES, up="w"),
         bb.InputError,
         r"up is 'w'; expected 'y' or 'z'",
@@ -435,7 +435,7 @@ INVALID: dict[str, tuple[Callable[[], object], type[Exception], str]] = {
         bb.InputError,
         r"the eye is the point looked at",
     ),
-    "something that is no camera": (
+    "something that is not a camera": (
         lambda: plane().rays(camera=3),
         TypeError,
         r"camera is 3; expected a Camera, a name, or None",
@@ -509,7 +509,7 @@ INVALID: dict[str, tuple[Callable[[], object], type[Exception], str]] = {
         r"rays has shape \(5, 7\); expected \(N, 8\)",
     ),
     "rays of text": (lambda: trace([["a"] * 8]), TypeError, r"rays has dtype <U1"),
-    "a ray that is no number": (
+    "a ray that is not a number": (
         lambda: trace([row(), row(), row(oy=np.nan)]),
         bb.InputError,
         r"^ray 2: origin\.y is nan",

@@ -295,13 +295,13 @@ INVALID: dict[str, tuple[Callable[[], object], type[Exception], str]] = {
         TypeError,
         r"primitive has dtype float64; expected integers",
     ),
-    "t that is no number": (
+    "t that is not a number": (
         claims_of_two(t=[1, np.nan]),
         bb.InputError,
         r"^ray 1: t is not a number; a miss has t = infinity$",
     ),
     "t that is -infinity": (claims_of_two(t=[-np.inf, 1]), bb.InputError, r"^ray 0: t is -inf"),
-    "a point that is no number": (
+    "a point that is not a number": (
         claims_of_two(point=[[0, 0, 0], [0, np.nan, 0]]),
         bb.InputError,
         r"^ray 1: a coordinate of the point is not a number",

@@ -358,7 +358,7 @@ def test_compare_builds_each_commit_and_measures_in_turns(
 ) -> None:
     """Runs in a clone, with a cmake that only copies the program: building would take minutes."""
     if not BINARY.exists() or not (repository / ".git").exists():
-        pytest.skip("beambench is not built, or this is no repository")
+        pytest.skip("beambench is not built, or this is not a repository")
     clone = tmp_path / "clone"
     call("git", "clone", "-q", "--shared", repository, clone, directory=tmp_path)
     # The code under test, committed or not.

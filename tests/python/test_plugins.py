@@ -297,7 +297,7 @@ def test_what_is_no_plug_in_is_refused(faulty_folder: Path, tmp_path: Path) -> N
     text.write_text("not a shared object")
     refused(call("--plugin", text, "list"), ["text.so", "cannot be loaded"])
     stranger = faulty_folder / "libstranger.so"
-    refused(call("--plugin", stranger, "list"), ["libstranger.so", "no plug-in of beambench"])
+    refused(call("--plugin", stranger, "list"), ["libstranger.so", "not a beambench plug-in"])
 
 
 def test_another_interface_is_refused_by_its_stamp(
@@ -315,7 +315,7 @@ def test_another_interface_is_refused_by_its_stamp(
         file.write_bytes(changed)
         refused(call("--plugin", file, "list"), ["libchanged.so", *words])
 
-    refusal_of(0, 0, ["no plug-in of beambench"])
+    refusal_of(0, 0, ["not a beambench plug-in"])
     for other in (1, 2, version + 1):
         refusal_of(8, other, [f"version {other} of the interface", f"this program has {version}"])
         refusal_of(8, other, ["build it again"])
@@ -409,7 +409,9 @@ def test_a_sweep_that_is_interrupted_in_a_plug_in_says_how_to_go_on(
     assert f"beambench --plugin {faulty} run --resume {folder}" in messages.splitlines()[-1]
 
 
-@pytest.mark.parametrize("fault", ["primitive out of range", "t is no number", "answers nothing"])
+@pytest.mark.parametrize(
+    "fault", ["primitive out of range", "t is not a number", "answers nothing"]
+)
 def test_nonsense_is_no_result(faulty: Path, tmp_path: Path, fault: str) -> None:
     code, rows, _ = sweep(tmp_path, faulty, fault)
     assert code == 1
@@ -459,7 +461,7 @@ def failure_of_picture(faulty: Path, tmp_path: Path, fault: str, *options: str) 
         ("crash in trace", ["querying 'faulty' over row", "crashed (SIGSEGV"]),
         ("primitive out of range", ["structure 'faulty' returned an invalid hit", "4000000000"]),
         (
-            "t is no number",
+            "t is not a number",
             ["structure 'faulty' returned an invalid hit", "t = nan", "pixel (0, 0)"],
         ),
         ("throw in scene", ["threw when it made the scene row", "no idea"]),
@@ -484,7 +486,7 @@ def test_an_overlay_of_places_that_cannot_be_fails_by_name(
     assert f"the plug-in {faulty}: structure 'faulty' returned invalid places" in message
 
 
-@pytest.mark.parametrize("fault", ["t is no number", "primitive out of range"])
+@pytest.mark.parametrize("fault", ["t is not a number", "primitive out of range"])
 @pytest.mark.parametrize(
     "command",
     [
@@ -505,7 +507,7 @@ def test_nothing_is_made_of_hits_that_cannot_be(
     assert "crashed" not in done.stderr
     message = next(line for line in done.stderr.splitlines() if "invalid hit" in line)
     assert f"the plug-in {faulty}: structure 'faulty' returned an invalid hit: " in message
-    assert ("t = nan" if fault == "t is no number" else "primitive 4000000000") in message
+    assert ("t = nan" if fault == "t is not a number" else "primitive 4000000000") in message
     assert not (tmp_path / "out.png").exists()
     if command[0] == "verify":  # the other structures are still judged
         assert "exhaustive over row:n=3, whitted rays: ok" in done.stderr

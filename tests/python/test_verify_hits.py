@@ -263,7 +263,7 @@ def test_other_files_are_refused_with_one_sentence(traced: Traced, tmp_path: Pat
         (SCENE, rays, tmp_path / "words.csv", ["words.csv:3", "column 't'", "'maybe'"]),
         (SCENE, rays, tmp_path / "cut.hits", ["cut.hits", "bytes of hits"]),
         (SCENE, rays, tmp_path / "none.hits", ["none.hits", "No such file"]),
-        (SCENE, rays, rays, ["this is no file of hits"]),
+        (SCENE, rays, rays, ["this is not a file of hits"]),
         (SCENE, hits, hits, ["'beambench rays"]),
         ("tetra:n=2", rays, hits, ["made for a scene with hash"]),
         (SCENE, tmp_path / "nan.csv", hits, ["nan.csv:3"]),

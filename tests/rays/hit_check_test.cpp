@@ -46,7 +46,7 @@ scenes::Scene mirror_glass_and_wall() {
   return std::move(builder).build();
 }
 
-TEST(HitCheck, KnowsWhatARayCanHit) {
+TEST(HitCheck, PassesOnlyHitsThatARayCanHave) {
   const scenes::Scene scene = mirror_glass_and_wall();
   ASSERT_EQ(scene.primitives.size(), 3U);
   const HitCheck check(scene, "structure 'x'");

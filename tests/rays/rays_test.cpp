@@ -176,7 +176,7 @@ scenes::Scene floor_and_ceiling(double height) {
 }
 
 // With density cos / pi, a direction has a cosine above c with probability 1 - c^2.
-TEST(OcclusionRays, MeetACeilingAsOftenAsTheirLengthSays) {
+TEST(OcclusionRays, HitACeilingAsOftenAsTheirLengthImplies) {
   constexpr double kDistance = 2.0;
   for (const double height : {1.0, 1.8, 2.1}) {
     const scenes::Scene scene = floor_and_ceiling(height);
@@ -260,7 +260,7 @@ TEST(SecondaryRays, DoNotMeetTheSurfaceTheyLeave) {
   }
 }
 
-TEST(RandomRays, MeetAConvexBodyAsOftenAsItsSurfaceSays) {
+TEST(RandomRays, HitAConvexBodyInProportionToItsSurface) {
   const scenes::Scene scene = lonely_sphere();
   constexpr std::size_t kCount = 200'000;
   RaySet set{random_rays(scene.bounds, kCount, 1), "random", Query::kClosestHit, 1};
@@ -391,14 +391,14 @@ TEST_F(AnyHitAnswers, AreAMismatchWhereOneIsWrong) {
   }
 }
 
-TEST_F(AnyHitAnswers, AreAMismatchWhereOneIsNoAnswer) {
+TEST_F(AnyHitAnswers, AreAMismatchWhereOneIsInvalid) {
   answer(7) = 2;
   EXPECT_EQ(verified().count(verify::DiffClass::kStructureError), 1U);
   poison(results_);
   EXPECT_EQ(verified().count(verify::DiffClass::kStructureError), reference_.input().size());
 }
 
-TEST_F(AnyHitAnswers, OfABaselineAreAllNo) {
+TEST_F(AnyHitAnswers, AreAllMissesForABaseline) {
   EXPECT_EQ(verify::verify_results(reference_, results_, accel::Conformance::kBaseline).verdict,
             verify::Verdict::kMismatch);
   EXPECT_EQ(verify::verify_results(reference_, make_results(reference_.input()),

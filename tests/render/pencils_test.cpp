@@ -253,7 +253,7 @@ int visibly_different(const Image& a, const Image& b) {
 
 // If a structure's pencils are correct within tolerance, other rays follow, so each of its pictures
 // is verified with its own rays. The pictures differ in a few places where rays graze edges.
-TEST(Pencils, OfTolerantStructuresGiveTheSamePictureButForGrazes) {
+TEST(Pencils, OfTolerantStructuresGiveTheSamePictureExceptForGrazes) {
   std::vector<scenes::Scene> all;
   all.push_back(mirror_room());
   for (const char* name : {"teapot:n=3", "closed-room", "casa-de-campo"}) {

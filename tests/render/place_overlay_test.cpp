@@ -130,7 +130,7 @@ TEST(ParseOverlay, ReadsTheLight) {
   EXPECT_EQ(parse_overlay("beams", structure("tile-beam")).overlay, Overlay::kBeams);
 }
 
-TEST(ParseOverlay, NamesWhatIsPossible) {
+TEST(ParseOverlay, ListsThePossibleValues) {
   EXPECT_NE(refusal_of("pencil", "tile-beam").find("beams, cells, pencils"), std::string::npos);
   EXPECT_NE(refusal_of("pencils", "beam").find("structures that have: tile-beam"),
             std::string::npos);

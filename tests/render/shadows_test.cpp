@@ -49,7 +49,7 @@ TEST(Whitted, WaysOfFindingShadowsDifferOnlyWhereSomethingTouchesGlass) {
   }
 }
 
-TEST(LightBuffer, AnswersAsASearchOfAllPrimitives) {
+TEST(LightBuffer, AgreesWithASearchOfAllPrimitives) {
   std::size_t hidden = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);

@@ -78,7 +78,7 @@ std::vector<glm::dvec3> light(const Whitted& tracer, const Listed& camera, std::
   return colors;
 }
 
-TEST(Waves, AskInBatchesAlone) {
+TEST(Waves, TraceOnlyInBatches) {
   const scenes::Scene scene = scene_of_all_surfaces(2);
   const auto structure = built(scene, "sah-bvh");
   const CountedCalls counted(*structure);

@@ -239,7 +239,7 @@ TEST(Whitted, TotalReflectionIsOneRayThatCarriesBothShares) {
       << "no ray is spawned at the last depth";
 }
 
-TEST(Whitted, ByTheRulesOfSpdGlassSpawnsAMirrorRayThatThePictureTakesNothingFrom) {
+TEST(Whitted, GlassSpawnsAnUnusedMirrorRayByTheRulesOfSpd) {
   scenes::SceneBuilder builder = with_light({0.0, 0.0, -50.0});
   builder.set_surface({.diffuse = 0.0F, .transmittance = 0.5F, .refraction_index = 1.5F});
   add_floor(builder, 0.0);

@@ -157,7 +157,7 @@ TEST(WholePicture, AWrongRayThatFollowsIsFoundAndNamed) {
   }
 }
 
-TEST(WholePicture, IsNoListOfRays) {
+TEST(WholePicture, IsNotAListOfRays) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=1");
   const rays::ImageOfRays image{scene.cameras.front(), {8, 8}, 1};
   EXPECT_THROW(rays::make_trace_input(scene, image, rays::parse_ray_choice("whitted")), InputError);

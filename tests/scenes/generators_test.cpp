@@ -111,7 +111,7 @@ TEST(Catalogue, ScenesAreNamedByTheirLabel) {
   EXPECT_EQ(load_scene("stetra").name, "stetra");
 }
 
-TEST(Catalogue, TheResolutionThatASceneAsksForHasSquarePixels) {
+TEST(Catalogue, TheRequestedResolutionOfASceneHasSquarePixels) {
   for (const SceneInfo& info : scene_catalogue()) {
     for (const Camera& camera : load_scene(info.name).cameras) {
       EXPECT_FLOAT_EQ(static_cast<float>(camera.width) / static_cast<float>(camera.height),

@@ -393,7 +393,7 @@ TEST_F(Gltf, PointsAndLinesAreCounted) {
 
 // Refused files
 
-TEST_F(Gltf, ARefusedOneSaysWhy) {
+TEST_F(Gltf, ARefusalStatesTheReason) {
   const auto with = [](const auto& change) {
     GltfFile file = gltf_triangle();
     file.add_indices({0, 1, 2}, GltfType::kUShort);

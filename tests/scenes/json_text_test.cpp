@@ -27,7 +27,7 @@ TEST(Json, IsReadAsItStands) {
   EXPECT_EQ(ordered.begin().key(), "b");
 }
 
-TEST(Json, RefusesWhatIsNoJsonByLineAndColumn) {
+TEST(Json, RefusesInvalidJsonByLineAndColumn) {
   EXPECT_TRUE(says(refusal("{\n  \"a\": smet}"), {"a.json:2:8", "not JSON"}));
   EXPECT_TRUE(says(refusal("{\n\"a\": 1,\n}"), {"a.json:3:1", "a comma before this '}'"}));
   EXPECT_TRUE(says(refusal("[\"\xFF\"]"), {"a.json:1:", "UTF-8", "\\xff"}));

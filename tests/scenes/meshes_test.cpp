@@ -138,7 +138,7 @@ TEST_F(Meshes, WhatHasNoAreaIsLeftOutAndCounted) {
 
 // Refused files, and the reasons
 
-TEST_F(Meshes, ARefusedOneSaysWhy) {
+TEST_F(Meshes, ARefusalStatesTheReason) {
   EXPECT_TRUE(says(message("empty.obj", ""), {"empty.obj", "the file is empty"}));
   EXPECT_TRUE(
       says(message("text.stl", "These are no triangles."), {"text.stl", "export it again"}));

@@ -258,7 +258,7 @@ TEST(NffWriter, WritesWhatOtherProgramsRead) {
             "pp 3\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n");
 }
 
-TEST(NffWriter, SaysWhenTheStreamFails) {
+TEST(NffWriter, ReportsAFailingStream) {
   std::ostringstream stream;
   stream.setstate(std::ios::badbit);
   nff::write_nff(SceneBuilder("test").build(), stream);

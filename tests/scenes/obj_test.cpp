@@ -142,7 +142,7 @@ TEST_F(Obj, FacesNameVerticesInEveryWay) {
   EXPECT_EQ(read("v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3").mesh.triangles.size(), 1U);
 }
 
-TEST_F(Obj, ARefusedOneSaysWhere) {
+TEST_F(Obj, ARefusalStatesThePlace) {
   const auto refused = [&](const std::string& lines,
                            std::initializer_list<std::string_view> words) {
     EXPECT_TRUE(says(message(kThreeVertices + lines), words)) << lines;
@@ -266,7 +266,7 @@ TEST_F(Obj, FaceOutlinesOfOldFilesAreFaces) {
   EXPECT_EQ(read(std::string(kThreeVertices) + "fo 1 2 3\n").mesh.triangles.size(), 1U);
 }
 
-TEST_F(Obj, WhatIsNoFaceIsCounted) {
+TEST_F(Obj, ElementsOtherThanFacesAreCounted) {
   const ImportedMesh mesh =
       read(fmt::format("{}f 1 2 3\nf 1 2\np 1\nl 1 2 3\ncurv 0 1 1 2\n", kThreeVertices));
   ASSERT_EQ(mesh.warnings.size(), 2U);

@@ -127,7 +127,7 @@ TEST(Off, APointCloudIsRefusedInWordsOfOurOwn) {
                    {"a.off: ", "declares 1 vertex but no faces", "point cloud"}));
 }
 
-TEST(Off, WhatIsNoNumberIsRefusedWithItsLine) {
+TEST(Off, AnInvalidNumberIsRefusedWithItsLine) {
   for (const char* word : {"1,5", "x", "1e", "0x1"}) {
     EXPECT_TRUE(says(off_refusal(triangle_off(fmt::format("0 {} 0", word))),
                      {"a.off: line 3: vertex 0: ", fmt::format("'{}' is not a number", word)}));

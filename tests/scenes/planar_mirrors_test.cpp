@@ -46,7 +46,7 @@ TEST(PlanarMirrors, AreTheReflectingPolygonsByPlane) {
   EXPECT_EQ(mirrors[0].point.z, 1.0);
 }
 
-TEST(PlanarMirrors, AreNoBentPolygonsAndNoSmoothOnes) {
+TEST(PlanarMirrors, ExcludeBentAndSmoothPolygons) {
   SceneBuilder builder("mirrors");
   builder.set_surface(mirror());
   const dvec3 bent[] = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 1.0, 0.001}, {0.0, 1.0, 0.0}};

@@ -21,7 +21,7 @@ namespace {
 using namespace ply_parts;
 using tests::kPlyEncodings;
 
-TEST(PlyRows, WhatIsNoNumberIsRefusedWithItsLine) {
+TEST(PlyRows, AnInvalidNumberIsRefusedWithItsLine) {
   for (const char* word : {"1.#QNAN", "-1.#IND", "1,5", "0x10", "1e", "1.2.3", "--1", "+-1", "x",
                            "1d5", "1_000", "1f"}) {
     EXPECT_TRUE(says(ply_refusal(triangle_ply(fmt::format("0 {} 0", word))),

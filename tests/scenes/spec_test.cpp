@@ -83,7 +83,7 @@ TEST(NearestName, IsTheOneWithFewestEdits) {
   EXPECT_EQ(nearest_name("x", {}), "");
 }
 
-TEST(NearestName, IsNoNameWhereNoneIsNear) {
+TEST(NearestName, IsEmptyWhereNoneIsNear) {
   const std::vector<std::string> names = {"samet", "samet-net", "sah-bvh"};
   EXPECT_EQ(nearest_name("tinybvh", names), "");
   EXPECT_EQ(did_you_mean("tinybvh", names), "");

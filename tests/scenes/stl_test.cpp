@@ -115,7 +115,7 @@ TEST(Stl, ALoopOfOtherThanThreeVerticesIsRefused) {
                    {"a.stl: line 6: ", "'endloop' stands where 'vertex' must be"}));
 }
 
-TEST(Stl, WhatIsNoNumberIsRefusedWithItsLine) {
+TEST(Stl, AnInvalidNumberIsRefusedWithItsLine) {
   for (const char* word : {"1.#QNAN", "1,5", "x", "1e", "0x1"}) {
     EXPECT_TRUE(says(stl_refusal(one_facet(fmt::format("0 {} 0", word))),
                      {"a.stl: line 4: ", fmt::format("'{}' stands where", word), "number"}));

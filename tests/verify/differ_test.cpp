@@ -237,7 +237,7 @@ TEST_F(FaultyBuffer, FarSideOfTheSphereAndTheCone) {
   }
 }
 
-TEST_F(FaultyBuffer, AnswersThatAreNone) {
+TEST_F(FaultyBuffer, InvalidAnswers) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const accel::Hit none[] = {{nan, kTile},
                              {4.0F, 4},

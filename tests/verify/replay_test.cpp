@@ -63,7 +63,7 @@ TEST(ReplayCommand, OpensTheFileThatWasOpened) {
       "beambench trace " + shell_quoted(file) + " --accel samet --pixel 0,0 --resolution 32x20");
 }
 
-TEST(ReplayCommand, NamesWhatIsNotTheDefault) {
+TEST(ReplayCommand, NamesOnlyNonDefaultOptions) {
   scenes::Scene scene = scenes::load_scene("tetra:n=1");
   scene.cameras.push_back(scene.cameras.front());
   scene.cameras.back().name = "from the side";

@@ -129,7 +129,7 @@ std::string failure_of(std::string_view name, Fault fault) {
   return outcome_of(name, info).failure;
 }
 
-TEST(Selftest, PassesWhatIsRight) {
+TEST(Selftest, PassesCorrectStructures) {
   for (const Check& check : selftest_checks()) {
     EXPECT_EQ(failure_of(check.name, Fault::kNone), "") << check.name;
   }

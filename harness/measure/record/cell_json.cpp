@@ -16,14 +16,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The enumerator of a name that `to_string` gives, from 0 to `last`.
+/// Returns the enumerator of a name that `to_string` gives, from 0 to `last`.
 template <class Enum>
 Enum named(const Json& value, Enum last) {
   const auto& name = value.get_ref<const std::string&>();
   for (int i = 0; i <= static_cast<int>(last); ++i) {
     if (to_string(static_cast<Enum>(i)) == name) return static_cast<Enum>(i);
   }
-  throw InputError(fmt::format("'{}' is no name that this version knows", name));
+  throw InputError(fmt::format("'{}' is not a name that this version supports", name));
 }
 
 std::uint64_t hexadecimal(const Json& value) {
@@ -32,7 +32,7 @@ std::uint64_t hexadecimal(const Json& value) {
   const char* const end = digits.data() + digits.size();
   const auto [stop, error] = std::from_chars(digits.data(), end, number, 16);
   if (error != std::errc() || stop != end) {
-    throw InputError(fmt::format("'{}' is no hexadecimal number", digits));
+    throw InputError(fmt::format("'{}' is not a hexadecimal number", digits));
   }
   return number;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A cell's parts as events of a run's log, and back.
+// Converts a cell's parts to events of a run's log, and back.
 
 #include <nlohmann/json.hpp>
 
@@ -7,7 +7,7 @@
 
 namespace beambench::measure {
 
-/// What a cell is, its rays, its counters and sizes: members of the event `cell`.
+/// Returns a cell's identity, rays, counters and sizes: members of the event `cell`.
 nlohmann::ordered_json facts_json(const CellRecord& cell);
 /// Reads them into a record. Throws nlohmann::json::exception where a member is missing or of
 /// another type, InputError where a name is unknown.
@@ -16,11 +16,11 @@ void read_facts(const nlohmann::ordered_json& event, CellRecord& cell);
 nlohmann::ordered_json repetition_json(const Repetition& repetition);
 Repetition read_repetition(const nlohmann::ordered_json& event);
 
-/// The classes of a cell's hits and their fingerprint; it has both.
+/// Returns the classes of a cell's hits and their fingerprint; the cell has both.
 nlohmann::ordered_json verification_json(const CellRecord& cell);
 void read_verification(const nlohmann::ordered_json& event, CellRecord& cell);
 
-/// Verdict, stop reason, message, examples and time.
+/// Returns verdict, stop reason, message, examples and time.
 nlohmann::ordered_json finish_json(const CellRecord& cell);
 void read_finish(const nlohmann::ordered_json& event, CellRecord& cell);
 

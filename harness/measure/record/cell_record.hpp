@@ -26,7 +26,7 @@ enum class QueryPath {
   kPicture       ///< a whole picture, which is shaded
 };
 
-/// As records name them: "image-single", ...
+/// The names of query paths in records.
 inline constexpr std::array<std::string_view, 6> kQueryPathNames{
     "image-single", "image-simd", "image-own", "list", "list-packed", "picture"};
 
@@ -34,17 +34,17 @@ constexpr std::string_view to_string(QueryPath path) {
   return kQueryPathNames[static_cast<std::size_t>(path)];
 }
 
-/// The harness's own share of a trace by a path: what it takes where answers cost nothing.
+/// The harness's own share of a trace by a path: the time it takes where results cost nothing.
 struct HarnessShare {
   QueryPath path;
   double ms;
 };
 
-/// The events, as columns name them after the phase: `trace_instructions`.
+/// The names of the events in columns, after the phase: `trace_instructions`.
 inline constexpr std::array<std::string_view, 3> kHardwareEvents{"instructions", "cycles",
                                                                  "cache_misses"};
 
-/// One count for each event; nothing for one that this machine does not count.
+/// One count for each event; nothing for an event that this machine does not count.
 using HardwareCounts = std::array<std::optional<std::uint64_t>, kHardwareEvents.size()>;
 
 /// The identity of a cell within a sweep.
@@ -57,9 +57,9 @@ struct CellId {
   int samples;
   std::string rays;  ///< as `RayChoice::label`
 
-  /// `escena1/default/320x200/1/primary/samet:max_level=6,max_objects=0`.
+  /// Returns `escena1/default/320x200/1/primary/samet:max_level=6,max_objects=0`.
   std::string name() const;
-  /// The fingerprint of the name, sixteen hexadecimal digits.
+  /// Returns the fingerprint of the name, sixteen hexadecimal digits.
   std::string key() const;
 };
 
@@ -73,17 +73,17 @@ struct Repetition {
   double trace_cpu_ms;
   HardwareCounts build_counts{};
   HardwareCounts trace_counts{};
-  /// A second trace of the same structure, which may have kept something of the first.
+  /// A second trace of the same structure, which may have kept data from the first.
   std::optional<double> warm_trace_ms{};
   /// The rate of the core's clock, measured just before and after.
   double clock_ghz = 1.0;
 
   double total_ms() const { return build_ms + trace_ms; }
-  /// Millions of clock cycles: a time that a clock that changes its rate does not change.
+  /// Returns millions of clock cycles: a time that does not depend on the clock's rate.
   double total_mcycles() const { return total_ms() * clock_ghz; }
 };
 
-/// Why no further repetition was made.
+/// The reason why no further repetition was made.
 enum class StopReason {
   kPrecision,   ///< the median's interval is narrow enough
   kBudget,      ///< the time was up
@@ -91,7 +91,7 @@ enum class StopReason {
 };
 std::string_view to_string(StopReason reason);  // "precision", "budget", "repetitions"
 
-/// What every row of a run has in common.
+/// The facts that every row of a run has in common.
 struct RunFacts {
   std::string run_id;
   std::string commit;
@@ -103,7 +103,7 @@ struct RunFacts {
   int threads;
 };
 
-/// What every cell of a group has in common.
+/// The facts that every cell of a group has in common.
 struct RaySetFacts {
   std::uint64_t scene_hash = 0;
   std::uint64_t rays_hash = 0;
@@ -111,7 +111,7 @@ struct RaySetFacts {
   std::uint64_t primitives = 0;
   std::uint64_t rays = 0;  ///< 0 where they could not be made
   rays::Query query = rays::Query::kClosestHit;
-  /// By the oracle: of the closest-hit queries, and of the any-hit queries.
+  /// The shares of the closest-hit and of the any-hit queries that hit, by the oracle.
   std::optional<double> hit_share{}, occluded_share{};
   std::optional<double> coherence{};  ///< between neighbors
 };
@@ -126,13 +126,13 @@ struct RaysOfKind {
   NamedCounters counters;
 };
 
-/// What the counting pass found.
+/// The results of the counting pass.
 struct CountedWork {
   NamedCounters counters;         ///< empty where the structure counts nothing
   std::vector<RaysOfKind> kinds;  ///< of a whole picture: the same kind by kind
 };
 
-/// A cell and all that was found out about it.
+/// A cell and everything that was found out about it.
 struct CellRecord {
   std::size_t index;  ///< in the plan of the whole sweep: the order of rows
   CellId id;
@@ -158,7 +158,7 @@ struct CellRecord {
   std::string message;                ///< what is wrong, in one sentence; empty when nothing is
   std::vector<std::string> examples;  ///< disputed rays, described
 
-  /// A time is reported only when the hits are correct, or absent by design.
+  /// Returns whether times are reported: only when the hits are correct, or absent by design.
   bool keeps_times() const { return verify::is_right(verdict); }
   bool has_times() const { return keeps_times() && !repetitions.empty(); }
 };

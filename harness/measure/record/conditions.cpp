@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The throttling that a manifest's file states.
+/// Returns the throttling that a manifest's file states.
 std::optional<Throttling> throttling_of(const Json& manifest) {
   const Json stated = manifest.at("measurement").value("throttling", Json());
   if (stated.is_null()) return std::nullopt;

@@ -1,5 +1,5 @@
 #pragma once
-// What disturbs all times of a run, and what its times are worth.
+// The conditions that disturb all times of a run, and how far its times can be trusted.
 
 #include <filesystem>
 #include <optional>
@@ -35,10 +35,10 @@ class ThrottlingWatch {
   ThrottlingByGroup begin_ = read_throttling(root_);
 };
 
-/// The member `throttling` of a manifest; null where there is none.
+/// Returns the member `throttling` of a manifest; null where there is none.
 nlohmann::ordered_json to_json(const std::optional<Throttling>& throttling);
 
-/// A sentence where equal work took too unequal times before the run (`noise`).
+/// Returns a sentence where equal work took too unequal times before the run (`noise`).
 std::optional<std::string> noise_warning(const std::optional<double>& noise);
 
 /// Returns a sentence where a CPU quota is less than that many threads can use.

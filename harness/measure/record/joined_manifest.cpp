@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The values of one member of an object in all manifests; null where it is missing.
+/// Returns the values of one member of an object in all manifests; null where it is missing.
 std::vector<Json> values_of(std::span<const Json> shards, const char* object,
                             const std::string& name) {
   std::vector<Json> values;
@@ -24,7 +24,7 @@ std::vector<Json> values_of(std::span<const Json> shards, const char* object,
   return values;
 }
 
-/// Each once, in their order.
+/// Returns each value once, in their order.
 std::vector<Json> distinct(const std::vector<Json>& values) {
   std::vector<Json> found;
   for (const Json& value : values) {
@@ -33,7 +33,7 @@ std::vector<Json> distinct(const std::vector<Json>& values) {
   return found;
 }
 
-/// The larger, the worse.
+/// Returns whether the larger of two values is the worse.
 bool is_disturbance(std::string_view name) { return name == "load_average" || name == "noise"; }
 
 Json largest(const std::vector<Json>& values) {
@@ -48,7 +48,7 @@ Json joined_value(const std::string& name, const std::vector<Json>& values) {
   if (is_disturbance(name)) return largest(values);
   const std::vector<Json> found = distinct(values);
   if (found.size() == 1) return found.front();
-  // Readers take a processor and a machine's number for texts.
+  // Readers expect a processor and a machine's number as texts.
   if (std::ranges::all_of(found, [](const Json& value) { return value.is_string(); })) {
     std::vector<std::string> texts;
     for (const Json& value : found) texts.push_back(value.get<std::string>());
@@ -57,7 +57,7 @@ Json joined_value(const std::string& name, const std::vector<Json>& values) {
   return found;
 }
 
-/// An object whose members all shards have, such as `machine`.
+/// Joins an object whose members all shards have, such as `machine`.
 Json joined_object(std::span<const Json> shards, const char* object) {
   Json joined = Json::object();
   for (const auto& [name, value] : shards.front().at(object).items()) {
@@ -66,7 +66,7 @@ Json joined_object(std::span<const Json> shards, const char* object) {
   return joined;
 }
 
-/// `20240531-140709.417-default-shard-2-of-4` without what the shard added.
+/// Returns `20240531-140709.417-default-shard-2-of-4` without the suffix of the shard.
 std::string merged_run_id(std::span<const Json> shards) {
   std::string first;
   for (const Json& shard : shards) {
@@ -77,7 +77,7 @@ std::string merged_run_id(std::span<const Json> shards) {
   return first;
 }
 
-/// The first or last of a time in all manifests.
+/// Returns the first or last of a time in all manifests.
 template <class Choose>
 std::string time_of(std::span<const Json> shards, const char* member, Choose choose) {
   std::vector<std::string> times;
@@ -85,7 +85,7 @@ std::string time_of(std::span<const Json> shards, const char* member, Choose cho
   return *choose(times);
 }
 
-/// What could not be controlled in any of the shards, each sentence once.
+/// Returns the conditions that could not be controlled in any of the shards, each sentence once.
 std::vector<std::string> uncontrolled(std::span<const Json> shards) {
   std::vector<std::string> sentences;
   for (const Json& shard : shards) {

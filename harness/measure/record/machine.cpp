@@ -24,8 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Files of the system are not read by read_input(): those of /sys are shorter than they claim to
-/// be, and one that is missing is no error.
+/// Returns the first line of a file of the system. Does not use read_input(): files of /sys are
+/// shorter than they claim to be, and a missing one is not an error.
 std::string first_line(const fs::path& path) {
   std::ifstream file(path);
   std::string line;
@@ -33,7 +33,7 @@ std::string first_line(const fs::path& path) {
   return line;
 }
 
-/// Of a line like `always [madvise] never`.
+/// Returns the choice in a line like `always [madvise] never`.
 std::string chosen(const std::string& line) {
   const std::size_t begin = line.find('[');
   const std::size_t end = line.find(']');
@@ -54,7 +54,7 @@ std::string widest_instructions() {
 #endif
 }
 
-/// The first core's value of a word in /proc/cpuinfo; empty where there is none.
+/// Returns the first core's value of a word in /proc/cpuinfo; empty where there is none.
 std::string cpu_info(std::string_view word) {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);) {

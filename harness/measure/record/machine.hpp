@@ -1,5 +1,5 @@
 #pragma once
-// The machine that a run was made on, as far as it reports itself, and the build of this program.
+// The machine of a run, as far as it reports itself, and the build of this program.
 
 #include <array>
 #include <cstdint>
@@ -32,7 +32,8 @@ struct Machine {
   std::string id;  ///< see machine_id
   std::string cpu;
   unsigned cores;  ///< that this process may use
-  /// The processors' time that this process may use (`beambench::cpu_quota`); nothing: unlimited.
+  /// The number of processors whose time this process may use (`beambench::cpu_quota`); nothing:
+  /// unlimited.
   std::optional<double> cpu_quota;
   std::uint64_t memory_bytes;
   std::string kernel;
@@ -55,14 +56,14 @@ Machine inspect_machine(const std::filesystem::path& root = "/");
 /// or system is exchanged is another one, for its times are.
 std::string machine_id(std::string_view processor, std::string_view installation);
 
-/// What identifies the first processor in a text laid out as Linux's /proc/cpuinfo, line by line;
-/// empty where the text has nothing of that.
+/// Returns the identity of the first processor in a text laid out as Linux's /proc/cpuinfo, line by
+/// line; empty where the text lacks it.
 std::string processor_identity(std::string_view cpuinfo);
 
-/// What disturbs timings and cannot be controlled from here, a sentence each.
+/// Returns the conditions that disturb timings and cannot be controlled from here, a sentence each.
 std::vector<std::string> disturbances(const Machine& machine);
 
-/// Now in UTC, `2024-05-31T14:07:09Z`.
+/// Returns the current time in UTC, `2024-05-31T14:07:09Z`.
 std::string utc_now();
 
 }  // namespace beambench::measure

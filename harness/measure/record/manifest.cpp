@@ -135,7 +135,7 @@ std::string state_line(const Manifest& manifest) {
 }
 
 /// `20240531-140709.417-default`: sorts by time; milliseconds, since small runs take less than a
-/// second and no two may have one name. Shards may begin in one millisecond:
+/// second and names must differ. Shards may begin in one millisecond:
 /// `20240531-140709.417-default-shard-2-of-4`.
 std::string new_run_id(const std::string& sweep, const std::optional<ShardFacts>& shard) {
   const auto now = std::chrono::floor<std::chrono::milliseconds>(std::chrono::system_clock::now());

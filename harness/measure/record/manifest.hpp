@@ -1,5 +1,6 @@
 #pragma once
-// The manifest of a run: what was measured, by what, where, and what could not be controlled.
+// The manifest of a run: what was measured, by which program, where, and which conditions could not
+// be controlled.
 
 #include <chrono>
 #include <filesystem>
@@ -24,7 +25,7 @@ struct SceneFacts {
   std::uint64_t primitives;
 };
 
-/// How the timed code was run.
+/// The conditions under which timed code ran.
 struct MeasurementFacts {
   bool flush_to_zero;     ///< MXCSR's FTZ and DAZ bits were set for every contender
   int pinned_core;        ///< -1 where the thread could not be pinned
@@ -54,20 +55,20 @@ struct Manifest {
   nlohmann::ordered_json earlier_parts = nlohmann::ordered_json::array();
 };
 
-/// Makes `now` the manifest of the run that was begun under `before` (its file) and is resumed. How
-/// the earlier parts were throttled counts from then on.
+/// Makes `now` the manifest of the run that was begun under `before` (its file) and is resumed.
+/// From then on the throttling of the earlier parts counts, too.
 void continue_with(Manifest& now, const nlohmann::ordered_json& before);
 
 nlohmann::ordered_json to_json(const Manifest& manifest);
 
-/// Two lines on the machine, and a warning in plain words for each thing that could not be
-/// controlled.
+/// Returns two lines on the machine, and a warning in plain words for each condition that could not
+/// be controlled.
 std::vector<std::string> preflight(const Manifest& manifest);
 
-/// The manifest of a new run of the sweep of that name, whose timed code is pinned to `core` (-1:
-/// to none) and runs on that many threads, after a warm-up; `shard` is the part of the sweep that
-/// the run is. The rest is read from this program, the machine (its quota below `root`, as by
-/// `cpu_quota`) and Embree.
+/// Makes the manifest of a new run of the sweep of that name, whose timed code is pinned to `core`
+/// (-1: not pinned) and runs on that many threads, after a warm-up; `shard` is the part of the
+/// sweep that the run is. The rest is read from this program, the machine (its quota below `root`,
+/// as by `cpu_quota`) and Embree.
 Manifest begin_manifest(const std::string& sweep, std::vector<SceneFacts> scenes, int core,
                         int threads, std::chrono::duration<double> warm_up,
                         std::optional<ShardFacts> shard = std::nullopt,

@@ -20,8 +20,8 @@ double log_choose(double n, double k) {
   return std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0);
 }
 
-/// The largest k up to n with log_probability(0) + ... + log_probability(k - 1) <= kTail, in
-/// probabilities.
+/// Returns the largest k up to n with log_probability(0) + ... + log_probability(k - 1) <= kTail,
+/// in probabilities.
 template <class LogProbability>
 std::size_t largest_tail(std::size_t n, LogProbability log_probability) {
   double cumulative = 0.0;
@@ -34,15 +34,15 @@ std::size_t largest_tail(std::size_t n, LogProbability log_probability) {
   return k;
 }
 
-/// How many of the smallest (and of the largest) of n samples lie outside the interval: the
+/// Returns how many of the smallest (and of the largest) of n samples lie outside the interval: the
 /// largest k with P(B(n, 1/2) < k) <= kTail.
 std::size_t samples_outside(std::size_t n) {
   const auto count = static_cast<double>(n);
   return largest_tail(n, [&](double k) { return log_choose(count, k) - count * std::log(2.0); });
 }
 
-/// The same for the interval of a repeat: the largest r with P(Y < X_r) <= kTail, where Y is the
-/// (lower) median of n further samples and X_r the r-th smallest of the first n.
+/// Returns the same for the interval of a repeat: the largest r with P(Y < X_r) <= kTail, where Y
+/// is the (lower) median of n further samples and X_r the r-th smallest of the first n.
 std::size_t samples_outside_repeat(std::size_t n) {
   const auto count = static_cast<double>(n);
   const auto middle = static_cast<double>((n + 1) / 2);
@@ -52,8 +52,8 @@ std::size_t samples_outside_repeat(std::size_t n) {
   });
 }
 
-/// The least k with P(smallest of n further samples > k-th smallest of n) <= kTail: the k smallest
-/// of both together are then all of the first n. None if no rank is that rare.
+/// Returns the least k with P(smallest of n further samples > k-th smallest of n) <= kTail: the k
+/// smallest of both together are then all of the first n. None if no rank is that rare.
 std::optional<std::size_t> rank_above_next_minimum(std::size_t n) {
   double probability = 1.0;
   for (std::size_t k = 1; k <= n; ++k) {

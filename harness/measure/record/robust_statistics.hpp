@@ -11,34 +11,35 @@ struct Interval {
   double high;
 };
 
-/// The middle value, or the mean of the two middle ones. `samples` is not empty.
+/// Returns the middle value, or the mean of the two middle ones. `samples` is not empty.
 double median(std::span<const double> samples);
 
-/// The smallest value: the repetition that was disturbed least. `samples` is not empty.
+/// Returns the smallest value: the repetition that was disturbed least. `samples` is not empty.
 double minimum(std::span<const double> samples);
 
-/// The median distance from the median (MAD), not scaled to a normal distribution's deviation.
+/// Returns the median distance from the median (MAD), not scaled to a normal distribution's
+/// deviation.
 double median_absolute_deviation(std::span<const double> samples);
 
-/// An interval that covers the true median with at least 95%, whatever the distribution: two order
-/// statistics whose ranks follow from the binomial distribution with p = 1/2 (Conover, Practical
-/// Nonparametric Statistics, section 3.2). None for fewer than six samples, whose extremes cover
-/// less.
+/// Returns an interval that covers the true median with at least 95%, whatever the distribution:
+/// two order statistics whose ranks follow from the binomial distribution with p = 1/2 (Conover,
+/// Practical Nonparametric Statistics, section 3.2). None for fewer than six samples, whose
+/// extremes cover less.
 std::optional<Interval> median_interval(std::span<const double> samples);
 
-/// An interval that the median of as many further samples falls into with at least 95%, whatever
-/// the distribution: wider than median_interval, since both medians vary. Two order statistics,
-/// whose ranks follow from the negative hypergeometric distribution of how many of the first
-/// samples lie below an order statistic of the second (David and Nagaraja, Order Statistics, 3rd
-/// ed., section 7.3). None for fewer than nine samples, whose extremes cover less.
+/// Returns an interval that the median of as many further samples falls into with at least 95%,
+/// whatever the distribution: wider than median_interval, since both medians vary. Two order
+/// statistics, whose ranks follow from the negative hypergeometric distribution of how many of the
+/// first samples lie below an order statistic of the second (David and Nagaraja, Order Statistics,
+/// 3rd ed., section 7.3). None for fewer than nine samples, whose extremes cover less.
 std::optional<Interval> repeat_interval(std::span<const double> samples);
 
-/// How far the smallest of as many further samples lies from the smallest of these, at most, with
-/// at least 95%: the distance to the k-th smallest, where k is the least rank with P(a further
-/// smallest > the k-th) <= 2.5%, five for six to twenty-four samples. That bound holds whatever the
-/// distribution; that a further smallest is no farther below has the same probability, 2^-k for
-/// many samples, if the density is constant near the lower end (the assumption of Robson and
-/// Whitlock, Estimation of a truncation point, Biometrika 51, 1964). None for fewer than four
+/// Returns the maximum distance between the smallest of as many further samples and the smallest of
+/// these, with at least 95%: the distance to the k-th smallest, where k is the least rank with P(a
+/// further smallest > the k-th) <= 2.5%, five for six to twenty-four samples. That bound holds
+/// whatever the distribution; a further smallest is at most as far below with the same probability,
+/// 2^-k for many samples, if the density is constant near the lower end (the assumption of Robson
+/// and Whitlock, Estimation of a truncation point, Biometrika 51, 1964). None for fewer than four
 /// samples.
 std::optional<double> repeat_spread_of_minimum(std::span<const double> samples);
 

@@ -33,7 +33,7 @@ void remove_left_behind(const fs::path& folder) {
   }
 }
 
-/// Calls `visit` with each whole line; returns the bytes of all of them.
+/// Calls `visit` with each whole line; returns the size of all of them in bytes.
 std::uint64_t for_each_line(const fs::path& log,
                             const std::function<void(std::string_view line)>& visit) {
   InputStream input(log);
@@ -46,7 +46,7 @@ std::uint64_t for_each_line(const fs::path& log,
   return whole;
 }
 
-/// The same for a log that was packed by gzip.
+/// Does the same for a log that was packed by gzip.
 std::uint64_t for_each_packed_line(const fs::path& log,
                                    const std::function<void(std::string_view line)>& visit) {
   const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(log.c_str(), "rb"), gzclose);
@@ -67,14 +67,14 @@ std::uint64_t for_each_packed_line(const fs::path& log,
   return whole;
 }
 
-/// The log of a folder, packed or not.
+/// Returns the log of a folder, packed or not.
 fs::path log_in(const fs::path& folder) {
   const fs::path log = folder / kLogName;
   const fs::path packed = folder / kPackedLogName;
   return !fs::exists(log) && fs::exists(packed) ? packed : log;
 }
 
-/// Puts an event of a log into the run that is read.
+/// Adds the events of a log to the run that is read.
 class Reader {
  public:
   void take(const Json& event) {
@@ -98,7 +98,7 @@ class Reader {
     } else if (kind == "end") {
       run_.manifest["finished_utc"] = event.at("time_utc");
     } else {
-      throw InputError(fmt::format("'{}' is no event that this version knows", kind));
+      throw InputError(fmt::format("'{}' is not an event that this version supports", kind));
     }
   }
 
@@ -134,7 +134,7 @@ class Reader {
   std::map<std::size_t, CellRecord> cells_;
 };
 
-/// Throws InputError where a cell is of a shard that the manifest does not have.
+/// Throws InputError where a cell is of a shard that is not in the manifest.
 void require_known_shards(const Run& run, const std::string& log) {
   std::set<int> known{0};
   for (const Json& shard : run.manifest.value("shards", Json::array())) {
@@ -147,13 +147,13 @@ void require_known_shards(const Run& run, const std::string& log) {
   }
 }
 
-/// A member of a manifest as text, whatever it is; empty where there is none.
+/// Returns a member of a manifest as text, whatever its type; empty where there is none.
 std::string member(const Json& manifest, const char* pointer) {
   const Json::json_pointer place(pointer);
   return manifest.contains(place) ? json_text(manifest.at(place), -1) : "";
 }
 
-/// The hashes of a manifest's plug-ins or scenes, by file or name.
+/// Returns the hashes of a manifest's plug-ins or scenes, by file or name.
 std::map<std::string, std::string> hashes(const Json& manifest, const char* list, const char* key) {
   std::map<std::string, std::string> found;
   for (const Json& each : manifest.value(list, Json::array())) {
@@ -301,7 +301,7 @@ std::string program_difference(const Json& first, const Json& second) {
 
 namespace {
 
-/// Why the run cannot be resumed; empty where nothing speaks against it.
+/// Returns why the run cannot be resumed; empty where it can.
 std::string other_run(const Run& run, const nlohmann::json& config, const Json& now) {
   const Json& then = run.manifest;
   const auto differs = [&](const char* pointer) {

@@ -4,9 +4,8 @@
 // One JSON object a line, in the order of events, never rewritten:
 //   header        schema_version, manifest, config, plan: index and name of each cell
 //   resumed       manifest: the run goes on in another process
-//   cell          the timing of a cell begins: what it is, its rays, its counters and sizes; in
-//   logs
-//                 without repetitions, `columns`: the figures of results.csv that were made of them
+//   cell          the timing of a cell begins: what it is, its rays, its counters and sizes;
+//                 in logs without repetitions, `columns`: figures of results.csv made from them
 //   repetition    a timed one of a cell, with its second trace
 //   verification  of the hits of a cell's first repetition
 //   warning       a sentence on what could not be controlled
@@ -39,7 +38,7 @@ inline constexpr int kLogVersion = 1;
 
 /// The name of the log in a run's folder.
 inline constexpr const char* kLogName = "run.jsonl";
-/// The name of a log that was packed by gzip to be kept; it is read where there is no other.
+/// The name of a log that was packed by gzip for keeping; it is read where the other is missing.
 inline constexpr const char* kPackedLogName = "run.jsonl.gz";
 
 /// A cell of a plan.
@@ -48,36 +47,35 @@ struct PlannedName {
   std::string name;   ///< as `CellId::name`
 };
 
-/// A run as its log has it.
+/// A run as recorded in its log.
 struct Run {
-  /// With what later events changed of it: warnings, throttling, the end.
+  /// The manifest, updated by later events: warnings, throttling, the end.
   nlohmann::ordered_json manifest;
   nlohmann::json config;
   std::vector<PlannedName> plan;
-  /// Those that were begun, in the order of the plan. A cell that is not finished has the verdict
-  /// of its verification; without one it is not here.
+  /// The cells that were begun, in the order of the plan. A cell that is not finished has the
+  /// verdict of its verification, and is missing before it.
   std::vector<CellRecord> cells;
   std::uint64_t log_bytes = 0;  ///< of the whole lines of the log
 
   bool is_ended() const { return manifest.at("finished_utc").is_string(); }
 };
 
-/// Reads the log in a folder. What follows its last whole line is left out: there the run was cut
-/// off. Throws InputError when there is no log or it cannot be read, with the line that is not as
-/// it was written.
+/// Reads the log in a folder, up to its last whole line, after which the run was cut off. Throws
+/// InputError if the log is missing or cannot be read, with the line that is not as it was written.
 Run read_run(const std::filesystem::path& folder);
 
 /// Throws InputError when a folder holds no run that could be resumed.
 void require_run(const std::filesystem::path& folder);
 
-/// Writes the log of a run. Each event is in the system's hands when its function returns; nothing
-/// waits for the disk but the header. One process at a time may have a folder. All functions throw
+/// Writes the log of a run. Each event has been passed to the system when its function returns;
+/// only the header waits for the disk. One process at a time may have a folder. All functions throw
 /// InputError when the log cannot be written; it then ends with its last event.
 class RunLog {
  public:
-  /// Takes a folder, which is made, for a new run; throws InputError when it already holds one.
+  /// Takes a folder, which is created, for a new run; throws InputError when it already holds one.
   static RunLog create(const std::filesystem::path& folder);
-  /// Takes the folder of a run that is to be resumed or read; throws InputError when it holds none.
+  /// Takes the folder of a run to resume or to read; throws InputError when it holds none.
   static RunLog open(const std::filesystem::path& folder);
 
   const std::filesystem::path& folder() const { return folder_; }
@@ -89,7 +87,7 @@ class RunLog {
   void resume(const nlohmann::ordered_json& manifest, std::uint64_t log_bytes);
 
   void begin_cell(const CellRecord& cell);
-  /// The last of the cell's repetitions.
+  /// Adds the last of the cell's repetitions.
   void add_repetition(const CellRecord& cell);
   void add_verification(const CellRecord& cell);
   void finish_cell(const CellRecord& cell);
@@ -110,18 +108,19 @@ class RunLog {
 };
 
 /// Calls `visit` with each event of the log in a folder, in order; returns the bytes of its whole
-/// lines. Throws as `read_run`.
+/// lines. Throws like `read_run`.
 std::uint64_t for_each_event(const std::filesystem::path& folder,
                              const std::function<void(const nlohmann::ordered_json& event)>& visit);
 
-/// What differs between the runs of two manifests and makes their cells incomparable, in a clause:
-/// the program, the plug-ins or a scene that both have; empty where nothing does.
+/// Returns the difference between the programs of two manifests that makes their cells
+/// incomparable, as a clause: the program, the plug-ins or a scene that both have; empty if there
+/// is none.
 std::string program_difference(const nlohmann::ordered_json& first,
                                const nlohmann::ordered_json& second);
 
 /// Throws InputError when the run in `folder` was made with another configuration, by another
 /// program or machine, with other plug-ins or with a scene that has changed since: its cells and
-/// new ones would not compare. The reason is named.
+/// new ones would not be comparable. The reason is named.
 void require_same_run(const std::filesystem::path& folder, const Run& run,
                       const nlohmann::json& config, const nlohmann::ordered_json& manifest);
 

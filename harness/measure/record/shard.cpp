@@ -10,7 +10,7 @@
 namespace beambench::measure {
 namespace {
 
-/// A whole number of digits alone; nothing where the text is another.
+/// Returns a whole number of digits only; nothing for any other text.
 std::optional<int> number_of(std::string_view text) {
   int number = 0;
   const char* const end = text.data() + text.size();

@@ -1,5 +1,5 @@
 #pragma once
-// Which part of a sweep a run is, as the user writes it and as its manifest has it.
+// The part of a sweep that a run is, as the user writes it and as its manifest has it.
 
 #include <cstddef>
 #include <optional>
@@ -18,7 +18,8 @@ struct Shard {
   friend bool operator==(const Shard&, const Shard&) = default;
 };
 
-/// What the manifest of a shard records, by which `merge` finds out whether all is there.
+/// The facts that the manifest of a shard records, from which `merge` finds out whether all shards
+/// are complete.
 struct ShardFacts {
   Shard shard;
   std::size_t cells;           ///< of the shard
@@ -28,16 +29,16 @@ struct ShardFacts {
 /// Reads `2/4`. Throws InputError unless it is K/N with K from 1 to N.
 Shard parse_shard(std::string_view text);
 
-/// `2/4`, as parse_shard reads it.
+/// Returns `2/4`, as parse_shard reads it.
 std::string to_string(const Shard& shard);
 
-/// As a member of the manifest.
+/// Returns the facts as a member of the manifest.
 nlohmann::ordered_json to_json(const ShardFacts& facts);
 
-/// What the manifest of a run states; nothing of a run that is no shard.
+/// Returns the facts in the manifest of a run; nothing if the run is not a shard.
 std::optional<ShardFacts> shard_of_manifest(const nlohmann::ordered_json& manifest);
 
-/// Whether a manifest is that of a run that was merged from shards.
+/// Returns whether a manifest is that of a run that was merged from shards.
 bool is_merged(const nlohmann::ordered_json& manifest);
 
 }  // namespace beambench::measure

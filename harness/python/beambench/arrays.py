@@ -51,7 +51,7 @@ def _as_array(name: str, given: ArrayLike, kinds: str, expected: str) -> NDArray
     try:
         array = np.asarray(given)
     except ValueError as error:  # rows of several lengths
-        raise InputError(f"{name} is no array: {error}") from None
+        raise InputError(f"{name} is not an array: {error}") from None
     if array.size == 0 and not isinstance(given, np.ndarray):
         array = array.astype(np.int64 if "i" in kinds else np.float64)  # [] has no type of its own
     if array.dtype.kind not in kinds:

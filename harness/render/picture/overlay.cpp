@@ -215,7 +215,7 @@ struct Look {
   const char* name;
   const glm::vec3* color;
 };
-/// From the bottom to the top layer.
+/// The looks from the bottom to the top layer.
 constexpr std::array kLooks{
     Look{accel::BeamKind::kLeaving, "leaving", &okabe_ito::kBluishGreen},
     Look{accel::BeamKind::kNonTerminal, "non-terminal", &okabe_ito::kSkyBlue},

@@ -24,10 +24,10 @@ class MpiSession {
   MpiSession(const MpiSession&) = delete;
   MpiSession& operator=(const MpiSession&) = delete;
 
-  /// On the producer: from now on, other processes may be silent, which it handles itself.
+  /// Called on the producer: from now on, other processes may be silent, which it handles itself.
   void allow_silence();
 
-  /// Ends all processes at once, including hanging ones.
+  /// Ends all processes at once, including those that do not respond.
   [[noreturn]] static void abort(int exit_code);
 
  private:

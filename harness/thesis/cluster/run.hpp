@@ -44,16 +44,16 @@ ClusterRun lead(const ClusterRequest& request, Transport& transport);
 /// which ends the run.
 void follow(Transport& transport);
 
-/// On process 0: calls `set_up`, whose warnings go to stderr. If it throws, the others are shut
-/// down first.
+/// Calls `set_up` on process 0, whose warnings go to stderr. If it throws, the others are shut down
+/// first.
 void set_up_producer(Transport& transport,
                      const std::function<void(std::vector<std::string>& warnings)>& set_up);
 
 /// Reports to process 0 why this process cannot work, and waits for the end.
 void report_setup_failure(Transport& transport, const std::string& problem);
 
-/// On the others: returns the result of `set_up`; nothing after an InputError or std::bad_alloc,
-/// which has been reported to process 0, which has ended the run.
+/// Calls `set_up` on another process and returns its result; nothing after an InputError or
+/// std::bad_alloc, which has been reported to process 0, which has ended the run.
 template <class SetUp>
 std::optional<std::invoke_result_t<SetUp>> set_up_consumer(Transport& transport, SetUp set_up) {
   std::string problem;

@@ -75,7 +75,7 @@ class TaskSource : public Role {
   virtual bool next(Bytes& task) = 0;
   /// Returns the number of tasks of the next message if the source determines it; otherwise 0.
   virtual std::size_t parcel_size() const { return 0; }
-  /// Returns the estimated seconds of the last task; 0 if there is no estimate.
+  /// Returns the estimated seconds of the last task; 0 if it is not estimated.
   virtual double estimate() const { return 0.0; }
 };
 

@@ -219,7 +219,7 @@ CheckOutcome check_statistics(const Subject& subject, const SelftestEffort& effo
   if (sizes.depth > sizes.nodes) return wrong("it is deeper than it has nodes");
   if (sizes.nodes > 0 && sizes.bytes == 0) return wrong("there are nodes, but they take no memory");
   for (const auto& [name, value] : sizes.more) {
-    if (!std::isfinite(value)) return wrong(fmt::format("'{}' is no number", name));
+    if (!std::isfinite(value)) return wrong(fmt::format("'{}' is not a number", name));
   }
   return {};
 }

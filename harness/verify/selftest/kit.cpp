@@ -147,7 +147,7 @@ std::vector<KitCase> read_kit(const fs::path& folder) {
   if (!fs::exists(file)) fail("there is no such file, so the folder holds no kit");
   const auto json = read_json_file<nlohmann::ordered_json>(file);
   if (!json.is_object() || !json.contains("cases") || !json["cases"].is_array()) {
-    fail("it is no list of cases");
+    fail("it is not a list of cases");
   }
   std::vector<KitCase> cases;
   for (const auto& each : json["cases"]) {
@@ -155,7 +155,7 @@ std::vector<KitCase> read_kit(const fs::path& folder) {
     if (!named) fail(fmt::format("case {} names no folder", cases.size() / 2));
     const std::string name = each["folder"].get<std::string>();
     if (name.find('/') != std::string::npos || name.starts_with('.')) {
-      fail(fmt::format("'{}' is no folder of the kit", name));
+      fail(fmt::format("'{}' is not a folder of the kit", name));
     }
     for (const std::string_view query : {"closest", "any"}) {
       KitCase found{fmt::format("{}, {}", name, query), folder / name / "scene.nff",

@@ -56,7 +56,7 @@ class Faulty : public TraversalAccelerator<Faulty> {
     if (fault_is("exit in trace")) std::exit(0);
     if (fault_is("hang in trace")) hang();
     if (fault_is("primitive out of range")) return Hit{1.0F, 4'000'000'000U};
-    if (fault_is("t is no number")) return Hit{std::numeric_limits<float>::quiet_NaN(), 0};
+    if (fault_is("t is not a number")) return Hit{std::numeric_limits<float>::quiet_NaN(), 0};
     if (fault_is("answers nothing")) return std::nullopt;
     ClosestHit closest(ray);
     for (PrimitiveId id = 0; id < scene_->primitives.size(); ++id) closest.test(*scene_, id);

@@ -35,7 +35,7 @@ TEST(ImageDivision, HasEveryTaskOnceAndNoEmptyShare) {
   }
 }
 
-TEST(ImageDivision, IsWhatItsNameSays) {
+TEST(ImageDivision, MatchesItsName) {
   EXPECT_EQ(divide(ImageDivision::kContiguous, 5, {2, 1, {}}),
             (std::vector<Share>{{0, 1, 2}, {3, 4}}));
   EXPECT_EQ(divide(ImageDivision::kInterlaced, 5, {2, 1, {}}),

@@ -112,7 +112,7 @@ TEST(TaskMessage, BringsABeamBackBitForBit) {
   EXPECT_GT(beams, 1000U);
 }
 
-TEST(TaskMessage, RefusesWhatIsNoTask) {
+TEST(TaskMessage, RefusesInvalidTasks) {
   const scenes::Scene scene = verify::random_scene(3, 40);
   const accel::beam::BeamTracer tracer(scene, options_with(5));
   const accel::PrimaryRays rays(scene.cameras.front(), 64, 48, 1);

@@ -79,7 +79,7 @@ TEST(Replay, MakesTheTasksInTheirOrderAndTakesTheirTime) {
   EXPECT_EQ(purse.spent, (std::vector<double>{0.1, 0.2, 0.4}));
 }
 
-TEST(Replay, TakesForEachTaskWhatThatTookInWhateverOrder) {
+TEST(Replay, UsesTheMeasuredTimeOfEachTaskInAnyOrder) {
   const TaskCosts costs = two_tasks();
   Purse purse;
   ReplayedSource source(costs, [](double) {});

@@ -232,7 +232,7 @@ void expect_the_answers_of_one_process(const SceneWithRays& given, int level, in
   }
 }
 
-TEST(DividedScene, AnswersAsOneProcess) {
+TEST(DividedScene, GivesTheHitsOfOneProcess) {
   for (const int processes : {1, 2, 5}) {
     expect_the_answers_of_one_process(ties_across_a_border(), 2, processes);
     expect_the_answers_of_one_process(verify::cubes_on_a_lattice(), 3, processes);

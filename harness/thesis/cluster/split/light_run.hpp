@@ -81,9 +81,9 @@ class LightLeader {
   int missing_reports_;
 };
 
-/// On the other processes: traces the rays that enter this part until process 0 ends that. Sends a
-/// sign of life every `heartbeat_interval` seconds, even without work, because no process knows
-/// where a ray is.
+/// Traces the rays that enter this part, on a process other than 0, until process 0 ends that.
+/// Sends a sign of life every `heartbeat_interval` seconds, even without work, because no process
+/// can tell which one a ray is in.
 void serve_light(Transport& transport, const PartWorker& worker, const SceneSplit& split,
                  double heartbeat_interval);
 

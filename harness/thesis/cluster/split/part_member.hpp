@@ -62,10 +62,10 @@ class PartMember {
   PartMember(Transport& transport, PartWorker& worker, Outbox& outbox, double timeout, Check check,
              Meter meter = nullptr);
 
-  /// On process 0: runs to the end and returns the final reports of the others, by process. The
-  /// others are shut down even if it throws.
+  /// Called on process 0: runs to the end and returns the final reports of the others, by process.
+  /// The others are shut down even if it throws.
   std::vector<Bytes> lead();
-  /// On the others: works to the end and sends `result`.
+  /// Called on the others: works to the end and sends `result`.
   void follow(const std::function<Bytes()>& result);
   /// Returns whether the run has begun: not if process 0 found that the processes do not match.
   bool began() const { return going_; }
