@@ -11,9 +11,9 @@ namespace beambench::scenes::mesh {
 
 void write_obj(const Scene& scene, std::ostream& stream) {
   if (!scene.spheres.empty() || !scene.cones.empty()) {
-    throw InputError(fmt::format(
-        "'{}' has {} spheres and {} cones, which OBJ cannot express; write it as .nff",
-        scene.name, scene.spheres.size(), scene.cones.size()));
+    throw InputError(
+        fmt::format("'{}' has {} spheres and {} cones, which OBJ cannot express; write it as .nff",
+                    scene.name, scene.spheres.size(), scene.cones.size()));
   }
   constexpr std::size_t kBlock = 1U << 16U;  // bytes passed to the stream at a time
   fmt::memory_buffer buffer;
