@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from beambench_report.base.figure import PAGE_WIDTH, Plot, new_figure
 from beambench_report.base.quantities import markdown_table
 from beambench_thesis.chapter6.machines import Recorded
+from beambench_thesis.chapter6.page import rendered
 from beambench_thesis.chapter6.plots import HIGHER, line_look, name_panel
 from beambench_thesis.chapter6.record import LARGE
 from beambench_thesis.chapter6.results import EQUAL_MACHINES, THESIS_OPTIONS
@@ -90,35 +91,27 @@ def divisions_sections(
     shown: Mapping[str, str],
 ) -> str:
     """Returns both sections of the page; empty where nothing was simulated for them."""
-    parts = []
-    rows = _divided(simulations)
-    if not rows.empty:
-        parts += [
-            "## Static divisions of the image\n",
-            "Section 2.3.2.1 of the thesis: each consumer receives all its work at the beginning, "
-            "rows of individual rays that are neighbors (contiguous) or P apart (interlaced), or "
-            "windows of 16 x 16 pixels, interlaced or divided by what a pre-pass says they cost. "
-            "The pre-pass traces one pixel of each window, all its samples, on process 0, while "
-            "the others wait. Beside them what is given to whoever waits: the thesis's beams, "
-            "image blocks of rays, and tiles, whose beams the consumers make themselves and whose "
-            "results they keep. Efficiency against the sequential beam tracer, process 0 "
-            "counted.\n",
-            shown.get("divisions", ""),
-            _table(rows),
-        ]
-    rows = _large(simulations)
-    if not rows.empty:
-        parts += [
-            "## 1,024 processes on a large picture\n",
-            _of_large(recorded),
-            shown.get("large-picture", ""),
-            _table(rows),
-            _profile(rows),
-        ]
-    return "\n".join(parts)
+    divided, large = _divided(simulations), _large(simulations)
+    values: dict[str, object] = {}
+    if not large.empty:
+        beams = recorded[LARGE, "beams"]
+        values = {
+            "beams": beams,
+            "sequential": beams.build_seconds + beams.walk_seconds + beams.work_seconds,
+            "processes": large["processes"].max(),
+            "profile": _profile(large),
+        }
+    return rendered(
+        "divisions",
+        shown=shown,
+        scene=LARGE,
+        divided=None if divided.empty else _table(divided),
+        large=None if large.empty else _table(large),
+        **values,
+    )
 
 
-def _table(rows: pd.DataFrame) -> str:
+def _table(rows: pd.DataFrame) -> list[str]:
     counts = sorted(set(rows["consumers"] + 1) & set(_SHOWN))
     lines = []
     for (era, scene, options), group in rows.groupby(["era", "scene", "options"], sort=False):
@@ -129,24 +122,10 @@ def _table(rows: pd.DataFrame) -> str:
         )
         lines.append((era, scene, options, *cells))
     heads = ("machines of", "scene", "work", *(f"{count:,} processes" for count in counts))
-    return "\n".join(["Efficiency:\n", *markdown_table(heads, lines), ""])
+    return markdown_table(heads, lines)
 
 
-def _of_large(recorded: Mapping[tuple[str, str], Recorded]) -> str:
-    beams = recorded[LARGE, "beams"]
-    sequential = beams.build_seconds + beams.walk_seconds + beams.work_seconds
-    return (
-        f"{LARGE}, {beams.samples / 1e6:.0f} million samples, {sequential:.2f} s in one process, "
-        f"{1e3 * beams.build_seconds:.1f} ms of it to build the octree, which every process does. "
-        "Tiles: 16 x 16 pixels, in messages of fewer and fewer (factoring). Their results stay "
-        "with the processes that made them, in files of a file system that takes them as fast as "
-        "this machine's memory does; joining them into one picture is not counted, nor is writing "
-        "it in the sequential time. `results sent`: 8 bytes per sample to process 0, whose time "
-        "to store them is not counted.\n"
-    )
-
-
-def _profile(rows: pd.DataFrame) -> str:
+def _profile(rows: pd.DataFrame) -> list[str]:
     """Returns a table of how the largest runs spend their time."""
     most = rows[rows["processes"].eq(rows["processes"].max())]
     lines = [
@@ -163,5 +142,4 @@ def _profile(rows: pd.DataFrame) -> str:
         "machines of; work; seconds; to build; consumers busy, mean; at most; producer busy; "
         "messages out; efficiency; of tracing alone"
     )
-    title = f"Profile with {most['processes'].iloc[0]:,} processes, in seconds:\n"
-    return "\n".join([title, *markdown_table(heads.split("; "), lines), ""])
+    return markdown_table(heads.split("; "), lines)

@@ -14,6 +14,7 @@ from beambench_report.base.csv_texts import csv_of, unguarded
 from beambench_report.base.files import Problem, load_json, output_of, read_json, write_text
 from beambench_report.base.quantities import markdown_table
 from beambench_thesis.chapter6.machines import Recorded
+from beambench_thesis.chapter6.page import rendered
 
 SCENES = ("gato-bill", "torre-eiffel")
 LARGE = "tetra:n=8"
@@ -196,17 +197,7 @@ def measured_section(folder: Path) -> str | None:
     )
     heads = "scene; processes; seconds; times as fast as one process alone; producer busy; "
     heads += "messages out, back; MB out, back"
-    return "\n".join(
-        [
-            "## The same program on this machine\n",
-            f"`mpirun -n N beambench-cluster SCENE`, {first['width']}x{first['height']}, "
-            f"{first['samples']} samples per pixel, results as hits; medians of "
-            f"{first['repeats']} runs (minimum to maximum in brackets). All pictures of a scene "
-            "have the same bits.\n",
-            *markdown_table(heads.split("; "), lines),
-            "",
-        ]
-    )
+    return rendered("measured", first=first, rows=markdown_table(heads.split("; "), lines))
 
 
 def _record_once(program: Path, picture: Picture, work: str) -> tuple[pd.DataFrame, dict]:

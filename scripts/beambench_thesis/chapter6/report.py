@@ -9,7 +9,8 @@ from beambench_report.base.figure import house_style, write_plot
 from beambench_report.base.files import write_text
 from beambench_report.base.quantities import markdown_table, number
 from beambench_thesis.chapter6.divisions import division_plots, divisions_sections
-from beambench_thesis.chapter6.machines import Slowness, thesis_seconds
+from beambench_thesis.chapter6.machines import thesis_seconds
+from beambench_thesis.chapter6.page import rendered
 from beambench_thesis.chapter6.plots import cluster_plots
 from beambench_thesis.chapter6.record import measured_section, read_recorded
 from beambench_thesis.chapter6.results import (
@@ -54,43 +55,30 @@ def write_report(folder: Path) -> list[Path]:
         for plot in plots:
             written += write_plot(plot, folder)
     shown = {plot.stem: f"![{plot.summary}]({plot.stem}.png)\n" for plot in plots}
-    sections = [
-        "# The thesis's cluster, simulated\n",
-        "The MPI program itself runs, its producer, consumers and messages; machines and "
-        "network are SimGrid's, and what a beam costs was recorded.\n",
-        _of_recording(recorded, slowness_of(recorded)),
-        "## Figure 6.3: time, speed-up, efficiency\n",
-        shown.get("figure-6.3", ""),
-        _efficiencies(simulations),
-        "## Figure 6.4: how the work was distributed\n",
-        shown.get("figure-6.4", ""),
-        "## More processes, and what each option changes\n",
-        shown.get(f"many-processes-{OLD}", ""),
-        _options(simulations, OLD),
-        shown.get(f"many-processes-{TODAY}", ""),
-        _options(simulations, TODAY),
-        divisions_sections(simulations, recorded, shown),
-        "## Machines that are not equal\n",
-        f"{STATIONS - 1} consumers. `every other one half as fast`: seven machines of half "
-        "the speed. `five used by others`: half of the time only half of their speed is "
-        "left.\n",
-        _machines(simulations),
-        "## What was assumed\n",
-        "What messages cost the processor in 1999, halved and doubled; results as our own "
-        "program sends them, 8 bytes per sample, where the thesis sends pixels; and the "
-        "thesis's seconds that do not grow with the rays taken for walking alone, or for "
-        "building alone.\n",
-        _assumptions(simulations),
-        *([split_section(split)] if split is not None else []),
-        *([scene_divisions_section(scene_divisions)] if scene_divisions is not None else []),
-        *([measured] if measured is not None else []),
-    ]
-    text = "\n".join(section for section in sections if section)
+    constant, per_ray = thesis_seconds()
+    text = rendered(
+        "report",
+        recorded=_recorded(recorded),
+        constant=constant,
+        per_ray=per_ray,
+        slowness=slowness_of(recorded),
+        figure=lambda stem: shown.get(stem, ""),
+        efficiencies=_efficiencies(simulations),
+        options={era: _options(simulations, era) for era in (OLD, TODAY)},
+        divisions=divisions_sections(simulations, recorded, shown),
+        consumers=STATIONS - 1,
+        machines=_machines(simulations),
+        assumptions=_assumptions(simulations),
+        more=[
+            *([split_section(split)] if split is not None else []),
+            *([scene_divisions_section(scene_divisions)] if scene_divisions is not None else []),
+            *([measured] if measured is not None else []),
+        ],
+    )
     return [*written, write_text(folder / "report.md", text)]
 
 
-def _of_recording(recorded: dict, slowness: Slowness) -> str:
-    constant, per_ray = thesis_seconds()
+def _recorded(recorded: dict) -> list[str]:
     rows = (
         (
             *(scene, work),
@@ -101,17 +89,11 @@ def _of_recording(recorded: dict, slowness: Slowness) -> str:
         )
         for (scene, work), each in recorded.items()
     )
-    text = (
-        f"Seconds of one core of this machine. The thesis's gato-bill takes {constant:.2f} s at no "
-        f"rays and {1e6 * per_ray:.1f} us per ray on its cluster's machines. So there building and "
-        f"walking take {number(slowness.walk)} times as long as here, the work in leaves "
-        f"{number(slowness.work)} times.\n"
-    )
     heads = ("scene", "work", "build s", "walk s", "work s", "samples")
-    return "\n".join([*markdown_table(heads, rows), "", text])
+    return markdown_table(heads, rows)
 
 
-def _efficiencies(simulations: pd.DataFrame) -> str:
+def _efficiencies(simulations: pd.DataFrame) -> list[str]:
     rows = simulations[
         simulations["options"].eq(THESIS_OPTIONS)
         & simulations["machines"].eq(EQUAL_MACHINES)
@@ -119,7 +101,6 @@ def _efficiencies(simulations: pd.DataFrame) -> str:
         & simulations["consumers"].isin(_SHOWN)
     ]
     return _by_consumers(
-        "Efficiency with the producer counted / not counted:",
         rows,
         "network",
         _SHOWN,
@@ -127,7 +108,7 @@ def _efficiencies(simulations: pd.DataFrame) -> str:
     )
 
 
-def _options(simulations: pd.DataFrame, era: str) -> str:
+def _options(simulations: pd.DataFrame, era: str) -> list[str]:
     rows = simulations[
         simulations["era"].eq(era)
         & simulations["options"].isin(OPTIONS)
@@ -137,7 +118,6 @@ def _options(simulations: pd.DataFrame, era: str) -> str:
     ]
     counts = sorted(set(rows["consumers"]) & {STATIONS // 2, STATIONS - 1, 31, 63, 127, 255, 1023})
     return _by_consumers(
-        f"Speed-up, {era} (in brackets: how busy the producer is):",
         rows,
         "options",
         counts,
@@ -146,35 +126,29 @@ def _options(simulations: pd.DataFrame, era: str) -> str:
 
 
 def _by_consumers(
-    title: str,
-    rows: pd.DataFrame,
-    by: str,
-    counts: Sequence[int],
-    cell: Callable[[pd.Series], str],
-) -> str:
+    rows: pd.DataFrame, by: str, counts: Sequence[int], cell: Callable[[pd.Series], str]
+) -> list[str]:
     """Returns a table with a column for each number of consumers."""
-    heads = {n: f"{n} consumers" for n in counts}
-    return _pivot(title, rows, by, "consumers", heads, cell)
+    return _pivot(rows, by, "consumers", {n: f"{n} consumers" for n in counts}, cell)
 
 
 def _pivot(
-    title: str,
     rows: pd.DataFrame,
     by: str,
     across: str,
     heads: Mapping[object, str],
     cell: Callable[[pd.Series], str],
-) -> str:
+) -> list[str]:
     """Returns a row for each scene and value of `by`; `heads` are the values of `across`."""
     lines = []
     for (scene, which), group in rows.groupby(["scene", by], sort=False):
         runs = group.drop_duplicates(across).set_index(across)
         cells = (cell(runs.loc[value]) if value in runs.index else "" for value in heads)
         lines.append((scene, which, *cells))
-    return "\n".join([f"{title}\n", *markdown_table(["scene", by, *heads.values()], lines), ""])
+    return markdown_table(["scene", by, *heads.values()], lines)
 
 
-def _machines(simulations: pd.DataFrame) -> str:
+def _machines(simulations: pd.DataFrame) -> list[str]:
     rows = simulations[
         simulations["era"].eq(OLD)
         & simulations["consumers"].eq(STATIONS - 1)
@@ -184,7 +158,7 @@ def _machines(simulations: pd.DataFrame) -> str:
     return _seconds(rows[rows["options"].isin(unlike)], "machines")
 
 
-def _assumptions(simulations: pd.DataFrame) -> str:
+def _assumptions(simulations: pd.DataFrame) -> list[str]:
     rows = simulations[
         simulations["era"].eq(OLD)
         & simulations["machines"].eq(EQUAL_MACHINES)
@@ -195,7 +169,6 @@ def _assumptions(simulations: pd.DataFrame) -> str:
     return _seconds(rows, "place", "efficiency")
 
 
-def _seconds(rows: pd.DataFrame, by: str, quantity: str = "seconds") -> str:
+def _seconds(rows: pd.DataFrame, by: str, quantity: str = "seconds") -> list[str]:
     heads = {options: options for options in rows["options"]}
-    title = f"{quantity.capitalize()}:"
-    return _pivot(title, rows, by, "options", heads, lambda run: number(run[quantity]))
+    return _pivot(rows, by, "options", heads, lambda run: number(run[quantity]))

@@ -9,6 +9,7 @@ from beambench_report.base.figure import PAGE_WIDTH, Plot, new_figure
 from beambench_report.base.files import read_table
 from beambench_report.base.quantities import markdown_table
 from beambench_thesis.chapter6.machines import NONE
+from beambench_thesis.chapter6.page import rendered
 from beambench_thesis.chapter6.plots import HIGHER, LOWER, line_look, name_panel
 from beambench_thesis.chapter6.results import write_rows
 from beambench_thesis.chapter6.simulate import TODAY, ResultCache
@@ -143,19 +144,14 @@ def scene_divisions_section(rows: pd.DataFrame) -> str:
         "scene, division, parts, traced ms, speed-up, efficiency, balance, busy, work, "
         "rays handed over, MB of the largest part, build ms"
     )
-    return "\n".join(
-        [
-            "## Ways to divide a scene\n",
-            f"`--split {CELLS_LEVEL} --division ...` on {name_of_machines(TODAY)}; "
-            f"{rows['resolution'].iloc[0]}, one sample per pixel. Busy: what a machine is busy "
-            "tracing on average, of the time. Balance: of what the busiest is. Work: processor "
-            "time of tracing, of what one part takes. Build: to divide the scene and to build a "
-            "part, the processes' median; where it depends on costs, the octree of the whole "
-            "scene and the sample of rays are in it, and they are not in the speed-up.\n",
-            f"![{_SUMMARY}]({STEM}.png)\n",
-            *markdown_table(heads.split(", "), lines),
-            "",
-        ]
+    return rendered(
+        "scene-divisions",
+        level=CELLS_LEVEL,
+        machines=name_of_machines(TODAY),
+        resolution=rows["resolution"].iloc[0],
+        summary=_SUMMARY,
+        stem=STEM,
+        rows=markdown_table(heads.split(", "), lines),
     )
 
 

@@ -24,6 +24,7 @@ from beambench_thesis.chapter6.machines import (
     TRACED,
     Slowness,
 )
+from beambench_thesis.chapter6.page import rendered
 from beambench_thesis.chapter6.plots import HIGHER, IDEAL, LOWER, line_look, name_panel
 from beambench_thesis.chapter6.record import read_recorded
 from beambench_thesis.chapter6.results import write_rows
@@ -227,23 +228,15 @@ def split_plot(rows: pd.DataFrame) -> Plot:
 
 def split_section(rows: pd.DataFrame) -> str:
     """Returns the section of the page, with the figure."""
-    resolution = rows["resolution"].iloc[0]
-    return "\n".join(
-        [
-            "## A divided scene\n",
-            f"`--split {CELLS_LEVEL}`: each machine has the primitives in its share of the "
-            f"octree's {8 ** (CELLS_LEVEL - 1)} cells of that level; {resolution}, one sample per "
-            "pixel. The scene is really traced while it is simulated, and every run gave the hits "
-            "of one process, bit for bit. Times are from when all parts are "
-            "built to the picture: tracing, and gathering what was found.\n",
-            f"![{_SUMMARY}]({STEM}.png)\n",
-            _speed_ups(rows),
-            _costs(rows),
-            "Assumed: machines and messages of 1999, as above. Left out: reading the scene, which "
-            "is the same for all, as parts can only be cut from the whole; two buffers of the "
-            "image's hits, 16 bytes per sample, which each process has beside its part; caches: "
-            "here all processes share one core's.\n",
-        ]
+    return rendered(
+        "split",
+        level=CELLS_LEVEL,
+        resolution=rows["resolution"].iloc[0],
+        summary=_SUMMARY,
+        stem=STEM,
+        speed_ups=_speed_ups(rows),
+        machines=name_of_machines(rows["era"].iloc[-1]),
+        costs=_costs(rows),
     )
 
 
@@ -257,7 +250,7 @@ def share_of_memory(group: pd.DataFrame) -> pd.Series:
     return group["largest_bytes"] / group["largest_bytes"].iloc[0]
 
 
-def _speed_ups(rows: pd.DataFrame) -> str:
+def _speed_ups(rows: pd.DataFrame) -> list[str]:
     parts = sorted(set(rows["processes"]))
     lines = []
     for (era, scene), group in rows.groupby(["era", "scene"], sort=False):
@@ -265,11 +258,10 @@ def _speed_ups(rows: pd.DataFrame) -> str:
         speed_ups = (f"{each.speed_up:.1f} ({each.efficiency:.2f})" for each in others)
         lines.append((name_of_machines(era), scene, f"{first.traced_seconds:.3g} s", *speed_ups))
     heads = ["machines", "scene", "1 part", *(f"{n} parts" for n in parts[1:])]
-    title = "Seconds of one part, and speed-up (in brackets: efficiency):\n"
-    return "\n".join([title, *markdown_table(heads, lines), ""])
+    return markdown_table(heads, lines)
 
 
-def _costs(rows: pd.DataFrame) -> str:
+def _costs(rows: pd.DataFrame) -> list[str]:
     """Returns a table of time and other costs."""
     last = rows[rows["era"].eq(rows["era"].iloc[-1])]
     lines = []
@@ -293,9 +285,4 @@ def _costs(rows: pd.DataFrame) -> str:
             )
     heads = "scene, parts, work, balance, messages, MB, beams, rays, "
     heads += "primitives of the largest part, its memory"
-    title = (
-        f"What it costs ({name_of_machines(last['era'].iloc[0])}). Work: processor time of "
-        "tracing, of what one part takes. Balance: how busy a machine is on average, of what the "
-        "busiest is.\n"
-    )
-    return "\n".join([title, *markdown_table(heads.split(", "), lines), ""])
+    return markdown_table(heads.split(", "), lines)

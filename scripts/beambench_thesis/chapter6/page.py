@@ -1,0 +1,23 @@
+"""Rendering the parts of the cluster's page from templates."""
+
+import re
+from pathlib import Path
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+from beambench_report.base.quantities import number
+
+_ENVIRONMENT = Environment(
+    loader=FileSystemLoader(Path(__file__).with_name("templates")),
+    undefined=StrictUndefined,
+    trim_blocks=True,
+    keep_trailing_newline=True,
+)
+_ENVIRONMENT.filters |= {"number": number, "table": "\n".join}
+
+
+def rendered(name: str, **values: object) -> str:
+    """Returns the Markdown of templates/NAME.md.j2; each paragraph becomes one line."""
+    text = _ENVIRONMENT.get_template(f"{name}.md.j2").render(values)
+    joined = re.sub(r"^(?![|#!])(.+)\n(?=[^|#!\n])", r"\1 ", text, flags=re.MULTILINE)
+    return re.sub(r"\n{3,}", "\n\n", joined)
