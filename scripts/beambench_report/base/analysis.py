@@ -154,6 +154,11 @@ class Analysis:
     """Of each query path, the largest first."""
 
     @property
+    def right(self) -> int:
+        """How many cells have correct hits."""
+        return self.cells - self.failed - self.without_rays
+
+    @property
     def by_view(self) -> dict[str, Standings]:
         """The views by their titles."""
         return {one.view: one for one in self.views}

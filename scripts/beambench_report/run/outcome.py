@@ -1,11 +1,10 @@
-"""The verdict at the head of a page: are the hits correct, and where are they not?"""
+"""What a page shows first of the cells whose hits are wrong."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import pandas as pd
 
-from beambench_report.base.analysis import Analysis
 from beambench_report.base.cell_files import CellFile, Example, Identity, identity
 from beambench_report.base.records import ERROR, FAULTLESS_VERDICTS, Run
 
@@ -34,26 +33,17 @@ class Fault:
 
 
 @dataclass(frozen=True)
-class Outcome:
-    """The verdicts of a run, summed up."""
+class Faults:
+    """The wrong cells of a run."""
 
-    cells: int
-    wrong: int
     faults: tuple[Fault, ...]
     """The first of what was wrong."""
     unshown: int
     """How many wrong cells are in the table of all cells only."""
-    without_rays: int
-    """How many cells are of a kind of rays that their scene has none of."""
-
-    @property
-    def right(self) -> int:
-        """How many cells have correct hits."""
-        return self.cells - self.wrong - self.without_rays
 
 
-def summarize_verdicts(run: Run, files: Mapping[Identity, CellFile], analysis: Analysis) -> Outcome:
-    """Sums up the verdicts."""
+def faults_of(run: Run, files: Mapping[Identity, CellFile]) -> Faults:
+    """Groups the wrong cells by contender, view and reason."""
     wrong = run.rows[~run.rows["verdict"].isin(FAULTLESS_VERDICTS)]
     shown = wrong.head(_MOST_SHOWN)
     faults: dict[tuple, Fault] = {}
@@ -63,13 +53,7 @@ def summarize_verdicts(run: Run, files: Mapping[Identity, CellFile], analysis: A
         earlier = faults.get(reason)
         sizes = (*earlier.sizes, *fault.sizes) if earlier else fault.sizes
         faults[reason] = replace(fault, sizes=sizes)
-    return Outcome(
-        analysis.cells,
-        analysis.failed,
-        tuple(faults.values()),
-        len(wrong) - len(shown),
-        analysis.without_rays,
-    )
+    return Faults(tuple(faults.values()), len(wrong) - len(shown))
 
 
 def _fault(row: pd.Series, file: CellFile | None) -> Fault:

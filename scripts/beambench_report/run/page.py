@@ -27,7 +27,7 @@ from beambench_report.run.introduction import (
     traced,
 )
 from beambench_report.run.measured import Measured
-from beambench_report.run.outcome import summarize_verdicts
+from beambench_report.run.outcome import faults_of
 from beambench_report.run.plots import KINDS, Kind
 from beambench_report.run.reference import Compared, choose_reference, compared, why_reference
 from beambench_report.run.tables import Table, compare, ratio_field, view_table, work_table
@@ -124,7 +124,7 @@ def render(
             manifest=manifest,
             description=read_description(run.directory),
             newest=run.rows.iloc[-1].to_dict(),
-            outcome=summarize_verdicts(run, files, analysis),
+            outcome=faults_of(run, files),
             not_begun=not_begun(run, manifest),
             folder=shlex.quote(str(run.directory)),
             noise_is_known=manifest.noise is not None,
