@@ -352,7 +352,7 @@ def test_another_interface_is_refused_by_its_stamp(
     ("fault", "words"),
     [
         ("throw in build", ["threw when 'faulty' was built", "no memory of that"]),
-        ("throw a number in build", ["threw when 'faulty' was built", "no std::exception"]),
+        ("throw a number in build", ["threw when 'faulty' was built", "not a std::exception"]),
         ("nothing built", ["built no 'faulty", "nullptr"]),
         ("parameter ignored", ["'faulty' was built", "leaf"]),
         ("throw in trace", ["threw when 'faulty' was queried", "lost the way"]),
