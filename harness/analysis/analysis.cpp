@@ -37,9 +37,8 @@ std::optional<Overhead> overhead_of(const CellRecord& cell, const Names& names) 
 
 /// Returns the number of repetitions of a cell.
 std::size_t repetitions_of(const CellRecord& cell) {
-  const auto summed_up = cell.columns.find("repetitions");
-  return summed_up == cell.columns.end() ? cell.repetitions.size()
-                                         : static_cast<std::size_t>(summed_up->second);
+  const auto summed_up = cell.column("repetitions");
+  return summed_up ? static_cast<std::size_t>(*summed_up) : cell.repetitions.size();
 }
 
 /// Returns a number, or null for infinity, which JSON lacks.
@@ -81,6 +80,7 @@ Json to_json(const Standings& view) {
             {"ranked", to_json(view.ranked)},
             {"references", to_json(view.references)},
             {"left_out", left_out},
+            {"unrecorded", view.unrecorded},
             {"in_means", view.in_means}};
   if (const auto rays = view.break_even_rays()) {
     json["break_even"] = {{"rays", number(*rays)},

@@ -36,13 +36,9 @@ std::optional<Median> median_of(const CellRecord& cell, double Repetition::*figu
     const std::vector<double> samples = measure::collect(cell, figure);
     return Median{measure::median(samples), measure::median_interval(samples)};
   }
-  const auto known = [&](const char* ending) {
-    const auto found = cell.columns.find(column + ending);
-    return found == cell.columns.end() ? std::nullopt : std::optional(found->second);
-  };
-  const std::optional<double> middle = known("_median");
+  const auto middle = cell.column(column + "_median");
   if (!middle || !cell.keeps_times()) return std::nullopt;
-  const std::optional<double> low = known("_ci_low"), high = known("_ci_high");
+  const auto low = cell.column(column + "_ci_low"), high = cell.column(column + "_ci_high");
   return low && high ? Median{*middle, Interval{*low, *high}} : Median{*middle};
 }
 
@@ -58,8 +54,9 @@ TimeRatio trace_ratio(const CellRecord& cell, const CellRecord& base) {
   return paired ? *paired : unpaired_ratio(*trace_median(cell), *trace_median(base));
 }
 
-/// Returns the condition of the sweep that leaves a contender out of a view.
-std::string why_absent(const std::string& structure, const CellRecord& cell, const Json& exclude) {
+/// Returns the condition of the sweep that leaves a contender out of a view; nothing if none does.
+std::optional<std::string> why_absent(const std::string& structure, const CellRecord& cell,
+                                      const Json& exclude) {
   for (const Json& entry : exclude) {
     if (entry.value("structure", structure) != structure) continue;
     if (entry.contains("scene") &&
@@ -78,7 +75,7 @@ std::string why_absent(const std::string& structure, const CellRecord& cell, con
     return fmt::format("left out by the sweep ({})",
                        limits.empty() ? "this scene" : fmt::to_string(fmt::join(limits, " and ")));
   }
-  return "not in the record";
+  return std::nullopt;
 }
 
 /// The cells of a view, by contender.
@@ -113,7 +110,9 @@ Standings of_view(const Names& names, const ViewCells& all,
   for (const auto& [contender, structure] : structures) {
     const auto cell = finest.find(contender);
     if (cell == finest.end()) {
-      result.left_out.push_back({contender, why_absent(structure, first, exclude)});
+      const auto reason = why_absent(structure, first, exclude);
+      if (!reason) ++result.unrecorded;
+      result.left_out.push_back({contender, reason.value_or("not in the record")});
     } else if (const auto trace = trace_median(*cell->second); trace && trace->value > 0.0) {
       order.emplace_back(trace->value, contender);
     } else {

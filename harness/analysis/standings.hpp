@@ -44,6 +44,7 @@ struct Standings {
   std::vector<Standing> ranked;      ///< the fastest first; empty where no hits were correct
   std::vector<Standing> references;  ///< `null`, which finds nothing; `exhaustive`, which tests all
   std::vector<LeftOut> left_out;
+  int unrecorded = 0;     ///< of `left_out`: without a row, but in the sweep
   bool in_means = false;  ///< is it among the views that means are over?
 
   /// Returns the first that is not tied with the fastest; null where there is none.
@@ -52,7 +53,7 @@ struct Standings {
   const Standing* embree() const;
   /// Returns the number of rays from which the fastest, build included, is ahead of all that are
   /// not tied with it: the additional build time over the time saved per ray. 0: from the first;
-  /// infinite: never; none: there are no contenders to compare with.
+  /// infinite: never; nothing: all others are tied with it.
   std::optional<double> break_even_rays() const;
   /// Returns the contender that determines `break_even_rays`; null where there is none.
   const Standing* last_overtaken() const;

@@ -50,8 +50,7 @@ void add_analyze_command(CLI::App& app, int& exit_code) {
   command->add_flag("--json", request->json, "Print JSON: what analysis.json has");
   command->footer(
       "Examples:\n"
-      "  beambench run quick -o my-run "
-      "--benchmark_filter=tetra.*samet\n"
+      "  beambench run quick -o my-run --benchmark_filter=tetra.*samet\n"
       "  beambench analyze my-run\n"
       "  beambench analyze my-run --write");
   command->callback([request, &exit_code] { exit_code = analyze(*request); });

@@ -257,8 +257,7 @@ void add_run_command(CLI::App& app, int& exit_code, plugin::Activity& activity) 
       "--benchmark_list_tests, --benchmark_context=KEY=VALUE, --v=N.\n"
       "Examples:\n"
       "  beambench run quick\n"
-      "  beambench run quick -o my-run "
-      "--benchmark_filter=tetra.*samet\n"
+      "  beambench run quick -o my-run --benchmark_filter=tetra.*samet\n"
       "  beambench run --resume my-run\n"
       "  beambench run quick --shard 2/4 -o shards/2");
   command->callback([command, request, &activity, &exit_code] {

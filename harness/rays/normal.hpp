@@ -13,8 +13,8 @@
 
 namespace beambench::rays {
 
-/// Returns the unit normal of the primitive at the hit, on the side from which the ray comes. On a
-/// polygon, it is that of the triangle in which the point lies deepest.
+/// Returns the unit normal of the primitive at the hit, on the side from which the ray comes. A
+/// polygon has the normal of the triangle in which the point lies deepest.
 glm::dvec3 geometric_normal(const scenes::Scene& scene, const accel::Ray& ray,
                             const accel::Hit& hit);
 

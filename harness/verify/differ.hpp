@@ -61,7 +61,8 @@ class Differ {
   /// Receives every ray whose class is not kAgree.
   using OnMismatch = std::function<void(const Mismatch&)>;
 
-  /// With Conformance::kBaseline, only misses are correct; hits are structure errors.
+  /// Takes the structure's conformance. For kBaseline, only misses are correct; hits are structure
+  /// errors.
   explicit Differ(accel::Conformance conformance, OnMismatch on_mismatch = {})
       : conformance_(conformance), on_mismatch_(std::move(on_mismatch)) {}
 

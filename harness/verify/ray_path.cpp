@@ -109,7 +109,7 @@ std::string plane_text(const accel::CrossedPlane& plane) {
 constexpr std::array<std::string_view, 3> kBeamMeets{"empty leaf", "occupied leaf", "leaves leaf"};
 constexpr std::array<std::string_view, 3> kBeamKinds{"non-terminal", "occupied", "leaving"};
 
-/// Returns why there are no further beams.
+/// Returns why the beams end here.
 std::string_view end_text(const accel::BeamPassage& last) {
   switch (last.kind) {
     case accel::BeamKind::kLeaving:

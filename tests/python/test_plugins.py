@@ -95,16 +95,19 @@ def test_no_traversal_of_the_template_calls_through_a_pointer(template: Path) ->
         text=True,
         check=True,
     ).stdout
-    asked = re.compile(r"(find_closest|find_any|find_each_\w+|closest_hits?|any_hits?|trace)[<(]")
+    asked = re.compile(r"(find_closest|find_any|closest_hits?|any_hits?|(closest|any)_of_\w+)[<(]")
     timed = {}
     for function in re.split(r"\n\n(?=[0-9a-f]+ <)", text):
         name = function.splitlines()[0]
         if "MedianBvh" in name and "_Function_handler" not in name and asked.search(name):
             timed[name] = function
-    for query in ("::closest_hits(", "::any_hits(", "::trace("):
+    for query in ("::closest_hits(", "::any_hits(", "::closest_of_image("):
         assert any(query in name for name in timed)
+    # An image ends with that of the std::function by which its rows are handed to threads, which
+    # calls the function's manager (operation 3).
+    manager = re.compile(r"\bmov +\$0x3,%edx\n(?:.*\bmov .*\n){1,2}.*\bcall +\*%rax")
     for name, code in timed.items():
-        assert not re.search(r"\bcall\s+\*", code), name
+        assert not re.search(r"\bcall\s+\*", manager.sub("", code)), name
 
 
 def test_find_package_takes_no_other_version(prefix: Path, tmp_path: Path) -> None:

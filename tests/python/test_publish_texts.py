@@ -123,7 +123,7 @@ def test_a_wrong_digit_in_a_text_is_found(copied: Path) -> None:
     stated = text.read_text("utf-8")
     figures = list(re.finditer(r"(?<=\| )\d+\.\d\d", stated))
     assert len(figures) > 20
-    for figure in (figures[0], figures[-1]):  # each renders all texts of the folder
+    for figure in figures[::9]:
         last = figure.end() - 1
         digit = (int(stated[last]) + 1) % 10
         text.write_text(f"{stated[:last]}{digit}{stated[last + 1 :]}", "utf-8")

@@ -161,6 +161,11 @@ struct CellRecord {
   /// Returns whether times are reported: only when the hits are correct, or absent by design.
   bool keeps_times() const { return verify::is_right(verdict); }
   bool has_times() const { return keeps_times() && !repetitions.empty(); }
+  /// Returns a figure of `columns`; nothing where it is not there.
+  std::optional<double> column(std::string_view name) const {
+    const auto found = columns.find(name);
+    return found == columns.end() ? std::nullopt : std::optional(found->second);
+  }
 };
 
 /// Returns one figure of every repetition of a cell: a member of `Repetition`.

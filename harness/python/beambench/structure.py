@@ -167,7 +167,10 @@ class Structure:
         shading: str = "preview",
         threads: int = 0,
     ) -> NDArray[np.float32]:
-        """Draws the picture of `Scene.render` through this structure."""
+        """Draws a picture through this structure.
+
+        As `Scene.render` otherwise, whose arguments these are.
+        """
         return self.scene.render(
             resolution=resolution,
             camera=camera,

@@ -53,8 +53,8 @@ Number little_endian(std::string_view bytes) {
   return number;
 }
 
-/// Returns the length of a binary file with the stated number of facets; nothing if there is no
-/// number.
+/// Returns the length of a binary file with the stated number of facets; nothing if the
+/// number is missing.
 std::optional<std::uint64_t> binary_stl_size(std::string_view bytes) {
   if (bytes.size() < kStlHeader) return std::nullopt;
   return kStlHeader + std::uint64_t{kFacetBytes} * little_endian<std::uint32_t>(bytes.substr(80));

@@ -12,7 +12,7 @@ namespace beambench::scenes::mesh {
 class TextLines {
  public:
   /// Reads a text, which must outlive this object. `comment` begins a comment that extends to the
-  /// end of the line; by default there are no comments.
+  /// end of the line; by default, nothing does.
   explicit TextLines(std::string_view text, char comment = '\0');
 
   /// Goes to the next line; false at the end of the text.

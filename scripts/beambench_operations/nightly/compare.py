@@ -25,7 +25,7 @@ from beambench_operations.history.night import cell_titles, cycles, keys_of
 from beambench_operations.history.steps import holm
 from beambench_report.base.cell_files import IDENTITY
 from beambench_report.base.files import Problem, output_of, say
-from beambench_report.base.records import BASELINE, NO_RAYS, TIMED_VERDICTS, read_run
+from beambench_report.base.records import BASELINE, NO_RAYS, TIMED_VERDICTS, UNSUPPORTED, read_run
 
 LEVEL = 0.01
 TOLERANCE = 0.01
@@ -211,6 +211,8 @@ def _differences(first: pd.DataFrame, second: pd.DataFrame, titles: dict) -> lis
         title = titles[key]
         if row["verdict_b"] == NO_RAYS and row["verdict_a"] in TIMED_VERDICTS:
             sentences.append(f"{title}: there are no such rays any more")
+        elif row["verdict_b"] == UNSUPPORTED and row["verdict_a"] in TIMED_VERDICTS:
+            sentences.append(f"{title}: the structure does not support this any more")
         elif row["verdict_b"] not in TIMED_VERDICTS and row["verdict_a"] in TIMED_VERDICTS:
             sentences.append(f"{title}: the hits are now wrong ({row['verdict_b']})")
         for name, after in row.items():

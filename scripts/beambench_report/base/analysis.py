@@ -18,7 +18,6 @@ from beambench_report.base.run_log import has_log
 
 ANALYSIS = "analysis.json"
 _EMBREE = "embree"
-_UNRECORDED = "not in the record"
 _Json = Mapping[str, Any]
 
 
@@ -43,7 +42,7 @@ class Standing:
 
 @dataclass(frozen=True)
 class BreakEven:
-    """From how many rays on the fastest is ahead of all that are not tied, build included."""
+    """The ray count from which the fastest, build included, is ahead of all not tied with it."""
 
     rays: float
     """0: from the first; infinite: never, by the medians."""
@@ -67,15 +66,12 @@ class Standings:
     references: tuple[Standing, ...]
     left_out: tuple[tuple[str, str], ...]
     """Contenders of the run without a time here, each with the reason."""
+    unrecorded: int
+    """The number of them without a row that no condition of the sweep leaves out."""
     in_means: bool
     """Is it among the views that means are over?"""
     break_even: BreakEven | None
     """None: there is nobody to compare with."""
-
-    @property
-    def unrecorded(self) -> int:
-        """How many contenders have no row here, and no condition of the sweep leaves them out."""
-        return sum(reason == _UNRECORDED for _, reason in self.left_out)
 
     @property
     def fastest(self) -> Standing | None:
@@ -145,6 +141,8 @@ class Analysis:
     failed: int
     """Wrong or not built."""
     without_rays: int
+    unsupported: int
+    """Of rays or primitives that the structure does not support."""
     reasons_for_care: tuple[str, ...]
     """Why the times are worth little, in clauses."""
     views: tuple[Standings, ...]
@@ -156,7 +154,7 @@ class Analysis:
     @property
     def right(self) -> int:
         """How many cells have correct hits."""
-        return self.cells - self.failed - self.without_rays
+        return self.cells - self.failed - self.without_rays - self.unsupported
 
     @property
     def by_view(self) -> dict[str, Standings]:
@@ -221,6 +219,7 @@ def _analysis(source: _Json) -> Analysis:
         source["cells"],
         source["failed"],
         source["without_rays"],
+        source["unsupported"],
         tuple(source["reasons_for_care"]),
         tuple(_view(view) for view in source["views"]),
         tuple(
@@ -238,6 +237,7 @@ def _view(source: _Json) -> Standings:
         ranked=_standings(source["ranked"]),
         references=_standings(source["references"]),
         left_out=tuple((one["contender"], one["reason"]) for one in source["left_out"]),
+        unrecorded=source["unrecorded"],
         in_means=source["in_means"],
         break_even=break_even
         and BreakEven(

@@ -82,8 +82,8 @@ class LightLeader {
 };
 
 /// Traces the rays that enter this part, on a process other than 0, until process 0 ends that.
-/// Sends a sign of life every `heartbeat_interval` seconds, even without work, because no process
-/// can tell which one a ray is in.
+/// Sends a sign of life every `heartbeat_interval` seconds, even without work, because the
+/// process that has a ray is not known.
 void serve_light(Transport& transport, const PartWorker& worker, const SceneSplit& split,
                  double heartbeat_interval);
 
