@@ -10,6 +10,7 @@ from beambench.analysis import name_cells
 
 # Lists the plots of a run for programs, as plots/README.md does for people.
 PLOT_INDEX = "index.json"
+_NAMED = ("scene", "camera", "structure", "parameters", "samples", "ray_kind")
 
 
 def with_names(rows: pd.DataFrame) -> pd.DataFrame:
@@ -18,10 +19,11 @@ def with_names(rows: pd.DataFrame) -> pd.DataFrame:
     `contender`: the structure, with those parameters that differ between its rows. `subject`: what
     the rays see, the scene and what else varies. `view`: the same on one machine, what is compared.
     """
-    machines = rows["machine_id"] if "machine_id" in rows else [""] * len(rows)
-    columns = (rows[name] for name in ("scene", "camera", "structure", "parameters"))
-    samples = rows["samples"].fillna(0).astype(int)
-    names = name_cells(list(zip(*columns, samples, rows["ray_kind"], machines, strict=True)))
+    facts = rows[list(_NAMED)].assign(
+        samples=rows["samples"].fillna(0).astype(int), machine_id=rows.get("machine_id", "")
+    )
+    # Lists, because iterating over a column takes three calls for each of its fields.
+    names = name_cells(list(zip(*(facts[name].tolist() for name in facts), strict=True)))
     found = pd.DataFrame(names, columns=["contender", "subject", "view"], index=rows.index)
     return pd.concat([rows, found], axis="columns").copy()  # in one piece: it had many columns
 

@@ -47,7 +47,7 @@ class Run:
     @property
     def views(self) -> list[str]:
         """The titles of the views, in the order of the file."""
-        return list(dict.fromkeys(self.rows["view"]))
+        return self.rows["view"].unique().tolist()
 
     @property
     def counters(self) -> list[str]:
