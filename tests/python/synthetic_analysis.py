@@ -45,17 +45,16 @@ def _events(folder: Path, rows: list[Row]) -> list[dict[str, Any]]:
     kept = {identity(cell.facts): cell for cell in logged_cells(folder)}
     for index, row in enumerate(rows):
         cell = kept.get(tuple(row[name] for name in IDENTITY))
-        events.append(_cell(row, machines.index(row["machine_id"]) + 1, with_times=not cell))
-        events += [
+        own = [_cell(row, machines.index(row["machine_id"]) + 1, with_times=not cell)]
+        own += [
             {"event": "repetition", "build_cpu_ms": 0, "trace_cpu_ms": 0, "clock_ghz": 1, **one}
             for one in (cell.repetitions if cell else [])
         ]
         finish = {"time_utc": row.get("time_utc", ""), "verdict": row["verdict"] or "error"}
         if row.get("stop_reason"):
             finish["stop_reason"] = row["stop_reason"]
-        events.append({"event": "finished", **finish, "message": cell.message if cell else ""})
-        for event in events:
-            event.setdefault("index", index)
+        own.append({"event": "finished", **finish, "message": cell.message if cell else ""})
+        events += [{"index": index, **event} for event in own]
     return events
 
 

@@ -312,7 +312,7 @@ def test_the_hint_to_resume_can_be_pasted(tmp_path: Path) -> None:
         text=True,
     )
     for _ in range(300):
-        if (tmp_path / "my run/manifest.json").exists():
+        if (tmp_path / "my run/run.jsonl").exists():
             break
         time.sleep(0.1)
     time.sleep(0.5)

@@ -402,10 +402,10 @@ def test_a_sweep_that_is_interrupted_in_a_plug_in_says_how_to_go_on(
         env={**os.environ, "FAULT": "hang in trace"},
     ) as running:
         for _ in range(600):
-            if (folder / "manifest.json").exists():
+            if (folder / "run.jsonl").exists():
                 break
             time.sleep(0.1)
-        time.sleep(0.5)  # the manifest comes first, then the plug-in is called
+        time.sleep(0.5)  # the log comes first, then the plug-in is called
         running.send_signal(signal.SIGINT)
         _, messages = running.communicate(timeout=60)
     assert running.returncode == 130
