@@ -8,6 +8,7 @@
 #include "accel/core/primary_rays.hpp"
 #include "harness/measure/find_sweep.hpp"
 #include "harness/measure/json_node.hpp"
+#include "harness/measure/sweep_schema.hpp"
 #include "scenes/base/json_text.hpp"
 
 namespace beambench::measure {
@@ -116,8 +117,7 @@ std::vector<accel::StructureChoice> read_structure_entry(const JsonNode& node,
     const std::string text = node.text();
     return node.checked([&] { return structures.choose_list(text); });
   }
-  node.require_object({"structure", "parameters"});
-  const JsonNode name_node = node.require("structure");
+  const JsonNode name_node = *node.find("structure");
   const std::string name = name_node.text();
   name_node.checked([&] { return structures.choose({name, {}}); });
   std::vector<SweptParameter> parameters;
@@ -132,35 +132,9 @@ std::vector<accel::StructureChoice> read_structure_entry(const JsonNode& node,
   return choices;
 }
 
-constexpr double kDefaultPrecision = 0.02;
-constexpr double kDefaultWarmUp = 0.5;  // seconds
-constexpr double kMaxWarmUp = 60.0;
-constexpr std::int64_t kMaxRepetitions = 100'000;
-constexpr std::int64_t kMaxThreads = 1024;
-constexpr double kMaxBudgetSeconds = 1e7;  // some four months
-
-/// The name ends up in run ids and folder names.
-std::string read_name(const JsonNode& node) {
-  constexpr std::size_t kMaxLength = 64;
-  std::string name = node.text();
-  const auto is_plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-  };
-  const auto is_allowed = [&](char c) { return is_plain(c) || c == '.' || c == '_' || c == '-'; };
-  if (name.empty() || name.size() > kMaxLength || !is_plain(name.front()) ||
-      !std::all_of(name.begin(), name.end(), is_allowed)) {
-    node.fail(
-        fmt::format("expected 1 to {} of the letters A-Z, a-z, 0-9, '.', '_', '-', the first "
-                    "one a letter or digit",
-                    kMaxLength));
-  }
-  return name;
-}
-
 SceneEntry read_scene(const JsonNode& node) {
   if (node.value().is_string()) return {node.text(), {}, node.place()};
-  node.require_object({"scene", "cameras"});
-  SceneEntry entry{node.require("scene").text(), {}, node.place()};
+  SceneEntry entry{node.find("scene")->text(), {}, node.place()};
   if (const auto cameras = node.find("cameras")) {
     for (const JsonNode& camera : cameras->elements()) entry.cameras.push_back(camera.text());
   }
@@ -168,15 +142,12 @@ SceneEntry read_scene(const JsonNode& node) {
 }
 
 int read_samples(const JsonNode& node) {
-  const int samples = static_cast<int>(node.integer(1, 4096));
+  const int samples = node.value().get<int>();
   node.checked([&] { return accel::sample_offsets(samples); });
   return samples;
 }
 
 Exclusion read_exclusion(const JsonNode& node, const accel::Registry& structures) {
-  node.require_object({"structure", "scene", "primitives_above", "rays_above"});
-  if (node.members().empty())
-    node.fail("expected at least one condition; this excludes everything");
   Exclusion exclusion;
   if (const auto structure = node.find("structure")) {
     const std::string name = structure->text();
@@ -187,7 +158,7 @@ Exclusion read_exclusion(const JsonNode& node, const accel::Registry& structures
   const auto limit = [&](const char* key) -> std::optional<std::uint64_t> {
     const auto member = node.find(key);
     if (!member) return std::nullopt;
-    return static_cast<std::uint64_t>(member->integer(0, INT64_MAX));
+    return member->value().get<std::uint64_t>();
   };
   exclusion.primitives_above = limit("primitives_above");
   exclusion.rays_above = limit("rays_above");
@@ -195,41 +166,27 @@ Exclusion read_exclusion(const JsonNode& node, const accel::Registry& structures
 }
 
 void read_repetitions(const JsonNode& root, SweepConfig& config) {
-  config.minimum_repetitions = 5;
-  config.maximum_repetitions = 50;
-  config.second_traces = 6;  // the fewest whose median has a 95% interval (see median_interval)
   const auto node = root.find("repetitions");
-  if (!node) return;
-  node->require_object({"minimum", "maximum", "second_traces"});
-  if (const auto minimum = node->find("minimum")) {
-    config.minimum_repetitions = static_cast<int>(minimum->integer(1, kMaxRepetitions));
-    config.maximum_repetitions = std::max(config.maximum_repetitions, config.minimum_repetitions);
+  const nlohmann::json given = node ? node->value() : nlohmann::json::object();
+  config.minimum_repetitions = given.value("minimum", 5);
+  config.maximum_repetitions = given.value("maximum", std::max(50, config.minimum_repetitions));
+  // Six: the fewest whose median has a 95% interval (see median_interval).
+  config.second_traces = given.value("second_traces", 6);
+  if (config.maximum_repetitions < config.minimum_repetitions) {
+    node->find("maximum")->fail(
+        fmt::format("expected a whole number from {}, the minimum, on; "
+                    "found {}",
+                    config.minimum_repetitions, config.maximum_repetitions));
   }
-  if (const auto maximum = node->find("maximum")) {
-    config.maximum_repetitions =
-        static_cast<int>(maximum->integer(config.minimum_repetitions, kMaxRepetitions));
-  }
-  if (const auto second_traces = node->find("second_traces")) {
-    config.second_traces = static_cast<int>(second_traces->integer(0, kMaxRepetitions));
-  }
-}
-
-Figure read_figure(const JsonNode& node) {
-  const std::string name = node.text();
-  if (name == "median") return Figure::kMedian;
-  if (name == "minimum") return Figure::kMinimum;
-  node.fail(fmt::format("expected median or minimum, not '{}'", name));
 }
 
 void read_effort(const JsonNode& root, SweepConfig& config) {
-  const auto precision = root.find("precision");
-  config.precision = precision ? precision->number(0.0, 1.0) : kDefaultPrecision;
-  config.precise = Figure::kMedian;
-  if (const auto figure = root.find("precision_of")) config.precise = read_figure(*figure);
-  config.budget_seconds = root.require("budget_seconds").number(0.0, kMaxBudgetSeconds);
-  const auto warm_up = root.find("warm_up_seconds");
-  config.warm_up =
-      std::chrono::duration<double>(warm_up ? warm_up->number(0.0, kMaxWarmUp) : kDefaultWarmUp);
+  const nlohmann::json& json = root.value();
+  config.precision = json.value("precision", 0.02);
+  config.precise =
+      json.value("precision_of", "median") == "median" ? Figure::kMedian : Figure::kMinimum;
+  config.budget_seconds = json.at("budget_seconds").get<double>();
+  config.warm_up = std::chrono::duration<double>(json.value("warm_up_seconds", 0.5));
   read_repetitions(root, config);
 }
 
@@ -243,7 +200,7 @@ rays::RayChoice existing(rays::RayChoice choice) {
 }
 
 void read_rays(const JsonNode& root, SweepConfig& config) {
-  for (const JsonNode& node : root.require("resolutions").elements()) {
+  for (const JsonNode& node : root.find("resolutions")->elements()) {
     const std::string text = node.text();
     config.resolutions.push_back(node.checked([&] { return rays::parse_resolution(text); }));
   }
@@ -270,7 +227,7 @@ void read_rays(const JsonNode& root, SweepConfig& config) {
 int read_threads(const JsonNode& root, const SweepConfig& config) {
   const auto node = root.find("threads");
   if (!node) return 1;
-  const int threads = static_cast<int>(node->integer(1, kMaxThreads));
+  const int threads = node->value().get<int>();
   for (const rays::RayChoice& rays : config.rays) {
     if (threads == 1 || rays == rays::RayChoice()) continue;
     node->fail(
@@ -292,16 +249,14 @@ SweepConfig parse_sweep(nlohmann::json source, const std::string& name,
   SweepConfig config{};
   config.source = std::move(source);
   const JsonNode root(config.source, name);
-  root.require_object({"$schema", "name", "description", "scenes", "structures", "resolutions",
-                       "samples", "rays", "threads", "precision", "precision_of", "repetitions",
-                       "budget_seconds", "warm_up_seconds", "exclude"});
+  require_sweep_form(config.source, name);
   require_affordable(root, listed_structures(root));
-  config.name = read_name(root.require("name"));
+  config.name = root.find("name")->text();
   if (const auto description = root.find("description")) config.description = description->text();
-  for (const JsonNode& node : root.require("scenes").elements()) {
+  for (const JsonNode& node : root.find("scenes")->elements()) {
     config.scenes.push_back(read_scene(node));
   }
-  for (const JsonNode& node : root.require("structures").elements()) {
+  for (const JsonNode& node : root.find("structures")->elements()) {
     std::ranges::move(read_structure_entry(node, structures),
                       std::back_inserter(config.structures));
     require_affordable(root, static_cast<double>(config.structures.size()));  // `all` are many

@@ -1,9 +1,7 @@
 #pragma once
 // The values of a JSON document that people write, with messages that state the place.
 
-#include <cstdint>
 #include <functional>
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,8 +14,8 @@
 
 namespace beambench::measure {
 
-/// A value in a JSON document and its place. An unexpected value throws InputError `file:
-/// /structures/1/parameters: expected ...`, with the value's JSON pointer (RFC 6901).
+/// A value in a JSON document whose form is as expected (sweep_schema.hpp), and its place, which
+/// messages state as a JSON pointer (RFC 6901): `file: /structures/1: ...`.
 class JsonNode {
  public:
   /// The whole document, which outlives the node and all nodes taken from it.
@@ -37,25 +35,19 @@ class JsonNode {
     }
   }
 
-  /// Requires an object that has no keys but these.
-  void require_object(std::initializer_list<std::string_view> known_keys) const;
   /// Returns a member of an object.
   std::optional<JsonNode> find(std::string_view key) const;
-  JsonNode require(std::string_view key) const;
   /// Returns all members of an object, by key.
   std::vector<std::pair<std::string, JsonNode>> members() const;
-  /// Returns the elements of an array that has at least one.
+  /// Returns the elements of an array.
   std::vector<JsonNode> elements() const;
 
-  std::string text() const;
-  std::int64_t integer(std::int64_t minimum, std::int64_t maximum) const;
-  double number(double minimum, double maximum) const;
+  std::string text() const { return value_->get<std::string>(); }
   /// Returns a number, flag or text as it is written after `key=` on a command line.
   std::string parameter_text() const;
 
  private:
   JsonNode(const nlohmann::json& value, std::string file, nlohmann::json::json_pointer pointer);
-  [[noreturn]] void fail_expecting(std::string_view expected) const;
 
   const nlohmann::json* value_;
   std::string file_;

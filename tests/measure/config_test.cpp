@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"/threads", {1, 2}, {"/threads: expected a whole number"}},
         Wrong{"/precision", -0.5, {"/precision: expected a number from 0 to 1", "-0.5"}},
         Wrong{"/precision", "good", {"/precision: expected a number"}},
-        Wrong{"/precision_of", "mean", {"/precision_of: expected median or minimum", "'mean'"}},
+        Wrong{"/precision_of", "mean", {"/precision_of: expected median or minimum", "\"mean\""}},
         Wrong{"/repetitions/minimum", 0, {"/repetitions/minimum: expected a whole number from 1"}},
         Wrong{"/repetitions/second_traces",
               -1,
