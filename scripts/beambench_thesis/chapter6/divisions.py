@@ -9,18 +9,13 @@ from beambench_report.base.figure import PAGE_WIDTH, Plot, new_figure
 from beambench_report.base.quantities import markdown_table
 from beambench_thesis.chapter6.machines import Recorded
 from beambench_thesis.chapter6.page import rendered
-from beambench_thesis.chapter6.plots import HIGHER, line_look, name_panel
+from beambench_thesis.chapter6.plots import HIGHER, line_look, log_axis, name_panel
 from beambench_thesis.chapter6.record import LARGE
 from beambench_thesis.chapter6.results import EQUAL_MACHINES, THESIS_OPTIONS
-from beambench_thesis.chapter6.simulate import (
-    DIVISIONS,
-    ERAS,
-    LARGE_OPTIONS,
-    OLD,
-)
+from beambench_thesis.chapter6.simulate import DIVISIONS, ERAS, LARGE_OPTIONS, MACHINES_OF
 
 _COMPARED = (THESIS_OPTIONS, "image blocks", *DIVISIONS)
-_CLUSTERS = {OLD: "machines of 1999, 100 Mbit/s", "today": "machines of today, 10 Gbit/s"}
+_CLUSTERS = {era: f"machines of {machines}" for era, machines in MACHINES_OF.items()}
 _SHOWN = (8, 15, 32, 64, 128, 256, 512, 1024)
 
 
@@ -79,8 +74,7 @@ def _efficiency(panel: Axes, rows: pd.DataFrame, options: tuple[str, ...], title
         if line.empty:
             continue
         panel.plot(line["consumers"] + 1, line["efficiency"], **line_look(index), label=name)
-    panel.set_xscale("log", base=2)
-    panel.xaxis.set_major_formatter("{x:.0f}")
+    log_axis(panel)
     panel.set_ylim(0, 1.1)
     name_panel(panel, title, "processes", f"efficiency {HIGHER}")
 

@@ -9,7 +9,7 @@ from matplotlib.ticker import MaxNLocator
 from beambench_report.base.figure import DASHES, LINE_COLORS, MARKERS, PAGE_WIDTH, Plot, new_figure
 from beambench_report.run.panels import scale_axis
 from beambench_thesis.chapter6.results import EQUAL_MACHINES, THESIS_OPTIONS
-from beambench_thesis.chapter6.simulate import OLD, OPTIONS, STATIONS, TODAY
+from beambench_thesis.chapter6.simulate import MACHINES_OF, OLD, OPTIONS, STATIONS, TODAY
 from beambench_thesis.paper.evidence import published_evidence
 
 LOWER, HIGHER = "(lower is better)", "(higher is better)"
@@ -155,14 +155,13 @@ def _scaling(rows: pd.DataFrame, era: str) -> Plot | None:
         speed_up.plot(ends, ends, **IDEAL)
         scale_axis(speed_up, "y", [*of_scene["speed_up"], *ends])
         for panel in (speed_up, busy):
-            panel.set_xscale("log", base=2)
-            panel.xaxis.set_major_formatter("{x:.0f}")
+            log_axis(panel)
         name_panel(speed_up, f"{scene}: speed-up", "processes", f"times {HIGHER}")
         name_panel(busy, f"{scene}: the producer is busy", "processes", "% of the time")
         busy.set_ylim(0, 105)
     panels[0].legend(fontsize=7, frameon=False)
-    machines = "machines of 1999, 100 Mbit/s" if era == OLD else "machines of today, 10 Gbit/s"
-    return Plot(f"many-processes-{era}", figure, f"speed-up and the producer's load on {machines}")
+    summary = f"speed-up and the producer's load on machines of {MACHINES_OF[era]}"
+    return Plot(f"many-processes-{era}", figure, summary)
 
 
 def _lines(rows: pd.DataFrame) -> Sequence[tuple[tuple[str, str], pd.DataFrame]]:
@@ -197,3 +196,9 @@ def name_panel(panel: Axes, title: str, across: str, up: str) -> None:
     panel.set_xlabel(across)
     panel.set_ylabel(up)
     panel.grid(alpha=0.3)
+
+
+def log_axis(panel: Axes, which: str = "x") -> None:
+    """Makes an axis of a panel logarithmic to base 2, with whole numbers beside it."""
+    getattr(panel, f"set_{which}scale")("log", base=2)
+    getattr(panel, f"{which}axis").set_major_formatter("{x:.0f}")

@@ -3,9 +3,10 @@
 import json
 import sys
 import threading
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
+from itertools import product
 from pathlib import Path
 
 from beambench_report.base.files import Problem, output_of
@@ -40,6 +41,8 @@ from beambench_thesis.chapter6.record import (
 from beambench_thesis.chapter6.results import EQUAL_MACHINES, THESIS_OPTIONS, write_results
 
 OLD, TODAY = ERAS = ("1999", "today")
+CLUSTERS = {OLD: (SWITCHED, MESSAGES_OF_1999), TODAY: (MODERN, MESSAGES_OF_TODAY)}
+MACHINES_OF = {OLD: "1999, 100 Mbit/s", TODAY: "today, 10 Gbit/s"}
 STATIONS = 15
 MANY = tuple(2**power - 1 for power in range(4, 11))  # 16 to 1,024 processes, the producer's one
 
@@ -122,11 +125,13 @@ class Simulation:
 
 def simulations(scenes: tuple[str, ...], *, most: int = 1024) -> list[Simulation]:
     """Returns all simulations with at most `most` processes."""
+    counts = (STATIONS // 2, STATIONS - 1, *MANY)
     every = [
         *(each for scene in scenes for each in _thesis(scene)),
-        *(each for scene in scenes for each in _many(scene)),
-        *(each for scene in scenes for each in _divided(scene)),
-        *_large(),
+        # When the producer saturates, and the effect of each option.
+        *(each for scene in scenes for each in _on_both(scene, OPTIONS, counts)),
+        *(each for scene in scenes for each in _on_both(scene, DIVISIONS, counts)),
+        *_on_both(LARGE, LARGE_OPTIONS, MANY),
         *(each for scene in scenes for each in _unlike(scene)),
         *(each for scene in scenes for each in _assumptions(scene)),
     ]
@@ -146,36 +151,11 @@ def _thesis(scene: str) -> list[Simulation]:
     ]
 
 
-_CLUSTERS = ((OLD, SWITCHED, MESSAGES_OF_1999), (TODAY, MODERN, MESSAGES_OF_TODAY))
-
-
-def _divided(scene: str) -> list[Simulation]:
-    """Returns static divisions of the image, and tiles, on both clusters."""
+def _on_both(scene: str, options: Iterable[str], counts: Iterable[int]) -> list[Simulation]:
+    """Returns simulations with each of the options and numbers of consumers on both clusters."""
     return [
-        Simulation(era, scene, network, messages, consumers, options)
-        for era, network, messages in _CLUSTERS
-        for options in DIVISIONS
-        for consumers in (STATIONS // 2, STATIONS - 1, *MANY)
-    ]
-
-
-def _large() -> list[Simulation]:
-    """Returns simulations of a picture large enough for 1,024 processes."""
-    return [
-        Simulation(era, LARGE, network, messages, consumers, options)
-        for era, network, messages in _CLUSTERS
-        for options in LARGE_OPTIONS
-        for consumers in MANY
-    ]
-
-
-def _many(scene: str) -> list[Simulation]:
-    """Returns simulations that show when the producer saturates, and the effect of each option."""
-    return [
-        Simulation(era, scene, network, messages, consumers, options)
-        for era, network, messages in _CLUSTERS
-        for options in OPTIONS
-        for consumers in (STATIONS // 2, STATIONS - 1, *MANY)
+        Simulation(era, scene, *CLUSTERS[era], consumers, each)
+        for era, each, consumers in product(ERAS, options, counts)
     ]
 
 
