@@ -11,7 +11,13 @@ from beambench_thesis.chapter6.machines import Recorded
 from beambench_thesis.chapter6.page import rendered
 from beambench_thesis.chapter6.plots import HIGHER, line_look, log_axis, name_panel
 from beambench_thesis.chapter6.record import LARGE
-from beambench_thesis.chapter6.results import EQUAL_MACHINES, THESIS_OPTIONS
+from beambench_thesis.chapter6.results import (
+    EQUAL_MACHINES,
+    THESIS_OPTIONS,
+    pivot,
+    rows_with,
+    switched,
+)
 from beambench_thesis.chapter6.simulate import DIVISIONS, ERAS, LARGE_OPTIONS, MACHINES_OF
 
 _COMPARED = (THESIS_OPTIONS, "image blocks", *DIVISIONS)
@@ -24,13 +30,8 @@ def _divided(simulations: pd.DataFrame) -> pd.DataFrame:
 
     Empty where no division was simulated.
     """
-    rows = simulations[
-        simulations["options"].isin(_COMPARED)
-        & simulations["scene"].ne(LARGE)
-        & simulations["machines"].eq(EQUAL_MACHINES)
-        & ~simulations["network"].str.startswith("shared")
-        & (simulations["consumers"] + 1).isin(_SHOWN)
-    ]
+    rows = switched(rows_with(simulations, options=_COMPARED, machines=EQUAL_MACHINES))
+    rows = rows[rows["scene"].ne(LARGE) & (rows["consumers"] + 1).isin(_SHOWN)]
     rows = rows.drop_duplicates(["era", "scene", "options", "consumers"])
     return rows if rows["options"].isin(DIVISIONS).any() else rows.iloc[:0]
 
@@ -106,17 +107,12 @@ def divisions_sections(
 
 
 def _table(rows: pd.DataFrame) -> list[str]:
-    counts = sorted(set(rows["consumers"] + 1) & set(_SHOWN))
-    lines = []
-    for (era, scene, options), group in rows.groupby(["era", "scene", "options"], sort=False):
-        by_processes = group.assign(processes=group["consumers"] + 1).set_index("processes")
-        cells = (
-            f"{by_processes.loc[count, 'efficiency']:.2f}" if count in by_processes.index else ""
-            for count in counts
-        )
-        lines.append((era, scene, options, *cells))
-    heads = ("machines of", "scene", "work", *(f"{count:,} processes" for count in counts))
-    return markdown_table(heads, lines)
+    shown = rows.assign(processes=rows["consumers"] + 1)
+    counts = sorted(set(shown["processes"]) & set(_SHOWN))
+    heads = {count: f"{count:,} processes" for count in counts}
+    names = ("machines of", "scene", "work")
+    by = ("era", "scene", "options")
+    return pivot(shown, by, "processes", heads, lambda run: f"{run['efficiency']:.2f}", names)
 
 
 def _profile(rows: pd.DataFrame) -> list[str]:

@@ -144,7 +144,6 @@ def measure(folder: Path, program: Path, pictures: list[Picture], repeats: int) 
             runs = [_run_mpi(program, picture, processes, options) for _ in range(repeats)]
             hashes |= {run["result_hash"] for run in runs}
             first, seconds = runs[0], [run["seconds"] for run in runs]
-            traffic = {f"{end}_producer": first[f"{end}_producer"] for end in ("from", "to")}
             rows.append(
                 {
                     "scene": picture.scene,
@@ -164,8 +163,8 @@ def measure(folder: Path, program: Path, pictures: list[Picture], repeats: int) 
                     "tasks_of_producer": first["each"][0]["tasks"],
                 }
                 | {
-                    f"{what}_{end}": sent[what]
-                    for end, sent in traffic.items()
+                    f"{what}_{end}": first[end][what]
+                    for end in ("from_producer", "to_producer")
                     for what in ("messages", "bytes")
                 }
             )

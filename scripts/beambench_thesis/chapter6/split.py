@@ -18,14 +18,7 @@ from beambench_report.base.files import Problem, read_table
 from beambench_report.base.quantities import markdown_table
 from beambench_thesis.chapter6.machines import NONE, TRACED, Slowness
 from beambench_thesis.chapter6.page import rendered
-from beambench_thesis.chapter6.plots import (
-    HIGHER,
-    IDEAL,
-    LOWER,
-    line_look,
-    log_axis,
-    name_panel,
-)
+from beambench_thesis.chapter6.plots import HIGHER, IDEAL, LOWER, line_look, log_axis, name_panel
 from beambench_thesis.chapter6.record import read_recorded
 from beambench_thesis.chapter6.results import write_rows
 from beambench_thesis.chapter6.simulate import (

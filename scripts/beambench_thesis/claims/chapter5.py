@@ -32,13 +32,7 @@ from beambench_thesis.claims.comparisons import (
     slope,
 )
 from beambench_thesis.claims.verdict import Check, Claims, aside, below, between
-from beambench_thesis.paper.evidence import (
-    HIERARCHY,
-    PAPER_HIERARCHY,
-    Evidence,
-    Measured,
-    smallest,
-)
+from beambench_thesis.paper.evidence import HIERARCHY, PAPER_HIERARCHY, Evidence, Measured, smallest
 
 CLAIMS = Claims()
 
@@ -340,9 +334,7 @@ def beams_win_at_high_resolution(e: Evidence) -> list[Check]:
 def _rays_before_beams(e: Evidence, scene: str, resolution: str = COARSEST) -> Check:
     """Is the better of Samet and Samet-Net quicker than the beams?"""
     return below(
-        f"{scene} {resolution}",
-        best_ray(e, scene, resolution),
-        e.time(scene, "beam", resolution),
+        f"{scene} {resolution}", best_ray(e, scene, resolution), e.time(scene, "beam", resolution)
     )
 
 

@@ -11,14 +11,7 @@ from beambench_report.base.published import COARSEST, FINEST, RESOLUTIONS
 from beambench_thesis.claims.chapter5 import ALL_SCENES, ON_OCTREES
 from beambench_thesis.claims.comparisons import beats, difference, most, ratio_of
 from beambench_thesis.claims.verdict import Check, Claims, Outcome, below, between
-from beambench_thesis.paper.evidence import (
-    PICTURE,
-    Evidence,
-    Measured,
-    largest,
-    share,
-    total,
-)
+from beambench_thesis.paper.evidence import PICTURE, Evidence, Measured, largest, share, total
 
 PROSE_CLAIMS = Claims()
 

@@ -5,20 +5,9 @@ from collections.abc import Callable, Iterable, Sequence
 from beambench_report.base.published import COARSEST, FINEST, RESOLUTIONS, rays
 from beambench_report.base.quantities import number
 from beambench_thesis.paper.cells import Cell, Cells, Setting, setting
-from beambench_thesis.paper.evidence import (
-    CELLS,
-    ON_OCTREES,
-    SETTING,
-    Measured,
-    published_evidence,
-)
+from beambench_thesis.paper.evidence import CELLS, ON_OCTREES, SETTING, Measured, published_evidence
 from beambench_thesis.paper.measured import UNKNOWN_SPREAD
-from beambench_thesis.paper.printed import (
-    PrintedPart,
-    contender_title,
-    parts_of,
-    scene_title,
-)
+from beambench_thesis.paper.printed import PrintedPart, contender_title, parts_of, scene_title
 from beambench_thesis.report.drawing import FigureData, Panel, Points, Side
 
 ACROSS = "rays / 10,000"

@@ -30,18 +30,8 @@ class Figure:
 
 
 TABLES = (
-    Table(
-        "5.2",
-        "Results as more objects may lie in a leaf",
-        ("division",),
-        ("best-division",),
-    ),
-    Table(
-        "5.3",
-        "Results as the octree becomes deeper",
-        ("division",),
-        ("best-division",),
-    ),
+    Table("5.2", "Results as more objects may lie in a leaf", ("division",), ("best-division",)),
+    Table("5.3", "Results as the octree becomes deeper", ("division",), ("best-division",)),
     Table(
         "5.4",
         "Total time: beams and single rays on the same octree, synthetic scenes",
@@ -93,24 +83,10 @@ FIGURES = (
 )
 
 # In the order in which they are run: what the thesis did first, last what the fewest claims need.
-SWEEPS = (
-    "synthetic",
-    "division",
-    "octree",
-    "others-small",
-    "others-large",
-    "quality",
-    "samples",
-    "best-octree",
-    "shallow",
-    "best-others-large",
-    "best-grids",
-    "grids",
-    "best-synthetic",
-    "best-division",
-    "best-others-small",
+SWEEPS = tuple(
+    "synthetic division octree others-small others-large quality samples best-octree shallow "
+    "best-others-large best-grids grids best-synthetic best-division best-others-small".split()
 )
-
 
 FOLDER = ROOT / "harness/measure/sweeps/thesis"
 
@@ -244,8 +220,9 @@ def make_plan(
     `with_levels` adds the sweep that tests max_level=auto.
     """
     known_tables, known_figures = [t.number for t in TABLES], [f.number for f in FIGURES]
-    _require_known("table", tables, known_tables)
-    _require_known("figure", figures, known_figures)
+    for kind, given, known in (("table", tables, known_tables), ("figure", figures, known_figures)):
+        for unknown in (number for number in given if number not in known):
+            raise Problem(f"there is no {kind} '{unknown}'; there are {', '.join(known)}")
     if not tables and not figures:
         tables, figures = known_tables, known_figures
     chosen_tables = [table for table in TABLES if table.number in tables]
@@ -307,9 +284,3 @@ def read_plan(directory: Path) -> Plan:
 def _figures_of(sweeps: Set[str]) -> list[str]:
     """Returns the figures that need no other sweeps, so cost nothing more."""
     return [figure.number for figure in FIGURES if sweeps >= set(figure.sweeps)]
-
-
-def _require_known(kind: str, given: Sequence[str], known: Sequence[str]) -> None:
-    for number in given:
-        if number not in known:
-            raise Problem(f"there is no {kind} '{number}'; there are {', '.join(known)}")

@@ -10,12 +10,7 @@ from beambench_report.base.files import Problem, read_json
 from beambench_report.base.machine import Manifest, read_manifest
 from beambench_thesis.chapter5.best import BestTable, best_table
 from beambench_thesis.chapter5.cost import cost_section
-from beambench_thesis.chapter5.facts import (
-    CENSUS,
-    camera_section,
-    scenes_section,
-    visits_section,
-)
+from beambench_thesis.chapter5.facts import CENSUS, camera_section, scenes_section, visits_section
 from beambench_thesis.chapter5.grid_beams import grid_beams_section
 from beambench_thesis.chapter5.levels import levels_section
 from beambench_thesis.chapter5.mirrors import mirrors_section, read_mirrors

@@ -13,12 +13,7 @@ from beambench_report.base.formulas import guarded
 from beambench_report.base.quantities import DASH, markdown_table, number
 from beambench_report.run.html import data_uri, environment
 from beambench_thesis.chapter5.best import BestTable, Choice
-from beambench_thesis.claims.register import (
-    amendment,
-    cells_of,
-    claims_as_markdown,
-    summary,
-)
+from beambench_thesis.claims.register import amendment, cells_of, claims_as_markdown, summary
 from beambench_thesis.paper.cells import Cells
 from beambench_thesis.paper.printed import interval, milliseconds, origin, thesis_seconds
 from beambench_thesis.paper.section import section_as_markdown
