@@ -18,7 +18,7 @@ from beambench_report.base.names import file_stems
 from beambench_report.base.palette import INK, SOFT, structure_color
 from beambench_report.base.quantities import DASH, number
 from beambench_report.run.labels import place_labels
-from beambench_thesis.paper.printed import milliseconds, scene_title
+from beambench_thesis.paper.printed import milliseconds, title_of
 from beambench_thesis.paper.section import (
     Section,
     SectionFigure,
@@ -58,10 +58,8 @@ class Comparison:
     @property
     def title(self) -> str:
         """Scene and resolution, and the structure unless it is `beam`."""
-        plain = self.scene.split(":")[0]
-        name = scene_title(plain)
         own = "" if self.structure == "beam" else f", {self.structure}"
-        return f"{self.scene if name == plain else name}, {self.resolution}{own}"
+        return f"{title_of(self.scene)}, {self.resolution}{own}"
 
     @property
     def methods(self) -> list[str]:

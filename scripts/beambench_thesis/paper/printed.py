@@ -84,6 +84,12 @@ def scene_title(scene: str) -> str:
     return _SCENES.get(scene, scene)
 
 
+def title_of(name: str) -> str:
+    """Returns the thesis's name of `escena1:seed=1999`; names of other scenes are unchanged."""
+    plain = name.split(":")[0]
+    return scene_title(plain) if plain in _SCENES else name
+
+
 def contender_title(structure: str) -> str:
     """Returns the name of a contender in the thesis's tables, in English."""
     return _NAMES.get(structure, structure)
