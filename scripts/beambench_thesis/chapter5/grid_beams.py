@@ -129,17 +129,8 @@ def _fields(row: GridBeamRow) -> tuple[str, ...]:
 
 def _grid(cell: Cell) -> tuple[object, ...]:
     """Returns everything that determines the grids and the rays."""
-    names = (
-        "resolution",
-        "density",
-        "inner_density",
-        "shape",
-        "max_objects",
-        "max_level",
-        "divide",
-        "assign",
-    )
-    grids = tuple(cell.parameters.get(name) for name in names)
+    names = "resolution density inner_density shape max_objects max_level divide assign"
+    grids = tuple(cell.parameters.get(name) for name in names.split())
     return cell.scene, cell.resolution, cell.samples, grids
 
 

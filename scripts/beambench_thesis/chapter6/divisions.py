@@ -11,14 +11,9 @@ from beambench_thesis.chapter6.machines import Recorded
 from beambench_thesis.chapter6.page import rendered
 from beambench_thesis.chapter6.plots import HIGHER, line_look, log_axis, name_panel
 from beambench_thesis.chapter6.record import LARGE
-from beambench_thesis.chapter6.results import (
-    EQUAL_MACHINES,
-    THESIS_OPTIONS,
-    pivot,
-    rows_with,
-    switched,
-)
+from beambench_thesis.chapter6.results import EQUAL_MACHINES, THESIS_OPTIONS, pivot, switched
 from beambench_thesis.chapter6.simulate import DIVISIONS, ERAS, LARGE_OPTIONS, MACHINES_OF
+from beambench_thesis.paper.evidence import rows_with
 
 _COMPARED = (THESIS_OPTIONS, "image blocks", *DIVISIONS)
 _CLUSTERS = {era: f"machines of {machines}" for era, machines in MACHINES_OF.items()}

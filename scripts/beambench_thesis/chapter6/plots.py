@@ -8,9 +8,9 @@ from matplotlib.ticker import MaxNLocator
 
 from beambench_report.base.figure import DASHES, LINE_COLORS, MARKERS, PAGE_WIDTH, Plot, new_figure
 from beambench_report.run.panels import scale_axis
-from beambench_thesis.chapter6.results import EQUAL_MACHINES, THESIS_OPTIONS, rows_with
+from beambench_thesis.chapter6.results import EQUAL_MACHINES, THESIS_OPTIONS
 from beambench_thesis.chapter6.simulate import MACHINES_OF, OLD, OPTIONS, STATIONS, TODAY
-from beambench_thesis.paper.evidence import published_evidence
+from beambench_thesis.paper.evidence import published_evidence, rows_with
 
 LOWER, HIGHER = "(lower is better)", "(higher is better)"
 IDEAL = {"color": "#777777", "linewidth": 0.8, "linestyle": (0, (1, 2)), "zorder": 1}

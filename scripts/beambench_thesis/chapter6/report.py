@@ -19,7 +19,6 @@ from beambench_thesis.chapter6.results import (
     pivot,
     read_processes,
     read_simulations,
-    rows_with,
     switched,
 )
 from beambench_thesis.chapter6.scene_divisions import (
@@ -29,6 +28,7 @@ from beambench_thesis.chapter6.scene_divisions import (
 )
 from beambench_thesis.chapter6.simulate import DIVISIONS, OLD, OPTIONS, STATIONS, TODAY, slowness_of
 from beambench_thesis.chapter6.split import read_split, split_plot, split_section
+from beambench_thesis.paper.evidence import rows_with
 
 _SHOWN = (1, 2, 4, 6, 8, 10, 12, 14)
 

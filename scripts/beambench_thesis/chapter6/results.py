@@ -76,13 +76,6 @@ def write_results(folder: Path, results: list[dict[str, object]]) -> list[Path]:
     ]
 
 
-def rows_with(rows: pd.DataFrame, **values: object) -> pd.DataFrame:
-    """Returns the rows that have these values in their columns, or one value of a collection."""
-    for name, value in values.items():
-        rows = rows[rows[name].isin([value] if isinstance(value, str | int) else value)]
-    return rows
-
-
 def switched(rows: pd.DataFrame) -> pd.DataFrame:
     """Returns the simulations of networks with a line for each machine."""
     return rows[~rows["network"].str.startswith("shared")]

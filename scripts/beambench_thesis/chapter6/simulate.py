@@ -26,6 +26,7 @@ from beambench_thesis.chapter6.machines import (
     Network,
     Recorded,
     Slowness,
+    options,
     slowness_of_1999,
 )
 from beambench_thesis.chapter6.record import (
@@ -114,10 +115,10 @@ class Simulation:
         """Arguments of the simulator that do not depend on recordings."""
         pixels = self.era == OLD and not self.own_messages and self.work != TILES
         return [
-            *("--consumers", str(self.consumers)),
+            *options(consumers=self.consumers),
             *self.network.arguments(),
             *self.messages.arguments(),
-            *(("--sample-bytes", str(BYTES_PER_SAMPLE_OF_1999)) if pixels else ()),
+            *(options(sample_bytes=BYTES_PER_SAMPLE_OF_1999) if pixels else ()),
             *(OPTIONS | DIVISIONS | LARGE_OPTIONS).get(self.options, ()),
             *MACHINES[self.machines],
         ]
@@ -151,21 +152,19 @@ def _thesis(scene: str) -> list[Simulation]:
     ]
 
 
-def _on_both(scene: str, options: Iterable[str], counts: Iterable[int]) -> list[Simulation]:
+def _on_both(scene: str, kinds: Iterable[str], counts: Iterable[int]) -> list[Simulation]:
     """Returns simulations with each of the options and numbers of consumers on both clusters."""
     return [
         Simulation(era, scene, *CLUSTERS[era], consumers, each)
-        for era, each, consumers in product(ERAS, options, counts)
+        for era, each, consumers in product(ERAS, kinds, counts)
     ]
 
 
 def _unlike(scene: str) -> list[Simulation]:
     """Returns simulations with machines of two speeds, and with machines that others use."""
-    return [
-        Simulation(OLD, scene, SWITCHED, MESSAGES_OF_1999, STATIONS - 1, options, machines)
-        for machines in MACHINES
-        for options in (THESIS_OPTIONS, "8 beams a message", "two in flight", "image blocks")
-    ]
+    kinds = (THESIS_OPTIONS, "8 beams a message", "two in flight", "image blocks")
+    usual = _old(scene, SWITCHED, STATIONS - 1)
+    return [replace(usual, machines=one, options=kind) for one, kind in product(MACHINES, kinds)]
 
 
 def _assumptions(scene: str) -> list[Simulation]:
@@ -257,14 +256,12 @@ def _simulate(
     slow = slowness_of(recorded, simulation.constant_is) if simulation.era == OLD else NONE
     build = recorded[simulation.scene, simulation.work].build_seconds * slow.build
     arguments = [
-        *("--walk-scale", str(slow.walk)),
-        *("--work-scale", str(slow.work)),
-        *("--build-seconds", str(build)),
+        *options(walk_scale=slow.walk, work_scale=slow.work, build_seconds=build),
         *simulation.arguments(),
     ]
     if simulation.options == PRE_PASS:
         seconds = recorded[simulation.scene, simulation.work].pre_pass_seconds
-        arguments += ["--pre-pass-seconds", str(seconds)]
+        arguments += options(pre_pass_seconds=seconds)
     tasks = tasks_file(folder, simulation.scene, simulation.work)
     result = cache.result(
         [tasks.name, *arguments], [str(program), "cluster", str(tasks), *arguments]

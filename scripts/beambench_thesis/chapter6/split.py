@@ -16,7 +16,7 @@ import pandas as pd
 from beambench_report.base.figure import PAGE_WIDTH, Plot, new_figure
 from beambench_report.base.files import Problem, read_table
 from beambench_report.base.quantities import markdown_table
-from beambench_thesis.chapter6.machines import NONE, TRACED, Slowness
+from beambench_thesis.chapter6.machines import NONE, TRACED, Slowness, options
 from beambench_thesis.chapter6.page import rendered
 from beambench_thesis.chapter6.plots import HIGHER, IDEAL, LOWER, line_look, log_axis, name_panel
 from beambench_thesis.chapter6.record import read_recorded
@@ -103,7 +103,7 @@ class Runs:
         what = f"{era}: {divided.scene} in {parts} parts{f', {division}' * bool(division)}"
         print(f"\r{what:<60}", end="", file=sys.stderr, flush=True)
         arguments = arguments_of(era, divided, parts, slow, self._resolution)
-        arguments += ["--division", division] if division else []
+        arguments += options(division=division) if division else []
         runs = [
             self._cache.result([str(repeat), *arguments], [str(self._program), "split", *arguments])
             for repeat in range(self._repeats)
@@ -169,13 +169,9 @@ def arguments_of(
     network, messages = CLUSTERS[era]
     return [
         divided.scene,
-        *("--accel", divided.structure),
-        *("--split", str(CELLS_LEVEL)),
-        *("--processes", str(parts)),
-        *("--resolution", resolution),
-        *("--build-scale", str(slow.build)),
-        *("--walk-scale", str(slow.walk)),
-        *("--work-scale", str(slow.work)),
+        *options(accel=divided.structure, split=CELLS_LEVEL, processes=parts),
+        *options(resolution=resolution, build_scale=slow.build),
+        *options(walk_scale=slow.walk, work_scale=slow.work),
         *network.arguments(),
         *messages.arguments(),
     ]

@@ -19,11 +19,10 @@ from beambench_thesis.chapter6.results import (
     THESIS_OPTIONS,
     read_processes,
     read_simulations,
-    rows_with,
 )
 from beambench_thesis.claims.comparisons import ratio_of
 from beambench_thesis.claims.verdict import Check, Claims, Outcome, Rule, aside, below, between
-from beambench_thesis.paper.evidence import FIGURES, ClusterEvidence, Evidence, Measured
+from beambench_thesis.paper.evidence import FIGURES, ClusterEvidence, Evidence, Measured, rows_with
 
 CLUSTER_CLAIMS = Claims()
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from math import nan
 from pathlib import Path
 
 import pandas as pd
@@ -87,28 +89,20 @@ class Cells:
 
     def without(self, run: str) -> Cells:
         """Returns the cells of all other runs."""
-        return Cells(
-            self.directory,
-            tuple(path for path in self.runs if path.name != run),
-            tuple(cell for cell in self.cells if cell.run != run),
-            self.unread,
-        )
+        runs = tuple(path for path in self.runs if path.name != run)
+        return replace(self, runs=runs, cells=tuple(one for one in self.cells if one.run != run))
 
     @cached_property
     def _by_setting(self) -> dict[Setting, Cell]:
-        found: dict[Setting, Cell] = {}
-        for cell in self.cells:
-            if cell.setting is not None:
-                found.setdefault(cell.setting, cell)
-        return found
+        """The first cell of each setting."""
+        return {cell.setting: cell for cell in reversed(self.cells) if cell.setting is not None}
 
     @cached_property
     def _by_view(self) -> dict[tuple[str, str, str, int], list[Cell]]:
-        found: dict[tuple[str, str, str, int], list[Cell]] = {}
+        found = defaultdict(list)
         for cell in self.cells:
-            key = (cell.scene, cell.structure, cell.resolution, cell.samples)
-            found.setdefault(key, []).append(cell)
-        return found
+            found[cell.scene, cell.structure, cell.resolution, cell.samples].append(cell)
+        return dict(found)
 
 
 def read_cells(directory: Path, names: Iterable[str]) -> Cells:
@@ -177,18 +171,13 @@ def _cell(number: int, run: str, line: int, row: dict) -> Cell:
         row["trace_ms_median"] / 1e3,
         row["fastest_mcycles"] if pd.notna(row["fastest_mcycles"]) else row["total_mcycles_median"],
         row["memory_bytes"],
-        *(_known(row, name) for name in _SIZES),
+        *(float(row.get(name, nan)) for name in _SIZES),
         {
             name.removesuffix(COUNTER_SUFFIX): value
             for name, value in row.items()
             if name.endswith(COUNTER_SUFFIX) and pd.notna(value)
         },
     )
-
-
-def _known(row: dict, name: str) -> float:
-    """Returns a figure of the row; NaN where it is missing."""
-    return float(row.get(name, float("nan")))
 
 
 def _plain_scene(scene: str, primitives: float) -> str:

@@ -83,14 +83,15 @@ def figure_5_17(cells: Cells) -> FigureData:
     """Returns the time of the lazy grid over its cells per axis."""
     at = _swept_at(cells)
     named = (("a", "ajedrez"), ("b", "flamenco"))
+    own = {scene: _own_grids(cells, scene, at) for _, scene in named}
     sides = (
-        _grids_of(cells, f"({letter}) {scene_title(scene)}", scene, at) for letter, scene in named
+        Side(
+            (*_printed_grids(scene, at), *own[scene][0]) if own[scene][0] else (),
+            f"({letter}) {scene_title(scene)}",
+        )
+        for letter, scene in named
     )
-    ours = "; ".join(
-        f"{scene_title(scene)} {base}"
-        for _, scene in named
-        if (base := _own_grids(cells, scene, at)[1])
-    )
+    ours = "; ".join(f"{scene_title(scene)} {base}" for scene, (_, base) in own.items() if base)
     return FigureData(
         "5.17",
         "Time of the grid by its cells per axis",
@@ -109,15 +110,11 @@ def figure_5_17(cells: Cells) -> FigureData:
     )
 
 
-def _grids_of(cells: Cells, title: str, scene: str, resolution: str) -> Side:
-    """Returns our grids of a scene with the thesis's points."""
-    lines, _ = _own_grids(cells, scene, resolution)
-    return Side((*_printed_grids(scene, resolution), *lines) if lines else (), title)
-
-
 def _swept_at(cells: Cells) -> str:
     """Returns 1280x1024, or the best resolution of a quick run."""
-    swept = [at for at in (FINEST, COARSEST) if len(_lazy(cells, "flamenco", at)) > 1]
+    swept = [
+        at for at in (FINEST, COARSEST) if len(_timed(cells, "flamenco", "voxel-grid", at)) > 1
+    ]
     return swept[0] if swept else FINEST
 
 
@@ -167,8 +164,9 @@ def _grids_over_rays(cells: Cells, scene: str, base: float) -> list[Points]:
         points = measured(cells, _grid(scene, count))
         label = "grid, the thesis's best (15, 13) cells" if words else "grid, 32 cells per axis"
         lines.append(Points(label, "voxel-grid", variant, over(points, base)))
-    best = [min(found, key=_seconds) for at in RESOLUTIONS if (found := _lazy(cells, scene, at))]
-    points = [(rays(cell.resolution) / 1e4, cell.time) for cell in best if cell.time]
+    lazy = (_timed(cells, scene, "voxel-grid", at) for at in RESOLUTIONS)
+    best = (min(found, key=lambda cell: cell.time.value) for found in lazy if found)
+    points = [(rays(cell.resolution) / 1e4, cell.time) for cell in best]
     lines.append(Points("grid, our best lazy one", "voxel-grid", 2, over(points, base)))
     return [line for line in lines if line.at]
 
@@ -177,13 +175,10 @@ def _grid(scene: str, count: int) -> list[tuple]:
     return [setting(scene, "voxel-grid", at, cells=count) for at in RESOLUTIONS]
 
 
-def _lazy(cells: Cells, scene: str, resolution: str) -> list[Cell]:
-    found = cells.of(scene, "voxel-grid", resolution)
+def _timed(cells: Cells, scene: str, structure: str, resolution: str) -> list[Cell]:
+    """Returns the cells with times and with parameters of the thesis; of grids, lazy ones."""
+    found = cells.of(scene, structure, resolution)
     return [cell for cell in found if cell.setting is not None and cell.time is not None]
-
-
-def _seconds(cell: Cell) -> float:
-    return cell.time.value if cell.time else float("inf")
 
 
 def _over(
@@ -193,13 +188,11 @@ def _over(
     for structure in structures:
         found: Line = [
             (float(cell.setting[of]), cell.time.times(1e3))
-            for cell in cells.of(scene, structure, resolution)
-            if cell.setting is not None and cell.time is not None
+            for cell in _timed(cells, scene, structure, resolution)
         ]
-        if found:
-            found.sort(key=lambda point: point[0])
-            lines.append(Points(contender_title(structure), structure, 0, found))
-    return tuple(lines)
+        found.sort(key=lambda point: point[0])
+        lines.append(Points(contender_title(structure), structure, 0, found))
+    return tuple(line for line in lines if line.at)
 
 
 def _own_grids(cells: Cells, scene: str, resolution: str) -> tuple[tuple[Points, ...], str]:

@@ -1,7 +1,6 @@
 """Gathering the report from the runs of a folder, and its sentences."""
 
 from collections import Counter
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -106,7 +105,7 @@ def gather(directory: Path, plan: Plan, beambench: Path | None = None) -> Report
         pictures,
         tuple(judge_claims([*cells.runs, *censuses], SWEPT_CLAIMS)),
         tuple(sections),
-        tuple(_summaries(directory, sweeps, every)),
+        tuple(_summary(directory, sweep, every) for sweep in sweeps),
     )
 
 
@@ -155,16 +154,15 @@ def _parts(table: Table, cells: Cells, directory: Path, plan: Plan) -> tuple[Par
     )
 
 
-def _summaries(directory: Path, sweeps: Iterable[Sweep], cells: Cells) -> Iterable[RunSummary]:
-    for sweep in sweeps:
-        yield RunSummary(
-            sweep.name,
-            sweep.description,
-            state_of(directory / sweep.name),
-            len(sweep.cells()),
-            tuple(cell for cell in cells.cells if cell.run == sweep.name),
-            read_manifest(directory / sweep.name) or Manifest(),
-        )
+def _summary(directory: Path, sweep: Sweep, cells: Cells) -> RunSummary:
+    return RunSummary(
+        sweep.name,
+        sweep.description,
+        state_of(directory / sweep.name),
+        len(sweep.cells()),
+        tuple(cell for cell in cells.cells if cell.run == sweep.name),
+        read_manifest(directory / sweep.name) or Manifest(),
+    )
 
 
 # What the report says in words, the same in Markdown and on the page
