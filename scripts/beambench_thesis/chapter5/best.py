@@ -57,7 +57,7 @@ def best_table(part: PrintedPart, cells: Cells) -> BestTable | None:
     for name in structures:
         for label, only in _pools(name):
             found = (
-                [cell for cell in cells.of(part.scene, name, at) if _fits(cell, only)]
+                [c for c in cells.of(part.scene, name, at) if only.items() <= c.parameters.items()]
                 for at in resolutions
             )
             lines.append(BestLine(label, name, tuple(map(choose, found))))
@@ -117,10 +117,6 @@ def _pools(structure: str) -> list[tuple[str, dict[str, str]]]:
     if structure == "goldsmith-salmon":
         return [(f"{title}, insert=terminal", {"insert": "terminal"}), (f"{title}, any insert", {})]
     return [(title, {})]
-
-
-def _fits(cell: Cell, only: dict[str, str]) -> bool:
-    return all(cell.parameters.get(name) == value for name, value in only.items())
 
 
 def _is_second_pass(part: PrintedPart, cells: Cells, resolution: str) -> bool:

@@ -18,13 +18,10 @@ from beambench_report.base.machine import require_one_machine
 from beambench_report.base.names import parameter_items
 from beambench_report.base.published import RESOLUTIONS, primitives_by_scene
 from beambench_report.base.records import read_run, size_of
-from beambench_thesis.paper.evidence import SETTING, Measured
+from beambench_thesis.paper.evidence import SETTING, Measured, Setting
 from beambench_thesis.paper.measured import seconds_of, setting_of
 
 _SIZES = ("nodes", "leaves", "empty_leaves", "references", "depth", "hit_share")
-
-Setting = tuple[str | int, ...]
-"""In the order of `evidence.SETTING`."""
 
 
 @dataclass(frozen=True)
@@ -123,20 +120,6 @@ def read_cells(directory: Path, names: Iterable[str]) -> Cells:
             if row["ray_kind"] == "primary":
                 cells.append(_cell(len(cells) + 1, name, line, row))
     return Cells(directory, tuple(runs), tuple(cells), tuple(unread))
-
-
-def setting(
-    scene: str,
-    contender: str,
-    resolution: str,
-    *,
-    level: int = 0,
-    objects: int = 0,
-    cells: int = 0,
-    samples: int = 1,
-) -> Setting:
-    """Returns a setting of the thesis as a key."""
-    return (scene, contender, level, objects, cells, resolution, samples)
 
 
 def resolutions_of(cells: Iterable[Cell]) -> list[str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import astuple, dataclass
 from functools import cache, cached_property
 from math import exp, hypot, log
@@ -65,15 +65,15 @@ def share(part: Measured, rest: Measured) -> Measured:
             part.high / (part.high + rest.low),
         )
     odds = part / rest
-    return Measured(*(end / (1 + end) for end in (odds.value, odds.low, odds.high)))
+    return Measured(*(end / (1 + end) for end in astuple(odds)))
 
 
-def smallest(figures: Sequence[Measured]) -> Measured:
+def smallest(figures: Iterable[Measured]) -> Measured:
     """Returns the least figure: its true value is at most the least upper end."""
     return Measured(*map(min, zip(*map(astuple, figures), strict=True)))
 
 
-def largest(figures: Sequence[Measured]) -> Measured:
+def largest(figures: Iterable[Measured]) -> Measured:
     """Returns the greatest figure: its true value is at least the greatest lower end."""
     return Measured(*map(max, zip(*map(astuple, figures), strict=True)))
 
@@ -157,6 +157,25 @@ ON_OCTREES = ("beam", "samet", "samet-net")
 # The thesis's parameters wherever it does not vary them.
 LEVEL, OBJECTS, CELLS = 6, 0, 32
 
+Setting = tuple[str | int, ...]
+"""In the order of SETTING."""
+
+
+def setting(
+    scene: str,
+    contender: str,
+    resolution: str,
+    *,
+    level: int = LEVEL,
+    objects: int = OBJECTS,
+    cells: int = CELLS,
+    samples: int = 1,
+) -> Setting:
+    """Returns a setting as a key: 0 stands where the contender has no such parameter."""
+    level, objects = (level, objects) if contender in ON_OCTREES else (0, 0)
+    cells = cells if contender == "voxel-grid" else 0
+    return (scene, contender, level, objects, cells, resolution, samples)
+
 
 @dataclass(frozen=True)
 class Evidence:
@@ -185,11 +204,10 @@ class Evidence:
         samples: int = 1,
     ) -> Measured | None:
         """Returns the seconds of one cell; parameters that are not given are the thesis's."""
-        level, objects = (level, objects) if contender in ON_OCTREES else (0, 0)
-        cells = cells if contender == "voxel-grid" else 0
-        return self.at((scene, contender, level, objects, cells, resolution, samples))
+        at = {"level": level, "objects": objects, "cells": cells, "samples": samples}
+        return self.at(setting(scene, contender, resolution, **at))
 
-    def at(self, setting: tuple[str | int, ...]) -> Measured | None:
+    def at(self, setting: Setting) -> Measured | None:
         """Returns the seconds of one cell by its setting, in the order of SETTING."""
         return self._times.get(setting)
 
@@ -245,7 +263,7 @@ class Evidence:
         return list(dict.fromkeys((key[0], key[2], key[3]) for key in keys))
 
     @cached_property
-    def _times(self) -> dict[tuple[str | int, ...], Measured]:
+    def _times(self) -> dict[Setting, Measured]:
         """The times by setting. Where two tables print the same cell, they agree."""
         return _figures_by(self.times.drop_duplicates(list(SETTING)), SETTING, "seconds")
 

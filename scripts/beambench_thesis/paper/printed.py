@@ -8,8 +8,8 @@ import pandas as pd
 
 from beambench_report.base.published import FOLDER, RESOLUTIONS, read_published
 from beambench_report.base.quantities import DASH, number
-from beambench_thesis.paper.cells import Cell, Setting, setting
-from beambench_thesis.paper.evidence import CELLS, ON_OCTREES, Measured
+from beambench_thesis.paper.cells import Cell
+from beambench_thesis.paper.evidence import Measured, Setting, setting
 
 REFERENCES = ("sah-bvh", "embree")
 """Contenders of today, which the thesis's tables do not have."""
@@ -48,10 +48,8 @@ class PrintedRow:
 
     def setting(self, scene: str, resolution: str) -> Setting:
         """Returns the setting of one of its cells."""
-        cells = CELLS if self.structure == "voxel-grid" else 0
-        return setting(
-            scene, self.structure, resolution, level=self.level, objects=self.objects, cells=cells
-        )
+        varied = {"level": self.level, "objects": self.objects}
+        return setting(scene, self.structure, resolution, **varied)
 
 
 @dataclass(frozen=True)
@@ -118,7 +116,7 @@ def _rows(table: str, rows: pd.DataFrame) -> tuple[PrintedRow, ...]:
         PrintedRow(
             _label(table, structure, level, objects),
             structure,
-            level if structure in ON_OCTREES else 0,
+            level,
             objects,
             dict(zip(group["resolution"], group["seconds"], strict=True)),
         )

@@ -212,6 +212,9 @@ def notice(report: Report) -> str:
     return " ".join(sentences)
 
 
+_PLURALS = {Verdict.HOLDS: "hold", Verdict.IN_PART: "hold in part", Verdict.FAILS: "fail"}
+
+
 def verdict_counts(report: Report) -> str:
     """Returns the number of claims that hold, by the thesis's own figures and by ours."""
     parts = []
@@ -220,16 +223,10 @@ def verdict_counts(report: Report) -> str:
         ("by ours", [one.ours.verdict for one in report.claims]),
     ):
         counts = Counter(verdicts)
-        listed = ", ".join(f"{counts[v]} {_plural(v, counts[v])}" for v in Verdict if counts[v])
-        parts.append(f"{whose}: {listed}")
+        listed = (
+            f"{counts[v]} {v.value if counts[v] == 1 else _PLURALS.get(v, v.value)}"
+            for v in Verdict
+            if counts[v]
+        )
+        parts.append(f"{whose}: {', '.join(listed)}")
     return f"{'; '.join(parts)}."
-
-
-def _plural(verdict: Verdict, count: int) -> str:
-    words = {
-        Verdict.HOLDS: ("holds", "hold"),
-        Verdict.IN_PART: ("holds in part", "hold in part"),
-        Verdict.FAILS: ("fails", "fail"),
-    }
-    one, more = words.get(verdict, (verdict.value, verdict.value))
-    return one if count == 1 else more
