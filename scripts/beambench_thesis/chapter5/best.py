@@ -3,9 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-import pandas as pd
-
-from beambench_thesis.paper.cells import Cell, Cells, resolutions_of
+from beambench_thesis.paper.cells import Cell, Cells, comparable, resolutions_of
 from beambench_thesis.paper.evidence import Measured
 from beambench_thesis.paper.printed import REFERENCES, PrintedPart, contender_title
 
@@ -77,15 +75,11 @@ def best_table(part: PrintedPart, cells: Cells) -> BestTable | None:
 
 
 def choose(candidates: Sequence[Cell]) -> Choice:
-    """Returns the candidate with correct hits and the least total time, building included.
-
-    By clock cycles, where they were counted: candidates of two runs may have met two clock rates.
-    """
+    """Returns the candidate with correct hits and the least total time, building included."""
     timed = [cell for cell in candidates if cell.time is not None]
     if not timed:
         return Choice(None, "", len(candidates))
-    by_cycles = all(pd.notna(cell.megacycles) for cell in timed)
-    best = min(timed, key=lambda cell: cell.megacycles if by_cycles else cell.time.value)
+    best = min(timed, key=comparable(timed))
     differing = (
         f"{name}={value}"
         for name, value in best.parameters.items()

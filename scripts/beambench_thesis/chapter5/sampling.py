@@ -12,7 +12,7 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from beambench_report.base.figure import Look, Plot, new_figure
+from beambench_report.base.figure import Look, Plot, legend_below, new_figure
 from beambench_report.base.files import Problem, load_json
 from beambench_report.base.names import file_stems
 from beambench_report.base.palette import INK, SOFT, structure_color
@@ -200,7 +200,7 @@ def draw_comparison(comparison: Comparison, stem: str) -> Plot:
     panel.set_ylabel("RMS error, 0-255 scale (lower is better)")
     panel.set_title(comparison.title)
     panel.grid(which="major", linewidth=0.6)
-    figure.legend(loc="outside lower center", ncols=len(lines) + 1, frameon=False, fontsize=8)
+    legend_below(figure, len(lines) + 1)
     figure.get_layout_engine().execute(figure)
     figure.set_layout_engine("none")
     _name_settings(panel, lines, thesis)

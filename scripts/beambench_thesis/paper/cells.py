@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import nan
+from operator import attrgetter
 from pathlib import Path
 
 import pandas as pd
@@ -126,6 +127,15 @@ def resolutions_of(cells: Iterable[Cell]) -> list[str]:
     """Returns the thesis's resolutions that some cell has, the coarsest first."""
     there = {cell.resolution for cell in cells}
     return [resolution for resolution in RESOLUTIONS if resolution in there]
+
+
+def comparable(cells: Sequence[Cell]) -> Callable[[Cell], float]:
+    """Returns what to compare cells with times by: clock cycles, building included, if all have
+    them, since cells of two runs may have met two clock rates; or else seconds.
+    """
+    if all(pd.notna(cell.megacycles) for cell in cells):
+        return attrgetter("megacycles")
+    return attrgetter("time.value")
 
 
 def _cell(number: int, run: str, line: int, row: dict) -> Cell:
