@@ -78,13 +78,11 @@ _OF_RUN: dict[str, Callable[[dict], object]] = {
     "largest_primitives": _largest("primitives"),
     "largest_bytes": _largest("bytes"),  # scene and octree of the largest part
     "result_hash": lambda run: run["result_hash"],
-    # What a process is busy on average, of the traced seconds.
-    "busy_share": lambda run: _sum("busy")(run) / len(run["processes"]) / run["traced_seconds"],
 }
 # The speedup is of tracing. Building is short and measured once a process: of many, the longest is
 # chance.
 _SETTING = ("era", "scene", "structure", "resolution", "processes", "traced_seconds")
-COLUMNS = tuple(dict.fromkeys((*_SETTING, "speed_up", "efficiency", *_OF_RUN)))[:-1]
+COLUMNS = tuple(dict.fromkeys((*_SETTING, "speed_up", "efficiency", *_OF_RUN)))
 
 
 class Runs:
@@ -109,9 +107,11 @@ class Runs:
             for repeat in range(self._repeats)
         ]
         run = sorted(runs, key=lambda run: run["traced_seconds"])[len(runs) // 2]
+        # What a process is busy on average, of the traced seconds.
+        share = _sum("busy")(run) / len(run["processes"]) / run["traced_seconds"]
         setting = {"division": division, "era": era, "resolution": self._resolution}
         figures = {name: figure(run) for name, figure in _OF_RUN.items()}
-        self._rows.append(setting | divided._asdict() | figures)
+        self._rows.append(setting | divided._asdict() | figures | {"busy_share": share})
 
     def write(self, path: Path, columns: tuple[str, ...]) -> list[Path]:
         """Writes a table; speedups are relative to the first run of the same era and scene.
@@ -119,17 +119,17 @@ class Runs:
         Raises Problem where runs of a scene have different pictures.
         """
         print(file=sys.stderr)
-        rows = pd.DataFrame(self._rows)
-        for _, row in rows.iterrows():
-            if row["result_hash"] != rows["result_hash"][rows["scene"].eq(row["scene"])].iloc[0]:
-                raise Problem(
-                    f"{row['scene']} in {row['processes']} parts is another picture than the "
-                    "whole; that is a fault of beambench"
-                )
+        rows = pd.DataFrame(self._rows, columns=list(columns))
+        whole = rows.groupby("scene")["result_hash"].transform("first")
+        for row in rows[rows["result_hash"] != whole].itertuples():
+            raise Problem(
+                f"{row.scene} in {row.processes} parts is another picture than the whole; that is "
+                "a fault of beambench"
+            )
         alone = rows.groupby(["era", "scene"])["traced_seconds"].transform("first")
         rows["speed_up"] = alone / rows["traced_seconds"]
         rows["efficiency"] = rows["speed_up"] / rows["processes"]
-        return [write_rows(path, rows[list(columns)])]
+        return [write_rows(path, rows)]
 
 
 def simulate_split(

@@ -6,16 +6,17 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from jinja2 import Environment
 
 from beambench_report.base.figure import house_style, structure_color, write_plot
 from beambench_report.base.files import write_text, write_whole
 from beambench_report.base.formulas import guarded
 from beambench_report.base.published import RESOLUTIONS
-from beambench_report.base.quantities import DASH, number
+from beambench_report.base.quantities import DASH
 from beambench_report.run.html import data_uri, environment
 from beambench_thesis.claims.register import amendment, cells_of, claims_as_markdown, summary
 from beambench_thesis.paper.cells import Cells
+from beambench_thesis.paper.markdown import markdown_environment
 from beambench_thesis.paper.printed import interval, milliseconds, origin, thesis_seconds
 from beambench_thesis.paper.section import section_as_markdown
 from beambench_thesis.report.drawing import draw
@@ -79,15 +80,8 @@ def _write_rows(cells: Cells, path: Path) -> Path:
 
 def as_markdown(report: Report) -> str:
     """Returns the whole report."""
-    made = Environment(
-        loader=FileSystemLoader(_TEMPLATES),
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-    )
     return _rendered(
-        made,
+        markdown_environment(_TEMPLATES),
         "thesis.md.j2",
         report,
         claims=claims_as_markdown(report.claims),
@@ -99,7 +93,6 @@ def _rendered(made: Environment, template: str, report: Report, **values: object
     made.filters |= {
         "milliseconds": milliseconds,
         "thesis_seconds": thesis_seconds,
-        "number": number,
         "interval": interval,
         "origin": origin,
         "color": structure_color,
