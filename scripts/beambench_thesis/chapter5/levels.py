@@ -96,8 +96,7 @@ class Losses:
     @property
     def good_levels(self) -> tuple[int, int]:
         """The numbers of chosen levels that lose less than the target, and that were measured."""
-        known = [choice.loss_of_level for choice in self.choices]
-        losses = [loss for loss in known if loss is not None]
+        losses = [own for choice in self.choices if (own := choice.loss_of_level) is not None]
         return sum(loss < TARGET for loss in losses), len(losses)
 
     @property

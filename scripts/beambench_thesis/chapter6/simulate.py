@@ -145,11 +145,8 @@ def _old(scene: str, network: Network, consumers: int) -> Simulation:
 
 def _thesis(scene: str) -> list[Simulation]:
     """Simulates figures 6.3 and 6.4: 1 to 14 consumers, and more until the producer saturates."""
-    return [
-        _old(scene, network, consumers)
-        for network in (SHARED, SWITCHED)
-        for consumers in (*range(1, STATIONS), 31, 63)
-    ]
+    settings = product((SHARED, SWITCHED), (*range(1, STATIONS), 31, 63))
+    return [_old(scene, network, consumers) for network, consumers in settings]
 
 
 def _on_both(scene: str, kinds: Iterable[str], counts: Iterable[int]) -> list[Simulation]:
@@ -169,11 +166,8 @@ def _unlike(scene: str) -> list[Simulation]:
 
 def _assumptions(scene: str) -> list[Simulation]:
     """Returns simulations with half and double the assumed cost of messages, and larger results."""
-    usual = [
-        _old(scene, network, consumers)
-        for network in (SHARED, SWITCHED)
-        for consumers in (STATIONS // 2, STATIONS - 1)
-    ]
+    settings = product((SHARED, SWITCHED), (STATIONS // 2, STATIONS - 1))
+    usual = [_old(scene, network, consumers) for network, consumers in settings]
     costs = ((0.5, "messages at half the cost"), (2, "at twice the cost"))
     changed: list[dict[str, object]] = [
         *({"messages": MESSAGES_OF_1999.times(by), "options": label} for by, label in costs),

@@ -7,7 +7,7 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
-from beambench_report.base.files import ROOT, Problem, load_json, write_text
+from beambench_report.base.files import ROOT, Problem, load_json, read_json, write_text
 from beambench_report.base.published import rays
 
 
@@ -165,12 +165,10 @@ class Sweep:
 def read_sweep(name: str, folder: Path = FOLDER) -> Sweep:
     """Reads FOLDER/NAME.json. Raises Problem where there is none."""
     path = folder / f"{name}.json"
-    try:
-        return Sweep(name, load_json(path))
-    except FileNotFoundError:
-        raise Problem(f"{path}: there is no such file; restore it with git") from None
-    except ValueError as error:
-        raise Problem(f"{path}: cannot be read as JSON: {error}") from None
+    source = read_json(path)
+    if source is None:
+        raise Problem(f"{path}: there is no such file; restore it with git")
+    return Sweep(name, source)
 
 
 def quick(sweep: Sweep) -> Sweep | None:
