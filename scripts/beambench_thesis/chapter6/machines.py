@@ -88,10 +88,10 @@ class Slowness:
 NONE = Slowness(1, 1, 1)
 
 
-def thesis_seconds(scene: str = TRACED) -> tuple[float, float]:
+def thesis_seconds() -> tuple[float, float]:
     """Returns the constant seconds and the seconds per ray on the cluster's machines."""
     evidence = published_evidence()
-    seconds = [evidence.time(scene, "beam", resolution) for resolution in RESOLUTIONS]
+    seconds = [evidence.time(TRACED, "beam", resolution) for resolution in RESOLUTIONS]
     slope, constant = np.polyfit(
         [rays(resolution) for resolution in RESOLUTIONS],
         [each.value for each in seconds if each is not None],

@@ -86,7 +86,7 @@ COLUMNS = tuple(dict.fromkeys((*_SETTING, "speed_up", "efficiency", *_OF_RUN)))
 
 
 class Runs:
-    """Runs of the simulator on divided scenes; a file has the results of earlier ones."""
+    """Runs of the simulator on divided scenes; a file keeps the results for later calls."""
 
     def __init__(self, file: Path, program: Path, resolution: str, repeats: int) -> None:
         """Reads the file."""

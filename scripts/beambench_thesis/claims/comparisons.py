@@ -204,10 +204,10 @@ def _fit(seconds: Sequence[Measured], counts: np.ndarray) -> tuple[Measured, Mea
 
 
 def best_grid(scene: str, sweep: dict[int, Measured], printed: int) -> list[Check]:
-    """Is some grid of the sweep quicker than the coarsest and than the finest, and is the best
-    within half of the printed number of cells? Needs five grids or more.
+    """Is some grid of the sweep quicker than the coarsest and than the finest, and is the best one
+    within a factor of 1.5 of the printed number of cells? Needs five grids or more.
 
-    The best grid's interval contains all grids that may be as quick.
+    The interval of the best grid contains all grids that may be as quick.
     """
     inside, place = f"{scene}, a best grid inside the sweep", f"{scene}, best cells per axis"
     if len(sweep) < 5:

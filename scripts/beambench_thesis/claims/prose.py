@@ -18,8 +18,8 @@ PROSE_CLAIMS = Claims()
 
 
 def _left_over(e: Evidence, cells: Iterable[tuple[str, str]], bound: float) -> list[Check]:
-    """Is the share of samples that miss everything in the occupied leaf where their beam ends, and
-    continue as rays, at most `bound` in each of these scenes and resolutions?
+    """Checks each scene and resolution: of the samples of beams that end at an occupied leaf, at
+    most the share `bound` hits nothing there and continues as rays.
     """
     return [
         between(

@@ -81,9 +81,9 @@ class Cells:
         """Returns the cell of a setting of the thesis, if it was measured."""
         return self._by_setting.get(setting)
 
-    def of(self, scene: str, structure: str, resolution: str, samples: int = 1) -> list[Cell]:
-        """Returns all cells of a structure, whatever its parameters."""
-        return self._by_view.get((scene, structure, resolution, samples), [])
+    def of(self, scene: str, structure: str, resolution: str) -> list[Cell]:
+        """Returns all cells of a structure with one sample per pixel, whatever its parameters."""
+        return self._by_view.get((scene, structure, resolution, 1), [])
 
     def without(self, run: str) -> Cells:
         """Returns the cells of all other runs."""
@@ -130,8 +130,8 @@ def resolutions_of(cells: Iterable[Cell]) -> list[str]:
 
 
 def comparable(cells: Sequence[Cell]) -> Callable[[Cell], float]:
-    """Returns what to compare cells with times by: clock cycles, building included, if all have
-    them, since cells of two runs may have met two clock rates; or else seconds.
+    """Returns the measure by which these cells are compared, building included: clock cycles if all
+    cells have them, because two runs may have met two clock rates; seconds otherwise.
     """
     if all(pd.notna(cell.megacycles) for cell in cells):
         return attrgetter("megacycles")

@@ -6,11 +6,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import astuple, dataclass
 from functools import cache, cached_property
 from math import exp, hypot, log
-from pathlib import Path
 
 import pandas as pd
 
-from beambench_report.base.published import FINEST, FOLDER, read_published
+from beambench_report.base.published import FINEST, read_published
 
 
 @dataclass(frozen=True)
@@ -200,11 +199,10 @@ class Evidence:
         *,
         level: int = LEVEL,
         objects: int = OBJECTS,
-        cells: int = CELLS,
         samples: int = 1,
     ) -> Measured | None:
         """Returns the seconds of one cell; parameters that are not given are the thesis's."""
-        at = {"level": level, "objects": objects, "cells": cells, "samples": samples}
+        at = {"level": level, "objects": objects, "samples": samples}
         return self.at(setting(scene, contender, resolution, **at))
 
     def at(self, setting: Setting) -> Measured | None:
@@ -296,22 +294,22 @@ _MADE_BY_CUTTING = {"beams": "beams_made", "beams_nonterminal": "beams_divided"}
 
 
 @cache
-def published_evidence(folder: Path = FOLDER) -> Evidence:
+def published_evidence() -> Evidence:
     """Returns tables 5.2 to 5.8 and the figures in the text.
 
     The thesis gives no intervals: what it prints counts as exact.
     """
-    times = read_published("times.csv", folder)
+    times = read_published("times.csv")
     grids = times["algorithm"].eq("voxel-grid") * CELLS
     # Tables 5.4 to 5.8 do not repeat that a leaf with any object is split.
     objects = times["max_objects"].fillna(0).astype(int)
     times = _with_setting(times, "algorithm", "seconds").assign(objects=objects, cells=grids)
-    text = read_published("figures_in_text.csv", folder)
+    text = read_published("figures_in_text.csv")
     parallel = text["section"].astype(str).str.startswith("6")
     return Evidence(
         times[list(TIMES)],
         _work(_with_setting(text[~parallel], "structure", "value")[list(WORK)], times),
-        _octrees(read_published("octree_counts.csv", folder)),
+        _octrees(read_published("octree_counts.csv")),
         _cluster(text[parallel]),
     )
 

@@ -2,11 +2,10 @@
 
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 
 import pandas as pd
 
-from beambench_report.base.published import FOLDER, RESOLUTIONS, read_published
+from beambench_report.base.published import RESOLUTIONS, read_published
 from beambench_report.base.quantities import DASH, number
 from beambench_thesis.paper.cells import Cell
 from beambench_thesis.paper.evidence import Measured, Setting, setting
@@ -94,9 +93,9 @@ def contender_title(structure: str) -> str:
 
 
 @cache
-def printed_parts(folder: Path = FOLDER) -> tuple[PrintedPart, ...]:
+def printed_parts() -> tuple[PrintedPart, ...]:
     """Returns all parts of all tables, in the order of the thesis."""
-    rows = read_published("times.csv", folder)
+    rows = read_published("times.csv")
     rows["resolution"] = rows["width"].astype(str) + "x" + rows["height"].astype(str)
     rows[["max_level", "max_objects"]] = rows[["max_level", "max_objects"]].fillna(0).astype(int)
     return tuple(

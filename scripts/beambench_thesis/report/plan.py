@@ -206,12 +206,7 @@ class Plan:
 
 
 def make_plan(
-    tables: Sequence[str],
-    figures: Sequence[str],
-    is_quick: bool,
-    folder: Path | None = None,
-    *,
-    with_levels: bool = False,
+    tables: Sequence[str], figures: Sequence[str], is_quick: bool, *, with_levels: bool = False
 ) -> Plan:
     """Returns the plan for some tables and figures, or for all. Raises Problem for an unknown one.
 
@@ -227,7 +222,7 @@ def make_plan(
     wanted = {name for table in chosen_tables for name in (*table.first, *table.best)}
     wanted |= {name for figure in FIGURES if figure.number in figures for name in figure.sweeps}
     shown = _figures_of(wanted)
-    read = [read_sweep(name, folder or FOLDER) for name in SWEEPS if name in wanted]
+    read = [read_sweep(name, FOLDER) for name in SWEEPS if name in wanted]
     made = [quick(sweep) if is_quick else sweep for sweep in read]
     plan = Plan(
         tuple(table.number for table in chosen_tables),
@@ -235,14 +230,14 @@ def make_plan(
         is_quick,
         tuple(sweep for sweep in made if sweep is not None),
     )
-    return add_levels(plan, folder) if with_levels else plan
+    return add_levels(plan) if with_levels else plan
 
 
-def add_levels(plan: Plan, folder: Path | None = None) -> Plan:
+def add_levels(plan: Plan) -> Plan:
     """Returns the plan with the sweep that tests max_level=auto."""
     if any(sweep.name == LEVELS for sweep in plan.sweeps):
         return plan
-    levels = read_sweep(LEVELS, (folder or FOLDER).parent)
+    levels = read_sweep(LEVELS, FOLDER.parent)
     made = quick(levels) if plan.is_quick else levels
     return replace(plan, sweeps=(*plan.sweeps, made)) if made else plan
 
