@@ -11,8 +11,8 @@ import pytest
 
 from beambench_report.base.files import Problem
 from beambench_thesis.chapter5.best import best_table, choose
-from beambench_thesis.paper.cells import Cells, read_cells, setting
-from beambench_thesis.paper.evidence import Measured
+from beambench_thesis.paper.cells import Cells, read_cells
+from beambench_thesis.paper.evidence import Measured, setting
 from beambench_thesis.paper.printed import parts_of, printed_parts
 from beambench_thesis.report.plan import Plan, keep_plan, make_plan, read_plan
 from beambench_thesis.report.report import gather

@@ -79,6 +79,11 @@ def new_figure(
     return figure, list(panels.flat)
 
 
+def legend_below(figure: Figure, columns: int, **handles: object) -> None:
+    """Draws a legend of several columns under the panels, of all lines if no handles are given."""
+    figure.legend(loc="outside lower center", ncols=columns, frameon=False, fontsize=8, **handles)
+
+
 def caption(figure: Figure, rows: pd.DataFrame, explanation: str, *, times: bool) -> None:
     """Writes under a figure what it shows, where the data come from and whose hits were wrong.
 

@@ -1,7 +1,6 @@
 """The thesis's figures, as results/thesis has them, and the resolutions at which it measured."""
 
 from functools import cache
-from pathlib import Path
 
 import pandas as pd
 
@@ -18,13 +17,13 @@ def rays(resolution: str) -> int:
     return int(width) * int(height)
 
 
-def read_published(name: str, folder: Path = FOLDER) -> pd.DataFrame:
+def read_published(name: str) -> pd.DataFrame:
     """A table of results/thesis. Raises Problem where it is missing."""
-    return read_table(folder / name, (), "restore it with git", {"table": str})
+    return read_table(FOLDER / name, (), "restore it with git", {"table": str})
 
 
 @cache
-def primitives_by_scene(folder: Path = FOLDER) -> dict[str, int]:
+def primitives_by_scene() -> dict[str, int]:
     """Table 5.1: polygons and spheres of each scene."""
-    scenes = read_published("scenes.csv", folder)
+    scenes = read_published("scenes.csv")
     return dict(zip(scenes["scene"], scenes["polygons"] + scenes["spheres"], strict=True))

@@ -3,9 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-import pandas as pd
-
-from beambench_thesis.paper.cells import Cell, Cells, resolutions_of
+from beambench_thesis.paper.cells import Cell, Cells, comparable, resolutions_of
 from beambench_thesis.paper.evidence import Measured
 from beambench_thesis.paper.printed import REFERENCES, PrintedPart, contender_title
 
@@ -57,7 +55,7 @@ def best_table(part: PrintedPart, cells: Cells) -> BestTable | None:
     for name in structures:
         for label, only in _pools(name):
             found = (
-                [cell for cell in cells.of(part.scene, name, at) if _fits(cell, only)]
+                [c for c in cells.of(part.scene, name, at) if only.items() <= c.parameters.items()]
                 for at in resolutions
             )
             lines.append(BestLine(label, name, tuple(map(choose, found))))
@@ -77,15 +75,11 @@ def best_table(part: PrintedPart, cells: Cells) -> BestTable | None:
 
 
 def choose(candidates: Sequence[Cell]) -> Choice:
-    """Returns the candidate with correct hits and the least total time, building included.
-
-    By clock cycles, where they were counted: candidates of two runs may have met two clock rates.
-    """
+    """Returns the candidate with correct hits and the least total time, building included."""
     timed = [cell for cell in candidates if cell.time is not None]
     if not timed:
         return Choice(None, "", len(candidates))
-    by_cycles = all(pd.notna(cell.megacycles) for cell in timed)
-    best = min(timed, key=lambda cell: cell.megacycles if by_cycles else cell.time.value)
+    best = min(timed, key=comparable(timed))
     differing = (
         f"{name}={value}"
         for name, value in best.parameters.items()
@@ -117,10 +111,6 @@ def _pools(structure: str) -> list[tuple[str, dict[str, str]]]:
     if structure == "goldsmith-salmon":
         return [(f"{title}, insert=terminal", {"insert": "terminal"}), (f"{title}, any insert", {})]
     return [(title, {})]
-
-
-def _fits(cell: Cell, only: dict[str, str]) -> bool:
-    return all(cell.parameters.get(name) == value for name, value in only.items())
 
 
 def _is_second_pass(part: PrintedPart, cells: Cells, resolution: str) -> bool:

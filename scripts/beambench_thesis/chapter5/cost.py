@@ -16,12 +16,7 @@ from beambench_report.base.quantities import DASH, number
 from beambench_report.run.panels import scale_axis
 from beambench_thesis.paper.cells import Cell
 from beambench_thesis.paper.evidence import Measured
-from beambench_thesis.paper.section import (
-    Section,
-    SectionFigure,
-    SectionTable,
-    section_table,
-)
+from beambench_thesis.paper.section import Section, SectionFigure, SectionTable, section_table
 
 MIN_CELLS = 10
 _MIN_NANOSECONDS = 1e5  # of a shorter time, no count explains the part of cold caches and the clock

@@ -13,6 +13,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeVar
 
+import pandas as pd
+
 from beambench_report.base.files import Problem, load_json, output_of, write_text
 from beambench_report.base.published import primitives_by_scene, read_published
 from beambench_report.base.quantities import DASH, number
@@ -90,24 +92,6 @@ _VISITS_WORDS = (
 )
 
 
-@dataclass(frozen=True)
-class Level:
-    """One level of an octree and its visits."""
-
-    level: int
-    nodes: int
-    leaves: int
-    occupied_leaves: int
-    node_visits: int
-    leaf_visits: int
-    beams: int
-
-    @property
-    def rays_per_node(self) -> float:
-        """Rays that visit a node, on average."""
-        return self.node_visits / self.nodes
-
-
 def visits_file(directory: Path, scene: str) -> Path:
     """Returns the path of the output of `beambench stats --levels --json`."""
     return directory / "visits" / f"{scene}.json"
@@ -127,38 +111,31 @@ def visits_section(directory: Path) -> Section | None:
     )
 
 
-def _visits(source: dict) -> tuple[int, list[Level]]:
-    """Returns the number of rays, and the levels that have nodes."""
+def _visits(source: dict) -> tuple[int, pd.DataFrame]:
+    """Returns the number of rays, and a row for each level that has nodes."""
     (structure,) = source["structures"]
-    return int(source["rays"]), [Level(**level) for level in structure["levels"]]
+    levels = pd.DataFrame(structure["levels"]).set_index("level")
+    return int(source["rays"]), levels.assign(rays=levels["node_visits"] / levels["nodes"])
 
 
-def _visits_table(scene: str, rays: int, levels: list[Level]) -> SectionTable:
+def _visits_table(scene: str, rays: int, levels: pd.DataFrame) -> SectionTable:
     rows = []
-    for level in levels:
+    for level in levels.itertuples():
         counts = (level.leaves, level.occupied_leaves, level.leaf_visits, level.beams)
-        rows.append(
-            (
-                f"{level.level}",
-                f"{level.nodes:,}",
-                number(level.rays_per_node),
-                f"{level.rays_per_node / rays:.3%}",
-                *(f"{count:,}" if count else DASH for count in counts),
-            )
-        )
+        part = (number(level.rays), f"{level.rays / rays:.3%}")
+        texts = (f"{count:,}" if count else DASH for count in counts)
+        rows.append((f"{level.Index}", f"{level.nodes:,}", *part, *texts))
     heads = "level, nodes, rays that visit a node, of all rays, leaves, occupied, "
     heads += "visits of leaves by rays, by beams"
     title = f"{scene_title(scene)}, {VISITED}, {rays:,} rays"
     return section_table(title, (), heads.split(", "), rows)
 
 
-def _visits_finding(scene: str, rays: int, levels: list[Level]) -> str:
+def _visits_finding(scene: str, rays: int, levels: pd.DataFrame) -> str:
     """Returns a sentence on how visits fall around level 6."""
-    by_level = {level.level: level for level in levels}
-    wanted = [by_level[level] for level in (_SIX - 1, _SIX, _SIX + 1) if level in by_level]
-    if len(wanted) < 3:
+    before, six, after = levels["rays"].reindex([_SIX - 1, _SIX, _SIX + 1])
+    if not before + six + after > 0:  # a level is missing
         return ""
-    before, six, after = (level.rays_per_node for level in wanted)
     return (
         f"{scene_title(scene)}: a node of level {_SIX} is visited by {number(six)} of {rays:,} "
         f"rays on average ({six / rays:.2%}), one of level {_SIX - 1} by {number(before / six)} "

@@ -52,19 +52,12 @@ def grid_beam_rows(cells: Iterable[Cell]) -> list[GridBeamRow]:
     }
     rows = []
     for cell in timed:
-        if cell.structure != "grid-beam" or cell.parameters.get("handover") == "0":
+        is_beam = cell.structure == "grid-beam" and cell.parameters.get("handover") != "0"
+        if not is_beam or _grid(cell) not in rays:
             continue
-        single = rays.get(_grid(cell))
-        if single is None:
-            continue
-        octrees = [
-            one
-            for one in timed
-            if one.structure == "beam"
-            and (one.scene, one.resolution, one.samples)
-            == (cell.scene, cell.resolution, cell.samples)
-        ]
-        rows.append(GridBeamRow(cell, single, min(octrees, key=_whole, default=None)))
+        octrees = (one for one in timed if one.structure == "beam" and _view(one) == _view(cell))
+        octree = min(octrees, key=_whole, default=None)
+        rows.append(GridBeamRow(cell, rays[_grid(cell)], octree))
     return rows
 
 
@@ -129,18 +122,13 @@ def _fields(row: GridBeamRow) -> tuple[str, ...]:
 
 def _grid(cell: Cell) -> tuple[object, ...]:
     """Returns everything that determines the grids and the rays."""
-    names = (
-        "resolution",
-        "density",
-        "inner_density",
-        "shape",
-        "max_objects",
-        "max_level",
-        "divide",
-        "assign",
-    )
-    grids = tuple(cell.parameters.get(name) for name in names)
-    return cell.scene, cell.resolution, cell.samples, grids
+    names = "resolution density inner_density shape max_objects max_level divide assign"
+    grids = tuple(cell.parameters.get(name) for name in names.split())
+    return *_view(cell), grids
+
+
+def _view(cell: Cell) -> tuple[object, ...]:
+    return cell.scene, cell.resolution, cell.samples
 
 
 def _whole(cell: Cell) -> float:

@@ -1,6 +1,6 @@
 """The level that max_level=auto chooses, compared with the best of the measured levels."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from pathlib import Path
@@ -12,11 +12,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from beambench_report.base.figure import Plot, new_figure
+from beambench_report.base.figure import Plot, legend_below, new_figure
 from beambench_report.base.files import Problem
 from beambench_report.base.palette import INK, SOFT, structure_color
 from beambench_report.base.quantities import DASH
-from beambench_thesis.paper.cells import Cell, read_cells
+from beambench_thesis.paper.cells import Cell, comparable, read_cells
 from beambench_thesis.paper.printed import milliseconds, scene_title
 from beambench_thesis.paper.section import (
     Field,
@@ -52,7 +52,7 @@ class LevelChoice:
     @cached_property
     def best(self) -> int:
         """The fixed level that was the fastest."""
-        return min(self.fixed, key=lambda level: self._time(self.fixed[level]))
+        return min(self.fixed, key=lambda level: self._comparable(self.fixed[level]))
 
     @property
     def is_best_at_end(self) -> bool:
@@ -75,17 +75,11 @@ class LevelChoice:
         return None if self.chosen is None else self._over_best(self.chosen)
 
     def _over_best(self, cell: Cell) -> float:
-        return self._time(cell) / self._time(self.fixed[self.best]) - 1
+        return self._comparable(cell) / self._comparable(self.fixed[self.best]) - 1
 
     @cached_property
-    def _by_cycles(self) -> bool:
-        """Are clock cycles compared? Only if all were counted; cells may differ in clock rate."""
-        return all(pd.notna(cell.megacycles) for cell in (self.auto, *self.fixed.values()))
-
-    def _time(self, cell: Cell) -> float:
-        """Returns the time, building included."""
-        assert cell.time is not None  # only such cells are compared
-        return cell.megacycles if self._by_cycles else cell.time.value
+    def _comparable(self) -> Callable[[Cell], float]:
+        return comparable([self.auto, *self.fixed.values()])
 
 
 @dataclass(frozen=True)
@@ -102,8 +96,7 @@ class Losses:
     @property
     def good_levels(self) -> tuple[int, int]:
         """The numbers of chosen levels that lose less than the target, and that were measured."""
-        known = [choice.loss_of_level for choice in self.choices]
-        losses = [loss for loss in known if loss is not None]
+        losses = [own for choice in self.choices if (own := choice.loss_of_level) is not None]
         return sum(loss < TARGET for loss in losses), len(losses)
 
     @property
@@ -222,13 +215,7 @@ def _legend(figure: Figure, sizes: Sequence[str]) -> None:
         for index, size in enumerate(sizes)
     ]
     own = Line2D([], [], marker="o", label="the level by itself", **_HOLLOW, **gray)
-    figure.legend(
-        handles=[*shapes, own],
-        loc="outside lower center",
-        ncols=len(sizes) + 1,
-        frameon=False,
-        fontsize=8,
-    )
+    legend_below(figure, len(sizes) + 1, handles=[*shapes, own])
 
 
 # The section of the report, also as a file of its own

@@ -6,8 +6,9 @@ from pathlib import Path
 from typing import Any
 
 from beambench_report.base.files import load_json
+from beambench_report.base.published import rays
 from beambench_report.base.quantities import number
-from beambench_thesis.paper.printed import scene_title
+from beambench_thesis.paper.printed import title_of
 from beambench_thesis.paper.section import Section, section_table
 
 
@@ -54,10 +55,10 @@ def mirrors_section(runs: Sequence[MirrorRun]) -> Section | None:
         "this table: the time of single rays over that of beams, through the same octree. The hits "
         "are those of single rays, bit for bit."
     )
-    ordered = sorted(runs, key=lambda run: (run.scene, _pixels(run.resolution), run.structure))
+    ordered = sorted(runs, key=lambda run: (run.scene, rays(run.resolution), run.structure))
     rows = [
         (
-            _title(run.scene),
+            title_of(run.scene),
             run.resolution,
             f"`{run.structure}`",
             f"{run.mirrors}",
@@ -100,14 +101,3 @@ def _run_of(source: dict[str, Any]) -> MirrorRun:
         sum(int(part["different"]) for part in seen),
         **sums,
     )
-
-
-def _title(scene: str) -> str:
-    plain = scene.split(":")[0]
-    name = scene_title(plain)
-    return scene if name == plain else name
-
-
-def _pixels(resolution: str) -> int:
-    width, height = resolution.split("x")
-    return int(width) * int(height)

@@ -12,13 +12,13 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from beambench_report.base.figure import Look, Plot, new_figure
+from beambench_report.base.figure import Look, Plot, legend_below, new_figure
 from beambench_report.base.files import Problem, load_json
 from beambench_report.base.names import file_stems
 from beambench_report.base.palette import INK, SOFT, structure_color
 from beambench_report.base.quantities import DASH, number
 from beambench_report.run.labels import place_labels
-from beambench_thesis.paper.printed import milliseconds, scene_title
+from beambench_thesis.paper.printed import milliseconds, title_of
 from beambench_thesis.paper.section import (
     Section,
     SectionFigure,
@@ -58,10 +58,8 @@ class Comparison:
     @property
     def title(self) -> str:
         """Scene and resolution, and the structure unless it is `beam`."""
-        plain = self.scene.split(":")[0]
-        name = scene_title(plain)
         own = "" if self.structure == "beam" else f", {self.structure}"
-        return f"{self.scene if name == plain else name}, {self.resolution}{own}"
+        return f"{title_of(self.scene)}, {self.resolution}{own}"
 
     @property
     def methods(self) -> list[str]:
@@ -202,7 +200,7 @@ def draw_comparison(comparison: Comparison, stem: str) -> Plot:
     panel.set_ylabel("RMS error, 0-255 scale (lower is better)")
     panel.set_title(comparison.title)
     panel.grid(which="major", linewidth=0.6)
-    figure.legend(loc="outside lower center", ncols=len(lines) + 1, frameon=False, fontsize=8)
+    legend_below(figure, len(lines) + 1)
     figure.get_layout_engine().execute(figure)
     figure.set_layout_engine("none")
     _name_settings(panel, lines, thesis)

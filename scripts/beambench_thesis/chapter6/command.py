@@ -4,15 +4,7 @@ import argparse
 from pathlib import Path
 
 from beambench_report.base.files import Problem
-from beambench_thesis.chapter6.record import (
-    BEAMS,
-    LARGE,
-    SCENES,
-    TILES,
-    Picture,
-    measure,
-    record,
-)
+from beambench_thesis.chapter6.record import BEAMS, LARGE, SCENES, TILES, Picture, measure, record
 from beambench_thesis.chapter6.report import write_report
 from beambench_thesis.chapter6.scene_divisions import simulate_scene_divisions
 from beambench_thesis.chapter6.simulate import simulate, simulations

@@ -9,18 +9,14 @@ from beambench_report.base.figure import PAGE_WIDTH, Plot, new_figure
 from beambench_report.base.quantities import markdown_table
 from beambench_thesis.chapter6.machines import Recorded
 from beambench_thesis.chapter6.page import rendered
-from beambench_thesis.chapter6.plots import HIGHER, line_look, name_panel
+from beambench_thesis.chapter6.plots import HIGHER, line_look, log_axis, name_panel
 from beambench_thesis.chapter6.record import LARGE
-from beambench_thesis.chapter6.results import EQUAL_MACHINES, THESIS_OPTIONS
-from beambench_thesis.chapter6.simulate import (
-    DIVISIONS,
-    ERAS,
-    LARGE_OPTIONS,
-    OLD,
-)
+from beambench_thesis.chapter6.results import EQUAL_MACHINES, THESIS_OPTIONS, pivot, switched
+from beambench_thesis.chapter6.simulate import DIVISIONS, ERAS, LARGE_OPTIONS, MACHINES_OF
+from beambench_thesis.paper.evidence import rows_with
 
 _COMPARED = (THESIS_OPTIONS, "image blocks", *DIVISIONS)
-_CLUSTERS = {OLD: "machines of 1999, 100 Mbit/s", "today": "machines of today, 10 Gbit/s"}
+_CLUSTERS = {era: f"machines of {machines}" for era, machines in MACHINES_OF.items()}
 _SHOWN = (8, 15, 32, 64, 128, 256, 512, 1024)
 
 
@@ -29,13 +25,8 @@ def _divided(simulations: pd.DataFrame) -> pd.DataFrame:
 
     Empty where no division was simulated.
     """
-    rows = simulations[
-        simulations["options"].isin(_COMPARED)
-        & simulations["scene"].ne(LARGE)
-        & simulations["machines"].eq(EQUAL_MACHINES)
-        & ~simulations["network"].str.startswith("shared")
-        & (simulations["consumers"] + 1).isin(_SHOWN)
-    ]
+    rows = switched(rows_with(simulations, options=_COMPARED, machines=EQUAL_MACHINES))
+    rows = rows[rows["scene"].ne(LARGE) & (rows["consumers"] + 1).isin(_SHOWN)]
     rows = rows.drop_duplicates(["era", "scene", "options", "consumers"])
     return rows if rows["options"].isin(DIVISIONS).any() else rows.iloc[:0]
 
@@ -79,8 +70,7 @@ def _efficiency(panel: Axes, rows: pd.DataFrame, options: tuple[str, ...], title
         if line.empty:
             continue
         panel.plot(line["consumers"] + 1, line["efficiency"], **line_look(index), label=name)
-    panel.set_xscale("log", base=2)
-    panel.xaxis.set_major_formatter("{x:.0f}")
+    log_axis(panel)
     panel.set_ylim(0, 1.1)
     name_panel(panel, title, "processes", f"efficiency {HIGHER}")
 
@@ -112,17 +102,12 @@ def divisions_sections(
 
 
 def _table(rows: pd.DataFrame) -> list[str]:
-    counts = sorted(set(rows["consumers"] + 1) & set(_SHOWN))
-    lines = []
-    for (era, scene, options), group in rows.groupby(["era", "scene", "options"], sort=False):
-        by_processes = group.assign(processes=group["consumers"] + 1).set_index("processes")
-        cells = (
-            f"{by_processes.loc[count, 'efficiency']:.2f}" if count in by_processes.index else ""
-            for count in counts
-        )
-        lines.append((era, scene, options, *cells))
-    heads = ("machines of", "scene", "work", *(f"{count:,} processes" for count in counts))
-    return markdown_table(heads, lines)
+    shown = rows.assign(processes=rows["consumers"] + 1)
+    counts = sorted(set(shown["processes"]) & set(_SHOWN))
+    heads = {count: f"{count:,} processes" for count in counts}
+    names = ("machines of", "scene", "work")
+    by = ("era", "scene", "options")
+    return pivot(shown, by, "processes", heads, lambda run: f"{run['efficiency']:.2f}", names)
 
 
 def _profile(rows: pd.DataFrame) -> list[str]:

@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, astuple, dataclass
+from itertools import chain
 
 import numpy as np
 
 from beambench_report.base.published import RESOLUTIONS, rays
 from beambench_thesis.paper.evidence import published_evidence
+
+
+def options(**values: object) -> list[str]:
+    """Returns `--walk-scale 2` for `walk_scale=2`."""
+    names = (f"--{name.replace('_', '-')}" for name in values)
+    return list(chain.from_iterable(zip(names, map(str, values.values()), strict=True)))
 
 
 @dataclass(frozen=True)
@@ -21,11 +28,8 @@ class Network:
 
     def arguments(self) -> list[str]:
         """Arguments of the simulator."""
-        return [
-            *("--network", self.kind),
-            *("--bandwidth", str(self.bytes_per_second)),
-            *("--latency", str(self.latency_seconds)),
-        ]
+        bandwidth, latency = self.bytes_per_second, self.latency_seconds
+        return options(network=self.kind, bandwidth=bandwidth, latency=latency)
 
 
 @dataclass(frozen=True)
@@ -38,17 +42,11 @@ class Messages:
 
     def arguments(self) -> list[str]:
         """Arguments of the simulator."""
-        return [
-            *("--message-seconds", str(self.message_seconds)),
-            *("--byte-seconds", str(self.byte_seconds)),
-            *("--look-seconds", str(self.look_seconds)),
-        ]
+        return options(**asdict(self))
 
     def times(self, factor: float) -> Messages:
         """Returns the costs multiplied by a factor."""
-        return Messages(
-            self.message_seconds * factor, self.byte_seconds * factor, self.look_seconds * factor
-        )
+        return Messages(*(seconds * factor for seconds in astuple(self)))
 
 
 SHARED = Network("shared 10 Mbit/s", "shared", 1.1e6, 7e-5)
@@ -90,10 +88,10 @@ class Slowness:
 NONE = Slowness(1, 1, 1)
 
 
-def thesis_seconds(scene: str = TRACED) -> tuple[float, float]:
+def thesis_seconds() -> tuple[float, float]:
     """Returns the constant seconds and the seconds per ray on the cluster's machines."""
     evidence = published_evidence()
-    seconds = [evidence.time(scene, "beam", resolution) for resolution in RESOLUTIONS]
+    seconds = [evidence.time(TRACED, "beam", resolution) for resolution in RESOLUTIONS]
     slope, constant = np.polyfit(
         [rays(resolution) for resolution in RESOLUTIONS],
         [each.value for each in seconds if each is not None],
@@ -102,7 +100,7 @@ def thesis_seconds(scene: str = TRACED) -> tuple[float, float]:
     return float(constant) * _CLOCKS, float(slope) * _CLOCKS
 
 
-CONSTANTS = AS_OURS, ALL_WALKING, ALL_BUILDING = ("as ours", "all walking", "all building")
+AS_OURS, ALL_WALKING, ALL_BUILDING = ("as ours", "all walking", "all building")
 
 
 def slowness_of_1999(recorded: Recorded, constant_is: str = AS_OURS) -> Slowness:

@@ -3,17 +3,9 @@
 import re
 from pathlib import Path
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from beambench_thesis.paper.markdown import markdown_environment
 
-from beambench_report.base.quantities import number
-
-_ENVIRONMENT = Environment(
-    loader=FileSystemLoader(Path(__file__).with_name("templates")),
-    undefined=StrictUndefined,
-    trim_blocks=True,
-    keep_trailing_newline=True,
-)
-_ENVIRONMENT.filters |= {"number": number, "table": "\n".join}
+_ENVIRONMENT = markdown_environment(Path(__file__).with_name("templates"))
 
 
 def rendered(name: str, **values: object) -> str:

@@ -9,8 +9,8 @@ from matplotlib.ticker import MaxNLocator
 from beambench_report.base.figure import DASHES, LINE_COLORS, MARKERS, PAGE_WIDTH, Plot, new_figure
 from beambench_report.run.panels import scale_axis
 from beambench_thesis.chapter6.results import EQUAL_MACHINES, THESIS_OPTIONS
-from beambench_thesis.chapter6.simulate import OLD, OPTIONS, STATIONS, TODAY
-from beambench_thesis.paper.evidence import published_evidence
+from beambench_thesis.chapter6.simulate import MACHINES_OF, OLD, OPTIONS, STATIONS, TODAY
+from beambench_thesis.paper.evidence import published_evidence, rows_with
 
 LOWER, HIGHER = "(lower is better)", "(higher is better)"
 IDEAL = {"color": "#777777", "linewidth": 0.8, "linestyle": (0, (1, 2)), "zorder": 1}
@@ -18,21 +18,13 @@ IDEAL = {"color": "#777777", "linewidth": 0.8, "linestyle": (0, (1, 2)), "zorder
 
 def cluster_plots(simulations: pd.DataFrame, processes: pd.DataFrame) -> list[Plot]:
     """Returns all figures that the tables have rows for."""
-    thesis = simulations[
-        simulations["options"].eq(THESIS_OPTIONS)
-        & simulations["machines"].eq(EQUAL_MACHINES)
-        & simulations["era"].eq(OLD)
-        & (simulations["consumers"] < STATIONS)
-    ]
+    equal = rows_with(simulations, machines=EQUAL_MACHINES)
+    thesis = rows_with(equal, options=THESIS_OPTIONS, era=OLD, consumers=range(STATIONS))
     plots = []
     if not thesis.empty:
         plots += [_times(thesis), _balance(thesis, processes)]
-    many = simulations[
-        simulations["options"].isin(OPTIONS)
-        & simulations["machines"].eq(EQUAL_MACHINES)
-        & (simulations["consumers"] >= STATIONS // 2)
-    ]
-    plots += [_scaling(many[many["era"].eq(era)], era) for era in (OLD, TODAY)]
+    many = rows_with(equal[equal["consumers"] >= STATIONS // 2], options=OPTIONS)
+    plots += [_scaling(rows_with(many, era=era), era) for era in (OLD, TODAY)]
     return [plot for plot in plots if plot is not None]
 
 
@@ -40,8 +32,9 @@ def _times(rows: pd.DataFrame) -> Plot:
     """Draws figure 6.3: time, speedup and efficiency over the number of consumers."""
     figure, panels = new_figure(PAGE_WIDTH * 0.95, rows=2, columns=2)
     seconds, speed_up, counted, uncounted = panels
-    for index, ((scene, network), group) in enumerate(_lines(rows)):
-        look = line_look(index) | {"label": f"{scene}, {network}"}
+    for index, (key, line) in enumerate(rows.groupby(["scene", "network"], sort=False)):
+        group = line.sort_values("consumers")
+        look = line_look(index) | {"label": ", ".join(key)}
         processors = group["consumers"] + 1
         seconds.plot(processors, group["seconds"], **look)
         speed_up.plot(processors, group["speed_up"], **look)
@@ -53,21 +46,15 @@ def _times(rows: pd.DataFrame) -> Plot:
         panel.axhline(1, **IDEAL)
         panel.set_ylim(0, 1.1)
     _overlay_thesis(counted, list(dict.fromkeys(rows["scene"])))
-    name_panel(seconds, "a) Time", "processors, the producer's among them", f"seconds {LOWER}")
-    seconds.set_ylim(bottom=0)
-    name_panel(speed_up, "b) Speed-up", "processors, the producer's among them", f"times {HIGHER}")
-    name_panel(
-        counted,
-        "c) Efficiency",
+    every, alone = (
         "processors, the producer's among them",
-        f"speed-up / processors {HIGHER}",
-    )
-    name_panel(
-        uncounted,
         "d) Efficiency, the producer not counted",
-        "consumers",
-        f"speed-up / consumers {HIGHER}",
     )
+    name_panel(seconds, "a) Time", every, f"seconds {LOWER}")
+    seconds.set_ylim(bottom=0)
+    name_panel(speed_up, "b) Speed-up", every, f"times {HIGHER}")
+    name_panel(counted, "c) Efficiency", every, f"speed-up / processors {HIGHER}")
+    name_panel(uncounted, alone, "consumers", f"speed-up / consumers {HIGHER}")
     seconds.legend(fontsize=7.5, frameon=False)
     return Plot("figure-6.3", figure, "time, speed-up and efficiency of 1 to 14 consumers")
 
@@ -155,21 +142,13 @@ def _scaling(rows: pd.DataFrame, era: str) -> Plot | None:
         speed_up.plot(ends, ends, **IDEAL)
         scale_axis(speed_up, "y", [*of_scene["speed_up"], *ends])
         for panel in (speed_up, busy):
-            panel.set_xscale("log", base=2)
-            panel.xaxis.set_major_formatter("{x:.0f}")
+            log_axis(panel)
         name_panel(speed_up, f"{scene}: speed-up", "processes", f"times {HIGHER}")
         name_panel(busy, f"{scene}: the producer is busy", "processes", "% of the time")
         busy.set_ylim(0, 105)
     panels[0].legend(fontsize=7, frameon=False)
-    machines = "machines of 1999, 100 Mbit/s" if era == OLD else "machines of today, 10 Gbit/s"
-    return Plot(f"many-processes-{era}", figure, f"speed-up and the producer's load on {machines}")
-
-
-def _lines(rows: pd.DataFrame) -> Sequence[tuple[tuple[str, str], pd.DataFrame]]:
-    return [
-        (key, group.sort_values("consumers"))
-        for key, group in rows.groupby(["scene", "network"], sort=False)
-    ]
+    summary = f"speed-up and the producer's load on machines of {MACHINES_OF[era]}"
+    return Plot(f"many-processes-{era}", figure, summary)
 
 
 def _option_lines(rows: pd.DataFrame, usual: str) -> Sequence[tuple[tuple[str, str], pd.DataFrame]]:
@@ -197,3 +176,9 @@ def name_panel(panel: Axes, title: str, across: str, up: str) -> None:
     panel.set_xlabel(across)
     panel.set_ylabel(up)
     panel.grid(alpha=0.3)
+
+
+def log_axis(panel: Axes, which: str = "x") -> None:
+    """Makes an axis of a panel logarithmic to base 2, with whole numbers beside it."""
+    getattr(panel, f"set_{which}scale")("log", base=2)
+    getattr(panel, f"{which}axis").set_major_formatter("{x:.0f}")

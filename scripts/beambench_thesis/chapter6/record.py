@@ -13,7 +13,7 @@ import pandas as pd
 from beambench_report.base.csv_texts import csv_of, unguarded
 from beambench_report.base.files import Problem, load_json, output_of, read_json, write_text
 from beambench_report.base.quantities import markdown_table
-from beambench_thesis.chapter6.machines import Recorded
+from beambench_thesis.chapter6.machines import Recorded, options
 from beambench_thesis.chapter6.page import rendered
 
 SCENES = ("gato-bill", "torre-eiffel")
@@ -68,10 +68,9 @@ class Picture:
 
     def arguments(self) -> list[str]:
         """Arguments of beambench-cluster."""
-        return [
-            *(self.scene, "--accel", self.structure),
-            *("--resolution", f"{self.width}x{self.height}", "--samples", str(self.samples)),
-        ]
+        size = f"{self.width}x{self.height}"
+        given = options(accel=self.structure, resolution=size, samples=self.samples)
+        return [self.scene, *given]
 
 
 def record(folder: Path, program: Path, pictures: list[Picture], repeats: int) -> list[Path]:
@@ -139,18 +138,17 @@ def measure(folder: Path, program: Path, pictures: list[Picture], repeats: int) 
     rows = []
     for picture in pictures:
         hashes = set()
-        for setting, processes, options in _SETTINGS:
+        for setting, processes, more in _SETTINGS:
             print(picture.scene, setting, file=sys.stderr)
-            runs = [_run_mpi(program, picture, processes, options) for _ in range(repeats)]
+            runs = [_run_mpi(program, picture, processes, more) for _ in range(repeats)]
             hashes |= {run["result_hash"] for run in runs}
             first, seconds = runs[0], [run["seconds"] for run in runs]
-            traffic = {f"{end}_producer": first[f"{end}_producer"] for end in ("from", "to")}
             rows.append(
                 {
                     "scene": picture.scene,
                     "setting": setting,
                     "processes": processes,
-                    "options": " ".join(options),
+                    "options": " ".join(more),
                     "width": picture.width,
                     "height": picture.height,
                     "samples": picture.samples,
@@ -164,8 +162,8 @@ def measure(folder: Path, program: Path, pictures: list[Picture], repeats: int) 
                     "tasks_of_producer": first["each"][0]["tasks"],
                 }
                 | {
-                    f"{what}_{end}": sent[what]
-                    for end, sent in traffic.items()
+                    f"{what}_{end}": first[end][what]
+                    for end in ("from_producer", "to_producer")
                     for what in ("messages", "bytes")
                 }
             )
@@ -228,12 +226,12 @@ def _medians(runs: list[pd.DataFrame]) -> pd.DataFrame:
     return rows
 
 
-def _run_mpi(program: Path, picture: Picture, processes: int, options: tuple[str, ...]) -> dict:
+def _run_mpi(program: Path, picture: Picture, processes: int, more: tuple[str, ...]) -> dict:
     with tempfile.TemporaryDirectory() as name:
         report = Path(name) / "report.json"
         command = ["mpirun", "-n", str(processes), str(program), *picture.arguments()]
         output_of(
-            [*command, "--report", str(report), *options],
+            [*command, "--report", str(report), *more],
             remedy="install it with: scripts/setup cluster",
             env={**os.environ, **ENVIRONMENT},
         )

@@ -1,6 +1,6 @@
 """The page of the simulated cluster: Markdown and its figures."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pandas as pd
@@ -16,23 +16,19 @@ from beambench_thesis.chapter6.record import measured_section, read_recorded
 from beambench_thesis.chapter6.results import (
     EQUAL_MACHINES,
     THESIS_OPTIONS,
+    pivot,
     read_processes,
     read_simulations,
+    switched,
 )
 from beambench_thesis.chapter6.scene_divisions import (
     read_scene_divisions,
     scene_divisions_plot,
     scene_divisions_section,
 )
-from beambench_thesis.chapter6.simulate import (
-    DIVISIONS,
-    OLD,
-    OPTIONS,
-    STATIONS,
-    TODAY,
-    slowness_of,
-)
+from beambench_thesis.chapter6.simulate import DIVISIONS, OLD, OPTIONS, STATIONS, TODAY, slowness_of
 from beambench_thesis.chapter6.split import read_split, split_plot, split_section
+from beambench_thesis.paper.evidence import rows_with
 
 _SHOWN = (1, 2, 4, 6, 8, 10, 12, 14)
 
@@ -43,7 +39,11 @@ def write_report(folder: Path) -> list[Path]:
     recorded = read_recorded(folder)
     split = read_split(folder)
     scene_divisions = read_scene_divisions(folder)
-    measured = measured_section(folder)
+    more = (
+        None if split is None else split_section(split),
+        None if scene_divisions is None else scene_divisions_section(scene_divisions),
+        measured_section(folder),
+    )
     written = []
     with house_style():
         plots = cluster_plots(simulations, read_processes(folder))
@@ -69,11 +69,7 @@ def write_report(folder: Path) -> list[Path]:
         consumers=STATIONS - 1,
         machines=_machines(simulations),
         assumptions=_assumptions(simulations),
-        more=[
-            *([split_section(split)] if split is not None else []),
-            *([scene_divisions_section(scene_divisions)] if scene_divisions is not None else []),
-            *([measured] if measured is not None else []),
-        ],
+        more=[section for section in more if section is not None],
     )
     return [*written, write_text(folder / "report.md", text)]
 
@@ -94,14 +90,8 @@ def _recorded(recorded: dict) -> list[str]:
 
 
 def _efficiencies(simulations: pd.DataFrame) -> list[str]:
-    rows = simulations[
-        simulations["options"].eq(THESIS_OPTIONS)
-        & simulations["machines"].eq(EQUAL_MACHINES)
-        & simulations["era"].eq(OLD)
-        & simulations["consumers"].isin(_SHOWN)
-    ]
     return _by_consumers(
-        rows,
+        rows_with(simulations, options=THESIS_OPTIONS, machines=EQUAL_MACHINES, era=OLD),
         "network",
         _SHOWN,
         lambda run: f"{run['efficiency']:.2f} / {run['efficiency_of_consumers']:.2f}",
@@ -109,18 +99,12 @@ def _efficiencies(simulations: pd.DataFrame) -> list[str]:
 
 
 def _options(simulations: pd.DataFrame, era: str) -> list[str]:
-    rows = simulations[
-        simulations["era"].eq(era)
-        & simulations["options"].isin(OPTIONS)
-        & simulations["machines"].eq(EQUAL_MACHINES)
-        & (simulations["consumers"] >= STATIONS // 2)
-        & ~simulations["network"].str.startswith("shared")
-    ]
-    counts = sorted(set(rows["consumers"]) & {STATIONS // 2, STATIONS - 1, 31, 63, 127, 255, 1023})
+    rows = switched(rows_with(simulations, era=era, options=OPTIONS, machines=EQUAL_MACHINES))
+    counts = {STATIONS // 2, STATIONS - 1, 31, 63, 127, 255, 1023} & set(rows["consumers"])
     return _by_consumers(
         rows,
         "options",
-        counts,
+        sorted(counts),
         lambda run: f"{run['speed_up']:.1f} ({run['producer_busy']:.0%})",
     )
 
@@ -129,46 +113,27 @@ def _by_consumers(
     rows: pd.DataFrame, by: str, counts: Sequence[int], cell: Callable[[pd.Series], str]
 ) -> list[str]:
     """Returns a table with a column for each number of consumers."""
-    return _pivot(rows, by, "consumers", {n: f"{n} consumers" for n in counts}, cell)
-
-
-def _pivot(
-    rows: pd.DataFrame,
-    by: str,
-    across: str,
-    heads: Mapping[object, str],
-    cell: Callable[[pd.Series], str],
-) -> list[str]:
-    """Returns a row for each scene and value of `by`; `heads` are the values of `across`."""
-    lines = []
-    for (scene, which), group in rows.groupby(["scene", by], sort=False):
-        runs = group.drop_duplicates(across).set_index(across)
-        cells = (cell(runs.loc[value]) if value in runs.index else "" for value in heads)
-        lines.append((scene, which, *cells))
-    return markdown_table(["scene", by, *heads.values()], lines)
+    heads = {n: f"{n} consumers" for n in counts}
+    shown = rows_with(rows, consumers=counts)
+    return pivot(shown, ("scene", by), "consumers", heads, cell)
 
 
 def _machines(simulations: pd.DataFrame) -> list[str]:
-    rows = simulations[
-        simulations["era"].eq(OLD)
-        & simulations["consumers"].eq(STATIONS - 1)
-        & ~simulations["network"].str.startswith("shared")
-    ]
+    rows = switched(rows_with(simulations, era=OLD, consumers=STATIONS - 1))
     unlike = set(rows.loc[rows["machines"].ne(EQUAL_MACHINES), "options"])
-    return _seconds(rows[rows["options"].isin(unlike)], "machines")
+    return _by_options(rows_with(rows, options=unlike), "machines", "seconds")
 
 
 def _assumptions(simulations: pd.DataFrame) -> list[str]:
-    rows = simulations[
-        simulations["era"].eq(OLD)
-        & simulations["machines"].eq(EQUAL_MACHINES)
-        & simulations["consumers"].isin((STATIONS // 2, STATIONS - 1))
-        & ~simulations["options"].isin((OPTIONS.keys() | DIVISIONS.keys()) - {THESIS_OPTIONS})
-    ]
-    rows = rows.assign(place=rows["network"] + ", " + rows["consumers"].astype(str) + " consumers")
-    return _seconds(rows, "place", "efficiency")
+    rows = rows_with(
+        simulations, era=OLD, machines=EQUAL_MACHINES, consumers=(STATIONS // 2, STATIONS - 1)
+    )
+    others = (OPTIONS.keys() | DIVISIONS.keys()) - {THESIS_OPTIONS}
+    rows = rows[~rows["options"].isin(others)]
+    place = rows["network"] + ", " + rows["consumers"].astype(str) + " consumers"
+    return _by_options(rows.assign(place=place), "place", "efficiency")
 
 
-def _seconds(rows: pd.DataFrame, by: str, quantity: str = "seconds") -> list[str]:
+def _by_options(rows: pd.DataFrame, by: str, quantity: str) -> list[str]:
     heads = {options: options for options in rows["options"]}
-    return _pivot(rows, by, "options", heads, lambda run: number(run[quantity]))
+    return pivot(rows, ("scene", by), "options", heads, lambda run: number(run[quantity]))

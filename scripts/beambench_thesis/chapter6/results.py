@@ -1,11 +1,13 @@
 """Results of simulations as CSV: a row for each simulation, and one for each of its processes."""
 
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import pandas as pd
 
 from beambench_report.base.csv_texts import csv_of
 from beambench_report.base.files import read_table, write_text
+from beambench_report.base.quantities import markdown_table
 
 SIMULATIONS = "simulations.csv"
 PROCESSES = "processes.csv"
@@ -72,6 +74,32 @@ def write_results(folder: Path, results: list[dict[str, object]]) -> list[Path]:
         write_rows(folder / SIMULATIONS, rows[_OF_SIMULATIONS + _PROFILE]),
         write_rows(folder / PROCESSES, pd.DataFrame(processes, columns=_OF_PROCESSES)),
     ]
+
+
+def switched(rows: pd.DataFrame) -> pd.DataFrame:
+    """Returns the simulations of networks with a line for each machine."""
+    return rows[~rows["network"].str.startswith("shared")]
+
+
+def pivot(
+    rows: pd.DataFrame,
+    by: Sequence[str],
+    across: str,
+    heads: Mapping[object, str],
+    cell: Callable[[pd.Series], str],
+    names: Sequence[str] = (),
+) -> list[str]:
+    """Returns a Markdown table with a row for each value of `by`.
+
+    `heads` are the values of the column `across` with their headings, `names` the headings of `by`
+    where these are not the columns' names.
+    """
+    lines = []
+    for key, group in rows.groupby(list(by), sort=False):
+        runs = group.drop_duplicates(across).set_index(across)
+        cells = (cell(runs.loc[value]) if value in runs.index else "" for value in heads)
+        lines.append((*key, *cells))
+    return markdown_table([*(names or by), *heads.values()], lines)
 
 
 def write_rows(path: Path, rows: pd.DataFrame) -> Path:

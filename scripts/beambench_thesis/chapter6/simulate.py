@@ -3,9 +3,10 @@
 import json
 import sys
 import threading
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
+from itertools import product
 from pathlib import Path
 
 from beambench_report.base.files import Problem, output_of
@@ -25,6 +26,7 @@ from beambench_thesis.chapter6.machines import (
     Network,
     Recorded,
     Slowness,
+    options,
     slowness_of_1999,
 )
 from beambench_thesis.chapter6.record import (
@@ -40,6 +42,8 @@ from beambench_thesis.chapter6.record import (
 from beambench_thesis.chapter6.results import EQUAL_MACHINES, THESIS_OPTIONS, write_results
 
 OLD, TODAY = ERAS = ("1999", "today")
+CLUSTERS = {OLD: (SWITCHED, MESSAGES_OF_1999), TODAY: (MODERN, MESSAGES_OF_TODAY)}
+MACHINES_OF = {OLD: "1999, 100 Mbit/s", TODAY: "today, 10 Gbit/s"}
 STATIONS = 15
 MANY = tuple(2**power - 1 for power in range(4, 11))  # 16 to 1,024 processes, the producer's one
 
@@ -111,10 +115,10 @@ class Simulation:
         """Arguments of the simulator that do not depend on recordings."""
         pixels = self.era == OLD and not self.own_messages and self.work != TILES
         return [
-            *("--consumers", str(self.consumers)),
+            *options(consumers=self.consumers),
             *self.network.arguments(),
             *self.messages.arguments(),
-            *(("--sample-bytes", str(BYTES_PER_SAMPLE_OF_1999)) if pixels else ()),
+            *(options(sample_bytes=BYTES_PER_SAMPLE_OF_1999) if pixels else ()),
             *(OPTIONS | DIVISIONS | LARGE_OPTIONS).get(self.options, ()),
             *MACHINES[self.machines],
         ]
@@ -122,11 +126,13 @@ class Simulation:
 
 def simulations(scenes: tuple[str, ...], *, most: int = 1024) -> list[Simulation]:
     """Returns all simulations with at most `most` processes."""
+    counts = (STATIONS // 2, STATIONS - 1, *MANY)
     every = [
         *(each for scene in scenes for each in _thesis(scene)),
-        *(each for scene in scenes for each in _many(scene)),
-        *(each for scene in scenes for each in _divided(scene)),
-        *_large(),
+        # When the producer saturates, and the effect of each option.
+        *(each for scene in scenes for each in _on_both(scene, OPTIONS, counts)),
+        *(each for scene in scenes for each in _on_both(scene, DIVISIONS, counts)),
+        *_on_both(LARGE, LARGE_OPTIONS, MANY),
         *(each for scene in scenes for each in _unlike(scene)),
         *(each for scene in scenes for each in _assumptions(scene)),
     ]
@@ -139,62 +145,29 @@ def _old(scene: str, network: Network, consumers: int) -> Simulation:
 
 def _thesis(scene: str) -> list[Simulation]:
     """Simulates figures 6.3 and 6.4: 1 to 14 consumers, and more until the producer saturates."""
+    settings = product((SHARED, SWITCHED), (*range(1, STATIONS), 31, 63))
+    return [_old(scene, network, consumers) for network, consumers in settings]
+
+
+def _on_both(scene: str, kinds: Iterable[str], counts: Iterable[int]) -> list[Simulation]:
+    """Returns simulations with each of the options and numbers of consumers on both clusters."""
     return [
-        _old(scene, network, consumers)
-        for network in (SHARED, SWITCHED)
-        for consumers in (*range(1, STATIONS), 31, 63)
-    ]
-
-
-_CLUSTERS = ((OLD, SWITCHED, MESSAGES_OF_1999), (TODAY, MODERN, MESSAGES_OF_TODAY))
-
-
-def _divided(scene: str) -> list[Simulation]:
-    """Returns static divisions of the image, and tiles, on both clusters."""
-    return [
-        Simulation(era, scene, network, messages, consumers, options)
-        for era, network, messages in _CLUSTERS
-        for options in DIVISIONS
-        for consumers in (STATIONS // 2, STATIONS - 1, *MANY)
-    ]
-
-
-def _large() -> list[Simulation]:
-    """Returns simulations of a picture large enough for 1,024 processes."""
-    return [
-        Simulation(era, LARGE, network, messages, consumers, options)
-        for era, network, messages in _CLUSTERS
-        for options in LARGE_OPTIONS
-        for consumers in MANY
-    ]
-
-
-def _many(scene: str) -> list[Simulation]:
-    """Returns simulations that show when the producer saturates, and the effect of each option."""
-    return [
-        Simulation(era, scene, network, messages, consumers, options)
-        for era, network, messages in _CLUSTERS
-        for options in OPTIONS
-        for consumers in (STATIONS // 2, STATIONS - 1, *MANY)
+        Simulation(era, scene, *CLUSTERS[era], consumers, each)
+        for era, each, consumers in product(ERAS, kinds, counts)
     ]
 
 
 def _unlike(scene: str) -> list[Simulation]:
     """Returns simulations with machines of two speeds, and with machines that others use."""
-    return [
-        Simulation(OLD, scene, SWITCHED, MESSAGES_OF_1999, STATIONS - 1, options, machines)
-        for machines in MACHINES
-        for options in (THESIS_OPTIONS, "8 beams a message", "two in flight", "image blocks")
-    ]
+    kinds = (THESIS_OPTIONS, "8 beams a message", "two in flight", "image blocks")
+    usual = _old(scene, SWITCHED, STATIONS - 1)
+    return [replace(usual, machines=one, options=kind) for one, kind in product(MACHINES, kinds)]
 
 
 def _assumptions(scene: str) -> list[Simulation]:
     """Returns simulations with half and double the assumed cost of messages, and larger results."""
-    usual = [
-        _old(scene, network, consumers)
-        for network in (SHARED, SWITCHED)
-        for consumers in (STATIONS // 2, STATIONS - 1)
-    ]
+    settings = product((SHARED, SWITCHED), (STATIONS // 2, STATIONS - 1))
+    usual = [_old(scene, network, consumers) for network, consumers in settings]
     costs = ((0.5, "messages at half the cost"), (2, "at twice the cost"))
     changed: list[dict[str, object]] = [
         *({"messages": MESSAGES_OF_1999.times(by), "options": label} for by, label in costs),
@@ -277,14 +250,12 @@ def _simulate(
     slow = slowness_of(recorded, simulation.constant_is) if simulation.era == OLD else NONE
     build = recorded[simulation.scene, simulation.work].build_seconds * slow.build
     arguments = [
-        *("--walk-scale", str(slow.walk)),
-        *("--work-scale", str(slow.work)),
-        *("--build-seconds", str(build)),
+        *options(walk_scale=slow.walk, work_scale=slow.work, build_seconds=build),
         *simulation.arguments(),
     ]
     if simulation.options == PRE_PASS:
         seconds = recorded[simulation.scene, simulation.work].pre_pass_seconds
-        arguments += ["--pre-pass-seconds", str(seconds)]
+        arguments += options(pre_pass_seconds=seconds)
     tasks = tasks_file(folder, simulation.scene, simulation.work)
     result = cache.result(
         [tasks.name, *arguments], [str(program), "cluster", str(tasks), *arguments]

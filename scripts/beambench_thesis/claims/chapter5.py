@@ -16,8 +16,7 @@ from beambench_thesis.claims.comparisons import (
     SAMETS,
     any_of,
     beats,
-    best_is_inside,
-    best_place,
+    best_grid,
     best_ray,
     difference,
     formula,
@@ -32,13 +31,7 @@ from beambench_thesis.claims.comparisons import (
     slope,
 )
 from beambench_thesis.claims.verdict import Check, Claims, aside, below, between
-from beambench_thesis.paper.evidence import (
-    HIERARCHY,
-    PAPER_HIERARCHY,
-    Evidence,
-    Measured,
-    smallest,
-)
+from beambench_thesis.paper.evidence import HIERARCHY, PAPER_HIERARCHY, Evidence, Measured, smallest
 
 CLAIMS = Claims()
 
@@ -340,9 +333,7 @@ def beams_win_at_high_resolution(e: Evidence) -> list[Check]:
 def _rays_before_beams(e: Evidence, scene: str, resolution: str = COARSEST) -> Check:
     """Is the better of Samet and Samet-Net quicker than the beams?"""
     return below(
-        f"{scene} {resolution}",
-        best_ray(e, scene, resolution),
-        e.time(scene, "beam", resolution),
+        f"{scene} {resolution}", best_ray(e, scene, resolution), e.time(scene, "beam", resolution)
     )
 
 
@@ -475,8 +466,7 @@ def beams_win_against_the_best_grid(e: Evidence) -> list[Check]:
         sweep = e.times_by("cells", scene, "voxel-grid")
         quickest = smallest(list(sweep.values())) if len(sweep) >= 5 else None
         checks += [
-            *best_is_inside(scene, sweep),
-            between(f"{scene}, best cells per axis", best_place(sweep), best / 1.5, best * 1.5),
+            *best_grid(scene, sweep, best),
             below(f"{scene}, beam before the best grid", e.time(scene, "beam"), quickest),
         ]
     printed = below(

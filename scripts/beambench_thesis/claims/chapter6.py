@@ -8,6 +8,7 @@ network.
 """
 
 from collections.abc import Callable
+from dataclasses import asdict
 from functools import wraps
 from pathlib import Path
 
@@ -20,16 +21,8 @@ from beambench_thesis.chapter6.results import (
     read_simulations,
 )
 from beambench_thesis.claims.comparisons import ratio_of
-from beambench_thesis.claims.verdict import (
-    Check,
-    Claims,
-    Outcome,
-    Rule,
-    aside,
-    below,
-    between,
-)
-from beambench_thesis.paper.evidence import FIGURES, ClusterEvidence, Evidence, Measured
+from beambench_thesis.claims.verdict import Check, Claims, Outcome, Rule, aside, below, between
+from beambench_thesis.paper.evidence import FIGURES, ClusterEvidence, Evidence, Measured, rows_with
 
 CLUSTER_CLAIMS = Claims()
 
@@ -64,11 +57,7 @@ def efficiency_rises_and_falls(e: Evidence, network: str) -> list[Check]:
         between(f"{_CAT}, {network}, best with", processors[_CAT], 9, 13, " processors"),
         between(f"{_CAT}, {network}, best efficiency", best[_CAT], 0.65, 0.85),
         between(f"{_TOWER}, {network}, best with", processors[_TOWER], 5, 9, " processors"),
-        below(
-            f"{_TOWER}, {network}, best efficiency above 0.6",
-            Measured.exact(0.6),
-            best[_TOWER],
-        ),
+        below(f"{_TOWER}, {network}, best efficiency above 0.6", Measured.exact(0.6), best[_TOWER]),
         below(f"{network}, best of {_TOWER} below that of {_CAT}", best[_TOWER], best[_CAT]),
         *(
             below(
@@ -141,68 +130,54 @@ def cluster_evidence(folder: Path) -> ClusterEvidence:
 
     Raises Problem where the folder cannot be read.
     """
-    simulations = read_simulations(folder)
-    processes = read_processes(folder)
-    thesis = simulations[
-        simulations["options"].eq(THESIS_OPTIONS)
-        & simulations["machines"].eq(EQUAL_MACHINES)
-        & simulations["era"].eq("1999")
-    ]
+    simulations, processes = read_simulations(folder), read_processes(folder)
+    thesis = rows_with(simulations, options=THESIS_OPTIONS, machines=EQUAL_MACHINES, era="1999")
     rows: list[dict[str, object]] = []
     for (scene, network), group in thesis.groupby(["scene", "network"], sort=False):
-        own = processes[processes["simulation"].isin(group["simulation"])]
-        figures = _efficiencies(group) | _balance(group, own) | _bottleneck(group)
+        figures = _efficiencies(group) | _balance(group, processes) | _bottleneck(group)
         rows += [
-            {"scene": scene, "network": network, "quantity": quantity}
-            | dict(zip(("value", "low", "high"), interval, strict=True))
-            for quantity, interval in figures.items()
+            {"scene": scene, "network": network, "quantity": quantity} | asdict(figure)
+            for quantity, figure in figures.items()
         ]
     return ClusterEvidence(pd.DataFrame(rows, columns=list(FIGURES)))
 
 
-_Interval = tuple[float, float, float]
-
-
-def _exact(value: float) -> _Interval:
-    return (value, value, value)
-
-
-def _efficiencies(group: pd.DataFrame) -> dict[str, _Interval]:
+def _efficiencies(group: pd.DataFrame) -> dict[str, Measured]:
     by_processors = group[group["consumers"] < STATIONS].set_index("consumers")["efficiency"]
     if len(by_processors) < STATIONS - 1:
         return {}
-    best = by_processors.idxmax()
-    alike = by_processors.index[by_processors >= (1 - _ALIKE) * by_processors.max()]
+    best = by_processors.max()
+    alike = by_processors.index[by_processors >= (1 - _ALIKE) * best] + 1
     return {
-        "best_processors": (best + 1, alike.min() + 1, alike.max() + 1),
-        "best_efficiency": _exact(by_processors.max()),
-        "mean_efficiency": _exact(by_processors.mean()),
-        "last_efficiency": _exact(by_processors[STATIONS - 1]),
+        "best_processors": Measured(by_processors.idxmax() + 1, alike.min(), alike.max()),
+        "best_efficiency": Measured.exact(best),
+        "mean_efficiency": Measured.exact(by_processors.mean()),
+        "last_efficiency": Measured.exact(by_processors[STATIONS - 1]),
     }
 
 
-def _balance(group: pd.DataFrame, processes: pd.DataFrame) -> dict[str, _Interval]:
-    all_busy = group.loc[group["consumers"].eq(STATIONS - 1), "simulation"]
-    consumers = processes[processes["simulation"].isin(all_busy) & processes["role"].eq("consumer")]
+def _balance(group: pd.DataFrame, processes: pd.DataFrame) -> dict[str, Measured]:
+    all_busy = rows_with(group, consumers=STATIONS - 1)
+    consumers = rows_with(processes, simulation=all_busy["simulation"], role="consumer")
     if consumers.empty:
         return {}
     return {
-        "fewest_beams": _exact(consumers["tasks"].min()),
-        "most_beams": _exact(consumers["tasks"].max()),
-        "first_end": _exact(consumers["last_seconds"].min()),
-        "last_end": _exact(consumers["last_seconds"].max()),
+        "fewest_beams": Measured.exact(consumers["tasks"].min()),
+        "most_beams": Measured.exact(consumers["tasks"].max()),
+        "first_end": Measured.exact(consumers["last_seconds"].min()),
+        "last_end": Measured.exact(consumers["last_seconds"].max()),
     }
 
 
-def _bottleneck(group: pd.DataFrame) -> dict[str, _Interval]:
-    figures = {"beams": _exact(group["tasks"].iloc[0])}
-    all_busy = group.loc[group["consumers"].eq(STATIONS - 1), "producer_busy"]
+def _bottleneck(group: pd.DataFrame) -> dict[str, Measured]:
+    figures = {"beams": Measured.exact(group["tasks"].iloc[0])}
+    all_busy = rows_with(group, consumers=STATIONS - 1)["producer_busy"]
     if not all_busy.empty:
-        figures["producer_busy"] = _exact(all_busy.iloc[0])
+        figures["producer_busy"] = Measured.exact(all_busy.iloc[0])
     saturated = group.loc[group["producer_busy"] >= _SATURATED, "consumers"]
     most = group["consumers"].max()
     if not saturated.empty:
-        figures["consumers_that_saturate"] = _exact(saturated.min())
+        figures["consumers_that_saturate"] = Measured.exact(saturated.min())
     elif most >= _MANY:
-        figures["consumers_that_saturate"] = _exact(most + 1)  # or more, or never
+        figures["consumers_that_saturate"] = Measured.exact(most + 1)  # or more, or never
     return figures

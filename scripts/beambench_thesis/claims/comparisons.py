@@ -9,7 +9,7 @@ import numpy as np
 
 from beambench_report.base.published import COARSEST, FINEST, RESOLUTIONS, rays
 from beambench_thesis.chapter5.cost import MIN_CELLS, r_squared
-from beambench_thesis.claims.verdict import Check, Outcome, below
+from beambench_thesis.claims.verdict import Check, Outcome, below, between
 from beambench_thesis.paper.evidence import LEVEL, Evidence, Measured, smallest, total
 
 
@@ -203,23 +203,19 @@ def _fit(seconds: Sequence[Measured], counts: np.ndarray) -> tuple[Measured, Mea
     return explained, error
 
 
-def best_is_inside(scene: str, sweep: dict[int, Measured]) -> list[Check]:
-    """Is some grid of the sweep quicker than the coarsest and than the finest?"""
-    if len(sweep) < 5:
-        return [Check(f"{scene}, a best grid inside the sweep", Outcome.MISSING)]
-    best = min(sweep, key=lambda cells: sweep[cells].value)
-    if best in (min(sweep), max(sweep)):
-        return [Check(f"{scene}, a best grid inside the sweep", Outcome.NO, f"best: {best} cells")]
-    return [
-        below(f"{scene}, {best} cells before {end}", sweep[best], sweep[end])
-        for end in (min(sweep), max(sweep))
-    ]
+def best_grid(scene: str, sweep: dict[int, Measured], printed: int) -> list[Check]:
+    """Is some grid of the sweep quicker than the coarsest and than the finest, and is the best one
+    within a factor of 1.5 of the printed number of cells? Needs five grids or more.
 
-
-def best_place(sweep: dict[int, Measured]) -> Measured | None:
-    """Returns the best grid; its interval contains all grids that may be as quick."""
+    The interval of the best grid contains all grids that may be as quick.
+    """
+    inside, place = f"{scene}, a best grid inside the sweep", f"{scene}, best cells per axis"
     if len(sweep) < 5:
-        return None
-    best = min(sweep, key=lambda cells: sweep[cells].value)
+        return [Check(inside, Outcome.MISSING), Check(place, Outcome.MISSING)]
+    best, ends = min(sweep, key=lambda cells: sweep[cells].value), (min(sweep), max(sweep))
+    checks = [below(f"{scene}, {best} cells before {end}", sweep[best], sweep[end]) for end in ends]
+    if best in ends:
+        checks = [Check(inside, Outcome.NO, f"best: {best} cells")]
     alike = [cells for cells, time in sweep.items() if (time - sweep[best]).low <= 0]
-    return Measured(best, min(alike), max(alike))
+    figure = Measured(best, min(alike), max(alike))
+    return [*checks, between(place, figure, printed / 1.5, printed * 1.5)]

@@ -4,6 +4,7 @@ Such sentences have few figures or none: what "few" or "nearly all" is taken to 
 each rule. Octrees have level 6, as wherever the thesis does not vary it.
 """
 
+from collections.abc import Iterable
 from dataclasses import replace
 from itertools import product
 
@@ -11,26 +12,27 @@ from beambench_report.base.published import COARSEST, FINEST, RESOLUTIONS
 from beambench_thesis.claims.chapter5 import ALL_SCENES, ON_OCTREES
 from beambench_thesis.claims.comparisons import beats, difference, most, ratio_of
 from beambench_thesis.claims.verdict import Check, Claims, Outcome, below, between
-from beambench_thesis.paper.evidence import (
-    PICTURE,
-    Evidence,
-    Measured,
-    largest,
-    share,
-    total,
-)
+from beambench_thesis.paper.evidence import PICTURE, Evidence, Measured, largest, share, total
 
 PROSE_CLAIMS = Claims()
 
 
-def _left_over(e: Evidence, scene: str, resolution: str) -> Measured | None:
-    """Returns the share of samples that miss everything in the occupied leaf where their beam ends,
-    and continue as rays.
+def _left_over(e: Evidence, cells: Iterable[tuple[str, str]], bound: float) -> list[Check]:
+    """Checks each scene and resolution: of the samples of beams that end at an occupied leaf, at
+    most the share `bound` hits nothing there and continues as rays.
     """
-    return ratio_of(
-        e.worked("rays_after_leaf", scene, resolution),
-        e.worked("samples_in_leaves", scene, resolution),
-    )
+    return [
+        between(
+            f"{scene} {resolution}, part of the samples that continues as rays",
+            ratio_of(
+                e.worked("rays_after_leaf", scene, resolution),
+                e.worked("samples_in_leaves", scene, resolution),
+            ),
+            0,
+            bound,
+        )
+        for scene, resolution in cells
+    ]
 
 
 @PROSE_CLAIMS.claim(
@@ -40,15 +42,7 @@ def _left_over(e: Evidence, scene: str, resolution: str) -> Measured | None:
 )
 def rays_hit_where_their_beam_ends(e: Evidence) -> list[Check]:
     """Nearly all means 90% or more, at each resolution."""
-    return [
-        between(
-            f"bola-espacial {resolution}, part of the samples that continues as rays",
-            _left_over(e, "bola-espacial", resolution),
-            0,
-            0.1,
-        )
-        for resolution in RESOLUTIONS
-    ]
+    return _left_over(e, product(("bola-espacial",), RESOLUTIONS), 0.1)
 
 
 @PROSE_CLAIMS.claim(
@@ -58,15 +52,7 @@ def rays_hit_where_their_beam_ends(e: Evidence) -> list[Check]:
 )
 def few_rays_are_left_over(e: Evidence) -> list[Check]:
     """Few means less than half of the samples, in each scene at 1280x1024."""
-    return [
-        between(
-            f"{scene} {FINEST}, part of the samples that continues as rays",
-            _left_over(e, scene, FINEST),
-            0,
-            0.5,
-        )
-        for scene in ALL_SCENES
-    ]
+    return _left_over(e, product(ALL_SCENES, (FINEST,)), 0.5)
 
 
 @PROSE_CLAIMS.claim(

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
+from math import nan
+from operator import attrgetter
 from pathlib import Path
 
 import pandas as pd
@@ -16,13 +19,10 @@ from beambench_report.base.machine import require_one_machine
 from beambench_report.base.names import parameter_items
 from beambench_report.base.published import RESOLUTIONS, primitives_by_scene
 from beambench_report.base.records import read_run, size_of
-from beambench_thesis.paper.evidence import SETTING, Measured
+from beambench_thesis.paper.evidence import SETTING, Measured, Setting
 from beambench_thesis.paper.measured import seconds_of, setting_of
 
 _SIZES = ("nodes", "leaves", "empty_leaves", "references", "depth", "hit_share")
-
-Setting = tuple[str | int, ...]
-"""In the order of `evidence.SETTING`."""
 
 
 @dataclass(frozen=True)
@@ -81,34 +81,26 @@ class Cells:
         """Returns the cell of a setting of the thesis, if it was measured."""
         return self._by_setting.get(setting)
 
-    def of(self, scene: str, structure: str, resolution: str, samples: int = 1) -> list[Cell]:
-        """Returns all cells of a structure, whatever its parameters."""
-        return self._by_view.get((scene, structure, resolution, samples), [])
+    def of(self, scene: str, structure: str, resolution: str) -> list[Cell]:
+        """Returns all cells of a structure with one sample per pixel, whatever its parameters."""
+        return self._by_view.get((scene, structure, resolution, 1), [])
 
     def without(self, run: str) -> Cells:
         """Returns the cells of all other runs."""
-        return Cells(
-            self.directory,
-            tuple(path for path in self.runs if path.name != run),
-            tuple(cell for cell in self.cells if cell.run != run),
-            self.unread,
-        )
+        runs = tuple(path for path in self.runs if path.name != run)
+        return replace(self, runs=runs, cells=tuple(one for one in self.cells if one.run != run))
 
     @cached_property
     def _by_setting(self) -> dict[Setting, Cell]:
-        found: dict[Setting, Cell] = {}
-        for cell in self.cells:
-            if cell.setting is not None:
-                found.setdefault(cell.setting, cell)
-        return found
+        """The first cell of each setting."""
+        return {cell.setting: cell for cell in reversed(self.cells) if cell.setting is not None}
 
     @cached_property
     def _by_view(self) -> dict[tuple[str, str, str, int], list[Cell]]:
-        found: dict[tuple[str, str, str, int], list[Cell]] = {}
+        found = defaultdict(list)
         for cell in self.cells:
-            key = (cell.scene, cell.structure, cell.resolution, cell.samples)
-            found.setdefault(key, []).append(cell)
-        return found
+            found[cell.scene, cell.structure, cell.resolution, cell.samples].append(cell)
+        return dict(found)
 
 
 def read_cells(directory: Path, names: Iterable[str]) -> Cells:
@@ -131,24 +123,19 @@ def read_cells(directory: Path, names: Iterable[str]) -> Cells:
     return Cells(directory, tuple(runs), tuple(cells), tuple(unread))
 
 
-def setting(
-    scene: str,
-    contender: str,
-    resolution: str,
-    *,
-    level: int = 0,
-    objects: int = 0,
-    cells: int = 0,
-    samples: int = 1,
-) -> Setting:
-    """Returns a setting of the thesis as a key."""
-    return (scene, contender, level, objects, cells, resolution, samples)
-
-
 def resolutions_of(cells: Iterable[Cell]) -> list[str]:
     """Returns the thesis's resolutions that some cell has, the coarsest first."""
     there = {cell.resolution for cell in cells}
     return [resolution for resolution in RESOLUTIONS if resolution in there]
+
+
+def comparable(cells: Sequence[Cell]) -> Callable[[Cell], float]:
+    """Returns the measure by which these cells are compared, building included: clock cycles if all
+    cells have them, because two runs may have met two clock rates; seconds otherwise.
+    """
+    if all(pd.notna(cell.megacycles) for cell in cells):
+        return attrgetter("megacycles")
+    return attrgetter("time.value")
 
 
 def _cell(number: int, run: str, line: int, row: dict) -> Cell:
@@ -177,18 +164,13 @@ def _cell(number: int, run: str, line: int, row: dict) -> Cell:
         row["trace_ms_median"] / 1e3,
         row["fastest_mcycles"] if pd.notna(row["fastest_mcycles"]) else row["total_mcycles_median"],
         row["memory_bytes"],
-        *(_known(row, name) for name in _SIZES),
+        *(float(row.get(name, nan)) for name in _SIZES),
         {
             name.removesuffix(COUNTER_SUFFIX): value
             for name, value in row.items()
             if name.endswith(COUNTER_SUFFIX) and pd.notna(value)
         },
     )
-
-
-def _known(row: dict, name: str) -> float:
-    """Returns a figure of the row; NaN where it is missing."""
-    return float(row.get(name, float("nan")))
 
 
 def _plain_scene(scene: str, primitives: float) -> str:

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import astuple, dataclass
 from functools import cache, cached_property
 from math import exp, hypot, log
-from pathlib import Path
 
 import pandas as pd
 
-from beambench_report.base.published import FINEST, FOLDER, read_published
+from beambench_report.base.published import FINEST, read_published
 
 
 @dataclass(frozen=True)
@@ -65,17 +64,17 @@ def share(part: Measured, rest: Measured) -> Measured:
             part.high / (part.high + rest.low),
         )
     odds = part / rest
-    return Measured(*(end / (1 + end) for end in (odds.value, odds.low, odds.high)))
+    return Measured(*(end / (1 + end) for end in astuple(odds)))
 
 
-def smallest(figures: Sequence[Measured]) -> Measured:
+def smallest(figures: Iterable[Measured]) -> Measured:
     """Returns the least figure: its true value is at most the least upper end."""
-    return _each(min, figures)
+    return Measured(*map(min, zip(*map(astuple, figures), strict=True)))
 
 
-def largest(figures: Sequence[Measured]) -> Measured:
+def largest(figures: Iterable[Measured]) -> Measured:
     """Returns the greatest figure: its true value is at least the greatest lower end."""
-    return _each(max, figures)
+    return Measured(*map(max, zip(*map(astuple, figures), strict=True)))
 
 
 def total(figures: Sequence[Measured]) -> Measured:
@@ -86,10 +85,19 @@ def total(figures: Sequence[Measured]) -> Measured:
     return Measured(value, value - below, value + above)
 
 
-def _each(of: Callable[[list[float]], float], figures: Sequence[Measured]) -> Measured:
-    """Applies a function to the values, to the lower and to the upper ends."""
-    ends = ("value", "low", "high")
-    return Measured(*(of([getattr(figure, end) for figure in figures]) for end in ends))
+def rows_with(rows: pd.DataFrame, **values: object) -> pd.DataFrame:
+    """Returns the rows that have these values in their columns, or one value of a collection."""
+    for name, value in values.items():
+        rows = rows[rows[name].isin([value] if isinstance(value, str | int) else value)]
+    return rows
+
+
+def _figures_by(
+    rows: pd.DataFrame, keys: Sequence[str], figure: str = "value"
+) -> dict[tuple, Measured]:
+    """Returns the figures with their intervals, by the values of several columns."""
+    figures = map(Measured, rows[figure], rows["low"], rows["high"])
+    return dict(zip(zip(*(rows[key] for key in keys), strict=True), figures, strict=True))
 
 
 FIGURES = ("scene", "network", "quantity", "value", "low", "high")
@@ -121,10 +129,7 @@ class ClusterEvidence:
 
     @cached_property
     def _figures(self) -> dict[tuple[str, str, str], Measured]:
-        return {
-            (row.scene, row.network, row.quantity): Measured(row.value, row.low, row.high)
-            for row in self.figures.itertuples()
-        }
+        return _figures_by(self.figures, ("scene", "network", "quantity"))
 
 
 NO_CLUSTER = ClusterEvidence(pd.DataFrame(columns=list(FIGURES)))
@@ -151,6 +156,25 @@ ON_OCTREES = ("beam", "samet", "samet-net")
 # The thesis's parameters wherever it does not vary them.
 LEVEL, OBJECTS, CELLS = 6, 0, 32
 
+Setting = tuple[str | int, ...]
+"""In the order of SETTING."""
+
+
+def setting(
+    scene: str,
+    contender: str,
+    resolution: str,
+    *,
+    level: int = LEVEL,
+    objects: int = OBJECTS,
+    cells: int = CELLS,
+    samples: int = 1,
+) -> Setting:
+    """Returns a setting as a key: 0 stands where the contender has no such parameter."""
+    level, objects = (level, objects) if contender in ON_OCTREES else (0, 0)
+    cells = cells if contender == "voxel-grid" else 0
+    return (scene, contender, level, objects, cells, resolution, samples)
+
 
 @dataclass(frozen=True)
 class Evidence:
@@ -175,15 +199,13 @@ class Evidence:
         *,
         level: int = LEVEL,
         objects: int = OBJECTS,
-        cells: int = CELLS,
         samples: int = 1,
     ) -> Measured | None:
         """Returns the seconds of one cell; parameters that are not given are the thesis's."""
-        level, objects = (level, objects) if contender in ON_OCTREES else (0, 0)
-        cells = cells if contender == "voxel-grid" else 0
-        return self.at((scene, contender, level, objects, cells, resolution, samples))
+        at = {"level": level, "objects": objects, "samples": samples}
+        return self.at(setting(scene, contender, resolution, **at))
 
-    def at(self, setting: tuple[str | int, ...]) -> Measured | None:
+    def at(self, setting: Setting) -> Measured | None:
         """Returns the seconds of one cell by its setting, in the order of SETTING."""
         return self._times.get(setting)
 
@@ -191,15 +213,10 @@ class Evidence:
         self, setting: str, scene: str, contender: str, resolution: str = FINEST
     ) -> dict[int, Measured]:
         """Returns the seconds of one contender by one of its settings, `level` or `cells`."""
-        at = {name: place for place, name in enumerate(SETTING)}
-        wanted = {"scene": scene, "contender": contender, "resolution": resolution}
-        wanted |= {"objects": OBJECTS, "samples": 1}
-        found = {
-            key[at[setting]]: seconds
-            for key, seconds in self._times.items()
-            if all(key[at[name]] == value for name, value in wanted.items())
-        }
-        return dict(sorted(found.items()))
+        view = {"scene": scene, "contender": contender, "resolution": resolution}
+        rows = rows_with(self.times, **view, objects=OBJECTS, samples=1)
+        rows = rows.drop_duplicates(setting).sort_values(setting)
+        return {key: seconds for (key,), seconds in _figures_by(rows, [setting], "seconds").items()}
 
     def count(
         self, quantity: str, scene: str, *, level: int = LEVEL, objects: int = OBJECTS
@@ -244,23 +261,14 @@ class Evidence:
         return list(dict.fromkeys((key[0], key[2], key[3]) for key in keys))
 
     @cached_property
-    def _times(self) -> dict[tuple[str | int, ...], Measured]:
+    def _times(self) -> dict[Setting, Measured]:
         """The times by setting. Where two tables print the same cell, they agree."""
-        found: dict[tuple[str | int, ...], Measured] = {}
-        for row in self.times.itertuples():
-            key = tuple(getattr(row, name) for name in SETTING)
-            found.setdefault(key, Measured(row.seconds, row.low, row.high))
-        return found
+        return _figures_by(self.times.drop_duplicates(list(SETTING)), SETTING, "seconds")
 
     @cached_property
     def _work(self) -> dict[tuple[str, str, str, int, str], Measured]:
-        rows = self.work[(self.work["samples"] == 1) & (self.work["objects"] == OBJECTS)]
-        return {
-            (row.quantity, row.scene, row.contender, row.level, row.resolution): Measured(
-                row.value, row.low, row.high
-            )
-            for row in rows.itertuples()
-        }
+        rows = rows_with(self.work, samples=1, objects=OBJECTS)
+        return _figures_by(rows, ("quantity", "scene", "contender", "level", "resolution"))
 
     @cached_property
     def _octrees(self) -> dict[tuple[str, str, int, int], Measured]:
@@ -286,43 +294,42 @@ _MADE_BY_CUTTING = {"beams": "beams_made", "beams_nonterminal": "beams_divided"}
 
 
 @cache
-def published_evidence(folder: Path = FOLDER) -> Evidence:
+def published_evidence() -> Evidence:
     """Returns tables 5.2 to 5.8 and the figures in the text.
 
     The thesis gives no intervals: what it prints counts as exact.
     """
-    times = _times(read_published("times.csv", folder))
-    text = read_published("figures_in_text.csv", folder)
+    times = read_published("times.csv")
+    grids = times["algorithm"].eq("voxel-grid") * CELLS
+    # Tables 5.4 to 5.8 do not repeat that a leaf with any object is split.
+    objects = times["max_objects"].fillna(0).astype(int)
+    times = _with_setting(times, "algorithm", "seconds").assign(objects=objects, cells=grids)
+    text = read_published("figures_in_text.csv")
     parallel = text["section"].astype(str).str.startswith("6")
     return Evidence(
         times[list(TIMES)],
-        _work(text[~parallel].copy(), times),
-        _octrees(read_published("octree_counts.csv", folder)),
+        _work(_with_setting(text[~parallel], "structure", "value")[list(WORK)], times),
+        _octrees(read_published("octree_counts.csv")),
         _cluster(text[parallel]),
     )
 
 
-def _times(rows: pd.DataFrame) -> pd.DataFrame:
-    """Fills in what tables 5.4 to 5.8 do not repeat: a leaf with any object is split."""
-    rows["contender"] = rows["algorithm"]
-    rows["level"] = rows["max_level"].fillna(0).astype(int)
-    rows["objects"] = rows["max_objects"].fillna(0).astype(int)
-    rows["cells"] = rows["contender"].eq("voxel-grid") * CELLS
-    rows["resolution"] = _resolution(rows)
-    rows["samples"] = 1
-    rows["low"] = rows["high"] = rows["seconds"]
-    return rows
+def _with_setting(rows: pd.DataFrame, contender: str, figure: str) -> pd.DataFrame:
+    """Returns the rows with the columns of SETTING and exact figures."""
+    return rows.assign(
+        contender=rows[contender],
+        level=rows["max_level"].fillna(0).astype(int),
+        objects=0,
+        cells=0,
+        resolution=_resolution(rows),
+        samples=1,
+        low=rows[figure],
+        high=rows[figure],
+    )
 
 
-def _work(text: pd.DataFrame, times: pd.DataFrame) -> pd.DataFrame:
-    text["contender"] = text["structure"]
-    text["level"] = text["max_level"].fillna(0).astype(int)
-    text["objects"] = text["cells"] = 0
-    text["samples"] = 1
-    text["resolution"] = _resolution(text)
-    text["low"] = text["high"] = text["value"]
-    rows = text[list(WORK)]
-    cut = rows[rows["quantity"].isin(_MADE_BY_CUTTING)]
+def _work(rows: pd.DataFrame, times: pd.DataFrame) -> pd.DataFrame:
+    cut = rows_with(rows, quantity=_MADE_BY_CUTTING)
     cut = cut.assign(quantity=cut["quantity"].map(_MADE_BY_CUTTING))
     return pd.concat([rows, cut, _seconds_of_shares(rows, times)], ignore_index=True)
 

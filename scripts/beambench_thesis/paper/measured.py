@@ -6,7 +6,8 @@ shadow cache for the picture (`--shadows cache --order scan` and `--order beams`
 """
 
 from collections.abc import Sequence
-from math import hypot, isnan, sqrt
+from dataclasses import asdict
+from math import hypot, isnan, nan, sqrt
 from pathlib import Path
 from typing import Any
 
@@ -103,7 +104,7 @@ def _evidence_of(rows: pd.DataFrame, clock: float) -> Evidence:
         if setting is None:
             continue
         times.append({"table": ""} | setting | _at_clock(row, clock))
-        work += [setting | entry for entry in _work(row)]
+        work += _work(row, setting)
         if setting["contender"] == "beam" and setting["samples"] == 1:
             octrees += _octree(row, setting)
     return Evidence(
@@ -202,15 +203,11 @@ def _seconds_by(row: dict[str, object], figure: str, per_second: float) -> dict[
     return {"seconds": seconds, "low": seconds - below, "high": seconds + above}
 
 
-def _work(row: dict[str, object]) -> list[dict[str, object]]:
+def _work(row: dict[str, object], setting: dict[str, object]) -> list[dict[str, object]]:
     """Returns counts for the whole image, times of its tasks, and sizes of a hierarchy."""
     if row["structure"] == HIERARCHY:
         sizes = {"boxes": _number(row, "nodes"), "cost": _number(row, "tree_cost")}
-        return [
-            _entry(name, size) | {"resolution": ""}
-            for name, size in sizes.items()
-            if pd.notna(size)
-        ]
+        return _entries(setting | {"resolution": ""}, _exact(sizes))
     if row["structure"] != "beam" or pd.isna(_number(row, f"beams{COUNTER_SUFFIX}")):
         return []
     counts = {
@@ -218,52 +215,49 @@ def _work(row: dict[str, object]) -> list[dict[str, object]]:
         for name in row
         if name.endswith(COUNTER_SUFFIX)
     }
-    entries = [
-        _entry(name, value)
-        for name, value in counts.items()
-        if not name.endswith("_ns") and pd.notna(value)
-    ]
+    own = {name: count for name, count in counts.items() if not name.endswith("_ns")}
     # Beams do not depend on the resolution (C09 asks whether): one count stands for all.
-    entries += [
-        _entry(name, round(counts[name])) | {"resolution": ""}
-        for name in _BEAM_COUNTS
-        if pd.notna(counts.get(name))
+    every = {name: figure.value for name, figure in _exact(counts).items() if name in _BEAM_COUNTS}
+    whole = {name: round(count) for name, count in every.items()}
+    tasks = {task: counts.get(f"beams_{task}_ns", nan) / 1e9 for task in _TASKS}
+    return [
+        *_entries(setting, _exact(own)),
+        *_entries(setting | {"resolution": ""}, _exact(whole)),
+        *_entries(setting, _seconds_of_tasks(row, tasks)),
     ]
-    counted = {task: counts.get(f"beams_{task}_ns", float("nan")) / 1e9 for task in _TASKS}
-    return [*entries, *_seconds_of_tasks(row, counted)]
 
 
-def _seconds_of_tasks(row: dict[str, object], counted: dict[str, float]) -> list[dict[str, object]]:
+def _seconds_of_tasks(row: dict[str, object], counted: dict[str, float]) -> dict[str, Measured]:
     """Returns each task's part of the least time of a trace, and the building.
 
     The parts are those of the counting pass. Its seconds are not used: the pass is made once, and
     other work on the machine can slow one cell by half and spare another, but it slows most tasks
     of a cell alike.
     """
-    build = _number(row, "build_ms_median") / 1e3
-    entries = [_entry("seconds_build", build, UNKNOWN_SPREAD)] if pd.notna(build) else []
+    build, spread = _number(row, "build_ms_median") / 1e3, UNKNOWN_SPREAD
+    known = Measured(build, build * (1 - spread), build * (1 + spread))
+    found = {} if isnan(build) else {"seconds_build": known}
     fastest = _number(row, "fastest_trace_ms")
     trace = (_number(row, "trace_ms_min") if isnan(fastest) else fastest) / 1e3
     if any(map(isnan, (trace, *counted.values()))) or sum(counted.values()) <= 0:
-        return entries
+        return found
     error = error_between_runs(_number(row, "fastest_error"))
     inverse = Measured(1 / trace, 1 / trace / (1 + error), (1 + error) / trace)
     for task, seconds in counted.items():
         rest = Measured.exact(sum(counted.values()) - seconds)
         part = Measured(seconds, seconds / (1 + SPREAD_OF_PARTS), seconds * (1 + SPREAD_OF_PARTS))
-        found = share(part, rest) / inverse
-        figures = {"value": found.value, "low": found.low, "high": found.high}
-        entries.append({"quantity": f"seconds_{task}"} | figures)
-    return entries
+        found[f"seconds_{task}"] = share(part, rest) / inverse
+    return found
 
 
-def _entry(quantity: str, value: float, spread: float = 0.0) -> dict[str, object]:
-    return {
-        "quantity": quantity,
-        "value": value,
-        "low": value * (1 - spread),
-        "high": value * (1 + spread),
-    }
+def _exact(figures: dict[str, float]) -> dict[str, Measured]:
+    """Returns the known ones of some figures that were counted."""
+    return {name: Measured.exact(value) for name, value in figures.items() if pd.notna(value)}
+
+
+def _entries(setting: dict[str, object], figures: dict[str, Measured]) -> list[dict[str, object]]:
+    """Returns rows of `evidence.WORK`."""
+    return [setting | {"quantity": name} | asdict(one) for name, one in figures.items()]
 
 
 def _octree(row: dict[str, object], setting: dict[str, object]) -> list[dict[str, object]]:
@@ -277,7 +271,7 @@ def _octree(row: dict[str, object], setting: dict[str, object]) -> list[dict[str
 
 def _number(row: dict[str, object], name: str) -> float:
     value = row.get(name)
-    return float("nan") if value is None else float(str(value))
+    return nan if value is None else float(str(value))
 
 
 ORDERS = ("scan", "beams")
@@ -309,7 +303,9 @@ def census_work(folder: Path) -> pd.DataFrame:
                     "secondary_rays": counts["reflected_rays"] + counts["refracted_rays"],
                     "shadow_hidden": counts["shadow_hidden"],
                 }
-            rows += [_row(scene, name, float(count)) for name, count in quantities.items()]
+            setting = {"scene": scene, "contender": PICTURE, "resolution": "", "samples": 1}
+            numbers = {"level": 0, "objects": 0, "cells": 0}
+            rows += _entries(setting | numbers, _exact(quantities))
     return pd.DataFrame(rows, columns=list(WORK))
 
 
@@ -323,9 +319,3 @@ def _scenes(path: Path, order: str) -> dict[str, dict[str, Any]]:
         return {scene: named[scene] for scene in primitives_by_scene() if scene in named}
     except (ValueError, KeyError, TypeError, OSError) as error:
         raise Problem(f"{path}: is not what `beambench census --json` prints ({error})") from None
-
-
-def _row(scene: str, quantity: str, value: float) -> dict[str, object]:
-    setting = {"scene": scene, "contender": PICTURE, "level": 0, "objects": 0, "cells": 0}
-    figures = {"quantity": quantity, "value": value, "low": value, "high": value}
-    return setting | {"resolution": "", "samples": 1} | figures

@@ -2,14 +2,13 @@
 
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 
 import pandas as pd
 
-from beambench_report.base.published import FOLDER, RESOLUTIONS, read_published
+from beambench_report.base.published import RESOLUTIONS, read_published
 from beambench_report.base.quantities import DASH, number
-from beambench_thesis.paper.cells import Cell, Setting, setting
-from beambench_thesis.paper.evidence import CELLS, ON_OCTREES, Measured
+from beambench_thesis.paper.cells import Cell
+from beambench_thesis.paper.evidence import Measured, Setting, setting
 
 REFERENCES = ("sah-bvh", "embree")
 """Contenders of today, which the thesis's tables do not have."""
@@ -48,10 +47,8 @@ class PrintedRow:
 
     def setting(self, scene: str, resolution: str) -> Setting:
         """Returns the setting of one of its cells."""
-        cells = CELLS if self.structure == "voxel-grid" else 0
-        return setting(
-            scene, self.structure, resolution, level=self.level, objects=self.objects, cells=cells
-        )
+        varied = {"level": self.level, "objects": self.objects}
+        return setting(scene, self.structure, resolution, **varied)
 
 
 @dataclass(frozen=True)
@@ -84,15 +81,21 @@ def scene_title(scene: str) -> str:
     return _SCENES.get(scene, scene)
 
 
+def title_of(name: str) -> str:
+    """Returns the thesis's name of `escena1:seed=1999`; names of other scenes are unchanged."""
+    plain = name.split(":")[0]
+    return scene_title(plain) if plain in _SCENES else name
+
+
 def contender_title(structure: str) -> str:
     """Returns the name of a contender in the thesis's tables, in English."""
     return _NAMES.get(structure, structure)
 
 
 @cache
-def printed_parts(folder: Path = FOLDER) -> tuple[PrintedPart, ...]:
+def printed_parts() -> tuple[PrintedPart, ...]:
     """Returns all parts of all tables, in the order of the thesis."""
-    rows = read_published("times.csv", folder)
+    rows = read_published("times.csv")
     rows["resolution"] = rows["width"].astype(str) + "x" + rows["height"].astype(str)
     rows[["max_level", "max_objects"]] = rows[["max_level", "max_objects"]].fillna(0).astype(int)
     return tuple(
@@ -112,7 +115,7 @@ def _rows(table: str, rows: pd.DataFrame) -> tuple[PrintedRow, ...]:
         PrintedRow(
             _label(table, structure, level, objects),
             structure,
-            level if structure in ON_OCTREES else 0,
+            level,
             objects,
             dict(zip(group["resolution"], group["seconds"], strict=True)),
         )

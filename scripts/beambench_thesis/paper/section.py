@@ -21,19 +21,13 @@ class Field:
 
 
 @dataclass(frozen=True)
-class Column:
-    """A heading, and whether the column contains figures."""
-
-    text: str
-    is_figure: bool = True
-
-
-@dataclass(frozen=True)
 class SectionTable:
     """A table of fields; a long one is folded, for looking up rather than reading."""
 
     title: str
-    columns: tuple[Column, ...]
+    heads: tuple[str, ...]
+    words: int
+    """The number of columns that contain words; those behind them contain figures."""
     rows: tuple[tuple[Field, ...], ...]
     is_long: bool = False
 
@@ -69,9 +63,8 @@ def section_table(
     is_long: bool = False,
 ) -> SectionTable:
     """Returns a table: columns headed by `words` contain words, those by `figures` figures."""
-    columns = (*(Column(text, False) for text in words), *(Column(text) for text in figures))
     fields = (tuple(Field(x) if isinstance(x, str) else x for x in row) for row in rows)
-    return SectionTable(title, columns, tuple(fields), is_long)
+    return SectionTable(title, (*words, *figures), len(words), tuple(fields), is_long)
 
 
 def write_section(section: Section, file: Path, **options: object) -> list[Path]:
@@ -110,13 +103,12 @@ def section_as_markdown(
         image = f"{folder}/{figure.stem}.png".removeprefix("/")
         lines += [f"![{figure.title}]({image})", "", f"{figure.title}. {figure.caption}", ""]
     for table in section.tables:
-        right = [place for place, column in enumerate(table.columns) if column.is_figure]
         rows = (
             [f"{one.text}, {origin(one.cell)}" if one.cell else one.text for one in row]
             for row in table.rows
         )
         title = f"<details><summary>{table.title}</summary>" if table.is_long else ""
         lines += [title or f"**{table.title}**", ""]
-        lines += markdown_table([column.text for column in table.columns], rows, right)
+        lines += markdown_table(table.heads, rows, range(table.words, len(table.heads)))
         lines += ["", "</details>", ""] if table.is_long else [""]
     return "\n".join(lines)

@@ -7,7 +7,7 @@ from itertools import chain
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, NullLocator
 
-from beambench_report.base.figure import Plot, new_figure, variant_look
+from beambench_report.base.figure import Plot, legend_below, new_figure, variant_look
 from beambench_thesis.paper.evidence import Measured
 
 _ROW_HEIGHT = 2.5  # inches
@@ -94,14 +94,7 @@ def draw(data: FigureData) -> Plot:
     for axis in axes:
         for handle, label in zip(*axis.get_legend_handles_labels(), strict=True):
             handles.setdefault(label, handle)
-    figure.legend(
-        handles.values(),
-        handles.keys(),
-        loc="outside lower center",
-        ncols=columns,
-        frameon=False,
-        fontsize=8,
-    )
+    legend_below(figure, columns, handles=handles.values(), labels=handles.keys())
     return Plot(f"figure-{data.number}", figure, data.title)
 
 

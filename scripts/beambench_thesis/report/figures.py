@@ -1,24 +1,22 @@
 """Lines of points for the figures: the thesis's seconds and ours, over the number of rays."""
 
 from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 
 from beambench_report.base.published import COARSEST, FINEST, RESOLUTIONS, rays
 from beambench_report.base.quantities import number
-from beambench_thesis.paper.cells import Cell, Cells, Setting, setting
+from beambench_thesis.paper.cells import Cell, Cells
 from beambench_thesis.paper.evidence import (
     CELLS,
     ON_OCTREES,
     SETTING,
     Measured,
+    Setting,
     published_evidence,
+    setting,
 )
 from beambench_thesis.paper.measured import UNKNOWN_SPREAD
-from beambench_thesis.paper.printed import (
-    PrintedPart,
-    contender_title,
-    parts_of,
-    scene_title,
-)
+from beambench_thesis.paper.printed import PrintedPart, contender_title, parts_of, scene_title
 from beambench_thesis.report.drawing import FigureData, Panel, Points, Side
 
 ACROSS = "rays / 10,000"
@@ -61,7 +59,7 @@ _BEST_GRIDS = {"ajedrez": 15, "flamenco": 13}
 _LEVEL, _CELLS = SETTING.index("level"), SETTING.index("cells")
 
 
-def figure_5_14(cells: Cells) -> FigureData:
+def figure_5_14(cells: Cells, figure: str) -> FigureData:
     """Returns time over the level; the thesis prints no numbers for this figure."""
     panels = tuple(
         Panel(
@@ -75,7 +73,7 @@ def figure_5_14(cells: Cells) -> FigureData:
         for letter, scene in (("a", "casa-de-campo"), ("b", "gato-bill"))
     )
     return FigureData(
-        "5.14",
+        figure,
         "Time by the level that each contender has",
         panels,
         "greatest level of the octree, the root being level 1",
@@ -90,20 +88,21 @@ def figure_5_14(cells: Cells) -> FigureData:
     )
 
 
-def figure_5_17(cells: Cells) -> FigureData:
+def figure_5_17(cells: Cells, figure: str) -> FigureData:
     """Returns the time of the lazy grid over its cells per axis."""
     at = _swept_at(cells)
     named = (("a", "ajedrez"), ("b", "flamenco"))
+    own = {scene: _own_grids(cells, scene, at) for _, scene in named}
     sides = (
-        _grids_of(cells, f"({letter}) {scene_title(scene)}", scene, at) for letter, scene in named
+        Side(
+            (*_printed_grids(scene, at), *own[scene][0]) if own[scene][0] else (),
+            f"({letter}) {scene_title(scene)}",
+        )
+        for letter, scene in named
     )
-    ours = "; ".join(
-        f"{scene_title(scene)} {base}"
-        for _, scene in named
-        if (base := _own_grids(cells, scene, at)[1])
-    )
+    ours = "; ".join(f"{scene_title(scene)} {base}" for scene, (_, base) in own.items() if base)
     return FigureData(
-        "5.17",
+        figure,
         "Time of the grid by its cells per axis",
         (Panel("", "time (1: 32 cells per axis;\nlower is better)", *sides),),
         "voxels along each axis",
@@ -120,23 +119,19 @@ def figure_5_17(cells: Cells) -> FigureData:
     )
 
 
-def _grids_of(cells: Cells, title: str, scene: str, resolution: str) -> Side:
-    """Returns our grids of a scene with the thesis's points."""
-    lines, _ = _own_grids(cells, scene, resolution)
-    return Side((*_printed_grids(scene, resolution), *lines) if lines else (), title)
-
-
 def _swept_at(cells: Cells) -> str:
     """Returns 1280x1024, or the best resolution of a quick run."""
-    swept = [at for at in (FINEST, COARSEST) if len(_lazy(cells, "flamenco", at)) > 1]
+    swept = [
+        at for at in (FINEST, COARSEST) if len(_timed(cells, "flamenco", "voxel-grid", at)) > 1
+    ]
     return swept[0] if swept else FINEST
 
 
-def figure_5_18(cells: Cells) -> FigureData:
+def figure_5_18(cells: Cells, figure: str) -> FigureData:
     """Compares beams with grids: the thesis's 32 cells, its best, and our best."""
     panels = []
     for letter, scene in (("a", "ajedrez"), ("b", "flamenco")):
-        beam = [setting(scene, "beam", at, level=6) for at in RESOLUTIONS]
+        beam = [setting(scene, "beam", at) for at in RESOLUTIONS]
         printed, own = seconds_printed(beam), measured(cells, beam)
         origin = printed[0][1].value
         first = cells.at(beam[0])
@@ -159,7 +154,7 @@ def figure_5_18(cells: Cells) -> FigureData:
             )
         )
     return FigureData(
-        "5.18",
+        figure,
         "Beams beside the grid at its best",
         tuple(panels),
         ACROSS,
@@ -178,8 +173,9 @@ def _grids_over_rays(cells: Cells, scene: str, base: float) -> list[Points]:
         points = measured(cells, _grid(scene, count))
         label = "grid, the thesis's best (15, 13) cells" if words else "grid, 32 cells per axis"
         lines.append(Points(label, "voxel-grid", variant, over(points, base)))
-    best = [min(found, key=_seconds) for at in RESOLUTIONS if (found := _lazy(cells, scene, at))]
-    points = [(rays(cell.resolution) / 1e4, cell.time) for cell in best if cell.time]
+    lazy = (_timed(cells, scene, "voxel-grid", at) for at in RESOLUTIONS)
+    best = (min(found, key=lambda cell: cell.time.value) for found in lazy if found)
+    points = [(rays(cell.resolution) / 1e4, cell.time) for cell in best]
     lines.append(Points("grid, our best lazy one", "voxel-grid", 2, over(points, base)))
     return [line for line in lines if line.at]
 
@@ -188,13 +184,10 @@ def _grid(scene: str, count: int) -> list[tuple]:
     return [setting(scene, "voxel-grid", at, cells=count) for at in RESOLUTIONS]
 
 
-def _lazy(cells: Cells, scene: str, resolution: str) -> list[Cell]:
-    found = cells.of(scene, "voxel-grid", resolution)
+def _timed(cells: Cells, scene: str, structure: str, resolution: str) -> list[Cell]:
+    """Returns the cells with times and with parameters of the thesis; of grids, lazy ones."""
+    found = cells.of(scene, structure, resolution)
     return [cell for cell in found if cell.setting is not None and cell.time is not None]
-
-
-def _seconds(cell: Cell) -> float:
-    return cell.time.value if cell.time else float("inf")
 
 
 def _over(
@@ -204,13 +197,11 @@ def _over(
     for structure in structures:
         found: Line = [
             (float(cell.setting[of]), cell.time.times(1e3))
-            for cell in cells.of(scene, structure, resolution)
-            if cell.setting is not None and cell.time is not None
+            for cell in _timed(cells, scene, structure, resolution)
         ]
-        if found:
-            found.sort(key=lambda point: point[0])
-            lines.append(Points(contender_title(structure), structure, 0, found))
-    return tuple(lines)
+        found.sort(key=lambda point: point[0])
+        lines.append(Points(contender_title(structure), structure, 0, found))
+    return tuple(line for line in lines if line.at)
 
 
 def _own_grids(cells: Cells, scene: str, resolution: str) -> tuple[tuple[Points, ...], str]:
@@ -245,33 +236,32 @@ def _printed_at_six(scene: str) -> str:
 
 
 _LOST = "the thesis's points are lost"
+_REAL = ("bola-espacial", "tetera", "torre-eiffel", "caracol")
 _TIME = "time (1: first contender, 320x200)"
 
 
 def make_figures(numbers: Iterable[str], cells: Cells) -> list[FigureData]:
     """Returns the figures that can be drawn; 5.9 is made of pictures (`pictures`)."""
-    made = [_FIGURES[number](cells) for number in numbers if number in _FIGURES]
+    made = [_FIGURES[number](cells, number) for number in numbers if number in _FIGURES]
     return [figure for figure in made if not figure.is_empty]
 
 
-def _of_table(figure: str, title: str, table: str, *, is_log: bool = False) -> Callable:
-    """Returns a figure that draws the rows of a table over the number of rays."""
-
-    def make(cells: Cells) -> FigureData:
-        parts = parts_of(table)
-        return FigureData(
-            figure,
-            title,
-            tuple(_table_panel(part, cells) for part in parts),
-            ACROSS,
-            f"{_caption_of(parts)} Each part is drawn as a multiple of its first row's time at "
-            f"320x200, the thesis's left and ours right; build included; {_BARS}"
-            f"{'; the vertical axis is logarithmic' if is_log else ''}.",
-            TICKS,
-            is_log,
-        )
-
-    return make
+def _of_table(
+    title: str, table: str, cells: Cells, figure: str, *, is_log: bool = False
+) -> FigureData:
+    """Draws the rows of a table over the number of rays."""
+    parts = parts_of(table)
+    return FigureData(
+        figure,
+        title,
+        tuple(_table_panel(part, cells) for part in parts),
+        ACROSS,
+        f"{_caption_of(parts)} Each part is drawn as a multiple of its first row's time at "
+        f"320x200, the thesis's left and ours right; build included; {_BARS}"
+        f"{'; the vertical axis is logarithmic' if is_log else ''}.",
+        TICKS,
+        is_log,
+    )
 
 
 def _table_panel(part: PrintedPart, cells: Cells) -> Panel:
@@ -306,25 +296,21 @@ def _caption_of(parts: Sequence[PrintedPart]) -> str:
     return f"Thesis, 320x200 to 1280x1024: {'; '.join(texts)}."
 
 
-def _of_scenes(figure: str, title: str, scenes: tuple[str, ...]) -> Callable[[Cells], FigureData]:
-    """Returns a figure of the beams' time (a) and of its increase over 320x200 (b), by scene."""
-
-    def make(cells: Cells) -> FigureData:
-        thesis = {scene: _printed_beams(scene) for scene in scenes}
-        ours = {scene: _measured_beams(cells, scene, 1) for scene in scenes}
-        first = next((scene for scene in scenes if thesis[scene] and ours[scene]), scenes[0])
-        panels = (
-            _absolute(thesis, ours, first),
-            Panel(
-                "(b) increase",
-                "increase over 320x200 (%)",
-                Side(_lines(_increases(thesis)), "thesis", _LOST),
-                Side(_lines(_increases(ours)), "ours"),
-            ),
-        )
-        return FigureData(figure, title, panels, ACROSS, _caption_of_scenes(thesis), TICKS)
-
-    return make
+def _of_scenes(title: str, scenes: Sequence[str], cells: Cells, figure: str) -> FigureData:
+    """Draws the beams' time (a) and its increase over 320x200 (b), by scene."""
+    thesis = {scene: _printed_beams(scene) for scene in scenes}
+    ours = {scene: _measured_beams(cells, scene, 1) for scene in scenes}
+    first = next((scene for scene in scenes if thesis[scene] and ours[scene]), scenes[0])
+    panels = (
+        _absolute(thesis, ours, first),
+        Panel(
+            "(b) increase",
+            "increase over 320x200 (%)",
+            Side(_lines(_increases(thesis)), "thesis", _LOST),
+            Side(_lines(_increases(ours)), "ours"),
+        ),
+    )
+    return FigureData(figure, title, panels, ACROSS, _caption_of_scenes(thesis), TICKS)
 
 
 def _absolute(thesis: dict, ours: dict, first: str) -> Panel:
@@ -338,11 +324,11 @@ def _absolute(thesis: dict, ours: dict, first: str) -> Panel:
     return Panel("(a) time", f"time (1: {scene_title(first)}, 320x200)", *sides)
 
 
-def _samples(cells: Cells) -> FigureData:
+def _samples(cells: Cells, figure: str) -> FigureData:
     """Returns figure 5.11 with 5.10 b; the thesis's points that no table has are lost."""
-    scenes = ("bola-espacial", "tetera", "torre-eiffel", "caracol")
-    one = {scene: _measured_beams(cells, scene, 1) for scene in scenes}
-    five = {scene: _measured_beams(cells, scene, 5) for scene in scenes}
+    one, five = (
+        {scene: _measured_beams(cells, scene, samples) for scene in _REAL} for samples in (1, 5)
+    )
     panel = Panel(
         "Increase",
         "increase over 320x200 (%)",
@@ -350,7 +336,7 @@ def _samples(cells: Cells) -> FigureData:
         Side(_lines(_increases(five)), "ours, 5 samples per pixel"),
     )
     return FigureData(
-        "5.11",
+        figure,
         "Increase of the time with five samples per pixel",
         (panel,),
         ACROSS,
@@ -365,11 +351,11 @@ def _samples(cells: Cells) -> FigureData:
 
 def _printed_beams(scene: str) -> list[tuple[float, Measured]]:
     """Returns the beams' times at level 6 in the first table that has the scene."""
-    return seconds_printed(setting(scene, "beam", at, level=6) for at in RESOLUTIONS)
+    return seconds_printed(setting(scene, "beam", at) for at in RESOLUTIONS)
 
 
 def _measured_beams(cells: Cells, scene: str, samples: int) -> list[tuple[float, Measured]]:
-    keys = [setting(scene, "beam", at, level=6, samples=samples) for at in RESOLUTIONS]
+    keys = [setting(scene, "beam", at, samples=samples) for at in RESOLUTIONS]
     points = measured(cells, keys)
     return points if cells.at(keys[0]) and cells.at(keys[0]).time else []
 
@@ -415,21 +401,17 @@ def _caption_of_scenes(thesis: dict) -> str:
     )
 
 
-_FIGURES: dict[str, Callable[[Cells], FigureData]] = {
-    "5.6": _of_table("5.6", "Total time by the objects that may lie in a leaf", "5.2"),
-    "5.7": _of_table("5.7", "Total time by the level of the octree", "5.3"),
-    "5.8": _of_scenes("5.8", "Time of the beams, synthetic scenes", ("escena1", "escena2")),
-    "5.10": _of_scenes(
-        "5.10",
-        "Time of the beams, four real scenes",
-        ("bola-espacial", "tetera", "torre-eiffel", "caracol"),
-    ),
+_FIGURES: dict[str, Callable[[Cells, str], FigureData]] = {
+    "5.6": partial(_of_table, "Total time by the objects that may lie in a leaf", "5.2"),
+    "5.7": partial(_of_table, "Total time by the level of the octree", "5.3"),
+    "5.8": partial(_of_scenes, "Time of the beams, synthetic scenes", ("escena1", "escena2")),
+    "5.10": partial(_of_scenes, "Time of the beams, four real scenes", _REAL),
     "5.11": _samples,
-    "5.12": _of_table("5.12", "Beams and single rays on the same octree, synthetic scenes", "5.4"),
-    "5.13": _of_table("5.13", "Beams and single rays on the same octree, real scenes", "5.5"),
+    "5.12": partial(_of_table, "Beams and single rays on the same octree, synthetic scenes", "5.4"),
+    "5.13": partial(_of_table, "Beams and single rays on the same octree, real scenes", "5.5"),
     "5.14": figure_5_14,
-    "5.15": _of_table("5.15", "Beams, grid and hierarchy, synthetic scenes", "5.6", is_log=True),
-    "5.16": _of_table("5.16", "Beams, grid and hierarchy, real scenes", "5.7", is_log=True),
+    "5.15": partial(_of_table, "Beams, grid and hierarchy, synthetic scenes", "5.6", is_log=True),
+    "5.16": partial(_of_table, "Beams, grid and hierarchy, real scenes", "5.7", is_log=True),
     "5.17": figure_5_17,
     "5.18": figure_5_18,
 }

@@ -90,7 +90,12 @@ def _figure(
             division: Path(folder) / f"{place}.png" for place, division in enumerate(divisions)
         }
         for division, picture in pictures.items():
-            if problem := _render(division, picture, beambench):
+            accel = f"samet:max_level={division.level},max_objects={division.objects}"
+            command = [str(beambench), "render", division.scene, "--accel", accel]
+            command += ["--overlay", "cells", "--resolution", _SIZE, "-o", str(picture)]
+            try:
+                output_of(command)
+            except Problem as problem:
                 return PictureFigure(number, title, None, f"{division.title}: {problem}")
         sheet = _sheet(pictures)
         write_whole(
@@ -100,18 +105,6 @@ def _figure(
             ),
         )
     return PictureFigure(number, title, path, _CAPTION)
-
-
-def _render(division: Division, path: Path, beambench: Path) -> str:
-    """Renders a division; returns why that failed, or an empty string."""
-    accel = f"samet:max_level={division.level},max_objects={division.objects}"
-    options = ["--accel", accel, "--overlay", "cells", "--resolution", _SIZE]
-    command = [str(beambench), "render", division.scene, *options, "-o", str(path)]
-    try:
-        output_of(command)
-    except Problem as problem:
-        return str(problem)
-    return ""
 
 
 def _sheet(pictures: dict[Division, Path]) -> Figure:

@@ -7,7 +7,7 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
-from beambench_report.base.files import ROOT, Problem, load_json, write_text
+from beambench_report.base.files import ROOT, Problem, load_json, read_json, write_text
 from beambench_report.base.published import rays
 
 
@@ -30,18 +30,8 @@ class Figure:
 
 
 TABLES = (
-    Table(
-        "5.2",
-        "Results as more objects may lie in a leaf",
-        ("division",),
-        ("best-division",),
-    ),
-    Table(
-        "5.3",
-        "Results as the octree becomes deeper",
-        ("division",),
-        ("best-division",),
-    ),
+    Table("5.2", "Results as more objects may lie in a leaf", ("division",), ("best-division",)),
+    Table("5.3", "Results as the octree becomes deeper", ("division",), ("best-division",)),
     Table(
         "5.4",
         "Total time: beams and single rays on the same octree, synthetic scenes",
@@ -93,24 +83,10 @@ FIGURES = (
 )
 
 # In the order in which they are run: what the thesis did first, last what the fewest claims need.
-SWEEPS = (
-    "synthetic",
-    "division",
-    "octree",
-    "others-small",
-    "others-large",
-    "quality",
-    "samples",
-    "best-octree",
-    "shallow",
-    "best-others-large",
-    "best-grids",
-    "grids",
-    "best-synthetic",
-    "best-division",
-    "best-others-small",
+SWEEPS = tuple(
+    "synthetic division octree others-small others-large quality samples best-octree shallow "
+    "best-others-large best-grids grids best-synthetic best-division best-others-small".split()
 )
-
 
 FOLDER = ROOT / "harness/measure/sweeps/thesis"
 
@@ -189,12 +165,10 @@ class Sweep:
 def read_sweep(name: str, folder: Path = FOLDER) -> Sweep:
     """Reads FOLDER/NAME.json. Raises Problem where there is none."""
     path = folder / f"{name}.json"
-    try:
-        return Sweep(name, load_json(path))
-    except FileNotFoundError:
-        raise Problem(f"{path}: there is no such file; restore it with git") from None
-    except ValueError as error:
-        raise Problem(f"{path}: cannot be read as JSON: {error}") from None
+    source = read_json(path)
+    if source is None:
+        raise Problem(f"{path}: there is no such file; restore it with git")
+    return Sweep(name, source)
 
 
 def quick(sweep: Sweep) -> Sweep | None:
@@ -232,27 +206,23 @@ class Plan:
 
 
 def make_plan(
-    tables: Sequence[str],
-    figures: Sequence[str],
-    is_quick: bool,
-    folder: Path | None = None,
-    *,
-    with_levels: bool = False,
+    tables: Sequence[str], figures: Sequence[str], is_quick: bool, *, with_levels: bool = False
 ) -> Plan:
     """Returns the plan for some tables and figures, or for all. Raises Problem for an unknown one.
 
     `with_levels` adds the sweep that tests max_level=auto.
     """
     known_tables, known_figures = [t.number for t in TABLES], [f.number for f in FIGURES]
-    _require_known("table", tables, known_tables)
-    _require_known("figure", figures, known_figures)
+    for kind, given, known in (("table", tables, known_tables), ("figure", figures, known_figures)):
+        for unknown in (number for number in given if number not in known):
+            raise Problem(f"there is no {kind} '{unknown}'; there are {', '.join(known)}")
     if not tables and not figures:
         tables, figures = known_tables, known_figures
     chosen_tables = [table for table in TABLES if table.number in tables]
     wanted = {name for table in chosen_tables for name in (*table.first, *table.best)}
     wanted |= {name for figure in FIGURES if figure.number in figures for name in figure.sweeps}
     shown = _figures_of(wanted)
-    read = [read_sweep(name, folder or FOLDER) for name in SWEEPS if name in wanted]
+    read = [read_sweep(name, FOLDER) for name in SWEEPS if name in wanted]
     made = [quick(sweep) if is_quick else sweep for sweep in read]
     plan = Plan(
         tuple(table.number for table in chosen_tables),
@@ -260,14 +230,14 @@ def make_plan(
         is_quick,
         tuple(sweep for sweep in made if sweep is not None),
     )
-    return add_levels(plan, folder) if with_levels else plan
+    return add_levels(plan) if with_levels else plan
 
 
-def add_levels(plan: Plan, folder: Path | None = None) -> Plan:
+def add_levels(plan: Plan) -> Plan:
     """Returns the plan with the sweep that tests max_level=auto."""
     if any(sweep.name == LEVELS for sweep in plan.sweeps):
         return plan
-    levels = read_sweep(LEVELS, (folder or FOLDER).parent)
+    levels = read_sweep(LEVELS, FOLDER.parent)
     made = quick(levels) if plan.is_quick else levels
     return replace(plan, sweeps=(*plan.sweeps, made)) if made else plan
 
@@ -307,9 +277,3 @@ def read_plan(directory: Path) -> Plan:
 def _figures_of(sweeps: Set[str]) -> list[str]:
     """Returns the figures that need no other sweeps, so cost nothing more."""
     return [figure.number for figure in FIGURES if sweeps >= set(figure.sweeps)]
-
-
-def _require_known(kind: str, given: Sequence[str], known: Sequence[str]) -> None:
-    for number in given:
-        if number not in known:
-            raise Problem(f"there is no {kind} '{number}'; there are {', '.join(known)}")

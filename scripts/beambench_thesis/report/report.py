@@ -1,7 +1,6 @@
 """Gathering the report from the runs of a folder, and its sentences."""
 
 from collections import Counter
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -10,12 +9,7 @@ from beambench_report.base.files import Problem, read_json
 from beambench_report.base.machine import Manifest, read_manifest
 from beambench_thesis.chapter5.best import BestTable, best_table
 from beambench_thesis.chapter5.cost import cost_section
-from beambench_thesis.chapter5.facts import (
-    CENSUS,
-    camera_section,
-    scenes_section,
-    visits_section,
-)
+from beambench_thesis.chapter5.facts import CENSUS, camera_section, scenes_section, visits_section
 from beambench_thesis.chapter5.grid_beams import grid_beams_section
 from beambench_thesis.chapter5.levels import levels_section
 from beambench_thesis.chapter5.mirrors import mirrors_section, read_mirrors
@@ -111,7 +105,7 @@ def gather(directory: Path, plan: Plan, beambench: Path | None = None) -> Report
         pictures,
         tuple(judge_claims([*cells.runs, *censuses], SWEPT_CLAIMS)),
         tuple(sections),
-        tuple(_summaries(directory, sweeps, every)),
+        tuple(_summary(directory, sweep, every) for sweep in sweeps),
     )
 
 
@@ -160,16 +154,15 @@ def _parts(table: Table, cells: Cells, directory: Path, plan: Plan) -> tuple[Par
     )
 
 
-def _summaries(directory: Path, sweeps: Iterable[Sweep], cells: Cells) -> Iterable[RunSummary]:
-    for sweep in sweeps:
-        yield RunSummary(
-            sweep.name,
-            sweep.description,
-            state_of(directory / sweep.name),
-            len(sweep.cells()),
-            tuple(cell for cell in cells.cells if cell.run == sweep.name),
-            read_manifest(directory / sweep.name) or Manifest(),
-        )
+def _summary(directory: Path, sweep: Sweep, cells: Cells) -> RunSummary:
+    return RunSummary(
+        sweep.name,
+        sweep.description,
+        state_of(directory / sweep.name),
+        len(sweep.cells()),
+        tuple(cell for cell in cells.cells if cell.run == sweep.name),
+        read_manifest(directory / sweep.name) or Manifest(),
+    )
 
 
 # What the report says in words, the same in Markdown and on the page
@@ -219,6 +212,9 @@ def notice(report: Report) -> str:
     return " ".join(sentences)
 
 
+_PLURALS = {Verdict.HOLDS: "hold", Verdict.IN_PART: "hold in part", Verdict.FAILS: "fail"}
+
+
 def verdict_counts(report: Report) -> str:
     """Returns the number of claims that hold, by the thesis's own figures and by ours."""
     parts = []
@@ -227,16 +223,10 @@ def verdict_counts(report: Report) -> str:
         ("by ours", [one.ours.verdict for one in report.claims]),
     ):
         counts = Counter(verdicts)
-        listed = ", ".join(f"{counts[v]} {_plural(v, counts[v])}" for v in Verdict if counts[v])
-        parts.append(f"{whose}: {listed}")
+        listed = (
+            f"{counts[v]} {v.value if counts[v] == 1 else _PLURALS.get(v, v.value)}"
+            for v in Verdict
+            if counts[v]
+        )
+        parts.append(f"{whose}: {', '.join(listed)}")
     return f"{'; '.join(parts)}."
-
-
-def _plural(verdict: Verdict, count: int) -> str:
-    words = {
-        Verdict.HOLDS: ("holds", "hold"),
-        Verdict.IN_PART: ("holds in part", "hold in part"),
-        Verdict.FAILS: ("fails", "fail"),
-    }
-    one, more = words.get(verdict, (verdict.value, verdict.value))
-    return one if count == 1 else more

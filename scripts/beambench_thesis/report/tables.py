@@ -1,13 +1,13 @@
 """The thesis's tables with our cells: times, shapes, memory and work."""
 
 import math
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 
 from beambench_report.base.published import FINEST, RESOLUTIONS
 from beambench_report.base.quantities import number, size_in_words
 from beambench_thesis.paper.cells import Cell, Cells
-from beambench_thesis.paper.evidence import Measured, published_evidence
+from beambench_thesis.paper.evidence import HIERARCHY, Measured, published_evidence
 from beambench_thesis.paper.printed import (
     DASH,
     REFERENCES,
@@ -21,7 +21,6 @@ from beambench_thesis.paper.section import Field
 Reasons = Callable[[str], str]
 """Why there is nothing at a resolution, if there is nothing."""
 
-_HIERARCHY = "goldsmith-salmon"
 _WITHOUT_TERMINAL = {"order": "given", "queue": "heap", "insert": "everywhere"}
 """The thesis's hierarchy but for the insertion, which is the one of Goldsmith and Salmon's paper.
 It is an extra beside the thesis's, which places objects beside terminal nodes alone (4.3)."""
@@ -33,9 +32,9 @@ class Entry:
 
     thesis: float | None
     thesis_shape: float | None
-    ours: Cell | None = None
-    shape: Measured | None = None
-    missing: str = ""
+    ours: Cell | None
+    shape: Measured | None
+    missing: str
     """Why there is no time of ours."""
 
 
@@ -56,42 +55,30 @@ class PartTable:
     """A part of a table with our figures in it."""
 
     part: PrintedPart
-    resolutions: tuple[str, ...]
     lines: tuple[Line, ...]
-    base: Cell | None
 
     @property
     def has_counts(self) -> bool:
         """Does the thesis print leaves and pixels with this part?"""
         return any(line.counts for line in self.lines)
 
-    @property
-    def cells(self) -> list[Cell]:
-        """Our cells in it, row by row."""
-        return [entry.ours for line in self.lines for entry in line.entries if entry.ours]
-
 
 def fill(part: PrintedPart, cells: Cells, why: Reasons) -> PartTable:
     """Fills a part with our measurements."""
     lines = [_line(part, row, cells, why) for row in part.rows]
     added = [(name, f"{name} (of today)", {}) for name in REFERENCES]
-    if _HIERARCHY in part.structures:
+    if HIERARCHY in part.structures:
         label = "hierarchy, insert=everywhere (Goldsmith and Salmon 1987)"
-        added.insert(0, (_HIERARCHY, label, _WITHOUT_TERMINAL))
-    lines += [_not_printed(part, *names, cells, why) for names in added]
-    lines = [line for line in lines if not line.is_reference or any(e.ours for e in line.entries)]
-    return PartTable(part, RESOLUTIONS, tuple(lines), _base(part, cells))
+        added.insert(0, (HIERARCHY, label, _WITHOUT_TERMINAL))
+    extra = [_not_printed(part, *names, cells, why) for names in added]
+    lines += [line for line in extra if any(entry.ours for entry in line.entries)]
+    return PartTable(part, tuple(lines))
 
 
 def _line(part: PrintedPart, row: PrintedRow, cells: Cells, why: Reasons) -> Line:
-    base = _base(part, cells)
-    entries = []
-    for resolution in RESOLUTIONS:
-        ours = cells.at(row.setting(part.scene, resolution))
-        thesis = row.seconds.get(resolution)
-        shape = thesis / part.base if thesis and part.base else None
-        entries.append(_entry(ours, base, Entry(thesis, shape, missing=why(resolution))))
-    return Line(row.label, row.structure, tuple(entries), counts=_counts(part, row, ours))
+    ours = {at: cells.at(row.setting(part.scene, at)) for at in RESOLUTIONS}
+    entries = _entries(part, ours, cells, why, row.seconds)
+    return Line(row.label, row.structure, entries, counts=_counts(part, row, ours[FINEST]))
 
 
 def _not_printed(
@@ -103,8 +90,7 @@ def _not_printed(
     why: Reasons,
 ) -> Line:
     """Returns a row that the thesis lacks: the structure's first cell with the parameters."""
-    base = _base(part, cells)
-    entries = []
+    ours = {}
     for resolution in RESOLUTIONS:
         found = (
             cell
@@ -112,21 +98,31 @@ def _not_printed(
             # Runs before the parameter `insert` lack it: they inserted everywhere.
             if all(cell.parameters.get(name, value) == value for name, value in wanted.items())
         )
-        entries.append(_entry(next(found, None), base, Entry(None, None, missing=why(resolution))))
-    return Line(label, structure, tuple(entries), is_reference=True)
+        ours[resolution] = next(found, None)
+    return Line(label, structure, _entries(part, ours, cells, why, {}), is_reference=True)
 
 
-def _base(part: PrintedPart, cells: Cells) -> Cell | None:
-    return cells.at(part.rows[0].setting(part.scene, RESOLUTIONS[0]))
-
-
-def _entry(ours: Cell | None, base: Cell | None, empty: Entry) -> Entry:
-    if ours is None:
-        return empty
-    if ours.time is None:
-        return replace(empty, ours=ours, missing=f"no time: {ours.verdict}")
-    shape = ours.time / base.time if base and base.time else None
-    return replace(empty, ours=ours, shape=shape, missing="")
+def _entries(
+    part: PrintedPart,
+    ours: dict[str, Cell | None],
+    cells: Cells,
+    why: Reasons,
+    printed: dict[str, float],
+) -> tuple[Entry, ...]:
+    """Returns the entries of a row by our cells and the thesis's seconds at each resolution."""
+    base = cells.at(part.rows[0].setting(part.scene, RESOLUTIONS[0]))
+    entries = []
+    for at, cell in ours.items():
+        thesis, shape, missing = printed.get(at), None, ""
+        if cell is None:
+            missing = why(at)
+        elif cell.time is None:
+            missing = f"no time: {cell.verdict}"
+        elif base and base.time:
+            shape = cell.time / base.time
+        thesis_shape = thesis / part.base if thesis and part.base else None
+        entries.append(Entry(thesis, thesis_shape, cell, shape, missing))
+    return tuple(entries)
 
 
 def _counts(
@@ -141,7 +137,7 @@ def _counts(
         for what in ("occupied_leaves", "exit_pixels")
     ]
     own = [None, None]
-    if ours is not None and ours.resolution == FINEST:
+    if ours is not None:
         leaving = ours.counters.get("samples_leaving")
         own = [
             round(ours.leaves - ours.empty_leaves) if ours.leaves == ours.leaves else None,
@@ -186,43 +182,31 @@ class WorkTable:
 
 def work_of_lines(lines: Iterable[Line]) -> WorkTable:
     """Returns a row for each measured cell."""
-    return _work([(line.label, entry.ours) for line in lines for entry in line.entries])
-
-
-def _work(named: Sequence[tuple[str, Cell | None]]) -> WorkTable:
-    cells = [(label, cell) for label, cell in named if cell is not None]
-    ray = [name for name in _PER_RAY if any(cell.counters.get(name) for _, cell in cells)]
-    image = [name for name in _PER_IMAGE if any(cell.counters.get(name) for _, cell in cells)]
+    cells = [(line.label, entry.ours) for line in lines for entry in line.entries if entry.ours]
+    ray, image = (
+        [name for name in names if any(cell.counters.get(name) for _, cell in cells)]
+        for names in (_PER_RAY, _PER_IMAGE)
+    )
     headings = [("total", ""), ("interval", ""), ("build", ""), ("memory", "")]
     headings += [(_PER_RAY[name], "per ray") for name in ray]
     headings += [(_PER_IMAGE[name], "per image") for name in image]
-    return WorkTable(
-        tuple(headings),
-        tuple(WorkRow(label, cell, _fields(cell, ray, image)) for label, cell in cells),
-    )
+    rows = (WorkRow(label, cell, tuple(_fields(cell, ray, image))) for label, cell in cells)
+    return WorkTable(tuple(headings), tuple(rows))
 
 
-def _fields(cell: Cell, ray: Sequence[str], image: Sequence[str]) -> tuple[Field, ...]:
+def _fields(cell: Cell, ray: Sequence[str], image: Sequence[str]) -> Iterator[Field]:
     nothing = Field(DASH)
-    times = (nothing, nothing, nothing)
     if cell.time:
-        times = (
-            Field(milliseconds(cell.time.value), value=cell.time.value),
-            Field(interval(cell.time), value=cell.time.low),
-            Field(milliseconds(cell.build), value=cell.build),
-        )
-    memory = nothing
-    if not math.isnan(cell.memory):
-        memory = Field(size_in_words(cell.memory), value=cell.memory)
-    counts = cell.counters
-    return (
-        *times,
-        memory,
-        *(Field(number(counts[n]), value=counts[n]) if n in counts else nothing for n in ray),
-        *(
-            Field(f"{counts[n] * cell.rays:,.0f}", value=counts[n] * cell.rays)
-            if n in counts
-            else nothing
-            for n in image
-        ),
-    )
+        yield Field(milliseconds(cell.time.value), value=cell.time.value)
+        yield Field(interval(cell.time), value=cell.time.low)
+        yield Field(milliseconds(cell.build), value=cell.build)
+    else:
+        yield from (nothing, nothing, nothing)
+    has_memory = not math.isnan(cell.memory)
+    yield Field(size_in_words(cell.memory), value=cell.memory) if has_memory else nothing
+    for name in ray:
+        count = cell.counters.get(name)
+        yield nothing if count is None else Field(number(count), value=count)
+    for name in image:
+        count = cell.counters[name] * cell.rays if name in cell.counters else None
+        yield nothing if count is None else Field(f"{count:,.0f}", value=count)
