@@ -1,7 +1,5 @@
 """Killing processes of the cluster program: the picture is right, or a message states why."""
 
-from __future__ import annotations
-
 import contextlib
 import os
 import shutil

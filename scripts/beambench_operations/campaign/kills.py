@@ -1,7 +1,5 @@
 """Pieces that kill a sweep, nightly runs, or the cluster program."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from random import Random

@@ -1,7 +1,5 @@
 """Pieces of fuzzing by libFuzzer: a target for some time, and its corpus minimized."""
 
-from __future__ import annotations
-
 import os
 import re
 import shutil

@@ -1,7 +1,5 @@
 """Pieces of fuzzing the reader of Quake 3's maps, which is Python."""
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Mapping

@@ -1,7 +1,5 @@
 """Killing and resuming nightly runs: no night of the history is lost or doubled."""
 
-from __future__ import annotations
-
 import json
 import os
 import sqlite3

@@ -1,7 +1,5 @@
 """Running pieces, several at once, until the time is up."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Collection
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait

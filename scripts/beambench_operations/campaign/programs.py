@@ -1,7 +1,5 @@
 """Programs that are run, measured, killed and ended together."""
 
-from __future__ import annotations
-
 import contextlib
 import os
 import signal

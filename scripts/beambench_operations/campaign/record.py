@@ -1,7 +1,5 @@
 """The record of all campaigns, to which pieces are added, and its folder."""
 
-from __future__ import annotations
-
 import fcntl
 import json
 import os

@@ -1,7 +1,5 @@
 """The record as a table: Markdown for people, CSV for programs."""
 
-from __future__ import annotations
-
 import csv
 import io
 from collections import defaultdict

@@ -1,7 +1,5 @@
 """Comparison of two runs of one sweep, times left out."""
 
-from __future__ import annotations
-
 import csv
 from pathlib import Path
 

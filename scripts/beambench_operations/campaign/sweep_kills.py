@@ -1,7 +1,5 @@
 """Killing and resuming a sweep until it is complete."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from random import Random
 

@@ -1,7 +1,5 @@
 """The images of a text: SVG where there is one, since PNGs of the same plots are not committed."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

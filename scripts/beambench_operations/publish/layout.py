@@ -1,7 +1,5 @@
 """Line breaks in Markdown, since figures are longer or shorter than their expressions."""
 
-from __future__ import annotations
-
 import re
 import textwrap
 

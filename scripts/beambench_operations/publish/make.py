@@ -1,7 +1,5 @@
 """Making one folder: first aside, step by step, then moved into results/published."""
 
-from __future__ import annotations
-
 import json
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """Requirements of some folders beyond the built program."""
 
-from __future__ import annotations
-
 import os
 import shlex
 import shutil

@@ -1,7 +1,5 @@
 """The progress of a folder, stored next to it while it is made and inside it once published."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass, field
 from pathlib import Path

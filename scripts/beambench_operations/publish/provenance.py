@@ -1,7 +1,5 @@
 """The commit and machine that make a folder, and checks that the working tree is clean."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import tempfile

@@ -1,7 +1,5 @@
 """Reports in results/published that other commands write from the same rows."""
 
-from __future__ import annotations
-
 import shutil
 import tempfile
 from collections.abc import Callable, Sequence

@@ -1,7 +1,5 @@
 """What of a run is committed: small files from which every figure can be computed again."""
 
-from __future__ import annotations
-
 import gzip
 import shutil
 from collections.abc import Iterator, Sequence

@@ -3,8 +3,6 @@
 Each view of the published runs is traced once by each of its contenders. Times are not compared.
 """
 
-from __future__ import annotations
-
 import csv
 import json
 from collections import defaultdict

@@ -1,7 +1,5 @@
 """results/published/beams: the thesis's beams beside single rays."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """results/published/beat-embree: images by tile beams and by Embree's fastest mode."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

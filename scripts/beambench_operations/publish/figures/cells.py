@@ -1,7 +1,5 @@
 """The rows of one published run, and ratios of its contenders with their intervals."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import cached_property
 from pathlib import Path

@@ -1,7 +1,5 @@
 """results/published/census: rays of whole pictures by kind, shadows, adaptive depth."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

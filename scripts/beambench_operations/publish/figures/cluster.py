@@ -1,7 +1,5 @@
 """results/published/cluster: the thesis's cluster simulated, and the program on this machine."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Tile beams beside Embree's fastest mode, as the texts on them state it."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """results/published/embree-4: tile beams and sah-bvh beside every mode of Embree 4."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

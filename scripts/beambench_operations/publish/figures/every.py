@@ -1,7 +1,5 @@
 """All published rows together: for the page over all of them."""
 
-from __future__ import annotations
-
 import csv
 from dataclasses import dataclass
 from pathlib import Path

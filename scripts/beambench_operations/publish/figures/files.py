@@ -1,7 +1,5 @@
 """The files that texts show."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 

@@ -1,7 +1,5 @@
 """results/published/havran: Samet's traversal over TETRA, ours and Havran's."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """results/published/libraries: tinybvh and madmann91/bvh beside sah-bvh and Embree."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Trace times without the harness's share, over those of one contender on the same rays."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

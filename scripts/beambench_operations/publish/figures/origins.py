@@ -1,7 +1,5 @@
 """The commits and machines that made a published folder."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """results/published/real: every structure over real meshes."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """results/published/robustness: what campaigns of random inputs, rays and kills came to."""
 
-from __future__ import annotations
-
 import csv
 from pathlib import Path
 from typing import Any

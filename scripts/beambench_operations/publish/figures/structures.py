@@ -1,7 +1,5 @@
 """results/published/structures: which structure wins where."""
 
-from __future__ import annotations
-
 from collections import Counter
 from pathlib import Path
 from typing import Any

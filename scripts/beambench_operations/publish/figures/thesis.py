@@ -1,7 +1,5 @@
 """results/published/thesis: the claims of the thesis, judged by our rows."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path

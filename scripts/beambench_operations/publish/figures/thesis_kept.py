@@ -1,7 +1,5 @@
 """results/published/thesis: rows of an earlier version that the texts still need."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

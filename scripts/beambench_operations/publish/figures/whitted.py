@@ -1,7 +1,5 @@
 """results/published/whitted: whole pictures by every structure."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 
