@@ -5,10 +5,9 @@ import signal
 import sys
 from dataclasses import replace
 from pathlib import Path
-from typing import NoReturn
 
 from beambench_operations.publish.documents import PUBLISHED, differences, write_documents
-from beambench_operations.publish.make import Interrupted, Place, make_folder
+from beambench_operations.publish.make import Place, make_folder
 from beambench_operations.publish.needs import Debian13, Given, missing, plugins_for
 from beambench_operations.publish.plan import Folder, Plan, as_table, read_plan
 from beambench_operations.publish.progress import Progress, is_published, progress_of, seconds_of
@@ -16,32 +15,16 @@ from beambench_operations.publish.provenance import Provenance, git, preflight, 
 from beambench_operations.publish.small import size
 from beambench_operations.publish.verified_again import verify_again, write_summary
 from beambench_operations.site.write import write_site
+from beambench_report.base.command_line import BEAMBENCH, ScriptParser
 from beambench_report.base.files import ROOT, Problem, load_json, say
 from beambench_report.base.quantities import size_in_words
 
 _ASIDE = ROOT / "results/runs/publish"
-_BUILT = ROOT / "build/release/bin/beambench"
 
 
 def main(arguments: list[str]) -> int:
     """Returns the exit code."""
-    try:
-        return _run(_parser().parse_args(arguments))
-    except Problem as problem:
-        print(f"error: {problem} (see scripts/publish --help)", file=sys.stderr)
-        return 2
-    except (Interrupted, KeyboardInterrupt):
-        say("interrupted; the same command goes on from here on this machine")
-        return 130
-
-
-class _Parser(argparse.ArgumentParser):
-    def error(self, message: str) -> NoReturn:
-        raise Problem(message)
-
-
-def _parser() -> argparse.ArgumentParser:
-    parser = _Parser("scripts/publish", add_help=False, allow_abbrev=False)
+    parser = ScriptParser("publish")
     parser.add_argument("--only", nargs="+", default=[], metavar="FOLDER")
     parser.add_argument("--plan", "--dry-run", action="store_true")
     parser.add_argument("--texts", action="store_true")
@@ -53,15 +36,18 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--debian-13", type=Path, metavar="DIR")
     parser.add_argument("--aside", type=Path, default=_ASIDE, metavar="DIR")
     parser.add_argument("--published", type=Path, default=PUBLISHED, metavar="DIR")
-    parser.add_argument("--beambench", type=Path, default=_BUILT, metavar="PROGRAM")
-    return parser
+    parser.add_argument("--beambench", type=Path, default=BEAMBENCH, metavar="PROGRAM")
+    interrupted = "interrupted; the same command goes on from here on this machine"
+    return parser.run(_run, arguments, interrupted)
 
 
 def _run(options: argparse.Namespace) -> int:
     options.aside, options.published = options.aside.absolute(), options.published.absolute()
     plan = read_plan().only(options.only)
     if options.check:
-        return _check(options.published)
+        found = differences(options.published)
+        print(*found, sep="\n", end="\n" if found else "")
+        return 1 if found else 0
     if options.texts:
         for path in write_documents(options.published):
             print(path)
@@ -71,16 +57,10 @@ def _run(options: argparse.Namespace) -> int:
         return _verify_again(options, beambench)
     if options.plan:
         provenance = preflight(beambench) if beambench.is_file() else None
-        print(as_table(plan, _states(plan, options, provenance), _took(plan, options.published)))
+        took = {one.name: seconds_of(options.published / one.name) for one in plan.folders}
+        print(as_table(plan, _states(plan, options, provenance), took))
         return 0
     return _make(plan, options, preflight(beambench))
-
-
-def _check(published: Path) -> int:
-    found = differences(published)
-    for one in found:
-        print(one)
-    return 1 if found else 0
 
 
 def _verify_again(options: argparse.Namespace, beambench: Path) -> int:
@@ -118,12 +98,6 @@ def _states(
         elif begun:
             states[folder.name] = f"{len(begun.seconds)} of {len(folder.steps)} steps are done"
     return states
-
-
-def _took(plan: Plan, published: Path) -> dict[str, float]:
-    """Returns the seconds that the published folders took."""
-    known = {folder.name: seconds_of(published / folder.name) for folder in plan.folders}
-    return {name: seconds for name, seconds in known.items() if seconds is not None}
 
 
 def _make(plan: Plan, options: argparse.Namespace, provenance: Provenance) -> int:

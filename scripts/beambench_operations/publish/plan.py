@@ -121,7 +121,7 @@ def read_plan(path: Path = PLAN) -> Plan:
         raise Problem(f"{path}: is not a plan ({error!r}); restore it with git") from None
 
 
-def as_table(plan: Plan, states: dict[str, str], took: dict[str, float]) -> str:
+def as_table(plan: Plan, states: dict[str, str], took: dict[str, float | None]) -> str:
     """Returns the plan as a table.
 
     `states` has the state of each folder, `took` the seconds that the published one took.
@@ -131,7 +131,7 @@ def as_table(plan: Plan, states: dict[str, str], took: dict[str, float]) -> str:
             one.name,
             one.title,
             f"{one.seconds / 60:.1f}{' (apart)' if one.is_apart else ''}",
-            f"{took[one.name] / 60:.1f}" if one.name in took else "",
+            f"{seconds / 60:.1f}" if (seconds := took.get(one.name)) is not None else "",
             states.get(one.name, ""),
         )
         for one in plan.folders
