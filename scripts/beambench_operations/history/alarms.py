@@ -31,7 +31,7 @@ class Increase:
         return self.after / self.before - 1 if self.before > 0 else float("inf")
 
 
-def find_increases(nights: Nights, share: float = SHARE) -> list[Increase]:
+def find_increases(nights: Nights) -> list[Increase]:
     """Returns counters that are higher in the last night than ever since the last report."""
     if len(nights.nights) < 2:
         return []
@@ -39,10 +39,10 @@ def find_increases(nights: Nights, share: float = SHARE) -> list[Increase]:
     names = {name for known in nights.counters.values() for name in known}
     for name in sorted(names):
         values = _values(nights, name)
-        before = _least_before(values, share)
+        before = _least_before(values)
         after = values[-1]
         with np.errstate(invalid="ignore"):
-            more = after > before * (1 + share)
+            more = after > before * (1 + SHARE)
         found += [
             Increase(int(cell), name, float(before[cell]), float(after[cell]))
             for cell in np.flatnonzero(more)
@@ -59,11 +59,11 @@ def _values(nights: Nights, name: str) -> np.ndarray:
     return known[nights.works]
 
 
-def _least_before(values: np.ndarray, share: float) -> np.ndarray:
+def _least_before(values: np.ndarray) -> np.ndarray:
     least = np.full(values.shape[1], np.nan)
     for night in values[:-1]:
         with np.errstate(invalid="ignore"):
-            reported = night > least * (1 + share)
+            reported = night > least * (1 + SHARE)
         least = np.where(reported, night, np.fmin(least, night))
     return least
 
@@ -92,15 +92,10 @@ def _wrong(nights: Nights) -> Iterator[tuple[str, str, dict]]:
 
 
 def _more_work(nights: Nights) -> Iterator[tuple[str, str, dict]]:
-    for increase in find_increases(nights):
-        title = cell_title(nights.cells.iloc[increase.cell])
-        name = increase.counter.removesuffix("_per_ray").replace("_", " ")
-        details = {
-            "title": title,
-            "counter": name,
-            "before": increase.before,
-            "after": increase.after,
-        }
+    for one in find_increases(nights):
+        title = cell_title(nights.cells.iloc[one.cell])
+        name = one.counter.removesuffix("_per_ray").replace("_", " ")
+        details = {"title": title, "counter": name, "before": one.before, "after": one.after}
         yield "counter", f"{title}: {name}", details
 
 

@@ -29,6 +29,10 @@ from beambench_report.base.records import BASELINE, NO_RAYS, TIMED_VERDICTS, UNS
 
 LEVEL = 0.01
 TOLERANCE = 0.01
+_GONE = {
+    NO_RAYS: "there are no such rays any more",
+    UNSUPPORTED: "the structure does not support this any more",
+}
 LEAST_TURNS = 6
 """The fewest pairs whose median has a 95% interval."""
 
@@ -209,12 +213,10 @@ def _differences(first: pd.DataFrame, second: pd.DataFrame, titles: dict) -> lis
     sentences = []
     for row, key in zip(both.to_dict("records"), keys_of(both), strict=True):
         title = titles[key]
-        if row["verdict_b"] == NO_RAYS and row["verdict_a"] in TIMED_VERDICTS:
-            sentences.append(f"{title}: there are no such rays any more")
-        elif row["verdict_b"] == UNSUPPORTED and row["verdict_a"] in TIMED_VERDICTS:
-            sentences.append(f"{title}: the structure does not support this any more")
-        elif row["verdict_b"] not in TIMED_VERDICTS and row["verdict_a"] in TIMED_VERDICTS:
-            sentences.append(f"{title}: the hits are now wrong ({row['verdict_b']})")
+        verdict = row["verdict_b"]
+        if row["verdict_a"] in TIMED_VERDICTS and verdict not in TIMED_VERDICTS:
+            what = _GONE.get(verdict, f"the hits are now wrong ({verdict})")
+            sentences.append(f"{title}: {what}")
         for name, after in row.items():
             if not name.endswith("_per_ray_b") or name.endswith("_ns_per_ray_b"):
                 continue

@@ -14,7 +14,7 @@ from pathlib import Path
 import pandas as pd
 
 from beambench.analysis import Median, Ratio, unpaired_ratio
-from beambench_operations.history.night import cell_titles, comparable, keys_of, views_of
+from beambench_operations.history.night import cell_titles, comparable, inputs_of, keys_of, views_of
 from beambench_report.base.cell_files import (
     CellFile,
     Identity,
@@ -166,7 +166,7 @@ def _figures(file: _File, reference: Contender | None) -> dict[Key, tuple[Median
     timed = contenders_with_times(file.rows)
     rows = [row for _, row in timed.iterrows()]
     keys = keys_of(timed)
-    inputs = [f"{row.get('scene_hash', '')} {row.get('rays_hash', '')}" for row in rows]
+    inputs = inputs_of(timed)
     if reference is None:
         return {
             key: (median_of(row, "total"), asked)
@@ -179,15 +179,11 @@ def _figures(file: _File, reference: Contender | None) -> dict[Key, tuple[Median
         if who == reference
     }
     return {
-        key: (_over(row, bases[view], file.cells), asked)
+        key: (Median(ratio.value, ratio.low, ratio.high), asked)
         for key, view, who, row, asked in zip(keys, views, contenders, rows, inputs, strict=True)
         if view in bases and who != reference
+        for ratio in [ratio_of("total", row, bases[view], file.cells)]
     }
-
-
-def _over(row: pd.Series, base: pd.Series, cells: Mapping[Identity, CellFile]) -> Median:
-    ratio = ratio_of("total", row, base, cells)
-    return Median(ratio.value, ratio.low, ratio.high)
 
 
 def _contenders(rows: pd.DataFrame) -> list[Contender]:

@@ -13,7 +13,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from beambench.analysis import Median, Ratio
-from beambench_operations.history.night import comparable, counters_of
+from beambench_operations.history.night import comparable, counters_of, inputs_of
 from beambench_report.base.analysis import Analysis, has_analysis, read_analysis
 from beambench_report.base.cell_files import (
     CellFile,
@@ -164,7 +164,7 @@ def _cells(
     run: Run, files: Mapping[Identity, CellFile], reference: tuple[str, str] | None
 ) -> tuple[Cell, ...]:
     rows = run.rows.to_dict("records")
-    views, work = comparable(run.rows), counters_of(run.rows)
+    views, work, inputs = (of(run.rows) for of in (comparable, counters_of, inputs_of))
     bases = {
         view: row
         for view, row in zip(views, rows, strict=True)
@@ -173,7 +173,7 @@ def _cells(
         and row["total_ms_median"] > 0
     }
     cells = []
-    for row, view, counters in zip(rows, views, work, strict=True):
+    for row, view, counters, hashes in zip(rows, views, work, inputs, strict=True):
         timed = row["timed"] and row["total_ms_median"] > 0
         ratio = ratio_of("total", row, bases[view], files) if timed and view in bases else None
         cells.append(
@@ -183,7 +183,7 @@ def _cells(
                 size_of(row),
                 row["contender"],
                 row["verdict"],
-                _digest(f"{row.get('scene_hash', '')} {row.get('rays_hash', '')}"),
+                _digest(hashes),
                 _digest(counters),
                 _small(median_of(row, "total")) if timed else None,
                 _small(ratio) if ratio else None,

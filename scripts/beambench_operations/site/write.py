@@ -72,19 +72,14 @@ class _Site:
         self.write(place, made.render(**shared, **values))
 
 
-def write_site(
-    folders: Iterable[Path],
-    target: Path,
-    published: Path | None = None,
-    repository: Repository | None = None,
-) -> Path:
+def write_site(folders: Iterable[Path], target: Path, published: Path | None = None) -> Path:
     """Writes the site of all runs below the folders; returns its first page.
 
     The newest run of the sweep of the run `published` is also compared with that run. Raises
     Problem if there is no run, or if `target` contains other files.
     """
     found, histories = find_runs([*folders, *([published] if published else [])])
-    site = _Site(target, repository or Repository())
+    site = _Site(target, Repository())
     former = _former_files(target)
     runs, broken, doubles = _write_runs(site, found)
     _write_comparisons(site, runs, published)
@@ -121,14 +116,16 @@ def _write_runs(
     runs, broken, doubles = [], [], []
     names: dict[str, Path] = {}
     for run_id, folder in sorted((_run_id(folder), folder) for folder in folders):
-        name = _free_name(run_id, names)
+        first = _slug(run_id)
+        free = (first, *(f"{first}-{number}" for number in range(2, len(names) + 3)))
+        name = next(one for one in free if one not in names)
         try:
             entry, changed = _write_run(site, name, folder)
         except Exception as error:  # whatever a record holds, the others get their pages
             prefix = "" if isinstance(error, Problem) else f"{type(error).__name__}: "
             broken.append((folder, f"{prefix}{error}"))
             continue
-        if name != (first := _slug(run_id)):
+        if name != first:
             doubles.append(
                 f"The run {run_id} is there twice: {names[first]} is {first}, {folder} is {name}."
             )
@@ -149,14 +146,6 @@ def _run_id(folder: Path) -> str:
 
 def _slug(text: str) -> str:
     return re.sub(r"[^A-Za-z0-9._-]+", "-", text).strip(".-") or "run"
-
-
-def _free_name(run_id: str, taken: Iterable[str]) -> str:
-    name, count = _slug(run_id), 1
-    while name in taken:
-        count += 1
-        name = f"{_slug(run_id)}-{count}"
-    return name
 
 
 def _write_run(site: _Site, name: str, folder: Path) -> tuple[Entry, bool]:

@@ -24,7 +24,7 @@ def read_published(name: str, folder: Path = FOLDER) -> pd.DataFrame:
 
 
 @cache
-def primitives_by_scene(folder: Path = FOLDER) -> dict[str, int]:
+def primitives_by_scene() -> dict[str, int]:
     """Table 5.1: polygons and spheres of each scene."""
-    scenes = read_published("scenes.csv", folder)
+    scenes = read_published("scenes.csv")
     return dict(zip(scenes["scene"], scenes["polygons"] + scenes["spheres"], strict=True))

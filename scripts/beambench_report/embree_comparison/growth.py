@@ -91,10 +91,9 @@ def _growth(stem: str, lines: Mapping[str, Sequence[Pairing]], axis: Axis) -> Pl
     which = ""
     if len(commits) > 1:
         which = f" Filled: commit {commits[-1]}; hollow: {' and '.join(commits[:-1])}."
-    reading = (
-        f"First traces after a build. Bars: 95% intervals, where there are any.{which} {_NEWEST}"
+    write_below(
+        figure, [f"{_READING}{which} {_NEWEST}", *dict.fromkeys(pair.origin for pair in drawn)]
     )
-    write_below(figure, [reading, *dict.fromkeys(pair.origin for pair in drawn)])
     return Plot(
         stem,
         figure,

@@ -48,14 +48,12 @@ def order(ours: pd.DataFrame, his: pd.DataFrame, quantity: str) -> pd.DataFrame:
 
     The columns `ours` and `his` have the sign of the difference, 0 where counts are the same.
     """
-    both = ours[[quantity]].join(his[quantity], rsuffix=" his", how="inner").reset_index()
+    counts = {"ours": ours[quantity], "his": his[quantity]}
+    both = pd.concat(counts, axis="columns", join="inner").reset_index()
     both["place"] = both.index
     pairs = both.merge(both, on=["scene", "setting"], suffixes=("", " other"))
     pairs = pairs[pairs["place"] < pairs["place other"]]
-    signs = {
-        name: _signs(pairs[column], pairs[f"{column} other"])
-        for name, column in (("ours", quantity), ("his", f"{quantity} his"))
-    }
+    signs = {name: _signs(pairs[name], pairs[f"{name} other"]) for name in counts}
     pairs = pairs[["structure", "structure other"]].assign(**signs)
     return pairs[pairs["his"] != 0]
 

@@ -83,7 +83,11 @@ def _resolutions(measured: Measured, kind: str, views: Sequence[str], stem: str)
 
 
 def _draw_line(panel: Axes, line: pd.DataFrame, look: Look) -> None:
-    strokes = [(row["rays"], end) for _, row in line.iterrows() for end in _ends(row)]
+    strokes = [
+        (row["rays"], end)
+        for _, row in line.iterrows()
+        for end in (row["ns_low"], row["ns_high"], nan)  # nan: where the next stroke begins
+    ]
     panel.plot(*zip(*strokes, strict=True), color=look.color, linewidth=2.2)
     (joined,) = panel.plot(
         line["rays"],
@@ -98,11 +102,6 @@ def _draw_line(panel: Axes, line: pd.DataFrame, look: Look) -> None:
     )
     values = [f"{size_of(row)} {ns_in_words(row)}" for _, row in line.iterrows()]
     hover(joined, f"{line['contender'].iloc[0]}: {'; '.join(values)}")
-
-
-def _ends(row: pd.Series) -> tuple[float, float, float]:
-    """Returns the ends of a stroke over the interval, followed by NaN to separate the next one."""
-    return row["ns_low"], row["ns_high"], nan
 
 
 def _name_sizes(panel: Axes, sizes: dict[str, float]) -> None:

@@ -83,7 +83,7 @@ def with_ratios(rows: pd.DataFrame, files: Mapping[Identity, CellFile]) -> pd.Da
     )
 
 
-def write_winners(run: Path, output: Path | None) -> str | list[Path]:
+def write_winners(run: Path, output: Path | None = None) -> str | list[Path]:
     """The tables as Markdown: a text to be printed, or the file that was written."""
     found = races(read_run(run).rows, read_cell_files(run))
     if not found:
@@ -113,7 +113,10 @@ def _by_structure(found: Sequence[Race]) -> list[str]:
                     + ("" if len(group) == len(of_kind) else f" (in {len(group)})"),
                     number(group["build_ms_median"].median()),
                     number((group["memory_bytes"] / group["primitives"]).median()),
-                    _parameters(group),
+                    "; ".join(
+                        f"{label} ({times})"
+                        for label, times in Counter(group["contender"]).most_common(3)
+                    ),
                 )
                 for mean, name, group in table
             ],
@@ -121,12 +124,6 @@ def _by_structure(found: Sequence[Race]) -> list[str]:
         )  # fmt: skip
         parts.append(f"## {kind} rays, {len(of_kind)} views\n\n" + "\n".join(lines) + "\n")
     return parts
-
-
-def _parameters(group: pd.DataFrame) -> str:
-    """How often each set of parameters was the best, where there is a choice."""
-    counted = Counter(str(label) for label in group["contender"])
-    return "; ".join(f"{label} ({times})" for label, times in counted.most_common(3))
 
 
 def _by_scene(found: Sequence[Race]) -> str:
