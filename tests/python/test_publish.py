@@ -16,8 +16,8 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
+from bare_figures import bare_figures
 from beambench_operations.publish.__main__ import main
-from beambench_operations.publish.bare_figures import bare_figures
 from beambench_operations.publish.documents import write_documents
 from beambench_operations.publish.make import Interrupted, Place, make_folder, run_program
 from beambench_operations.publish.needs import Given, missing

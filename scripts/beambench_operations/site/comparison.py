@@ -57,15 +57,9 @@ class Comparison:
         """Only then are milliseconds compared."""
         return not self.warning
 
-    @property
-    def slower(self) -> int:
-        """How many ratios are higher, by their intervals."""
-        return sum(pair.side == "slower" for pair in self.pairs)
-
-    @property
-    def faster(self) -> int:
-        """How many ratios are lower, by their intervals."""
-        return sum(pair.side == "faster" for pair in self.pairs)
+    def count(self, side: str) -> int:
+        """How many ratios are higher (`slower`) or lower (`faster`), by their intervals."""
+        return sum(pair.side == side for pair in self.pairs)
 
     @property
     def compared(self) -> int:

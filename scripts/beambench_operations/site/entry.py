@@ -152,12 +152,12 @@ def _reference(run: Run) -> tuple[str, str] | None:
 
 def _fastest(analysis: Analysis) -> tuple[str, ...]:
     """Who has the least geometric mean of trace times, and in how many views it is ahead."""
-    words = []
-    for one in analysis.means:
-        first = one.means[0]
-        kind = f"{one.ray_kind}: " if len(analysis.means) > 1 else ""
-        words.append(f"{kind}{first.contender} ({first.wins} of {one.views})")
-    return tuple(words)
+    several = len(analysis.means) > 1
+    return tuple(
+        f"{f'{one.ray_kind}: ' if several else ''}{first.contender} ({first.wins} of {one.views})"
+        for one in analysis.means
+        for first in one.means[:1]
+    )
 
 
 def _cells(

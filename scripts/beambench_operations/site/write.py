@@ -9,6 +9,7 @@ site.json                  the files of the site, so that the next one removes w
 
 import json
 import re
+from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -169,10 +170,10 @@ def _write_run(site: _Site, name: str, folder: Path) -> tuple[Entry, bool]:
 def _write_comparisons(site: _Site, runs: Sequence[_Run], published: Path | None) -> None:
     """Compares each run with its predecessor on the sweep, and with that on its machine."""
     known = published.resolve() if published else None
-    by_sweep: dict[str, list[_Run]] = {}
+    by_sweep: dict[str, list[_Run]] = defaultdict(list)
     for run in runs:
-        if run.entry.sweep:
-            by_sweep.setdefault(run.entry.sweep, []).append(run)
+        by_sweep[run.entry.sweep].append(run)
+    by_sweep.pop("", None)
     for own in by_sweep.values():
         for place, run in enumerate(own):
             earlier = own[:place][::-1]
@@ -207,38 +208,33 @@ def _write_histories(
     site: _Site, runs: Sequence[_Run], known: Sequence[Path]
 ) -> list[dict[str, object]]:
     """Writes a page for each sweep and machine with two or more runs; returns their index lines."""
-    groups: dict[tuple[str, str], list[_Run]] = {}
+    groups: dict[tuple[str, str], list[_Run]] = defaultdict(list)
     for run in runs:
         if run.entry.sweep and not run.entry.cut_off:
-            groups.setdefault((run.entry.sweep, str(run.entry.machine)), []).append(run)
+            groups[run.entry.sweep, str(run.entry.machine)].append(run)
     listed = []
     for (sweep, machine), own in groups.items():
-        if len(own) < 2:
-            continue
         history = history_of([(run.entry.run_id, run.folder) for run in own], known)
         if history is None:
             continue
         href = f"history/{_slug(f'{sweep}-{machine}')}.html"
         for run in own:
             run.history = href
-        _write_history(site, href, sweep, machine, history, runs)
-        labels = {"href": href, "sweep": sweep, "machine": machine}
+        labels = {"sweep": sweep, "machine": machine}
+        _write_history(site, href, labels, history, runs)
         counts = {"count": len(history.nights.nights), "alarms": len(history.tonight)}
-        listed.append(labels | counts)
+        listed.append({"href": href} | labels | counts)
     return listed
 
 
 def _write_history(
     site: _Site,
     href: str,
-    sweep: str,
-    machine: str,
+    labels: dict[str, str],
     history: MachineHistory,
     runs: Sequence[_Run],
 ) -> None:
-    by_id: dict[str, _Run] = {}
-    for run in runs:
-        by_id.setdefault(run.entry.run_id, run)
+    by_id = {run.entry.run_id: run for run in reversed(runs)}
 
     def address(run_id: str) -> str:
         return f"../runs/{by_id[run_id].name}/index.html" if run_id in by_id else ""
@@ -247,8 +243,7 @@ def _write_history(
     site.page(
         href,
         "history.html.j2",
-        sweep=sweep,
-        machine=machine,
+        **labels,
         comparisons=_comparisons_of(newest, runs) if newest else [],
         mismatches=read_mismatches(newest.folder) if newest else [],
         **page_values(history, address, site.repository),

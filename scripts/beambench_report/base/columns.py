@@ -84,12 +84,8 @@ class Dictionary:
     def find(self, name: str) -> Column | None:
         """Returns the entry of a file's column: that of its name, or of the narrowest pattern."""
         found = [column for column in self.columns if column.is_that(name)]
-        return min(found, key=_width, default=None)
-
-
-def _width(column: Column) -> int:
-    """Returns how much a pattern covers; one with the kind of rays is narrower than any counter."""
-    return 0 if not column.is_pattern else 1 if column.is_of_a_kind else 2
+        # A pattern with the kind of rays is narrower than that of any counter.
+        return min(found, key=lambda one: (one.is_pattern, not one.is_of_a_kind), default=None)
 
 
 @cache
