@@ -8,6 +8,7 @@ from pathlib import Path
 from beambench_report.base.columns import as_markdown, dictionary
 from beambench_report.base.command_line import (
     BEAMBENCH,
+    AddArgument,
     Commands,
     Options,
     add_command,
@@ -136,9 +137,7 @@ def _add_tables(commands: Commands) -> None:
     ratios("--to", required=True, metavar="NAME", help="a contender, as plots call it; a structure")
     for command in (winners, ratios):
         command("run", type=Path, metavar="RUN", help="folder of a run")
-        command(
-            *("-o", "--output"), type=Path, metavar="FILE.md", help="if not given, it is printed"
-        )
+        _add_output(command, "FILE.md", "if not given, it is printed")
     embree = add_command(
         commands,
         "embree-comparison",
@@ -146,12 +145,11 @@ def _add_tables(commands: Commands) -> None:
         help="compare tile beams with Embree's fastest mode",
     )
     embree("runs", type=Path, nargs="+", metavar="RUN", help="folder of a run")
-    embree(
-        *("-o", "--output"),
-        type=Path,
-        metavar="FILE.md",
-        help="if not given, it is printed; its plots come beside it",
-    )
+    _add_output(embree, "FILE.md", "if not given, it is printed; its plots come beside it")
+
+
+def _add_output(command: AddArgument, metavar: str, words: str) -> None:
+    command("-o", "--output", type=Path, metavar=metavar, help=words)
 
 
 def _add_commands_on_scenes(commands: Commands) -> None:
@@ -162,12 +160,7 @@ def _add_commands_on_scenes(commands: Commands) -> None:
         help="draw what beambench scene NAME --growth --csv wrote",
     )
     growth("files", type=Path, nargs="+", metavar="FILE.csv")
-    growth(
-        *("-o", "--output"),
-        type=Path,
-        metavar="FILE.png",
-        help="if not given, beside the first file; an SVG comes beside it",
-    )
+    _add_output(growth, "FILE.png", "if not given, beside the first file; an SVG comes beside it")
     sheet = add_command(
         commands,
         "contact-sheet",

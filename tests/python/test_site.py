@@ -199,7 +199,7 @@ def test_other_rays_other_work_and_wrong_hits_are_told(tmp_path: Path) -> None:
     assert comparison.sentences == (
         "exhaustive in escena1 at 320x200: ok before, mismatch now.",
         "1 cell has other counters.",
-        "1 cells have other rays or scenes; they are not compared.",
+        "1 cell has other rays or scenes; they are not compared.",
     )
 
 

@@ -5,7 +5,7 @@ import shutil
 import sys
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 from beambench_operations.nightly.home import is_finished
@@ -66,7 +66,7 @@ def make_folder(folder: Folder, place: Place, provenance: Provenance) -> Progres
     progress = progress_of(target, provenance)
     if progress is None:
         shutil.rmtree(target, ignore_errors=True)
-        progress = Progress(target, provenance.as_record())
+        progress = Progress(target, asdict(provenance))
         progress.keep()
     target.mkdir(parents=True, exist_ok=True)
     for number, step in enumerate(folder.steps):

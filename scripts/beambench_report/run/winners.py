@@ -128,10 +128,9 @@ def _by_structure(found: Sequence[Race]) -> list[str]:
 
 def _by_scene(found: Sequence[Race]) -> str:
     kinds = list(dict.fromkeys(race.ray_kind for race in found))
-    words: dict[str, dict[str, str]] = {}
-    for race in found:
-        words.setdefault(race.scene, {}).setdefault(race.ray_kind, race.words)
-    rows = [(scene, *(of.get(kind, "-") for kind in kinds)) for scene, of in words.items()]
+    words = {(race.scene, race.ray_kind): race.words for race in reversed(found)}
+    scenes = dict.fromkeys(race.scene for race in found)
+    rows = [(scene, *(words.get((scene, kind), "-") for kind in kinds)) for scene in scenes]
     lines = markdown_table(("scene", *kinds), rows)
     return (
         "## By scene\n\nThe fastest, with those tied with it, and the next with its ratio. "
