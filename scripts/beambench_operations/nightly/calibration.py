@@ -6,6 +6,7 @@ reference. Nights are then tested one by one, each with those before it, as `scr
 """
 
 import json
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass
 from math import log, log1p, nan, sqrt
@@ -177,17 +178,9 @@ def calibrate(
     low = float(stats.chi2.ppf(0.025, 2 * alarms) / 2) if alarms else 0.0
     high = float(stats.chi2.ppf(0.975, 2 * alarms + 2) / 2)
     power = _powers(noise, slowdowns, effort or Effort(), rule, random, report)
-    return Calibration(
-        nights,
-        values.shape[1],
-        alarms,
-        low,
-        high,
-        noise.standard_deviation,
-        noise.nights,
-        rule,
-        power,
-    )
+    alarmed = (alarms, low, high)
+    drawn_from = (noise.standard_deviation, noise.nights)
+    return Calibration(nights, values.shape[1], *alarmed, *drawn_from, rule, power)
 
 
 def share_interval(found: int, trials: int) -> tuple[float, float]:
@@ -263,11 +256,10 @@ _NIGHTS = 200
 def noise_of_samples(folders: Iterable[Path]) -> Noise:
     """Noise from the raw samples of runs. Raises Problem where none has enough of them."""
     random = np.random.default_rng(_SEED)
-    scenes: dict[str, list[np.ndarray]] = {}
+    scenes: dict[str, list[np.ndarray]] = defaultdict(list)
     for folder in folders:
         for scene, contenders in _views(folder):
-            nights = _nights(contenders, random)
-            scenes.setdefault(f"{folder}/{scene}", []).append(nights)
+            scenes[f"{folder}/{scene}"].append(_nights(contenders, random))
     if not scenes:
         raise Problem(
             f"no run has a view with Embree, others, and {_ROUNDS} repetitions in {LOG}; "
@@ -286,8 +278,7 @@ def noise_of_samples(folders: Iterable[Path]) -> Noise:
 
 def _views(folder: Path) -> Iterable[tuple[str, list[dict[int, float]]]]:
     """Scene and contenders of each view, Embree's single rays first."""
-    views: dict[tuple, list[tuple[bool, dict[int, float]]]] = {}
-    scenes: dict[tuple, str] = {}
+    views: dict[tuple, list[tuple[bool, dict[int, float]]]] = defaultdict(list)
     for cell in logged_cells(folder):
         row, repetitions = cell.facts, repetitions_of(cell)
         try:
@@ -303,12 +294,11 @@ def _views(folder: Path) -> Iterable[tuple[str, list[dict[int, float]]]]:
                 f"{folder / LOG}: has no repetitions of a run ({error}); measure it anew"
             ) from None
         is_reference = row["structure"] == "embree" and "mode=single" in row["parameters"]
-        views.setdefault(view, []).append((is_reference, logs))
-        scenes[view] = row["scene"]
+        views[view].append((is_reference, logs))
     for view, cells in views.items():
         cells.sort(key=lambda cell: not cell[0])
         if cells[0][0] and len(cells) > 1:
-            yield scenes[view], [logs for _, logs in cells]
+            yield view[0], [logs for _, logs in cells]
 
 
 def _nights(contenders: Sequence[dict[int, float]], random: np.random.Generator) -> np.ndarray:

@@ -129,12 +129,10 @@ def _render(environment: Environment, template: Path, name: str, known: _Folders
     try:
         own = known.all() if folder == known.published else known.of(folder.name)
         text = environment.get_template(name).render(own | {"made": made, "folder": folder})
-    except TemplateError as error:
+    except (TemplateError, LookupError, ValueError, TypeError, ZeroDivisionError) as error:
         line = getattr(error, "lineno", None) or _line_of(error, template)
-        raise Problem(f"{template}{f':{line}' if line else ''}: {error.message}") from None
-    except (KeyError, ValueError, TypeError, ZeroDivisionError, IndexError) as error:
-        line = _line_of(error, template)
-        what = error if isinstance(error, ValueError) else repr(error)
+        says_all = isinstance(error, TemplateError | ValueError)
+        what = getattr(error, "message", error) if says_all else repr(error)
         raise Problem(f"{template}{f':{line}' if line else ''}: {what}") from None
     title, _, rest = text.partition("\n")
     return f"{title}\n{note}{laid_out(rest)}"

@@ -16,7 +16,7 @@ from beambench_operations.history.store import Alarm
 from beambench_operations.site.changes import Repository
 from beambench_operations.site.machine_history import MachineHistory
 from beambench_report.base.figure import structure_color
-from beambench_report.base.files import load_json
+from beambench_report.base.files import read_json
 from beambench_report.base.records import size_of
 from beambench_report.run.html import data_uri
 
@@ -152,17 +152,16 @@ def pack_ratios(ratios: np.ndarray) -> str:
 def read_mismatches(directory: Path) -> list[Mismatch]:
     """The pictures that a nightly run made of what was wrong."""
     index = directory / MISMATCHES
-    if not index.exists():
-        return []
+    captions = {
+        "picture": "as the structure sees it",
+        "difference": "where it differs from the oracle",
+    }
     found = []
-    for entry in load_json(index):
+    for entry in read_json(index) or []:
         images = tuple(
-            (data_uri(index.with_name(entry[kind])), caption)
-            for kind, caption in (
-                ("picture", "as the structure sees it"),
-                ("difference", "where it differs from the oracle"),
-            )
-            if kind in entry and index.with_name(entry[kind]).exists()
+            (data_uri(file), caption)
+            for kind, caption in captions.items()
+            if (file := index.with_name(entry.get(kind, "nothing"))).exists()
         )
         found.append(Mismatch(f"{entry['contender']} in {entry['view']}", images))
     return found

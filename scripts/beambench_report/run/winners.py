@@ -97,7 +97,6 @@ def _by_structure(found: Sequence[Race]) -> list[str]:
     for kind in dict.fromkeys(race.ray_kind for race in found):
         of_kind = [race for race in found if race.ray_kind == kind]
         rows = pd.concat([race.ranked for race in of_kind])
-        wins = Counter(name for race in of_kind for name in race.tied)
         table = sorted(
             (float(gmean(group["ratio"])), str(name), group)
             for name, group in rows.groupby("structure")
@@ -109,7 +108,7 @@ def _by_structure(found: Sequence[Race]) -> list[str]:
                 (
                     f"`{name}`",
                     f"{mean:.2f}",
-                    f"{wins[name]} of {len(of_kind)}"
+                    f"{group['is_tied'].sum()} of {len(of_kind)}"
                     + ("" if len(group) == len(of_kind) else f" (in {len(group)})"),
                     number(group["build_ms_median"].median()),
                     number((group["memory_bytes"] / group["primitives"]).median()),

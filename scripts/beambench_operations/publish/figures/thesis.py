@@ -83,7 +83,12 @@ def more_runs(folder: Path) -> list[Path]:
 
 
 def _is_of_one_kind(other: Path, folder: Path) -> bool:
-    return other.is_dir() and _made_by(other) == _made_by(folder / "synthetic")
+    """Were both made by the same commit on the same machine?"""
+    made_by, known = (
+        {(one.commit, one.machine_id) for one in origins(where)}
+        for where in (other, folder / "synthetic")
+    )
+    return other.is_dir() and made_by == known
 
 
 def _again(first: Report, second: Report) -> dict[str, Any]:
@@ -144,10 +149,6 @@ def times_found_again(runs: Sequence[tuple[Run, Run]]) -> dict[str, Any]:
         "half": {name: float(changes.quantile(0.5)) for name, changes in change.items()},
         "most": {name: float(changes.quantile(0.9)) for name, changes in change.items()},
     }
-
-
-def _made_by(folder: Path) -> set[tuple[str, str]]:
-    return {(one.commit, one.machine_id) for one in origins(folder)}
 
 
 def _claim(one: JudgedClaim) -> dict[str, Any]:
