@@ -8,6 +8,7 @@ site.json                  the files of the site, so that the next one removes w
 """
 
 import json
+import os
 import re
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
@@ -19,7 +20,6 @@ import pandas as pd
 from beambench_operations.site.changes import Repository
 from beambench_operations.site.comparison import Comparison, compare
 from beambench_operations.site.entry import Entry, as_script, entry_of, read_script, stamp_of
-from beambench_operations.site.find import find_runs
 from beambench_operations.site.history_page import page_values, read_mismatches
 from beambench_operations.site.machine_history import MachineHistory, history_of
 from beambench_report.base.files import Problem, read_json, write_text
@@ -33,6 +33,8 @@ _TEMPLATES = Path(__file__).with_name("templates")
 _DRAWN = KINDS[:1]
 """Of runs whose folder has no plots; all kinds would take a second a run."""
 _FILES = "site.json"
+_RUN_FILES = {"results.csv", "manifest.json"}
+_HISTORY = "history.sqlite"
 _BRAND = re.compile(r'(<p class="brand">)([^<]*)(</p>)')
 
 
@@ -79,7 +81,7 @@ def write_site(folders: Iterable[Path], target: Path, published: Path | None = N
     The newest run of the sweep of the run `published` is also compared with that run. Raises
     Problem if there is no run, or if `target` contains other files.
     """
-    found, histories = find_runs([*folders, *([published] if published else [])])
+    found, histories = _find_runs([*folders, *([published] if published else [])])
     site = _Site(target, Repository())
     former = _former_files(target)
     runs, broken, doubles = _write_runs(site, found)
@@ -100,6 +102,30 @@ def write_site(folders: Iterable[Path], target: Path, published: Path | None = N
         (target / gone).unlink(missing_ok=True)
     write_text(target / _FILES, json.dumps(sorted(site.written), indent=0) + "\n")
     return target / "index.html"
+
+
+def _find_runs(folders: Iterable[Path]) -> tuple[list[Path], list[Path]]:
+    """Returns the folders of runs below given ones, each once, and the histories of nightly runs.
+
+    Abandoned runs and hidden folders are left out. Raises Problem where a folder does not exist, or
+    where no run is found.
+    """
+    runs: dict[Path, Path] = {}
+    histories: dict[Path, Path] = {}
+    for folder in (wanted := list(folders)):
+        if not folder.is_dir():
+            raise Problem(f"{folder}: is not a folder; give folders of runs, or that hold runs")
+        for place, names, files in os.walk(folder):
+            here = Path(place)
+            if _RUN_FILES & set(files):
+                runs.setdefault(here.resolve(), here)
+                names.clear()
+            if _HISTORY in files:
+                histories.setdefault(here.resolve(), here / _HISTORY)
+            names[:] = sorted(name for name in names if not name.startswith((".", "abandoned-")))
+    if not runs:
+        raise Problem(f"{', '.join(map(str, wanted))}: holds no run; `beambench run` writes runs")
+    return list(runs.values()), list(histories.values())
 
 
 def _former_files(target: Path) -> set[str]:
