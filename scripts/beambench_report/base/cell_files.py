@@ -86,13 +86,13 @@ def ratio_of(
 
 
 def _cell_file(cell: LoggedCell) -> CellFile:
-    by_round = {one["round"]: one for one in repetitions_of(cell)}
+    repetitions = repetitions_of(cell)
     return CellFile(
         cell.message,
         tuple(_example(text) for text in cell.examples),
-        {turn: one["build_ms"] + one["trace_ms"] for turn, one in by_round.items()},
+        {one["round"]: one["build_ms"] + one["trace_ms"] for one in repetitions},
         *(
-            {turn: one[name] for turn, one in by_round.items() if name in one}
+            {one["round"]: one[name] for one in repetitions if name in one}
             for name in ("trace_ms", "warm_trace_ms", "clock_ghz")
         ),
     )
