@@ -63,4 +63,4 @@ def parameter_items(text: str) -> dict[str, str]:
 def varying_parameters(texts: Iterable[str]) -> set[str]:
     """The names of those parameters that differ between rows of one structure."""
     items = [parameter_items(text) for text in texts]
-    return {name for one in items for name in one if len({own.get(name) for own in items}) > 1}
+    return {name for one in items for name in one if len({own.get(name, "") for own in items}) > 1}
