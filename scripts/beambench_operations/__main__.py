@@ -10,7 +10,6 @@ from beambench_operations.nightly.diff import diff
 from beambench_operations.nightly.exports import bigger_is_better, google_benchmark
 from beambench_operations.site.write import write_site
 from beambench_report.base.command_line import (
-    BEAMBENCH,
     Options,
     add_command,
     run_command,
@@ -31,7 +30,7 @@ def _parser() -> argparse.ArgumentParser:
         description="Nightly runs, their history and site, and comparisons of runs.",
     )
     commands = parser.add_subparsers(dest="command", required=True)
-    add_nightly_command(commands, BEAMBENCH)
+    add_nightly_command(commands)
     site = add_command(
         commands,
         "site",

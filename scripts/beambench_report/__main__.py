@@ -8,6 +8,7 @@ from pathlib import Path
 from beambench_report.base.columns import as_markdown, dictionary
 from beambench_report.base.command_line import (
     BEAMBENCH,
+    AddArgument,
     Commands,
     Options,
     add_command,
@@ -16,8 +17,11 @@ from beambench_report.base.command_line import (
 from beambench_report.base.files import say
 from beambench_report.base.records import read_run
 from beambench_report.embree_comparison.report import comparison
-from beambench_report.haines.command import add_haines_command
-from beambench_report.havran.command import add_havran_command
+from beambench_report.haines.counts import measure_tests
+from beambench_report.haines.report import write_report as write_haines
+from beambench_report.havran.contenders import SCENES
+from beambench_report.havran.counts import measure
+from beambench_report.havran.report import write_report as write_havran
 from beambench_report.run.growth import write_growth
 from beambench_report.run.page import write_page
 from beambench_report.run.pictures import (
@@ -61,8 +65,7 @@ def _parser() -> argparse.ArgumentParser:
     _add_commands_on_runs(commands)
     _add_tables(commands)
     _add_commands_on_scenes(commands)
-    add_havran_command(commands, BEAMBENCH)
-    add_haines_command(commands, BEAMBENCH)
+    _add_other_works(commands)
     add_command(
         commands,
         "columns",
@@ -134,9 +137,7 @@ def _add_tables(commands: Commands) -> None:
     ratios("--to", required=True, metavar="NAME", help="a contender, as plots call it; a structure")
     for command in (winners, ratios):
         command("run", type=Path, metavar="RUN", help="folder of a run")
-        command(
-            *("-o", "--output"), type=Path, metavar="FILE.md", help="if not given, it is printed"
-        )
+        _add_output(command, "FILE.md", "if not given, it is printed")
     embree = add_command(
         commands,
         "embree-comparison",
@@ -144,12 +145,11 @@ def _add_tables(commands: Commands) -> None:
         help="compare tile beams with Embree's fastest mode",
     )
     embree("runs", type=Path, nargs="+", metavar="RUN", help="folder of a run")
-    embree(
-        *("-o", "--output"),
-        type=Path,
-        metavar="FILE.md",
-        help="if not given, it is printed; its plots come beside it",
-    )
+    _add_output(embree, "FILE.md", "if not given, it is printed; its plots come beside it")
+
+
+def _add_output(command: AddArgument, metavar: str, words: str) -> None:
+    command("-o", "--output", type=Path, metavar=metavar, help=words)
 
 
 def _add_commands_on_scenes(commands: Commands) -> None:
@@ -160,12 +160,7 @@ def _add_commands_on_scenes(commands: Commands) -> None:
         help="draw what beambench scene NAME --growth --csv wrote",
     )
     growth("files", type=Path, nargs="+", metavar="FILE.csv")
-    growth(
-        *("-o", "--output"),
-        type=Path,
-        metavar="FILE.png",
-        help="if not given, beside the first file; an SVG comes beside it",
-    )
+    _add_output(growth, "FILE.png", "if not given, beside the first file; an SVG comes beside it")
     sheet = add_command(
         commands,
         "contact-sheet",
@@ -191,6 +186,48 @@ def _add_commands_on_scenes(commands: Commands) -> None:
         metavar="PROGRAM",
         help="the built beambench; if not given, build/release/bin/beambench",
     )
+
+
+def _add_other_works(commands: Commands) -> None:
+    haines = add_command(
+        commands,
+        "haines",
+        lambda o: [measure_tests(o.folder, o.program.absolute()), write_haines(o.folder)],
+        help="count Haines's tests of the SPD (1987) again, ours beside his",
+    )
+    haines("folder", type=Path, metavar="DIR", help="gets tests.csv and report.md; is resumed")
+    havran = commands.add_parser(
+        "havran", help="measure Havran's comparison of octrees (1999) again, ours beside his"
+    )
+    steps = havran.add_subparsers(dest="step", required=True)
+    measuring = add_command(
+        steps,
+        "measure",
+        lambda o: [measure(o.folder, o.program.absolute(), o.scene or sorted(SCENES))],
+        help="count into DIR/counts.csv; resumes what was cut off",
+    )
+    writing = add_command(
+        steps,
+        "write",
+        lambda o: [write_havran(o.folder)],
+        help="write DIR/report.md from DIR/counts.csv",
+    )
+    for step in (measuring, writing):
+        step("folder", type=Path, metavar="DIR")
+    measuring(
+        "--scene",
+        action="append",
+        choices=sorted(SCENES),
+        help="only this scene; may be given several times",
+    )
+    for command in (haines, measuring):
+        command(
+            "--program",
+            type=Path,
+            default=BEAMBENCH,
+            metavar="PROGRAM",
+            help="if not given, build/release/bin/beambench",
+        )
 
 
 def _contact_sheet(options: Options) -> list[Path]:

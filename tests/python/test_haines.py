@@ -45,7 +45,7 @@ def test_a_program_that_is_not_there_is_named(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["haines", str(tmp_path), "--program", str(tmp_path / "none")]) == 2
-    assert "none: there is no such program" in capsys.readouterr().err
+    assert "none cannot be run: No such file" in capsys.readouterr().err
     with pytest.raises(Problem, match="haines DIR"):
         read_tests(tmp_path / "tests.csv")
 

@@ -4,29 +4,33 @@ import json
 from itertools import product
 from pathlib import Path
 
+import pandas as pd
 import pytest
 
 from beambench_report.__main__ import main
 from beambench_report.base.files import Problem
-from beambench_report.havran.comparison import Order, order, ratios
 from beambench_report.havran.contenders import SCENES, STRUCTURES, contender_of
-from beambench_report.havran.counts import PUBLISHED, Case, Counts, read_counts, write_counts
-from beambench_report.havran.measure import quantities_of
+from beambench_report.havran.counts import CASE, PUBLISHED, quantities_of, read_counts
+from beambench_report.havran.report import SIZES, WORK, order, ratios
 from program import BINARY
 
 ONE, TWO = STRUCTURES[:2]
 
 
-def counts(*values: tuple[str, float]) -> Counts:
-    return {Case(structure, "tetra", "depth 4"): {"N_TS": value} for structure, value in values}
+def counts(*values: tuple[str, float]) -> pd.DataFrame:
+    index = pd.MultiIndex.from_tuples(
+        [(structure, "tetra", "depth 4") for structure, _ in values], names=CASE
+    )
+    known = [value for _, value in values]
+    return pd.DataFrame(dict.fromkeys(SIZES + WORK, known), index=index)
 
 
 def test_every_case_of_the_five_octrees_is_published() -> None:
     published = read_counts(PUBLISHED)
     for structure, scene, depth in product(STRUCTURES, SCENES, (4, 5, 6, 7)):
-        case = Case(structure, scene, f"depth {depth}")
-        assert len(published[case]) == 8, case
-        assert contender_of(structure, case.setting).endswith(f"max_level={depth + 1}")
+        case = (structure, scene, f"depth {depth}")
+        assert published.loc[case].notna().sum() == 8, case
+        assert contender_of(structure, f"depth {depth}").endswith(f"max_level={depth + 1}")
     with pytest.raises(Problem, match="expected 'depth N'"):
         contender_of(ONE, "20x20x20")
 
@@ -43,25 +47,21 @@ def test_steps_have_the_last_climb_and_tests_are_of_rays_that_hit() -> None:
 
 def test_structures_are_in_the_same_order_level_or_reversed() -> None:
     published = counts((ONE, 100), (TWO, 200))
-    assert order(counts((ONE, 10), (TWO, 11)), published, "N_TS") == Order(1, 1, 0)
-    assert order(counts((ONE, 10), (TWO, 10.1)), published, "N_TS") == Order(1, 0, 1)
-    assert order(counts((ONE, 11), (TWO, 10)), published, "N_TS").reversed == (tuple(published),)
-    assert order(published, counts((ONE, 100), (TWO, 101)), "N_TS").pairs == 0
-    assert order(counts((ONE, 1)), published, "N_TS").pairs == 0
+
+    def signs(first: float, second: float) -> list[tuple[float, float]]:
+        found = order(counts((ONE, first), (TWO, second)), published, "N_TS")
+        return list(zip(found["ours"], found["his"], strict=True))
+
+    assert signs(10, 11) == [(-1, -1)]
+    assert signs(10, 10.1) == [(0, -1)]
+    assert signs(11, 10) == [(1, -1)]
+    assert order(published, counts((ONE, 100), (TWO, 101)), "N_TS").empty
+    assert order(counts((ONE, 1)), published, "N_TS").empty
 
 
-def test_ratios_are_geometric_means_and_know_how_many_are_near() -> None:
-    found = ratios(counts((ONE, 200), (TWO, 51)), counts((ONE, 100), (TWO, 50)), "N_TS")
-    assert found is not None
-    assert found.mean == pytest.approx((2 * 1.02) ** 0.5)
-    assert found.within == 1
-    assert ratios({}, {}, "N_TS") is None
-
-
-def test_counts_are_read_as_they_were_written(tmp_path: Path) -> None:
-    case = Case(ONE, "tetra", "depth 4")
-    write_counts(tmp_path / "counts.csv", [(case, "glassner", {"N_TS": 21.5})])
-    assert read_counts(tmp_path / "counts.csv") == {case: {"N_TS": 21.5}}
+def test_ratios_are_of_common_counts_above_0() -> None:
+    found = ratios(counts((ONE, 200), (TWO, 51)), counts((ONE, 100), (TWO, 0)))
+    assert found["N_TS"].dropna().tolist() == [2]
 
 
 def test_one_scene_is_measured_resumed_and_written(tmp_path: Path) -> None:
@@ -69,9 +69,9 @@ def test_one_scene_is_measured_resumed_and_written(tmp_path: Path) -> None:
     assert main(arguments) == 0
     ours = read_counts(tmp_path / "counts.csv")
     assert len(ours) == 20
-    case = Case("Samet 1989, center", "tetra", "depth 5")
-    assert ours[case]["N_V"] == 9584
-    assert ours[case]["N_TS"] == pytest.approx(23.91, rel=0.01)
+    case = ours.loc["Samet 1989, center", "tetra", "depth 5"]
+    assert case["N_V"] == 9584
+    assert case["N_TS"] == pytest.approx(23.91, rel=0.01)
     file = next((tmp_path / "census").glob("*.json"))
     assert json.loads(file.read_text())["scenes"][0]["work"]["rays"] > 513 * 513
     before = file.stat().st_mtime_ns

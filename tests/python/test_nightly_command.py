@@ -359,7 +359,7 @@ def test_compare_builds_each_commit_and_measures_in_turns(
     clone = tmp_path / "clone"
     call("git", "clone", "-q", "--shared", repository, clone, directory=tmp_path)
     # The code under test, committed or not.
-    for script in ("compare", "beambench_report", "beambench_operations"):
+    for script in ("compare", "arguments.sh", "beambench_report", "beambench_operations"):
         call("cp", "-r", repository / "scripts" / script, clone / "scripts/", directory=tmp_path)
     tools = tmp_path / "tools"
     tools.mkdir()

@@ -8,6 +8,7 @@ import os
 import re
 import shutil
 import subprocess
+from argparse import Namespace
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from importlib import import_module
@@ -16,11 +17,11 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
+from bare_figures import bare_figures
 from beambench_operations.publish.__main__ import main
-from beambench_operations.publish.bare_figures import bare_figures
 from beambench_operations.publish.documents import write_documents
 from beambench_operations.publish.make import Interrupted, Place, make_folder, run_program
-from beambench_operations.publish.needs import Given, missing
+from beambench_operations.publish.needs import missing
 from beambench_operations.publish.plan import Command, Folder, Sweep, as_table, read_plan
 from beambench_operations.publish.progress import RECORD, is_published, progress_of, seconds_of
 from beambench_operations.publish.provenance import (
@@ -39,6 +40,12 @@ HERE = Provenance("c0ffee", False, "machine-1", "A Xeon", 2, "3.13.5", 0.01, 0.2
 ELSEWHERE = replace(HERE, machine_id="machine-2")
 
 needs_binary = pytest.mark.skipif(not BINARY.exists(), reason="beambench is not built")
+
+
+def given(**own: object) -> Namespace:
+    """Returns options of scripts/publish; those that are not given are as usual."""
+    usual = {"tinybvh": None, "madmann91_bvh": None, "debian_13": None, "only": []}
+    return Namespace(**{**usual, "beambench": BINARY, **own})
 
 
 # The plan
@@ -61,9 +68,9 @@ def test_the_plan_names_everything_that_is_to_be_published() -> None:
 @needs_binary
 def test_every_planned_sweep_can_be_run(tmp_path: Path) -> None:
     here = preflight(BINARY)
-    given = Given(debian_13=tmp_path, named=tuple(folder.name for folder in read_plan().folders))
+    options = given(debian_13=tmp_path, only=[folder.name for folder in read_plan().folders])
     for folder in read_plan().folders:
-        if missing(folder, given, BINARY, here):
+        if missing(folder, options, here):
             continue
         for step in folder.steps:
             if isinstance(step, Sweep):
@@ -306,15 +313,15 @@ def test_a_folder_that_is_new_gets_its_page(place: Place) -> None:
 
 def test_a_folder_that_lacks_something_says_so() -> None:
     libraries = Folder("libraries", "", (), needs="libraries")
-    assert "--tinybvh DIR" in missing(libraries, Given(), BINARY, HERE)
-    given = Given(Path("tinybvh"), Path("bvh"))
-    assert not missing(libraries, given, BINARY, HERE)
+    assert "--tinybvh DIR" in missing(libraries, given(), HERE)
+    options = given(tinybvh=Path("tinybvh"), madmann91_bvh=Path("bvh"))
+    assert not missing(libraries, options, HERE)
     once_more = Folder("thesis-again", "", (), needs="its name")
-    assert "--only thesis-again" in missing(once_more, Given(), BINARY, HERE)
-    assert not missing(once_more, Given(named=("thesis-again",)), BINARY, HERE)
+    assert "--only thesis-again" in missing(once_more, given(), HERE)
+    assert not missing(once_more, given(only=["thesis-again"]), HERE)
     with_embree_3 = Folder("beat-embree", "", (), embree="3")
     embree_4 = replace(HERE, embree="4.3.3")
-    assert missing(with_embree_3, Given(), BINARY, embree_4) == (
+    assert missing(with_embree_3, given(), embree_4) == (
         "it takes Embree 3, and this program has 4.3.3"
     )
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from beambench_operations.publish.bare_figures import bare_figures
+from bare_figures import bare_figures
 from beambench_operations.publish.documents import (
     PUBLISHED,
     differences,

@@ -1,7 +1,5 @@
 """The command line of scripts/campaign."""
 
-from __future__ import annotations
-
 import argparse
 import contextlib
 import os
@@ -10,7 +8,6 @@ import sys
 from collections.abc import Callable, Collection
 from functools import partial
 from pathlib import Path
-from typing import NoReturn
 
 from beambench_operations.campaign.kills import kill, killable
 from beambench_operations.campaign.libfuzzer import fuzz, targets_in
@@ -22,10 +19,10 @@ from beambench_operations.campaign.programs import Programs
 from beambench_operations.campaign.rays import next_seed, structures, trace
 from beambench_operations.campaign.record import Record
 from beambench_operations.campaign.report import write_report
+from beambench_report.base.command_line import BEAMBENCH, ScriptParser
 from beambench_report.base.files import ROOT, Problem, say
 
 HOME = ROOT / "results/robustness"
-_BUILT = ROOT / "build/release/bin/beambench"
 _TARGETS = ROOT / "build/fuzz/bin"
 _LONGEST = 300.0  # seconds of a piece of fuzzing: what Ctrl-C may cost
 _MEASURE = {"fuzz": "seconds", "rays": "scenes", "kills": "runs"}
@@ -37,23 +34,7 @@ Work = dict[str, Callable[[int | None], Piece]]
 
 def main(arguments: list[str]) -> int:
     """Returns the exit code."""
-    try:
-        return _run(_parser().parse_args(arguments))
-    except Problem as problem:
-        print(f"error: {problem} (see scripts/campaign --help)", file=sys.stderr)
-        return 2
-    except KeyboardInterrupt:
-        say("interrupted; the pieces that were under way are not counted")
-        return 130
-
-
-class _Parser(argparse.ArgumentParser):
-    def error(self, message: str) -> NoReturn:
-        raise Problem(message)
-
-
-def _parser() -> argparse.ArgumentParser:
-    parser = _Parser("scripts/campaign", add_help=False, allow_abbrev=False)
+    parser = ScriptParser("campaign")
     parser.add_argument("command", choices=_MEASURE, nargs="?")
     parser.add_argument("--minutes", type=_number, default=10.0)
     parser.add_argument("--jobs", type=_count, default=os.cpu_count() or 1)
@@ -62,9 +43,10 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--home", type=Path, default=HOME, metavar="DIR")
     parser.add_argument("--report", type=Path, metavar="DIR")
     parser.add_argument("--dry-run", action="store_true")
-    parser.add_argument("--beambench", type=Path, default=_BUILT, metavar="PROGRAM")
+    parser.add_argument("--beambench", type=Path, default=BEAMBENCH, metavar="PROGRAM")
     parser.add_argument("--targets", type=Path, default=_TARGETS, metavar="DIR")
-    return parser
+    interrupted = "interrupted; the pieces that were under way are not counted"
+    return parser.run(_run, arguments, interrupted)
 
 
 def _number(text: str) -> float:

@@ -1,7 +1,5 @@
 """Killing processes of the cluster program: the picture is right, or a message states why."""
 
-from __future__ import annotations
-
 import contextlib
 import os
 import shutil
@@ -44,7 +42,8 @@ def kill_cluster(beambench: Path, folder: Path, random: Random, programs: Progra
         run = begun(picture)
         ended = run.wait(random.uniform(0, whole))
         if ended is None and (victims := _processes(run)):
-            _send(random.choice(_SIGNALS), random.choice(victims))
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(random.choice(victims), random.choice(_SIGNALS))
             tally.kills += 1
         if run.wait(whole + _TIMEOUT + _ENDING) is None:
             tally.faults.append("it hung after a process was killed or stopped")
@@ -68,8 +67,3 @@ def _processes(run: Program) -> list[int]:
     except OSError:
         return []
     return [child for child, name in names.items() if name.startswith(PROGRAM[:15])]
-
-
-def _send(what: signal.Signals, process: int) -> None:
-    with contextlib.suppress(ProcessLookupError):
-        os.kill(process, what)

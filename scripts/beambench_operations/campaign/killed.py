@@ -1,7 +1,5 @@
 """Kills: signals at random moments, and the exit codes that they may cause."""
 
-from __future__ import annotations
-
 import json
 import signal
 import time

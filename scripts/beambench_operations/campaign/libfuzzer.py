@@ -1,7 +1,5 @@
 """Pieces of fuzzing by libFuzzer: a target for some time, and its corpus minimized."""
 
-from __future__ import annotations
-
 import os
 import re
 import shutil
@@ -78,25 +76,17 @@ def fuzz(target: Target, seed: int, seconds: float, record: Record, programs: Pr
         merged = _minimize(target, corpus, scratch, programs, environment)
         coverage["corpus"] = sum(1 for _ in corpus.iterdir())
         findings = list(_findings(target, faults, record, programs, environment))
-    return Piece(
-        "fuzz",
-        target.name,
-        seed,
-        {"executions": executions, "seconds": round(seconds)},
-        round(fuzzed.cpu_seconds + merged.cpu_seconds, 1),
-        coverage,
-        findings,
-    )
+    counts = {"executions": executions, "seconds": round(seconds)}
+    cpu_seconds = round(fuzzed.cpu_seconds + merged.cpu_seconds, 1)
+    return Piece("fuzz", target.name, seed, counts, cpu_seconds, coverage, findings)
 
 
 def status(log: str) -> tuple[int, dict[str, int]]:
     """Returns the number of inputs and the final coverage, from libFuzzer's messages."""
-    found = _STATUS.findall(log)
-    if not found:
+    numbers = [[int(text) for text in one] for one in _STATUS.findall(log)]
+    if not numbers:
         return 0, {}
-    numbers = [[int(text) for text in one] for one in found]
-    executions = max(one[0] for one in numbers)
-    return executions, {"cov": numbers[-1][1], "ft": numbers[-1][2]}
+    return max(numbers)[0], {"cov": numbers[-1][1], "ft": numbers[-1][2]}
 
 
 def _minimize(
@@ -110,12 +100,10 @@ def _minimize(
         [target.program, "-merge=1", *_LIMITS, *folders], 300, scratch, environment
     )
     if ended.code == 0 and any(fresh.iterdir()):
-        before = {path.name for path in corpus.iterdir()}
-        kept = {path.name for path in fresh.iterdir()}
-        for path in fresh.iterdir():
-            shutil.copy(path, corpus / path.name)
-        for gone in before - kept:
-            (corpus / gone).unlink()
+        for former in corpus.iterdir():
+            if not (fresh / former.name).exists():
+                former.unlink()
+        shutil.copytree(fresh, corpus, dirs_exist_ok=True)
     return ended
 
 

@@ -1,15 +1,11 @@
 """Pieces of fuzzing the reader of Quake 3's maps, which is Python."""
 
-from __future__ import annotations
-
-import os
 import sys
-from collections.abc import Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from beambench_operations.campaign.piece import Piece
-from beambench_operations.campaign.programs import Programs
+from beambench_operations.campaign.programs import PYTHON, Programs
 from beambench_operations.campaign.record import Record
 from beambench_report.base.files import ROOT, Problem
 
@@ -24,19 +20,13 @@ def fuzz_maps(seed: int, seconds: float, record: Record, programs: Programs) -> 
         faults = Path(name)
         folders = [folder for folder in _FOLDERS if folder.is_dir()]
         numbers = [f"{seconds:.1f}", str(seed)]
-        done = programs.run([*_MODULE, *numbers, faults, *folders], seconds + 120, None, _path())
+        done = programs.run([*_MODULE, *numbers, faults, *folders], seconds + 120, None, PYTHON)
         if done.code != 0:
             raise Problem(f"the maps could not be fuzzed: {done.last_words()}")
         findings = []
         for file in sorted(faults.iterdir()):
-            message = programs.run([*_MODULE, file], 60, None, _path()).output.strip()
+            message = programs.run([*_MODULE, file], 60, None, PYTHON).output.strip()
             command: list[str | Path] = [".venv/bin/python", *_MODULE[1:], file]
             findings.append(record.keep(file, f"{SUBJECT}-{file.name}", message, command))
     counts = {"executions": int(done.output), "seconds": round(seconds)}
     return Piece("fuzz", SUBJECT, seed, counts, round(done.cpu_seconds, 1), {}, findings)
-
-
-def _path() -> Mapping[str, str]:
-    """Returns an environment that finds the packages of scripts/, even if .venv does not."""
-    before = os.environ.get("PYTHONPATH")
-    return {"PYTHONPATH": ":".join(filter(None, (str(ROOT / "scripts"), before)))}

@@ -1,9 +1,5 @@
 """Killing and resuming nightly runs: no night of the history is lost or doubled."""
 
-from __future__ import annotations
-
-import json
-import os
 import sqlite3
 import sys
 import time
@@ -19,9 +15,9 @@ from beambench_operations.campaign.killed import (
     undisturbed,
     write_sweep,
 )
-from beambench_operations.campaign.programs import Programs
-from beambench_operations.campaign.rows import Rows, cells_of, difference
-from beambench_report.base.files import ROOT
+from beambench_operations.campaign.programs import PYTHON, Programs
+from beambench_operations.campaign.rows import cells_of, difference
+from beambench_operations.nightly.home import Home
 
 _KILLS = 4
 _REGRESSED = 1  # tiny nights are noisy
@@ -39,13 +35,12 @@ def kill_nights(beambench: Path, folder: Path, random: Random, programs: Program
         *(sys.executable, "-m", "beambench_operations", "nightly", "run", "--home", home),
         *("--sweep", write_sweep(folder), "--beambench", beambench),
     ]
-    environment = {"PYTHONPATH": f"{ROOT / 'scripts'}:{os.environ.get('PYTHONPATH', '')}"}
-    whole = undisturbed(programs.start(command, folder, environment), tally)
+    whole = undisturbed(programs.start(command, folder, PYTHON), tally)
     nights = _nights(home)
     complete = False
     while not complete and not tally.faults:
-        resume = ["--resume"] if _unfinished(home) else []
-        program = programs.start([*command, *resume], folder, environment)
+        resume = ["--resume"] if Home(home).unfinished() else []
+        program = programs.start([*command, *resume], folder, PYTHON)
         if tally.kills < _KILLS:
             ended = killed(program, random, whole, tally, to_all=random.random() < 0.5)
         else:
@@ -60,8 +55,8 @@ def kill_nights(beambench: Path, folder: Path, random: Random, programs: Program
             time.sleep(_WAIT)
         elif not ended_as_killed(ended):
             tally.faults.append(f"it ended with {ended.code}: {ended.last_words()}")
-    if not tally.faults:
-        tally.faults += [fault for fault in (_fault(home),) if fault]
+    if not tally.faults and (fault := _fault(home)):
+        tally.faults.append(fault)
     return tally
 
 
@@ -71,10 +66,9 @@ def _fault(home: Path) -> str:
         nights = sorted(folder for (folder,) in history.execute("SELECT folder FROM nights"))
     if nights != sorted(_nights(home)):
         return f"the history has the nights {nights}, but finished are {sorted(_nights(home))}"
-    first: Rows | None = None
+    first, _ = cells_of(home / nights[0] / "results.csv")
     for night in nights:
         cells, damage = cells_of(home / night / "results.csv")
-        first = first or cells
         if fault := damage or difference(first, cells):
             return f"in the night {night}, {fault}"
     return ""
@@ -82,15 +76,4 @@ def _fault(home: Path) -> str:
 
 def _nights(home: Path) -> set[str]:
     """Returns the nights that finished."""
-    return {run.name for run in home.glob("[0-9]*") if _is_finished(run)}
-
-
-def _unfinished(home: Path) -> bool:
-    return any(not _is_finished(run) for run in home.glob("[0-9]*"))
-
-
-def _is_finished(run: Path) -> bool:
-    manifest = run / "manifest.json"
-    if not manifest.exists() or not (run / "results.csv").exists():
-        return False
-    return bool(json.loads(manifest.read_text("utf-8")).get("finished_utc"))
+    return {run.name for run in Home(home).finished()}

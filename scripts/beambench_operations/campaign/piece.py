@@ -1,7 +1,5 @@
 """The pieces of a campaign, each of which counts as a whole or not at all."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field
 

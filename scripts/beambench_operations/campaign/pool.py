@@ -1,7 +1,5 @@
 """Running pieces, several at once, until the time is up."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Collection
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
@@ -43,16 +41,13 @@ def do_pieces(
                     piece = future.result()
                     record.add(piece)
                     pieces.append(piece)
-                    _report(piece, end - time.monotonic())
+                    left = max(end - time.monotonic(), 0) / 60
+                    say(f"{piece}; {left:.1f} min left")
+                    for finding in piece.findings:
+                        say(f"   {finding.message}\n   repeat it: {finding.command}")
                 if done or time.monotonic() > said + _SILENCE:
                     said = time.monotonic()
                     if running:
                         say(f"   under way: {', '.join(running.values())}")
         finally:
             programs.stop()
-
-
-def _report(piece: Piece, left: float) -> None:
-    say(f"{piece}; {max(left, 0) / 60:.1f} min left")
-    for finding in piece.findings:
-        say(f"   {finding.message}\n   repeat it: {finding.command}")

@@ -1,7 +1,5 @@
 """Programs that are run, measured, killed and ended together."""
 
-from __future__ import annotations
-
 import contextlib
 import os
 import signal
@@ -12,10 +10,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryFile
-from typing import IO
 
-from beambench_report.base.files import Problem
+from beambench_report.base.files import ROOT, Problem
 
+PYTHON = {
+    "PYTHONPATH": ":".join(filter(None, (str(ROOT / "scripts"), os.environ.get("PYTHONPATH"))))
+}
+"""An environment in which Python finds the packages of scripts/, even if .venv does not."""
 _POLL = 0.005  # seconds
 _PATIENCE = 3.0  # seconds from SIGTERM to SIGKILL
 
@@ -77,7 +78,11 @@ class Program:
                 done, status, usage = os.wait4(self.pid, os.WNOHANG)
                 if done:
                     self._process.returncode = os.waitstatus_to_exitcode(status)
-                    texts = [_contents(file) for file in (self._output, self._errors)]
+                    texts = []
+                    for file in (self._output, self._errors):
+                        with file:
+                            file.seek(0)
+                            texts.append(file.read().decode(errors="replace"))
                     seconds = usage.ru_utime + usage.ru_stime
                     self._ended = Ended(self._process.returncode, *texts, seconds)
             return self._ended
@@ -95,13 +100,6 @@ class Program:
         with contextlib.suppress(ProcessLookupError):
             os.killpg(self.pid, signal.SIGKILL)
         self.wait()
-
-
-def _contents(file: IO[bytes]) -> str:
-    """Returns everything that was written to the file, and closes it."""
-    with file:
-        file.seek(0)
-        return file.read().decode(errors="replace")
 
 
 class Programs:

@@ -7,8 +7,6 @@ Converts one file; or mutated ones of those folders for some time, writes each t
 way into the folder FAULTS, and prints how many there were.
 """
 
-from __future__ import annotations
-
 import hashlib
 import signal
 import struct

@@ -1,7 +1,5 @@
 """Pieces of random rays: the self-test of one structure over new random scenes."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from tempfile import TemporaryDirectory

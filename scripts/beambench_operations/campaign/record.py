@@ -1,7 +1,5 @@
 """The record of all campaigns, to which pieces are added, and its folder."""
 
-from __future__ import annotations
-
 import fcntl
 import json
 import os
@@ -54,11 +52,8 @@ class Record:
         self.folder.mkdir(parents=True, exist_ok=True)
         with (self.folder / "record.lock").open("w") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
-            facts = {
-                "time_utc": f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ}",
-                "commit": self._commit,
-                "machine": self._machine,
-            }
+            time = f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ}"
+            facts = {"time_utc": time, "commit": self._commit, "machine": self._machine}
             pieces = [*self.pieces(), asdict(piece) | facts]
             write_text(self.file, as_json(pieces))
 

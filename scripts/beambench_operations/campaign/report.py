@@ -1,21 +1,18 @@
 """The record as a table: Markdown for people, CSV for programs."""
 
-from __future__ import annotations
-
-import csv
-import io
-from collections import defaultdict
 from pathlib import Path
+
+import pandas as pd
 
 from beambench_operations.campaign.record import as_json
 from beambench_report.base.files import Problem, write_text
+from beambench_report.base.quantities import markdown_table
 
 _COUNTS = ("executions", "scenes", "rays", "kills", "runs")
 _COVERAGE = ("cov", "ft", "corpus")
-_COLUMNS = (
-    *("command", "subject", "pieces", *_COUNTS, "cpu_seconds", *_COVERAGE),
-    *("findings", "first_utc", "last_utc", "commits"),
-)
+_HEADS = (
+    "campaign, subject, pieces, amount, hours of processor time, edges, features, corpus, findings"
+).split(", ")
 _INTRODUCTION = """\
 # Robustness campaigns
 
@@ -27,7 +24,6 @@ sanitizers (`bsp`: by a loop in Python); edges and features are libFuzzer's of t
 `rays`: the self-test of a structure over random scenes and the scenes that are made to be hard, by
 single rays, images, and batches with pencils, from cameras anywhere.
 `kills`: a sweep, nightly runs and the cluster program, by signals at random moments.
-
 """
 
 
@@ -39,10 +35,10 @@ def write_report(pieces: list[dict], folder: Path) -> list[Path]:
     if not pieces:
         raise Problem("there is no record yet; scripts/campaign fuzz, rays or kills makes one")
     folder.mkdir(parents=True, exist_ok=True)
-    rows = summed(pieces)
+    table = summed(pieces).to_csv(index=False, lineterminator="\n")
     return [
         write_text(folder / "campaigns.md", as_markdown(pieces)),
-        write_text(folder / "campaigns.csv", _csv(rows)),
+        write_text(folder / "campaigns.csv", table),
         write_text(folder / "record.json", as_json(merged(pieces))),
     ]
 
@@ -52,111 +48,79 @@ def merged(pieces: list[dict]) -> list[dict]:
 
     The published record does not list the time of each of thousands of pieces.
     """
-    groups: dict[tuple[object, ...], list[dict]] = defaultdict(list)
+    groups: dict[tuple, dict] = {}
     for number, piece in enumerate(pieces):
-        one = number if piece["findings"] else None
-        key = (piece["command"], piece["subject"], piece["commit"], piece["machine"], one)
-        groups[key].append(piece)
-    return [_as_one(ours) if len(ours) > 1 else ours[0] for ours in groups.values()]
-
-
-def _as_one(pieces: list[dict]) -> dict:
-    what = dict.fromkeys(name for piece in pieces for name in piece["counts"])
-    return pieces[-1] | {
-        "seed": pieces[0]["seed"],
-        "counts": {name: sum(piece["counts"].get(name, 0) for piece in pieces) for name in what},
-        "cpu_seconds": round(sum(piece["cpu_seconds"] for piece in pieces), 1),
-        "pieces": sum(_pieces(piece) for piece in pieces),
-        "first_utc": min(_first(piece) for piece in pieces),
-    }
-
-
-def _pieces(piece: dict) -> int:
-    return piece.get("pieces", 1)
-
-
-def _first(piece: dict) -> str:
-    return piece.get("first_utc", piece["time_utc"])
-
-
-def summed(pieces: list[dict]) -> list[dict[str, object]]:
-    """Returns a row for each command and subject."""
-    groups: dict[tuple[str, str], list[dict]] = defaultdict(list)
-    for piece in pieces:
-        groups[piece["command"], piece["subject"]].append(piece)
-    for ours in groups.values():
-        ours.sort(key=lambda piece: piece["time_utc"])
-    return [
-        {
-            "command": command,
-            "subject": subject,
-            "pieces": sum(_pieces(piece) for piece in ours),
-            **{what: sum(piece["counts"].get(what, 0) for piece in ours) for what in _COUNTS},
-            "cpu_seconds": round(sum(piece["cpu_seconds"] for piece in ours), 1),
-            **{what: ours[-1]["coverage"].get(what, "") for what in _COVERAGE},
-            "findings": sum(len(piece["findings"]) for piece in ours),
-            "first_utc": min(_first(piece) for piece in ours),
-            "last_utc": ours[-1]["time_utc"],
-            "commits": " ".join(dict.fromkeys(piece["commit"][:7] for piece in ours)),
+        names = ("command", "subject", "commit", "machine")
+        key = (*(piece[name] for name in names), number if piece["findings"] else None)
+        if (whole := groups.get(key)) is None:
+            groups[key] = piece
+            continue
+        both = [one["counts"] for one in (whole, piece)]
+        groups[key] = piece | {
+            "seed": whole["seed"],
+            "counts": {what: sum(one.get(what, 0) for one in both) for what in both[0] | both[1]},
+            "cpu_seconds": round(whole["cpu_seconds"] + piece["cpu_seconds"], 1),
+            "pieces": whole.get("pieces", 1) + piece.get("pieces", 1),
+            "first_utc": min(one.get("first_utc", one["time_utc"]) for one in (whole, piece)),
         }
-        for (command, subject), ours in sorted(groups.items())
-    ]
+    return list(groups.values())
 
 
-def _csv(rows: list[dict[str, object]]) -> str:
-    text = io.StringIO()
-    writer = csv.DictWriter(text, _COLUMNS, lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(rows)
-    return text.getvalue()
+def summed(pieces: list[dict]) -> pd.DataFrame:
+    """Returns a row for each command and subject."""
+    rows = pd.DataFrame(
+        {
+            "command": piece["command"],
+            "subject": piece["subject"],
+            "pieces": piece.get("pieces", 1),
+            **{what: piece["counts"].get(what, 0) for what in _COUNTS},
+            "cpu_seconds": piece["cpu_seconds"],
+            **{what: piece["coverage"].get(what, "") for what in _COVERAGE},
+            "findings": len(piece["findings"]),
+            "first_utc": piece.get("first_utc", piece["time_utc"]),
+            "last_utc": piece["time_utc"],
+            "commits": piece["commit"][:7],
+        }
+        for piece in sorted(pieces, key=lambda piece: piece["time_utc"])
+    )
+    how = dict.fromkeys(rows.columns[2:], "sum") | dict.fromkeys((*_COVERAGE, "last_utc"), "last")
+    how |= {"first_utc": "min", "commits": lambda own: " ".join(dict.fromkeys(own))}
+    return rows.groupby(["command", "subject"], as_index=False).agg(how).round({"cpu_seconds": 1})
 
 
 def as_markdown(pieces: list[dict]) -> str:
     """Returns the table of all subjects, and every finding."""
     rows = summed(pieces)
-    lines = [
-        "| campaign | subject | pieces | amount | hours of processor time | edges | features "
-        "| corpus | findings |",
-        "|---|---|---|---|---|---|---|---|---|",
-    ]
-    for row in rows:
-        amount = ", ".join(f"{row[what]:,} {what}" for what in _COUNTS if row[what])
-        numbers = (*(row[what] for what in _COVERAGE), row["findings"])
-        cells = (
-            *(row["command"], f"`{row['subject']}`", row["pieces"], amount),
-            *(f"{float(str(row['cpu_seconds'])) / 3600:.2f}", *numbers),
+    table = (
+        (
+            *(row["command"], f"`{row['subject']}`", row["pieces"], _amount(row)),
+            *(f"{row['cpu_seconds'] / 3600:.2f}", *row[list(_COVERAGE)], row["findings"]),
         )
-        lines.append("| " + " | ".join(str(cell) for cell in cells) + " |")
-    lines += [
-        "",
-        "In all: " + "; ".join(_total(command, rows) for command in _commands(rows)) + ".",
-    ]
+        for _, row in rows.iterrows()
+    )
+    totals = rows.groupby("command")[[*_COUNTS, "cpu_seconds"]].sum()
+    in_all = (
+        f"{command}, {_amount(one)} in {one['cpu_seconds'] / 3600:.2f} hours of processor time"
+        for command, one in totals.iterrows()
+    )
     machines = "; ".join(dict.fromkeys(piece["machine"] for piece in pieces))
     commits = ", ".join(dict.fromkeys(piece["commit"][:7] for piece in pieces))
-    lines += ["", f"Machines: {machines}. Commits: {commits}.", "", "## Findings", ""]
     findings = [
         f"- `{piece['subject']}` at {piece['commit'][:7]}: {_plain(finding['message'])}  \n"
         f"  `{finding['command']}`"
         for piece in pieces
         for finding in piece["findings"]
     ]
-    lines += findings or ["None."]
-    return _INTRODUCTION + "\n".join(lines) + "\n"
+    lines = [
+        *(_INTRODUCTION, *markdown_table(_HEADS, (map(str, cells) for cells in table)), ""),
+        *(f"In all: {'; '.join(in_all)}.", "", f"Machines: {machines}. Commits: {commits}.", ""),
+        *("## Findings", "", *(findings or ["None."])),
+    ]
+    return "\n".join(lines) + "\n"
 
 
-def _commands(rows: list[dict[str, object]]) -> list[str]:
-    return list(dict.fromkeys(str(row["command"]) for row in rows))
-
-
-def _total(command: str, rows: list[dict[str, object]]) -> str:
-    """Returns the sentence on the subjects of a command."""
-    ours = [row for row in rows if row["command"] == command]
-
-    def total(what: str) -> float:
-        return sum(float(str(row[what])) for row in ours)
-
-    amount = ", ".join(f"{total(what):,.0f} {what}" for what in _COUNTS if total(what))
-    return f"{command}, {amount} in {total('cpu_seconds') / 3600:.2f} hours of processor time"
+def _amount(row: pd.Series) -> str:
+    return ", ".join(f"{row[what]:,.0f} {what}" for what in _COUNTS if row[what])
 
 
 def _plain(text: str) -> str:

@@ -31,41 +31,28 @@ class Increase:
         return self.after / self.before - 1 if self.before > 0 else float("inf")
 
 
-def find_increases(nights: Nights, share: float = SHARE) -> list[Increase]:
+def find_increases(nights: Nights) -> list[Increase]:
     """Returns counters that are higher in the last night than ever since the last report."""
     if len(nights.nights) < 2:
         return []
     found = []
-    names = {name for known in nights.counters.values() for name in known}
-    for name in sorted(names):
-        values = _values(nights, name)
-        before = _least_before(values, share)
-        after = values[-1]
+    counters = pd.DataFrame.from_dict(nights.counters, orient="index", dtype=float)
+    for name in sorted(counters):
+        # NaN where it was not counted; no night has the work -1.
+        *earlier, after = (
+            counters[name].reindex(nights.works.ravel()).to_numpy().reshape(nights.works.shape)
+        )
+        least = np.full(len(after), np.nan)
         with np.errstate(invalid="ignore"):
-            more = after > before * (1 + share)
+            for night in earlier:
+                reported = night > least * (1 + SHARE)
+                least = np.where(reported, night, np.fmin(least, night))
+            more = after > least * (1 + SHARE)
         found += [
-            Increase(int(cell), name, float(before[cell]), float(after[cell]))
+            Increase(int(cell), name, float(least[cell]), float(after[cell]))
             for cell in np.flatnonzero(more)
         ]
     return sorted(found, key=lambda one: -one.share)
-
-
-def _values(nights: Nights, name: str) -> np.ndarray:
-    """Returns a counter in each night of each cell; NaN where it was not counted."""
-    numbers = np.fromiter(nights.counters, int, len(nights.counters))
-    known = np.full(max(numbers, default=0) + 2, np.nan)  # the last place is that of -1
-    for number, counters in nights.counters.items():
-        known[number] = counters.get(name, np.nan)
-    return known[nights.works]
-
-
-def _least_before(values: np.ndarray, share: float) -> np.ndarray:
-    least = np.full(values.shape[1], np.nan)
-    for night in values[:-1]:
-        with np.errstate(invalid="ignore"):
-            reported = night > least * (1 + share)
-        least = np.where(reported, night, np.fmin(least, night))
-    return least
 
 
 NIGHTS = 120
@@ -92,15 +79,10 @@ def _wrong(nights: Nights) -> Iterator[tuple[str, str, dict]]:
 
 
 def _more_work(nights: Nights) -> Iterator[tuple[str, str, dict]]:
-    for increase in find_increases(nights):
-        title = cell_title(nights.cells.iloc[increase.cell])
-        name = increase.counter.removesuffix("_per_ray").replace("_", " ")
-        details = {
-            "title": title,
-            "counter": name,
-            "before": increase.before,
-            "after": increase.after,
-        }
+    for one in find_increases(nights):
+        title = cell_title(nights.cells.iloc[one.cell])
+        name = one.counter.removesuffix("_per_ray").replace("_", " ")
+        details = {"title": title, "counter": name, "before": one.before, "after": one.after}
         yield "counter", f"{title}: {name}", details
 
 

@@ -59,26 +59,18 @@ def night_of(run: Run) -> Night:
     _require_one_run(run)
     times = cycles(rows)
     references = _references(rows, times)
-    work = counters_of(rows)
     keys = keys_of(rows)
+    cells = zip(
+        *(keys, views_of(rows), inputs_of(rows), counters_of(rows), rows["verdict"], times),
+        strict=True,
+    )
     figures = []
-    for place, (key, view) in enumerate(zip(keys, views_of(rows), strict=True)):
-        row = rows.iloc[place]
+    for key, view, inputs, work, verdict, time in cells:
         base = references.get(view)
-        time = times.iloc[place]
-        ratio = None
-        if base is not None and pd.notna(time):
-            ratio = float(time / times.iloc[base])
-        figures.append(
-            Figure(
-                key,
-                f"{row.get('scene_hash', '')} {row.get('rays_hash', '')}",
-                work[place],
-                row["verdict"],
-                keys[base] if base is not None else None,
-                ratio,
-            )
-        )
+        reference = keys[base] if base is not None else None
+        has_ratio = base is not None and pd.notna(time)
+        ratio = float(time / times.iloc[base]) if has_ratio else None
+        figures.append(Figure(key, inputs, work, verdict, reference, ratio))
     last = rows.iloc[-1]
     return Night(
         last["run_id"],
@@ -91,14 +83,18 @@ def night_of(run: Run) -> Night:
     )
 
 
-def is_work(column: str) -> bool:
-    """Is it a count of work? Some structures also add times per ray."""
-    return column.endswith(COUNTER_SUFFIX) and not column.endswith(f"_ns{COUNTER_SUFFIX}")
+def inputs_of(rows: pd.DataFrame) -> list[str]:
+    """Returns the hashes of scene and rays of each row."""
+    hashes = (rows.get(name, pd.Series("", rows.index)) for name in ("scene_hash", "rays_hash"))
+    return [" ".join(pair) for pair in zip(*hashes, strict=True)]
 
 
 def counters_of(rows: pd.DataFrame) -> list[str]:
-    """Returns the counts of work of each row as JSON, sorted by name."""
-    names = sorted(str(name) for name in rows if is_work(str(name)))
+    """Returns the counts of work of each row as JSON, sorted by name.
+
+    Some structures also add times per ray.
+    """
+    names = sorted(rows.filter(regex=f"(?<!_ns){COUNTER_SUFFIX}$"))
     return [
         json.dumps(
             {name: value for name, value in row.items() if pd.notna(value)}, separators=(",", ":")
@@ -109,11 +105,8 @@ def counters_of(rows: pd.DataFrame) -> list[str]:
 
 def keys_of(rows: pd.DataFrame) -> list[Key]:
     """Returns the key that identifies each row within its run."""
-    columns = [
-        rows[name].astype(int) if name in ("width", "height", "samples") else rows[name]
-        for name in IDENTITY
-    ]
-    return list(zip(*(column.tolist() for column in columns), strict=True))
+    whole = rows[list(IDENTITY)].astype(dict.fromkeys(("width", "height", "samples"), int))
+    return list(zip(*(whole[name].tolist() for name in whole), strict=True))
 
 
 def cell_titles(rows: pd.DataFrame) -> dict[Key, str]:
@@ -156,16 +149,13 @@ def _references(rows: pd.DataFrame, times: pd.Series) -> dict[tuple, int]:
 
     Embree is the one contender that no commit of ours changes.
     """
-    best: dict[tuple, tuple[int, str, int]] = {}
-    views = views_of(rows)
-    for place, structure in enumerate(rows["structure"]):
-        if structure != "embree" or pd.isna(times.iloc[place]):
-            continue
-        parameters = rows["parameters"].iloc[place]
-        # By what it is, not by where it stands: rows come in another order each night.
-        candidate = (0 if "mode=single" in parameters else 1, parameters, place)
-        best[views[place]] = min(best.get(views[place], candidate), candidate)
-    return {view: place for view, (_, _, place) in best.items()}
+    known = rows.assign(
+        place=range(len(rows)), is_other=~rows["parameters"].str.contains("mode=single")
+    )
+    known = known[(rows["structure"] == "embree") & times.notna()]
+    # By what it is, not by where it stands: rows come in another order each night.
+    best = known.sort_values(["is_other", "parameters", "place"]).drop_duplicates(list(VIEW))
+    return dict(zip(views_of(best), best["place"].tolist(), strict=True))
 
 
 def _require_one_run(run: Run) -> None:

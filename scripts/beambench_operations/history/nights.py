@@ -97,9 +97,6 @@ def read_nights(history: History, last: int | None = None, most: int | None = No
     names = "number run_id time_utc commit dirty folder cells wrong".split()
     nights = pd.DataFrame(rows, columns=names)
     cells = _cells_of(history, tonight)
-    place_of_cell = {number: place for place, number in enumerate(cells["cell"])}
-    place_of_night = {number: place for place, number in enumerate(nights["number"])}
-
     shape = (len(nights), len(cells))
     ratios, works = np.full(shape, np.nan), np.full(shape, -1)
     # One query: a look-up for each night would take longer than all of them together.
@@ -109,13 +106,14 @@ def read_nights(history: History, last: int | None = None, most: int | None = No
         "WHERE t.night = ? AND f.night >= ?",
         (tonight, int(nights["number"].min())),
     )
-    for night, cell, work, ratio, same_reference in figures:
-        if (place := place_of_night.get(night)) is None:
-            continue
-        at = (place, place_of_cell[cell])
-        works[at] = work
-        if ratio is not None and same_reference:
-            ratios[at] = ratio
+    known = pd.DataFrame(figures, columns=["night", "cell", "work", "ratio", "same_reference"])
+    known = known[known["night"].isin(nights["number"])]
+    at = (
+        pd.Index(nights["number"]).get_indexer(known["night"]),
+        pd.Index(cells["cell"]).get_indexer(known["cell"]),
+    )
+    works[at] = known["work"]
+    ratios[at] = known["ratio"].where(known["same_reference"] == 1).astype(float)
     used = set(np.unique(works[works >= 0]).tolist())
     counters = {
         number: {RENAMED_COLUMNS.get(name, name): value for name, value in json.loads(text).items()}

@@ -134,13 +134,8 @@ class History:
                 "INSERT INTO figures VALUES (?, ?, ?, ?, ?, ?, ?)",
                 [
                     (
-                        number,
-                        cells[one.key],
-                        inputs[one.inputs],
-                        work[one.counters],
-                        cells[one.reference] if one.reference else None,
-                        one.verdict,
-                        one.ratio,
+                        *(number, cells[one.key], inputs[one.inputs], work[one.counters]),
+                        *(cells.get(one.reference), one.verdict, one.ratio),
                     )
                     for one in night.figures
                 ],
@@ -180,10 +175,11 @@ class History:
             self._base.execute("COMMIT")
 
     def _begin_or_check(self) -> None:
-        application = self._base.execute("PRAGMA application_id").fetchone()[0]
-        version = self._base.execute("PRAGMA user_version").fetchone()[0]
-        empty = self._base.execute("SELECT count(*) FROM sqlite_schema").fetchone()[0] == 0
-        if empty and application == 0 and version == 0:
+        application, version, tables = self._base.execute(
+            "SELECT application_id, user_version, (SELECT count(*) FROM sqlite_schema) "
+            "FROM pragma_application_id, pragma_user_version"
+        ).fetchone()
+        if application == version == tables == 0:
             # One script, one transaction: a history whose tables are half there is never seen.
             self._base.executescript(
                 f"BEGIN; PRAGMA application_id = {APPLICATION_ID};"
@@ -210,15 +206,8 @@ class History:
         home = self.path.parent.resolve()
         relative = place.relative_to(home) if place.is_relative_to(home) else place
         values = (
-            night.run_id,
-            night.time_utc,
-            night.commit,
-            int(night.dirty),
-            night.machine_id,
-            str(relative),
-            night.csv_sha256,
-            len(night.figures),
-            night.wrong,
+            *(night.run_id, night.time_utc, night.commit, int(night.dirty), night.machine_id),
+            *(str(relative), night.csv_sha256, len(night.figures), night.wrong),
         )
         marks = ", ".join("?" * len(values))
         cursor = self._base.execute(f"INSERT INTO nights VALUES (NULL, {marks})", values)
@@ -237,11 +226,8 @@ class History:
         self._base.executemany(
             f"INSERT OR IGNORE INTO {table} VALUES (NULL, ?)", [(text,) for text in wanted]
         )
-        found = (
-            self._base.execute(f"SELECT id FROM {table} WHERE {column} = ?", (text,)).fetchone()
-            for text in wanted
-        )
-        return {text: number for text, (number,) in zip(wanted, found, strict=True)}
+        select = f"SELECT id FROM {table} WHERE {column} = ?"
+        return {text: self._base.execute(select, (text,)).fetchone()[0] for text in wanted}
 
 
 def recorded_folders(runs: Path) -> list[Path]:

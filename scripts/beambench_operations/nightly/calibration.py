@@ -6,9 +6,10 @@ reference. Nights are then tested one by one, each with those before it, as `scr
 """
 
 import json
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass
-from math import log, log1p, sqrt
+from math import log, log1p, nan, sqrt
 from pathlib import Path
 from time import monotonic
 
@@ -27,6 +28,7 @@ SCENES = 15
 _LEAST_NIGHTS = 2 * BLOCK
 _WAIT = 24
 _REPORT_SECONDS = 10.0
+_SEED = 1999
 
 
 @dataclass(frozen=True)
@@ -166,30 +168,19 @@ def calibrate(
     nights: int = 1000,
     slowdowns: Sequence[float] = (0.01, 0.015, 0.02, 0.03, 0.05),
     effort: Effort | None = None,
-    rule: Rule | None = None,
-    seed: int = 1999,
     report: Report | None = None,
 ) -> Calibration:
     """Tests noise, and noise with a slow-down of one series; `report` gets progress."""
-    rule = rule or Rule()
-    random = np.random.default_rng(seed)
+    rule, random = Rule(), np.random.default_rng(_SEED)
     values = synthetic_nights(noise, nights, random)
     alarms = len(count_alarms(values, rule))
     # The exact interval of a Poisson count (Garwood 1936).
     low = float(stats.chi2.ppf(0.025, 2 * alarms) / 2) if alarms else 0.0
     high = float(stats.chi2.ppf(0.975, 2 * alarms + 2) / 2)
     power = _powers(noise, slowdowns, effort or Effort(), rule, random, report)
-    return Calibration(
-        nights,
-        values.shape[1],
-        alarms,
-        low,
-        high,
-        noise.standard_deviation,
-        noise.nights,
-        rule,
-        power,
-    )
+    alarmed = (alarms, low, high)
+    drawn_from = (noise.standard_deviation, noise.nights)
+    return Calibration(nights, values.shape[1], *alarmed, *drawn_from, rule, power)
 
 
 def share_interval(found: int, trials: int) -> tuple[float, float]:
@@ -227,13 +218,16 @@ def _powers(
             )
         if widest <= effort.precision:
             break
-    return tuple(_power(slowdown, found, trials) for slowdown, found in waits.items())
-
-
-def _power(slowdown: float, waits: Sequence[int], trials: int) -> Power:
-    low, high = share_interval(len(waits), trials)
-    until = float(np.median(waits)) if waits else float("nan")
-    return Power(slowdown, len(waits) / trials, low, high, trials, until)
+    return tuple(
+        Power(
+            slowdown,
+            len(found) / trials,
+            *share_interval(len(found), trials),
+            trials,
+            float(np.median(found)) if found else nan,
+        )
+        for slowdown, found in waits.items()
+    )
 
 
 def _nights_until_found(
@@ -259,14 +253,13 @@ _ROUNDS = 9  # the least repetitions of a nightly cell
 _NIGHTS = 200
 
 
-def noise_of_samples(folders: Iterable[Path], seed: int = 1999) -> Noise:
+def noise_of_samples(folders: Iterable[Path]) -> Noise:
     """Noise from the raw samples of runs. Raises Problem where none has enough of them."""
-    random = np.random.default_rng(seed)
-    scenes: dict[str, list[np.ndarray]] = {}
+    random = np.random.default_rng(_SEED)
+    scenes: dict[str, list[np.ndarray]] = defaultdict(list)
     for folder in folders:
         for scene, contenders in _views(folder):
-            nights = _nights(contenders, random)
-            scenes.setdefault(f"{folder}/{scene}", []).append(nights)
+            scenes[f"{folder}/{scene}"].append(_nights(contenders, random))
     if not scenes:
         raise Problem(
             f"no run has a view with Embree, others, and {_ROUNDS} repetitions in {LOG}; "
@@ -285,30 +278,27 @@ def noise_of_samples(folders: Iterable[Path], seed: int = 1999) -> Noise:
 
 def _views(folder: Path) -> Iterable[tuple[str, list[dict[int, float]]]]:
     """Scene and contenders of each view, Embree's single rays first."""
-    views: dict[tuple, list[tuple[bool, dict[int, float]]]] = {}
-    scenes: dict[tuple, str] = {}
+    views: dict[tuple, list[tuple[bool, dict[int, float]]]] = defaultdict(list)
     for cell in logged_cells(folder):
         row, repetitions = cell.facts, repetitions_of(cell)
         try:
             if len(repetitions) < _ROUNDS or row["structure"] == "null":
                 continue
             view = tuple(row[name] for name in VIEW)
-            logs = {one["round"]: log(_cycles(one)) for one in repetitions}
+            logs = {
+                one["round"]: log((one["build_cpu_ms"] + one["trace_cpu_ms"]) * one["clock_ghz"])
+                for one in repetitions
+            }
         except (ValueError, KeyError, TypeError) as error:
             raise Problem(
                 f"{folder / LOG}: has no repetitions of a run ({error}); measure it anew"
             ) from None
         is_reference = row["structure"] == "embree" and "mode=single" in row["parameters"]
-        views.setdefault(view, []).append((is_reference, logs))
-        scenes[view] = row["scene"]
+        views[view].append((is_reference, logs))
     for view, cells in views.items():
         cells.sort(key=lambda cell: not cell[0])
         if cells[0][0] and len(cells) > 1:
-            yield scenes[view], [logs for _, logs in cells]
-
-
-def _cycles(repetition: dict) -> float:
-    return (repetition["build_cpu_ms"] + repetition["trace_cpu_ms"]) * repetition["clock_ghz"]
+            yield view[0], [logs for _, logs in cells]
 
 
 def _nights(contenders: Sequence[dict[int, float]], random: np.random.Generator) -> np.ndarray:
@@ -316,8 +306,7 @@ def _nights(contenders: Sequence[dict[int, float]], random: np.random.Generator)
     starts = random.integers(0, rounds, _NIGHTS)
     medians = np.empty((_NIGHTS, len(contenders)))
     for place, logs in enumerate(contenders):
-        order = np.array(sorted(logs))
-        values = np.array([logs[number] for number in order])
+        order, values = np.array(sorted(logs.items())).T
         first = np.searchsorted(order, starts) % len(order)
         medians[:, place] = np.median(
             values[(first[:, None] + np.arange(_ROUNDS)) % len(order)], axis=1

@@ -13,7 +13,7 @@ together, by Holm's correction, and the ratio of all of them is made turn by tur
 """
 
 from dataclasses import dataclass
-from math import inf, sqrt
+from math import sqrt
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +21,7 @@ import pandas as pd
 from scipy import stats
 
 from beambench.analysis import Ratio, paired_ratio
+from beambench_operations.history.alarms import SHARE
 from beambench_operations.history.night import cell_titles, cycles, keys_of
 from beambench_operations.history.steps import holm
 from beambench_report.base.cell_files import IDENTITY
@@ -29,6 +30,10 @@ from beambench_report.base.records import BASELINE, NO_RAYS, TIMED_VERDICTS, UNS
 
 LEVEL = 0.01
 TOLERANCE = 0.01
+_GONE = {
+    NO_RAYS: "there are no such rays any more",
+    UNSUPPORTED: "the structure does not support this any more",
+}
 LEAST_TURNS = 6
 """The fewest pairs whose median has a 95% interval."""
 
@@ -40,19 +45,14 @@ class Comparison:
     title: str
     pairs: int
     ratio: Ratio
-    """B's time over A's: above 1, B is slower."""
+    """B's time over A's, with its interval: above 1, B is slower."""
     p_value: float
     """That B is no slower, before Holm's correction."""
 
     @property
     def is_decided(self) -> bool:
         """Does the interval rule out that B is slower by more than TOLERANCE?"""
-        return self.high <= 1 + TOLERANCE
-
-    @property
-    def high(self) -> float:
-        """The upper end of the interval; infinite where there is none."""
-        return inf if self.ratio.high is None else self.ratio.high
+        return self.ratio.high <= 1 + TOLERANCE
 
 
 @dataclass(frozen=True)
@@ -90,7 +90,12 @@ class Outcome:
         )
         if self.slower:
             worst = sorted(self.slower, key=lambda cell: -cell.ratio.value)
-            named = "; ".join(f"{cell.title} by {_percent(cell.ratio)}" for cell in worst)
+            named = "; ".join(
+                f"{cell.title} by {ratio.value - 1:.1%} "
+                f"({ratio.low - 1:+.1%} to {ratio.high - 1:+.1%})"
+                for cell in worst
+                for ratio in [cell.ratio]
+            )
             text = f"SLOWER: {len(worst)} of {len(self.cells)} cells, {rule}: {named}."
         else:
             text = f"No cell is slower {rule}.{self._undecided()}"
@@ -103,22 +108,17 @@ class Outcome:
         open_cells = [cell for cell in self.cells if not cell.is_decided]
         if not open_cells:
             return ""
-        widest = max(open_cells, key=lambda cell: cell.high)
+        widest = max(open_cells, key=lambda cell: cell.ratio.high)
         return (
             f" For {len(open_cells)} of them a slow-down by more than {TOLERANCE:.0%} is not ruled "
-            f"out: the widest interval reaches {widest.high - 1:+.1%} ({widest.title}). More turns "
-            "narrow it."
+            f"out: the widest interval reaches {widest.ratio.high - 1:+.1%} ({widest.title}). "
+            "More turns narrow it."
         )
 
 
 def _line(ratio: Ratio) -> str:
     interval = "none" if ratio.interval is None else f"{ratio.low:.4f} to {ratio.high:.4f}"
     return f"{ratio.value:7.4f}  {interval:<17}"
-
-
-def _percent(ratio: Ratio) -> str:
-    interval = "" if ratio.interval is None else f" ({ratio.low - 1:+.1%} to {ratio.high - 1:+.1%})"
-    return f"{ratio.value - 1:.1%}{interval}"
 
 
 def measure_in_turns(
@@ -159,11 +159,12 @@ def compare_turns(first: list[Path], second: list[Path]) -> Outcome:
     baselines = set(keys_of(rows_b[rows_b["verdict"] == BASELINE]))
     shared = [key for key in times_a.columns if key in times_b.columns]
     cells = [key for key in shared if key not in baselines]
-    compared = []
-    for key in cells:
-        ratio, logs = _ratio(times_b[key], times_a[key])
-        if ratio and ratio.interval:
-            compared.append(Comparison(titles[key], len(logs), ratio, _p_value(logs)))
+    ratios = ((titles[key], *_ratio(times_b[key], times_a[key])) for key in cells)
+    compared = [
+        Comparison(title, len(logs), ratio, _p_value(logs))
+        for title, ratio, logs in ratios
+        if ratio and ratio.interval
+    ]
     if not compared:
         raise Problem("no cell has times in enough turns of both programs; were their hits right?")
     together, _ = _ratio(_mean_cell(times_b[cells]), _mean_cell(times_a[cells]))
@@ -177,11 +178,9 @@ def compare_turns(first: list[Path], second: list[Path]) -> Outcome:
 
 def _table(folders: list[Path]) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Times, one row per turn and one column per cell; and the rows of the last turn."""
-    turns, rows = [], pd.DataFrame()
-    for folder in folders:
-        rows = read_run(folder).rows
-        turns.append(pd.Series(cycles(rows).to_numpy(), index=pd.Index(keys_of(rows))))
-    return pd.DataFrame(turns), rows
+    runs = [read_run(folder).rows for folder in folders]
+    turns = [pd.Series(cycles(rows).to_numpy(), pd.Index(keys_of(rows))) for rows in runs]
+    return pd.DataFrame(turns), runs[-1]
 
 
 def _ratio(times_b: pd.Series, times_a: pd.Series) -> tuple[Ratio | None, np.ndarray]:
@@ -209,17 +208,16 @@ def _differences(first: pd.DataFrame, second: pd.DataFrame, titles: dict) -> lis
     sentences = []
     for row, key in zip(both.to_dict("records"), keys_of(both), strict=True):
         title = titles[key]
-        if row["verdict_b"] == NO_RAYS and row["verdict_a"] in TIMED_VERDICTS:
-            sentences.append(f"{title}: there are no such rays any more")
-        elif row["verdict_b"] == UNSUPPORTED and row["verdict_a"] in TIMED_VERDICTS:
-            sentences.append(f"{title}: the structure does not support this any more")
-        elif row["verdict_b"] not in TIMED_VERDICTS and row["verdict_a"] in TIMED_VERDICTS:
-            sentences.append(f"{title}: the hits are now wrong ({row['verdict_b']})")
+        verdict = row["verdict_b"]
+        if row["verdict_a"] in TIMED_VERDICTS and verdict not in TIMED_VERDICTS:
+            what = _GONE.get(verdict, f"the hits are now wrong ({verdict})")
+            sentences.append(f"{title}: {what}")
         for name, after in row.items():
-            if not name.endswith("_per_ray_b") or name.endswith("_ns_per_ray_b"):
+            counter = name.removesuffix("_per_ray_b")
+            if counter == name or counter.endswith("_ns"):
                 continue
-            before = row[f"{name.removesuffix('_b')}_a"]
-            if after > before * 1.001:
-                counter = name.removesuffix("_per_ray_b").replace("_", " ")
-                sentences.append(f"{title}: {counter} per ray from {before:.6g} to {after:.6g}")
+            before = row[f"{counter}_per_ray_a"]
+            if after > before * (1 + SHARE):
+                words = counter.replace("_", " ")
+                sentences.append(f"{title}: {words} per ray from {before:.6g} to {after:.6g}")
     return sentences

@@ -8,13 +8,14 @@ import tempfile
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import groupby
 from math import exp, log, sqrt
 from pathlib import Path
 
 import pandas as pd
 
 from beambench.analysis import Median, Ratio, unpaired_ratio
-from beambench_operations.history.night import cell_titles, comparable, keys_of, views_of
+from beambench_operations.history.night import cell_titles, comparable, inputs_of, keys_of, views_of
 from beambench_report.base.cell_files import (
     CellFile,
     Identity,
@@ -56,15 +57,12 @@ class Difference:
     def text(self) -> str:
         """Structure by structure: a line for all its cells, then each cell."""
         lines = [*([self.warning, ""] if self.warning else []), self.what]
-        structures = dict.fromkeys(pair.structure for pair in self.pairs)
-        for structure in structures:
-            own = [pair for pair in self.pairs if pair.structure == structure]
+        for structure, group in groupby(self.pairs, key=lambda pair: pair.structure):
+            own = sorted(group, key=lambda pair: -pair.ratio.value)
             overall = _overall(own)
-            lines += [
-                "",
-                f"{structure}: {overall.value:.3f}{_interval(overall)} over {len(own)} cells",
-            ]
-            for pair in sorted(own, key=lambda pair: -pair.ratio.value):
+            mean = f"{overall.value:.3f}{_interval(overall)}"
+            lines += ["", f"{structure}: {mean} over {len(own)} cells"]
+            for pair in own:
                 note = "" if pair.same_input else "  (other rays or scene)"
                 lines.append(
                     f"  {pair.ratio.value:8.3f}{_interval(pair.ratio)}  {pair.title}{note}"
@@ -105,10 +103,11 @@ def diff(first: Path, second: Path, *, relative: bool | None = None) -> Differen
     reference = _reference(file_a.rows, file_b.rows) if relative else None
     known_a, known_b = _figures(file_a, reference), _figures(file_b, reference)
     titles = cell_titles(file_b.rows)
-    pairs = []
-    for key in known_a.keys() & known_b.keys():
-        (a, inputs_a), (b, inputs_b) = known_a[key], known_b[key]
-        pairs.append(Pair(key[2], titles[key], unpaired_ratio(b, a), inputs_a == inputs_b))
+    pairs = [
+        Pair(key[2], titles[key], unpaired_ratio(b, a), inputs_a == inputs_b)
+        for key in known_a.keys() & known_b.keys()
+        for (a, inputs_a), (b, inputs_b) in [(known_a[key], known_b[key])]
+    ]
     if not pairs:
         raise Problem(f"{first} and {second} have no cell in common that has times")
     pairs.sort(key=lambda pair: (pair.structure, pair.title))
@@ -165,29 +164,21 @@ def _figures(file: _File, reference: Contender | None) -> dict[Key, tuple[Median
     """The time of each cell, or its ratio to the reference, and its inputs."""
     timed = contenders_with_times(file.rows)
     rows = [row for _, row in timed.iterrows()]
-    keys = keys_of(timed)
-    inputs = [f"{row.get('scene_hash', '')} {row.get('rays_hash', '')}" for row in rows]
+    cells = list(
+        zip(
+            *(keys_of(timed), comparable(timed), _contenders(timed), rows, inputs_of(timed)),
+            strict=True,
+        )
+    )
     if reference is None:
-        return {
-            key: (median_of(row, "total"), asked)
-            for key, row, asked in zip(keys, rows, inputs, strict=True)
-        }
-    views, contenders = comparable(timed), _contenders(timed)
-    bases = {
-        view: row
-        for view, who, row in zip(views, contenders, rows, strict=True)
-        if who == reference
-    }
+        return {key: (median_of(row, "total"), asked) for key, _, _, row, asked in cells}
+    bases = {view: row for _, view, who, row, _ in cells if who == reference}
     return {
-        key: (_over(row, bases[view], file.cells), asked)
-        for key, view, who, row, asked in zip(keys, views, contenders, rows, inputs, strict=True)
+        key: (Median(ratio.value, ratio.low, ratio.high), asked)
+        for key, view, who, row, asked in cells
         if view in bases and who != reference
+        for ratio in [ratio_of("total", row, bases[view], file.cells)]
     }
-
-
-def _over(row: pd.Series, base: pd.Series, cells: Mapping[Identity, CellFile]) -> Median:
-    ratio = ratio_of("total", row, base, cells)
-    return Median(ratio.value, ratio.low, ratio.high)
 
 
 def _contenders(rows: pd.DataFrame) -> list[Contender]:

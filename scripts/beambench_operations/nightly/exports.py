@@ -14,18 +14,15 @@ from beambench_report.base.records import Run, contenders_with_times, size_of
 
 BIGGER_IS_BETTER = "benchmark-bigger-is-better.json"
 GOOGLE_BENCHMARK = "benchmark-google.json"
+_BY_BEAMBENCH = "google-benchmark.json"
 
 
 def write_exports(run: Run) -> list[Path]:
     """Writes both files into the folder of a run; the second only where there are repetitions."""
     paths = [write_text(run.directory / BIGGER_IS_BETTER, bigger_is_better(run))]
-    if _written_by_beambench(run).is_file():
+    if (run.directory / _BY_BEAMBENCH).is_file():
         paths.append(write_text(run.directory / GOOGLE_BENCHMARK, google_benchmark(run)))
     return paths
-
-
-def _written_by_beambench(run: Run) -> Path:
-    return run.directory / "google-benchmark.json"
 
 
 def bigger_is_better(run: Run) -> str:
@@ -36,13 +33,13 @@ def bigger_is_better(run: Run) -> str:
         entry = {
             "name": benchmark_name(row),
             "unit": "Mrays/s",
-            "value": _speed(row["rays"], total),
+            "value": row["rays"] / total / 1000,
             "extra": f"commit {row['commit'][:12]}, verdict {row['verdict']}, "
             f"build {row['build_ms_median']:.4g} ms, trace {row['trace_ms_median']:.4g} ms",
         }
         low, high = row["total_ms_ci_low"], row["total_ms_ci_high"]
         if pd.notna(low) and pd.notna(high) and low > 0:
-            half = (_speed(row["rays"], low) - _speed(row["rays"], high)) / 2
+            half = (row["rays"] / low - row["rays"] / high) / 2000
             entry["range"] = f"± {half:.4g}"
         entries.append(entry)
     return json.dumps(entries, indent=1, ensure_ascii=False) + "\n"
@@ -50,7 +47,7 @@ def bigger_is_better(run: Run) -> str:
 
 def google_benchmark(run: Run) -> str:
     """The repetitions, as beambench wrote them for Google Benchmark's compare.py."""
-    path = _written_by_beambench(run)
+    path = run.directory / _BY_BEAMBENCH
     if not path.is_file():
         raise Problem(f"{path}: is not there; write it: beambench analyze --write {run.directory}")
     return path.read_text("utf-8")
@@ -59,16 +56,6 @@ def google_benchmark(run: Run) -> str:
 def benchmark_name(row: pd.Series) -> str:
     """The name of a cell: as Google Benchmark's, parts between slashes, no blanks."""
     accel = f"{row['structure']}:{row['parameters']}".rstrip(":")
-    parts = (
-        row["scene"],
-        row["camera"],
-        size_of(row),
-        str(int(row["samples"])),
-        row["ray_kind"],
-        accel,
-    )
+    view = (row["scene"], row["camera"], size_of(row), f"{row['samples']:.0f}", row["ray_kind"])
+    parts = (*view, accel)
     return "/".join(part.replace(" ", "_") for part in parts)
-
-
-def _speed(rays: float, milliseconds: float) -> float:
-    return rays / milliseconds / 1000

@@ -6,7 +6,6 @@ import re
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -46,31 +45,16 @@ KEEP_SAMPLES = 30
 """How many runs keep their raw samples; CSV, manifest, sweep and pictures of mismatches stay."""
 
 
-@dataclass(frozen=True)
 class Home:
     """The files of a history."""
 
-    folder: Path
-
-    @property
-    def history(self) -> Path:
-        """The SQLite file."""
-        return self.folder / "history.sqlite"
-
-    @property
-    def lock(self) -> Path:
-        """The file that is locked while a run is in progress."""
-        return self.folder / "nightly.lock"
-
-    @property
-    def site(self) -> Path:
-        """The site over all nights."""
-        return self.folder / "site"
-
-    @property
-    def page(self) -> Path:
-        """The first page of the site."""
-        return self.site / "index.html"
+    def __init__(self, folder: Path) -> None:
+        """Names the files; none need exist."""
+        self.folder = folder
+        self.history = folder / "history.sqlite"
+        self.lock = folder / "nightly.lock"  # while a run is in progress
+        self.site = folder / "site"  # over all nights
+        self.page = self.site / "index.html"
 
     def finished(self) -> list[Path]:
         """Folders of the runs that ended, the oldest first."""

@@ -1,64 +1,62 @@
 """One night: measure, record, test for regressions, report."""
 
-from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 from beambench_operations.history.alarms import doubt, find_alarms, sentence
 from beambench_operations.history.night import night_of
 from beambench_operations.history.nights import read_nights
-from beambench_operations.history.store import Alarm, History, rebuild
+from beambench_operations.history.store import History, rebuild
 from beambench_operations.nightly.exports import write_exports
 from beambench_operations.nightly.home import Home, abandon, is_finished, prune
 from beambench_operations.nightly.mismatches import picture_mismatches
 from beambench_operations.site.write import write_site
+from beambench_report.base.command_line import Options
 from beambench_report.base.files import INTERRUPTED, Problem, load_json, run_in_foreground, say
 from beambench_report.base.records import read_run
 from beambench_report.base.run_log import has_log
 
 
-@dataclass(frozen=True)
-class Request:
-    """The options of a night."""
-
-    home: Home
-    sweep: Path
-    beambench: Path
-    published: Path | None
-    resume: bool
-    keep: int
-
-
-def run_night(request: Request, lock: int) -> int:
+def run_night(options: Options, lock: int) -> int:
     """Measures and reports a night; returns 1 where something regressed or was wrong.
 
     `lock` is the descriptor of the lock that keeps other runs away.
     """
-    catch_up(request.home)
-    folder = _folder_for(request)
-    code = _measure(request, folder, lock)
+    catch_up(options.home)
+    folder = _folder_for(options)
+    resumed = options.resume and has_log(folder)
+    arguments = ["--resume", folder] if resumed else [options.sweep, "-o", folder]
+    command = [str(part) for part in (options.beambench, "run", *arguments)]
+    code = run_in_foreground(command, pass_fds=(lock,))
     if code in INTERRUPTED:
         say("interrupted; resume with: scripts/nightly --resume (or it is abandoned next time)")
         return 130
     if code not in (0, 1) or not is_finished(folder):
         raise Problem(f"{folder}: the sweep could not be run (see above); nothing was recorded")
-    return record(request.home, folder, request.beambench, request.published, request.keep)
+    return record(options, folder)
 
 
-def record(home: Home, folder: Path, beambench: Path, published: Path | None, keep: int) -> int:
-    """Adds a finished run to the history, writes the site, prints alarms; returns the exit code."""
+def record(options: Options, folder: Path) -> int:
+    """Adds a finished run to the history, writes the site, prints alarms; returns the exit code.
+
+    The options are `home`, `beambench`, `published` and `keep`.
+    """
+    home = options.home
     run = read_run(folder)
     night = night_of(run)
-    picture_mismatches(run, beambench)
+    picture_mismatches(run, options.beambench)
     write_exports(run)
     with History(home.history) as history:
         history.add(night, folder, find_alarms)
         number = history.number_of(night.run_id)
         alarms = [alarm for alarm in history.alarms() if alarm.night == number]
         series = len(read_nights(history, number).pools)
-    prune(home, keep)
-    write_site([home.folder], home.site, published)
-    report_alarms(alarms, series)
+    prune(home, options.keep)
+    write_site([home.folder], home.site, options.published)
+    if doubtful := doubt(alarms, series):
+        say(doubtful)
+    for alarm in alarms:
+        say(f"REGRESSION {sentence(alarm)}" if alarm.kind != "verdict" else sentence(alarm))
     print(home.page)
     return 1 if alarms else 0
 
@@ -83,51 +81,36 @@ def rebuild_history(home: Home) -> int:
     return rebuild(home.history, home.finished(), find_alarms)
 
 
-def report_alarms(alarms: list[Alarm], series: int) -> None:
-    """Prints alarms, one line each."""
-    if doubtful := doubt(alarms, series):
-        say(doubtful)
-    for alarm in alarms:
-        say(f"REGRESSION {sentence(alarm)}" if alarm.kind != "verdict" else sentence(alarm))
-
-
-def describe(request: Request) -> str:
+def describe(options: Options) -> str:
     """Returns a description of what a night would do."""
-    sweep = load_json(request.sweep)
-    runs = request.home.finished()
+    sweep = load_json(options.sweep)
+    runs = options.home.finished()
     lines = [
-        f"sweep      {request.sweep} ({sweep.get('budget_seconds', 0) / 60:.0f} min)",
+        f"sweep      {options.sweep} ({sweep.get('budget_seconds', 0) / 60:.0f} min)",
         f"           {sweep.get('description', '')}",
-        f"history    {request.home.history} ({len(runs)} nights)",
-        f"page       {request.home.page}",
+        f"history    {options.home.history} ({len(runs)} nights)",
+        f"page       {options.home.page}",
     ]
-    for run in request.home.unfinished():
-        what = "would be resumed" if request.resume else "would be abandoned"
+    for run in options.home.unfinished():
+        what = "would be resumed" if options.resume else "would be abandoned"
         lines.append(f"cut off    {run} ({what})")
     return "\n".join(lines) + "\n"
 
 
-def _folder_for(request: Request) -> Path:
+def _folder_for(options: Options) -> Path:
     """Returns the run to resume, or a new one after renaming interrupted runs."""
-    unfinished = request.home.unfinished()
-    if request.resume:
+    unfinished = options.home.unfinished()
+    if options.resume:
         if not unfinished:
-            raise Problem(f"{request.home.folder}: no run was cut off; leave out --resume")
+            raise Problem(f"{options.home.folder}: no run was cut off; leave out --resume")
         return unfinished[-1]
     for run in unfinished:
         say(f"== {run.name} was cut off: abandoned")
         abandon(run)
-    return _free_folder(request.home.folder, datetime.now(UTC))
+    return _free_folder(options.home.folder, datetime.now(UTC))
 
 
 def _free_folder(home: Path, time: datetime) -> Path:
     """Returns a folder named by this time, or by the first later second without a run."""
     folder = home / time.strftime("%Y%m%dT%H%M%SZ")
     return _free_folder(home, time + timedelta(seconds=1)) if folder.exists() else folder
-
-
-def _measure(request: Request, folder: Path, lock: int) -> int:
-    resume = request.resume and has_log(folder)
-    arguments = ["--resume", folder] if resume else [request.sweep, "-o", folder]
-    command = [str(part) for part in (request.beambench, "run", *arguments)]
-    return run_in_foreground(command, pass_fds=(lock,))

@@ -1,49 +1,29 @@
 """The command line of scripts/publish."""
 
-from __future__ import annotations
-
-import argparse
 import signal
 import sys
 from dataclasses import replace
 from pathlib import Path
-from typing import NoReturn
 
 from beambench_operations.publish.documents import PUBLISHED, differences, write_documents
-from beambench_operations.publish.make import Interrupted, Place, make_folder
-from beambench_operations.publish.needs import Debian13, Given, missing, plugins_for
+from beambench_operations.publish.make import Place, make_folder
+from beambench_operations.publish.needs import Debian13, missing, plugins_for
 from beambench_operations.publish.plan import Folder, Plan, as_table, read_plan
 from beambench_operations.publish.progress import Progress, is_published, progress_of, seconds_of
 from beambench_operations.publish.provenance import Provenance, git, preflight, require_clean
 from beambench_operations.publish.small import size
 from beambench_operations.publish.verified_again import verify_again, write_summary
 from beambench_operations.site.write import write_site
+from beambench_report.base.command_line import BEAMBENCH, Options, ScriptParser
 from beambench_report.base.files import ROOT, Problem, load_json, say
 from beambench_report.base.quantities import size_in_words
 
 _ASIDE = ROOT / "results/runs/publish"
-_BUILT = ROOT / "build/release/bin/beambench"
 
 
 def main(arguments: list[str]) -> int:
     """Returns the exit code."""
-    try:
-        return _run(_parser().parse_args(arguments))
-    except Problem as problem:
-        print(f"error: {problem} (see scripts/publish --help)", file=sys.stderr)
-        return 2
-    except (Interrupted, KeyboardInterrupt):
-        say("interrupted; the same command goes on from here on this machine")
-        return 130
-
-
-class _Parser(argparse.ArgumentParser):
-    def error(self, message: str) -> NoReturn:
-        raise Problem(message)
-
-
-def _parser() -> argparse.ArgumentParser:
-    parser = _Parser("scripts/publish", add_help=False, allow_abbrev=False)
+    parser = ScriptParser("publish")
     parser.add_argument("--only", nargs="+", default=[], metavar="FOLDER")
     parser.add_argument("--plan", "--dry-run", action="store_true")
     parser.add_argument("--texts", action="store_true")
@@ -55,41 +35,43 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--debian-13", type=Path, metavar="DIR")
     parser.add_argument("--aside", type=Path, default=_ASIDE, metavar="DIR")
     parser.add_argument("--published", type=Path, default=PUBLISHED, metavar="DIR")
-    parser.add_argument("--beambench", type=Path, default=_BUILT, metavar="PROGRAM")
-    return parser
+    parser.add_argument("--beambench", type=Path, default=BEAMBENCH, metavar="PROGRAM")
+    interrupted = "interrupted; the same command goes on from here on this machine"
+    return parser.run(_run, arguments, interrupted)
 
 
-def _run(options: argparse.Namespace) -> int:
-    options.aside, options.published = options.aside.absolute(), options.published.absolute()
+def _run(options: Options) -> int:
+    for name in ("aside", "published", "beambench"):
+        setattr(options, name, getattr(options, name).absolute())
     plan = read_plan().only(options.only)
     if options.check:
-        return _check(options.published)
+        found = differences(options.published)
+        print(*found, sep="\n", end="\n" if found else "")
+        return 1 if found else 0
     if options.texts:
         for path in write_documents(options.published):
             print(path)
         return 0
-    beambench = options.beambench.absolute()
     if options.verify_again:
-        return _verify_again(options, beambench)
+        return _verify_again(options)
     if options.plan:
-        provenance = preflight(beambench) if beambench.is_file() else None
-        print(as_table(plan, _states(plan, options, provenance), _took(plan, options.published)))
+        provenance = preflight(options.beambench) if options.beambench.is_file() else None
+        took = {one.name: seconds_of(options.published / one.name) for one in plan.folders}
+        states = {
+            one.name: _state(one, options, provenance) or _begun(one, options, provenance)
+            for one in plan.folders
+            if provenance
+        }
+        print(as_table(plan, states, took))
         return 0
-    return _make(plan, options, preflight(beambench))
+    return _make(plan, options, preflight(options.beambench))
 
 
-def _check(published: Path) -> int:
-    found = differences(published)
-    for one in found:
-        print(one)
-    return 1 if found else 0
-
-
-def _verify_again(options: argparse.Namespace, beambench: Path) -> int:
+def _verify_again(options: Options) -> int:
     """Verifies all committed cells; writes the differences to results/published."""
-    commit = preflight(beambench).commit
+    commit = preflight(options.beambench).commit
     record = options.aside.parent / f"verified-again-{commit[:12]}.jsonl"
-    lines = verify_again(options.published, beambench, record)
+    lines = verify_again(options.published, options.beambench, record)
     path = write_summary(options.published / "verified-again.json", lines, commit)
     found = load_json(path)
     for name in ("hashes_changed", "verdicts_changed", "classes_changed"):
@@ -99,52 +81,31 @@ def _verify_again(options: argparse.Namespace, beambench: Path) -> int:
     return 1 if wrong else 0
 
 
-def _given(options: argparse.Namespace) -> Given:
-    return Given(options.tinybvh, options.madmann91_bvh, options.debian_13, tuple(options.only))
+def _state(folder: Folder, options: Options, provenance: Provenance) -> str:
+    """Returns why a folder is not made: it is complete, or left as it is; empty if it is made."""
+    if is_published(options.published / folder.name, provenance):
+        return "complete"
+    lack = missing(folder, options, provenance)
+    return f"left as it is: {lack}" if lack else ""
 
 
-def _states(
-    plan: Plan, options: argparse.Namespace, provenance: Provenance | None
-) -> dict[str, str]:
-    """Returns the state of each folder."""
-    if provenance is None:
-        return {}
-    states = {}
-    for folder in plan.folders:
-        lack = missing(folder, _given(options), options.beambench, provenance)
-        begun = progress_of(options.aside / folder.name, provenance)
-        if is_published(options.published / folder.name, provenance):
-            states[folder.name] = "complete"
-        elif lack:
-            states[folder.name] = f"left as it is: {lack}"
-        elif begun:
-            states[folder.name] = f"{len(begun.seconds)} of {len(folder.steps)} steps are done"
-    return states
+def _begun(folder: Folder, options: Options, provenance: Provenance) -> str:
+    begun = progress_of(options.aside / folder.name, provenance)
+    return f"{len(begun.seconds)} of {len(folder.steps)} steps are done" if begun else ""
 
 
-def _took(plan: Plan, published: Path) -> dict[str, float]:
-    """Returns the seconds that the published folders took."""
-    known = {folder.name: seconds_of(published / folder.name) for folder in plan.folders}
-    return {name: seconds for name, seconds in known.items() if seconds is not None}
-
-
-def _make(plan: Plan, options: argparse.Namespace, provenance: Provenance) -> int:
+def _make(plan: Plan, options: Options, provenance: Provenance) -> int:
     require_clean(provenance)
     signal.signal(signal.SIGTERM, signal.default_int_handler)
-    given = _given(options)
     say(f"Commit {provenance.commit[:7]} on {provenance.cpu}, {provenance.cores} cores")
     for warning in provenance.warnings:
         say(f"warning: {warning}")
     wrong = False
     for folder in plan.folders:
-        published = options.published / folder.name
-        lack = missing(folder, given, options.beambench, provenance)
-        if is_published(published, provenance):
-            say(f"== {folder.name} is complete")
-        elif lack:
-            say(f"== {folder.name} is left as it is: {lack}")
+        if state := _state(folder, options, provenance):
+            say(f"== {folder.name} is {state}")
         else:
-            progress = _made(folder, given, options)
+            progress = _made(folder, options)
             has_texts = _write_texts(options.published)
             wrong = wrong or bool(progress.wrong) or not has_texts
             _commit(folder, provenance, options)
@@ -163,21 +124,20 @@ def _write_texts(published: Path) -> bool:
     return True
 
 
-def _made(folder: Folder, given: Given, options: argparse.Namespace) -> Progress:
-    beambench = options.beambench.absolute()
-    provenance = preflight(beambench)
+def _made(folder: Folder, options: Options) -> Progress:
+    provenance = preflight(options.beambench)
     for warning in provenance.warnings:
         say(f"warning before {folder.name}: {warning}")
-    place = Place(options.aside, options.published, beambench)
+    place = Place(options.aside, options.published, options.beambench)
     if folder.needs == "libraries":
-        place = replace(place, plugins=plugins_for(given))
-    if folder.needs == "debian-13" and given.debian_13:
-        system = Debian13(given.debian_13, provenance.commit)
+        place = replace(place, plugins=plugins_for(options))
+    if folder.needs == "debian-13" and options.debian_13:
+        system = Debian13(options.debian_13, provenance.commit)
         place = replace(place, run=lambda command, _: system.run(command, options.aside))
     return make_folder(folder, place, provenance)
 
 
-def _commit(folder: Folder, provenance: Provenance, options: argparse.Namespace) -> None:
+def _commit(folder: Folder, provenance: Provenance, options: Options) -> None:
     relative = options.published.relative_to(ROOT)
     words = f"Published: {folder.title} ({provenance.commit[:7]})"
     if options.commit:

@@ -13,13 +13,13 @@ from dataclasses import dataclass
 from functools import cache, partial
 from importlib import import_module
 from importlib.util import find_spec
+from itertools import islice, zip_longest
 from pathlib import Path
 from typing import Any
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined, TemplateError
 
-from beambench_operations.publish.figures.every import counted
-from beambench_operations.publish.figures.files import plot
+from beambench_operations.publish.figures.cells import counted
 from beambench_operations.publish.figures.formats import FILTERS, cited, holds
 from beambench_operations.publish.figures.origins import made, origins
 from beambench_operations.publish.layout import laid_out
@@ -74,20 +74,16 @@ class Difference:
 
 def differences(published: Path = PUBLISHED) -> list[Difference]:
     """Returns the first line of each text that differs from what is computed."""
-    found = (_difference(document) for document in documents(published))
-    return [one for one in found if one is not None]
-
-
-def _difference(document: Document) -> Difference | None:
-    stated = document.path.read_text("utf-8") if document.path.is_file() else ""
-    computed = document.text()
-    if stated == computed:
-        return None
-    lines = [text.split("\n") for text in (stated, computed)]
-    length = max(len(own) for own in lines)
-    padded = [own + [""] * (length - len(own)) for own in lines]
-    place = next(i for i, (a, b) in enumerate(zip(*padded, strict=True)) if a != b)
-    return Difference(document.path, place + 1, padded[0][place], padded[1][place])
+    found = []
+    for document in documents(published):
+        stated = document.path.read_text("utf-8") if document.path.is_file() else ""
+        both = (text.split("\n") for text in (stated, document.text()))
+        lines = enumerate(zip_longest(*both, fillvalue=""), 1)
+        found += [
+            Difference(document.path, number, *pair)
+            for number, pair in islice((one for one in lines if one[1][0] != one[1][1]), 1)
+        ]
+    return found
 
 
 def _reports(published: Path) -> Iterator[Document]:
@@ -107,7 +103,7 @@ def _rendered(published: Path) -> Iterator[Document]:
         autoescape=False,
     )
     environment.filters |= FILTERS
-    environment.globals |= {"cited": cited, "holds": holds, "plot": plot}
+    environment.globals |= {"cited": cited, "holds": holds, "plot": _plot}
     known = _Folders(published)
     for template in sorted(published.rglob(f"*.md{SUFFIX}")):
         name = str(template.relative_to(published))
@@ -116,6 +112,12 @@ def _rendered(published: Path) -> Iterator[Document]:
             template,
             lambda template=template, name=name: _render(environment, template, name, known),
         )
+
+
+def _plot(folder: Path, stem: str) -> str:
+    """Returns the name of a plot: the SVG if there is one, else the PNG of an earlier commit."""
+    is_png = (folder / f"{stem}.png").is_file() and not (folder / f"{stem}.svg").is_file()
+    return f"{stem}.png" if is_png else f"{stem}.svg"
 
 
 def _render(environment: Environment, template: Path, name: str, known: _Folders) -> str:
@@ -127,12 +129,10 @@ def _render(environment: Environment, template: Path, name: str, known: _Folders
     try:
         own = known.all() if folder == known.published else known.of(folder.name)
         text = environment.get_template(name).render(own | {"made": made, "folder": folder})
-    except TemplateError as error:
+    except (TemplateError, LookupError, ValueError, TypeError, ZeroDivisionError) as error:
         line = getattr(error, "lineno", None) or _line_of(error, template)
-        raise Problem(f"{template}{f':{line}' if line else ''}: {error.message}") from None
-    except (KeyError, ValueError, TypeError, ZeroDivisionError, IndexError) as error:
-        line = _line_of(error, template)
-        what = error if isinstance(error, ValueError) else repr(error)
+        says_all = isinstance(error, TemplateError | ValueError)
+        what = getattr(error, "message", error) if says_all else repr(error)
         raise Problem(f"{template}{f':{line}' if line else ''}: {what}") from None
     title, _, rest = text.partition("\n")
     return f"{title}\n{note}{laid_out(rest)}"
@@ -164,18 +164,8 @@ class _Folders:
     def all(self) -> dict[str, Any]:
         """Returns the variables of the page over all folders."""
         names = sorted(one.name for one in self.published.iterdir() if one.is_dir())
-        lazy = {_identifier(name): _Lazy(self, name) for name in names}
-        return {"folders": names, "every": counted(self.published)} | lazy
-
-
-class _Lazy:
-    """The figures of one folder, as attributes."""
-
-    def __init__(self, folders: _Folders, name: str) -> None:
-        self._folders, self._name = folders, name
-
-    def __getitem__(self, figure: str) -> object:
-        return self._folders.of(self._name)[figure]
+        by_identifier = {_identifier(name): self.of(name) for name in names}
+        return {"folders": names, "every": counted(self.published)} | by_identifier
 
 
 def _identifier(name: str) -> str:

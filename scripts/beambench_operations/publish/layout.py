@@ -1,14 +1,14 @@
-"""Line breaks in Markdown, since figures are longer or shorter than their expressions."""
-
-from __future__ import annotations
+"""Line breaks in Markdown, since figures vary in length, and the images that it shows."""
 
 import re
 import textwrap
+from pathlib import Path
 
 _WIDTH = 120
 _OTHER = re.compile(r"^(?:$|#|\||!\[|<!--)")
 _FENCE = "```"
 _ITEM = re.compile(r"^\s*- ")
+_IMAGE = re.compile(r"\]\(([^)\s:]+)\.png\)")
 
 
 def laid_out(text: str) -> str:
@@ -49,3 +49,13 @@ def _filled(block: list[str]) -> list[str]:
         break_long_words=False,
         break_on_hyphens=False,
     )
+
+
+def with_small_images(text: str, folder: Path) -> str:
+    """Returns the text with links to SVG where FOLDER has them: PNGs of plots are not committed."""
+
+    def smaller(found: re.Match[str]) -> str:
+        has_svg = (folder / f"{found[1]}.svg").is_file()
+        return f"]({found[1]}.svg)" if has_svg else found[0]
+
+    return _IMAGE.sub(smaller, text)

@@ -1,21 +1,26 @@
 """Making one folder: first aside, step by step, then moved into results/published."""
 
-from __future__ import annotations
-
 import json
 import shutil
-import subprocess
 import sys
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
-from beambench_operations.publish.plan import Command, Folder, Step, Sweep
+from beambench_operations.nightly.home import is_finished
+from beambench_operations.publish.plan import Command, Folder, Sweep
 from beambench_operations.publish.progress import Progress, progress_of, state_file
 from beambench_operations.publish.provenance import Provenance
 from beambench_operations.publish.small import leave_out, make_small
-from beambench_report.base.files import INTERRUPTED, ROOT, Problem, read_json, say, write_text
+from beambench_report.base.files import (
+    INTERRUPTED,
+    ROOT,
+    Problem,
+    run_in_foreground,
+    say,
+    write_text,
+)
 from beambench_report.base.quantities import duration_in_words
 
 WRONG_HITS = 1
@@ -26,7 +31,7 @@ Run = Callable[[Sequence[str], Path | None], int]
 """Runs a program, its standard output into a file or nowhere; returns its exit code."""
 
 
-class Interrupted(Exception):  # noqa: N818 (no error)
+class Interrupted(KeyboardInterrupt):
     """The user ended it; what was finished is kept."""
 
 
@@ -61,7 +66,7 @@ def make_folder(folder: Folder, place: Place, provenance: Provenance) -> Progres
     progress = progress_of(target, provenance)
     if progress is None:
         shutil.rmtree(target, ignore_errors=True)
-        progress = Progress(target, provenance.as_record())
+        progress = Progress(target, asdict(provenance))
         progress.keep()
     target.mkdir(parents=True, exist_ok=True)
     for number, step in enumerate(folder.steps):
@@ -69,7 +74,8 @@ def make_folder(folder: Folder, place: Place, provenance: Provenance) -> Progres
             continue
         say(f"== {folder.name}, {number + 1} of {len(folder.steps)}: {step.words}")
         begun = time.monotonic()
-        code = _do(step, target, place)
+        work = _sweep if isinstance(step, Sweep) else _command
+        code = work(step, target, place)
         if code in INTERRUPTED:
             raise Interrupted
         if code not in (0, WRONG_HITS):
@@ -84,11 +90,11 @@ def make_folder(folder: Folder, place: Place, provenance: Provenance) -> Progres
 def run_program(command: Sequence[str], into: Path | None) -> int:
     """Runs a program; messages go to the terminal, its output into a file or nowhere."""
     if into is None:
-        return _wait(subprocess.Popen(command, stdout=subprocess.DEVNULL))
+        return run_in_foreground(command)
     into.parent.mkdir(parents=True, exist_ok=True)
     pending = into.with_name(f".pending-{into.name}")
     with pending.open("wb") as output:
-        code = _wait(subprocess.Popen(command, stdout=output))
+        code = run_in_foreground(command, output=output)
     if code in (0, WRONG_HITS):
         pending.replace(into)
     else:
@@ -96,36 +102,16 @@ def run_program(command: Sequence[str], into: Path | None) -> int:
     return code
 
 
-def _wait(child: subprocess.Popen[bytes]) -> int:
-    try:
-        return child.wait()
-    except KeyboardInterrupt:
-        child.wait()
-        return INTERRUPTED[0]
-
-
-def _do(step: Step, target: Path, place: Place) -> int:
-    if isinstance(step, Sweep):
-        return _sweep(step, target, place)
-    return _command(step, target, place)
-
-
 def _sweep(step: Sweep, target: Path, place: Place) -> int:
     run = target / step.into
     beambench = [str(place.beambench), *(f"--plugin={one}" for one in place.plugins), "run"]
     if (run / "config.json").is_file():
-        if _is_finished(run):
+        if is_finished(run):  # before that could be recorded here
             return 0
         return place.run([*beambench, "--resume", str(run)], None)
     config = target.with_name(f"{target.name}.sweep.json")
     write_text(config, json.dumps(step.config(), indent=1) + "\n")
     return place.run([*beambench, str(config), "-o", str(run)], None)
-
-
-def _is_finished(run: Path) -> bool:
-    """Did the run finish before that could be recorded here?"""
-    manifest = read_json(run / "manifest.json")
-    return isinstance(manifest, dict) and bool(manifest.get("finished_utc"))
 
 
 def _command(step: Command, target: Path, place: Place) -> int:
@@ -140,9 +126,9 @@ def _publish(folder: Folder, progress: Progress, published: Path) -> None:
     leave_out(progress.folder, folder.leave_out)
     make_small(progress.folder)
     progress.publish()
-    kept = [*folder.keep, *_templates(published)]
-    for name in kept:
-        source, target = published / name, progress.folder / name
+    written_by_hand = (*published.rglob("*.md.j2"), *published.glob("README.md"))
+    for source in (*(published / name for name in folder.keep), *written_by_hand):
+        target = progress.folder / source.relative_to(published)
         if source.is_file() and not target.is_file():
             target.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(source, target)
@@ -157,9 +143,3 @@ def _publish(folder: Folder, progress: Progress, published: Path) -> None:
     shutil.move(str(progress.folder), published)
     shutil.rmtree(former, ignore_errors=True)
     state_file(progress.folder).unlink(missing_ok=True)
-
-
-def _templates(published: Path) -> list[str]:
-    """Returns templates and texts that are written by hand."""
-    texts = (*published.rglob("*.md.j2"), *published.glob("README.md"))
-    return [str(path.relative_to(published)) for path in texts]

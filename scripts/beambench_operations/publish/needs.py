@@ -1,17 +1,15 @@
 """Requirements of some folders beyond the built program."""
 
-from __future__ import annotations
-
 import os
 import shlex
 import shutil
 import subprocess
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from beambench_operations.publish.plan import Folder
 from beambench_operations.publish.provenance import Provenance
+from beambench_report.base.command_line import Options
 from beambench_report.base.files import ROOT, Problem, say
 
 _MESH = "mesh:cat"
@@ -20,27 +18,16 @@ _ASIDE = "results/runs/aside"
 """Below the clone: the folders that are being made."""
 
 
-@dataclass(frozen=True)
-class Given:
-    """The paths given by options."""
+def missing(folder: Folder, given: Options, provenance: Provenance) -> str:
+    """Returns why a folder cannot be made here, with the remedy; empty if it can.
 
-    tinybvh: Path | None = None
-    """Folder with tiny_bvh.h."""
-    madmann91_bvh: Path | None = None
-    """Folder with bvh/v2/bvh.h."""
-    debian_13: Path | None = None
-    """Root folder of a Debian 13; made there by debootstrap where it is none yet."""
-    named: tuple[str, ...] = ()
-    """The folders that are wanted by name."""
-
-
-def missing(folder: Folder, given: Given, beambench: Path, provenance: Provenance) -> str:
-    """Returns why a folder cannot be made here, with the remedy; empty if it can."""
+    `given` are the options of scripts/publish.
+    """
     if folder.embree and not provenance.embree.startswith(f"{folder.embree}."):
         return f"it takes Embree {folder.embree}, and this program has {provenance.embree}"
-    if folder.needs == "meshes" and not _knows(beambench, _MESH):
+    if folder.needs == "meshes" and not _knows(given.beambench, _MESH):
         return "the meshes are not registered; register them with scripts/meshes"
-    if folder.needs == "its name" and folder.name not in given.named:
+    if folder.needs == "its name" and folder.name not in given.only:
         return f"name it, for it takes long: --only {folder.name}"
     if folder.needs == "libraries" and not (given.tinybvh and given.madmann91_bvh):
         return "give --tinybvh DIR and --madmann91-bvh DIR; its table keeps its commit"
@@ -54,7 +41,7 @@ def _knows(beambench: Path, scene: str) -> bool:
     return subprocess.run(command, capture_output=True, check=False).returncode == 0
 
 
-def plugins_for(given: Given) -> list[Path]:
+def plugins_for(given: Options) -> list[Path]:
     """Builds the adapters of the libraries. Raises Problem where that fails."""
     if not (given.tinybvh and given.madmann91_bvh):
         return []

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -74,9 +74,9 @@ class Folder:
     """
     embree: str = ""
     """The major version of Embree that it takes; empty: any."""
-    keep: tuple[str, ...] = ()
+    keep: Sequence[str] = ()
     """Files of an earlier commit that no step makes; the texts name their commit."""
-    leave_out: tuple[str, ...] = ()
+    leave_out: Sequence[str] = ()
     """Files and folders that steps make and nothing published needs; patterns."""
     is_apart: bool = False
     """Is its time not part of the whole?"""
@@ -101,27 +101,23 @@ class Plan:
 
     def only(self, names: Iterable[str]) -> Plan:
         """Returns the named folders, or all if none is named. Raises Problem for an unknown one."""
-        wanted = list(names)
-        known = [one.name for one in self.folders]
-        for name in wanted:
-            if name not in known:
-                raise Problem(f"no folder '{name}' is planned, only {', '.join(known)}")
-        if not wanted:
-            return self
-        return Plan(tuple(one for one in self.folders if one.name in wanted), self.most_minutes)
+        known = {one.name: one for one in self.folders}
+        for name in (wanted := set(names)) - known.keys():
+            raise Problem(f"no folder '{name}' is planned, only {', '.join(known)}")
+        folders = (one for one in self.folders if one.name in wanted or not wanted)
+        return Plan(tuple(folders), self.most_minutes)
 
 
 def read_plan(path: Path = PLAN) -> Plan:
     """Reads the plan. Raises Problem where the file is not a plan."""
     try:
         source = load_json(path)
-        folders = tuple(_folder(entry) for entry in source["folders"])
-        return Plan(folders, source["most_minutes"])
+        return Plan(tuple(map(_folder, source["folders"])), source["most_minutes"])
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise Problem(f"{path}: is not a plan ({error!r}); restore it with git") from None
 
 
-def as_table(plan: Plan, states: dict[str, str], took: dict[str, float]) -> str:
+def as_table(plan: Plan, states: dict[str, str], took: dict[str, float | None]) -> str:
     """Returns the plan as a table.
 
     `states` has the state of each folder, `took` the seconds that the published one took.
@@ -131,7 +127,7 @@ def as_table(plan: Plan, states: dict[str, str], took: dict[str, float]) -> str:
             one.name,
             one.title,
             f"{one.seconds / 60:.1f}{' (apart)' if one.is_apart else ''}",
-            f"{took[one.name] / 60:.1f}" if one.name in took else "",
+            f"{seconds / 60:.1f}" if (seconds := took.get(one.name)) is not None else "",
             states.get(one.name, ""),
         )
         for one in plan.folders
@@ -142,16 +138,9 @@ def as_table(plan: Plan, states: dict[str, str], took: dict[str, float]) -> str:
 
 
 def _folder(entry: dict[str, Any]) -> Folder:
-    return Folder(
-        entry["name"],
-        entry["title"],
-        tuple(_step(step) for step in entry["steps"]),
-        entry.get("needs", ""),
-        entry.get("embree", ""),
-        tuple(entry.get("keep", ())),
-        tuple(entry.get("leave_out", ())),
-        "apart" in entry,
-    )
+    steps = tuple(_step(step) for step in entry["steps"])
+    plain = {name: value for name, value in entry.items() if name not in ("steps", "apart")}
+    return Folder(**plain, steps=steps, is_apart="apart" in entry)
 
 
 def _step(entry: dict[str, Any]) -> Step:

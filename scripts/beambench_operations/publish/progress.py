@@ -1,7 +1,5 @@
 """The progress of a folder, stored next to it while it is made and inside it once published."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -35,14 +33,15 @@ class Progress:
     def keep(self) -> None:
         """Writes the progress next to the folder, so that an interrupted run can continue."""
         self.folder.parent.mkdir(parents=True, exist_ok=True)
-        write_text(state_file(self.folder), json.dumps(self._document(), indent=1) + "\n")
+        self._write(state_file(self.folder))
 
     def publish(self) -> None:
         """Writes the progress into the folder, which is complete."""
-        write_text(self.folder / RECORD, json.dumps(self._document(), indent=1) + "\n")
+        self._write(self.folder / RECORD)
 
-    def _document(self) -> dict[str, object]:
-        return {"made_by": self.made_by, "seconds": self.seconds, "wrong": self.wrong}
+    def _write(self, file: Path) -> None:
+        document = {"made_by": self.made_by, "seconds": self.seconds, "wrong": self.wrong}
+        write_text(file, json.dumps(document, indent=1) + "\n")
 
 
 def state_file(folder: Path) -> Path:

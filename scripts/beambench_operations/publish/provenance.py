@@ -1,11 +1,9 @@
 """The commit and machine that make a folder, and checks that the working tree is clean."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import tempfile
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 
 from beambench_report.base.files import ROOT, Problem, output_of, read_json
@@ -51,14 +49,10 @@ class Provenance:
         return found
 
     def is_of(self, other: dict[str, object]) -> bool:
-        """Is a record of `as_record` from this machine and the same sources?"""
+        """Is a record from this machine and the same sources?"""
         return other.get("machine_id") == self.machine_id and same_sources(
             str(other.get("commit", "")), self.commit
         )
-
-    def as_record(self) -> dict[str, object]:
-        """Returns the record for the file in a folder."""
-        return asdict(self)
 
 
 def preflight(beambench: Path) -> Provenance:

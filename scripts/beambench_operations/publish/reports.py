@@ -1,7 +1,5 @@
 """Reports in results/published that other commands write from the same rows."""
 
-from __future__ import annotations
-
 import shutil
 import tempfile
 from collections.abc import Callable, Sequence
@@ -10,7 +8,7 @@ from pathlib import Path
 
 from beambench_operations.campaign.record import Record
 from beambench_operations.campaign.report import as_markdown as as_campaigns
-from beambench_operations.publish.images import with_small_images
+from beambench_operations.publish.layout import with_small_images
 from beambench_report.base.records import read_run
 from beambench_report.embree_comparison.pairings import pairings
 from beambench_report.embree_comparison.report import as_markdown as as_comparison
@@ -28,14 +26,6 @@ BEAT_EMBREE = ("main", "scenes", "soup", "cones", "avx2", "scaling", "resolution
 PENCILS = ("shadows", "mirrors", "pictures")
 
 
-def _winners(folder: Path) -> str:
-    return str(write_winners(folder, None))
-
-
-def _ratios(to: str, folder: Path) -> str:
-    return str(write_ratios(folder, to, None))
-
-
 def _comparison(names: Sequence[str], folder: Path) -> str:
     """Returns the comparison, with the figures in its folder."""
     runs = [read_run(folder / name) for name in names if (folder / name).is_dir()]
@@ -46,10 +36,6 @@ def _comparison(names: Sequence[str], folder: Path) -> str:
 def _thesis(folder: Path) -> str:
     """Returns the report on the thesis; the pictures of octrees exist, so none are drawn."""
     return as_thesis(gather(folder, read_plan(folder), Path()))
-
-
-def _campaigns(folder: Path) -> str:
-    return as_campaigns(Record(folder).pieces())
 
 
 def _in_copy(write: Callable[[Path], object], folder: Path) -> str:
@@ -66,12 +52,12 @@ _REPORTS: dict[str, Callable[[Path], str]] = {
     "cluster/report.md": partial(_in_copy, write_cluster),
     "haines/report.md": partial(_in_copy, write_haines),
     "havran/report.md": partial(_in_copy, write_havran),
-    "libraries/embree-4/to-embree.md": partial(_ratios, WATERTIGHT),
-    "libraries/to-embree.md": partial(_ratios, WATERTIGHT),
-    "libraries/to-tinybvh.md": partial(_ratios, "tinybvh"),
+    "libraries/embree-4/to-embree.md": partial(write_ratios, base=WATERTIGHT),
+    "libraries/to-embree.md": partial(write_ratios, base=WATERTIGHT),
+    "libraries/to-tinybvh.md": partial(write_ratios, base="tinybvh"),
     "pencils/report.md": partial(_comparison, PENCILS),
-    "robustness/campaigns.md": _campaigns,
-    "structures/winners.md": _winners,
+    "robustness/campaigns.md": lambda folder: as_campaigns(Record(folder).pieces()),
+    "structures/winners.md": write_winners,
     "thesis/report.md": _thesis,
 }
 

@@ -1,23 +1,27 @@
 """What of a run is committed: small files from which every figure can be computed again."""
 
-from __future__ import annotations
-
 import gzip
 import shutil
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 from PIL import Image
 
-from beambench_operations.publish.images import with_small_images
+from beambench_operations.publish.layout import with_small_images
 from beambench_report.base.files import write_text
 from beambench_report.base.run_log import LOG, PACKED_LOG
 
 _COLORS = 256
-_NOT_COMMITTED = ("analysis.json", "google-benchmark.json", "report.html", "*answers.jsonl")
-"""The last: what an interrupted simulation of the cluster goes on from."""
-_FOLDERS_NOT_COMMITTED = ("tasks",)
-"""What single beams cost, from which only simulations of the cluster begin."""
+_NOT_COMMITTED = (
+    "analysis.json",
+    "google-benchmark.json",
+    "report.html",
+    "*answers.jsonl",
+    "tasks",
+)
+"""Interrupted simulations of the cluster go on from `answers`, and begin from `tasks`: what single
+beams cost.
+"""
 
 
 def make_small(folder: Path) -> None:
@@ -27,12 +31,7 @@ def make_small(folder: Path) -> None:
     """
     for log in sorted(folder.rglob(LOG)):
         _pack(log)
-    for name in _NOT_COMMITTED:
-        for file in folder.rglob(name):
-            file.unlink()
-    for name in _FOLDERS_NOT_COMMITTED:
-        for inner in sorted(folder.rglob(name)):
-            shutil.rmtree(inner)
+    leave_out(folder, [f"**/{name}" for name in _NOT_COMMITTED])
     make_images_small(folder)
 
 
@@ -88,8 +87,4 @@ def with_palette(picture: Path) -> None:
 
 def size(folder: Path) -> int:
     """Bytes of all files."""
-    return sum(file.stat().st_size for file in _files(folder))
-
-
-def _files(folder: Path) -> Iterator[Path]:
-    return (file for file in folder.rglob("*") if file.is_file())
+    return sum(file.stat().st_size for file in folder.rglob("*") if file.is_file())

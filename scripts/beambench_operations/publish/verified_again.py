@@ -3,69 +3,43 @@
 Each view of the published runs is traced once by each of its contenders. Times are not compared.
 """
 
-from __future__ import annotations
-
-import csv
 import json
 from collections import defaultdict
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+import pandas as pd
+
+from beambench_report.base.columns import RENAMED_COLUMNS
 from beambench_report.base.files import Problem, load_json, output_of, say, write_text
+from beambench_report.base.records import ERROR, NO_RAYS, UNSUPPORTED
 
 CLASSES = ("agree", "tie", "graze", "structure_error", "embree_error")
+_VIEW = ["scene", "camera", "resolution", "samples", "ray_kind"]
 _OTHER_LIBRARIES = ("embree-4", "libraries")
 """Folders whose hits come from libraries that this build does not have."""
 
 
-@dataclass(frozen=True, order=True)
-class View:
-    """The scene, camera and rays that some rows share."""
+def committed(published: Path) -> dict[tuple, pd.DataFrame]:
+    """Returns the rows of each view of all committed runs; of a cell that several have, the last.
 
-    scene: str
-    camera: str
-    resolution: str
-    samples: int
-    rays: str
-
-    def title(self) -> str:
-        """Returns the view in words."""
-        return f"{self.scene}, {self.camera}, {self.resolution}, {self.samples}, {self.rays}"
-
-
-@dataclass
-class Committed:
-    """The rows of a view: its hash, and by contender the verdict and the counts of classes."""
-
-    rays_hash: str
-    contenders: dict[str, dict[str, Any]] = field(default_factory=dict)
-
-
-def committed(published: Path) -> dict[View, Committed]:
-    """Returns the views of all committed runs; of a cell that several runs have, the last row."""
-    views: dict[View, Committed] = {}
-    for path in sorted(published.rglob("results.csv")):
-        if path.relative_to(published).parts[0] in _OTHER_LIBRARIES:
-            continue
-        for row in _rows(path):
-            if row["verdict"] in ("no_rays", "unsupported", "error"):
-                continue
-            view = View(
-                row["scene"],
-                row["camera"],
-                f"{row['width']}x{row['height']}",
-                int(row["samples"]),
-                row["ray_kind"],
-            )
-            found = views.setdefault(view, Committed(row["rays_hash"]))
-            found.contenders[_contender(row)] = {
-                "verdict": row["verdict"],
-                **{name: int(row[name]) for name in CLASSES},
-            }
-    return dict(sorted(views.items()))
+    Columns added: `resolution`, and `contender`, as the option --accel takes it.
+    """
+    rows = pd.concat(
+        pd.read_csv(path, dtype=str, keep_default_na=False).rename(columns=RENAMED_COLUMNS)
+        for path in sorted(published.rglob("results.csv"))
+        if path.relative_to(published).parts[0] not in _OTHER_LIBRARIES
+    )
+    rows = rows[~rows["verdict"].isin((NO_RAYS, UNSUPPORTED, ERROR))]
+    rows = rows.assign(
+        resolution=rows["width"] + "x" + rows["height"],
+        samples=rows["samples"].astype(int),
+        contender=(rows["structure"] + ":" + rows["parameters"]).str.rstrip(":"),
+    )
+    rows["rays_hash"] = rows.groupby(_VIEW)["rays_hash"].transform("first")
+    return dict(iter(rows.drop_duplicates([*_VIEW, "contender"], keep="last").groupby(_VIEW)))
 
 
 def verify_again(published: Path, beambench: Path, record: Path) -> list[dict[str, Any]]:
@@ -74,21 +48,21 @@ def verify_again(published: Path, beambench: Path, record: Path) -> list[dict[st
     `record` gets a line for each view when it is done; views that it has are not verified again.
     """
     done = {line["view"]: line for line in _lines(record)}
-    views = committed(published)
-    for number, (view, rows) in enumerate(views.items(), 1):
-        if view.title() in done:
+    views = {", ".join(map(str, view)): rows for view, rows in committed(published).items()}
+    record.parent.mkdir(parents=True, exist_ok=True)
+    for number, (title, rows) in enumerate(views.items(), 1):
+        if title in done:
             continue
-        say(f"[{number}/{len(views)}] {view.title()}")
-        line: dict[str, Any] = {"view": view.title(), "verified": 0, "cells": []}
+        say(f"[{number}/{len(views)}] {title}")
+        line: dict[str, Any] = {"view": title, "verified": 0, "cells": []}
         try:
-            line |= _compared(rows, _verified(view, rows, beambench))
+            line |= _compared(rows, _verified(title, rows, beambench))
         except Problem as problem:  # a mesh that is not here
             line["problem"] = str(problem)
-        record.parent.mkdir(parents=True, exist_ok=True)
         with record.open("a", encoding="utf-8") as file:
             file.write(json.dumps(line) + "\n")
-        done[view.title()] = line
-    return [done[view.title()] for view in views]
+        done[title] = line
+    return [done[title] for title in views]
 
 
 def summary(lines: list[dict[str, Any]], commit: str) -> dict[str, Any]:
@@ -118,20 +92,8 @@ def write_summary(path: Path, lines: list[dict[str, Any]], commit: str) -> Path:
     return write_text(path, json.dumps(summary(lines, commit), indent=1) + "\n")
 
 
-def _rows(path: Path) -> Iterator[dict[str, str]]:
-    with path.open(encoding="utf-8", newline="") as file:
-        for row in csv.DictReader(file):
-            if "engine_error" in row:  # the column's first name
-                row["structure_error"] = row["engine_error"]
-            yield row
-
-
 def _is_new_verdict(cell: dict[str, Any]) -> bool:
     return bool(cell["before"]["verdict"] != cell["now"]["verdict"])
-
-
-def _contender(row: dict[str, Any]) -> str:
-    return ":".join(text for text in (row["structure"], row["parameters"]) if text)
 
 
 def _lines(record: Path) -> Iterator[dict[str, Any]]:
@@ -145,39 +107,40 @@ def _lines(record: Path) -> Iterator[dict[str, Any]]:
             return
 
 
-def _verified(view: View, rows: Committed, beambench: Path) -> list[dict[str, Any]]:
+def _verified(title: str, rows: pd.DataFrame, beambench: Path) -> list[dict[str, Any]]:
+    view = rows.iloc[0]
     with TemporaryDirectory() as folder:
         found = Path(folder) / "verified.json"
         output_of(
             [
-                *(str(beambench), "verify", view.scene, "--camera", view.camera),
-                *("--resolution", view.resolution, "--samples", str(view.samples)),
-                *("--rays", view.rays, "--accel", ",".join(rows.contenders)),
+                *(str(beambench), "verify", view["scene"], "--camera", view["camera"]),
+                *("--resolution", view["resolution"], "--samples", str(view["samples"])),
+                *("--rays", view["ray_kind"], "--accel", ",".join(rows["contender"])),
                 *("--json", str(found)),
             ],
             success=(0, 1),
         )
-        report = load_json(found)
-    cells: list[dict[str, Any]] = report["cells"]
-    if len(cells) != len(rows.contenders):
-        raise Problem(f"{view.title()}: {len(cells)} of {len(rows.contenders)} cells were verified")
+        cells: list[dict[str, Any]] = load_json(found)["cells"]
+    if len(cells) != len(rows):
+        raise Problem(f"{title}: {len(cells)} of {len(rows)} cells were verified")
     return cells
 
 
-def _compared(rows: Committed, cells: list[dict[str, Any]]) -> dict[str, Any]:
+def _compared(rows: pd.DataFrame, cells: list[dict[str, Any]]) -> dict[str, Any]:
     """Returns what differs. Counts of classes are compared only where the rays are the same."""
-    now_hash = next((cell["rays_hash"] for cell in cells if "rays_hash" in cell), rows.rays_hash)
-    same_rays = now_hash == rows.rays_hash
+    rays_hash = rows["rays_hash"].iloc[0]
+    now_hash = next((cell["rays_hash"] for cell in cells if "rays_hash" in cell), rays_hash)
+    same_rays = now_hash == rays_hash
+    keys = ("verdict", *CLASSES) if same_rays else ("verdict",)
     changed = []
     # The program verifies the exhaustive search first, the others in their order.
-    order = sorted(rows.contenders, key=lambda each: not each.startswith("exhaustive"))
-    for contender, cell in zip(order, cells, strict=True):
-        before = rows.contenders[contender]
-        now = {name: cell[name] for name in ("verdict", *CLASSES) if name in cell}
-        keys = ("verdict", *CLASSES) if same_rays else ("verdict",)
+    order = sorted(rows.to_dict("records"), key=lambda row: row["structure"] != "exhaustive")
+    for row, cell in zip(order, cells, strict=True):
+        before = {"verdict": row["verdict"], **{name: int(row[name]) for name in CLASSES}}
+        now = {name: cell[name] for name in before if name in cell}
         if any(before[key] != now.get(key) for key in keys):
-            changed.append({"contender": contender, "before": before, "now": now})
+            changed.append({"contender": row["contender"], "before": before, "now": now})
     line: dict[str, Any] = {"verified": len(cells), "cells": changed}
     if not same_rays:
-        line["hash"] = {"before": rows.rays_hash, "now": now_hash}
+        line["hash"] = {"before": rays_hash, "now": now_hash}
     return line

@@ -71,9 +71,7 @@ class Repository:
         return f"{self.url}/-" if "gitlab" in self.url else self.url
 
     def _known(self, commit: str) -> bool:
-        if not _HASH.fullmatch(commit):
-            return False
-        return self._git("cat-file", "-t", commit) == "commit"
+        return bool(_HASH.fullmatch(commit)) and self._git("cat-file", "-t", commit) == "commit"
 
     def _git(self, *arguments: str) -> str:
         return _output_of("git", "-C", str(self.folder), *arguments)

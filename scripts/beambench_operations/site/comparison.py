@@ -57,15 +57,9 @@ class Comparison:
         """Only then are milliseconds compared."""
         return not self.warning
 
-    @property
-    def slower(self) -> int:
-        """How many ratios are higher, by their intervals."""
-        return sum(pair.side == "slower" for pair in self.pairs)
-
-    @property
-    def faster(self) -> int:
-        """How many ratios are lower, by their intervals."""
-        return sum(pair.side == "faster" for pair in self.pairs)
+    def count(self, side: str) -> int:
+        """How many ratios are higher (`slower`) or lower (`faster`), by their intervals."""
+        return sum(pair.side == side for pair in self.pairs)
 
     @property
     def compared(self) -> int:
@@ -84,36 +78,31 @@ def compare(before: Entry, after: Entry) -> Comparison:
         )
     reference, then_ratios, now_ratios = _ratios(before, after)
     known = {cell.key: cell for cell in before.cells}
-    pairs, verdicts, others, more = [], [], 0, 0
-    for cell in after.cells:
-        then = known.pop(cell.key, None)
-        if then is None:
-            continue
-        if then.inputs != cell.inputs:
-            others += 1
-            continue
-        if then.verdict != cell.verdict:
-            verdicts.append(
-                f"{cell.contender} in {cell.view} at {cell.size}: {then.verdict} before, "
-                f"{cell.verdict} now."
-            )
-        more += then.work != cell.work
+    both = [(known[cell.key], cell) for cell in after.cells if cell.key in known]
+    alike = [(then, cell) for then, cell in both if then.inputs == cell.inputs]
+    pairs = []
+    for then, cell in alike:
         ratios = (then_ratios.get(cell.key), now_ratios.get(cell.key))
-        pairs.append(
-            Pair(
-                then,
-                cell,
-                ratios,
-                _change(*ratios),
-                None if warning else _change(then.ms, cell.ms),
-            )
-        )
-    new = len(after.cells) - (len(before.cells) - len(known))
+        ms = None if warning else _change(then.ms, cell.ms)
+        pairs.append(Pair(then, cell, ratios, _change(*ratios), ms))
+    verdicts = [
+        f"{cell.contender} in {cell.view} at {cell.size}: {then.verdict} before, "
+        f"{cell.verdict} now."
+        for then, cell in alike
+        if then.verdict != cell.verdict
+    ]
+    counts = (
+        (sum(then.work != cell.work for then, cell in alike), "has", "have", "other counters."),
+        (len(both) - len(alike), "has", "have", "other rays or scenes; they are not compared."),
+        (len(after.cells) - len(both), "is", "are", "new."),
+        (len(before.cells) - len(both), "is", "are", "gone."),
+    )
     sentences = verdicts[:_MOST]
-    sentences += _counted(more, "cells have other counters.", "cell has other counters.")
-    sentences += _counted(others, "cells have other rays or scenes; they are not compared.")
-    sentences += _counted(new, "cells are new.", "cell is new.")
-    sentences += _counted(len(known), "cells are gone.", "cell is gone.")
+    sentences += [
+        f"{count:,} cell {one} {words}" if count == 1 else f"{count:,} cells {many} {words}"
+        for count, one, many, words in counts
+        if count
+    ]
     pairs.sort(key=lambda pair: -abs((pair.ratio.value if pair.ratio else 1.0) - 1))
     return Comparison(before, after, reference, warning, tuple(sentences), tuple(pairs))
 
@@ -158,9 +147,3 @@ def _over(reference: str, cells: Sequence[Cell]) -> dict[str, Ends]:
 
 def _change(before: Ends | None, after: Ends | None) -> Ratio | None:
     return unpaired_ratio(Median(*after), Median(*before)) if before and after else None
-
-
-def _counted(count: int, many: str, one: str | None = None) -> list[str]:
-    if count == 0:
-        return []
-    return [f"{count:,} {one if count == 1 and one else many}"]

@@ -13,7 +13,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from beambench.analysis import Median, Ratio
-from beambench_operations.history.night import comparable, counters_of
+from beambench_operations.history.night import comparable, counters_of, inputs_of
 from beambench_report.base.analysis import Analysis, has_analysis, read_analysis
 from beambench_report.base.cell_files import (
     CellFile,
@@ -152,19 +152,19 @@ def _reference(run: Run) -> tuple[str, str] | None:
 
 def _fastest(analysis: Analysis) -> tuple[str, ...]:
     """Who has the least geometric mean of trace times, and in how many views it is ahead."""
-    words = []
-    for one in analysis.means:
-        first = one.means[0]
-        kind = f"{one.ray_kind}: " if len(analysis.means) > 1 else ""
-        words.append(f"{kind}{first.contender} ({first.wins} of {one.views})")
-    return tuple(words)
+    several = len(analysis.means) > 1
+    return tuple(
+        f"{f'{one.ray_kind}: ' if several else ''}{first.contender} ({first.wins} of {one.views})"
+        for one in analysis.means
+        for first in one.means[:1]
+    )
 
 
 def _cells(
     run: Run, files: Mapping[Identity, CellFile], reference: tuple[str, str] | None
 ) -> tuple[Cell, ...]:
     rows = run.rows.to_dict("records")
-    views, work = comparable(run.rows), counters_of(run.rows)
+    views, work, inputs = (of(run.rows) for of in (comparable, counters_of, inputs_of))
     bases = {
         view: row
         for view, row in zip(views, rows, strict=True)
@@ -173,7 +173,7 @@ def _cells(
         and row["total_ms_median"] > 0
     }
     cells = []
-    for row, view, counters in zip(rows, views, work, strict=True):
+    for row, view, counters, hashes in zip(rows, views, work, inputs, strict=True):
         timed = row["timed"] and row["total_ms_median"] > 0
         ratio = ratio_of("total", row, bases[view], files) if timed and view in bases else None
         cells.append(
@@ -183,7 +183,7 @@ def _cells(
                 size_of(row),
                 row["contender"],
                 row["verdict"],
-                _digest(f"{row.get('scene_hash', '')} {row.get('rays_hash', '')}"),
+                _digest(hashes),
                 _digest(counters),
                 _small(median_of(row, "total")) if timed else None,
                 _small(ratio) if ratio else None,

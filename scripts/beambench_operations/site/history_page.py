@@ -2,6 +2,7 @@
 
 import base64
 import json
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,12 +16,13 @@ from beambench_operations.history.store import Alarm
 from beambench_operations.site.changes import Repository
 from beambench_operations.site.machine_history import MachineHistory
 from beambench_report.base.figure import structure_color
-from beambench_report.base.files import load_json
+from beambench_report.base.files import read_json
 from beambench_report.base.records import size_of
 from beambench_report.run.html import data_uri
 
 MISMATCHES = "mismatches/mismatches.json"
 _MOST_EARLIER = 30
+_KINDS = {"time": "slower", "counter": "more work", "verdict": "wrong hits"}
 # Logarithms of ratios in steps of 0.05%, as 16-bit integers: a year of nights in two megabytes.
 _STEP = 2000.0
 _MISSING = -32768
@@ -45,7 +47,7 @@ def page_values(history: MachineHistory, address: Address, repository: Repositor
     return {
         "count": len(nights.nights),
         "newest": rows[-1],
-        "alarms": [_in_words(one) for one in history.tonight],
+        "alarms": [(_KINDS[one.kind], sentence(one)) for one in history.tonight],
         "doubt": doubt(history.tonight, len(nights.pools)),
         "earlier": _earlier(history, address),
         "left_out": history.left_out,
@@ -59,9 +61,7 @@ def page_values(history: MachineHistory, address: Address, repository: Repositor
 
 def _rows(history: MachineHistory, address: Address, repository: Repository) -> list[dict]:
     """A line for each run, the oldest first."""
-    counts: dict[int, int] = {}
-    for alarm in history.alarms:
-        counts[alarm.night] = counts.get(alarm.night, 0) + 1
+    counts = Counter(alarm.night for alarm in history.alarms)
     rows, before = [], ""
     for place, night in enumerate(history.nights.nights.to_dict("records")):
         commit = night["commit"]
@@ -73,16 +73,11 @@ def _rows(history: MachineHistory, address: Address, repository: Repository) -> 
                 "time": night["time_utc"].replace("T", " ").replace("Z", "") or night["run_id"],
                 "subject": repository.subject(commit),
                 "change": repository.change(before, commit) if before else None,
-                "alarms": counts.get(night["number"], 0),
+                "alarms": counts[night["number"]],
             }
         )
         before = commit
     return rows
-
-
-def _in_words(alarm: Alarm) -> tuple[str, str]:
-    kinds = {"time": "slower", "counter": "more work", "verdict": "wrong hits"}
-    return kinds[alarm.kind], sentence(alarm)
 
 
 def _earlier(history: MachineHistory, address: Address) -> list[tuple[str, str, str]]:
@@ -157,17 +152,16 @@ def pack_ratios(ratios: np.ndarray) -> str:
 def read_mismatches(directory: Path) -> list[Mismatch]:
     """The pictures that a nightly run made of what was wrong."""
     index = directory / MISMATCHES
-    if not index.exists():
-        return []
+    captions = {
+        "picture": "as the structure sees it",
+        "difference": "where it differs from the oracle",
+    }
     found = []
-    for entry in load_json(index):
+    for entry in read_json(index) or []:
         images = tuple(
-            (data_uri(index.with_name(entry[kind])), caption)
-            for kind, caption in (
-                ("picture", "as the structure sees it"),
-                ("difference", "where it differs from the oracle"),
-            )
-            if kind in entry and index.with_name(entry[kind]).exists()
+            (data_uri(file), caption)
+            for kind, caption in captions.items()
+            if (file := index.with_name(entry.get(kind, "nothing"))).exists()
         )
         found.append(Mismatch(f"{entry['contender']} in {entry['view']}", images))
     return found

@@ -38,6 +38,8 @@ def history_of(runs: Sequence[tuple[str, Path]], known: Sequence[Path]) -> Machi
 
     None if it has fewer than two runs.
     """
+    if len(runs) < 2:
+        return None
     with ExitStack() as stack:
         best, most = None, 0
         for path in known:

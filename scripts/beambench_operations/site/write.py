@@ -8,7 +8,9 @@ site.json                  the files of the site, so that the next one removes w
 """
 
 import json
+import os
 import re
+from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -18,7 +20,6 @@ import pandas as pd
 from beambench_operations.site.changes import Repository
 from beambench_operations.site.comparison import Comparison, compare
 from beambench_operations.site.entry import Entry, as_script, entry_of, read_script, stamp_of
-from beambench_operations.site.find import find_runs
 from beambench_operations.site.history_page import page_values, read_mismatches
 from beambench_operations.site.machine_history import MachineHistory, history_of
 from beambench_report.base.files import Problem, read_json, write_text
@@ -32,6 +33,8 @@ _TEMPLATES = Path(__file__).with_name("templates")
 _DRAWN = KINDS[:1]
 """Of runs whose folder has no plots; all kinds would take a second a run."""
 _FILES = "site.json"
+_RUN_FILES = {"results.csv", "manifest.json"}
+_HISTORY = "history.sqlite"
 _BRAND = re.compile(r'(<p class="brand">)([^<]*)(</p>)')
 
 
@@ -72,19 +75,14 @@ class _Site:
         self.write(place, made.render(**shared, **values))
 
 
-def write_site(
-    folders: Iterable[Path],
-    target: Path,
-    published: Path | None = None,
-    repository: Repository | None = None,
-) -> Path:
+def write_site(folders: Iterable[Path], target: Path, published: Path | None = None) -> Path:
     """Writes the site of all runs below the folders; returns its first page.
 
     The newest run of the sweep of the run `published` is also compared with that run. Raises
     Problem if there is no run, or if `target` contains other files.
     """
-    found, histories = find_runs([*folders, *([published] if published else [])])
-    site = _Site(target, repository or Repository())
+    found, histories = _find_runs([*folders, *([published] if published else [])])
+    site = _Site(target, Repository())
     former = _former_files(target)
     runs, broken, doubles = _write_runs(site, found)
     _write_comparisons(site, runs, published)
@@ -106,6 +104,30 @@ def write_site(
     return target / "index.html"
 
 
+def _find_runs(folders: Iterable[Path]) -> tuple[list[Path], list[Path]]:
+    """Returns the folders of runs below given ones, each once, and the histories of nightly runs.
+
+    Abandoned runs and hidden folders are left out. Raises Problem where a folder does not exist, or
+    where no run is found.
+    """
+    runs: dict[Path, Path] = {}
+    histories: dict[Path, Path] = {}
+    for folder in (wanted := list(folders)):
+        if not folder.is_dir():
+            raise Problem(f"{folder}: is not a folder; give folders of runs, or that hold runs")
+        for place, names, files in os.walk(folder):
+            here = Path(place)
+            if _RUN_FILES & set(files):
+                runs.setdefault(here.resolve(), here)
+                names.clear()
+            if _HISTORY in files:
+                histories.setdefault(here.resolve(), here / _HISTORY)
+            names[:] = sorted(name for name in names if not name.startswith((".", "abandoned-")))
+    if not runs:
+        raise Problem(f"{', '.join(map(str, wanted))}: holds no run; `beambench run` writes runs")
+    return list(runs.values()), list(histories.values())
+
+
 def _former_files(target: Path) -> set[str]:
     """Returns the files of the existing site. Raises Problem for a folder of anything else."""
     files = read_json(target / _FILES)
@@ -121,14 +143,16 @@ def _write_runs(
     runs, broken, doubles = [], [], []
     names: dict[str, Path] = {}
     for run_id, folder in sorted((_run_id(folder), folder) for folder in folders):
-        name = _free_name(run_id, names)
+        first = _slug(run_id)
+        free = (first, *(f"{first}-{number}" for number in range(2, len(names) + 3)))
+        name = next(one for one in free if one not in names)
         try:
             entry, changed = _write_run(site, name, folder)
         except Exception as error:  # whatever a record holds, the others get their pages
             prefix = "" if isinstance(error, Problem) else f"{type(error).__name__}: "
             broken.append((folder, f"{prefix}{error}"))
             continue
-        if name != (first := _slug(run_id)):
+        if name != first:
             doubles.append(
                 f"The run {run_id} is there twice: {names[first]} is {first}, {folder} is {name}."
             )
@@ -149,14 +173,6 @@ def _run_id(folder: Path) -> str:
 
 def _slug(text: str) -> str:
     return re.sub(r"[^A-Za-z0-9._-]+", "-", text).strip(".-") or "run"
-
-
-def _free_name(run_id: str, taken: Iterable[str]) -> str:
-    name, count = _slug(run_id), 1
-    while name in taken:
-        count += 1
-        name = f"{_slug(run_id)}-{count}"
-    return name
 
 
 def _write_run(site: _Site, name: str, folder: Path) -> tuple[Entry, bool]:
@@ -180,10 +196,10 @@ def _write_run(site: _Site, name: str, folder: Path) -> tuple[Entry, bool]:
 def _write_comparisons(site: _Site, runs: Sequence[_Run], published: Path | None) -> None:
     """Compares each run with its predecessor on the sweep, and with that on its machine."""
     known = published.resolve() if published else None
-    by_sweep: dict[str, list[_Run]] = {}
+    by_sweep: dict[str, list[_Run]] = defaultdict(list)
     for run in runs:
-        if run.entry.sweep:
-            by_sweep.setdefault(run.entry.sweep, []).append(run)
+        by_sweep[run.entry.sweep].append(run)
+    by_sweep.pop("", None)
     for own in by_sweep.values():
         for place, run in enumerate(own):
             earlier = own[:place][::-1]
@@ -218,38 +234,33 @@ def _write_histories(
     site: _Site, runs: Sequence[_Run], known: Sequence[Path]
 ) -> list[dict[str, object]]:
     """Writes a page for each sweep and machine with two or more runs; returns their index lines."""
-    groups: dict[tuple[str, str], list[_Run]] = {}
+    groups: dict[tuple[str, str], list[_Run]] = defaultdict(list)
     for run in runs:
         if run.entry.sweep and not run.entry.cut_off:
-            groups.setdefault((run.entry.sweep, str(run.entry.machine)), []).append(run)
+            groups[run.entry.sweep, str(run.entry.machine)].append(run)
     listed = []
     for (sweep, machine), own in groups.items():
-        if len(own) < 2:
-            continue
         history = history_of([(run.entry.run_id, run.folder) for run in own], known)
         if history is None:
             continue
         href = f"history/{_slug(f'{sweep}-{machine}')}.html"
         for run in own:
             run.history = href
-        _write_history(site, href, sweep, machine, history, runs)
-        labels = {"href": href, "sweep": sweep, "machine": machine}
+        labels = {"sweep": sweep, "machine": machine}
+        _write_history(site, href, labels, history, runs)
         counts = {"count": len(history.nights.nights), "alarms": len(history.tonight)}
-        listed.append(labels | counts)
+        listed.append({"href": href} | labels | counts)
     return listed
 
 
 def _write_history(
     site: _Site,
     href: str,
-    sweep: str,
-    machine: str,
+    labels: dict[str, str],
     history: MachineHistory,
     runs: Sequence[_Run],
 ) -> None:
-    by_id: dict[str, _Run] = {}
-    for run in runs:
-        by_id.setdefault(run.entry.run_id, run)
+    by_id = {run.entry.run_id: run for run in reversed(runs)}
 
     def address(run_id: str) -> str:
         return f"../runs/{by_id[run_id].name}/index.html" if run_id in by_id else ""
@@ -258,8 +269,7 @@ def _write_history(
     site.page(
         href,
         "history.html.j2",
-        sweep=sweep,
-        machine=machine,
+        **labels,
         comparisons=_comparisons_of(newest, runs) if newest else [],
         mismatches=read_mismatches(newest.folder) if newest else [],
         **page_values(history, address, site.repository),

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import inf
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from beambench import InputError
 from beambench.analysis import Ratio, analyze
@@ -19,6 +19,7 @@ from beambench_report.base.run_log import has_log
 ANALYSIS = "analysis.json"
 _EMBREE = "embree"
 _Json = Mapping[str, Any]
+_Kind = TypeVar("_Kind")
 
 
 @dataclass(frozen=True)
@@ -215,15 +216,16 @@ def read_analysis(directory: Path) -> Analysis:
 
 
 def _analysis(source: _Json) -> Analysis:
+    counts = ("cells", "failed", "without_rays", "unsupported")
     return Analysis(
-        source["cells"],
-        source["failed"],
-        source["without_rays"],
-        source["unsupported"],
+        *(source[name] for name in counts),
         tuple(source["reasons_for_care"]),
         tuple(_view(view) for view in source["views"]),
         tuple(
-            Overall(one["ray_kind"], one["views"], _means(one["means"]), _means(one["references"]))
+            Overall(
+                *(one["ray_kind"], one["views"]),
+                *(_with_ratios(Mean, one[name]) for name in ("means", "references")),
+            )
             for one in source["means"]
         ),
         tuple(Overhead(**one) for one in source["harness_overheads"]),
@@ -234,11 +236,10 @@ def _view(source: _Json) -> Standings:
     break_even = source.get("break_even")
     return Standings(
         **{name: source[name] for name in ("view", "subject", "ray_kind", "size", "rays")},
-        ranked=_standings(source["ranked"]),
-        references=_standings(source["references"]),
+        **{name: source[name] for name in ("unrecorded", "in_means")},
+        ranked=_with_ratios(Standing, source["ranked"]),
+        references=_with_ratios(Standing, source["references"]),
         left_out=tuple((one["contender"], one["reason"]) for one in source["left_out"]),
-        unrecorded=source["unrecorded"],
-        in_means=source["in_means"],
         break_even=break_even
         and BreakEven(
             inf if break_even["rays"] is None else break_even["rays"],
@@ -248,9 +249,5 @@ def _view(source: _Json) -> Standings:
     )
 
 
-def _standings(source: Sequence[_Json]) -> tuple[Standing, ...]:
-    return tuple(Standing(**{**one, "ratio": Ratio(**one["ratio"])}) for one in source)
-
-
-def _means(source: Sequence[_Json]) -> tuple[Mean, ...]:
-    return tuple(Mean(**{**one, "ratio": Ratio(**one["ratio"])}) for one in source)
+def _with_ratios(kind: type[_Kind], source: Sequence[_Json]) -> tuple[_Kind, ...]:
+    return tuple(kind(**{**one, "ratio": Ratio(**one["ratio"])}) for one in source)

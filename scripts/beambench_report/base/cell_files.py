@@ -44,15 +44,14 @@ class CellFile:
 
 def identity(row: Mapping[str, object]) -> Identity:
     """What identifies a row within its run."""
-    return tuple(_plain(row[name]) for name in IDENTITY)
+    values = (row[name] for name in IDENTITY)
+    return tuple(str(int(one)) if isinstance(one, float) else str(one) for one in values)
 
 
 def read_cell_files(directory: Path) -> dict[Identity, CellFile]:
     """Reads every cell of the log that has an end or repetitions; none where there is no log."""
     return {
-        identity(cell.facts): _cell_file(
-            cell.message, tuple(_example(text) for text in cell.examples), repetitions_of(cell)
-        )
+        identity(cell.facts): _cell_file(cell)
         for cell in logged_cells(directory)
         if cell.is_finished or cell.verdict
     }
@@ -86,19 +85,17 @@ def ratio_of(
     return paired or unpaired_ratio(median_of(row, phase), median_of(base, phase))
 
 
-def _cell_file(
-    message: str, examples: tuple[Example, ...], repetitions: list[Repetition]
-) -> CellFile:
-    total, trace, warm, clock = {}, {}, {}, {}
-    for repetition in repetitions:
-        turn = repetition["round"]
-        trace[turn] = repetition["trace_ms"]
-        total[turn] = repetition["build_ms"] + trace[turn]
-        if "warm_trace_ms" in repetition:
-            warm[turn] = repetition["warm_trace_ms"]
-        if "clock_ghz" in repetition:
-            clock[turn] = repetition["clock_ghz"]
-    return CellFile(message, examples, total, trace, warm, clock)
+def _cell_file(cell: LoggedCell) -> CellFile:
+    repetitions = repetitions_of(cell)
+    return CellFile(
+        cell.message,
+        tuple(_example(text) for text in cell.examples),
+        {one["round"]: one["build_ms"] + one["trace_ms"] for one in repetitions},
+        *(
+            {one["round"]: one[name] for one in repetitions if name in one}
+            for name in ("trace_ms", "warm_trace_ms", "clock_ghz")
+        ),
+    )
 
 
 def _example(text: str) -> Example:
@@ -107,7 +104,3 @@ def _example(text: str) -> Example:
     replays = [line.strip() for line in lines if line.lstrip().startswith("replay ")]
     words = [line for line in lines if line.strip() not in replays]
     return Example("\n".join(words), replays[0].removeprefix("replay ").strip() if replays else "")
-
-
-def _plain(value: object) -> str:
-    return str(int(value)) if isinstance(value, float) else str(value)

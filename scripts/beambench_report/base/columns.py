@@ -8,6 +8,7 @@ from functools import cache
 from pathlib import Path
 from typing import Literal
 
+from beambench import structures
 from beambench_report.base.quantities import markdown_table
 
 _SOURCE = Path(__file__).parents[1] / "columns.json"
@@ -69,21 +70,11 @@ class Group:
 
 
 @dataclass(frozen=True)
-class Counter:
-    """What a structure counts beside what all count; `beambench list --counters` prints it."""
-
-    structure: str
-    name: str
-    meaning: str
-
-
-@dataclass(frozen=True)
 class Dictionary:
     """All columns of one version of results.csv."""
 
     schema_version: int
     groups: tuple[Group, ...]
-    counters: tuple[Counter, ...]
 
     @property
     def columns(self) -> tuple[Column, ...]:
@@ -93,12 +84,8 @@ class Dictionary:
     def find(self, name: str) -> Column | None:
         """Returns the entry of a file's column: that of its name, or of the narrowest pattern."""
         found = [column for column in self.columns if column.is_that(name)]
-        return min(found, key=_width, default=None)
-
-
-def _width(column: Column) -> int:
-    """Returns how much a pattern covers; one with the kind of rays is narrower than any counter."""
-    return 0 if not column.is_pattern else 1 if column.is_of_a_kind else 2
+        # A pattern with the kind of rays is narrower than that of any counter.
+        return min(found, key=lambda one: (one.is_pattern, not one.is_of_a_kind), default=None)
 
 
 @cache
@@ -110,8 +97,7 @@ def dictionary() -> Dictionary:
         Group(**entry, columns=tuple(column for column in columns if column.group == entry["name"]))
         for entry in source["groups"]
     )
-    counters = tuple(Counter(**entry) for entry in source["counters"])
-    return Dictionary(source["schema_version"], groups, counters)
+    return Dictionary(source["schema_version"], groups)
 
 
 _READING = (
@@ -156,7 +142,14 @@ def as_markdown(known: Dictionary) -> str:
         rows = ((f"`{c.name}`", c.type, c.unit, c.meaning, c.measured) for c in group.columns)
         heads = ("column", "type", "unit", "meaning", "how it is measured")
         lines += ["", f"## {group.title}", "", *markdown_table(heads, rows)]
-    counters = ((f"`{c.structure}`", f"`{c.name}`", c.meaning) for c in known.counters)
+    every = structures()
+    common = set.intersection(*(set(one.counters) for one in every))
+    counters = (
+        (f"`{one.name}`", f"`{name}`", meaning)
+        for one in every
+        for name, meaning in one.counters.items()
+        if name not in common
+    )
     lines += [
         "",
         "## Counters of single structures",

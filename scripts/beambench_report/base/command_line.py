@@ -3,6 +3,7 @@
 import argparse
 from collections.abc import Callable
 from pathlib import Path
+from typing import NoReturn
 
 from beambench_report.base.files import ROOT, Problem, say
 
@@ -43,3 +44,29 @@ def run_command(parser: argparse.ArgumentParser, arguments: list[str] | None) ->
         return result
     print(result if isinstance(result, str) else "".join(f"{path}\n" for path in result), end="")
     return 0
+
+
+class ScriptParser(argparse.ArgumentParser):
+    """The arguments of a program of scripts/, which itself answers --help."""
+
+    def __init__(self, name: str) -> None:
+        """Begins without arguments."""
+        super().__init__(f"scripts/{name}", add_help=False, allow_abbrev=False)
+
+    def error(self, message: str) -> NoReturn:
+        """Raises Problem."""
+        raise Problem(message)
+
+    def run(self, work: Callable[[Options], int], arguments: list[str], interrupted: str) -> int:
+        """Returns the exit code: that of `work`, 2 for invalid input, 130 after Ctrl-C.
+
+        What the latter means is reported by the sentence `interrupted`.
+        """
+        try:
+            return work(self.parse_args(arguments))
+        except Problem as problem:
+            say(f"error: {problem} (see {self.prog} --help)")
+            return 2
+        except KeyboardInterrupt:
+            say(interrupted)
+            return 130

@@ -10,9 +10,9 @@ disturbed machine the least cycles lay several times as far from those of the fi
 the fastest repetitions.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from math import nan
+from math import comb, nan
 from statistics import median
 
 import pandas as pd
@@ -36,8 +36,7 @@ class Fastest:
     """
 
 
-_FIGURES = ("ms", "trace_ms", "mcycles", "error")
-COLUMNS = tuple(f"fastest_{name}" for name in _FIGURES)
+_UNKNOWN = Fastest(nan, nan, nan, nan)
 
 
 def fastest_of(files: Sequence[CellFile]) -> Fastest | None:
@@ -62,38 +61,30 @@ def fastest_of(files: Sequence[CellFile]) -> Fastest | None:
     return Fastest(median(ms), median(trace), middle, error)
 
 
-def _rank(repetitions: int) -> int | None:
-    """Returns the number that count: the least rank that all of as many further repetitions exceed
-    with a probability of at most 2.5%.
+def _rank(count: int) -> int | None:
+    """Returns the number of repetitions that count: the least rank that all of as many further ones
+    exceed with a probability of at most 2.5%.
 
     None for fewer than four, five for six to twenty-four (repeat_spread_of_minimum of the harness).
     """
-    probability = 1.0
-    for rank in range(repetitions):
-        probability *= (repetitions - rank) / (2 * repetitions - rank)
-        if probability <= 0.025:
-            return rank + 1
-    return None
+    exceeded = ((rank, comb(2 * count - rank, count)) for rank in range(1, count + 1))
+    return next((rank for rank, ways in exceeded if ways <= 0.025 * comb(2 * count, count)), None)
 
 
 def with_fastest(runs: Sequence[Run]) -> list[pd.DataFrame]:
-    """Returns the rows of each run, and COLUMNS: NaN where the repetitions of a row are not known.
+    """Returns the rows of each run with `fastest_ms` and so on: the fields of Fastest.
 
-    Of a cell that several runs measured, all repetitions count, in each of its rows.
+    They are NaN where the repetitions of a row are not known. Of a cell that several runs measured,
+    all repetitions count, in each of its rows.
     """
     files: dict[Identity, list[CellFile]] = {}
     for run in runs:
         for cell, file in read_cell_files(run.directory).items():
             files.setdefault(cell, []).append(file)
     figures = {cell: fastest_of(own) for cell, own in files.items()}
-    return [_with_columns(run.rows, figures) for run in runs]
-
-
-def _with_columns(rows: pd.DataFrame, figures: Mapping[Identity, Fastest | None]) -> pd.DataFrame:
-    found = [figures.get(identity(row)) for row in rows.to_dict("records")]
-    return rows.assign(
-        **{
-            column: [getattr(one, name, nan) for one in found]
-            for column, name in zip(COLUMNS, _FIGURES, strict=True)
-        }
-    )
+    tables = []
+    for run in runs:
+        found = [figures.get(identity(row)) or _UNKNOWN for row in run.rows.to_dict("records")]
+        added = pd.DataFrame(found, index=run.rows.index).add_prefix("fastest_")
+        tables.append(pd.concat([run.rows, added], axis="columns"))
+    return tables

@@ -20,7 +20,7 @@ from matplotlib.figure import Figure
 
 from beambench_report.base.files import write_text, write_whole
 from beambench_report.base.names import machine_label
-from beambench_report.base.palette import GRID, INK, SOFT, structure_color
+from beambench_report.base.palette import GRID, INK, PAPER, SOFT, structure_color
 from beambench_report.base.svg import compact
 
 PAGE_WIDTH = 7.2  # inches
@@ -156,6 +156,15 @@ class Look:
     color: str
     marker: str
     dashes: str
+
+    @property
+    def line(self) -> dict[str, object]:
+        """How matplotlib draws a line with markers."""
+        return {
+            **{"color": self.color, "linestyle": self.dashes, "linewidth": 1.2},
+            **{"marker": self.marker, "markersize": 4.5},
+            **{"markeredgecolor": PAPER, "markeredgewidth": 0.4},
+        }
 
 
 def looks(rows: pd.DataFrame) -> dict[str, Look]:

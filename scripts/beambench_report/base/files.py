@@ -11,7 +11,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Collection, Sequence
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import pandas as pd
 
@@ -96,14 +96,18 @@ def read_json(path: Path) -> object:
 INTERRUPTED = (130, 143, -2, -15)  # as shells report SIGINT and SIGTERM, and as Python does
 
 
-def run_in_foreground(command: Sequence[str], pass_fds: Collection[int] = ()) -> int:
-    """Runs a program without its standard output; its exit code.
+def run_in_foreground(
+    command: Sequence[str],
+    pass_fds: Collection[int] = (),
+    output: int | IO[bytes] = subprocess.DEVNULL,
+) -> int:
+    """Runs a program, by default without its standard output; returns its exit code.
 
     SIGTERM is passed on to it, a keyboard's interrupt it gets itself: it ends by either in good
     order, and is waited for. Raises Problem where it cannot be run.
     """
     try:
-        child = subprocess.Popen(command, stdout=subprocess.DEVNULL, pass_fds=pass_fds)
+        child = subprocess.Popen(command, stdout=output, pass_fds=pass_fds)
     except OSError as error:
         raise Problem(f"{command[0]} cannot be run: {error.strerror}; build it first") from None
     before = signal.signal(signal.SIGTERM, lambda *_: child.terminate())

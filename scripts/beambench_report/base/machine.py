@@ -24,16 +24,6 @@ class Facts:
 
 
 @dataclass(frozen=True)
-class Throttling:
-    """The periods in which a run had spent its CPU quota and waited for the next one."""
-
-    periods: int
-    """The periods of the quota in which the process ran."""
-    throttled: int
-    """Those of them in which it had to wait for the next one."""
-
-
-@dataclass(frozen=True)
 class Manifest:
     """What was measured by what, and where."""
 
@@ -45,10 +35,6 @@ class Manifest:
     machine: str = ""
     noise: float | None = None
     """How much longer than usual the slowest twentieth of equal work took before the run."""
-    load: float | None = None
-    """The system's load average when the run began."""
-    throttling: Throttling | None = None
-    """How the kernel enforced a CPU quota during the run; None: no quota was in force."""
     scenes: list[str] = field(default_factory=list)
     """Of the sweep, with their parameters."""
     uncontrolled: list[str] = field(default_factory=list)
@@ -70,8 +56,6 @@ def read_manifest(directory: Path) -> Manifest | None:
         cut_off="finished_utc" in source and not finished,
         machine=_dictionary(source, "machine").get("cpu", ""),
         noise=_dictionary(source, "measurement").get("noise"),
-        load=_dictionary(source, "machine").get("load_average"),
-        throttling=_throttling(_dictionary(source, "measurement")),
         scenes=[one["name"] for one in source.get("scenes", []) if "name" in one],
         uncontrolled=source.get("uncontrolled", []),
         notes=source.get("notes", []),
@@ -133,12 +117,6 @@ def _text(name: str, value: object) -> str:
     if isinstance(value, int | float) and name.endswith("_bytes"):
         return size_in_words(value)
     return f"{value:.6g}" if isinstance(value, float) else str(value)
-
-
-def _throttling(measurement: dict) -> Throttling | None:
-    """None in records from before 27 November 2026, too."""
-    source = _dictionary(measurement, "throttling")
-    return Throttling(source["periods"], source["throttled_periods"]) if source else None
 
 
 def _dictionary(source: dict, name: str) -> dict:

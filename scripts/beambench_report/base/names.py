@@ -3,6 +3,7 @@
 import os
 import re
 from collections.abc import Iterable
+from itertools import count
 
 import pandas as pd
 
@@ -48,12 +49,9 @@ def file_stems(titles: Iterable[str]) -> dict[str, str]:
     """A file name for each title: lower case, digits and dashes, no two the same."""
     stems: dict[str, str] = {}
     for title in titles:
-        stem = plain = re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-") or "scene"
-        number = 2
-        while stem in stems.values():
-            stem = f"{plain}-{number}"
-            number += 1
-        stems[title] = stem
+        plain = re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-") or "scene"
+        free = (f"{plain}-{number}" if number > 1 else plain for number in count(1))
+        stems[title] = next(stem for stem in free if stem not in stems.values())
     return stems
 
 
@@ -64,8 +62,5 @@ def parameter_items(text: str) -> dict[str, str]:
 
 def varying_parameters(texts: Iterable[str]) -> set[str]:
     """The names of those parameters that differ between rows of one structure."""
-    values: dict[str, set[str]] = {}
     items = [parameter_items(text) for text in texts]
-    for name in {name for one in items for name in one}:
-        values[name] = {one.get(name, "") for one in items}
-    return {name for name, seen in values.items() if len(seen) > 1}
+    return {name for one in items for name in one if len({own.get(name, "") for own in items}) > 1}

@@ -1,7 +1,7 @@
 """Figures and tables as people read them."""
 
 from collections.abc import Collection, Iterable, Sequence
-from math import floor, isfinite, log10
+from math import floor, isfinite, log2, log10
 
 DASH = "–"  # noqa: RUF001
 
@@ -18,11 +18,8 @@ def size_in_words(size: float) -> str:
     """A number of bytes: 640 B, 12.0 KiB, 3.40 GiB."""
     if size < 1024:
         return f"{size:.0f} B"
-    for unit in ("KiB", "MiB"):
-        size /= 1024
-        if size < 1024:
-            return f"{number(size)} {unit}"
-    return f"{number(size / 1024)} GiB"
+    power = min(int(log2(size)) // 10, 3)
+    return f"{number(size / 1024**power)} {('KiB', 'MiB', 'GiB')[power - 1]}"
 
 
 def duration_in_words(seconds: float) -> str:

@@ -52,17 +52,19 @@ class Run:
     @property
     def counters(self) -> list[str]:
         """The counter columns that hold anything, in the order of the file."""
-        return [name for name in self._all_counters if not _is_of_a_kind(name)]
+        return self._counters(of_a_kind=False)
 
     @property
     def counters_by_kind(self) -> list[str]:
         """Those of whole pictures that are of one kind of their rays."""
-        return [name for name in self._all_counters if _is_of_a_kind(name)]
+        return self._counters(of_a_kind=True)
 
-    @property
-    def _all_counters(self) -> list[str]:
-        names = [name for name in self.rows if str(name).endswith(COUNTER_SUFFIX)]
-        return [name for name in names if self.rows[name].notna().any()]
+    def _counters(self, *, of_a_kind: bool) -> list[str]:
+        known = self.rows.filter(regex=f"{COUNTER_SUFFIX}$").dropna(axis="columns", how="all")
+        columns = {name: dictionary().find(name) for name in known}
+        return [
+            name for name, one in columns.items() if bool(one and one.is_of_a_kind) is of_a_kind
+        ]
 
     def view(self, title: str) -> pd.DataFrame:
         """The rows of one view."""
@@ -93,11 +95,6 @@ def size_of(row: Mapping[str, object]) -> str:
     return f"{row['width']:.0f}x{row['height']:.0f}"
 
 
-def _is_of_a_kind(name: str) -> bool:
-    column = dictionary().find(name)
-    return column is not None and column.is_of_a_kind
-
-
 def read_run(directory: Path) -> Run:
     """Reads DIRECTORY/results.csv. Raises Problem naming the file, column and row at fault."""
     path = directory / "results.csv"
@@ -118,7 +115,10 @@ def read_run(directory: Path) -> Run:
             rows[name] = _numbers(rows[name], path)
         elif column or not is_numeric_dtype(rows[name]):  # of unknown columns, figures stay figures
             rows[name] = rows[name].astype(str).where(rows[name].notna(), "")
-    _require_values(rows, path, ("scene", "structure", "rays"))
+    for name in ("scene", "structure", "rays"):
+        empty = rows.index[rows[name].isna() | (rows[name] == "")]
+        if len(empty) > 0:
+            raise Problem(f"{path}, row {empty[0] + 2}: {name} is empty")
 
     try:
         rows = with_names(rows)
@@ -138,15 +138,12 @@ def _read_csv(path: Path) -> pd.DataFrame:
         )
         return unguarded(rows).rename(columns=RENAMED_COLUMNS)
     except FileNotFoundError:
-        raise Problem(f"{path}: there is no such file; {_remedy(path.parent)}") from None
+        remedy = "give the folder that `beambench run` wrote"
+        if has_log(path.parent):
+            remedy = f"the run was cut off; resume it, or: beambench analyze --write {path.parent}"
+        raise Problem(f"{path}: there is no such file; {remedy}") from None
     except (OSError, UnicodeDecodeError, pd.errors.ParserError, pd.errors.EmptyDataError) as error:
         raise Problem(f"{path}: cannot be read as CSV: {error}") from None
-
-
-def _remedy(directory: Path) -> str:
-    if has_log(directory):
-        return f"the run was cut off; resume it, or: beambench analyze --write {directory}"
-    return "give the folder that `beambench run` wrote"
 
 
 def _require_version(rows: pd.DataFrame, path: Path) -> None:
@@ -176,10 +173,3 @@ def _numbers(column: pd.Series, path: Path) -> pd.Series:
             f"{path}, row {wrong.index[0] + 2}: {column.name} is '{wrong.iloc[0]}', not a number"
         )
     return numbers.astype(float)
-
-
-def _require_values(rows: pd.DataFrame, path: Path, columns: tuple[str, ...]) -> None:
-    for name in columns:
-        empty = rows.index[rows[name].isna() | (rows[name] == "")]
-        if len(empty) > 0:
-            raise Problem(f"{path}, row {empty[0] + 2}: {name} is empty")

@@ -34,7 +34,8 @@ def compact(svg: str) -> str:
     """Returns a plot with hover titles in place; a third as long, and drawn the same."""
     root = ElementTree.fromstring(svg)
     for child in list(root):
-        if child.tag.endswith("metadata") or _is_style_sheet(child):
+        is_style_sheet = child.tag == _DEFS and [one.tag for one in child] == [f"{{{_SVG}}}style"]
+        if child.tag.endswith("metadata") or is_style_sheet:
             root.remove(child)
     families = _FAMILY.findall(svg)
     root.set("style", _ROOT_STYLE.format(families[0] if families else "sans-serif"))
@@ -46,10 +47,6 @@ def compact(svg: str) -> str:
     ElementTree.register_namespace("", _SVG)
     ElementTree.register_namespace("xlink", _XLINK)
     return f"<?xml version='1.0' encoding='utf-8'?>\n{ElementTree.tostring(root, 'unicode')}\n"
-
-
-def _is_style_sheet(element: Element) -> bool:
-    return element.tag == _DEFS and [child.tag for child in element] == [f"{{{_SVG}}}style"]
 
 
 def _used_ids(root: Element) -> dict[str, str]:

@@ -1,7 +1,7 @@
 """Times and ratios as scenes and images get finer: small multiples of what was measured."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, NullLocator
@@ -91,10 +91,9 @@ def _growth(stem: str, lines: Mapping[str, Sequence[Pairing]], axis: Axis) -> Pl
     which = ""
     if len(commits) > 1:
         which = f" Filled: commit {commits[-1]}; hollow: {' and '.join(commits[:-1])}."
-    reading = (
-        f"First traces after a build. Bars: 95% intervals, where there are any.{which} {_NEWEST}"
+    write_below(
+        figure, [f"{_READING}{which} {_NEWEST}", *dict.fromkeys(pair.origin for pair in drawn)]
     )
-    write_below(figure, [reading, *dict.fromkeys(pair.origin for pair in drawn)])
     return Plot(
         stem,
         figure,
@@ -111,11 +110,10 @@ def _draw_times(
 ) -> None:
     values = []
     for name, look in looks.items():
-        of_image = [(pair.embree if name == _EMBREE else pair.tile).first for pair in own]
         scaled = [
-            tuple(None if end is None else 1e6 * end / pair.rays for end in ends)
-            for pair, time in zip(own, of_image, strict=True)
-            for ends in ((time.value, time.low, time.high),)
+            tuple(None if end is None else 1e6 * end / pair.rays for end in astuple(trace.first))
+            for pair in own
+            for trace in [pair.embree if name == _EMBREE else pair.tile]
         ]
         _draw_line(panel, own, axis, scaled, look, commits)
         values += [value for value, *_ in scaled]

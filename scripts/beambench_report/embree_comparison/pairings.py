@@ -150,12 +150,14 @@ def _ratios(mode: Row, row: Row, files: Mapping[Identity, CellFile]) -> tuple[Ra
     ratio, second = None, None
     over, under = files.get(identity(mode)), files.get(identity(row))
     if over and under:
-        shading = _shading(mode), _shading(row)
-        ratio = paired_ratio(
-            _without(shading[0], over.trace_ms), _without(shading[1], under.trace_ms)
-        )
-        second = paired_ratio(
-            _without(shading[0], over.warm_ms), _without(shading[1], under.warm_ms)
+        ratio, second = (
+            paired_ratio(
+                *(
+                    {turn: time - _shading(one) for turn, time in getattr(file, times).items()}
+                    for one, file in ((mode, over), (row, under))
+                )
+            )
+            for times in ("trace_ms", "warm_ms")
         )
     embree, tile = _trace(mode, ""), _trace(row, "")
     if second is None and embree.second and tile.second:
@@ -166,10 +168,6 @@ def _ratios(mode: Row, row: Row, files: Mapping[Identity, CellFile]) -> tuple[Ra
 def _shading(row: Row) -> float:
     """What a picture's traces have in common, in ms: none of any structure's work."""
     return float(row["harness_ms"]) if row["ray_kind"] == PICTURE else 0.0
-
-
-def _without(share: float, times: Mapping[int, float]) -> dict[int, float]:
-    return {turn: time - share for turn, time in times.items()}
 
 
 def _mode_name(row: Row) -> str:

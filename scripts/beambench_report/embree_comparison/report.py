@@ -118,13 +118,18 @@ def _instruction_sets(tile: str, embree: str) -> str:
     return f"Both on {ours}" if ours == theirs else f"tile-beam on {ours}, Embree on {theirs}"
 
 
-def _summary(found: Sequence[Pairing], part: float) -> str:
-    counts = Counter(
+def outcomes(found: Sequence[Pairing], part: float) -> Counter[str]:
+    """Counts the outcomes of the targets of single scenes; `part` of each target holds."""
+    return Counter(
         outcome(one.ratio, part * group.targets[one.resolution])
         for group in groups()
         for one in found
         if group.holds(one)
     )
+
+
+def _summary(found: Sequence[Pairing], part: float) -> str:
+    counts = outcomes(found, part)
     return (
         f"Of {counts.total()} targets for single scenes, {counts['met']} are met, "
         f"{counts['open']} open, {counts['missed']} missed, by first traces."
@@ -157,17 +162,13 @@ def _group_table(group: Group, found: Sequence[Pairing], part: float) -> list[st
         }
         for title, ratios in of_others.items():
             if any(ratios):
-                found_at = list(zip(at, ratios, strict=True))
-                lines.append([title, *_means_of(group, found_at, sizes)])
+                of_size = (
+                    [ratio for (_, there), ratio in zip(at, ratios, strict=True) if there == size]
+                    for size in sizes
+                )
+                means = (_mean(group, [one for one in own if one], None) for own in of_size)
+                lines.append([title, *means])
     return markdown_table(["scene", *sizes], lines, range(1, len(sizes) + 1))
-
-
-def _means_of(
-    group: Group, found: Sequence[tuple[tuple[str, str], Ratio | None]], sizes: Sequence[str]
-) -> Iterable[str]:
-    for size in sizes:
-        ratios = [ratio for (_, there), ratio in found if there == size]
-        yield _mean(group, [ratio for ratio in ratios if ratio is not None], None)
 
 
 def _cell(one: Pairing | None, target: float) -> str:

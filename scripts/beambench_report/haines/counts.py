@@ -47,7 +47,5 @@ def measure_tests(folder: Path, program: Path) -> Path:
 
 
 def _by_scene(rows: pd.DataFrame) -> Tests:
-    tests: Tests = {}
-    for row in rows.itertuples():
-        tests.setdefault(str(row.scene), {})[str(row.kind)] = float(row.tests)
-    return tests
+    table = rows.pivot_table(index="scene", columns="kind", values="tests", sort=False)
+    return table.to_dict("index")

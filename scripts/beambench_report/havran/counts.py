@@ -1,46 +1,66 @@
 """Counts of structures on scenes: what Havran published, and ours in the same form."""
 
-from collections.abc import Iterable
 from pathlib import Path
-from typing import NamedTuple
 
 import pandas as pd
 
 from beambench_report.base.csv_texts import csv_of
-from beambench_report.base.files import ROOT, read_table, write_text
+from beambench_report.base.files import ROOT, read_table, say, write_text
+from beambench_report.havran.census import Census, census_of
+from beambench_report.havran.contenders import STRUCTURES, contender_of
 
 PUBLISHED = ROOT / "results/havran/counts.csv"
+CASE = ["structure", "scene", "setting"]
+"""The columns that identify one structure with one setting on one scene, by the published names."""
 
 
-class Case(NamedTuple):
-    """One structure with one setting on one scene, by the published names."""
+def read_counts(path: Path) -> pd.DataFrame:
+    """Reads a file of counts: a row for each case, a column for each quantity.
 
-    structure: str
-    scene: str
-    setting: str
-
-
-Counts = dict[Case, dict[str, float]]
-"""The quantities of each case, in the order of the file."""
+    Raises Problem where the file is missing or is none.
+    """
+    remedy = "run `python -m beambench_report havran measure DIR`"
+    rows = read_table(path, (*CASE, "quantity", "value"), remedy)
+    return rows.pivot_table(index=CASE, columns="quantity", values="value", sort=False)
 
 
-def read_counts(path: Path) -> Counts:
-    """Reads a file of counts. Raises Problem where it is missing or is none."""
-    columns = (*Case._fields, "quantity", "value")
-    rows = read_table(path, columns, "run `python -m beambench_report havran measure DIR`")
-    counts: Counts = {}
-    for row in rows.itertuples():
-        case = Case(str(row.structure), str(row.scene), str(row.setting))
-        counts.setdefault(case, {})[str(row.quantity)] = float(row.value)
-    return counts
+def quantities_of(census: Census) -> dict[str, float]:
+    """His quantities; steps and tests are as he counts them (results/havran/README.md)."""
+    size, work = census["size"], census["work"]
+    rays = work["rays"]
+    return {
+        "N_IN": size["nodes"] - size["leaves"],
+        "N_V": size["leaves"],
+        "N_EV": size["empty_leaves"],
+        "N_OIV": size["references"],
+        "N_IT": work["primitive_tests"] / work["rays_that_hit"],
+        "N_TS": (work["traversal_steps"] + work.get("last_climb", 0)) / rays,
+        "N_ETS": work["leaves"] / rays,
+        "N_EETS": work["empty_leaves"] / rays,
+    }
 
 
-def write_counts(path: Path, counts: Iterable[tuple[Case, str, dict[str, float]]]) -> Path:
-    """Writes counts, each with the contender that they were measured with."""
-    rows = [
-        {**case._asdict(), "quantity": quantity, "value": f"{value:.6g}", "contender": contender}
-        for case, contender, quantities in counts
-        for quantity, value in quantities.items()
+def measure(folder: Path, program: Path, scenes: list[str]) -> Path:
+    """Counts on these scenes into FOLDER/counts.csv; skips what FOLDER/census has already."""
+    folder.joinpath("census").mkdir(parents=True, exist_ok=True)
+    cases = [
+        case
+        for case in sorted(read_counts(PUBLISHED).index, key=_place)
+        if case[0] in STRUCTURES and case[1] in scenes
     ]
-    table = pd.DataFrame(rows)
-    return write_text(path, csv_of(table))
+    rows = []
+    for number, (structure, scene, setting) in enumerate(cases, start=1):
+        contender = contender_of(structure, setting)
+        say(f"{number} of {len(cases)}: {scene}, {contender}")
+        stem = "-".join((scene, *setting.split(), str(STRUCTURES.index(structure))))
+        census = census_of(folder / "census" / f"{stem}.json", program, scene, contender)
+        rows += [
+            (structure, scene, setting, quantity, f"{value:.6g}", contender)
+            for quantity, value in quantities_of(census).items()
+        ]
+    table = pd.DataFrame(rows, columns=[*CASE, "quantity", "value", "contender"])
+    return write_text(folder / "counts.csv", csv_of(table))
+
+
+def _place(case: tuple[str, str, str]) -> int:
+    return STRUCTURES.index(case[0]) if case[0] in STRUCTURES else len(STRUCTURES)

@@ -1,39 +1,28 @@
-"""Writes the comparison as one page of tables."""
+"""Ours beside the published: ratios, and whether structures are in the same order, on one page."""
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import product
 from pathlib import Path
 
+import numpy as np
+import pandas as pd
+from scipy.stats import gmean
+
 from beambench_report.base.files import write_text
 from beambench_report.base.quantities import markdown_table
-from beambench_report.havran.comparison import (
-    APART,
-    QUANTITIES,
-    SIZES,
-    WITHIN,
-    WORK,
-    Ratios,
-    order,
-    ratios,
-)
 from beambench_report.havran.contenders import SCENES, STRUCTURES
-from beambench_report.havran.counts import PUBLISHED, Counts, read_counts
+from beambench_report.havran.counts import PUBLISHED, read_counts
 
+SIZES = ["N_IN", "N_V", "N_EV", "N_OIV"]
+WORK = ["N_IT", "N_TS", "N_ETS", "N_EETS"]
+WITHIN = 0.05
+"""A difference up to this needs no explanation."""
+APART = 0.02
+"""Structures whose counts differ by less than this have no order: they are the same."""
 _UNLIKE = "gears"
 """His is another scene: results/havran/README.md."""
-
-
-def write_report(folder: Path) -> Path:
-    """Writes FOLDER/report.md from FOLDER/counts.csv."""
-    ours = read_counts(folder / "counts.csv")
-    published = read_counts(PUBLISHED)
-    parts = (_head(), _orders(ours, published), _means(ours, published), *_tables(ours, published))
-    return write_text(folder / "report.md", "\n".join(parts))
-
-
-def _head() -> str:
-    return """# Havran's octrees, measured again
+_HEAD = """# Havran's octrees, measured again
 
 Counts of five octrees on the seven SPD scenes and lattice: 513x513 rays through the corners of
 pixels and all rays that follow, `beambench census --rules spd --count`. Every cell is ours / his.
@@ -42,17 +31,52 @@ What the quantities mean: [results/havran](../../havran/README.md). Made by
 """
 
 
-def _orders(ours: Counts, published: Counts) -> str:
-    others = {case: counts for case, counts in ours.items() if case.scene != _UNLIKE}
+def write_report(folder: Path) -> Path:
+    """Writes FOLDER/report.md from FOLDER/counts.csv."""
+    ours, his = read_counts(folder / "counts.csv"), read_counts(PUBLISHED)
+    parts = (_HEAD, _orders(ours, his), _means(ours, his), *_tables(ours, his))
+    return write_text(folder / "report.md", "\n".join(parts))
+
+
+def ratios(ours: pd.DataFrame, his: pd.DataFrame) -> pd.DataFrame:
+    """Returns ours over his, of all common cases; NaN where a count is 0."""
+    return (ours / his).where((ours > 0) & (his > 0))[SIZES + WORK].reset_index()
+
+
+def order(ours: pd.DataFrame, his: pd.DataFrame, quantity: str) -> pd.DataFrame:
+    """Returns each two structures, on one scene with one setting, that his counts put in an order.
+
+    The columns `ours` and `his` have the sign of the difference, 0 where counts are the same.
+    """
+    counts = {"ours": ours[quantity], "his": his[quantity]}
+    both = pd.concat(counts, axis="columns", join="inner").reset_index()
+    both["place"] = both.index
+    pairs = both.merge(both, on=["scene", "setting"], suffixes=("", " other"))
+    pairs = pairs[pairs["place"] < pairs["place other"]]
+    signs = {name: _signs(pairs[name], pairs[f"{name} other"]) for name in counts}
+    pairs = pairs[["structure", "structure other"]].assign(**signs)
+    return pairs[pairs["his"] != 0]
+
+
+def _signs(one: pd.Series, other: pd.Series) -> pd.Series:
+    differ = (one - other).abs() > APART * np.maximum(one, other)
+    return np.sign(one - other).where(differ, 0)
+
+
+def _orders(ours: pd.DataFrame, his: pd.DataFrame) -> str:
+    others = ours.drop(_UNLIKE, level="scene", errors="ignore")
     rows = []
     reversals: Counter[tuple[str, str, str]] = Counter()
     for quantity, (where, cases) in product(WORK, (("all", ours), (f"all but {_UNLIKE}", others))):
-        found = order(cases, published, quantity)
-        share = f"{found.same / found.pairs:.0%}" if found.pairs else "-"
+        found = order(cases, his, quantity)
+        same = (found["ours"] == found["his"]).sum()
+        share = f"{same / len(found):.0%}" if len(found) else "-"
+        reverse = found[found["ours"] == -found["his"]]
         if cases is others:
-            reversals.update((quantity, a.structure, b.structure) for a, b in found.reversed)
-        level, reverse = found.level, len(found.reversed)
-        rows.append((quantity, where, found.pairs, f"{found.same} ({share})", level, reverse))
+            pairs = zip(reverse["structure"], reverse["structure other"], strict=True)
+            reversals.update((quantity, *pair) for pair in pairs)
+        level = (found["ours"] == 0).sum()
+        rows.append((quantity, where, len(found), f"{same} ({share})", level, len(reverse)))
     header = ("quantity", "scenes", "pairs", "same order", f"ours within {APART:.0%}", "reversed")
     worst = [(*pair, number) for pair, number in reversals.most_common()]
     return (
@@ -64,52 +88,48 @@ def _orders(ours: Counts, published: Counts) -> str:
     )
 
 
-def _means(ours: Counts, published: Counts) -> str:
-    others = {case: counts for case, counts in ours.items() if case.scene != _UNLIKE}
-    by_structure = [
-        (structure, *(_ratio(ratios(others, published, q, structure)) for q in QUANTITIES))
-        for structure in STRUCTURES
-    ]
-    by_scene = [
-        (scene, *(_ratio(ratios(ours, published, q, scene=scene)) for q in QUANTITIES))
-        for scene in SCENES
+def _means(ours: pd.DataFrame, his: pd.DataFrame) -> str:
+    every = ratios(ours, his)
+    tables = [
+        _markdown(
+            (by, *SIZES, *WORK),
+            [
+                (name, *(_mean(found.loc[found[by] == name, q]) for q in SIZES + WORK))
+                for name in names
+            ],
+        )
+        for by, names, found in (
+            ("structure", STRUCTURES, every[every["scene"] != _UNLIKE]),
+            ("scene", SCENES, every),
+        )
     ]
     return (
         f"## Ours over his\nGeometric means, and how many are within {WITHIN:.0%}; by structure "
-        f"without {_UNLIKE}.\n\n"
-        + _markdown(("structure", *QUANTITIES), by_structure)
-        + "\n"
-        + _markdown(("scene", *QUANTITIES), by_scene)
+        f"without {_UNLIKE}.\n\n" + "\n".join(tables)
     )
 
 
-def _ratio(found: Ratios | None) -> str:
-    return f"{found.mean:.3f} ({found.within}/{len(found.values)})" if found else "-"
+def _mean(values: pd.Series) -> str:
+    known = values.dropna()
+    within = ((known - 1).abs() <= WITHIN).sum()
+    return f"{gmean(known):.3f} ({within}/{len(known)})" if len(known) else "-"
 
 
-def _tables(ours: Counts, published: Counts) -> list[str]:
-    parts = []
+def _tables(ours: pd.DataFrame, his: pd.DataFrame) -> Iterable[str]:
+    digits = dict.fromkeys(SIZES, ",.0f") | dict.fromkeys(WORK, ".2f")
     for scene in SCENES:
         rows = [
             (
-                case.structure,
-                case.setting,
-                *(_beside(q, ours[case], published[case]) for q in QUANTITIES),
+                *(structure, setting),
+                *(f"{mine[q]:{form}} / {theirs[q]:{form}}" for q, form in digits.items()),
             )
-            for case in ours
-            if case.scene == scene and case in published
+            for (structure, where, setting), mine in ours.iterrows()
+            if where == scene and (structure, where, setting) in his.index
+            for theirs in [his.loc[structure, where, setting]]
         ]
         if rows:
-            table = _markdown(("structure", "setting", *QUANTITIES), rows)
-            parts.append(f"## {scene}\n{table}")
-    return parts
+            yield f"## {scene}\n{_markdown(('structure', 'setting', *digits), rows)}"
 
 
-def _beside(quantity: str, mine: dict[str, float], theirs: dict[str, float]) -> str:
-    digits = ",.0f" if quantity in SIZES else ".2f"
-    return f"{mine[quantity]:{digits}} / {theirs[quantity]:{digits}}"
-
-
-def _markdown(header: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
-    texts = [[str(cell) for cell in row] for row in rows]
-    return "\n".join(markdown_table(header, texts)) + "\n"
+def _markdown(header: Sequence[str], rows: Iterable[Iterable[object]]) -> str:
+    return "\n".join(markdown_table(header, (map(str, row) for row in rows))) + "\n"

@@ -28,16 +28,8 @@ def absent(
     files: Mapping[Identity, CellFile],
     figures: Figures,
     pictures: Sequence[Image],
-) -> list[str]:
-    """Returns what the page lacks because the folder lacks it."""
-    return [
-        *_records(run, manifest),
-        *_repetitions(run, files),
-        *_images(run, figures, pictures),
-    ]
-
-
-def _records(run: Run, manifest: Manifest) -> Iterator[str]:
+) -> Iterator[str]:
+    """Yields what the page lacks because the folder lacks it."""
     if not manifest.run_id:
         yield "There is no manifest.json: the machine and its state are unknown."
     if not (run.directory / "config.json").is_file():
@@ -45,9 +37,6 @@ def _records(run: Run, manifest: Manifest) -> Iterator[str]:
             "There is no config.json: whether the sweep left out the cells that are missing is "
             "unknown."
         )
-
-
-def _repetitions(run: Run, files: Mapping[Identity, CellFile]) -> Iterator[str]:
     timed = run.rows[run.rows["timed"]]
     repeated = {cell for cell, file in files.items() if file.total_ms}
     without = sum(identity(row) not in repeated for row in timed.to_dict("records"))
@@ -64,9 +53,6 @@ def _repetitions(run: Run, files: Mapping[Identity, CellFile]) -> Iterator[str]:
     wrong = ~run.rows["verdict"].isin(FAULTLESS_VERDICTS)
     if wrong.any() and not any(file.message for file in files.values()):
         yield "Why cells were wrong is not in this folder; a run has it in run.jsonl."
-
-
-def _images(run: Run, figures: Figures, pictures: Sequence[Image]) -> Iterator[str]:
     for kind in figures.missing:
         yield f"There is no figure '{kind.name}'; it needs {kind.needs}."
     if not pictures:

@@ -41,7 +41,13 @@ def pack(run: Run, own: Mapping[str, Column] | None = None) -> AllCells:
     """Packs every column of a run that holds anything; `own` are columns that no record has."""
     own = own or {}
     rows = run.rows
-    columns = [_named(name, _texts(rows, name)) for name in _NAMES]
+    sizes = rows["width"].map("{:.0f}x".format) + rows["height"].map("{:.0f}".format)
+    texts = {name: sizes if name == "resolution" else rows[name] for name in _NAMES}
+    columns = [
+        {"name": name, "group": "", "unit": "", "meaning": _NAMES[name], "first": True}
+        | _pack_texts(own_texts)
+        for name, own_texts in texts.items()
+    ]
     same = []
     for name in rows.columns.drop(["contender", "subject", "view", "timed"]):
         series = rows[name]
@@ -51,7 +57,7 @@ def pack(run: Run, own: Mapping[str, Column] | None = None) -> AllCells:
         if nothing and name != "verdict":
             continue
         if len(rows) > 1 and name not in _FIRST_SHOWN and (series == first).all():
-            same.append((name, _plain(first)))
+            same.append((name, f"{first:.10g}" if isinstance(first, float) else str(first)))
             continue
         packed = _pack_figures(series) if entry.is_number else _pack_texts(series)
         columns.append(
@@ -74,18 +80,6 @@ def _unknown(series: pd.Series) -> Column:
     return Column(str(series.name), "", kind, "", "Not in the data dictionary.", "")
 
 
-def _named(name: str, series: pd.Series) -> dict:
-    head = {"name": name, "group": "", "unit": "", "meaning": _NAMES[name], "first": True}
-    return head | _pack_texts(series)
-
-
-def _texts(rows: pd.DataFrame, name: str) -> pd.Series:
-    if name != "resolution":
-        return rows[name]
-    sizes = rows[["width", "height"]].astype(int).astype(str)
-    return sizes["width"] + "x" + sizes["height"]
-
-
 def _pack_texts(series: pd.Series) -> dict:
     places, words = pd.factorize(series)
     return {"words": list(words), "at": places.tolist()}
@@ -95,15 +89,10 @@ def _pack_figures(series: pd.Series) -> dict:
     """Whole numbers are kept whole, others get some digits; null where nothing was measured."""
     values = series.to_numpy(float)
     finite = np.isfinite(values)
-    whole = values[finite]
-    if (whole == np.round(whole)).all():
-        rounded = np.where(finite, values, 0).astype(np.int64)
-    else:
-        rounded = _rounded(np.where(finite, values, 0))
-    figures = rounded.tolist()
-    for place in np.flatnonzero(~finite):
-        figures[place] = None
-    return {"figures": figures}
+    known = values[finite]
+    is_whole = (known == np.round(known)).all()
+    rounded = iter((known.astype(np.int64) if is_whole else _rounded(known)).tolist())
+    return {"figures": [next(rounded) if there else None for there in finite]}
 
 
 def _rounded(values: np.ndarray) -> np.ndarray:
@@ -111,7 +100,3 @@ def _rounded(values: np.ndarray) -> np.ndarray:
     magnitude = np.floor(np.log10(np.abs(values), where=values != 0, out=np.zeros_like(values)))
     factor = 10.0 ** (_DIGITS - 1 - magnitude)
     return np.round(values * factor) / factor
-
-
-def _plain(value: object) -> str:
-    return f"{value:.10g}" if isinstance(value, float) else str(value)

@@ -18,10 +18,10 @@ from beambench_report.base.svg import hover
 from beambench_report.run.measured import Measured, short_title
 from beambench_report.run.panels import (
     MOST_LINES,
-    finish,
     hide_repeated_labels,
     panels_with_legend,
     parts_by_kind,
+    plot_of_views,
     scale_axis,
     set_title,
     share_limits,
@@ -31,6 +31,12 @@ _MOST_PANELS = 4
 _FEWEST, _MOST = 1e3, 1e10
 # Most of them where the lines bend.
 _RAYS = np.concatenate([np.logspace(3, 8, 18), [1e10]])
+
+_READING = (
+    "Build time / number of rays + trace time of a ray, by the medians at the resolution in the "
+    "title. Circles: where the fastest to trace, its build included, overtakes another one; the "
+    "dark one: the last of them, from which on it is ahead of all. Every pair: break-even.csv."
+)
 
 
 def crossings(measured: Measured) -> list[Plot]:
@@ -81,22 +87,11 @@ def _crossings(measured: Measured, kind: str, shown: dict[str, pd.DataFrame], st
         scale_axis(panel, "y", (least, most), ticks=7)
         panel.set_ylim(least, most)
     hide_repeated_labels(panels, columns)
-    views = list(shown)
-    scenes = ", ".join(short_title(measured.run.rows, view) for view in views)
-    return Plot(
-        stem,
-        finish(
-            figure,
-            f"From how many rays on a build pays off, {kind}",
-            measured.run.rows[measured.run.rows["view"].isin(views)],
-            "Build time / number of rays + trace time of a ray, by the medians at the resolution "
-            "in the title. Circles: where the fastest to trace, its build included, overtakes "
-            "another one; the dark one: the last of them, from which on it is ahead of all. Every "
-            "pair: break-even.csv.",
-        ),
-        f"ns per ray, build included, against the number of rays, {kind}: {scenes}",
-        views[0] if len(views) == 1 else "",
+    what = (
+        f"From how many rays on a build pays off, {kind}",
+        f"ns per ray, build included, against the number of rays, {kind}",
     )
+    return plot_of_views(measured.run, stem, figure, list(shown), what, _READING)
 
 
 def _draw_line(panel: Axes, row: pd.Series, look: Look, index: int, count: int) -> None:
@@ -108,14 +103,8 @@ def _draw_line(panel: Axes, row: pd.Series, look: Look, index: int, count: int) 
     (line,) = panel.plot(
         rays,
         cost_of_a_ray(build, row["ns"], rays),
-        color=look.color,
-        linestyle=look.dashes,
-        linewidth=1.2,
-        marker=look.marker,
         markevery=[int(place) for place in np.searchsorted(rays, marked)],
-        markersize=4.5,
-        markeredgecolor=PAPER,
-        markeredgewidth=0.4,
+        **look.line,
     )
     words = f"build {number(build)} ms, then {number(row['ns'])} ns per ray"
     hover(line, f"{row['contender']}: {words}")

@@ -46,14 +46,16 @@ def _distributions(measured: Measured, view: str, stem: str, rows: pd.DataFrame)
     for place, (_, row) in enumerate(rows.iterrows()):
         look = measured.looks[row["contender"]]
         dots = np.array(thinned(row["repeated"], most))
-        text = f"{row['contender']}: {ns_in_words(row)}; {len(row['repeated'])} repetitions"
-        ends = np.array([row["ns_low"], row["ns"], row["ns_high"]])
-        hover(_draw_row(left, place, dots, ends, look), f"{text}, {_range(row)}")
-        percents = 100 * (dots / row["ns"] - 1)
-        hover(
-            _draw_row(right, place, percents, 100 * (ends / row["ns"] - 1), look, reach),
-            f"{text}, {_range(row)}",
+        least, *_, most_ns = row["repeated"]
+        text = (
+            f"{row['contender']}: {ns_in_words(row)}; {len(row['repeated'])} repetitions, "
+            f"all{between(least, most_ns)}"
         )
+        ends = np.array([row["ns_low"], row["ns"], row["ns_high"]])
+        hover(_draw_row(left, place, dots, ends, look), text)
+        percents = 100 * (dots / row["ns"] - 1)
+        off = 100 * (ends / row["ns"] - 1)
+        hover(_draw_row(right, place, percents, off, look, reach), text)
     for panel in (left, right):
         panel.set_ylim(len(rows) - 0.5, -0.5)
         panel.grid(axis="x", linewidth=0.6)
@@ -91,10 +93,6 @@ def thinned(values: Sequence[float], most: int) -> list[float]:
     if len(values) <= most:
         return list(values)
     return [values[round(place)] for place in np.linspace(0, len(values) - 1, most)]
-
-
-def _range(row: pd.Series) -> str:
-    return f"all{between(row['repeated'][0], row['repeated'][-1])}"
 
 
 def _reach(rows: pd.DataFrame) -> float:

@@ -31,15 +31,16 @@ def tiles(run: Run, overheads: Sequence[Overhead]) -> list[Tile]:
     """A few figures that say how large the run was and how well it could measure."""
     of_references = run.rows["structure"].isin(REFERENCES)
     references = list(dict.fromkeys(run.rows.loc[of_references, "contender"]))
-    contenders = run.rows.loc[~of_references, "contender"].nunique()
-    views = run.rows["subject"].nunique()
+    counted = {
+        "view": (run.rows["subject"].nunique(), ""),
+        "contender": (run.rows.loc[~of_references, "contender"].nunique(), ""),
+        "reference": (len(references), f"({', '.join(references)})"),
+    }
     made = [
-        Tile(f"{views:,}", _plural("view", views), "view"),
-        Tile(f"{contenders:,}", _plural("contender", contenders), "contender"),
+        Tile(f"{count:,}", _plural(term, count), term, note)
+        for term, (count, note) in counted.items()
+        if count or term != "reference"
     ]
-    if references:
-        words = _plural("reference", len(references))
-        made.append(Tile(f"{len(references):,}", words, "reference", f"({', '.join(references)})"))
     for one in overheads[:1]:
         figure = f"{100 * one.part:,.0f}%" if one.part >= 0.1 else f"{100 * one.part:.2g}%"
         made.append(Tile(figure, f"of a trace is the harness's, at most: {one.title}"))

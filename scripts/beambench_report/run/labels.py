@@ -55,8 +55,17 @@ def place_labels(
             places[index] = room.best(clear)
             numbered.remove(index)
     for index, place in places.items():
-        color = colors[index] if colors else None
-        _write(panel, points[index], place.text, place.offset, color)
+        across, upright = _alignment(place.offset)
+        panel.annotate(
+            place.text,
+            points[index],
+            place.offset,
+            textcoords="offset points",
+            ha=across,
+            va=upright,
+            fontsize=_SIZE,
+            color=colors[index] if colors else None,
+        ).set_in_layout(False)
     return numbered
 
 
@@ -74,7 +83,8 @@ class _Room:
         self._renderer = FigureCanvasAgg(panel.figure).get_renderer()
         self._font = FontProperties(size=_SIZE)
         self.centers = [tuple(panel.transData.transform(point)) for point in points]
-        self._points = [_around(x, y, 3 * self._scale) for x, y in self.centers]
+        reach = 3 * self._scale
+        self._points = [Bbox.from_extents(x, y, x, y).padded(reach) for x, y in self.centers]
         self._crossed = [
             box
             for line in lines
@@ -129,11 +139,7 @@ def _box(
     x, y = center[0] + scale * offset[0], center[1] + scale * offset[1]
     left = x - width * {"left": 0, "center": 0.5, "right": 1}[across]
     low = y - height * {"bottom": 0, "center": 0.5, "top": 1}[upright]
-    return Bbox([[left - 1, low - 1], [left + width + 1, low + height + 1]])
-
-
-def _around(x: float, y: float, reach: float) -> Bbox:
-    return Bbox([[x - reach, y - reach], [x + reach, y + reach]])
+    return Bbox.from_bounds(left, low, width, height).padded(1)
 
 
 def _distance(point: tuple[float, float], box: Bbox) -> float:
@@ -150,7 +156,7 @@ def _along(corners: Sequence[tuple[float, float]], scale: float) -> list[Bbox]:
             [a + (b - a) * k / steps for k in range(steps + 1)] for a, b in ((x0, x1), (y0, y1))
         )
         boxes += [
-            Bbox([[min(a, b) - scale, min(c, d) - scale], [max(a, b) + scale, max(c, d) + scale]])
+            Bbox.from_extents(min(a, b), min(c, d), max(a, b), max(c, d)).padded(scale)
             for (a, b), (c, d) in zip(pairwise(xs), pairwise(ys), strict=True)
         ]
     return boxes
@@ -158,24 +164,3 @@ def _along(corners: Sequence[tuple[float, float]], scale: float) -> list[Bbox]:
 
 def _is_inside(box: Bbox, frame: Bbox) -> bool:
     return box.x0 >= frame.x0 and box.x1 <= frame.x1 and box.y0 >= frame.y0 and box.y1 <= frame.y1
-
-
-def _write(
-    panel: Axes,
-    point: tuple[float, float],
-    name: str,
-    offset: tuple[float, float],
-    color: str | None,
-) -> None:
-    across, upright = _alignment(offset)
-    note = panel.annotate(
-        name,
-        point,
-        offset,
-        textcoords="offset points",
-        ha=across,
-        va=upright,
-        fontsize=_SIZE,
-        color=color,
-    )
-    note.set_in_layout(False)

@@ -66,15 +66,11 @@ class Measured:
         middle = median_of(row, "trace")
         file = self.files.get(identity(row))
         times = sorted(file.trace_ms.values()) if file else []
-        low, high = middle.low, middle.high
-        if (low is None or high is None) and (found := median_interval(times)):
-            low, high = found
-        return (
-            scale * middle.value,
-            nan if low is None else scale * low,
-            nan if high is None else scale * high,
-            tuple(scale * time for time in times),
-        )
+        ends = (middle.low, middle.high)
+        if None in ends:
+            ends = median_interval(times) or ends
+        low, high = (nan if end is None else scale * end for end in ends)
+        return scale * middle.value, low, high, tuple(scale * time for time in times)
 
 
 def read_measured(directory: Path) -> Measured:

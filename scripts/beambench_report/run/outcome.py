@@ -1,12 +1,10 @@
 """What a page shows first of the cells whose hits are wrong."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-
-import pandas as pd
+from dataclasses import dataclass
 
 from beambench_report.base.cell_files import CellFile, Example, Identity, identity
-from beambench_report.base.records import ERROR, FAULTLESS_VERDICTS, Run
+from beambench_report.base.records import ERROR, FAULTLESS_VERDICTS, Run, size_of
 
 # More wrong cells than this have one cause, not many.
 _MOST_SHOWN = 40
@@ -25,11 +23,11 @@ class Fault:
 
     contender: str
     view: str
-    sizes: tuple[str, ...]
     verdict: str
     meaning: str
     message: str
     examples: tuple[Example, ...]
+    sizes: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -46,23 +44,12 @@ def faults_of(run: Run, files: Mapping[Identity, CellFile]) -> Faults:
     """Groups the wrong cells by contender, view and reason."""
     wrong = run.rows[~run.rows["verdict"].isin(FAULTLESS_VERDICTS)]
     shown = wrong.head(_MOST_SHOWN)
-    faults: dict[tuple, Fault] = {}
-    for _, row in shown.iterrows():
-        fault = _fault(row, files.get(identity(row)))
-        reason = (fault.contender, fault.view, fault.verdict, fault.message, fault.examples)
-        earlier = faults.get(reason)
-        sizes = (*earlier.sizes, *fault.sizes) if earlier else fault.sizes
-        faults[reason] = replace(fault, sizes=sizes)
-    return Faults(tuple(faults.values()), len(wrong) - len(shown))
-
-
-def _fault(row: pd.Series, file: CellFile | None) -> Fault:
-    return Fault(
-        row["contender"],
-        row["view"],
-        (f"{row['width']:.0f}x{row['height']:.0f}",),
-        row["verdict"] or "no verdict",
-        _MEANINGS.get(row["verdict"], "was wrong"),
-        file.message if file else "",
-        file.examples if file else (),
-    )
+    sizes: dict[tuple, list[str]] = {}
+    for row in shown.to_dict("records"):
+        file = files.get(identity(row))
+        reason = (file.message, file.examples) if file else ("", ())
+        verdict = (row["verdict"] or "no verdict", _MEANINGS.get(row["verdict"], "was wrong"))
+        fault = (row["contender"], row["view"], *verdict, *reason)
+        sizes.setdefault(fault, []).append(size_of(row))
+    faults = tuple(Fault(*fault, tuple(own)) for fault, own in sizes.items())
+    return Faults(faults, len(wrong) - len(shown))

@@ -1,12 +1,12 @@
 """All contenders over all views of one kind of rays: who is how many times the fastest."""
 
-from collections.abc import Sequence
+from collections import defaultdict
 
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, LogLocator
 
 from beambench.analysis import Ratio
-from beambench_report.base.analysis import Mean, Overall, Standing, Standings
+from beambench_report.base.analysis import Mean, Overall, Standing
 from beambench_report.base.figure import Look, Plot
 from beambench_report.base.names import file_stems
 from beambench_report.base.palette import INK, PAPER, SOFT
@@ -43,7 +43,10 @@ def _overall(measured: Measured, one: Overall, stem: str) -> Plot:
     rows += [(len(means) + _GAP + place, mean) for place, mean in enumerate(one.references)]
     last = rows[-1][0]
     figure, (panel,) = panels_with_legend(1, 1, 0.9 + 0.25 * (last + 1), {})
-    by_contender = _by_contender(standings)
+    by_contender: dict[str, list[tuple[str, Standing]]] = defaultdict(list)
+    for view in standings:
+        for standing in (*view.ranked, *view.references):
+            by_contender[standing.contender].append((view.view, standing))
     is_titled = sum(len(by_contender[mean.contender]) for _, mean in rows) <= _MOST_DOTS
     for place, mean in rows:
         look = measured.looks[mean.contender]
@@ -64,14 +67,6 @@ def _overall(measured: Measured, one: Overall, stem: str) -> Plot:
         ),
         summary,
     )
-
-
-def _by_contender(every: Sequence[Standings]) -> dict[str, list[tuple[str, Standing]]]:
-    found: dict[str, list[tuple[str, Standing]]] = {}
-    for view in every:
-        for one in (*view.ranked, *view.references):
-            found.setdefault(one.contender, []).append((view.view, one))
-    return found
 
 
 def _draw_views(

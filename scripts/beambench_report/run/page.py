@@ -130,7 +130,7 @@ def render(
             noise_is_known=manifest.noise is not None,
             is_timed=bool(run.rows["timed"].any()),
             analysis=analysis,
-            absent=absent(run, manifest, files, figures, pictures),
+            absent=[*absent(run, manifest, files, figures, pictures)],
             color=css_color,
             dark=dark_variables(),
             interval=ratio_field,

@@ -12,9 +12,10 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter, NullLocator
 from matplotlib.transforms import blended_transform_factory
 
-from beambench_report.base.figure import DPI, PAGE_WIDTH, Look, caption
+from beambench_report.base.figure import DPI, PAGE_WIDTH, Look, Plot, caption
 from beambench_report.base.names import file_stems
-from beambench_report.run.measured import by_kind
+from beambench_report.base.records import Run
+from beambench_report.run.measured import by_kind, short_title
 
 TALLEST = 1.38 * PAGE_WIDTH
 """In inches; what is wanted is 1.4, and matplotlib rounds to pixels."""
@@ -114,6 +115,16 @@ def finish(
     figure.get_layout_engine().execute(figure)
     figure.set_layout_engine("none")
     return figure
+
+
+def plot_of_views(
+    run: Run, stem: str, figure: Figure, views: Sequence[str], what: tuple[str, str], reading: str
+) -> Plot:
+    """Finishes a figure of some views; `what` is its heading, and its summary without scenes."""
+    heading, summary = what
+    finish(figure, heading, run.rows[run.rows["view"].isin(views)], reading)
+    scenes = ", ".join(short_title(run.rows, view) for view in views)
+    return Plot(stem, figure, f"{summary}: {scenes}", views[0] if len(views) == 1 else "")
 
 
 def set_title(panel: Axes, title: str, width: int = 38) -> None:

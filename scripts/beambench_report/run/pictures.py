@@ -2,7 +2,6 @@
 
 import json
 import math
-import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass
@@ -43,12 +42,15 @@ def write_pictures(directory: Path, beambench: Path) -> list[Path]:
     paths = []
     for scene, stem in file_stems(dict.fromkeys(run.rows["scene"])).items():
         picture = folder / f"{stem}.png"
-        _render(beambench, scene, _RENDERER, picture, *_EXPOSURE)
+        _run(beambench, scene, *_render(scene, _RENDERER, picture), *_EXPOSURE)
         paths.append(picture)
         structure = _heatmap_structure(run, scene)
         if structure:
             heatmap = folder / f"{stem}-{_HEATMAP_STRUCTURE}-{_HEATMAP_COUNTER}.png"
-            _render(beambench, scene, structure, heatmap, "--heatmap", _HEATMAP_COUNTER)
+            _run(
+                *(beambench, scene, *_render(scene, structure, heatmap)),
+                *("--heatmap", _HEATMAP_COUNTER),
+            )
             paths.append(heatmap)
     return paths
 
@@ -66,15 +68,8 @@ def _heatmap_structure(run: Run, scene: str) -> str | None:
     return f"{_HEATMAP_STRUCTURE}:{parameters}" if parameters else _HEATMAP_STRUCTURE
 
 
-def _render(beambench: Path, scene: str, structure: str, output: Path, *options: str) -> None:
-    command = [str(beambench), "render", path_of_name(scene), "--accel", structure]
-    command += ["-o", str(output), *options]
-    try:
-        status = subprocess.run(command, check=False).returncode
-    except OSError as error:
-        raise Problem(f"{beambench} cannot be run: {error.strerror}; build it first") from None
-    if status != 0:
-        raise Problem(f"`{' '.join(command)}` ended with exit code {status}")
+def _render(scene: str, structure: str, output: Path) -> tuple[str, ...]:
+    return ("render", path_of_name(scene), "--accel", structure, "-o", str(output))
 
 
 _PAINTER = "sah-bvh"
@@ -83,18 +78,11 @@ _SHADING = "whitted"
 _DPI = 100
 
 
-@dataclass(frozen=True)
-class _View:
-    """How a scene is pictured that its own camera or its mirrors do not show well."""
-
-    options: tuple[str, ...]
-    note: str = ""  # for its label
-
-
 _VIEWS = {
-    "misil": _View(("--depth", "1")),  # its surfaces are pale mirrors of the sky otherwise
-    "soup": _View(("--angle", "12"), "close up"),  # its triangles are smaller than pixels otherwise
+    "misil": (("--depth", "1"), ""),  # its surfaces are pale mirrors of the sky otherwise
+    "soup": (("--angle", "12"), "close up"),  # its triangles are smaller than pixels otherwise
 }
+"""Options for scenes that their own camera or mirrors do not show well, and notes for labels."""
 
 
 @dataclass(frozen=True)
@@ -162,10 +150,10 @@ def _render_all(beambench: Path, counts: dict[str, str], folder: Path) -> dict[s
     for number, (scene, text) in enumerate(counts.items(), 1):
         print(f"rendering {scene} ({number} of {len(counts)})", file=sys.stderr)
         file = folder / "picture.png"
-        view = _VIEWS.get(scene, _View(()))
+        own, note = _VIEWS.get(scene, ((), ""))
         options = ("--accel", _PAINTER, "--samples", _SAMPLES, "--shade", _SHADING, *_EXPOSURE)
-        _run(beambench, scene, "render", scene, *options, *view.options, "-o", str(file))
-        about = ", ".join(filter(None, (text, view.note)))
+        _run(beambench, scene, "render", scene, *options, *own, "-o", str(file))
+        about = ", ".join(filter(None, (text, note)))
         pictures[scene] = Picture(scene, about, imread(file)[..., :3])
     return pictures
 

@@ -69,7 +69,9 @@ def write_plots(directory: Path, kinds: Sequence[Kind] = KINDS) -> list[Path]:
     table = break_even_table(measured.run)
     paths.append(write_text(folder / "break-even.csv", csv_of(table)))
     readme = _readme(measured.run, plots, kinds)
-    for name, text in (("README.md", readme), (PLOT_INDEX, _index(plots))):
+    entries = [{"stem": plot.stem, "summary": plot.summary, "view": plot.view} for plot in plots]
+    index = json.dumps(entries, indent=2) + "\n"
+    for name, text in (("README.md", readme), (PLOT_INDEX, index)):
         paths.append(write_text(folder / name, text))
     return paths
 
@@ -103,8 +105,3 @@ def _readme(run: Run, plots: list[Plot], kinds: Sequence[Kind]) -> str:
         lines += [f"- {kind.name}: {kind.needs}" for kind in missing]
         lines += [""]
     return "\n".join(lines)
-
-
-def _index(plots: list[Plot]) -> str:
-    entries = [{"stem": plot.stem, "summary": plot.summary, "view": plot.view} for plot in plots]
-    return json.dumps(entries, indent=2) + "\n"

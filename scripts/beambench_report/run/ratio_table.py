@@ -17,7 +17,7 @@ _VIEW = ["scene", "camera", "width", "height", "ray_kind", "machine_id"]
 _TIME = "trace_net_ms_median"
 
 
-def write_ratios(run: Path, base: str, output: Path | None) -> str | list[Path]:
+def write_ratios(run: Path, base: str, output: Path | None = None) -> str | list[Path]:
     """The table as Markdown: a text to be printed, or the file that was written.
 
     `base` is a contender, as plots call it, or a structure: then it is, in each view, that of its
@@ -43,7 +43,9 @@ def _text(rows: pd.DataFrame, base: str) -> str:
         found = own.set_index(["scene", "ray_kind"])["ratio"].groupby(level=[0, 1]).agg(gmean)
         cells = [
             f"{number(build[contender, scene]) if (contender, scene) in build else '-'}; "
-            + ", ".join(_ratio(found.get((scene, kind))) for kind in kinds)
+            + ", ".join(
+                f"{found[scene, kind]:.2f}" if (scene, kind) in found else "wrong" for kind in kinds
+            )
             for scene in scenes
         ]
         means = [found[found.index.get_level_values(1) == kind] for kind in kinds]
@@ -79,7 +81,3 @@ def _ratios(correct: pd.DataFrame, base: str) -> pd.DataFrame:
     fastest = of_base.groupby(_VIEW, as_index=False)[_TIME].min()
     both = correct.merge(fastest, on=_VIEW, suffixes=("", "_of_base"))
     return both.assign(ratio=both[_TIME] / both[f"{_TIME}_of_base"])
-
-
-def _ratio(value: float | None) -> str:
-    return "wrong" if value is None else f"{value:.2f}"

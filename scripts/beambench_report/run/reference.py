@@ -88,10 +88,6 @@ def _ratios(
     if reference not in timed.index:
         return {}
     base = timed.loc[reference]
-    result = {}
-    for contender, row in timed.iterrows():
-        if contender == reference:
-            result[contender] = Ratio(1.0)
-        elif base["total_ms_median"] > 0:
-            result[contender] = ratio_of("total", row, base, files)
-    return result
+    others = timed.drop(reference) if base["total_ms_median"] > 0 else timed.iloc[:0]
+    found = {name: ratio_of("total", row, base, files) for name, row in others.iterrows()}
+    return found | {reference: Ratio(1.0)}

@@ -8,16 +8,15 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import NullFormatter, NullLocator
 
 from beambench_report.base.figure import Look, Plot
-from beambench_report.base.palette import PAPER
 from beambench_report.base.records import size_of
 from beambench_report.base.svg import hover
 from beambench_report.run.measured import Measured, ns_in_words, short_title
 from beambench_report.run.panels import (
     MOST_LINES,
-    finish,
     hide_repeated_labels,
     panels_with_legend,
     parts_by_kind,
+    plot_of_views,
     scale_axis,
     set_title,
     share_limits,
@@ -67,42 +66,29 @@ def _resolutions(measured: Measured, kind: str, views: Sequence[str], stem: str)
     for panel in panels:
         _name_sizes(panel, sizes)
     hide_repeated_labels(panels, columns)
-    scenes = ", ".join(short_title(measured.run.rows, view) for view in views)
-    return Plot(
-        stem,
-        finish(
-            figure,
-            f"Trace time of a ray against resolution, {kind}",
-            measured.run.rows[measured.run.rows["view"].isin(views)],
-            "Median of the first trace after a build, build not included; bars: its 95% interval."
-            + (_FEWER if len(shown) < len(fastest) else ""),
-        ),
-        f"ns per ray against resolution, {kind}: {scenes}",
-        views[0] if len(views) == 1 else "",
+    what = (
+        f"Trace time of a ray against resolution, {kind}",
+        f"ns per ray against resolution, {kind}",
     )
+    reading = "Median of the first trace after a build, build not included; bars: its 95% interval."
+    fewer = _FEWER if len(shown) < len(fastest) else ""
+    return plot_of_views(measured.run, stem, figure, views, what, reading + fewer)
 
 
 def _draw_line(panel: Axes, line: pd.DataFrame, look: Look) -> None:
-    strokes = [(row["rays"], end) for _, row in line.iterrows() for end in _ends(row)]
+    strokes = [
+        (row["rays"], end)
+        for _, row in line.iterrows()
+        for end in (row["ns_low"], row["ns_high"], nan)  # nan: where the next stroke begins
+    ]
     panel.plot(*zip(*strokes, strict=True), color=look.color, linewidth=2.2)
     (joined,) = panel.plot(
         line["rays"],
         line["ns"],
-        color=look.color,
-        linestyle=look.dashes,
-        linewidth=1.2,
-        marker=look.marker,
-        markersize=4.5,
-        markeredgecolor=PAPER,
-        markeredgewidth=0.4,
+        **look.line,
     )
     values = [f"{size_of(row)} {ns_in_words(row)}" for _, row in line.iterrows()]
     hover(joined, f"{line['contender'].iloc[0]}: {'; '.join(values)}")
-
-
-def _ends(row: pd.Series) -> tuple[float, float, float]:
-    """Returns the ends of a stroke over the interval, followed by NaN to separate the next one."""
-    return row["ns_low"], row["ns_high"], nan
 
 
 def _name_sizes(panel: Axes, sizes: dict[str, float]) -> None:

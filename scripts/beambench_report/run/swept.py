@@ -12,16 +12,16 @@ from beambench.analysis import Ratio
 from beambench_report.base.cell_files import ratio_of
 from beambench_report.base.figure import Look, Plot, variant_look
 from beambench_report.base.names import file_stems, parameter_items, varying_parameters
-from beambench_report.base.palette import INK, PAPER
+from beambench_report.base.palette import INK
 from beambench_report.base.quantities import number
 from beambench_report.base.records import size_of
 from beambench_report.base.svg import hover
 from beambench_report.run.measured import Measured, between, short_title
 from beambench_report.run.panels import (
-    finish,
     hide_repeated_labels,
     panels_with_legend,
     parts_by_kind,
+    plot_of_views,
     scale_axis,
     set_title,
     share_limits,
@@ -131,21 +131,16 @@ def _figure(
     for part in _rows_of_panels(dict(zip(panels, lines.items(), strict=True)), columns):
         _share_scale(part)
     hide_repeated_labels(panels, columns)
-    scenes = ", ".join(short_title(measured.run.rows, view) for view in views)
-    heading = f"Speed of a trace relative to {sweep.base} of the same {sweep.parameter}, {kind}"
-    return Plot(
-        stem,
-        finish(
-            figure,
-            heading,
-            measured.run.rows[measured.run.rows["view"].isin(views)],
-            f"The trace time of {sweep.base} over that of each other, both with the same "
-            f"{sweep.parameter}; medians of the first trace after a build, build not included. "
-            "Bars: 95% interval of the ratio, where there is one.",
-        ),
-        f"speed relative to {sweep.base} by {sweep.parameter}, {kind}: {scenes}",
-        views[0] if len(views) == 1 else "",
+    what = (
+        f"Speed of a trace relative to {sweep.base} of the same {sweep.parameter}, {kind}",
+        f"speed relative to {sweep.base} by {sweep.parameter}, {kind}",
     )
+    reading = (
+        f"The trace time of {sweep.base} over that of each other, both with the same "
+        f"{sweep.parameter}; medians of the first trace after a build, build not included. "
+        "Bars: 95% interval of the ratio, where there is one."
+    )
+    return plot_of_views(measured.run, stem, figure, views, what, reading)
 
 
 _Line = list[tuple[float, Ratio]]
@@ -206,13 +201,7 @@ def _draw_line(panel: Axes, name: str, line: _Line, look: Look, sweep: _Sweep) -
     (joined,) = panel.plot(
         [value for value, _ in line],
         [ratio.value for _, ratio in line],
-        color=look.color,
-        linestyle=look.dashes,
-        linewidth=1.2,
-        marker=look.marker,
-        markersize=4.5,
-        markeredgecolor=PAPER,
-        markeredgewidth=0.4,
+        **look.line,
     )
     texts = [
         f"{sweep.parameter}={value:g} {number(ratio.value)} times"

@@ -103,7 +103,9 @@ def work_table(caption: str, rows: pd.DataFrame, counters: list[str]) -> Table |
     counted = rows[rows[counters].notna().any(axis=1)] if counters else rows.iloc[:0]
     if counted.empty:
         return None
-    headings = tuple(Heading(_counter_title(name), "", name) for name in counters)
+    headings = tuple(
+        Heading(name.removesuffix(COUNTER_SUFFIX).replace("_", " "), "", name) for name in counters
+    )
     lines = tuple(
         _bare_line(row, tuple(_figure(row[name]) for name in counters))
         for _, row in _in_order(counted).head(_MOST_LINES).iterrows()
@@ -183,10 +185,6 @@ def _figure(value: float | None, note: str = "") -> Field:
     if value is None or pd.isna(value):
         return MISSING
     return Field(number(value), value, note)
-
-
-def _counter_title(name: str) -> str:
-    return name.removesuffix(COUNTER_SUFFIX).replace("_", " ")
 
 
 def _scale(totals: pd.Series) -> float:

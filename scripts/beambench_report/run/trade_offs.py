@@ -128,18 +128,13 @@ def _draw(
     return rows, line
 
 
-def _is_linear(panel: Axes, axis: str) -> bool:
-    return getattr(panel, f"get_{axis}scale")() == "linear"
-
-
 def _stairs(panel: Axes, points: list[tuple[float, float]]) -> list[tuple[float, float]]:
     """Returns the stairs from the upper end of the panel over the front to its right end."""
     panel.autoscale_view()
     for axis in ("x", "y"):
         low, high = getattr(panel, f"get_{axis}lim")()
-        panel.set(
-            **{f"{axis}lim": (0 if low < high / 3 and _is_linear(panel, axis) else low, high)}
-        )
+        is_linear = getattr(panel, f"get_{axis}scale")() == "linear"
+        panel.set(**{f"{axis}lim": (0 if low < high / 3 and is_linear else low, high)})
     right, top = panel.get_xlim()[1], panel.get_ylim()[1]
     front = [points[index] for index in pareto_front(points)]
     corners = [(front[0][0], top)]

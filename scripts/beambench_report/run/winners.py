@@ -83,7 +83,7 @@ def with_ratios(rows: pd.DataFrame, files: Mapping[Identity, CellFile]) -> pd.Da
     )
 
 
-def write_winners(run: Path, output: Path | None) -> str | list[Path]:
+def write_winners(run: Path, output: Path | None = None) -> str | list[Path]:
     """The tables as Markdown: a text to be printed, or the file that was written."""
     found = races(read_run(run).rows, read_cell_files(run))
     if not found:
@@ -97,7 +97,6 @@ def _by_structure(found: Sequence[Race]) -> list[str]:
     for kind in dict.fromkeys(race.ray_kind for race in found):
         of_kind = [race for race in found if race.ray_kind == kind]
         rows = pd.concat([race.ranked for race in of_kind])
-        wins = Counter(name for race in of_kind for name in race.tied)
         table = sorted(
             (float(gmean(group["ratio"])), str(name), group)
             for name, group in rows.groupby("structure")
@@ -109,11 +108,14 @@ def _by_structure(found: Sequence[Race]) -> list[str]:
                 (
                     f"`{name}`",
                     f"{mean:.2f}",
-                    f"{wins[name]} of {len(of_kind)}"
+                    f"{group['is_tied'].sum()} of {len(of_kind)}"
                     + ("" if len(group) == len(of_kind) else f" (in {len(group)})"),
                     number(group["build_ms_median"].median()),
                     number((group["memory_bytes"] / group["primitives"]).median()),
-                    _parameters(group),
+                    "; ".join(
+                        f"{label} ({times})"
+                        for label, times in Counter(group["contender"]).most_common(3)
+                    ),
                 )
                 for mean, name, group in table
             ],
@@ -123,18 +125,11 @@ def _by_structure(found: Sequence[Race]) -> list[str]:
     return parts
 
 
-def _parameters(group: pd.DataFrame) -> str:
-    """How often each set of parameters was the best, where there is a choice."""
-    counted = Counter(str(label) for label in group["contender"])
-    return "; ".join(f"{label} ({times})" for label, times in counted.most_common(3))
-
-
 def _by_scene(found: Sequence[Race]) -> str:
     kinds = list(dict.fromkeys(race.ray_kind for race in found))
-    words: dict[str, dict[str, str]] = {}
-    for race in found:
-        words.setdefault(race.scene, {}).setdefault(race.ray_kind, race.words)
-    rows = [(scene, *(of.get(kind, "-") for kind in kinds)) for scene, of in words.items()]
+    words = {(race.scene, race.ray_kind): race.words for race in reversed(found)}
+    scenes = dict.fromkeys(race.scene for race in found)
+    rows = [(scene, *(words.get((scene, kind), "-") for kind in kinds)) for scene in scenes]
     lines = markdown_table(("scene", *kinds), rows)
     return (
         "## By scene\n\nThe fastest, with those tied with it, and the next with its ratio. "

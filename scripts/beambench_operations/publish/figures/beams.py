@@ -1,7 +1,5 @@
 """results/published/beams: the thesis's beams beside single rays."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 
@@ -74,35 +72,26 @@ def _finest(file: Path) -> dict[str, Any]:
     """The rows of an earlier run at the highest resolution."""
     rows = _with_parameters(file)
     scenes = list(dict.fromkeys(rows["scene"]))
-
-    def least(scene: str, structure: str, column: str, **wanted: str) -> float:
-        own = rows[(rows["scene"] == scene) & (rows["structure"] == structure)]
-        chosen = own[own["chosen"].map(lambda chosen: wanted.items() <= chosen.items())]
-        return float(chosen[column].min())
-
-    def ratio(scene: str, level: str, handover: str) -> float:
-        column = "trace_ms_median"
-        return least(scene, "samet", column, max_level=level) / least(
-            scene, "beam", column, max_level=level, handover=handover
-        )
-
-    def own_best(rays: str, scene: str) -> float:
-        column = "total_ms_median"
-        return least(scene, rays, column) / least(scene, "beam", column, handover=_HANDOVER)
-
+    settings = ["structure", "scene", "max_level", "handover"]
+    trace = rows.groupby(settings)["trace_ms_median"].min()
+    of_handover = rows[(rows["structure"] != "beam") | (rows["handover"] == _HANDOVER)]
+    total = of_handover.groupby(["structure", "scene"])["total_ms_median"].min()
     return {
         "size": "3840x2160",
         "by_level": {
             scene: {
                 level: {
-                    handover: ratio(scene, level, handover) for handover in (_THESIS, _HANDOVER)
+                    handover: trace["samet", scene, level, ""]
+                    / trace["beam", scene, level, handover]
+                    for handover in (_THESIS, _HANDOVER)
                 }
                 for level in ("7", "8")
             }
             for scene in scenes
         },
         "own_best": {
-            rays: [own_best(rays, scene) for scene in scenes] for rays in ("samet", "samet-net")
+            rays: [total[rays, scene] / total["beam", scene] for scene in scenes]
+            for rays in ("samet", "samet-net")
         },
     }
 
@@ -111,12 +100,13 @@ def _options(file: Path) -> dict[str, Any]:
     """The rows of an earlier run with the beams' options."""
     rows = _with_parameters(file)
 
-    def ratio(scene: str, samples: int, **wanted: str) -> float | None:
+    def ratio(scene: str, samples: int, wanted: dict[str, str]) -> float | None:
         view = rows[(rows["scene"] == scene) & (rows["samples"] == samples)]
-        samet = view[view["structure"] == "samet"].iloc[0]["trace_ms_median"]
-        own = view[view["structure"] == "beam"]
-        own = own[own["chosen"].map(lambda chosen: wanted.items() <= chosen.items())]
-        return None if own.empty else float(samet / own.iloc[0]["trace_ms_median"])
+        samet, beams = (view[view["structure"] == name] for name in ("samet", "beam"))
+        own = beams.loc[
+            (beams[list(wanted)] == pd.Series(wanted)).all(axis="columns"), "trace_ms_median"
+        ]
+        return None if own.empty else float(samet["trace_ms_median"].iloc[0] / own.iloc[0])
 
     plain = {"continue": "rays", "share_corners": "false"}
     columns: dict[str, tuple[int, dict[str, str]]] = {
@@ -130,12 +120,14 @@ def _options(file: Path) -> dict[str, Any]:
         "size": "640x480",
         "columns": list(columns),
         "ratios": {
-            scene: [ratio(scene, samples, **wanted) for samples, wanted in columns.values()]
+            scene: [ratio(scene, samples, wanted) for samples, wanted in columns.values()]
             for scene in dict.fromkeys(rows["scene"])
         },
     }
 
 
 def _with_parameters(file: Path) -> pd.DataFrame:
+    """Returns the rows with a column for each parameter; empty where a structure lacks it."""
     rows = pd.read_csv(file)
-    return rows.assign(chosen=rows["parameters"].map(parameter_items))
+    chosen = pd.DataFrame(rows["parameters"].map(parameter_items).tolist(), rows.index)
+    return rows.join(chosen.fillna(""))

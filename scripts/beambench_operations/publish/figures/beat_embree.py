@@ -1,7 +1,5 @@
 """results/published/beat-embree: images by tile beams and by Embree's fastest mode."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 
@@ -21,17 +19,12 @@ _EQUALLY_DENSE = {"320x200": "143x89", "1280x1024": "572x458"}
 def figures(folder: Path) -> dict[str, Any]:
     """The groups with their ratios, the growth with triangles, and builds."""
     found = read_pairings(folder, BEAT_EMBREE)
+    best = [one for one in found if one.isa == "best"]
+    bumpy = [one for one in best if one.scene.startswith("bumpy:")]
     growing = sorted(
-        (
-            one
-            for one in found
-            if one.scene.startswith("bumpy:")
-            and one.resolution == "1280x1024"
-            and one.isa == "best"
-        ),
-        key=lambda one: one.primitives,
+        (one for one in bumpy if one.resolution == "1280x1024"), key=lambda one: one.primitives
     )
-    million = [one for one in found if one.scene == _MILLION and one.isa == "best"]
+    million = [one for one in bumpy if one.scene == _MILLION]
     return figures_of(found) | {
         "growing": growing,
         "build": {
@@ -40,7 +33,7 @@ def figures(folder: Path) -> dict[str, Any]:
         },
         "memory": _memory(folder / "memory"),
         "xeon": _xeon(folder / "xeon.csv"),
-        "fastest": sorted({one.embree.contender for one in found if one.isa == "best"}),
+        "fastest": sorted({one.embree.contender for one in best}),
     }
 
 

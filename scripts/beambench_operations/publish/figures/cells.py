@@ -1,11 +1,8 @@
 """The rows of one published run, and ratios of its contenders with their intervals."""
 
-from __future__ import annotations
-
-from collections.abc import Sequence
 from functools import cached_property
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 import pandas as pd
 
@@ -13,7 +10,7 @@ from beambench.analysis import Ratio, geometric_mean
 from beambench_report.base.cell_files import CellFile, Identity, ratio_of, read_cell_files
 from beambench_report.base.files import Problem
 from beambench_report.base.names import parameter_items
-from beambench_report.base.records import read_run
+from beambench_report.base.records import FAULTLESS_VERDICTS, read_run
 
 Phase = Literal["total", "trace"]
 
@@ -56,12 +53,10 @@ class Cells:
         both = (self.row(contender, **columns) for contender in (over, under))
         return ratio_of(phase, *both, self.files)
 
-    def mean(
-        self, over: str, under: str, scenes: Sequence[str], phase: Phase = "trace", **columns: str
-    ) -> Ratio:
-        """The geometric mean of `ratio` over some scenes."""
+    def mean(self, over: str, under: str, **columns: str) -> Ratio:
+        """The geometric mean of `ratio` over all scenes."""
         return geometric_mean(
-            [self.ratio(over, under, phase, scene=scene, **columns) for scene in scenes]
+            [self.ratio(over, under, scene=scene, **columns) for scene in self.scenes]
         )
 
     @property
@@ -77,7 +72,7 @@ class Cells:
     @property
     def wrong(self) -> pd.DataFrame:
         """The rows whose hits are not correct."""
-        return self.rows[~self.rows["verdict"].isin(("ok", "baseline", "no_rays", "unsupported"))]
+        return self.rows[~self.rows["verdict"].isin(FAULTLESS_VERDICTS)]
 
     @staticmethod
     def _is(rows: pd.DataFrame, contender: str) -> pd.Series:
@@ -86,3 +81,15 @@ class Cells:
         return (rows["structure"] == structure) & rows["parameters"].map(
             lambda own: wanted <= parameter_items(own).items()
         )
+
+
+def counted(published: Path) -> dict[str, Any]:
+    """Counts the cells of every results.csv, and those whose hits are wrong by structure."""
+    columns = ["structure", "verdict"]
+    rows = pd.concat(
+        pd.read_csv(file, usecols=columns, keep_default_na=False)
+        for file in sorted(published.rglob("results.csv"))
+    )
+    wrong = rows.loc[~rows["verdict"].isin(FAULTLESS_VERDICTS), "structure"]
+    by_structure = wrong.groupby(wrong, sort=False).size().to_dict()
+    return {"cells": len(rows), "all_wrong": len(wrong), "wrong": by_structure}

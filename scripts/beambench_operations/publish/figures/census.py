@@ -1,7 +1,5 @@
 """results/published/census: rays of whole pictures by kind, shadows, adaptive depth."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 
@@ -67,30 +65,19 @@ def _shadows(folder: Path) -> dict[str, Any]:
     return {
         "shown": {name: found[by_name[name]] for name in _SHOWN if name in by_name},
         "scenes": len(plain),
-        "cached": (
-            min(own["cached"] for own in found.values()),
-            max(own["cached"] for own in found.values()),
-        ),
+        "cached": (min(cached := [own["cached"] for own in found.values()]), max(cached)),
         "cache_times": (times[0], times[-1]),
     }
 
 
 def _weights(scenes: dict[str, dict[str, Any]]) -> dict[str, dict[str, float]]:
     return {
-        name: {
-            "time": one["picture_ms"] / one["full_picture_ms"],
-            "error": one["error"],
-        }
+        name: {"time": one["picture_ms"] / one["full_picture_ms"], "error": one["error"]}
         for name, one in scenes.items()
     }
 
 
 def _pictures(scenes: dict[str, dict[str, Any]]) -> dict[str, Any]:
-    seconds = {name: (one["picture_ms"] + one["eye_ms"]) / 1e3 for name, one in scenes.items()}
-    slowest = max(seconds, key=lambda name: seconds[name])
-    return {
-        "scenes": len(seconds),
-        "seconds": sum(seconds.values()),
-        "least": min(seconds.values()),
-        "most": (seconds[slowest], slowest),
-    }
+    seconds = [(one["picture_ms"] + one["eye_ms"]) / 1e3 for one in scenes.values()]
+    most = max(zip(seconds, scenes, strict=True))
+    return {"scenes": len(seconds), "seconds": sum(seconds), "least": min(seconds), "most": most}

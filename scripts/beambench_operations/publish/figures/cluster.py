@@ -1,7 +1,5 @@
 """results/published/cluster: the thesis's cluster simulated, and the program on this machine."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -29,7 +27,9 @@ def figures(folder: Path) -> dict[str, Any]:
     at = _finder(simulations)
     return {
         "at": at,
-        "best": lambda scene, network: _best(simulations, scene, network),
+        "best": lambda scene, network: (
+            _of(simulations, scene, network).nlargest(1, "efficiency").iloc[0]
+        ),
         "most_busy": lambda scene, network: _of(simulations, scene, network)["producer_busy"].max(),
         "balance": lambda scene, network: _balance(at, processes, scene, network),
         "simulations": len(simulations),
@@ -76,12 +76,6 @@ def _of(simulations: pd.DataFrame, scene: str, network: str) -> pd.DataFrame:
     for name, value in _THESIS.items():
         rows = rows[rows[name] == value]
     return rows
-
-
-def _best(simulations: pd.DataFrame, scene: str, network: str) -> pd.Series:
-    """Returns the simulation of the highest efficiency."""
-    rows = _of(simulations, scene, network)
-    return rows.loc[rows["efficiency"].idxmax()]
 
 
 def _balance(

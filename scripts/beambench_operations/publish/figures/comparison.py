@@ -1,8 +1,5 @@
 """Tile beams beside Embree's fastest mode, as the texts on them state it."""
 
-from __future__ import annotations
-
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,7 +9,7 @@ from beambench.analysis import Ratio, geometric_mean
 from beambench_operations.publish.figures.formats import brief
 from beambench_report.base.records import read_run
 from beambench_report.embree_comparison.pairings import Pairing, pairings
-from beambench_report.embree_comparison.report import outcome
+from beambench_report.embree_comparison.report import outcome, outcomes
 from beambench_report.embree_comparison.targets import Group, groups, part_of_targets
 
 
@@ -40,11 +37,13 @@ def read_pairings(folder: Path, names: Sequence[str]) -> list[Pairing]:
 
 def figures_of(found: Sequence[Pairing]) -> dict[str, Any]:
     """The groups of scenes by title, with their ratios at each resolution, and the counts."""
-    of_groups = {group.title: _of_group(group, found, "best") for group in groups()}
-    limited = {group.title: _of_group(group, found, "avx2") for group in groups()}
+    of_groups, of_groups_limited = (
+        {group.title: own for group in groups() if (own := _of_group(group, found, isa))["rows"]}
+        for isa in ("best", "avx2")
+    )
     return {
-        "groups": {title: group for title, group in of_groups.items() if group["rows"]},
-        "avx2": {title: group for title, group in limited.items() if group["rows"]},
+        "groups": of_groups,
+        "avx2": of_groups_limited,
         "targets": _counts(found, "best"),
         "targets_avx2": _counts(found, "avx2"),
     }
@@ -70,14 +69,17 @@ def _of_group(group: Group, found: Sequence[Pairing], isa: str) -> dict[str, Any
     means = {
         size: [at[scene, size] for scene in group.scenes if (scene, size) in at] for size in sizes
     }
+    mean_targets = {  # none where scenes are missing
+        size: part * target
+        for size, target in group.mean_targets.items()
+        if len(means.get(size, ())) == len(group.scenes)
+    }
     return {
         "sizes": sizes,
         "rows": rows,
         "targets": {size: part * group.targets[size] for size in sizes},
         "mean": {
-            size: _against(
-                geometric_mean([one.ratio for one in own]), _mean_target(group, size, part, own)
-            )
+            size: _against(geometric_mean([one.ratio for one in own]), mean_targets.get(size))
             for size, own in means.items()
         },
         "second": {
@@ -88,23 +90,12 @@ def _of_group(group: Group, found: Sequence[Pairing], isa: str) -> dict[str, Any
     }
 
 
-def _mean_target(group: Group, size: str, part: float, own: Sequence[Pairing]) -> float | None:
-    """None where scenes are missing."""
-    target = group.mean_targets.get(size)
-    return part * target if target and len(own) == len(group.scenes) else None
-
-
 def _against(ratio: Ratio, target: float | None) -> Against:
     return Against(ratio, target, "" if target is None else outcome(ratio, target))
 
 
 def _counts(found: Sequence[Pairing], isa: str) -> dict[str, int]:
     """How many targets of single scenes are met, open and missed."""
-    part = part_of_targets(isa)
-    counts = Counter(
-        outcome(one.ratio, part * group.targets[one.resolution])
-        for group in groups()
-        for one in found
-        if group.holds(one) and one.isa == isa and one.samples == 1
-    )
+    single = [one for one in found if one.isa == isa and one.samples == 1]
+    counts = outcomes(single, part_of_targets(isa))
     return {"all": counts.total()} | {name: counts[name] for name in ("met", "open", "missed")}

@@ -1,7 +1,5 @@
 """results/published/default: the default run, and whether a second one finds it again."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

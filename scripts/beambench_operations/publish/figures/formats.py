@@ -1,7 +1,5 @@
 """How figures are written in the texts: the filters of the templates."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from beambench.analysis import Ratio

@@ -1,7 +1,5 @@
 """results/published/haines: tests by kind of primitive over TETRA, ours and Haines's."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """results/published/havran: Samet's traversal over TETRA, ours and Havran's."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 
@@ -15,8 +13,7 @@ def figures(folder: Path) -> dict[str, Any]:
     ours, his = read_counts(folder / "counts.csv"), read_counts(PUBLISHED)
     return {
         "depths": {
-            case.setting.removeprefix("depth "): (ours[case], quantities)
-            for case, quantities in his.items()
-            if (case.structure, case.scene) == (_STRUCTURE, _SCENE)
+            setting.removeprefix("depth "): (ours.loc[_STRUCTURE, _SCENE, setting], quantities)
+            for setting, quantities in his.loc[_STRUCTURE, _SCENE].iterrows()
         }
     }

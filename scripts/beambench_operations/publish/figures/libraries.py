@@ -1,7 +1,5 @@
 """results/published/libraries: tinybvh and madmann91/bvh beside sah-bvh and Embree."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 
@@ -39,7 +37,7 @@ def figures(folder: Path) -> dict[str, Any]:
         "cells": len(cells.rows),
         "wrong": cells.wrong.to_dict("records"),
         "versions": sorted(set(cells.rows["library_version"]) - {""}),
-        "means": means(net_ratios(cells, _BASE, _CONTENDERS), len(cells.scenes)),
+        "means": means(net_ratios(cells, _BASE, _CONTENDERS)),
         "best_of_tinybvh": {
             builder: _over_tinybvh(cells, f"sah-bvh:builder={builder}")
             for builder in ("binned", "spatial")
@@ -83,5 +81,5 @@ def _of_embree_4(folder: Path) -> dict[str, Any]:
     return {
         "cells": len(cells.rows),
         "wrong": len(cells.wrong),
-        "means": means(net_ratios(cells, _BASE, own), len(cells.scenes)),
+        "means": means(net_ratios(cells, _BASE, own)),
     }

@@ -1,10 +1,8 @@
 """Trace times without the harness's share, over those of one contender on the same rays."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
-from typing import Any
 
+import pandas as pd
 from scipy.stats import gmean
 
 from beambench_operations.publish.figures.cells import Cells
@@ -12,30 +10,24 @@ from beambench_operations.publish.figures.cells import Cells
 NET = "trace_net_ms_median"
 
 
-def net_ratios(
-    cells: Cells, base: str, contenders: Mapping[str, str], kind: str = ""
-) -> dict[str, dict[str, dict[str, float]]]:
-    """Returns ratios by name in `contenders`, scene and kind of rays; `kind` selects one kind."""
-    kinds = [kind] if kind else list(dict.fromkeys(cells.rows["ray_kind"]))
-    found: dict[str, dict[str, dict[str, float]]] = {}
-    for name, contender in contenders.items():
+def net_ratios(cells: Cells, base: str, contenders: Mapping[str, str]) -> pd.Series:
+    """Returns ratios by name in `contenders`, scene and kind of rays, of what has times."""
+    found = {}
+    for kind in dict.fromkeys(cells.rows["ray_kind"]):
         for scene in cells.scenes:
-            for one in kinds:
-                rows = cells.having(contender, scene=scene, ray_kind=one)
-                if len(rows[rows["timed"]]):
-                    own = cells.row(contender, scene=scene, ray_kind=one)[NET]
-                    under = cells.row(base, scene=scene, ray_kind=one)[NET]
-                    found.setdefault(name, {}).setdefault(scene, {})[one] = float(own / under)
-    return found
+            view = {"scene": scene, "ray_kind": kind}
+            for name, contender in contenders.items():
+                if cells.having(contender, **view)["timed"].any():
+                    own, under = (cells.row(one, **view)[NET] for one in (contender, base))
+                    found[name, scene, kind] = own / under
+    return pd.Series(found).rename_axis(["name", "scene", "kind"])
 
 
-def means(ratios: Mapping[str, Mapping[str, Mapping[str, float]]], scenes: int) -> dict[str, Any]:
+def means(ratios: pd.Series) -> dict[str, dict[str, float]]:
     """Returns the geometric mean of each name over all scenes, by kind, if all scenes have it."""
-    result: dict[str, dict[str, float]] = {}
-    for name, by_scene in ratios.items():
-        kinds = dict.fromkeys(kind for own in by_scene.values() for kind in own)
-        for kind in kinds:
-            values = [own[kind] for own in by_scene.values() if kind in own]
-            if len(values) == scenes:
-                result.setdefault(name, {})[kind] = float(gmean(values))
-    return result
+    table = ratios.groupby(["name", "kind"], sort=False).agg([gmean, "size"])
+    scenes = ratios.index.get_level_values("scene").nunique()
+    known = table.loc[table["size"] == scenes, "gmean"]
+    return {
+        name: own.droplevel("name").to_dict() for name, own in known.groupby("name", sort=False)
+    }

@@ -1,7 +1,5 @@
 """results/published/nightly: one night, and how often nights raise a false alarm."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

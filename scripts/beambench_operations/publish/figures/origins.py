@@ -1,7 +1,5 @@
 """The commits and machines that made a published folder."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,7 +19,6 @@ class Origin:
     processor: str
     cores: int
     embree: str
-    day: str
     noise: float | None
     """How much longer than usual the slowest twentieth of equal work took before the run."""
 
@@ -46,7 +43,7 @@ def _of_record(file: Path) -> list[Origin]:
         return []
     own = source["made_by"]
     names = ("commit", "machine_id", "cpu", "cores", "embree")
-    return [Origin("", *(own[name] for name in names), "", own["noise"])]
+    return [Origin("", *(own[name] for name in names), own["noise"])]
 
 
 def machine_in_words(processor: str) -> str:
@@ -78,7 +75,6 @@ def _origin(manifest: Path, folder: Path) -> Origin:
             machine.get("cpu") or machine["processor"],
             machine.get("cores", 0),
             program.get("libraries", {}).get("embree", ""),
-            source.get("time_utc", "")[:10],
             source.get("measurement", {}).get("noise"),
         )
     except (TypeError, KeyError) as error:

@@ -1,7 +1,5 @@
 """results/published/pencils: shadow and mirror rays and whole pictures by tile beams and Embree."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """results/published/pictures: whole pictures in waves, by Embree's modes."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

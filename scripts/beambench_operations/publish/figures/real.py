@@ -1,7 +1,5 @@
 """results/published/real: every structure over real meshes."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +23,8 @@ def figures(folder: Path) -> dict[str, Any]:
         kind: min((value, name) for name, value in own["mean"].items() if _is_embree(name))
         for kind, own in means.items()
     }
+    columns = ("seconds", "peak_kib")
+    large = read_table(folder / "large.csv", columns, "restore it with git").iloc[0]
     others = [name for name in means[kinds[0]]["mean"] if not _is_embree(name)]
     return {
         "kinds": kinds,
@@ -39,7 +39,7 @@ def figures(folder: Path) -> dict[str, Any]:
         "others": sorted(others, key=lambda name: means[kinds[0]]["mean"][name]),
         "few": float((cells.rows["repetitions"] < 6).mean()),
         "cameras": _cameras(folder / "cameras.csv"),
-        "large": _large(folder / "large.csv"),
+        "large": {"seconds": large["seconds"], "gib": large["peak_kib"] / 1024**2},
     }
 
 
@@ -79,8 +79,3 @@ def _cameras(file: Path) -> dict[str, Any]:
         "grazes": int(table["graze"].sum()),
         "wrong": wrong.to_dict("records"),
     }
-
-
-def _large(file: Path) -> dict[str, float]:
-    table = read_table(file, ("seconds", "peak_kib"), "restore it with git")
-    return {"seconds": float(table["seconds"][0]), "gib": float(table["peak_kib"][0]) / 1024**2}

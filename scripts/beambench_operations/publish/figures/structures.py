@@ -1,8 +1,5 @@
 """results/published/structures: which structure wins where."""
 
-from __future__ import annotations
-
-from collections import Counter
 from pathlib import Path
 from typing import Any
 
@@ -23,16 +20,12 @@ def figures(folder: Path) -> dict[str, Any]:
     found = races(cells.rows, cells.files)
     by_kind = {kind: [race for race in found if race.ray_kind == kind] for kind in _KINDS}
     best = {
-        kind: {
-            str(name): {"mean": float(gmean(own["ratio"])), "scenes": len(own)}
-            for name, own in pd.concat([race.ranked for race in races_]).groupby("structure")
-        }
+        kind: pd.concat([race.ranked for race in races_])
+        .groupby("structure")
+        .agg(mean=("ratio", gmean), scenes=("ratio", "size"), wins=("is_tied", "sum"))
+        .to_dict("index")
         for kind, races_ in by_kind.items()
     }
-    for kind, races_ in by_kind.items():
-        wins = Counter(name for race in races_ for name in race.tied)
-        for name, own in best[kind].items():
-            own["wins"] = wins[name]
     order = sorted(best["primary"], key=lambda name: best["primary"][name]["mean"])
     wrong = cells.wrong
     return {

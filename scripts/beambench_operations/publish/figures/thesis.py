@@ -1,7 +1,5 @@
 """results/published/thesis: the claims of the thesis, judged by our rows."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
@@ -10,7 +8,6 @@ from typing import Any
 import pandas as pd
 
 from beambench_operations.publish.figures.origins import origins
-from beambench_operations.publish.figures.thesis_kept import chosen_levels, samplings
 from beambench_report.base.cell_files import IDENTITY
 from beambench_report.base.fastest import with_fastest
 from beambench_report.base.records import Run, read_run
@@ -28,6 +25,8 @@ from beambench_thesis.paper.measured import error_between_runs
 from beambench_thesis.report.plan import read_plan
 from beambench_thesis.report.report import Report, gather
 
+_THESIS, _NINE = "5", "9"
+_GOOD_PERCENT = 10
 _TESTED = (Verdict.HOLDS, Verdict.IN_PART, Verdict.FAILS, Verdict.UNDECIDED)
 
 
@@ -62,8 +61,8 @@ def figures(folder: Path) -> dict[str, Any]:
         "more": len(more),
         "mirrors": mirrors,
         "unread": unread,
-        "sampling": samplings(folder / "sampling.csv"),
-        "chosen_levels": chosen_levels(folder / "chosen-levels.csv"),
+        "sampling": _samplings(folder / "sampling.csv"),
+        "chosen_levels": _chosen_levels(folder / "chosen-levels.csv"),
     }
 
 
@@ -84,7 +83,12 @@ def more_runs(folder: Path) -> list[Path]:
 
 
 def _is_of_one_kind(other: Path, folder: Path) -> bool:
-    return other.is_dir() and _made_by(other) == _made_by(folder / "synthetic")
+    """Were both made by the same commit on the same machine?"""
+    made_by, known = (
+        {(one.commit, one.machine_id) for one in origins(where)}
+        for where in (other, folder / "synthetic")
+    )
+    return other.is_dir() and made_by == known
 
 
 def _again(first: Report, second: Report) -> dict[str, Any]:
@@ -147,10 +151,6 @@ def times_found_again(runs: Sequence[tuple[Run, Run]]) -> dict[str, Any]:
     }
 
 
-def _made_by(folder: Path) -> set[tuple[str, str]]:
-    return {(one.commit, one.machine_id) for one in origins(folder)}
-
-
 def _claim(one: JudgedClaim) -> dict[str, Any]:
     counted = [check for check in one.ours.checks if not check.aside]
     yes = [check for check in counted if check.outcome is Outcome.YES]
@@ -167,4 +167,39 @@ def _claim(one: JudgedClaim) -> dict[str, Any]:
         "most": max(ratios, default=None),
         "summary": summary(one.ours),
         "undecided": [f"{check.cell}: {check.figures}" for check in open_cells],
+    }
+
+
+# Rows of an earlier version that the texts still need.
+
+
+def _samplings(file: Path) -> dict[str, Any]:
+    """Returns for each scene and method the setting with the time closest to the thesis's."""
+    rows = pd.read_csv(file, dtype={"setting": str})
+    return {scene: _nearest(rows[rows["scene"] == scene]) for scene in dict.fromkeys(rows["scene"])}
+
+
+def _nearest(rows: pd.DataFrame) -> dict[str, Any]:
+    uniform = rows[rows["method"] == "uniform"].set_index("setting")
+    thesis = uniform.loc[_THESIS]
+    distance = (rows["trace_ms"] - thesis["trace_ms"]).abs()
+    nearest = rows.loc[distance.groupby(rows["method"]).idxmin()].set_index("method")
+    return {
+        "thesis": thesis,
+        "nine": uniform.loc[_NINE],
+        **{method: nearest.loc[method] for method in nearest.index},
+    }
+
+
+def _chosen_levels(file: Path) -> dict[str, Any]:
+    """Returns the time that max_level=auto loses to the best fixed level, by structure."""
+    losses = pd.read_csv(file).groupby("structure", sort=False)["loss_percent"]
+    return {
+        structure: {
+            "choices": len(own),
+            "good": int((own < _GOOD_PERCENT).sum()),
+            "median": float(own.median()),
+            "worst": float(own.max()),
+        }
+        for structure, own in losses
     }

@@ -1,7 +1,5 @@
 """results/published/threads: one thread and two."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

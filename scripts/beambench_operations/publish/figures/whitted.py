@@ -1,7 +1,5 @@
 """results/published/whitted: whole pictures by every structure."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +15,7 @@ _KINDS = ("camera", "reflected", "refracted", "shadow")
 def figures(folder: Path) -> dict[str, Any]:
     """Ratios to Embree's single rays, the rays by kind, shading, and the shadow cache."""
     cells = Cells(folder)
-    ratios = net_ratios(cells, _BASE, {name: name for name in _NAMES}, _PLAIN)
+    ratios = net_ratios(cells, _BASE, {name: name for name in _NAMES}).xs(_PLAIN, level="kind")
     rays = {
         scene: {
             kind: float(cells.having(_BASE, scene=scene, ray_kind=_PLAIN).iloc[0][f"{kind}_rays"])
@@ -27,15 +25,13 @@ def figures(folder: Path) -> dict[str, Any]:
     }
     base = {scene: cells.row(_BASE, scene=scene, ray_kind=_PLAIN) for scene in cells.scenes}
     shading = [row["harness_ms"] / row["trace_ms_median"] for row in base.values()]
-    beams = {s: ratios["beam"][s][_PLAIN] / ratios["samet"][s][_PLAIN] for s in cells.scenes}
+    beams = ratios["beam"] / ratios["samet"]
     return {
         "cells": len(cells.rows),
         "wrong": len(cells.wrong),
         "size": cells.sizes[0],
         "names": _NAMES,
-        "ratios": {
-            scene: {name: ratios[name][scene][_PLAIN] for name in _NAMES} for scene in cells.scenes
-        },
+        "ratios": {scene: {name: ratios[name, scene] for name in _NAMES} for scene in cells.scenes},
         "rays": rays,
         "share": {
             kind: sorted((own[kind] / sum(own.values()), scene) for scene, own in rays.items())

@@ -1,7 +1,5 @@
 """Figures that a template states without computing them."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
