@@ -2,20 +2,36 @@
 // Options of the beam tracer.
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include "accel/beam/primitive_image.hpp"
 #include "accel/octree/octree.hpp"
 #include "scenes/base/parameters.hpp"
 
 namespace beambench::accel::beam {
+
+/// How samples are tested in an occupied leaf. The hits are the same.
+enum class LeafTest : std::uint8_t {
+  kSimd,    ///< against the images of primitives, a register of samples at once
+  kScalar,  ///< against the images, one sample at a time
+  kExact    ///< by the canonical test only, as in structures that trace rays alone; no images
+};
+
+/// Returns the kernels that test images; null where there are no images.
+const ProbeKernels* kernels_of(LeafTest leaf);
+/// Returns Highway's name of the instruction set that leaves are tested with; empty without SIMD
+/// (`Statistics::instruction_set`).
+std::string instruction_set_of(LeafTest leaf);
 
 /// The treatment of a beam's samples, whatever cells the beam passes through.
 struct BeamRules {
   std::int64_t handover = 0;       ///< beams with fewer samples become individual rays
   bool share_corners = false;      ///< samples in the corners of pixels are shared between pixels
   bool continue_with_rays = true;  ///< behind an occupied leaf: rays (thesis), or the beam again
+  LeafTest leaf = LeafTest::kSimd;
 
-  /// The parameters `handover`, `continue` and `share_corners`, and reading their values.
+  /// The parameters `handover`, `continue`, `share_corners` and `leaf`, and reading their values.
   static std::vector<ParameterInfo> parameters(const BeamRules& defaults);
   static BeamRules from(const Parameters& parameters);
 };

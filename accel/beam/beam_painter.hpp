@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -43,7 +44,7 @@ class BeamPainter {
         continue_with_rays_(rules.continue_with_rays),
         scan_(view, rays),
         lattices_(sight.lattices(rays, rules.share_corners)),
-        images_(scene, view, rays),
+        images_(images_for(rules.leaf, scene, view, rays)),
         sight_(&sight),
         finished_(finished),
         buffer_(buffer),
@@ -81,7 +82,11 @@ class BeamPainter {
   bool test_leaf(const Beam& beam) {
     bool unfinished = false;
     for_each_batch(beam, [&] {
-      batch_.test(*scene_, cells_.references(beam), images_, counting_);
+      if (images_) {
+        batch_.test(*scene_, cells_.references(beam), *images_, counting_);
+      } else {
+        batch_.test(*scene_, cells_.references(beam), counting_);
+      }
       watch_->tested(batch_.samples().size());
       for (LeafBatch::Sample& sample : batch_.samples()) {
         if (!settle(beam, sample)) unfinished = true;
@@ -91,6 +96,13 @@ class BeamPainter {
   }
 
  private:
+  static std::optional<PrimitiveImages> images_for(LeafTest leaf, const scenes::Scene& scene,
+                                                   const EyeView& view, const PrimaryRays& rays) {
+    const ProbeKernels* kernels = kernels_of(leaf);
+    if (kernels == nullptr) return std::nullopt;
+    return PrimitiveImages(scene, view, rays, *kernels);
+  }
+
   /// Returns the t at which a ray leaves a beam's cell.
   static double exit_of(const Beam& beam, const CellRay& ray) {
     return std::min({ray.exit_t(0, beam.corner, beam.size), ray.exit_t(1, beam.corner, beam.size),
@@ -188,7 +200,7 @@ class BeamPainter {
   LeafBatch batch_;
   SampleScan scan_;
   std::vector<SampleLattice> lattices_;
-  PrimitiveImages images_;
+  std::optional<PrimitiveImages> images_;
   const Sight* sight_;
   std::span<std::uint8_t> finished_;
   HitSpan buffer_;

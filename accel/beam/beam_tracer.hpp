@@ -43,6 +43,7 @@ class BeamTracer : public octree::Samet {
   Statistics statistics() const override {
     Statistics statistics = octree::Samet::statistics();
     statistics.image_rays = ImageRays::kOwn;
+    statistics.instruction_set = instruction_set_of(options_.leaf);
     return statistics;
   }
 

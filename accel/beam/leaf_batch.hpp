@@ -47,35 +47,56 @@ class LeafBatch {
 
   /// Must not be called when full.
   Sample& add(const SampleLattice& lattice, int x, int y, const SampleRay& ray) {
-    const std::size_t i = samples_.size();
-    places_.x[i] = static_cast<float>(x + lattice.offset.x);
-    places_.y[i] = static_cast<float>(y + lattice.offset.y);
     return samples_.emplace_back(lattice, x, y, ray);
   }
   void clear() { samples_.clear(); }
+
+  /// Tests all samples against the references by the canonical test, each sample in turn as in the
+  /// leaves of structures that trace rays alone.
+  template <class Counting>
+  void test(const scenes::Scene& scene, std::span<const scenes::PrimitiveId> references,
+            Counting& counting) {
+    for (Sample& sample : samples_) {
+      for (const scenes::PrimitiveId id : references) test(scene, id, sample, counting);
+    }
+  }
 
   /// Tests all samples against the references: by the primitives' images first, which only reject,
   /// then by the canonical test.
   template <class Counting>
   void test(const scenes::Scene& scene, std::span<const scenes::PrimitiveId> references,
             PrimitiveImages& images, Counting& counting) {
-    places_.size = samples_.size();
-    for (std::size_t i = 0; i < places_.size; ++i) {
-      places_.inverse_t[i] = limit(samples_[i]);
-    }
+    find_places();
     for (const scenes::PrimitiveId id : references) {
       for (SampleMask left = images.may_hit(id, places_); left != 0; left &= left - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(left));
-        ClosestHit& closest = samples_[i].closest;
-        counting.add_tests(scene.primitives[id].kind);
-        const float t = closest.test(scene, id);
-        counting.tested(id, t);
-        if (is_hit(t)) places_.inverse_t[i] = limit(samples_[i]);
+        if (test(scene, id, samples_[i], counting)) places_.inverse_t[i] = limit(samples_[i]);
       }
     }
   }
 
  private:
+  /// Runs the canonical test. Returns whether it found a hit.
+  template <class Counting>
+  static bool test(const scenes::Scene& scene, scenes::PrimitiveId id, Sample& sample,
+                   Counting& counting) {
+    counting.add_tests(scene.primitives[id].kind);
+    const float t = sample.closest.test(scene, id);
+    counting.tested(id, t);
+    return is_hit(t);
+  }
+
+  /// Sets the places and limits of all samples, for tests by images.
+  void find_places() {
+    places_.size = samples_.size();
+    for (std::size_t i = 0; i < places_.size; ++i) {
+      const Sample& sample = samples_[i];
+      places_.x[i] = static_cast<float>(sample.x + sample.lattice->offset.x);
+      places_.y[i] = static_cast<float>(sample.y + sample.lattice->offset.y);
+      places_.inverse_t[i] = limit(sample);
+    }
+  }
+
   /// Returns the bound on 1 / view depth that hits must exceed to be nearer.
   static float limit(const Sample& sample) {
     constexpr float kLess = 1.0F - 0x1p-20F;

@@ -24,8 +24,9 @@ constexpr SphereImage kAnywhereRound{0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 1
 }  // namespace
 
 PrimitiveImages::PrimitiveImages(const scenes::Scene& scene, const EyeView& view,
-                                 const PrimaryRays& rays)
+                                 const PrimaryRays& rays, const ProbeKernels& kernels)
     : scene_(&scene),
+      kernels_(&kernels),
       eye_(view.eye()),
       forward_(rays.forward()),
       top_left_(rays.top_left()),
@@ -54,14 +55,14 @@ SampleMask PrimitiveImages::may_hit(scenes::PrimitiveId id, const SampleBatch& b
               image_of_triangle(scene_->triangles[polygon.first_triangle + i].vertex));
         }
       }
-      return best_probe_kernels().triangles({&triangles_[place], polygon.triangle_count}, batch);
+      return kernels_->triangles({&triangles_[place], polygon.triangle_count}, batch);
     }
     case scenes::PrimitiveKind::kSphere:
       if (place == kNotMade) {
         place = static_cast<std::uint32_t>(spheres_.size());
         spheres_.push_back(image_of_sphere(scene_->spheres[primitive.index]));
       }
-      return best_probe_kernels().sphere(spheres_[place], batch);
+      return kernels_->sphere(spheres_[place], batch);
     case scenes::PrimitiveKind::kCone:
       break;
   }

@@ -65,10 +65,25 @@ inline SampleMask all_samples(const SampleBatch& batch) {
   return batch.size == SampleBatch::kCapacity ? ~SampleMask{0} : (SampleMask{1} << batch.size) - 1;
 }
 
+/// Tests many samples against one primitive's image. The tests only reject: samples that pass are
+/// confirmed by the canonical test.
+struct ProbeKernels {
+  /// Returns which samples may hit one of a polygon's triangles.
+  SampleMask (*triangles)(std::span<const TriangleImage>, const SampleBatch&);
+  SampleMask (*sphere)(const SphereImage&, const SampleBatch&);
+  std::int64_t target;  ///< Highway's, for which they are compiled
+};
+
+/// Returns the kernels for the best instruction set of this machine that Highway supports.
+const ProbeKernels& simd_probe_kernels();
+/// Returns kernels that test one sample at a time, with the same results.
+const ProbeKernels& scalar_probe_kernels();
+
 /// The images of a scene's primitives for one camera and resolution, each made on first use.
 class PrimitiveImages {
  public:
-  PrimitiveImages(const scenes::Scene& scene, const EyeView& view, const PrimaryRays& rays);
+  PrimitiveImages(const scenes::Scene& scene, const EyeView& view, const PrimaryRays& rays,
+                  const ProbeKernels& kernels);
 
   SampleMask may_hit(scenes::PrimitiveId id, const SampleBatch& batch);
 
@@ -77,6 +92,7 @@ class PrimitiveImages {
   SphereImage image_of_sphere(const scenes::Sphere& sphere) const;
 
   const scenes::Scene* scene_;
+  const ProbeKernels* kernels_;
   glm::dvec3 eye_;
   glm::dvec3 forward_;
   /// direction(px, py) = top_left + right * px + down * py.
@@ -95,16 +111,5 @@ class PrimitiveImages {
   std::vector<TriangleImage> triangles_;
   std::vector<SphereImage> spheres_;
 };
-
-/// Tests many samples against one primitive's image, for one instruction set. The tests only
-/// reject: samples that pass are confirmed by the canonical test.
-struct ProbeKernels {
-  /// Returns which samples may hit one of a polygon's triangles.
-  SampleMask (*triangles)(std::span<const TriangleImage>, const SampleBatch&);
-  SampleMask (*sphere)(const SphereImage&, const SampleBatch&);
-};
-
-/// Returns the kernels for the best instruction set of this machine that Highway supports.
-const ProbeKernels& best_probe_kernels();
 
 }  // namespace beambench::accel::beam

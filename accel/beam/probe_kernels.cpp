@@ -15,11 +15,14 @@ namespace beambench::accel::beam::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Tag = hn::CappedTag<float, 16>;
-using Floats = hn::Vec<Tag>;
+/// As many samples as a register holds.
+using AllLanes = hn::CappedTag<float, 16>;
+/// One sample at a time: scalar code, whose arithmetic is that of `AllLanes`, fused operations
+/// included. So both let the same samples pass.
+using OneLane = hn::CappedTag<float, 1>;
 
 /// Joins the masks that `test(x, y, inverse_t)` returns for each register of samples.
-template <class Test>
+template <class Tag, class Test>
 SampleMask for_each_register(const SampleBatch& batch, Test test) {
   const Tag tag;
   SampleMask bits = 0;
@@ -33,28 +36,34 @@ SampleMask for_each_register(const SampleBatch& batch, Test test) {
   return bits & all_samples(batch);
 }
 
-inline Floats at(const PixelLine& line, Floats x, Floats y) {
-  const Tag tag;
+template <class Tag, class Floats = hn::Vec<Tag>>
+Floats at(Tag tag, const PixelLine& line, Floats x, Floats y) {
   return hn::MulAdd(hn::Set(tag, line.x), x,
                     hn::MulAdd(hn::Set(tag, line.y), y, hn::Set(tag, line.constant)));
 }
 
+template <class Tag>
 SampleMask probe_triangles(std::span<const TriangleImage> images, const SampleBatch& batch) {
+  using Floats = hn::Vec<Tag>;
+  const Tag tag;
   SampleMask bits = 0;
   for (const TriangleImage& image : images) {
-    bits |= for_each_register(batch, [&](Floats x, Floats y, Floats inverse_t) {
+    bits |= for_each_register<Tag>(batch, [&](Floats x, Floats y, Floats inverse_t) {
+      const auto& edges = image.edges;
       const Floats nearest_edge = hn::Min(
-          at(image.edges[0], x, y), hn::Min(at(image.edges[1], x, y), at(image.edges[2], x, y)));
-      return hn::And(hn::Ge(nearest_edge, hn::Zero(Tag())),
-                     hn::Ge(at(image.inverse_t, x, y), inverse_t));
+          at(tag, edges[0], x, y), hn::Min(at(tag, edges[1], x, y), at(tag, edges[2], x, y)));
+      return hn::And(hn::Ge(nearest_edge, hn::Zero(tag)),
+                     hn::Ge(at(tag, image.inverse_t, x, y), inverse_t));
     });
   }
   return bits;
 }
 
+template <class Tag>
 SampleMask probe_sphere(const SphereImage& image, const SampleBatch& batch) {
-  return for_each_register(batch, [&](Floats x, Floats y, Floats) {
-    const Tag tag;
+  using Floats = hn::Vec<Tag>;
+  const Tag tag;
+  return for_each_register<Tag>(batch, [&](Floats x, Floats y, Floats) {
     const Floats u = hn::Sub(x, hn::Set(tag, image.center_x));
     const Floats v = hn::Sub(y, hn::Set(tag, image.center_y));
     const Floats by_u = hn::MulAdd(hn::Set(tag, image.xx), u,
@@ -65,10 +74,14 @@ SampleMask probe_sphere(const SphereImage& image, const SampleBatch& batch) {
   });
 }
 
-const ProbeKernels& probe_kernels() {
-  static constexpr ProbeKernels kKernels{probe_triangles, probe_sphere};
+template <class Tag>
+const ProbeKernels& kernels_with() {
+  static constexpr ProbeKernels kKernels{probe_triangles<Tag>, probe_sphere<Tag>, HWY_TARGET};
   return kKernels;
 }
+
+const ProbeKernels& simd_kernels() { return kernels_with<AllLanes>(); }
+const ProbeKernels& scalar_kernels() { return kernels_with<OneLane>(); }
 
 }  // namespace beambench::accel::beam::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -76,9 +89,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace beambench::accel::beam {
 
-HWY_EXPORT(probe_kernels);
+HWY_EXPORT(simd_kernels);
+HWY_EXPORT(scalar_kernels);
 
-const ProbeKernels& best_probe_kernels() { return HWY_DYNAMIC_DISPATCH(probe_kernels)(); }
+const ProbeKernels& simd_probe_kernels() { return HWY_DYNAMIC_DISPATCH(simd_kernels)(); }
+const ProbeKernels& scalar_probe_kernels() { return HWY_DYNAMIC_DISPATCH(scalar_kernels)(); }
 
 }  // namespace beambench::accel::beam
 #endif

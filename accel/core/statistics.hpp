@@ -24,8 +24,8 @@ struct Statistics {
   std::uint64_t references = 0;    ///< entries in the leaves' lists of primitives
   std::uint64_t depth = 0;         ///< levels of the deepest leaf, the root being level 1
   std::uint64_t bytes = 0;         ///< memory the structure holds, without the scene
-  /// The instruction set that it selected, where it selects among several; empty: that of the
-  /// build's flags.
+  /// Whether its queries use SIMD, and which: the instruction set that they selected ("AVX2").
+  /// Empty: none, they are scalar code, compiled for what the build's flags allow.
   std::string instruction_set;
   ImageRays image_rays = ImageRays::kSingle;
   /// The types in which a library holds the primitives, joined by '+'; empty where they are tested

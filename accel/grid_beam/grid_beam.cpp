@@ -27,6 +27,7 @@ Statistics GridBeam::statistics() const {
   Statistics statistics = GridCells::Tracer::statistics();
   statistics.bytes += lattice_.bytes();
   statistics.image_rays = ImageRays::kOwn;
+  statistics.instruction_set = beam::instruction_set_of(rules_.leaf);
   return statistics;
 }
 

@@ -56,6 +56,7 @@ class SimdNull : public Null {
   Statistics statistics() const override {
     Statistics statistics;
     statistics.image_rays = ImageRays::kSimd;
+    statistics.instruction_set = best_simd_target();
     return statistics;
   }
 

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "accel/core/support.hpp"
 #include "harness/base/progress.hpp"
 #include "harness/base/stopwatch.hpp"
 #include "harness/cli/commands.hpp"
@@ -49,6 +50,7 @@ struct Finding {
 
 Finding examine(const accel::StructureChoice& choice, const scenes::Scene& scene,
                 const rays::ImageOfRays& image, const rays::TraceInput& input, bool levels) {
+  rays::require_support(choice, input);
   const base::Stopwatch stopwatch;
   const auto accelerator = choice.build(scene, rays::workload_of(image, input));
   const double build_ms = stopwatch.milliseconds();
@@ -227,20 +229,25 @@ int show_statistics(const StatsRequest& request) {
   base::Progress progress(contenders.choices.size());
   if (!contenders.note.empty()) progress.say(contenders.note);
   std::vector<Finding> findings;
+  bool all_built = true;
   for (const accel::StructureChoice& choice : contenders.choices) {
     progress.start(choice.info().name);
     try {
       findings.push_back(examine(choice, scene, image, input, request.levels));
       progress.finish(fmt::format("built in {:.3g} ms", findings.back().build_ms));
+    } catch (const accel::UnsupportedError& error) {
+      if (contenders.choices.size() == 1) throw;
+      progress.finish(fmt::format("unsupported: {}", error.what()));
     } catch (const InputError& error) {
       if (contenders.choices.size() == 1) throw;
+      all_built = false;
       progress.finish(fmt::format("not built: {}", error.what()));
     }
   }
   progress.clear();
   request.json ? print_json(scene, image, input, findings)
                : print_text(scene, image, input, findings);
-  return findings.size() == contenders.choices.size() ? base::kSuccess : base::kInvalidInput;
+  return all_built && !findings.empty() ? base::kSuccess : base::kInvalidInput;
 }
 
 }  // namespace

@@ -63,12 +63,15 @@ bool is_hit_at(const TraceResults& results, std::size_t index) {
   return std::get<accel::HitBuffer>(results).get(index).has_value();
 }
 
-void require_support(const accel::StructureChoice& choice, const TraceInput& input) {
+bool is_supported(const accel::StructureChoice& choice, const TraceInput& input) {
   const accel::Support& support = choice.info().support;
-  const bool is_image = input.image() != nullptr;
-  if (is_image ? support.images : support.batches) return;
+  return input.image() != nullptr ? support.images : support.batches;
+}
+
+void require_support(const accel::StructureChoice& choice, const TraceInput& input) {
+  if (is_supported(choice, input)) return;
   throw accel::UnsupportedError(fmt::format("'{}' does not trace {}", choice.info().name,
-                                            is_image ? "images" : "lists of rays"));
+                                            input.image() != nullptr ? "images" : "lists of rays"));
 }
 
 void trace(const accel::Accelerator& structure, const TraceInput& input, TraceResults& results,

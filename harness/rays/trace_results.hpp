@@ -29,7 +29,9 @@ void poison(accel::HitBuffer& hits);
 /// Returns whether the result at an index is a hit. Poison counts as one.
 bool is_hit_at(const TraceResults& results, std::size_t index);
 
-/// Throws UnsupportedError if a structure does not support an image, or lists of rays.
+/// Returns whether a structure supports an image, or lists of rays.
+bool is_supported(const accel::StructureChoice& choice, const TraceInput& input);
+/// Throws UnsupportedError if it does not.
 void require_support(const accel::StructureChoice& choice, const TraceInput& input);
 
 /// Traces the rays through a structure. `results` has the shape that `make_results` gives.

@@ -53,6 +53,8 @@ beam::BeamOptions random_beam_options(Random& random) {
   if (random.below(3) == 0) options.handover = static_cast<std::int64_t>(random.below(40));
   options.continue_with_rays = random.below(3) != 0;
   options.share_corners = random.below(2) == 0;
+  options.leaf = std::array{beam::LeafTest::kSimd, beam::LeafTest::kScalar,
+                            beam::LeafTest::kExact}[random.below(3)];
   return options;
 }
 

@@ -24,11 +24,13 @@ inline std::optional<std::pair<std::uint32_t, scenes::PrimitiveId>> bits_of(
   return std::pair{std::bit_cast<std::uint32_t>(hit->t), hit->primitive};
 }
 
-/// All bit-exact structures, and `tile-beam`, whose single rays are bit-exact.
+/// All bit-exact structures that trace single rays, and `tile-beam`, whose single rays are
+/// bit-exact.
 inline std::vector<std::string> exact_structures() {
   std::vector<std::string> names{"tile-beam"};
   for (const accel::StructureInfo& info : accel::registry().structures()) {
-    if (info.conformance == accel::Conformance::kBitExact) names.push_back(info.name);
+    if (info.conformance != accel::Conformance::kBitExact) continue;
+    if (info.support.single_rays) names.push_back(info.name);
   }
   return names;
 }

@@ -18,7 +18,7 @@ TEST(Contract, EverySourceGetsTheSameHits) {
   std::vector<Ray> rays;
   image.for_each(0, image.height(), [&](std::size_t, const Ray& ray) { rays.push_back(ray); });
   for (const StructureInfo& info : registry().structures()) {
-    if (info.conformance != Conformance::kBitExact) continue;
+    if (info.conformance != Conformance::kBitExact || !info.support.single_rays) continue;
     SCOPED_TRACE(info.name);
     const auto structure = registry().choose({info.name, {}}).build(scene);
     HitBuffer of_image(31, 17, 1);
@@ -36,6 +36,25 @@ TEST(Contract, EverySourceGetsTheSameHits) {
       ASSERT_EQ(of_batch.get(i), hit) << i;
       ASSERT_EQ(any_of_image[i] != 0, hit.has_value()) << i;
       ASSERT_EQ(structure->any_hit(rays[i]), hit.has_value()) << i;
+    }
+  }
+}
+
+TEST(Contract, UnsupportedRaysAreRefused) {
+  const scenes::Scene scene = scenes::load_scene("balls:n=1");
+  const std::vector<Ray> rays(2);
+  std::vector<std::uint8_t> any(rays.size());
+  for (const StructureInfo& info : registry().structures()) {
+    SCOPED_TRACE(info.name);
+    const auto structure = registry().choose({info.name, {}}).build(scene);
+    if (!info.support.single_rays) {
+      EXPECT_THROW(structure->closest_hit(rays[0]), UnsupportedError);
+      EXPECT_THROW(structure->any_hit(rays[0]), UnsupportedError);
+    }
+    if (!info.support.batches) {
+      HitBuffer hits(2, 1, 1);
+      EXPECT_THROW(structure->closest_hits(RayBatch{rays}, hits, {}), UnsupportedError);
+      EXPECT_THROW(structure->any_hits(RayBatch{rays}, any, {}), UnsupportedError);
     }
   }
 }

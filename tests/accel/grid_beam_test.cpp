@@ -43,6 +43,8 @@ GridBeamOptions random_grid_options(Random& random) {
   if (random.below(3) == 0) options.rules.handover = static_cast<std::int64_t>(random.below(40));
   options.rules.continue_with_rays = random.below(3) != 0;
   options.rules.share_corners = random.below(2) == 0;
+  options.rules.leaf = std::array{beam::LeafTest::kSimd, beam::LeafTest::kScalar,
+                                  beam::LeafTest::kExact}[random.below(3)];
   return options;
 }
 

@@ -155,6 +155,8 @@ TEST(MirrorBeams, FindWhatSingleRaysFindInRandomScenes) {
     options.continue_with_rays = seed % 2 == 0;
     options.share_corners = seed % 5 == 0;
     options.handover = seed % 3 == 0 ? 20 : 0;
+    options.leaf = std::array{beam::LeafTest::kSimd, beam::LeafTest::kScalar,
+                              beam::LeafTest::kExact}[seed / 6 % 3];
     const PrimaryRays image(camera_of(scene, random), 120, 100, seed % 5 == 0 ? 5 : 1);
     compare(scene, beam::BeamTracer(scene, options), seen_directly(image), 2,
             seed % 2 == 0 ? 0.0 : 0.01, compared);

@@ -33,6 +33,7 @@ STRUCTURES = [
     "beam",
     "grid-beam",
     "tile-beam",
+    "z-buffer",
     "embree",
     "null",
 ]

@@ -30,6 +30,7 @@ MODULES = {
     "accel/beam": "accel::beam",
     "accel/grid_beam": "accel::grid_beam",
     "accel/tile_beam": "accel::tile_beam",
+    "accel/z_buffer": "accel::z_buffer",
     "accel/embree": "accel::embree",
     "accel/null": "accel::null",
     "harness/base": "base",

@@ -32,8 +32,10 @@ namespace {
 /// A structure restricted to one instruction set.
 struct Contender {
   std::string label;
-  accel::Conformance conformance;
+  accel::StructureChoice choice;
   std::unique_ptr<accel::Accelerator> structure;
+
+  accel::Conformance conformance() const { return choice.info().conformance; }
 };
 
 /// Returns every structure, with its defaults or with random parameters, on every instruction set
@@ -59,7 +61,7 @@ std::vector<Contender> contenders_over(const scenes::Scene& scene, Random& rando
       if (!set.empty()) spec.parameters.emplace_back("isa", set);
       try {
         const accel::StructureChoice choice = accel::registry().choose(spec);
-        all.push_back({choice.short_label(), info.conformance, choice.build(scene)});
+        all.push_back({choice.short_label(), choice, choice.build(scene)});
       } catch (const InputError&) {  // this machine lacks the instruction set, or a cap is exceeded
       }
     }
@@ -106,15 +108,16 @@ class Trial {
  private:
   void verify_rays(const Contender& contender, const ReferenceHits& reference) {
     const rays::TraceInput& input = reference.input();
+    if (!rays::is_supported(contender.choice, input)) return;
     rays::TraceResults results = rays::make_results(input);
     rays::poison(results);
     rays::trace(*contender.structure, input, results);
-    const DiffReport report = verify_results(reference, results, contender.conformance);
+    const DiffReport report = verify_results(reference, results, contender.conformance());
     verified_ += report.rays;
     EXPECT_EQ(report.count(DiffClass::kStructureError), 0U)
         << contender.label << " over " << scene_.name << ", " << input.label() << " rays\n"
         << first_error(scene_, input, report);
-    if (contender.conformance == accel::Conformance::kBitExact) {
+    if (contender.conformance() == accel::Conformance::kBitExact) {
       const auto [exact, first] = exact_.try_emplace(input.label(), results);
       EXPECT_TRUE(first || exact->second == results)
           << contender.label << " over " << scene_.name << ", " << input.label()
@@ -123,6 +126,7 @@ class Trial {
   }
 
   void verify_picture_of(const Contender& contender) {
+    if (!contender.choice.info().support.batches) return;
     const ReferenceHits& eye = references_.front();
     const accel::PrimaryRays& rays = *eye.input().image();
     accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
@@ -133,7 +137,7 @@ class Trial {
           eye,
           render::record_picture(std::make_shared<const render::ShadedScene>(scene_),
                                  *contender.structure, rays, hits, {}, rays::HitCheck(scene_)),
-          contender.conformance);
+          contender.conformance());
     } catch (const rays::InvalidHit& error) {
       ADD_FAILURE() << contender.label << " over " << scene_.name << ": " << error.what();
     }

@@ -12,6 +12,7 @@
 #include "accel/core/accelerator.hpp"
 #include "accel/core/registry.hpp"
 #include "harness/rays/trace_input.hpp"
+#include "harness/rays/trace_results.hpp"
 #include "harness/verify/selftest/hit_comparison.hpp"
 #include "harness/verify/selftest/selftest.hpp"
 #include "harness/verify/selftest/test_scenes.hpp"
@@ -159,9 +160,12 @@ CheckOutcome check_scene_families(const Subject& subject, const SelftestEffort& 
     const accel::PrimaryRays image(scene.cameras.front(), width, 20, 1);
     const std::string where = fmt::format("{} (scene of the families, seed {}), {}", scene.name,
                                           seed, choice.short_label());
-    add(outcome, image.count(), scene, choice, where,
-        comparison.whole(*structure, image, /*may_graze=*/true));
-    if (outcome.passed()) {
+    const accel::Support& support = choice.info().support;
+    if (support.images) {
+      add(outcome, image.count(), scene, choice, where,
+          comparison.whole(*structure, image, /*may_graze=*/true));
+    }
+    if (outcome.passed() && support.single_rays) {
       add(outcome, rays.size(), scene, choice, where, comparison.single_rays(*structure, rays));
     }
   }
@@ -184,6 +188,7 @@ CheckOutcome check_views(const Subject& subject, const SelftestEffort& effort) {
       try {
         const rays::TraceInput input = worth_tracing(
             subject, scene, rays::make_trace_input(scene, image, rays::parse_ray_choice(kind)));
+        if (!rays::is_supported(choice, input)) continue;
         add(outcome, input.size(), scene, choice,
             fmt::format("{} rays over {} (view of seed {}), {}", kind, scene.name, seed,
                         choice.short_label()),

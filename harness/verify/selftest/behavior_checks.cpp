@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <span>
 #include <thread>
 #include <vector>
 
@@ -24,7 +25,9 @@ using Counts = std::map<std::string, std::uint64_t, std::less<>>;
 /// of them short.
 struct Trial {
   Trial(const Subject& subject, std::uint64_t seed)
-      : scene(random_scene(seed, kPrimitives, subject.kinds())), structure(subject.build(scene)) {
+      : scene(random_scene(seed, kPrimitives, subject.kinds())),
+        structure(subject.build(scene)),
+        choice(subject.choice()) {
     Random random(seed);
     for (int i = 0; i < 503; ++i) {
       rays.push_back(random_ray(scene, random));
@@ -32,15 +35,24 @@ struct Trial {
     }
   }
 
-  /// Returns an input for every kind of query.
+  /// Returns an input for every kind of query that the structure supports.
   std::vector<rays::TraceInput> inputs() const {
-    return {rays::TraceInput(rays::RaySet{{rays}, "closest", rays::Query::kClosestHit}),
-            rays::TraceInput(rays::RaySet{{rays}, "any", rays::Query::kAnyHit}),
-            rays::TraceInput(accel::PrimaryRays(scene.cameras.front(), 37, 23, 5))};
+    std::vector<rays::TraceInput> all{
+        rays::TraceInput(rays::RaySet{{rays}, "closest", rays::Query::kClosestHit}),
+        rays::TraceInput(rays::RaySet{{rays}, "any", rays::Query::kAnyHit}),
+        rays::TraceInput(accel::PrimaryRays(scene.cameras.front(), 37, 23, 5))};
+    std::erase_if(all, [this](const auto& input) { return !rays::is_supported(choice, input); });
+    return all;
+  }
+  /// Returns the rays for queries of single rays: none if the structure does not support these.
+  std::span<const accel::Ray> single_rays() const {
+    if (!choice.info().support.single_rays) return {};
+    return rays;
   }
 
   scenes::Scene scene;
   std::unique_ptr<accel::Accelerator> structure;
+  accel::StructureChoice choice;
   std::vector<accel::Ray> rays;
 };
 
@@ -125,7 +137,7 @@ CheckOutcome check_counting(const Subject& subject, const SelftestEffort& effort
                                        "results with and without counting");
     if (!outcome.passed()) return outcome;
   }
-  for (const accel::Ray& ray : trial.rays) {
+  for (const accel::Ray& ray : trial.single_rays()) {
     if (trial.structure->closest_hit(ray, nullptr) !=
             trial.structure->closest_hit(ray, &counters) ||
         trial.structure->any_hit(ray, nullptr) != trial.structure->any_hit(ray, &counters)) {
@@ -163,9 +175,13 @@ CheckOutcome check_two_builds(const Subject& subject, const SelftestEffort& effo
 
 CheckOutcome check_threads(const Subject& subject, const SelftestEffort& effort) {
   const Trial trial(subject, effort.seed);
-  const std::vector<rays::TraceInput> all = trial.inputs();
-  const rays::TraceResults closest = traced(*trial.structure, all[0]);
-  const rays::TraceResults any = traced(*trial.structure, all[1]);
+  const std::vector<rays::TraceInput> inputs = trial.inputs();
+  std::vector<rays::TraceResults> alone;
+  std::size_t rays = 0;
+  for (const rays::TraceInput& input : inputs) {
+    alone.push_back(traced(*trial.structure, input));
+    rays += input.size();
+  }
   std::array<std::string, 4> wrong;
   {
     std::vector<std::jthread> threads;
@@ -173,9 +189,9 @@ CheckOutcome check_threads(const Subject& subject, const SelftestEffort& effort)
     for (std::string& mine : wrong) {
       threads.emplace_back([&] {
         try {
-          for (int again = 0; again < 3; ++again) {
-            if (traced(*trial.structure, all[0]) != closest ||
-                traced(*trial.structure, all[1]) != any) {
+          for (std::size_t i = 0; i < 3 * inputs.size(); ++i) {
+            const std::size_t which = i % inputs.size();
+            if (traced(*trial.structure, inputs[which]) != alone[which]) {
               mine = "four threads at once get other results than one alone";
             }
           }
@@ -185,7 +201,7 @@ CheckOutcome check_threads(const Subject& subject, const SelftestEffort& effort)
       });
     }
   }
-  CheckOutcome outcome{wrong.size() * 3 * 2 * trial.rays.size(), ""};
+  CheckOutcome outcome{wrong.size() * 3 * rays, ""};
   for (const std::string& one : wrong) {
     if (!one.empty()) outcome.failure = one;
   }

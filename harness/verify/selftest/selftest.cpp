@@ -5,37 +5,60 @@
 
 namespace beambench::verify {
 
+namespace {
+
+bool supports(const accel::Support& support, NeededRays rays) {
+  switch (rays) {
+    case NeededRays::kImages:
+      return support.images;
+    case NeededRays::kSingle:
+      return support.single_rays;
+    case NeededRays::kSingleAndLists:
+      return support.single_rays && support.batches;
+    case NeededRays::kAny:
+      break;
+  }
+  return true;
+}
+
+}  // namespace
+
 std::span<const Check> selftest_checks() {
   static constexpr std::array<Check, 15> kChecks{{
       {"random scenes", "spheres, cones and polygons anywhere, at any of its parameters", false,
-       false, check_random_scenes},
+       false, NeededRays::kSingle, check_random_scenes},
       {"scene families",
        "flat cones, eyes on surfaces, touching spheres, tiny scale, coplanar polygons, needles, "
        "nested surfaces: images and rays",
-       false, false, check_scene_families},
+       false, false, NeededRays::kAny, check_scene_families},
       {"views",
        "cameras and lights anywhere: images, and the shadow, mirrored and scattered rays of what "
        "they see, with their pencils",
-       false, false, check_views},
+       false, false, NeededRays::kAny, check_views},
       {"smallest scenes", "nothing, one sphere, one cone, one triangle without depth", false, false,
-       check_smallest_scenes},
+       NeededRays::kSingle, check_smallest_scenes},
       {"images", "the images of five scenes, with one and five samples a pixel", false, false,
-       check_images},
+       NeededRays::kImages, check_images},
       {"faces, edges, corners", "rays in the planes, lines and points where cells and boxes meet",
-       true, true, check_faces_edges_corners},
+       true, true, NeededRays::kSingle, check_faces_edges_corners},
       {"degenerate rays", "directions of all lengths, nearly along axes; no interval", true, false,
-       check_degenerate_rays},
+       NeededRays::kSingle, check_degenerate_rays},
       {"heap", "ten thousand equal primitives in one place: the lowest id is hit", false, false,
-       check_heap},
-      {"lists", "a list of rays gets what each ray gets alone", false, false, check_lists},
-      {"counting", "counting work changes no answer", false, false, check_counting},
+       NeededRays::kSingle, check_heap},
+      {"lists", "a list of rays gets what each ray gets alone", false, false,
+       NeededRays::kSingleAndLists, check_lists},
+      {"counting", "counting work changes no answer", false, false, NeededRays::kAny,
+       check_counting},
       {"two builds", "the same scene gives the same structure, work and answers", false, false,
-       check_two_builds},
-      {"threads", "four threads at once get what one gets", false, false, check_threads},
-      {"counters", "the counters of each ray are consistent", false, false, check_counters},
-      {"statistics", "the sizes that it reports are consistent", false, false, check_statistics},
+       NeededRays::kAny, check_two_builds},
+      {"threads", "four threads at once get what one gets", false, false, NeededRays::kAny,
+       check_threads},
+      {"counters", "the counters of each ray are consistent", false, false, NeededRays::kSingle,
+       check_counters},
+      {"statistics", "the sizes that it reports are consistent", false, false, NeededRays::kAny,
+       check_statistics},
       {"explanation", "the traversal that it explains ends at the hit that it finds", false, false,
-       check_explanation},
+       NeededRays::kSingle, check_explanation},
   }};
   return kChecks;
 }
@@ -43,6 +66,7 @@ std::span<const Check> selftest_checks() {
 bool applies(const Check& check, const Subject& subject) {
   if (subject.conformance() == accel::Conformance::kBaseline) return false;
   if (check.of_polygons && !subject.kinds().polygons) return false;
+  if (!supports(subject.info().support, check.rays)) return false;
   return subject.conformance() == accel::Conformance::kBitExact || !check.bit_exact_only;
 }
 

@@ -41,12 +41,16 @@ struct CheckOutcome {
 
 using RunCheck = CheckOutcome(const Subject& subject, const SelftestEffort& effort);
 
+/// The sources of rays that a check needs. It uses others where the structure supports them.
+enum class NeededRays : std::uint8_t { kAny, kImages, kSingle, kSingleAndLists };
+
 /// One property of structures.
 struct Check {
   std::string_view name;
   std::string_view claim;  ///< the claim to be checked
   bool bit_exact_only;     ///< not for structures with their own arithmetic
   bool of_polygons;        ///< not for structures that refuse polygons
+  NeededRays rays;         ///< not for structures that do not support these
   RunCheck* run;
 };
 
