@@ -22,7 +22,7 @@ using measure::QueryPath;
 using Json = nlohmann::ordered_json;
 
 std::optional<Overhead> overhead_of(const CellRecord& cell, const Names& names) {
-  const std::optional<Median> trace = trace_median(cell);
+  const std::optional<measure::Estimate> trace = trace_time(cell);
   if (cell.verdict != verify::Verdict::kOk || !trace || !cell.harness ||
       cell.harness->path == QueryPath::kImageOwn || cell.harness->path == QueryPath::kPicture) {
     return std::nullopt;
@@ -41,6 +41,35 @@ std::size_t repetitions_of(const CellRecord& cell) {
   return summed_up ? static_cast<std::size_t>(*summed_up) : cell.repetitions.size();
 }
 
+/// Returns whether a cell is as precise as the sweep wanted: by its prediction interval, or in a
+/// record without blocks by the reason why it was not repeated more often.
+bool is_precise(const CellRecord& cell, double precision) {
+  if (!has_blocks(cell)) return cell.stop_reason == measure::StopReason::kPrecision;
+  const auto trace = trace_time(cell);
+  return trace && trace->prediction &&
+         trace->prediction->high - trace->prediction->low <= 2.0 * precision * trace->value;
+}
+
+/// Returns whether a cell has too few blocks, or repetitions of one process, for an interval.
+bool is_without_interval(const CellRecord& cell) {
+  constexpr std::size_t kMinRepetitions = 6;
+  if (!has_blocks(cell)) return repetitions_of(cell) < kMinRepetitions;
+  return !trace_time(cell) || !trace_time(cell)->confidence;
+}
+
+/// Widens the intervals of ratios by a part that chance does not explain.
+void widen(std::vector<Standing>& standings, double excess) {
+  const auto wider = [&](std::optional<Interval>& interval) {
+    if (interval && interval->high != 1.0) {  // not of the fastest itself
+      interval = Interval{interval->low * std::exp(-excess), interval->high * std::exp(excess)};
+    }
+  };
+  for (Standing& one : standings) {
+    wider(one.ratio.interval);
+    wider(one.ratio.prediction);
+  }
+}
+
 /// Returns a number, or null for infinity, which JSON lacks.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
@@ -49,6 +78,10 @@ Json to_json(const TimeRatio& ratio) {
   if (ratio.interval) {
     json["low"] = ratio.interval->low;
     json["high"] = ratio.interval->high;
+  }
+  if (ratio.prediction) {
+    json["predicted_low"] = ratio.prediction->low;
+    json["predicted_high"] = ratio.prediction->high;
   }
   json["paired"] = ratio.is_paired;
   return json;
@@ -62,7 +95,7 @@ Json to_json(const std::vector<Standing>& standings) {
                     {"build_ms", one.build_ms},
                     {"ns_per_ray", one.ns_per_ray},
                     {"ratio", to_json(one.ratio)},
-                    {"is_tied", one.is_tied()}});
+                    {"rank", to_string(one.rank())}});
   }
   return list;
 }
@@ -77,6 +110,7 @@ Json to_json(const Standings& view) {
             {"size", view.size},
             {"ray_kind", view.ray_kind},
             {"rays", view.rays},
+            {"clock", view.clock == measure::TraceClock::kCpu ? "cpu" : "wall"},
             {"ranked", to_json(view.ranked)},
             {"references", to_json(view.references)},
             {"left_out", left_out},
@@ -98,6 +132,9 @@ Json to_json(const std::vector<MeanStanding>& means) {
                     {"ratio", to_json(mean.ratio)},
                     {"views", mean.views},
                     {"wins", mean.wins}});
+    if (!mean.scatter) continue;
+    list.back()["scatter_low"] = mean.scatter->low;
+    list.back()["scatter_high"] = mean.scatter->high;
   }
   return list;
 }
@@ -123,22 +160,38 @@ std::vector<Overhead> largest_overheads(const measure::Run& run) {
 
 std::vector<std::string> reasons_for_care(const measure::Run& run) {
   constexpr double kPrecisePart = 0.8;
-  constexpr std::size_t kMinForInterval = 6;
+  const double precision = run.config.value("precision", 0.02);
+  bool is_of_one_process = false;
   std::size_t timed = 0, imprecise = 0, without_interval = 0;
   for (const CellRecord& cell : run.cells) {
-    if (!trace_median(cell)) continue;
+    if (!trace_time(cell)) continue;
     ++timed;
-    if (cell.stop_reason != measure::StopReason::kPrecision) ++imprecise;
-    if (repetitions_of(cell) < kMinForInterval) ++without_interval;
+    if (!is_precise(cell, precision)) ++imprecise;
+    if (is_without_interval(cell)) ++without_interval;
+    if (!has_blocks(cell)) is_of_one_process = true;
   }
   const Conditions conditions = measure::conditions_of(run.manifest);
   std::vector<std::string> reasons;
+  if (const auto found = steadiness(run); found && !found->is_steady()) {
+    reasons.push_back(fmt::format(
+        "the machine was not steady: late blocks took {:.1f}% {} than early ones, where chance "
+        "explains {:.1f}%",
+        100 * std::abs(std::expm1(found->shift)), found->shift > 0.0 ? "longer" : "less",
+        100 * std::expm1(found->limit)));
+  }
+  if (is_of_one_process) {
+    reasons.emplace_back("measured by one process, so unranked: its order is no claim");
+  }
   if (conditions.noise && *conditions.noise > measure::kNoisy) {
     reasons.push_back(
         fmt::format("equal work took up to {:.0f}% longer than usual", 100 * *conditions.noise));
   }
   if (conditions.load > measure::kIdleLoad) {
     reasons.push_back(fmt::format("other work was running (load {:.2f})", conditions.load));
+  } else if (conditions.other_load.value_or(0.0) > measure::kIdleLoad) {
+    reasons.push_back(
+        fmt::format("other work ran meanwhile (load up to {:.2f} beside the run's own)",
+                    *conditions.other_load));
   }
   if (const auto throttled = measure::describe(conditions.throttling))
     reasons.push_back(*throttled);
@@ -147,9 +200,8 @@ std::vector<std::string> reasons_for_care(const measure::Run& run) {
                                   base::counted(timed, "timed cell")));
   }
   if (without_interval > 0) {
-    reasons.push_back(fmt::format("{} of {} repeated fewer than {} times, so without intervals",
-                                  without_interval, base::counted(timed, "timed cell"),
-                                  kMinForInterval));
+    reasons.push_back(fmt::format("{} of {} repeated too seldom for an interval", without_interval,
+                                  base::counted(timed, "timed cell")));
   }
   if (!run.is_ended()) reasons.emplace_back("the run was cut off");
   return reasons;
@@ -171,6 +223,14 @@ Analysis analyze(const measure::Run& run) {
   }
   analysis.reasons_for_care = reasons_for_care(run);
   analysis.views = standings(run);
+  analysis.steadiness = steadiness(run);
+  if (const double excess = analysis.steadiness ? analysis.steadiness->excess() : 0.0;
+      excess > 0.0) {
+    for (Standings& view : analysis.views) {
+      widen(view.ranked, excess);
+      widen(view.references, excess);
+    }
+  }
   analysis.means = overall(analysis.views);
   analysis.overheads = largest_overheads(run);
   return analysis;
@@ -194,7 +254,7 @@ Json to_json(const Analysis& analysis) {
     overheads.push_back(
         {{"query_path", one.path}, {"cell", one.cell}, {"title", one.title}, {"part", one.part}});
   }
-  return {{"schema_version", 1},
+  return {{"schema_version", 2},
           {"cells", analysis.cells},
           {"planned", analysis.planned},
           {"failed", analysis.failed},
@@ -202,6 +262,9 @@ Json to_json(const Analysis& analysis) {
           {"unsupported", analysis.unsupported},
           {"is_part", analysis.is_part},
           {"reasons_for_care", analysis.reasons_for_care},
+          {"steadiness", analysis.steadiness ? Json{{"shift", analysis.steadiness->shift},
+                                                    {"limit", analysis.steadiness->limit}}
+                                             : Json()},
           {"views", views},
           {"means", means},
           {"harness_overheads", overheads}};

@@ -3,6 +3,7 @@
 // share.
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/analysis/standings.hpp"
+#include "harness/analysis/steadiness.hpp"
 #include "harness/measure/record/run_log.hpp"
 
 namespace beambench::analysis {
@@ -36,6 +38,7 @@ struct Analysis {
 
   bool is_part = false;                       ///< is the run a shard of a sweep?
   std::vector<std::string> reasons_for_care;  ///< why the times are worth little; clauses
+  std::optional<Steadiness> steadiness;       ///< of the machine; nothing for few blocks
   std::vector<Standings> views;
   std::vector<OverallStandings> means;
   std::vector<Overhead> overheads;  ///< the largest first
@@ -48,9 +51,9 @@ Analysis analyze(const measure::Run& run);
 /// samples of their own have none, nor do whole pictures, which include shading by design.
 std::vector<Overhead> largest_overheads(const measure::Run& run);
 
-/// Returns why the times of a run cannot be fully trusted: noise of equal work, other work (a load
-/// average), a CPU quota, missed precision, too few repetitions for an interval. Each is a clause;
-/// nothing speaks against the times if there are none.
+/// Returns why the times of a run cannot be fully trusted: an unsteady machine, noise of equal
+/// work, other work (a load average), a CPU quota, missed precision, too few repetitions for an
+/// interval. Each is a clause; nothing speaks against the times if there are none.
 std::vector<std::string> reasons_for_care(const measure::Run& run);
 
 /// Returns the code for a mismatch if hits were wrong, or for invalid input if no scene of a whole

@@ -254,7 +254,7 @@ void copy_cells(const ShardFolder& shard, RunLog& log) {
   measure::for_each_event(shard.log.folder(), [&](Json event) {
     if (!event.contains("index")) return;
     if (event.at("event") == "cell") event["shard"] = shard.facts.shard.number;
-    log.copy(event);
+    log.add(event);
   });
 }
 

@@ -4,14 +4,34 @@
 #include <limits>
 #include <vector>
 
+#include "harness/measure/record/block_statistics.hpp"
+
 namespace beambench::analysis {
 
-std::optional<TimeRatio> paired_ratio(const TimesByRound& over, const TimesByRound& under) {
+namespace {
+
+/// Returns the ratios of the turns that both have.
+std::vector<double> common_ratios(const std::map<int, double>& over,
+                                  const std::map<int, double>& under) {
   std::vector<double> ratios;
-  for (const auto& [round, time] : over) {
-    const auto divisor = under.find(round);
+  for (const auto& [turn, time] : over) {
+    const auto divisor = under.find(turn);
     if (divisor != under.end() && divisor->second > 0.0) ratios.push_back(time / divisor->second);
   }
+  return ratios;
+}
+
+}  // namespace
+
+std::optional<TimeRatio> block_ratio(const TimesByBlock& over, const TimesByBlock& under) {
+  const std::vector<double> ratios = common_ratios(over, under);
+  if (ratios.empty()) return std::nullopt;
+  const measure::Estimate mean = measure::estimate(ratios);
+  return TimeRatio{mean.value, mean.confidence, true, mean.prediction};
+}
+
+std::optional<TimeRatio> paired_ratio(const TimesByRound& over, const TimesByRound& under) {
+  const std::vector<double> ratios = common_ratios(over, under);
   if (ratios.empty()) return std::nullopt;
   return TimeRatio{measure::median(ratios), measure::median_interval(ratios), true};
 }
@@ -47,6 +67,12 @@ TimeRatio geometric_mean(std::span<const TimeRatio> ratios) {
   TimeRatio ratio{std::exp(mean), std::nullopt, all_paired};
   if (known) ratio.interval = Interval{std::exp(mean - down / count), std::exp(mean + up / count)};
   return ratio;
+}
+
+std::optional<Interval> scatter(std::span<const TimeRatio> ratios) {
+  std::vector<double> values;
+  for (const TimeRatio& one : ratios) values.push_back(one.value);
+  return measure::estimate(values).confidence;
 }
 
 double break_even_rays(const Cost& mine, const Cost& other) {

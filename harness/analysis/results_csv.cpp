@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <ostream>
+#include <set>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -13,6 +14,8 @@
 #include <fmt/ranges.h>
 
 #include "accel/core/work_counters.hpp"
+#include "harness/analysis/standings.hpp"
+#include "harness/measure/record/block_statistics.hpp"
 #include "harness/measure/record/robust_statistics.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "scenes/base/json_text.hpp"
@@ -69,11 +72,26 @@ void add_identity(Row& row, const CellRecord& cell) {
   row["coherence"] = or_null(cell.rays.coherence);
 }
 
-/// Adds the 95% interval of a figure's median.
-void add_interval(Row& row, const std::string& figure, const std::vector<double>& samples) {
-  const std::optional<Interval> interval = median_interval(samples);
-  row[figure + "_ci_low"] = interval ? Json(interval->low) : Json();
-  row[figure + "_ci_high"] = interval ? Json(interval->high) : Json();
+void add_interval(Row& row, const std::string& name, const std::optional<Interval>& interval) {
+  row[name + "_low"] = interval ? Json(interval->low) : Json();
+  row[name + "_high"] = interval ? Json(interval->high) : Json();
+}
+
+/// Adds the 95% intervals of a figure: of its mean over the blocks, and where that of a second run
+/// falls; in a record without blocks, of its median.
+void add_intervals(Row& row, const CellRecord& cell, const std::string& name,
+                   const std::function<double(const Repetition&)>& figure,
+                   const std::vector<double>& samples) {
+  Estimate found{};
+  if (!has_blocks(cell)) {
+    found.confidence = median_interval(samples);
+  } else if (!samples.empty()) {
+    std::vector<double> values;
+    for (const auto& [block, value] : least_by_block(cell, figure)) values.push_back(value);
+    if (!values.empty()) found = estimate(values);
+  }
+  add_interval(row, name + "_ci", found.confidence);
+  add_interval(row, name + "_pi", found.prediction);
 }
 
 /// Returns a statistic of samples; null where there are none.
@@ -96,6 +114,29 @@ Json net_of_harness(const CellRecord& cell) {
   return net > 0.0 ? Json(net) : Json();
 }
 
+/// Adds how many processes measured a cell, and how many repetitions were set aside because others
+/// disturbed them; nothing in a record of one process.
+void add_blocks(Row& row, const CellRecord& cell) {
+  std::set<int> blocks;
+  for (const Repetition& one : cell.repetitions) blocks.insert(one.block);
+  row["blocks"] = has_blocks(cell) ? Json(blocks.size()) : Json();
+  row["disturbed"] =
+      has_blocks(cell)
+          ? Json(std::ranges::count_if(cell.repetitions,
+                                       [](const Repetition& r) { return !r.is_undisturbed(); }))
+          : Json();
+}
+
+/// Adds the trace time by which contenders are compared, with both intervals and the clock.
+void add_trace(Row& row, const CellRecord& cell) {
+  const auto trace = cell.has_times() ? trace_time(cell) : std::nullopt;
+  row["trace_ms"] = trace ? Json(trace->value) : Json();
+  add_interval(row, "trace_ms_ci", trace ? trace->confidence : std::nullopt);
+  add_interval(row, "trace_ms_pi", trace ? trace->prediction : std::nullopt);
+  row["trace_clock"] =
+      trace ? Json(has_blocks(cell) && is_disturbed(cell) ? "cpu" : "wall") : Json();
+}
+
 void add_times(Row& row, const CellRecord& cell) {
   const bool known = cell.has_times();
   const auto samples = [&](auto figure) {
@@ -103,33 +144,32 @@ void add_times(Row& row, const CellRecord& cell) {
   };
   const auto median_of = [&](auto figure) { return statistic(median, samples(figure)); };
   row["repetitions"] = cell.repetitions.size();
+  add_blocks(row, cell);
   row["stop_reason"] = cell.stop_reason ? Json(to_string(*cell.stop_reason)) : Json();
   add_wall_time(row, "build", samples(&Repetition::build_ms));
   add_wall_time(row, "trace", samples(&Repetition::trace_ms));
-  add_interval(row, "trace_ms", samples(&Repetition::trace_ms));
+  add_trace(row, cell);
   const std::vector<double> warm = known ? second_traces(cell) : std::vector<double>();
   row["trace_warm_ms_median"] = statistic(median, warm);
-  add_interval(row, "trace_warm_ms", warm);
+  add_intervals(
+      row, cell, "trace_warm_ms",
+      [](const Repetition& one) { return one.warm_trace_ms.value_or(0.0); }, warm);
   row["harness_ms"] = known && cell.harness ? Json(cell.harness->ms) : Json();
   row["trace_net_ms_median"] = known ? net_of_harness(cell) : Json();
   const std::vector<double> totals = samples(&Repetition::total_ms);
   const std::optional<double> spread = repeat_spread_of_minimum(totals);
   add_wall_time(row, "total", totals);
-  add_interval(row, "total_ms", totals);
+  add_intervals(row, cell, "total_ms", &Repetition::total_ms, totals);
   row["total_ms_min_spread"] = spread ? Json(*spread) : Json();
   const std::vector<double> cycles = samples(&Repetition::total_mcycles);
-  const std::optional<Interval> repeat = repeat_interval(cycles);
   row["clock_ghz_median"] = median_of(&Repetition::clock_ghz);
   row["total_mcycles_median"] = median_of(&Repetition::total_mcycles);
-  add_interval(row, "total_mcycles", cycles);
-  row["total_mcycles_repeat_low"] = repeat ? Json(repeat->low * (1.0 - kBetweenRuns)) : Json();
-  row["total_mcycles_repeat_high"] = repeat ? Json(repeat->high * (1.0 + kBetweenRuns)) : Json();
+  add_intervals(row, cell, "total_mcycles", &Repetition::total_mcycles, cycles);
   row["build_cpu_ms_median"] = median_of(&Repetition::build_cpu_ms);
   row["trace_cpu_ms_median"] = median_of(&Repetition::trace_cpu_ms);
   row["mrays_per_s"] = Json();
-  if (known) {
-    const double trace_us = 1e3 * median(collect(cell, &Repetition::trace_ms));
-    if (trace_us > 0.0) row["mrays_per_s"] = static_cast<double>(cell.rays.rays) / trace_us;
+  if (const auto trace = trace_time(cell); known && trace && trace->value > 0.0) {
+    row["mrays_per_s"] = static_cast<double>(cell.rays.rays) / (1e3 * trace->value);
   }
 }
 

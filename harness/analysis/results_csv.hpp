@@ -20,13 +20,7 @@ using Row = nlohmann::ordered_json;
 /// The version of the columns of results.csv, and its first column. Incremented when a column
 /// changes its name, meaning or unit or is removed, since a reader of the old columns would err,
 /// but not for a new column. The meaning of each is in scripts/beambench_report/columns.json.
-inline constexpr int kSchemaVersion = 1;
-
-/// The relative difference between two runs, however often each repeats: another process has its
-/// code and data at other addresses (Mytkowicz et al., Producing Wrong Data Without Doing Anything
-/// Obviously Wrong!, ASPLOS 2009), which a run by itself cannot show. Determined by repeating a
-/// sweep of 48 cells: without this allowance 81% and 88% of the medians were found again, not 95%.
-inline constexpr double kBetweenRuns = 0.015;
+inline constexpr int kSchemaVersion = 2;
 
 /// Returns what every row of a run has in common.
 measure::RunFacts facts_of(const nlohmann::ordered_json& manifest);

@@ -19,8 +19,10 @@ namespace beambench::analysis {
 namespace {
 
 using measure::CellRecord;
+using measure::Estimate;
 using measure::Repetition;
 using measure::shown_scene;
+using measure::TraceClock;
 using Json = nlohmann::ordered_json;
 
 constexpr std::array<std::string_view, 2> kReferences{"null", "exhaustive"};
@@ -29,17 +31,24 @@ bool is_reference(const std::string& structure) {
   return std::ranges::find(kReferences, structure) != kReferences.end();
 }
 
-/// Returns a figure of a cell with correct hits: of its repetitions, or as it was summed up.
-std::optional<Median> median_of(const CellRecord& cell, double Repetition::*figure,
-                                const std::string& column) {
+/// Returns the median of a figure of a cell without blocks: of its repetitions, or as it was summed
+/// up.
+std::optional<Estimate> median_of(const CellRecord& cell, double Repetition::*figure,
+                                  const std::string& column) {
   if (cell.has_times()) {
     const std::vector<double> samples = measure::collect(cell, figure);
-    return Median{measure::median(samples), measure::median_interval(samples)};
+    return Estimate{measure::median(samples), measure::median_interval(samples)};
   }
   const auto middle = cell.column(column + "_median");
   if (!middle || !cell.keeps_times()) return std::nullopt;
   const auto low = cell.column(column + "_ci_low"), high = cell.column(column + "_ci_high");
-  return low && high ? Median{*middle, Interval{*low, *high}} : Median{*middle};
+  return low && high ? Estimate{*middle, Interval{*low, *high}} : Estimate{*middle};
+}
+
+double build_ms_of(const CellRecord& cell) {
+  if (has_blocks(cell)) return measure::minimum(measure::collect(cell, &Repetition::build_ms));
+  const auto build = median_of(cell, &Repetition::build_ms, "build_ms");
+  return build ? build->value : 0.0;
 }
 
 TimesByRound trace_times(const CellRecord& cell) {
@@ -48,10 +57,17 @@ TimesByRound trace_times(const CellRecord& cell) {
   return times;
 }
 
-TimeRatio trace_ratio(const CellRecord& cell, const CellRecord& base) {
-  if (cell.index == base.index) return {1.0, Interval{1.0, 1.0}, true};
-  const auto paired = paired_ratio(trace_times(cell), trace_times(base));
-  return paired ? *paired : unpaired_ratio(*trace_median(cell), *trace_median(base));
+TimeRatio trace_ratio(const CellRecord& cell, const CellRecord& base, TraceClock clock) {
+  if (cell.index == base.index) {
+    return {1.0, Interval{1.0, 1.0}, true,
+            has_blocks(cell) ? std::optional(Interval{1.0, 1.0}) : std::nullopt};
+  }
+  const auto paired = has_blocks(cell) && has_blocks(base)
+                          ? block_ratio(trace_by_block(cell, clock), trace_by_block(base, clock))
+                          : paired_ratio(trace_times(cell), trace_times(base));
+  if (paired) return *paired;
+  const Estimate over = *trace_time(cell, clock), under = *trace_time(base, clock);
+  return unpaired_ratio({over.value, over.confidence}, {under.value, under.confidence});
 }
 
 /// Returns the condition of the sweep that leaves a contender out of a view; nothing if none does.
@@ -94,6 +110,25 @@ std::uint64_t finest_rays(const ViewCells& all) {
   return contenders.rbegin()->first;
 }
 
+/// Returns whether hardly any closest-hit ray hits, or almost all or hardly any any-hit rays are
+/// occluded. Records without blocks keep the means that they were published with.
+bool is_degenerate(const CellRecord& cell) {
+  constexpr double kFew = 0.01;
+  if (!has_blocks(cell)) return false;
+  const double hit = cell.rays.hit_share.value_or(1.0);
+  const double occluded = cell.rays.occluded_share.value_or(0.5);
+  return hit < kFew || occluded < kFew || occluded > 1.0 - kFew;
+}
+
+/// Returns the clock by which a view's contenders are compared: the CPU clock where other processes
+/// disturbed one of them too often. (With several threads nothing is known to be disturbed.)
+TraceClock clock_of(const std::map<std::string, const CellRecord*>& cells) {
+  const bool disturbed = std::ranges::any_of(cells, [](const auto& entry) {
+    return has_blocks(*entry.second) && measure::is_disturbed(*entry.second);
+  });
+  return disturbed ? TraceClock::kCpu : TraceClock::kWall;
+}
+
 Standings of_view(const Names& names, const ViewCells& all,
                   const std::vector<std::pair<std::string, std::string>>& structures,
                   const Json& exclude) {
@@ -103,9 +138,12 @@ Standings of_view(const Names& names, const ViewCells& all,
     if (cell->rays.rays == most) finest[contender] = cell;
   }
   const CellRecord& first = *finest.begin()->second;
+  const TraceClock clock = clock_of(finest);
   Standings result{
       names.view, names.subject, rays::to_string(first.id.resolution), first.id.rays, most, {}, {},
       {}};
+  result.clock = clock;
+  result.is_degenerate = is_degenerate(first);
   std::vector<std::pair<double, std::string>> order;
   for (const auto& [contender, structure] : structures) {
     const auto cell = finest.find(contender);
@@ -113,7 +151,7 @@ Standings of_view(const Names& names, const ViewCells& all,
       const auto reason = why_absent(structure, first, exclude);
       if (!reason) ++result.unrecorded;
       result.left_out.push_back({contender, reason.value_or("not in the record")});
-    } else if (const auto trace = trace_median(*cell->second); trace && trace->value > 0.0) {
+    } else if (const auto trace = trace_time(*cell->second, clock); trace && trace->value > 0.0) {
       order.emplace_back(trace->value, contender);
     } else {
       const std::string& message = cell->second->message;
@@ -128,10 +166,9 @@ Standings of_view(const Names& names, const ViewCells& all,
   if (base == order.end()) return result;
   for (const auto& [trace_ms, contender] : order) {
     const CellRecord& cell = *finest.at(contender);
-    const auto build = median_of(cell, &Repetition::build_ms, "build_ms");
-    Standing standing{contender, cell.id.structure, build ? build->value : 0.0,
+    Standing standing{contender, cell.id.structure, build_ms_of(cell),
                       1e6 * trace_ms / static_cast<double>(most),
-                      trace_ratio(cell, *finest.at(base->second))};
+                      trace_ratio(cell, *finest.at(base->second), clock)};
     auto& list = is_reference(standing.structure) ? result.references : result.ranked;
     list.push_back(std::move(standing));
   }
@@ -150,7 +187,7 @@ std::vector<MeanStanding> means(const std::vector<const Standing*>& standings) {
     const auto wins = std::ranges::count_if(own, &Standing::is_tied);
     std::vector<TimeRatio> ratios;
     for (const Standing* one : own) ratios.push_back(one->ratio);
-    found.push_back({contender, own.front()->structure, geometric_mean(ratios),
+    found.push_back({contender, own.front()->structure, geometric_mean(ratios), scatter(ratios),
                      static_cast<int>(own.size()), static_cast<int>(wins)});
   }
   std::ranges::stable_sort(found, [](const MeanStanding& a, const MeanStanding& b) {
@@ -166,14 +203,27 @@ void mark_counted(std::vector<Standings>& views) {
     if (!view.ranked.empty()) most[view.subject] = std::max(most[view.subject], view.rays);
   }
   for (Standings& view : views) {
-    view.in_means = !view.ranked.empty() && view.rays == most.at(view.subject);
+    view.in_means =
+        !view.ranked.empty() && view.rays == most.at(view.subject) && !view.is_degenerate;
   }
 }
 
 }  // namespace
 
+std::string_view to_string(Rank rank) {
+  constexpr std::array<std::string_view, 4> kNames{"tied", "behind", "undecided", "unranked"};
+  return kNames[static_cast<std::size_t>(rank)];
+}
+
+Rank Standing::rank() const {
+  if (!ratio.interval) return Rank::kUnranked;
+  if (!ratio.prediction) return ratio.interval->low <= 1.0 ? Rank::kTied : Rank::kBehind;
+  if (ratio.interval->high <= 1.0 + kMargin) return Rank::kTied;
+  return ratio.interval->low > 1.0 ? Rank::kBehind : Rank::kUndecided;
+}
+
 const Standing* Standings::behind() const {
-  const auto found = std::ranges::find_if_not(ranked, &Standing::is_tied);
+  const auto found = std::ranges::find(ranked, Rank::kBehind, &Standing::rank);
   return found == ranked.end() ? nullptr : &*found;
 }
 
@@ -185,7 +235,7 @@ const Standing* Standings::embree() const {
 const Standing* Standings::last_overtaken() const {
   const Standing* last = nullptr;
   for (const Standing& one : ranked) {
-    if (one.is_tied()) continue;
+    if (one.rank() != Rank::kBehind) continue;
     if (last == nullptr || break_even(ranked.front(), one) > break_even(ranked.front(), *last)) {
       last = &one;
     }
@@ -210,8 +260,18 @@ std::vector<Names> names_of(const measure::Run& run) {
   return name_cells(cells);
 }
 
-std::optional<Median> trace_median(const CellRecord& cell) {
-  return median_of(cell, &Repetition::trace_ms, "trace_ms");
+bool has_blocks(const CellRecord& cell) {
+  return !cell.repetitions.empty() && cell.repetitions.front().block >= 0;
+}
+
+std::optional<Estimate> trace_time(const CellRecord& cell, std::optional<TraceClock> clock) {
+  if (!has_blocks(cell)) return median_of(cell, &Repetition::trace_ms, "trace_ms");
+  if (!cell.keeps_times()) return std::nullopt;
+  std::vector<double> times;
+  for (const auto& [block, time] : trace_by_block(cell, clock.value_or(own_clock(cell)))) {
+    times.push_back(time);
+  }
+  return times.empty() ? std::nullopt : std::optional(measure::estimate(times));
 }
 
 std::vector<Standings> standings(const measure::Run& run) {

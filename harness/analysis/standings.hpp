@@ -5,24 +5,40 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "harness/analysis/names.hpp"
 #include "harness/analysis/ratio.hpp"
+#include "harness/measure/record/block_statistics.hpp"
 #include "harness/measure/record/run_log.hpp"
 
 namespace beambench::analysis {
+
+/// Times that differ by less are equivalent.
+inline constexpr double kMargin = 0.03;
+
+/// The rank of a contender, by the confidence interval of its ratio to the fastest.
+enum class Rank {
+  kTied,       ///< the fastest, or equivalent to it: the interval ends within the margin
+  kBehind,     ///< clearly slower: the interval begins above 1, and ends beyond the margin
+  kUndecided,  ///< the interval contains 1 and ends beyond the margin
+  kUnranked    ///< there is no interval
+};
+/// In records without blocks, whose intervals are of one process, those whose interval contains 1
+/// are tied and the others behind, as when they were measured.
+std::string_view to_string(Rank rank);  // "tied", "behind", "undecided", "unranked"
 
 /// One contender in one view.
 struct Standing {
   std::string contender;  ///< the structure, with the parameters by which its variants differ
   std::string structure;  ///< the bare name
-  double build_ms;        ///< median
-  double ns_per_ray;      ///< median of the first trace after a build
-  TimeRatio ratio;        ///< its trace time over that of the fastest
+  double build_ms;        ///< the fastest; in records without blocks the median
+  double ns_per_ray;  ///< of the first trace after a build; in records without blocks the median
+  TimeRatio ratio;    ///< its trace time over that of the fastest
 
-  /// Returns whether it is the fastest, or the interval of its ratio to the fastest contains 1.
-  bool is_tied() const { return ratio.interval && ratio.interval->low <= 1.0; }
+  Rank rank() const;
+  bool is_tied() const { return rank() == Rank::kTied; }
 };
 
 /// A contender without a time in a view, and the reason in a clause.
@@ -44,16 +60,21 @@ struct Standings {
   std::vector<Standing> ranked;      ///< the fastest first; empty where no hits were correct
   std::vector<Standing> references;  ///< `null`, which finds nothing; `exhaustive`, which tests all
   std::vector<LeftOut> left_out;
-  int unrecorded = 0;     ///< of `left_out`: without a row, but in the sweep
-  bool in_means = false;  ///< is it among the views that means are over?
+  int unrecorded = 0;  ///< of `left_out`: without a row, but in the sweep
+  /// Do fewer than 1% of its closest-hit rays hit, or are fewer than 1% or more than 99% of its
+  /// any-hit rays occluded?
+  bool is_degenerate = false;
+  bool in_means = false;  ///< is it among the views that means are over? Degenerate ones are not
 
-  /// Returns the first that is not tied with the fastest; null where there is none.
+  measure::TraceClock clock = measure::TraceClock::kWall;  ///< by which all are compared
+
+  /// Returns the first that is clearly slower than the fastest; null where there is none.
   const Standing* behind() const;
   /// Returns Embree's fastest mode; null where there is none.
   const Standing* embree() const;
   /// Returns the number of rays from which the fastest, build included, is ahead of all that are
-  /// not tied with it: the additional build time over the time saved per ray. 0: from the first;
-  /// infinite: never; nothing: all others are tied with it.
+  /// behind it: the additional build time over the time saved per ray. 0: from the first;
+  /// infinite: never; nothing: none is behind it.
   std::optional<double> break_even_rays() const;
   /// Returns the contender that determines `break_even_rays`; null where there is none.
   const Standing* last_overtaken() const;
@@ -63,9 +84,10 @@ struct Standings {
 struct MeanStanding {
   std::string contender;
   std::string structure;
-  TimeRatio ratio;  ///< geometric mean of its ratios to the fastest of each view
-  int views;        ///< in which it has a time
-  int wins;         ///< in which it is the fastest, or tied with it
+  TimeRatio ratio;                  ///< geometric mean of its ratios to the fastest of each view
+  std::optional<Interval> scatter;  ///< of that mean, by the scatter between the views
+  int views;                        ///< in which it has a time
+  int wins;                         ///< in which it is the fastest, or tied with it
 };
 
 struct OverallStandings {
@@ -78,9 +100,14 @@ struct OverallStandings {
 /// Returns the names of each cell of a run.
 std::vector<Names> names_of(const measure::Run& run);
 
-/// The median trace time of a cell: of its repetitions, or as it was summed up. Nothing where its
-/// hits are not correct.
-std::optional<Median> trace_median(const measure::CellRecord& cell);
+/// Returns whether the repetitions of a cell were made in blocks.
+bool has_blocks(const measure::CellRecord& cell);
+
+/// Returns the trace time of a cell by a clock, or by its own (`measure::own_clock`): the mean over
+/// its blocks with both intervals. In a record without blocks, the median of its repetitions with
+/// its interval, or as it was summed up. Nothing where its hits are not correct.
+std::optional<measure::Estimate> trace_time(
+    const measure::CellRecord& cell, std::optional<measure::TraceClock> clock = std::nullopt);
 
 /// Returns the standings of each view, in the order of the plan. The conditions of the sweep
 /// explain why a contender is absent.

@@ -35,13 +35,18 @@ std::string table(const std::vector<std::vector<std::string>>& lines) {
   return out;
 }
 
-/// Returns the fastest, and those that may be as fast.
+/// Returns the fastest, those that are as fast, and those of which that is not decided.
 std::string winners(const Standings& view) {
-  std::vector<std::string> names;
+  std::vector<std::string> tied, others;
   for (const Standing& one : view.ranked) {
-    if (one.is_tied()) names.push_back(one.contender);
+    if (&one == view.ranked.data() || one.is_tied()) {
+      tied.push_back(one.contender);
+    } else if (one.rank() != Rank::kBehind) {
+      others.push_back(one.contender);
+    }
   }
-  return fmt::format("{}{}", names.size() > 1 ? "tie: " : "", fmt::join(names, ", "));
+  return fmt::format("{}{}{}{}", tied.size() > 1 ? "tie: " : "", fmt::join(tied, ", "),
+                     others.empty() ? "" : "; undecided: ", fmt::join(others, ", "));
 }
 
 std::string against(const Standing* other, bool with_name) {
@@ -114,7 +119,7 @@ std::string describe(std::span<const Standings> views) {
   }
   std::string out =
       "Fastest by trace time, build apart. Figures: how many times as long the others take, with "
-      "95% intervals.\n" +
+      "95% confidence intervals.\n" +
       table(lines) + describe_left_out(views);
   if (views.size() > 1) {
     for (const OverallStandings& one : overall(views)) {
@@ -131,16 +136,22 @@ std::string describe_contenders(std::span<const Standings> views) {
   for (const Standings& view : views) {
     std::vector<std::vector<std::string>> lines{
         {"contender", "build ms", "ns per ray", "Mrays/s", "times the fastest"}};
-    const auto add = [&](const Standing& one, const char* note) {
+    const auto add = [&](const Standing& one, const std::string& note) {
       lines.push_back({one.contender + note, fmt::format("{:.4g}", one.build_ms),
                        fmt::format("{:.4g}", one.ns_per_ray),
                        fmt::format("{:.4g}", 1e3 / one.ns_per_ray), in_words(one.ratio)});
     };
-    for (const Standing& one : view.ranked)
-      add(one, &one != view.ranked.data() && one.is_tied() ? " (tied)" : "");
+    for (const Standing& one : view.ranked) {
+      const bool is_first = &one == view.ranked.data();
+      const bool is_plain = is_first || one.rank() == Rank::kBehind;
+      add(one, is_plain ? "" : fmt::format(" ({})", to_string(one.rank())));
+    }
     for (const Standing& one : view.references) add(one, " (reference)");
     for (const LeftOut& one : view.left_out) lines.push_back({one.contender, one.reason});
-    out += fmt::format("{} {}, {} {} rays\n{}\n", view.view, view.size, view.rays, view.ray_kind,
+    out += fmt::format("{} {}, {} {} rays{}\n{}\n", view.view, view.size, view.rays, view.ray_kind,
+                       view.clock == measure::TraceClock::kCpu
+                           ? ", compared by CPU time: other processes disturbed too many traces"
+                           : "",
                        table(lines));
   }
   return out;

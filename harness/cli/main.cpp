@@ -19,6 +19,7 @@
 #include "harness/base/process_start.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
+#include "harness/measure/block_process.hpp"
 #include "harness/measure/record/machine.hpp"
 #include "harness/plugin/activity.hpp"
 #include "harness/plugin/load_plugin.hpp"
@@ -94,7 +95,7 @@ std::string suggested_option(const CLI::App& command) {
   return "";
 }
 
-int parse_and_run(const Arguments& arguments, plugin::Activity& activity) {
+int parse_and_run(const Arguments& arguments) {
   CLI::App app(kDescription, "beambench");
   int exit_code = base::kSuccess;
   app.set_version_flag("--version", fmt::format("beambench {}", measure::build_info().version));
@@ -104,12 +105,11 @@ int parse_and_run(const Arguments& arguments, plugin::Activity& activity) {
   for (const auto add :
        {add_list_command, add_scene_command, add_export_command, add_render_command,
         add_rays_command, add_hits_command, add_stats_command, add_time_command, add_verify_command,
-        add_trace_command, add_selftest_command, add_analyze_command, add_merge_command,
-        add_completion_command, add_man_command}) {
+        add_trace_command, add_selftest_command, add_run_command, add_analyze_command,
+        add_merge_command, add_completion_command, add_man_command}) {
     add(app, exit_code);
   }
   for (AddCommand* add : thesis_commands()) add(app, exit_code);
-  add_run_command(app, exit_code, activity);
   add_plugin_option(app);
   try {
     require_known_command(app, arguments);
@@ -132,7 +132,10 @@ int run_command_line(const Arguments& arguments, const std::vector<std::string>&
                      plugin::Activity& activity) {
   try {
     for (const std::string& file : plugins) plugin::load_plugin(file, activity);
-    return parse_and_run(arguments, activity);
+    if (arguments.size() == 2 && arguments[1] == measure::kBlockCommand) {
+      return measure::serve_block(activity);
+    }
+    return parse_and_run(arguments);
   } catch (const InputError& error) {
     return fail(error.what(), base::kInvalidInput);
   } catch (const PluginError& error) {
@@ -165,7 +168,6 @@ int begin(int argc, char** argv) {
     int code = base::kInternalError;
     accel::on_default_threads([&] { code = run_command_line(arguments, plugins, *activity); });
     activity->clear(plugin::Activity::Line::kForeign);
-    activity->clear(plugin::Activity::Line::kCell);
     return code;
   } catch (const std::exception& error) {
     return fail(error.what(), base::kInvalidInput);

@@ -1,10 +1,12 @@
 // beambench run: measures a sweep.
 
+#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -14,9 +16,11 @@
 #include "harness/analysis/exports.hpp"
 #include "harness/analysis/words.hpp"
 #include "harness/base/messages.hpp"
+#include "harness/base/stopwatch.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/interruption.hpp"
 #include "harness/measure/division.hpp"
+#include "harness/measure/record/machine.hpp"
 #include "harness/measure/record/run_log.hpp"
 #include "harness/measure/record/shard.hpp"
 #include "harness/measure/sweep_run.hpp"
@@ -35,6 +39,7 @@ struct RunRequest {
   std::optional<std::string> shard;
   bool dry_run = false;
   bool json = false;
+  std::optional<double> quiet_minutes;  ///< to wait for a quiet machine, at most
   std::vector<std::string> benchmark_flags;
 };
 
@@ -51,9 +56,9 @@ measure::SweepConfig config_of(const RunRequest& request,
       "DIR");
 }
 
-measure::SweepOptions options_of(const RunRequest& request, plugin::Activity& activity) {
+measure::SweepOptions options_of(const RunRequest& request) {
   measure::SweepOptions options;
-  options.activity = &activity;
+  options.block_program = plugin::program_words();
   options.resume = !request.resume.empty();
   if (options.resume) options.folder = request.resume;
   if (!request.output.empty()) options.folder = request.output;
@@ -162,15 +167,37 @@ std::string resume_command(const std::filesystem::path& folder) {
                      shell_quoted(folder.string()));
 }
 
+/// Waits until the load average is that of an idle machine. Throws InputError when that takes
+/// longer.
+void wait_for_quiet(double minutes) {
+  const base::Stopwatch watch;
+  for (bool first = true;; first = false) {
+    const double load = measure::load_average();
+    if (load <= measure::kIdleLoad) return;
+    if (watch.seconds() >= 60.0 * minutes) {
+      throw InputError(
+          fmt::format("--require-quiet: the load average is {:.2f}, above {}, after {:g} minutes; "
+                      "stop the other "
+                      "work, or wait longer",
+                      load, measure::kIdleLoad, minutes));
+    }
+    if (first) {
+      base::print_message(
+          stderr, fmt::format("Waiting up to {:g} minutes for a load average of {} (now {:.2f}).\n",
+                              minutes, measure::kIdleLoad, load));
+    }
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+  }
+}
+
 /// Runs the sweep so that, however it is interrupted, its last line states how to resume it.
 /// Returns the exit code.
 int run_resumable(const measure::SweepConfig& config, measure::Plan plan,
                   const measure::GoogleBenchmark& benchmark, measure::SweepOptions options,
-                  plugin::Activity& activity, Interruption& interruption) {
+                  Interruption& interruption) {
   std::string resume;
   options.begun = [&](const std::filesystem::path& folder) {
     resume = resume_command(folder);
-    activity.write(plugin::Activity::Line::kRunFolder, folder.string());
     interruption.set_last_line(
         fmt::format("interrupted; every repetition is kept, resume with: {}", resume));
   };
@@ -182,18 +209,8 @@ int run_resumable(const measure::SweepConfig& config, measure::Plan plan,
   }
 }
 
-/// Continues after the cell in which a plug-in crashed an earlier process, if any.
-void continue_after_crashed_cells(RunRequest& request, const plugin::Activity& activity) {
-  if (activity.crashed_cells().empty()) return;
-  request.config.clear();
-  request.output.clear();
-  request.shard.reset();
-  request.resume = activity.read(plugin::Activity::Line::kRunFolder);
-}
-
-int run(RunRequest request, plugin::Activity& activity) {
+int run(const RunRequest& request) {
   Interruption interruption("interrupted; nothing was measured yet");
-  continue_after_crashed_cells(request, activity);
   const measure::BenchmarkFlags flags = measure::parse_benchmark_flags(request.benchmark_flags);
   for (const std::string& note : flags.notes) {
     base::print_message(stderr, fmt::format("{}\n", note));
@@ -202,7 +219,7 @@ int run(RunRequest request, plugin::Activity& activity) {
   if (!request.resume.empty()) earlier = measure::read_run(request.resume);
   measure::SweepConfig config = config_of(request, earlier);
   if (flags.repetitions) override_repetitions(config, *flags.repetitions);
-  measure::SweepOptions options = options_of(request, activity);
+  measure::SweepOptions options = options_of(request);
   const std::optional<measure::Shard> shard = shard_of(request, earlier);
   earlier.reset();  // its cells take memory
   if (shard) refuse_filtered_shard(flags);
@@ -217,13 +234,13 @@ int run(RunRequest request, plugin::Activity& activity) {
     }
     return base::kSuccess;
   }
-  return run_resumable(config, std::move(plan), benchmark, std::move(options), activity,
-                       interruption);
+  if (request.quiet_minutes) wait_for_quiet(*request.quiet_minutes);
+  return run_resumable(config, std::move(plan), benchmark, std::move(options), interruption);
 }
 
 }  // namespace
 
-void add_run_command(CLI::App& app, int& exit_code, plugin::Activity& activity) {
+void add_run_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "run", "Measure a sweep: a time is reported only when the hits are correct");
   const auto request = std::make_shared<RunRequest>();
@@ -243,6 +260,13 @@ void add_run_command(CLI::App& app, int& exit_code, plugin::Activity& activity) 
                    "measured on another machine than the others; 'beambench merge' joins them")
       ->type_name("K/N")
       ->excludes(resume);
+  command
+      ->add_option(
+          "--require-quiet", request->quiet_minutes,
+          "Wait until the load average is at most 0.5, for that long at most, and end with "
+          "exit code 2 if it does not get there")
+      ->type_name("MINUTES")
+      ->check(CLI::Range(0.0, 1e5));
   CLI::Option* dry_run =
       command->add_flag("--dry-run", request->dry_run, "Print the names of the cells and stop");
   command
@@ -260,9 +284,9 @@ void add_run_command(CLI::App& app, int& exit_code, plugin::Activity& activity) 
       "  beambench run quick -o my-run --benchmark_filter=tetra.*samet\n"
       "  beambench run --resume my-run\n"
       "  beambench run quick --shard 2/4 -o shards/2");
-  command->callback([command, request, &activity, &exit_code] {
+  command->callback([command, request, &exit_code] {
     request->benchmark_flags = command->remaining();
-    exit_code = run(*request, activity);
+    exit_code = run(*request);
   });
 }
 

@@ -17,6 +17,7 @@
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/interruption.hpp"
 #include "harness/measure/sweep_run.hpp"
+#include "harness/plugin/load_plugin.hpp"
 #include "scenes/base/error.hpp"
 #include "scenes/base/files.hpp"
 #include "scenes/base/json_text.hpp"
@@ -118,6 +119,7 @@ int time_structures(const TimeRequest& request) {
   interruption.set_folder_to_remove(folder.path());
   measure::SweepOptions options;
   options.folder = folder.path();
+  options.block_program = plugin::program_words();
   const measure::GoogleBenchmark benchmark(measure::parse_benchmark_flags({}));
   const analysis::Analysis found = analysis::analyze(
       measure::read_run(measure::run_sweep(config, std::move(plan), benchmark, options, stderr)));

@@ -168,6 +168,7 @@ Exclusion read_exclusion(const JsonNode& node, const accel::Registry& structures
 void read_repetitions(const JsonNode& root, SweepConfig& config) {
   const auto node = root.find("repetitions");
   const nlohmann::json given = node ? node->value() : nlohmann::json::object();
+  config.blocks = root.value().value("blocks", 8);
   config.minimum_repetitions = given.value("minimum", 5);
   config.maximum_repetitions = given.value("maximum", std::max(50, config.minimum_repetitions));
   // Six: the fewest whose median has a 95% interval (see median_interval).
@@ -183,8 +184,6 @@ void read_repetitions(const JsonNode& root, SweepConfig& config) {
 void read_effort(const JsonNode& root, SweepConfig& config) {
   const nlohmann::json& json = root.value();
   config.precision = json.value("precision", 0.02);
-  config.precise =
-      json.value("precision_of", "median") == "median" ? Figure::kMedian : Figure::kMinimum;
   config.budget_seconds = json.at("budget_seconds").get<double>();
   config.warm_up = std::chrono::duration<double>(json.value("warm_up_seconds", 0.5));
   read_repetitions(root, config);

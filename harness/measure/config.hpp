@@ -31,9 +31,6 @@ struct Exclusion {
   std::optional<std::uint64_t> rays_above;
 };
 
-/// A figure of a cell's repetitions.
-enum class Figure { kMedian, kMinimum };
-
 struct SweepConfig {
   std::string name;
   std::string description;
@@ -42,9 +39,10 @@ struct SweepConfig {
   std::vector<rays::Resolution> resolutions;
   std::vector<int> samples;
   std::vector<rays::RayChoice> rays;
-  int threads;       ///< that trace an image
-  double precision;  ///< wanted half-width of the interval of a repeat, relative to the figure
-  Figure precise;    ///< the figure that is to be that precise
+  int threads;  ///< that trace an image
+  double
+      precision;  ///< wanted half-width of the prediction interval of a trace time, relative to it
+  int blocks;     ///< of each view, where the precision does not need more
   int minimum_repetitions;
   int maximum_repetitions;
   int second_traces;      ///< of each cell: so many repetitions are followed by one

@@ -10,7 +10,6 @@
 
 #include "harness/measure/measurement.hpp"
 #include "harness/measure/record/machine.hpp"
-#include "harness/measure/record/robust_statistics.hpp"
 
 namespace beambench::measure {
 namespace {
@@ -36,31 +35,19 @@ bool is_all_zero(const std::map<std::string, std::uint64_t, std::less<>>& counte
                      [](const auto& counter) { return counter.second == 0; });
 }
 
-bool is_precise(std::span<const double> samples, const StoppingRule& rule) {
-  if (rule.precise == Figure::kMinimum) {
-    const std::optional<double> spread = repeat_spread_of_minimum(samples);
-    return spread && *spread <= rule.precision * minimum(samples);
-  }
-  const std::optional<Interval> interval = repeat_interval(samples);
-  return interval && 0.5 * (interval->high - interval->low) <= rule.precision * median(samples);
-}
-
 }  // namespace
 
-Contender::Contender(const PlannedCell& cell, Task& task, int second_traces,
-                     std::optional<CellRecord> earlier)
-    : cell_(&cell), task_(&task), second_traces_(static_cast<std::size_t>(second_traces)) {
+Contender::Contender(const PlannedCell& cell, Task& task, int second_traces, CellRecord earlier)
+    : cell_(&cell),
+      task_(&task),
+      second_traces_(static_cast<std::size_t>(second_traces)),
+      record_(std::move(earlier)) {
   record_.index = cell.index;
   record_.id = cell.id;
   record_.rays = task.facts();
-  if (!earlier) return;
-  record_.hits_hash = earlier->hits_hash;
-  record_.diff = std::move(earlier->diff);
-  record_.verdict = earlier->verdict;
-  for (const Repetition& repetition : earlier->repetitions) keep(repetition);
 }
 
-void Contender::count(RunLog& log) {
+void Contender::count(const CellEvents& events) {
   try {
     task_->require_support(cell_->structure);
     const MeasuringFloatMode mode;
@@ -80,11 +67,12 @@ void Contender::count(RunLog& log) {
   // A structure without any counts does not support counting; zeros would claim that it does no
   // work.
   if (is_all_zero(record_.work.counters)) record_.work.counters.clear();
-  log.begin_cell(record_);
+  events.begin_cell(record_);
+  if (failed_) finish(events);
 }
 
-void Contender::repeat(const Instruments& instruments, int round, int position, RunLog& log) {
-  const std::size_t before = record_.repetitions.size();
+void Contender::repeat(const Instruments& instruments, int round, int position,
+                       const CellEvents& events) {
   const bool was_verified = record_.diff.has_value();
   try {
     const PinnedThread pin(instruments.core);
@@ -93,23 +81,19 @@ void Contender::repeat(const Instruments& instruments, int round, int position, 
     const double clock_before = clock_ghz();
     Repetition repetition = time_once(instruments, structure);
     repetition.clock_ghz = 0.5 * (clock_before + clock_ghz());
+    repetition.block = instruments.block;
     repetition.round = round;
     repetition.position = position;
-    keep(repetition);
+    record_.repetitions.push_back(repetition);
     check_answers(*structure);
     if (!failed_ && record_.repetitions.size() <= second_traces_) trace_warm(*structure);
   } catch (const std::exception& error) {
     fail(verify::Verdict::kError, message_of(error));
   }
-  if (!was_verified && record_.diff) log.add_verification(record_);
-  if (record_.repetitions.size() > before) log.add_repetition(record_);
-}
-
-void Contender::keep(const Repetition& repetition) {
-  record_.repetitions.push_back(repetition);
-  cycles_.push_back(repetition.total_mcycles());
-  milliseconds_.push_back(repetition.total_ms());
-  spent_ms_ += repetition.total_ms() + repetition.warm_trace_ms.value_or(0.0);
+  if (!was_verified && record_.diff) events.add_verification(record_);
+  // Instead of its repetition: a run that is cut off now must not resume with a wrong one.
+  if (failed_) return finish(events);
+  events.add_repetition(record_);
 }
 
 void Contender::check_answers(const accel::Accelerator& structure) {
@@ -119,8 +103,7 @@ void Contender::check_answers(const accel::Accelerator& structure) {
                             "answers depend on more than scene and rays",
                             record_.repetitions.size()));
   }
-  if (!is_verified_) verify_first(structure);
-  is_verified_ = true;
+  if (!record_.diff) verify_first(structure);
 }
 
 Repetition Contender::time_once(const Instruments& instruments,
@@ -167,7 +150,6 @@ void Contender::trace_warm(const accel::Accelerator& structure) {
   task_->poison();
   const PhaseTime again = time_phase([&] { task_->trace(structure); });
   record_.repetitions.back().warm_trace_ms = again.wall_ms;
-  spent_ms_ += again.wall_ms;
   if (task_->fingerprint() == record_.hits_hash) return;
   fail(verify::Verdict::kMismatch,
        "a second trace of the same structure wrote other hits than its first");
@@ -197,29 +179,10 @@ void Contender::fail(verify::Verdict verdict, std::string message) {
   failed_ = true;
 }
 
-CellRecord Contender::finish(std::optional<StopReason> reason) && {
-  record_.stop_reason = reason;
+void Contender::finish(const CellEvents& events) {
   record_.time_utc = utc_now();
   record_.is_finished = true;
-  return std::move(record_);
-}
-
-bool is_look(int repetitions, int minimum) {
-  int look = minimum;
-  while (look < repetitions) look += std::max(1, look / 4);
-  return look == repetitions;
-}
-
-std::optional<StopReason> reason_to_stop(std::span<const double> totals, double spent_ms,
-                                         double allowance_ms, const StoppingRule& rule) {
-  const auto repetitions = static_cast<int>(totals.size());
-  if (repetitions < rule.minimum) return std::nullopt;
-  if (is_look(repetitions, rule.minimum) && is_precise(totals, rule)) {
-    return StopReason::kPrecision;
-  }
-  if (repetitions >= rule.maximum) return StopReason::kRepetitions;
-  if (spent_ms >= allowance_ms) return StopReason::kBudget;
-  return std::nullopt;
+  events.finish_cell(record_);
 }
 
 }  // namespace beambench::measure

@@ -63,10 +63,7 @@ void add_group(const SweepConfig& config, const SceneEntry& entry, CellGroup gro
         })) {
       continue;
     }
-    CellId id{group.scene->name,     group.camera.name,
-              structure.info().name, structure.parameters().canonical(),
-              group.resolution,      group.samples,
-              group.rays.label};
+    CellId id = id_of(group, structure);
     if (names.insert(id.name()).second) {
       group.cells.push_back({names.size() - 1, std::move(id), structure});
     } else {
@@ -77,7 +74,7 @@ void add_group(const SweepConfig& config, const SceneEntry& entry, CellGroup gro
 }
 
 /// Returns the groups of a scene in one of its views.
-std::vector<CellGroup> groups_of(const SweepConfig& config,
+std::vector<CellGroup> groups_of(const SweepConfig& config, const std::string& spec,
                                  const std::shared_ptr<const scenes::Scene>& scene,
                                  std::uint64_t hash, const scenes::Camera& camera) {
   std::vector<CellGroup> groups;
@@ -89,7 +86,8 @@ std::vector<CellGroup> groups_of(const SweepConfig& config,
       for (const rays::RayChoice& rays : config.rays) {
         // The rays of a file are the same in every view: they are traced once.
         if (!rays.file.empty() && !first) continue;
-        groups.push_back({scene, hash, camera, resolution, samples, rays, config.threads, {}});
+        groups.push_back(
+            {scene, hash, camera, resolution, samples, rays, config.threads, {}, spec});
       }
     }
   }
@@ -117,6 +115,16 @@ std::string CellGroup::name() const {
                      samples, rays.label);
 }
 
+std::string CellGroup::shown_name() const {
+  return name().replace(0, scene->name.size(), shown_scene(scene->name));
+}
+
+CellId id_of(const CellGroup& view, const accel::StructureChoice& structure) {
+  return {
+      view.scene->name, view.camera.name, structure.info().name, structure.parameters().canonical(),
+      view.resolution,  view.samples,     view.rays.label};
+}
+
 std::size_t Plan::cell_count() const {
   std::size_t count = 0;
   for (const CellGroup& group : groups) count += group.cells.size();
@@ -130,7 +138,7 @@ Plan make_plan(const SweepConfig& config) {
     const std::shared_ptr<const scenes::Scene> scene = load(entry);
     const std::uint64_t hash = scenes::scene_hash(*scene);
     for (const scenes::Camera& camera : cameras_of(*scene, entry)) {
-      for (CellGroup& group : groups_of(config, scene, hash, camera)) {
+      for (CellGroup& group : groups_of(config, entry.spec, scene, hash, camera)) {
         add_group(config, entry, std::move(group), plan, names);
       }
     }

@@ -31,11 +31,17 @@ struct CellGroup {
   rays::RayChoice rays;
   int threads = 1;  ///< that trace an image
   std::vector<PlannedCell> cells;
+  std::string spec{};  ///< of the scene, as the configuration has it
 
   /// Returns `escena1/default/320x200/1/primary`.
   std::string name() const;
+  /// Returns the same without the parameters of the scene that are at their defaults.
+  std::string shown_name() const;
   rays::ImageOfRays image() const { return {camera, resolution, samples}; }
 };
+
+/// Returns the identity of a structure's cell in a view.
+CellId id_of(const CellGroup& view, const accel::StructureChoice& structure);
 
 struct Plan {
   std::vector<CellGroup> groups;

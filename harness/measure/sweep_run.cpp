@@ -16,17 +16,17 @@
 #include "harness/base/messages.hpp"
 #include "harness/base/progress.hpp"
 #include "harness/base/stopwatch.hpp"
-#include "harness/measure/contender.hpp"
-#include "harness/measure/cost.hpp"
+#include "harness/measure/block.hpp"
+#include "harness/measure/block_process.hpp"
 #include "harness/measure/division.hpp"
 #include "harness/measure/measurement.hpp"
 #include "harness/measure/plan.hpp"
+#include "harness/measure/record/block_statistics.hpp"
 #include "harness/measure/record/conditions.hpp"
 #include "harness/measure/record/machine.hpp"
 #include "harness/measure/record/manifest.hpp"
 #include "harness/measure/record/robust_statistics.hpp"
 #include "harness/measure/record/run_log.hpp"
-#include "harness/measure/task.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "scenes/base/error.hpp"
 #include "scenes/base/json_text.hpp"
@@ -35,33 +35,35 @@
 namespace beambench::measure {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 /// Returns the core to pin to, or -1 where pinning does not work.
 int pinnable_core() {
   const int core = present_core();
   return PinnedThread(core).pinned() ? core : -1;
 }
 
-/// Returns `35.1 ms [34.9, 35.6]`: the median of times, and its interval where there is one.
-std::string with_interval(const std::vector<double>& times) {
-  const std::string text = fmt::format("{:.4g} ms", median(times));
-  const std::optional<Interval> interval = median_interval(times);
-  if (!interval) return text;
-  return fmt::format("{} [{:.4g}, {:.4g}]", text, interval->low, interval->high);
+/// Returns `35.1 ms [34.9, 35.6]`: a time and its confidence interval where there is one.
+std::string with_interval(const Estimate& time) {
+  const std::string text = fmt::format("{:.4g} ms", time.value);
+  if (!time.confidence) return text;
+  return fmt::format("{} [{:.4g}, {:.4g}]", text, time.confidence->low, time.confidence->high);
 }
 
-/// Returns `build 1.23 ms, trace 35.1 ms [34.9, 35.6], second trace 34.0 ms [33.8, 34.3], 37.0
-/// Mrays/s, ok after 12 repetitions (precision)`; the second trace where there was one.
+/// Returns `build 1.23 ms, trace 35.1 ms [34.9, 35.6], 37.0 Mrays/s, ok after 24 repetitions in 8
+/// blocks (precision)`.
 std::string result_line(const CellRecord& cell) {
   if (!cell.keeps_times()) return fmt::format("{}: {}", to_string(cell.verdict), cell.message);
-  const std::vector<double> trace = collect(cell, &Repetition::trace_ms);
-  const std::vector<double> second = second_traces(cell);
-  const double trace_us = 1e3 * median(trace);
-  return fmt::format("build {:.4g} ms, trace {}, {}{:.4g} Mrays/s, {} after {} ({})",
-                     median(collect(cell, &Repetition::build_ms)), with_interval(trace),
-                     second.empty() ? "" : "second trace " + with_interval(second) + ", ",
-                     trace_us > 0.0 ? static_cast<double>(cell.rays.rays) / trace_us : 0.0,
+  const std::map<int, double> blocks = trace_by_block(cell, own_clock(cell));
+  if (blocks.empty()) return fmt::format("{}, too short to be timed", to_string(cell.verdict));
+  std::vector<double> times;
+  for (const auto& [block, time] : blocks) times.push_back(time);
+  const Estimate trace = estimate(times);
+  return fmt::format("build {:.4g} ms, trace {}, {:.4g} Mrays/s, {} after {} in {} ({})",
+                     minimum(collect(cell, &Repetition::build_ms)), with_interval(trace),
+                     1e-3 * static_cast<double>(cell.rays.rays) / trace.value,
                      to_string(cell.verdict), base::counted(cell.repetitions.size(), "repetition"),
-                     to_string(*cell.stop_reason));
+                     base::counted(blocks.size(), "block"), to_string(*cell.stop_reason));
 }
 
 /// Returns the cells of a plan by name.
@@ -73,47 +75,68 @@ std::vector<PlannedName> names_of(const Plan& plan) {
   return names;
 }
 
-/// Returns a group's name without the parameters at their defaults.
-std::string shown(const CellGroup& group) {
-  std::string name = group.name();
-  return name.replace(0, group.scene->name.size(), shown_scene(group.scene->name));
-}
-
-/// Shuffles as Fisher and Yates do, with random numbers that are the same on every machine.
-template <class T>
-void shuffle(std::vector<T>& values, Random& random) {
-  for (std::size_t left = values.size(); left > 1; --left) {
-    std::swap(values[left - 1], values[random.below(left)]);
-  }
-}
-
-/// A group while it is measured.
-struct OpenGroup {
-  const CellGroup* group;
-  std::unique_ptr<Task> task;  // to which the contenders refer
-  std::vector<Contender> contenders;
-};
-
-/// Returns the number of groups from `first` that are measured together: views of one scene, few
-/// enough that their rays fit into memory and that an interrupted run has little to repeat. A
-/// larger one is measured alone, and one whose rays are in a file, since their number is not known
-/// yet.
-std::size_t batch_size(std::span<const CellGroup> groups, std::size_t first) {
-  constexpr double kMaxRays = 4e6;
-  constexpr std::size_t kMaxGroups = 8;
-  double rays = 0.0;
-  std::size_t end = first;
-  for (; end < groups.size() && end - first < kMaxGroups; ++end) {
-    const CellGroup& group = groups[end];
-    if (group.scene != groups[first].scene || !group.rays.file.empty()) break;
-    rays += estimated_rays(group);
-    if (rays > kMaxRays) break;
-  }
-  return std::max<std::size_t>(end - first, 1);
-}
-
 std::optional<ShardFacts> facts_of(const std::optional<PlannedShard>& shard) {
   return shard ? std::optional(shard->facts) : std::nullopt;
+}
+
+/// A cell while it is measured.
+struct OpenCell {
+  PlannedCell planned;
+  CellRecord record;
+};
+
+/// A view while it is measured.
+struct OpenView {
+  CellGroup view;  ///< without its cells
+  std::vector<OpenCell> cells;
+  int blocks_made = 0;
+  double block_ms = 0.0;  ///< of the first block, with the start of its process
+  int blocks = 1;         ///< planned; before that, as many as are allowed
+  StopReason reason = StopReason::kRepetitions;  ///< why there are no more
+};
+
+/// How a sweep's repetitions are divided into blocks.
+struct BlockLimits {
+  int each;     ///< repetitions of a cell in a block: three, or four and five where few are made
+  int minimum;  ///< blocks that are made even when the time is up
+  int maximum;
+  int repetitions_allowed;
+
+  explicit BlockLimits(const SweepConfig& config)
+      : repetitions_allowed(config.maximum_repetitions) {
+    constexpr int kMinEach = 3;
+    const int blocks = std::max(repetitions_allowed / kMinEach, 1);
+    each = repetitions_allowed < kMinEach * kMinEach ? (repetitions_allowed + blocks - 1) / blocks
+                                                     : kMinEach;
+    maximum = (repetitions_allowed + each - 1) / each;
+    minimum = std::min((config.minimum_repetitions + each - 1) / each, maximum);
+  }
+
+  /// Returns the repetitions of a cell in that many blocks.
+  int repetitions(int blocks) const { return std::min(blocks * each, repetitions_allowed); }
+};
+
+/// A spread that blocks have at least, whatever that of the repetitions of one: some processes are
+/// faster than others.
+constexpr double kMinSpread = 0.01;
+
+/// Returns how often a contender had its turn, in a block or in all: a repetition that was
+/// disturbed and the one that replaces it are one turn.
+int turns(const CellRecord& cell, std::optional<int> block = std::nullopt) {
+  std::set<std::pair<int, int>> made;
+  for (const Repetition& one : cell.repetitions) {
+    if (!block || one.block == *block) made.emplace(one.block, one.round);
+  }
+  return static_cast<int>(made.size());
+}
+
+/// Returns the first round without a repetition of any contender of a view.
+int next_round(const OpenView& open) {
+  int next = 0;
+  for (const OpenCell& cell : open.cells) {
+    for (const Repetition& one : cell.record.repetitions) next = std::max(next, one.round + 1);
+  }
+  return next;
 }
 
 class SweepRun {
@@ -131,8 +154,8 @@ class SweepRun {
         log_(open_log()),
         throttling_(options.root, manifest_.measurement.throttling),
         names_(names_of(plan)),
-        plan_(unfinished(std::move(plan))),
-        progress_(plan_.cell_count(), messages) {
+        views_(unfinished(std::move(plan))),
+        progress_(count_cells(), messages) {
     if (!options.resume) manifest_.google_benchmark = benchmark.context();
   }
 
@@ -144,7 +167,7 @@ class SweepRun {
     if (const auto warning = noise_warning(manifest_.measurement.noise)) {
       manifest_.uncontrolled.push_back(*warning);
     }
-    manifest_.measurement.hardware_problem = counters_.problem();
+    manifest_.measurement.hardware_problem = HardwareCounters().problem();
     for (const std::string& line : preflight(manifest_)) {
       base::print_message(messages_, fmt::format("{}\n", line));
     }
@@ -154,20 +177,7 @@ class SweepRun {
       log_.begin(to_json(manifest_), config_.source, names_);
     }
     options_.begun(log_.folder());
-    const base::Stopwatch watch;
-    record_crashed_cells();
-    std::size_t cells_left = plan_.cell_count();
-    for (std::size_t first = 0; first < plan_.groups.size();) {
-      const double left_ms = std::max(1e3 * budget_seconds() - watch.milliseconds(), 0.0);
-      const auto batch = std::span(plan_.groups).subspan(first, batch_size(plan_.groups, first));
-      run_batch(batch, left_ms / static_cast<double>(cells_left));
-      for (CellGroup& group : batch) {
-        cells_left -= group.cells.size();
-        group.scene.reset();
-        group.cells = {};  // as the record grows, the plan shrinks
-      }
-      first += batch.size();
-    }
+    measure();
     log_.end(utc_now());
     return log_.folder();
   }
@@ -194,10 +204,15 @@ class SweepRun {
     return log;
   }
 
-  /// The record of a cell from an earlier part of the run.
-  std::optional<CellRecord> earlier(const PlannedCell& cell) {
+  /// Returns the record of a cell, from an earlier part of the run where it was begun. One whose
+  /// results were wrong is verified again.
+  CellRecord earlier(const CellGroup& view, const PlannedCell& cell) {
     auto found = unfinished_.extract(cell.index);
-    return found ? std::optional(std::move(found.mapped())) : std::nullopt;
+    if (found && verify::is_right(found.mapped().verdict)) return std::move(found.mapped());
+    CellRecord record{};
+    record.index = cell.index;
+    record.id = id_of(view, cell.structure);
+    return record;
   }
 
   /// A cell has the same allowance in a shard as in a run of the whole sweep.
@@ -207,164 +222,206 @@ class SweepRun {
            static_cast<double>(manifest_.shard->cells_of_sweep);
   }
 
-  Plan unfinished(Plan plan) const {
-    filter_cells(plan, [&](const PlannedCell& cell) { return !finished_.contains(cell.index); });
-    return plan;
-  }
-
-  void record_crashed_cells() {
-    if (options_.activity == nullptr) return;
-    const auto crashed = options_.activity->crashed_cells();
-    for (const CellGroup& group : plan_.groups) {
-      for (const PlannedCell& cell : group.cells) {
-        const auto found = crashed.find(cell.id.key());
-        if (found != crashed.end()) {
-          finish_unmeasured(group, cell, verify::Verdict::kError, found->second);
+  /// Returns the views with the cells that are not finished.
+  std::vector<OpenView> unfinished(Plan plan) {
+    std::vector<OpenView> views;
+    for (CellGroup& group : plan.groups) {
+      OpenView open;
+      open.blocks = limits_.maximum;
+      for (PlannedCell& cell : std::exchange(group.cells, {})) {
+        if (finished_.contains(cell.index)) continue;
+        CellRecord record = earlier(group, cell);
+        for (const Repetition& one : record.repetitions) {
+          open.blocks_made = std::max(open.blocks_made, one.block + 1);
         }
+        open.cells.push_back({std::move(cell), std::move(record)});
       }
+      open.view = std::move(group);
+      if (!open.cells.empty()) views.push_back(std::move(open));
     }
-    filter_cells(plan_, [&](const PlannedCell& cell) { return !crashed.contains(cell.id.key()); });
+    return views;
   }
 
-  /// Measures groups together, so that the repetitions of a cell are as far apart in time as those
-  /// of all: a disturbance of the machine for half a minute affects some repetitions of each view,
-  /// not all of one.
-  void run_batch(std::span<const CellGroup> groups, double share_ms) {
+  std::size_t count_cells() const {
+    std::size_t cells = 0;
+    for (const OpenView& open : views_) cells += open.cells.size();
+    return cells;
+  }
+
+  /// Measures the first block of each view, which shows how many it needs and can have, then the
+  /// others in passes over all views: the blocks of each are spread over the rest of the run.
+  void measure() {
     const base::Stopwatch watch;
-    std::vector<OpenGroup> open;
-    double cells = 0.0;
-    for (const CellGroup& group : groups) {
-      cells += static_cast<double>(group.cells.size());
-      if (std::optional<OpenGroup> opened = open_group(group)) open.push_back(std::move(*opened));
+    for (OpenView& open : views_) {
+      const base::Stopwatch block_watch;
+      run_block(open);
+      open.block_ms = block_watch.milliseconds();
     }
-    // The time of the oracle and of the counting passes belongs to the groups.
-    measure(std::move(open), std::max(share_ms - watch.milliseconds() / cells, 0.0));
-    set_activity("");
+    finish_complete();
+    plan_blocks(1e3 * budget_seconds() - watch.milliseconds());
+    finish_complete();
+    Random random(rays::fingerprint(manifest_.run.run_id));
+    for (int pass = 1; !views_.empty(); ++pass) {
+      const double part = std::min(1.0, static_cast<double>(pass) / std::max(passes_ - 1, 1));
+      shuffle(views_, random);
+      for (OpenView& open : views_) {
+        if (blocks_done(open) <= part * (open.blocks - 1)) run_block(open);
+      }
+      finish_complete();
+    }
   }
 
-  /// Makes the rays of a group and counts the work of its contenders. Where the scene has no rays,
-  /// records that and returns nothing.
-  std::optional<OpenGroup> open_group(const CellGroup& group) {
-    progress_.start(shown(group));
-    options_.before_each_piece();
-    const auto fail = [&](verify::Verdict verdict, const std::string& why) {
-      for (const PlannedCell& cell : group.cells) finish_unmeasured(group, cell, verdict, why);
-      return std::nullopt;
-    };
-    OpenGroup open{&group, nullptr, {}};
-    try {
-      open.task = make_task(group, core_);
-    } catch (const rays::NoRaysError& error) {  // the other groups are measured all the same
-      return fail(verify::Verdict::kNoRays, error.what());
-    } catch (const InputError& error) {
-      return fail(verify::Verdict::kError, error.what());
+  /// Fixes the number of blocks of each view: at least those of the sweep, as many as the precision
+  /// needs, but no more than the time allows.
+  void plan_blocks(double left_ms) {
+    const int fewest = std::max(limits_.minimum, std::min(config_.blocks, limits_.maximum));
+    for (OpenView& open : views_) {
+      double spread = kMinSpread;
+      for (const OpenCell& cell : open.cells) spread = std::max(spread, spread_of(cell.record));
+      const int needed = blocks_for_precision(spread, config_.precision, limits_.maximum);
+      open.blocks = std::clamp(needed, fewest, limits_.maximum);
+      open.reason = open.blocks == limits_.maximum && needed >= limits_.maximum
+                        ? StopReason::kRepetitions
+                        : StopReason::kPrecision;
     }
-    if (const auto warning = open.task->warning()) {
-      const std::string sentence = fmt::format("{}: {}.", shown(group), *warning);
-      progress_.say("warning: " + sentence);
-      log_.warn(sentence);
+    // The views with the most blocks give theirs up first.
+    while (expected_ms() > left_ms) {
+      const auto most = std::ranges::max_element(views_, {}, &OpenView::blocks);
+      if (most == views_.end() || most->blocks <= limits_.minimum) break;
+      const int top = most->blocks;
+      for (OpenView& open : views_) {
+        if (open.blocks < top || open.blocks <= limits_.minimum) continue;
+        --open.blocks;
+        open.reason = StopReason::kBudget;
+      }
     }
-    for (const PlannedCell& cell : group.cells) {
-      set_activity(cell.id.key());
-      options_.before_each_piece();
-      open.contenders.emplace_back(cell, *open.task, config_.second_traces, earlier(cell))
-          .count(log_);
-      if (open.contenders.back().failed()) finish(open, std::prev(open.contenders.end()));
-    }
-    return open;
+    for (const OpenView& open : views_) passes_ = std::max(passes_, open.blocks);
   }
 
-  /// Runs rounds of one repetition for each contender until all are done. A round goes from group
-  /// to group, and within one from contender to contender, in orders shuffled anew, so that a
-  /// temporary slowdown of the machine affects all that are compared.
-  void measure(std::vector<OpenGroup> groups, double allowance_ms) {
-    if (groups.empty()) return;
-    const Instruments instruments{benchmark_, counters_, core_, config_.threads};
-    Random random(rays::fingerprint(groups.front().group->name()));
-    finish_done(groups, allowance_ms);
-    int round = 0;
-    for (const OpenGroup& open : groups) {
-      for (const Contender& each : open.contenders) round = std::max(round, each.next_round());
+  /// Returns the time of the blocks that are left.
+  double expected_ms() const {
+    double sum = 0.0;
+    for (const OpenView& open : views_) {
+      sum += open.block_ms * std::max(open.blocks - blocks_done(open), 0);
     }
-    for (; !groups.empty(); ++round) {
-      shuffle(groups, random);
-      for (OpenGroup& open : groups) {
-        shuffle(open.contenders, random);
-        int position = 0;
-        for (auto each = open.contenders.begin(); each != open.contenders.end(); ++position) {
-          set_activity(each->id().key());
-          options_.before_each_piece();
-          each->repeat(instruments, round, position, log_);
-          // Immediately: a run that is cut off now must not resume with a wrong repetition.
-          each = each->failed() ? finish(open, each) : std::next(each);
-          progress_.advance(work_done(groups, allowance_ms));
+    return sum;
+  }
+
+  /// Measures a block of a view, again where a contender ended its process.
+  void run_block(OpenView& open) {
+    progress_.start(open.view.shown_name());
+    const int number = open.blocks_made++;
+    for (std::vector<BlockCell> cells; !(cells = due(open, number)).empty();) {
+      const Block block{open.view,
+                        std::move(cells),
+                        number,
+                        next_round(open),
+                        config_.second_traces,
+                        options_.tries,
+                        core_};
+      log_.begin_block(open.view.name(), number, load_average());
+      const BlockWatch watch{[&](const Json& event) { take(open, event); },
+                             [&](std::optional<std::size_t>) {
+                               options_.before_each_piece();
+                               progress_.advance(work_done());
+                             }};
+      const std::optional<BrokenBlock> broken = run(block, watch);
+      const std::vector<BlockCell> left = due(open, number);
+      for (OpenCell& cell : open.cells) {
+        if (broken && (!broken->cell || *broken->cell == cell.planned.index)) {
+          fail(open, cell, broken->how);
+        } else if (!broken &&
+                   std::ranges::count(left, cell.planned.index,
+                                      [](const BlockCell& each) { return each.cell.index; }) > 0) {
+          fail(open, cell, "the process of its block ended without all repetitions");
         }
       }
-      finish_done(groups, allowance_ms);
+      if (!broken) break;
     }
-  }
-
-  using Place = std::vector<Contender>::iterator;
-
-  /// Records and removes a contender; returns the place of the next.
-  Place finish(OpenGroup& open, Place contender, std::optional<StopReason> reason = std::nullopt) {
-    finish(std::move(*contender).finish(reason));
-    progress_.start(shown(*open.group));
-    return open.contenders.erase(contender);
-  }
-
-  /// Records and removes the contenders that need no further repetition, and the groups that have
-  /// none left.
-  void finish_done(std::vector<OpenGroup>& groups, double allowance_ms) {
-    const StoppingRule rule{config_.precision, config_.precise, config_.minimum_repetitions,
-                            config_.maximum_repetitions};
-    for (OpenGroup& open : groups) {
-      for (Place each = open.contenders.begin(); each != open.contenders.end();) {
-        const std::optional<StopReason> reason =
-            reason_to_stop(each->totals(rule.precise), each->spent_ms(), allowance_ms, rule);
-        each = reason ? finish(open, each, reason) : std::next(each);
-      }
-    }
-    std::erase_if(groups, [](const OpenGroup& open) { return open.contenders.empty(); });
-  }
-
-  /// Returns the progress of the unfinished, in whole contenders: by the larger of the time and the
-  /// repetitions that they have used up.
-  double work_done(const std::vector<OpenGroup>& groups, double allowance_ms) const {
-    double done = 0.0;
-    for (const OpenGroup& open : groups) {
-      for (const Contender& contender : open.contenders) {
-        const double time = contender.spent_ms() / std::max(allowance_ms, 1.0);
-        const auto repetitions = static_cast<double>(contender.repetitions());
-        done += std::clamp(std::max(std::min(time, repetitions / config_.minimum_repetitions),
-                                    repetitions / config_.maximum_repetitions),
-                           0.0, 1.0);
-      }
-    }
-    return done;
-  }
-
-  void set_activity(std::string_view cell) const {
-    if (options_.activity) options_.activity->write(plugin::Activity::Line::kCell, cell);
-  }
-
-  void finish_unmeasured(const CellGroup& group, const PlannedCell& cell, verify::Verdict verdict,
-                         const std::string& message) {
-    CellRecord record{};
-    record.index = cell.index;
-    record.id = cell.id;
-    record.rays.scene_hash = group.scene_hash;
-    record.rays.primitives = group.scene->primitives.size();
-    record.time_utc = utc_now();
-    record.verdict = verdict;
-    record.message = message;
-    log_.begin_cell(record);
-    finish(record);
-  }
-
-  void finish(const CellRecord& cell) {
-    log_.finish_cell(cell);
+    std::erase_if(open.cells, [](const OpenCell& cell) { return cell.record.is_finished; });
     log_throttling();
+  }
+
+  std::optional<BrokenBlock> run(const Block& block, const BlockWatch& watch) {
+    if (!options_.block_program.empty()) {
+      return measure_in_process(block, options_.block_program, watch);
+    }
+    measure_block(block, benchmark_, watch);
+    return std::nullopt;
+  }
+
+  /// Returns what is left of a block: the cells that are not finished, with the repetitions that
+  /// they lack.
+  std::vector<BlockCell> due(const OpenView& open, int number) const {
+    std::vector<BlockCell> cells;
+    for (const OpenCell& cell : open.cells) {
+      if (cell.record.is_finished) continue;
+      const int left = std::min(limits_.each - turns(cell.record, number),
+                                limits_.repetitions(open.blocks) - turns(cell.record));
+      if (left > 0) cells.push_back({cell.planned, cell.record, left});
+    }
+    return cells;
+  }
+
+  /// Records an event of a block.
+  void take(OpenView& open, const Json& event) {
+    log_.add(event);
+    if (!event.contains("index")) {
+      return progress_.say("warning: " + event.at("text").get<std::string>());
+    }
+    const auto index = event.at("index").get<std::size_t>();
+    const auto cell = std::ranges::find_if(
+        open.cells, [&](const OpenCell& each) { return each.planned.index == index; });
+    apply(event, cell->record);
+    if (cell->record.is_finished) report(cell->record);
+  }
+
+  /// Records that a cell ended the process of its block.
+  void fail(const OpenView& open, OpenCell& cell, const std::string& how) {
+    if (cell.record.is_finished) return;
+    CellRecord& record = cell.record;
+    if (!record.diff) {
+      record.rays.scene_hash = open.view.scene_hash;
+      record.rays.primitives = open.view.scene->primitives.size();
+      events().begin_cell(record);
+    }
+    record.verdict = verify::Verdict::kError;
+    record.message = how;
+    finish(record, std::nullopt);
+  }
+
+  /// Finishes the cells of the views that have all of their blocks.
+  void finish_complete() {
+    for (OpenView& open : views_) {
+      if (!due(open, open.blocks_made).empty()) continue;
+      for (OpenCell& cell : open.cells) finish(cell.record, open.reason);
+      open.cells.clear();
+    }
+    std::erase_if(views_, [](const OpenView& open) { return open.cells.empty(); });
+  }
+
+  /// Returns the number of whole blocks that all cells of a view have.
+  int blocks_done(const OpenView& open) const {
+    int fewest = limits_.maximum;
+    for (const OpenCell& cell : open.cells) {
+      fewest = std::min(fewest, turns(cell.record) / limits_.each);
+    }
+    return fewest;
+  }
+
+  CellEvents events() {
+    return CellEvents([this](const Json& event) { log_.add(event); });
+  }
+
+  void finish(CellRecord& cell, std::optional<StopReason> reason) {
+    cell.stop_reason = reason;
+    cell.time_utc = utc_now();
+    cell.is_finished = true;
+    events().finish_cell(cell);
+    report(cell);
+  }
+
+  void report(const CellRecord& cell) {
     if (!cell.keeps_times()) {
       progress_.say(
           fmt::format("{}: {}: {}", to_string(cell.verdict), shown_name(cell.id), cell.message));
@@ -372,6 +429,19 @@ class SweepRun {
     }
     progress_.start(shown_name(cell.id));
     progress_.finish(result_line(cell));
+  }
+
+  /// Returns the progress of the unfinished, in whole cells.
+  double work_done() const {
+    double done = 0.0;
+    for (const OpenView& open : views_) {
+      for (const OpenCell& cell : open.cells) {
+        if (cell.record.is_finished) continue;
+        done += std::min(1.0, static_cast<double>(turns(cell.record)) /
+                                  limits_.repetitions(std::max(open.blocks, 1)));
+      }
+    }
+    return done;
   }
 
   void log_throttling() {
@@ -382,11 +452,11 @@ class SweepRun {
   }
 
   const SweepConfig& config_;
+  const BlockLimits limits_{config_};
   const GoogleBenchmark& benchmark_;
   const SweepOptions& options_;
   std::FILE* messages_;
   int core_;
-  HardwareCounters counters_;
   Manifest manifest_;
   std::set<std::size_t> finished_;                ///< by an earlier part of the run: cells
   std::map<std::size_t, CellRecord> unfinished_;  ///< begun by it
@@ -394,7 +464,8 @@ class SweepRun {
   RunLog log_;
   ThrottlingWatch throttling_;
   std::vector<PlannedName> names_;  ///< of all cells
-  Plan plan_;
+  std::vector<OpenView> views_;
+  int passes_ = 1;  ///< over all views
   base::Progress progress_;
 };
 

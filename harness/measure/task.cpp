@@ -25,29 +25,40 @@ double share(std::uint64_t part, std::uint64_t whole) {
   return static_cast<double>(part) / static_cast<double>(whole);
 }
 
+/// Throws InputError where the rays are not those that an earlier process traced.
+void require_same(std::uint64_t hash, std::uint64_t known) {
+  if (hash == known) return;
+  throw InputError(fmt::format("the rays have changed during the run (hashes {} and {})",
+                               rays::hex_digits(known), rays::hex_digits(hash)));
+}
+
 /// Rays that do not depend on the results: an image's, or a list.
 class RaysTask : public Task {
  public:
-  RaysTask(const CellGroup& group, int core)
-      : Task(group),
-        reference_(*group.scene, rays::make_trace_input(*group.scene, group.image(), group.rays)),
+  RaysTask(const CellGroup& group, int core, const std::optional<RaySetFacts>& known)
+      : Task(group, known),
+        input_(rays::make_trace_input(*group.scene, group.image(), group.rays)),
         results_(rays::make_results(input())),
         core_(core) {
+    const std::uint64_t hash = rays::fingerprint(input());
+    if (known) {
+      require_same(hash, known->rays_hash);
+      return;
+    }
     facts_.scene_hash = group.scene_hash;
-    facts_.rays_hash = rays::fingerprint(input());
+    facts_.rays_hash = hash;
     facts_.seed = input().seed();
     facts_.primitives = scene().primitives.size();
     facts_.rays = input().size();
     facts_.query = input().query();
     const bool any_hit = facts_.query == rays::Query::kAnyHit;
     (any_hit ? facts_.occluded_share : facts_.hit_share) =
-        share(reference_.hit_count(), input().size());
+        share(reference().hit_count(), input().size());
     facts_.coherence = rays::coherence(input());
+    warning_ = rays::share_warning(input(), reference().hit_count());
   }
 
-  std::optional<std::string> warning() const override {
-    return rays::share_warning(input(), reference_.hit_count());
-  }
+  std::optional<std::string> warning() const override { return warning_; }
   void poison() override { rays::poison(results_); }
   void require_support(const accel::StructureChoice& choice) const override {
     rays::require_support(choice, input());
@@ -64,7 +75,8 @@ class RaysTask : public Task {
 
   Verification verify_results(const accel::Accelerator&,
                               const accel::StructureChoice& choice) override {
-    Verification found{verify::verify_results(reference_, results_, choice.info().conformance), {}};
+    Verification found{verify::verify_results(reference(), results_, choice.info().conformance),
+                       {}};
     if (verify::is_right(found.report.verdict)) return found;
     const verify::ReplayCommand replay(plugin::program_call(), scene(), group_.image(), choice,
                                        input());
@@ -96,9 +108,16 @@ class RaysTask : public Task {
     const auto null = accel::registry().choose({"null", {{"rays", rays}}}).build(scene());
     return harness_ms(core_, [&] { trace(*null); });
   }
-  const rays::TraceInput& input() const { return reference_.input(); }
+  /// Asks the oracle when it is first called.
+  const verify::ReferenceHits& reference() {
+    if (!reference_) reference_.emplace(scene(), *std::exchange(input_, std::nullopt));
+    return *reference_;
+  }
+  const rays::TraceInput& input() const { return input_ ? *input_ : reference_->input(); }
 
-  verify::ReferenceHits reference_;
+  std::optional<rays::TraceInput> input_;  ///< until the reference has it
+  std::optional<verify::ReferenceHits> reference_;
+  std::optional<std::string> warning_;
   rays::TraceResults results_;
   int core_;
 };
@@ -119,28 +138,15 @@ std::uint64_t hash_of(const accel::PrimaryRays& rays, const render::RecordedPict
 /// all of them recorded, must give the same bits as the timed one.
 class PictureTask : public Task {
  public:
-  PictureTask(const CellGroup& group, int core)
-      : Task(group),
+  PictureTask(const CellGroup& group, int core, const std::optional<RaySetFacts>& known)
+      : Task(group, known),
+        core_(core),
         rays_(group.image().rays()),
         options_(render::whitted_options(group.rays)),
         shaded_(std::make_shared<const render::ShadedScene>(*group.scene)),
-        reference_(*group.scene, rays_),
         hits_(rays_.width(), rays_.height(), rays_.samples()),
         image_(rays_.width(), rays_.height()) {
-    const accel::oracle::Oracle oracle(scene(), glm::length(glm::dvec3(rays_.eye())));
-    const render::RecordedPicture picture =
-        render::record_picture(shaded_, render::OracleQueries(oracle), rays_, reference_.rounded(),
-                               options_, rays::HitCheck(scene(), "the oracle"));
-    set_facts(picture);
-    // Measures the time of the picture without a structure: its results are known.
-    hits_ = picture.primary;
-    const auto& [reflected, refracted, shadow] = picture.asked;
-    shading_ms_ = harness_ms(core, [&] {
-      const render::ReplayedResults mirrors(reflected);
-      const render::ReplayedResults glass(refracted);
-      const render::ReplayedResults lights(shadow);
-      draw({&mirrors, &glass, &lights});
-    });
+    if (!known) draw_by_oracle();
   }
 
   void poison() override {
@@ -193,13 +199,39 @@ class PictureTask : public Task {
     }();
     image_ = picture.image;
     const std::vector<render::VerifiedRays> verified =
-        render::verify_recorded_picture(reference_, std::move(picture), choice.info().conformance);
+        render::verify_recorded_picture(reference(), std::move(picture), choice.info().conformance);
     return {render::sum_of(verified), render::described_examples(scene(), verified)};
   }
 
  private:
   QueryPath path_of(const accel::Accelerator&) const override { return QueryPath::kPicture; }
-  double measure_harness_ms(QueryPath) override { return shading_ms_; }
+  double measure_harness_ms(QueryPath) override {
+    if (!shading_ms_) draw_by_oracle();
+    return *shading_ms_;
+  }
+
+  /// Asks the oracle when it is first called.
+  const verify::ReferenceHits& reference() {
+    if (!reference_) reference_.emplace(scene(), rays_);
+    return *reference_;
+  }
+
+  /// Finds out the facts, and the time of the picture without a structure: its results are known.
+  void draw_by_oracle() {
+    const accel::oracle::Oracle oracle(scene(), glm::length(glm::dvec3(rays_.eye())));
+    const render::RecordedPicture picture =
+        render::record_picture(shaded_, render::OracleQueries(oracle), rays_, reference().rounded(),
+                               options_, rays::HitCheck(scene(), "the oracle"));
+    set_facts(picture);
+    hits_ = picture.primary;
+    const auto& [reflected, refracted, shadow] = picture.asked;
+    shading_ms_ = harness_ms(core_, [&] {
+      const render::ReplayedResults mirrors(reflected);
+      const render::ReplayedResults glass(refracted);
+      const render::ReplayedResults lights(shadow);
+      draw({&mirrors, &glass, &lights});
+    });
+  }
 
   void set_facts(const render::RecordedPicture& picture) {
     const render::RayCensus& census = picture.census;
@@ -218,13 +250,14 @@ class PictureTask : public Task {
         image_);
   }
 
+  int core_;
   accel::PrimaryRays rays_;
   render::WhittedOptions options_;
   std::shared_ptr<const render::ShadedScene> shaded_;
-  verify::ReferenceHits reference_;
+  std::optional<verify::ReferenceHits> reference_;
   accel::HitBuffer hits_;
   render::Image image_;
-  double shading_ms_ = 0.0;
+  std::optional<double> shading_ms_;
 };
 
 }  // namespace
@@ -237,11 +270,12 @@ HarnessShare Task::harness_share(const accel::Accelerator& structure) {
   return {path, entry->second};
 }
 
-std::unique_ptr<Task> make_task(const CellGroup& group, int core) {
+std::unique_ptr<Task> make_task(const CellGroup& group, int core,
+                                const std::optional<RaySetFacts>& known) {
   if (group.rays.kind == rays::RayKind::kWhitted) {
-    return std::make_unique<PictureTask>(group, core);
+    return std::make_unique<PictureTask>(group, core, known);
   }
-  return std::make_unique<RaysTask>(group, core);
+  return std::make_unique<RaysTask>(group, core, known);
 }
 
 }  // namespace beambench::measure

@@ -58,8 +58,9 @@ class Task {
   HarnessShare harness_share(const accel::Accelerator& structure);
 
  protected:
-  /// The group must outlive it.
-  explicit Task(const CellGroup& group) : group_(group) {}
+  /// The group must outlive it. `known` as for `make_task`.
+  Task(const CellGroup& group, const std::optional<RaySetFacts>& known)
+      : group_(group), facts_(known.value_or(RaySetFacts())) {}
 
   virtual QueryPath path_of(const accel::Accelerator& structure) const = 0;
   /// Returns the time of a trace by `path`, which is not the structure's own, where results cost
@@ -74,7 +75,10 @@ class Task {
 };
 
 /// Makes the task of a group. `core` is the core to measure the harness's own time on (-1: any).
-/// Throws like `make_trace_input`.
-std::unique_ptr<Task> make_task(const CellGroup& group, int core);
+/// `known` are its facts where an earlier process found them out: then the oracle is asked only
+/// where results are verified. Throws like `make_trace_input`, and InputError where the rays are
+/// not those that are known.
+std::unique_ptr<Task> make_task(const CellGroup& group, int core,
+                                const std::optional<RaySetFacts>& known);
 
 }  // namespace beambench::measure

@@ -83,7 +83,8 @@ int watch(pid_t child, const HeldSignals& signals) {
 }
 
 pid_t start(char** arguments, const Activity& activity, const HeldSignals& signals) {
-  ::setenv(kGuardVariable, std::to_string(activity.descriptor()).c_str(), 1);
+  std::string variable = activity.variable();
+  ::setenv(kGuardVariable, variable.substr(variable.find('=') + 1).c_str(), 1);
   const pid_t guard = ::getpid();
   const pid_t child = ::fork();
   if (child == 0) become_guarded(arguments, guard, signals);
@@ -159,8 +160,7 @@ void copy(std::span<char> place, std::initializer_list<std::string_view> pieces)
 }  // namespace
 
 struct Activity::Board {
-  std::array<std::array<char, 4096>, 3> lines;            // the maximum length of a path
-  std::array<char, std::size_t{1} << 17U> crashed_cells;  // key, tab, sentence, line end
+  std::array<std::array<char, 4096>, 2> lines;  // the maximum length of a path
 };
 
 Activity::Activity() : Activity(new_memory(sizeof(Board))) {}
@@ -184,46 +184,25 @@ std::string Activity::read(Line line) const {
   return board_->lines[static_cast<std::size_t>(line)].data();
 }
 
-bool Activity::add_crashed_cell(std::string_view key, std::string_view how) {
-  const std::span<char> all = board_->crashed_cells;
-  const std::size_t used = std::strlen(all.data());
-  if (used + key.size() + how.size() + 3 > all.size()) return false;
-  std::string sentence(how);
-  std::ranges::replace(sentence, '\n', ' ');
-  copy(all.subspan(used), {key, "\t", sentence, "\n"});
-  return true;
-}
-
-std::map<std::string, std::string> Activity::crashed_cells() const {
-  std::map<std::string, std::string> cells;
-  std::istringstream text(board_->crashed_cells.data());
-  for (std::string line; std::getline(text, line);) {
-    const std::size_t tab = line.find('\t');
-    cells[line.substr(0, tab)] = line.substr(tab + 1);
-  }
-  return cells;
-}
+std::string Activity::variable() const { return fmt::format("{}={}", kGuardVariable, descriptor_); }
 
 int run_guarded(char** arguments) {
-  Activity activity;
-  for (;;) {
-    const HeldSignals signals;
-    const int status = watch(start(arguments, activity, signals), signals);
-    const auto what = breakdown(status, activity);
-    if (!what) return WEXITSTATUS(status);
-    if (!is_crash(status)) return end_by(WTERMSIG(status), signals);
-    const std::string foreign = activity.read(Line::kForeign);
-    const std::string cell = activity.read(Line::kCell);
-    const std::string how =
-        foreign.empty() ? "it " + *what : fmt::format("the plug-in {} {}", foreign, *what);
-    // Each cell is recorded only once; otherwise this would never end.
-    if (cell.empty() || activity.crashed_cells().contains(cell) ||
-        !activity.add_crashed_cell(cell, how)) {
-      return report_breakdown(activity, *what);
-    }
-    activity.clear(Line::kCell);
-    activity.clear(Line::kForeign);
-  }
+  const Activity activity;
+  const HeldSignals signals;
+  const int status = watch(start(arguments, activity, signals), signals);
+  const auto what = breakdown(status, activity);
+  if (!what) return WEXITSTATUS(status);
+  if (!is_crash(status)) return end_by(WTERMSIG(status), signals);
+  return report_breakdown(activity, *what);
+}
+
+std::optional<std::string> describe_breakdown(int status, const Activity& activity) {
+  const auto what = breakdown(status, activity);
+  const std::string foreign = activity.read(Line::kForeign);
+  if (what)
+    return foreign.empty() ? "it " + *what : fmt::format("the plug-in {} {}", foreign, *what);
+  if (WEXITSTATUS(status) == base::kSuccess) return std::nullopt;
+  return fmt::format("it ended with exit code {}", WEXITSTATUS(status));
 }
 
 std::unique_ptr<Activity> guarded_activity() {

@@ -1,8 +1,8 @@
 #pragma once
 // Records what a process is doing where another process, the guard, can read it after a crash.
 
-#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,9 +12,8 @@ namespace beambench::plugin {
 class Activity {
  public:
   enum class Line {
-    kForeign,    ///< the current action of foreign code: "loading ./libmine.so"; empty: none
-    kRunFolder,  ///< of the resumable sweep
-    kCell        ///< the key of the cell being measured
+    kForeign,  ///< the current action of foreign code: "loading ./libmine.so"; empty: none
+    kCell      ///< the cell of a block that is being measured
   };
 
   Activity();
@@ -30,13 +29,10 @@ class Activity {
   void clear(Line line) { write(line, ""); }
   std::string read(Line line) const;
 
-  /// Records that a cell crashed: its key and a sentence. Returns false if the space is used up.
-  bool add_crashed_cell(std::string_view key, std::string_view how);
-  /// Returns the sentences by key.
-  std::map<std::string, std::string> crashed_cells() const;
-
   /// Returns the descriptor for the process that writes here, which inherits it.
   int descriptor() const { return descriptor_; }
+  /// Returns the environment variable that tells a process of it: "BEAMBENCH_GUARD=3".
+  std::string variable() const;
 
  private:
   struct Board;
@@ -47,10 +43,14 @@ class Activity {
 /// Runs this program again with the same arguments in a guarded process (see `guarded_activity`),
 /// and returns the exit code for this one: that of the guarded process or, if foreign code crashed,
 /// did not return from being loaded, or ended the process, 1 after a sentence on stderr with the
-/// code and the place (2 if it was being loaded). If that happened in a cell of a sweep, the
-/// program is run again, with the cell among the broken ones. Termination signals are passed on.
-/// Called at the start of a program.
+/// code and the place (2 if it was being loaded). Termination signals are passed on. Called at the
+/// start of a program.
 int run_guarded(char** arguments);
+
+/// Returns how a process broke down, by its status (waitpid) and what it recorded: "the plug-in
+/// ./libmine.so: tracing tetra with mine crashed (SIGSEGV: Segmentation fault)". Nothing if it
+/// ended normally with exit code 0 outside of foreign code.
+std::optional<std::string> describe_breakdown(int status, const Activity& activity);
 
 /// Returns where a guarded process records what it is doing; nullptr in other processes.
 std::unique_ptr<Activity> guarded_activity();

@@ -277,6 +277,14 @@ void set_program_name(std::string_view word) { program_name() = word; }
 
 std::string program_call_here() { return call_with_plugins(program_name()); }
 
+std::vector<std::string> program_words() {
+  std::vector<std::string> words{"/proc/self/exe"};
+  for (const LoadedPlugin& plugin : all_loaded()) {
+    words.insert(words.end(), {"--plugin", plugin.file});
+  }
+  return words;
+}
+
 std::vector<std::string> take_requested_plugins(std::vector<std::string>& arguments) {
   std::vector<std::string> files;
   add_from_environment(files);

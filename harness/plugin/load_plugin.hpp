@@ -46,6 +46,11 @@ void set_program_name(std::string_view word);
 /// called: `build/release/bin/beambench --plugin ./libmine.so`.
 std::string program_call_here();
 
+/// Returns this program and its plug-ins, as the first words of a command that another process
+/// runs:
+/// "/proc/self/exe", "--plugin", "./libmine.so".
+std::vector<std::string> program_words();
+
 /// Removes `--plugin FILE` and `--plugin=FILE` from a command line (the program's name first)
 /// before a `--`, and returns the files, each once. Those of the environment variable
 /// BEAMBENCH_PLUGINS come first: separated by colons, each a file, or a folder for all its `*.so`

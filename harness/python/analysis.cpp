@@ -18,6 +18,7 @@
 
 #include "harness/analysis/names.hpp"
 #include "harness/analysis/ratio.hpp"
+#include "harness/analysis/standings.hpp"
 #include "harness/python/bindings.hpp"
 #include "scenes/base/error.hpp"
 #include "scenes/base/json_text.hpp"
@@ -31,8 +32,9 @@ using analysis::TimeRatio;
 
 /// A value and the ends of its interval.
 using Ends = std::tuple<double, std::optional<double>, std::optional<double>>;
-/// The same, and whether the ratio is paired.
-using RatioFields = std::tuple<double, std::optional<double>, std::optional<double>, bool>;
+/// The same, whether the ratio is paired, and the ends of its prediction interval.
+using RatioFields = std::tuple<double, std::optional<double>, std::optional<double>, bool,
+                               std::optional<double>, std::optional<double>>;
 
 std::optional<measure::Interval> interval_of(std::optional<double> low,
                                              std::optional<double> high) {
@@ -45,14 +47,21 @@ Median median_of(const Ends& ends) {
 }
 
 RatioFields fields_of(const TimeRatio& ratio) {
-  if (!ratio.interval) return {ratio.value, std::nullopt, std::nullopt, ratio.is_paired};
-  return {ratio.value, ratio.interval->low, ratio.interval->high, ratio.is_paired};
+  using End = std::optional<double>;
+  const auto& [value, interval, is_paired, prediction] = ratio;
+  return {value,
+          interval ? End(interval->low) : End(),
+          interval ? End(interval->high) : End(),
+          is_paired,
+          prediction ? End(prediction->low) : End(),
+          prediction ? End(prediction->high) : End()};
 }
 
 RatioFields mean_of(const std::vector<RatioFields>& list) {
   std::vector<TimeRatio> ratios;
-  for (const auto& [value, low, high, is_paired] : list) {
-    ratios.push_back({value, interval_of(low, high), is_paired});
+  for (const auto& [value, low, high, is_paired, predicted_low, predicted_high] : list) {
+    ratios.push_back(
+        {value, interval_of(low, high), is_paired, interval_of(predicted_low, predicted_high)});
   }
   return fields_of(analysis::geometric_mean(ratios));
 }
@@ -92,11 +101,30 @@ void bind_analysis(nb::module_& module) {
       },
       nb::arg("over"), nb::arg("under"), "Returns the median ratio of the common rounds.");
   module.def(
+      "block_ratio",
+      [](const analysis::TimesByBlock& over, const analysis::TimesByBlock& under) {
+        const auto ratio = analysis::block_ratio(over, under);
+        return ratio ? std::optional(fields_of(*ratio)) : std::nullopt;
+      },
+      nb::arg("over"), nb::arg("under"), "Returns the mean ratio of the common blocks.");
+  module.def(
       "unpaired_ratio",
       [](const Ends& over, const Ends& under) {
         return fields_of(analysis::unpaired_ratio(median_of(over), median_of(under)));
       },
       nb::arg("over"), nb::arg("under"), "Returns the ratio of two medians.");
+  module.def(
+      "rank",
+      [](double value, std::optional<double> low, std::optional<double> high, bool is_paired,
+         std::optional<double> predicted_low, std::optional<double> predicted_high) {
+        analysis::Standing standing{};
+        standing.ratio = {value, interval_of(low, high), is_paired,
+                          interval_of(predicted_low, predicted_high)};
+        return std::string(to_string(standing.rank()));
+      },
+      nb::arg("value"), nb::arg("low").none(), nb::arg("high").none(), nb::arg("paired"),
+      nb::arg("predicted_low").none(), nb::arg("predicted_high").none(),
+      "Returns the rank of a contender by its ratio to the fastest.");
   module.def("geometric_mean", &mean_of, nb::arg("ratios"),
              "Returns the geometric mean of at least one ratio.");
   module.def(

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <random>
+#include <utility>
+#include <vector>
 
 namespace beambench {
 
@@ -25,5 +27,13 @@ class Random {
  private:
   std::mt19937_64 engine_;
 };
+
+/// Shuffles as Fisher and Yates do.
+template <class T>
+void shuffle(std::vector<T>& values, Random& random) {
+  for (std::size_t left = values.size(); left > 1; --left) {
+    std::swap(values[left - 1], values[random.below(left)]);
+  }
+}
 
 }  // namespace beambench

@@ -22,6 +22,7 @@ from beambench_report.haines.report import write_report as write_haines
 from beambench_report.havran.contenders import SCENES
 from beambench_report.havran.counts import measure
 from beambench_report.havran.report import write_report as write_havran
+from beambench_report.run.coverage import write_coverage
 from beambench_report.run.growth import write_growth
 from beambench_report.run.page import write_page
 from beambench_report.run.pictures import (
@@ -100,7 +101,13 @@ def _add_commands_on_runs(commands: Commands) -> None:
         lambda o: repeatability(read_run(o.run), read_run(o.second)).summary() + "\n",
         help="count the medians of SECOND that lie within the intervals of RUN",
     )
-    for command in (plots, pictures, page, repeated):
+    covered = add_command(
+        commands,
+        "coverage",
+        lambda o: write_coverage(o.run, o.second),
+        help="count what lies within the prediction intervals of the other run, both ways",
+    )
+    for command in (plots, pictures, page, repeated, covered):
         command("run", type=Path, metavar="RUN", help="folder of a run")
     names = [kind.name for kind in KINDS]
     plots(
@@ -111,7 +118,8 @@ def _add_commands_on_runs(commands: Commands) -> None:
         metavar="KIND",
         help=f"draw only these of {', '.join(map(repr, names))}; if not given, all",
     )
-    repeated("second", type=Path, metavar="SECOND", help="the same sweep, run again")
+    for command in (repeated, covered):
+        command("second", type=Path, metavar="SECOND", help="the same sweep, run again")
     pictures("--beambench", type=Path, required=True, metavar="PROGRAM", help="the built beambench")
     page(
         "--reference",

@@ -107,15 +107,17 @@ const char* const kContract =
     "scene,camera,scene_hash,rays_hash,seed,primitives,"
     "structure,parameters,width,height,samples,ray_kind,query,query_path,rays,hit_share,"
     "occluded_share,coherence,"
-    "repetitions,stop_reason,"
+    "repetitions,blocks,disturbed,stop_reason,"
     "build_ms_median,build_ms_min,build_ms_mad,trace_ms_median,trace_ms_min,trace_ms_mad,"
-    "trace_ms_ci_low,trace_ms_ci_high,"
+    "trace_ms,trace_ms_ci_low,trace_ms_ci_high,trace_ms_pi_low,trace_ms_pi_high,trace_clock,"
     "trace_warm_ms_median,trace_warm_ms_ci_low,trace_warm_ms_ci_high,"
+    "trace_warm_ms_pi_low,trace_warm_ms_pi_high,"
     "harness_ms,trace_net_ms_median,"
-    "total_ms_median,total_ms_min,total_ms_mad,total_ms_ci_low,total_ms_ci_high,"
+    "total_ms_median,total_ms_min,total_ms_mad,total_ms_ci_low,total_ms_ci_high,total_ms_pi_low,"
+    "total_ms_pi_high,"
     "total_ms_min_spread,"
     "clock_ghz_median,total_mcycles_median,total_mcycles_ci_low,total_mcycles_ci_high,"
-    "total_mcycles_repeat_low,total_mcycles_repeat_high,"
+    "total_mcycles_pi_low,total_mcycles_pi_high,"
     "build_cpu_ms_median,trace_cpu_ms_median,mrays_per_s,"
     "build_instructions,build_cycles,build_cache_misses,"
     "trace_instructions,trace_cycles,trace_cache_misses,"
@@ -214,7 +216,8 @@ TEST(CellRow, WithoutTheVerdictOkItKeepsCountersAndLosesTimes) {
   const Row row = to_row(kRun, cell);
   for (const auto& [column, value] : row.items()) {
     const bool is_time = column.find("_ms_") != std::string::npos || column == "harness_ms" ||
-                         column.find("mcycles") != std::string::npos ||
+                         column == "trace_ms" || column == "trace_clock" || column == "blocks" ||
+                         column == "disturbed" || column.find("mcycles") != std::string::npos ||
                          column == "clock_ghz_median" || column == "mrays_per_s" ||
                          column.ends_with("_cycles") || column.ends_with("_instructions") ||
                          column.ends_with("_cache_misses");

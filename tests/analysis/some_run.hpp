@@ -16,7 +16,7 @@ namespace beambench::analysis {
 /// A structure in a view, with its times.
 struct Entrant {
   std::string structure;
-  std::vector<double> trace_ms;  ///< of each round
+  std::vector<double> trace_ms;  ///< of each block, which has one repetition
   double build_ms = 1.0;
   std::string parameters{};
   verify::Verdict verdict = verify::Verdict::kOk;
@@ -38,7 +38,8 @@ inline measure::CellRecord cell_of(const Entrant& entrant, const std::string& sc
     measure::Repetition repetition{};
     repetition.round = static_cast<int>(cell.repetitions.size());
     repetition.build_ms = entrant.build_ms;
-    repetition.trace_ms = trace_ms;
+    repetition.trace_ms = repetition.trace_cpu_ms = trace_ms;
+    repetition.block = repetition.round;
     repetition.clock_ghz = 3.0;
     cell.repetitions.push_back(repetition);
   }
@@ -49,6 +50,12 @@ inline measure::CellRecord cell_of(const Entrant& entrant, const std::string& sc
     cell.diff.emplace().verdict = entrant.verdict;
     cell.hits_hash = 1;
   }
+  return cell;
+}
+
+/// A cell as records of one process have it, without blocks.
+inline measure::CellRecord of_one_process(measure::CellRecord cell) {
+  for (measure::Repetition& one : cell.repetitions) one.block = -1;
   return cell;
 }
 

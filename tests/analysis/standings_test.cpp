@@ -25,13 +25,13 @@ TEST(Standings, TheFastestContenderLeadsWhateverTheOrderOfTheCells) {
   ASSERT_EQ(view.ranked.size(), 3U);
   EXPECT_EQ(view.ranked[0].contender, "tile-beam");
   EXPECT_EQ(view.ranked[0].ratio.value, 1.0);
-  EXPECT_DOUBLE_EQ(view.ranked[0].ns_per_ray, 1000.0);
+  EXPECT_NEAR(view.ranked[0].ns_per_ray, 1000.0, 0.2);
   EXPECT_EQ(view.behind()->contender, "embree");
   EXPECT_NEAR(view.embree()->ratio.value, 2.0, 1e-12);
 }
 
-TEST(Standings, RatiosArePairedRoundByRound) {
-  // Both are twice as slow in half of the rounds, which does not affect the ratio.
+TEST(Standings, RatiosArePairedBlockByBlock) {
+  // Both are twice as slow in half of the blocks, which does not affect the ratio.
   const std::vector<double> slow_machine{1, 2, 1, 2, 1, 2, 1, 2};
   std::vector<double> other;
   for (const double ms : slow_machine) other.push_back(1.1 * ms);
@@ -42,22 +42,48 @@ TEST(Standings, RatiosArePairedRoundByRound) {
   EXPECT_NEAR(behind.ratio.interval->high, 1.1, 1e-12);
 }
 
-TEST(Standings, WhatTheNoiseHidesIsATie) {
+TEST(Standings, WhatTheNoiseHidesIsUndecided) {
   const std::vector<CellRecord> cells{
       cell_of({"samet", {1.0, 1.2, 0.9, 1.1, 1.0, 1.3, 0.8, 1.05}}),
       cell_of({"embree", {1.1, 1.0, 1.0, 1.0, 1.2, 1.0, 1.1, 1.0}})};
   const std::vector<Standings> views = standings(run_of(cells));
   EXPECT_EQ(views[0].behind(), nullptr);
   EXPECT_FALSE(views[0].break_even_rays());
-  EXPECT_NE(describe(views).find("tie: "), std::string::npos);
+  EXPECT_EQ(views[0].ranked[1].rank(), Rank::kUndecided);
+  EXPECT_NE(describe(views).find("undecided: "), std::string::npos);
 }
 
-TEST(Standings, FewRoundsDecideNothingNotEvenATie) {
-  const std::vector<CellRecord> cells{cell_of({"samet", {1.0, 1.0, 1.0}}),
-                                      cell_of({"embree", {2.0, 2.0, 2.0}})};
+/// Equivalent: the whole interval is within the margin of 3%, whether it contains 1 or not.
+TEST(Standings, WhatIsWithinTheMarginIsATie) {
+  const auto rank_of = [](double factor) {
+    const std::vector<CellRecord> cells{cell_of({"samet", rounds(1.0)}),
+                                        cell_of({"embree", rounds(factor)})};
+    return standings(run_of(cells)).at(0).ranked.at(1).rank();
+  };
+  EXPECT_EQ(rank_of(1.02), Rank::kTied);
+  EXPECT_EQ(rank_of(1.04), Rank::kBehind);
+}
+
+TEST(Standings, OneBlockDecidesNothingNotEvenATie) {
+  const std::vector<CellRecord> cells{cell_of({"samet", {1.0}}), cell_of({"embree", {2.0}})};
   const Standings view = standings(run_of(cells)).at(0);
   EXPECT_FALSE(view.ranked[1].ratio.interval);
-  EXPECT_FALSE(view.ranked[1].is_tied());
+  EXPECT_EQ(view.ranked[1].rank(), Rank::kUnranked);
+}
+
+TEST(Standings, MeansLeaveOutViewsInWhichHardlyAnythingHappens) {
+  std::vector<CellRecord> cells{cell_of({"samet", rounds(1.0)}), cell_of({"embree", rounds(2.0)}),
+                                cell_of({"samet", rounds(1.0)}, "escena2"),
+                                cell_of({"embree", rounds(2.0)}, "escena2")};
+  for (std::size_t i : {2U, 3U}) cells[i].rays.hit_share = 0.005;
+  EXPECT_EQ(overall(standings(run_of(cells))).at(0).views, 1);
+  for (std::size_t i : {2U, 3U}) {
+    cells[i].rays.hit_share.reset();
+    cells[i].rays.occluded_share = 0.995;
+  }
+  EXPECT_EQ(overall(standings(run_of(cells))).at(0).views, 1);
+  for (std::size_t i : {2U, 3U}) cells[i].rays.occluded_share = 0.5;
+  EXPECT_EQ(overall(standings(run_of(cells))).at(0).views, 2);
 }
 
 TEST(Standings, NullAndExhaustiveAreReferencesAndNeverWin) {
@@ -99,7 +125,7 @@ TEST(Standings, TheBuildPaysOffWhereTheLinesCross) {
   // 3 ms more to build, 1 ms less for each thousand rays.
   const std::vector<CellRecord> cells{cell_of({"samet", rounds(1.0), 4.0}),
                                       cell_of({"embree", rounds(2.0), 1.0})};
-  EXPECT_NEAR(*standings(run_of(cells)).at(0).break_even_rays(), 3000.0, 1e-6);
+  EXPECT_NEAR(*standings(run_of(cells)).at(0).break_even_rays(), 3000.0, 1.0);
   const std::vector<CellRecord> cheap{cell_of({"samet", rounds(1.0), 0.5}),
                                       cell_of({"embree", rounds(2.0), 1.0})};
   EXPECT_EQ(*standings(run_of(cheap)).at(0).break_even_rays(), 0.0);

@@ -325,40 +325,6 @@ TEST(BenchmarkFlags, TheFilterSelectsByGoogleBenchmarksRules) {
       scenes::says(scenes::thrown_message([&] { select("bvh"); }), {"'bvh'", "none of the 3"}));
 }
 
-TEST(Stopping, ContinuesUntilOneReasonHolds) {
-  const StoppingRule rule{0.05, Figure::kMedian, 9, 20};
-  const std::vector<double> steady(12, 100.0);
-  std::vector<double> wild{100, 200, 50, 300, 20, 150, 90, 180, 10};
-  EXPECT_EQ(reason_to_stop(std::span(steady).first(8), 900.0, 0.0, rule), std::nullopt);
-  EXPECT_EQ(reason_to_stop(std::span(steady).first(9), 900.0, 1e9, rule), StopReason::kPrecision);
-  EXPECT_EQ(reason_to_stop(std::span(steady).first(10), 900.0, 1e9, rule), std::nullopt);
-  EXPECT_EQ(reason_to_stop(wild, 900.0, 1e9, rule), std::nullopt);
-  EXPECT_EQ(reason_to_stop(wild, 900.0, 800.0, rule), StopReason::kBudget);
-  wild.insert(wild.end(), {10, 400, 30, 500, 20, 600, 10, 700, 10, 800, 20});
-  EXPECT_EQ(reason_to_stop(wild, 900.0, 1e9, rule), StopReason::kRepetitions);
-}
-
-/// Half of the repetitions take 1.5 times as long: no median is precise, but the minimum is.
-TEST(Stopping, AMinimumIsPreciseWhereOtherWorkDisturbsEverySecondRepetition) {
-  const std::vector<double> disturbed{100, 150, 101, 151, 102, 150, 100, 152, 101, 150, 100, 151};
-  const auto reason = [&](Figure figure, std::size_t repetitions) {
-    return reason_to_stop(std::span(disturbed).first(repetitions), 1.0, 1e9, {0.02, figure, 8, 20});
-  };
-  EXPECT_EQ(reason(Figure::kMedian, 12), std::nullopt);
-  EXPECT_EQ(reason(Figure::kMinimum, 8), std::nullopt) << "four repetitions are undisturbed";
-  EXPECT_EQ(reason(Figure::kMinimum, 12), StopReason::kPrecision);
-}
-
-TEST(Stopping, LooksAtThePrecisionAgainAfterAQuarterMore) {
-  std::vector<int> looks;
-  for (int n = 1; n <= 40; ++n) {
-    if (is_look(n, 9)) looks.push_back(n);
-  }
-  EXPECT_EQ(looks, (std::vector<int>{9, 11, 13, 16, 20, 25, 31, 38}));
-  EXPECT_TRUE(is_look(1, 1));
-  EXPECT_TRUE(is_look(2, 1));
-}
-
 TEST(ClockRate, IsThatOfAProcessor) {
   const double before = clock_ghz();
   EXPECT_GT(before, 0.2);

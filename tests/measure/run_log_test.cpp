@@ -45,11 +45,18 @@ CellRecord after(CellRecord cell, std::size_t repetitions) {
   return cell;
 }
 
+CellEvents events_of(RunLog& log) {
+  return CellEvents([&log](const nlohmann::ordered_json& event) { log.add(event); });
+}
+
 void log_cell(RunLog& log, const CellRecord& cell) {
-  log.begin_cell(cell);
-  if (cell.diff) log.add_verification(cell);
-  for (std::size_t i = 1; i <= cell.repetitions.size(); ++i) log.add_repetition(after(cell, i));
-  if (cell.is_finished) log.finish_cell(cell);
+  const CellEvents events = events_of(log);
+  events.begin_cell(cell);
+  if (cell.diff) events.add_verification(cell);
+  for (std::size_t i = 1; i <= cell.repetitions.size(); ++i) {
+    events.add_repetition(after(cell, i));
+  }
+  if (cell.is_finished) events.finish_cell(cell);
 }
 
 Events events_in(const std::filesystem::path& folder) {
@@ -269,7 +276,9 @@ TEST(RunLog, LaterEventsChangeTheManifest) {
   {
     RunLog log = RunLog::create(folder.path());
     log.begin(small_manifest(), {}, {});
-    log.warn("The rays never hit.");
+    events_of(log).warn("The rays never hit.");
+    log.begin_block("tetra", 0, 1.5);
+    log.begin_block("tetra", 1, 0.5);
     log.set_throttling({10, 3, 0.5});
     log.set_throttling({20, 4, 0.75});
   }
@@ -277,6 +286,7 @@ TEST(RunLog, LaterEventsChangeTheManifest) {
   EXPECT_FALSE(run.is_ended());
   EXPECT_EQ(run.manifest.at("uncontrolled"), Events({"It is noisy.", "The rays never hit."}));
   EXPECT_EQ(run.manifest.at("measurement").at("throttling").at("periods"), 20);
+  EXPECT_EQ(run.manifest.at("measurement").at("highest_load"), 1.5);
   {
     auto resumed = small_manifest();
     resumed["part_begun_utc"] = "later";
@@ -392,8 +402,8 @@ TEST_F(WrittenLog, WithACellOfAnUnknownShardIsRefused) {
 }
 
 TEST_F(WrittenLog, OfAnotherVersionIsRefused) {
-  EXPECT_TRUE(says(refusal(with(R"("schema_version":1)", R"("schema_version":2)")),
-                   {"run/run.jsonl, line 1", "version 2", "reads version 1", "-o"}));
+  EXPECT_TRUE(says(refusal(with(R"("schema_version":2)", R"("schema_version":3)")),
+                   {"run/run.jsonl, line 1", "version 3", "reads versions 1 to 2", "-o"}));
 }
 
 TEST_F(WrittenLog, WithAnUnknownEventIsRefused) {

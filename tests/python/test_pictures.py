@@ -50,7 +50,7 @@ def test_a_failure_of_beambench_is_passed_on(
     run_folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["pictures", str(run_folder), "--beambench", "/bin/false"]) == 2
-    assert "`/bin/false render escena1" in capsys.readouterr().err
+    assert "scene 'escena1' cannot be rendered: /bin/false" in capsys.readouterr().err
 
 
 def test_a_missing_beambench_is_named(run_folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -210,6 +210,7 @@ void read_facts(const Json& event, CellRecord& cell) {
 
 Json repetition_json(const Repetition& repetition) {
   Json json = Json::object();
+  if (repetition.block >= 0) json["block"] = repetition.block;
   write_members(repetition, json);
   add(json, "warm_trace_ms", repetition.warm_trace_ms);
   add_counts(json, "build", repetition.build_counts);
@@ -220,6 +221,7 @@ Json repetition_json(const Repetition& repetition) {
 Repetition read_repetition(const Json& event) {
   Repetition repetition{};
   read_members(event, repetition);
+  repetition.block = event.value("block", -1);
   repetition.warm_trace_ms = optional<double>(event, "warm_trace_ms");
   read_counts(event, "build", repetition.build_counts);
   read_counts(event, "trace", repetition.trace_counts);

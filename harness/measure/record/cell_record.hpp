@@ -1,6 +1,7 @@
 #pragma once
 // The record of one cell: one structure traced with one set of rays.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -65,7 +66,7 @@ struct CellId {
 
 /// One timed repetition: built, traced, thrown away.
 struct Repetition {
-  int round;     ///< contenders take turns, one repetition each a round; groups do, too
+  int round;     ///< contenders take turns, one repetition each a round
   int position;  ///< in the order of its group in that round
   double build_ms;
   double trace_ms;
@@ -77,6 +78,18 @@ struct Repetition {
   std::optional<double> warm_trace_ms{};
   /// The rate of the core's clock, measured just before and after.
   double clock_ghz = 1.0;
+  /// The process in which it was made, with all contenders of its view; -1 in records of one
+  /// process for a whole run.
+  int block = -1;
+
+  /// Returns whether the trace had its processor for itself: its wall time and its CPU time differ
+  /// by at most 3%, or by less than 20 us, which reading the clocks takes. A trace that waited for
+  /// another process is set aside.
+  bool is_undisturbed() const {
+    constexpr double kMaxPart = 0.03;
+    constexpr double kMaxReading = 0.02;  // in milliseconds
+    return trace_ms - trace_cpu_ms <= std::max(kMaxPart * trace_ms, kMaxReading);
+  }
 
   double total_ms() const { return build_ms + trace_ms; }
   /// Returns millions of clock cycles: a time that does not depend on the clock's rate.
@@ -85,7 +98,7 @@ struct Repetition {
 
 /// The reason why no further repetition was made.
 enum class StopReason {
-  kPrecision,   ///< the median's interval is narrow enough
+  kPrecision,   ///< as many blocks as the precision needs, by the first one
   kBudget,      ///< the time was up
   kRepetitions  ///< as many as were allowed
 };

@@ -53,9 +53,16 @@ std::optional<std::string> describe(const std::optional<Throttling>& throttling)
 }
 
 Conditions conditions_of(const Json& manifest) {
-  const Json& noise = manifest.at("measurement").at("noise");
+  const Json& measurement = manifest.at("measurement");
+  const Json& noise = measurement.at("noise");
+  std::optional<double> other_load;
+  if (measurement.contains("highest_load")) {
+    other_load =
+        measurement.at("highest_load").get<double>() - measurement.at("threads").get<int>();
+  }
   return {noise.is_null() ? std::nullopt : std::optional(noise.get<double>()),
-          manifest.at("machine").at("load_average").get<double>(), throttling_of(manifest)};
+          manifest.at("machine").at("load_average").get<double>(), throttling_of(manifest),
+          other_load};
 }
 
 }  // namespace beambench::measure

@@ -53,6 +53,8 @@ struct Conditions {
   std::optional<double> noise;           ///< of equal work, before the run (`noise`)
   double load;                           ///< the load average before the run
   std::optional<Throttling> throttling;  ///< during the run
+  /// The highest load average at the beginning of a block, less the threads of the run itself.
+  std::optional<double> other_load{};
 };
 
 /// Returns the conditions that the manifest of a run states, or a `joined_manifest`.

@@ -101,12 +101,12 @@ std::string turbo_state() {
   return "";
 }
 
+}  // namespace
+
 double load_average() {
   std::array<double, 1> load{};
   return ::getloadavg(load.data(), 1) == 1 ? load[0] : 0.0;
 }
-
-}  // namespace
 
 Machine inspect_machine(const fs::path& root) {
   struct utsname system {};

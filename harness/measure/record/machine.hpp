@@ -50,6 +50,9 @@ struct Machine {
 /// Inspects this machine; the quota is read below `root`, as by `cpu_quota`.
 Machine inspect_machine(const std::filesystem::path& root = "/");
 
+/// Returns the system's load average over the last minute; 0 where it has none.
+double load_average();
+
 /// Sixteen hexadecimal digits that differ between machines, without naming them: a fingerprint of
 /// the processor (maker, family, model and stepping, not its name alone, which virtual machines
 /// share) and of the installation (machine-id(5), else the host's name). A machine whose processor

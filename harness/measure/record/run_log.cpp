@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
-#include "harness/measure/record/cell_json.hpp"
 #include "harness/measure/record/conditions.hpp"
 #include "harness/measure/record/shard.hpp"
 #include "scenes/base/error.hpp"
@@ -83,14 +82,10 @@ class Reader {
     if (run_.manifest.is_null()) throw InputError("the log does not begin with its header");
     if (kind == "resumed") {
       run_.manifest = event.at("manifest");
-    } else if (kind == "cell") {
-      read_facts(event, cell_of(event));
-    } else if (kind == "repetition") {
-      cell_of(event).repetitions.push_back(read_repetition(event));
-    } else if (kind == "verification") {
-      read_verification(event, cell_of(event));
-    } else if (kind == "finished") {
-      read_finish(event, cell_of(event));
+    } else if (is_of_cell(kind)) {
+      apply(event, cell_of(event));
+    } else if (kind == "block") {
+      read_load(event);
     } else if (kind == "warning") {
       run_.manifest.at("uncontrolled").push_back(event.at("text"));
     } else if (kind == "throttling") {
@@ -110,10 +105,18 @@ class Reader {
   }
 
  private:
+  /// Keeps the highest load during the run.
+  void read_load(const Json& event) {
+    Json& highest = run_.manifest.at("measurement")["highest_load"];
+    const double load = event.at("load").get<double>();
+    if (!highest.is_number() || highest.get<double>() < load) highest = load;
+  }
+
   void begin(const Json& event) {
     if (!run_.manifest.is_null()) throw InputError("the log has a second header");
-    if (const int version = event.at("schema_version").get<int>(); version != kLogVersion) {
-      throw InputError(fmt::format("it is of version {}, and this beambench reads version {}",
+    if (const int version = event.at("schema_version").get<int>();
+        version < 1 || version > kLogVersion) {
+      throw InputError(fmt::format("it is of version {}, and this beambench reads versions 1 to {}",
                                    version, kLogVersion));
     }
     run_.manifest = event.at("manifest");
@@ -160,12 +163,6 @@ std::map<std::string, std::string> hashes(const Json& manifest, const char* list
     found[each.at(key).get<std::string>()] = each.at("hash").get<std::string>();
   }
   return found;
-}
-
-Json event_of(const char* kind, const CellRecord& cell, const Json& members) {
-  Json event{{"event", kind}, {"index", cell.index}};
-  event.update(members);
-  return event;
 }
 
 }  // namespace
@@ -248,29 +245,15 @@ void RunLog::resume(const Json& manifest, std::uint64_t log_bytes) {
   add({{"event", "resumed"}, {"manifest", manifest}});
 }
 
-void RunLog::begin_cell(const CellRecord& cell) { add(event_of("cell", cell, facts_json(cell))); }
-
-void RunLog::add_repetition(const CellRecord& cell) {
-  add(event_of("repetition", cell, repetition_json(cell.repetitions.back())));
+void RunLog::begin_block(const std::string& view, int block, double load) {
+  add({{"event", "block"}, {"view", view}, {"block", block}, {"load", load}});
 }
-
-void RunLog::add_verification(const CellRecord& cell) {
-  add(event_of("verification", cell, verification_json(cell)));
-}
-
-void RunLog::finish_cell(const CellRecord& cell) {
-  add(event_of("finished", cell, finish_json(cell)));
-}
-
-void RunLog::warn(const std::string& sentence) { add({{"event", "warning"}, {"text", sentence}}); }
 
 void RunLog::set_throttling(const Throttling& throttling) {
   add({{"event", "throttling"}, {"throttling", to_json(std::optional(throttling))}});
 }
 
 void RunLog::end(const std::string& time_utc) { add({{"event", "end"}, {"time_utc", time_utc}}); }
-
-void RunLog::copy(const Json& event) { add(event); }
 
 void RunLog::add(const Json& event) { file_.value().add_line(json_text(event, -1)); }
 

@@ -4,9 +4,10 @@
 // One JSON object a line, in the order of events, never rewritten:
 //   header        schema_version, manifest, config, plan: index and name of each cell
 //   resumed       manifest: the run goes on in another process
+//   block         the contenders of a view are measured in a new process: its number, the load
 //   cell          the timing of a cell begins: what it is, its rays, its counters and sizes;
 //                 in logs without repetitions, `columns`: figures of results.csv made from them
-//   repetition    a timed one of a cell, with its second trace
+//   repetition    a timed one of a cell, in a block, with its second trace
 //   verification  of the hits of a cell's first repetition
 //   warning       a sentence on what could not be controlled
 //   throttling    how the kernel throttled the run so far, with the parts before it was resumed
@@ -27,14 +28,15 @@
 
 #include <nlohmann/json.hpp>
 
-#include "harness/measure/record/cell_record.hpp"
+#include "harness/measure/record/cell_events.hpp"
 #include "scenes/base/cpu_quota.hpp"
 #include "scenes/base/files.hpp"
 
 namespace beambench::measure {
 
-/// The version of the log. Incremented when a reader of the old one would fail.
-inline constexpr int kLogVersion = 1;
+/// The version of the log. Incremented when a reader of the old one would fail. Version 1 had no
+/// blocks: its repetitions are those of one process.
+inline constexpr int kLogVersion = 2;
 
 /// The name of the log in a run's folder.
 inline constexpr const char* kLogName = "run.jsonl";
@@ -86,21 +88,15 @@ class RunLog {
   /// Continues an opened log behind its whole lines, which have that many bytes.
   void resume(const nlohmann::ordered_json& manifest, std::uint64_t log_bytes);
 
-  void begin_cell(const CellRecord& cell);
-  /// Adds the last of the cell's repetitions.
-  void add_repetition(const CellRecord& cell);
-  void add_verification(const CellRecord& cell);
-  void finish_cell(const CellRecord& cell);
-  void warn(const std::string& sentence);
+  /// Adds an event: of a cell (`CellEvents`), or of another log as it is.
+  void add(const nlohmann::ordered_json& event);
+  /// Adds that a block of a view begins, and the load average at that moment.
+  void begin_block(const std::string& view, int block, double load);
   void set_throttling(const Throttling& throttling);
   void end(const std::string& time_utc);
 
-  /// Adds an event of another log as it is.
-  void copy(const nlohmann::ordered_json& event);
-
  private:
   explicit RunLog(std::filesystem::path folder) : folder_(std::move(folder)), lock_(folder_) {}
-  void add(const nlohmann::ordered_json& event);
 
   std::filesystem::path folder_;
   FolderLock lock_;

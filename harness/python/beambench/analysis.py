@@ -19,6 +19,7 @@ __all__ = [
     "Median",
     "Ratio",
     "analyze",
+    "block_ratio",
     "break_even_rays",
     "geometric_mean",
     "median_interval",
@@ -36,7 +37,19 @@ class Ratio:
     low: float | None = None
     high: float | None = None
     paired: bool = False
-    """Was it made round by round?"""
+    """Was it made block by block, or round by round?"""
+    predicted_low: float | None = None
+    predicted_high: float | None = None
+    """Where that of a second run of equal size falls with 95%; only with blocks."""
+
+    @property
+    def rank(self) -> str:
+        """The rank of a contender with this ratio to the fastest.
+
+        "tied": equivalent to it, within 3%; "behind": clearly slower; "undecided"; "unranked":
+        without an interval.
+        """
+        return _beambench.rank(*astuple(self))
 
     @property
     def interval(self) -> tuple[float, float] | None:
@@ -64,6 +77,15 @@ def analyze(folder: str | bytes | os.PathLike[Any]) -> dict[str, Any]:
 def paired_ratio(over: Mapping[int, float], under: Mapping[int, float]) -> Ratio | None:
     """Returns the median ratio of the rounds that both have; None where they share no round."""
     found = _beambench.paired_ratio(dict(over), dict(under))
+    return Ratio(*found) if found else None
+
+
+def block_ratio(over: Mapping[int, float], under: Mapping[int, float]) -> Ratio | None:
+    """Returns the geometric mean of the ratios of the blocks that both have.
+
+    Its intervals are those of Student's t. None where they share no block.
+    """
+    found = _beambench.block_ratio(dict(over), dict(under))
     return Ratio(*found) if found else None
 
 

@@ -32,8 +32,13 @@ class Standing:
     ns_per_ray: float
     ratio: Ratio
     """Its trace time over that of the fastest."""
-    is_tied: bool
-    """Is it the fastest, or does the interval of its ratio to the fastest hold 1?"""
+    rank: str
+    """"tied" with the fastest, clearly "behind" it, "undecided", or "unranked"."""
+
+    @property
+    def is_tied(self) -> bool:
+        """Is it the fastest, or equivalent to it?"""
+        return self.rank == "tied"
 
     @property
     def mrays_per_s(self) -> float:
@@ -71,6 +76,8 @@ class Standings:
     """The number of them without a row that no condition of the sweep leaves out."""
     in_means: bool
     """Is it among the views that means are over?"""
+    clock: str
+    """By which all are compared: "wall", or "cpu" where others disturbed too many traces."""
     break_even: BreakEven | None
     """None: there is nobody to compare with."""
 
@@ -86,8 +93,8 @@ class Standings:
 
     @property
     def behind(self) -> Standing | None:
-        """The first contender that is not tied with the fastest."""
-        return next((one for one in self.ranked if not one.is_tied), None)
+        """The first contender that is clearly slower than the fastest."""
+        return next((one for one in self.ranked if one.rank == "behind"), None)
 
     @property
     def embree(self) -> Standing | None:
@@ -110,6 +117,9 @@ class Mean:
     views: int
     wins: int
     """Views in which it is the fastest or tied with it."""
+    scatter_low: float | None = None
+    scatter_high: float | None = None
+    """95% interval of the mean by the scatter between the views."""
 
 
 @dataclass(frozen=True)
@@ -235,7 +245,7 @@ def _analysis(source: _Json) -> Analysis:
 def _view(source: _Json) -> Standings:
     break_even = source.get("break_even")
     return Standings(
-        **{name: source[name] for name in ("view", "subject", "ray_kind", "size", "rays")},
+        **{name: source[name] for name in ("view", "subject", "ray_kind", "size", "rays", "clock")},
         **{name: source[name] for name in ("unrecorded", "in_means")},
         ranked=_with_ratios(Standing, source["ranked"]),
         references=_with_ratios(Standing, source["references"]),

@@ -3,14 +3,14 @@
 They are in the log of a run (`run_log`).
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
 import pandas as pd
 
-from beambench.analysis import Median, Ratio, paired_ratio, unpaired_ratio
+from beambench.analysis import Median, Ratio, block_ratio, paired_ratio, unpaired_ratio
 from beambench_report.base.records import TIMED_VERDICTS
 from beambench_report.base.run_log import LoggedCell, Repetition, logged_cells
 
@@ -33,13 +33,30 @@ class CellFile:
     message: str
     examples: tuple[Example, ...]
     total_ms: Mapping[int, float]
-    """Build and trace of each repetition, by the round in which it had its turn."""
+    """Build and trace, by the block that measured it: that of its fastest undisturbed repetition.
+
+    In records of one process, of each repetition by the round in which it had its turn.
+    """
     trace_ms: Mapping[int, float] = field(default_factory=dict)
     """The first trace after each build, likewise."""
     warm_ms: Mapping[int, float] = field(default_factory=dict)
-    """The second trace of the same structure, in the rounds that had one."""
+    """The second trace of the same structure, in the blocks or rounds that had one."""
     clock_ghz: Mapping[int, float] = field(default_factory=dict)
-    """The clock's rate about each repetition, where it was read."""
+    """The clock's rate about each, where it was read."""
+    in_blocks: bool = False
+
+    def ratio(
+        self, times: str, base: "CellFile", shares: tuple[float, float] = (0.0, 0.0)
+    ) -> Ratio | None:
+        """One of its times over that of another cell, paired; None where none can be paired.
+
+        `shares` are subtracted from the times of each, in milliseconds.
+        """
+        over, under = (
+            {turn: ms - less for turn, ms in getattr(one, times).items()}
+            for one, less in zip((self, base), shares, strict=True)
+        )
+        return (block_ratio if self.in_blocks and base.in_blocks else paired_ratio)(over, under)
 
 
 def identity(row: Mapping[str, object]) -> Identity:
@@ -76,26 +93,38 @@ def ratio_of(
     files: Mapping[Identity, CellFile],
 ) -> Ratio:
     """A time of a row over another one's: paired where the repetitions of both are known."""
-    repeated = [
-        getattr(file, f"{phase}_ms")
-        for one in (row, base)
-        if (file := files.get(identity(one))) is not None
-    ]
-    paired = paired_ratio(*repeated) if len(repeated) == 2 else None
+    over, under = (files.get(identity(one)) for one in (row, base))
+    paired = over.ratio(f"{phase}_ms", under) if over and under else None
     return paired or unpaired_ratio(median_of(row, phase), median_of(base, phase))
 
 
 def _cell_file(cell: LoggedCell) -> CellFile:
     repetitions = repetitions_of(cell)
+    in_blocks = any("block" in one for one in repetitions)
+    if in_blocks:
+        repetitions = _fastest_of_blocks(repetitions)
+    turn = "block" if in_blocks else "round"
     return CellFile(
         cell.message,
         tuple(_example(text) for text in cell.examples),
-        {one["round"]: one["build_ms"] + one["trace_ms"] for one in repetitions},
+        {one[turn]: one["build_ms"] + one["trace_ms"] for one in repetitions},
         *(
-            {one["round"]: one[name] for one in repetitions if name in one}
+            {one[turn]: one[name] for one in repetitions if name in one}
             for name in ("trace_ms", "warm_trace_ms", "clock_ghz")
         ),
+        in_blocks,
     )
+
+
+def _fastest_of_blocks(repetitions: Sequence[Repetition]) -> list[Repetition]:
+    """The undisturbed repetition of each block with the fastest trace."""
+    undisturbed = [
+        one
+        for one in repetitions
+        if one["trace_ms"] - one["trace_cpu_ms"] <= max(0.03 * one["trace_ms"], 0.02)
+    ]
+    slowest_first = sorted(undisturbed, key=lambda one: -one["trace_ms"])
+    return list({one["block"]: one for one in slowest_first}.values())
 
 
 def _example(text: str) -> Example:

@@ -18,6 +18,8 @@ RENAMED_COLUMNS = {  # name in older records: name today
     "neighbour_steps_per_ray": "neighbor_steps_per_ray",
     "engine_error": "structure_error",
     "eye_rays": "camera_rays",
+    "total_mcycles_repeat_low": "total_mcycles_pi_low",
+    "total_mcycles_repeat_high": "total_mcycles_pi_high",
     **{
         f"eye_{counter}_per_ray": f"camera_{counter}_per_ray"
         for counter in "traversal_steps leaves empty_leaves box_tests primitive_tests".split()

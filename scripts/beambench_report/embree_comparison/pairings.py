@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import pandas as pd
 
-from beambench.analysis import Median, Ratio, paired_ratio, unpaired_ratio
+from beambench.analysis import Median, Ratio, unpaired_ratio
 from beambench_report.base.cell_files import (
     CellFile,
     Identity,
@@ -150,15 +150,8 @@ def _ratios(mode: Row, row: Row, files: Mapping[Identity, CellFile]) -> tuple[Ra
     ratio, second = None, None
     over, under = files.get(identity(mode)), files.get(identity(row))
     if over and under:
-        ratio, second = (
-            paired_ratio(
-                *(
-                    {turn: time - _shading(one) for turn, time in getattr(file, times).items()}
-                    for one, file in ((mode, over), (row, under))
-                )
-            )
-            for times in ("trace_ms", "warm_ms")
-        )
+        shares = (_shading(mode), _shading(row))
+        ratio, second = (over.ratio(times, under, shares) for times in ("trace_ms", "warm_ms"))
     embree, tile = _trace(mode, ""), _trace(row, "")
     if second is None and embree.second and tile.second:
         second = Ratio(embree.second / tile.second)

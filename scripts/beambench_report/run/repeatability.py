@@ -35,8 +35,8 @@ class Repeatability:
             lines.append(
                 f"{cell['change']:+.1%}  {cell['view']}, {cell['width']:.0f}x{cell['height']:.0f}, "
                 f"{cell['contender']}: {cell['total_mcycles_median_b']:.4g} million cycles are "
-                f"not in {cell['total_mcycles_repeat_low']:.4g} to "
-                f"{cell['total_mcycles_repeat_high']:.4g}"
+                f"not in {cell['total_mcycles_pi_low']:.4g} to "
+                f"{cell['total_mcycles_pi_high']:.4g}"
             )
         return "\n".join(lines)
 
@@ -51,7 +51,7 @@ def repeatability(first: Run, second: Run) -> Repeatability:
         )
     keys = list(IDENTITY)
     again = second.rows[second.rows["timed"]][[*keys, "total_mcycles_median"]]
-    known = first.rows[first.rows["timed"] & first.rows["total_mcycles_repeat_low"].notna()]
+    known = first.rows[first.rows["timed"] & first.rows["total_mcycles_pi_low"].notna()]
     cells = known.merge(again, on=keys, suffixes=("", "_b"), validate="one_to_one")
     if cells.empty:
         raise Problem(
@@ -61,6 +61,6 @@ def repeatability(first: Run, second: Run) -> Repeatability:
     repeated = cells["total_mcycles_median_b"]
     cells["change"] = repeated / cells["total_mcycles_median"] - 1.0
     cells["within"] = repeated.between(
-        cells["total_mcycles_repeat_low"], cells["total_mcycles_repeat_high"]
+        cells["total_mcycles_pi_low"], cells["total_mcycles_pi_high"]
     )
     return Repeatability(cells)

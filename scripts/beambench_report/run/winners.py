@@ -68,7 +68,7 @@ def with_ratios(rows: pd.DataFrame, files: Mapping[Identity, CellFile]) -> pd.Da
     """Returns the rows of one view, the fastest first, compared with it.
 
     `ratio` is that of the trace times, as in the plots. `is_tied` is true of the
-    fastest, and where the interval of the ratio holds 1.
+    fastest, and of those that are as fast by their interval.
     """
     ranked = rows.sort_values("trace_ms_median")
     fastest = ranked.iloc[0]
@@ -76,10 +76,7 @@ def with_ratios(rows: pd.DataFrame, files: Mapping[Identity, CellFile]) -> pd.Da
     return ranked.assign(
         ratio=[ratio.value for ratio in ratios],
         has_interval=[ratio.interval is not None for ratio in ratios],
-        is_tied=[
-            place == 0 or (ratio.low is not None and ratio.low <= 1)
-            for place, ratio in enumerate(ratios)
-        ],
+        is_tied=[place == 0 or ratio.rank == "tied" for place, ratio in enumerate(ratios)],
     )
 
 

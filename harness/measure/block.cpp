@@ -1,0 +1,100 @@
+#include "harness/measure/block.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "harness/measure/contender.hpp"
+#include "harness/measure/measurement.hpp"
+#include "harness/measure/record/machine.hpp"
+#include "harness/measure/task.hpp"
+#include "harness/rays/fingerprint.hpp"
+#include "scenes/base/error.hpp"
+#include "scenes/base/random.hpp"
+
+namespace beambench::measure {
+namespace {
+
+/// The facts of the view's rays, where an earlier block found them out.
+std::optional<RaySetFacts> known_facts(const Block& block) {
+  for (const BlockCell& each : block.cells) {
+    if (each.earlier.diff) return each.earlier.rays;
+  }
+  return std::nullopt;
+}
+
+/// Reports that no cell can be measured.
+void fail_all(const Block& block, const CellEvents& events, verify::Verdict verdict,
+              const std::string& message) {
+  for (const BlockCell& each : block.cells) {
+    CellRecord record{};
+    record.index = each.cell.index;
+    record.id = each.cell.id;
+    record.rays.scene_hash = block.view.scene_hash;
+    record.rays.primitives = block.view.scene->primitives.size();
+    record.time_utc = utc_now();
+    record.verdict = verdict;
+    record.message = message;
+    events.begin_cell(record);
+    events.finish_cell(record);
+  }
+}
+
+/// A contender and the repetitions that it is due.
+struct Turn {
+  Contender contender;
+  std::size_t index;
+  int due;
+};
+
+/// Gives a contender a turn: a repetition, and another one where it was disturbed.
+void take(Turn& turn, const Instruments& instruments, int round, int position, int tries,
+          const CellEvents& events, const BlockWatch& watch) {
+  for (; tries > 0; --tries) {
+    watch.before_each_piece(turn.index);
+    turn.contender.repeat(instruments, round, position, events);
+    if (turn.contender.failed() || turn.contender.record().repetitions.back().is_undisturbed()) {
+      break;
+    }
+  }
+  --turn.due;
+}
+
+}  // namespace
+
+void measure_block(const Block& block, const GoogleBenchmark& benchmark, const BlockWatch& watch) {
+  const CellEvents events(watch.sink);
+  watch.before_each_piece(std::nullopt);
+  std::unique_ptr<Task> task;
+  try {
+    task = make_task(block.view, block.core, known_facts(block));
+  } catch (const rays::NoRaysError& error) {
+    return fail_all(block, events, verify::Verdict::kNoRays, error.what());
+  } catch (const InputError& error) {
+    return fail_all(block, events, verify::Verdict::kError, error.what());
+  }
+  if (const auto warning = task->warning()) {
+    events.warn(fmt::format("{}: {}.", block.view.shown_name(), *warning));
+  }
+  std::vector<Turn> turns;
+  for (const BlockCell& each : block.cells) {
+    turns.push_back({Contender(each.cell, *task, block.second_traces, each.earlier),
+                     each.cell.index, each.repetitions});
+    if (each.earlier.diff) continue;
+    watch.before_each_piece(each.cell.index);
+    turns.back().contender.count(events);
+  }
+  const HardwareCounters counters;
+  const Instruments instruments{benchmark, counters, block.core, block.view.threads, block.number};
+  Random random(rays::fingerprint(fmt::format("{}/{}", block.view.name(), block.number)));
+  for (int round = block.first_round; !turns.empty(); ++round) {
+    std::erase_if(turns, [](const Turn& t) { return t.contender.failed() || t.due <= 0; });
+    shuffle(turns, random);
+    int position = 0;
+    for (Turn& turn : turns) take(turn, instruments, round, position++, block.tries, events, watch);
+  }
+}
+
+}  // namespace beambench::measure

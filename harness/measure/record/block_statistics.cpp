@@ -1,0 +1,91 @@
+#include "harness/measure/record/block_statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include <boost/math/distributions/students_t.hpp>
+
+namespace beambench::measure {
+namespace {
+
+struct MeanAndDeviation {
+  double mean;
+  double deviation;  ///< with n - 1
+};
+
+/// Returns those of the logarithms of at least one value.
+MeanAndDeviation of_logarithms(std::span<const double> values) {
+  const auto count = static_cast<double>(values.size());
+  double sum = 0.0, squares = 0.0;
+  for (const double value : values) sum += std::log(value);
+  const double mean = sum / count;
+  for (const double value : values) squares += std::pow(std::log(value) - mean, 2);
+  return {mean, values.size() > 1 ? std::sqrt(squares / (count - 1.0)) : 0.0};
+}
+
+Interval around(double mean, double half_width) {
+  return {std::exp(mean - half_width), std::exp(mean + half_width)};
+}
+
+}  // namespace
+
+double student_t(int degrees) {
+  return boost::math::quantile(boost::math::students_t(degrees), 0.975);
+}
+
+Estimate estimate(std::span<const double> values) {
+  const auto [mean, deviation] = of_logarithms(values);
+  if (values.size() < 2) return {std::exp(mean)};
+  const auto count = static_cast<double>(values.size());
+  const double half = student_t(static_cast<int>(values.size()) - 1) * deviation / std::sqrt(count);
+  return {std::exp(mean), around(mean, half), around(mean, std::sqrt(2.0) * half)};
+}
+
+std::map<int, double> least_by_block(const CellRecord& cell,
+                                     const std::function<double(const Repetition&)>& figure) {
+  std::map<int, double> least;
+  for (const Repetition& one : cell.repetitions) {
+    const double value = one.is_undisturbed() ? figure(one) : 0.0;
+    if (value <= 0.0) continue;  // disturbed, absent or below the clock's resolution
+    const auto [place, is_new] = least.emplace(one.block, value);
+    if (!is_new) place->second = std::min(place->second, value);
+  }
+  return least;
+}
+
+std::map<int, double> trace_by_block(const CellRecord& cell, TraceClock clock) {
+  if (clock == TraceClock::kWall) return least_by_block(cell, &Repetition::trace_ms);
+  std::map<int, double> least;
+  for (const Repetition& one : cell.repetitions) {
+    if (one.trace_cpu_ms <= 0.0) continue;
+    const auto [place, is_new] = least.emplace(one.block, one.trace_cpu_ms);
+    if (!is_new) place->second = std::min(place->second, one.trace_cpu_ms);
+  }
+  return least;
+}
+
+bool is_disturbed(const CellRecord& cell) {
+  std::set<int> blocks;
+  for (const Repetition& one : cell.repetitions) blocks.insert(one.block);
+  return 2 * trace_by_block(cell, TraceClock::kWall).size() < blocks.size();
+}
+
+int blocks_for_precision(double spread, double precision, int maximum) {
+  for (int blocks = 2; blocks < maximum; ++blocks) {
+    const double half = std::sqrt(2.0) * student_t(blocks - 1) * spread / std::sqrt(blocks);
+    if (half <= precision) return blocks;
+  }
+  return std::max(maximum, 2);
+}
+
+double spread_of(const CellRecord& cell) {
+  std::vector<double> times;
+  for (const Repetition& one : cell.repetitions) {
+    if (one.is_undisturbed() && one.trace_ms > 0.0) times.push_back(one.trace_ms);
+  }
+  return times.size() < 2 ? 0.0 : of_logarithms(times).deviation;
+}
+
+}  // namespace beambench::measure
