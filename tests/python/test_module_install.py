@@ -34,6 +34,7 @@ def cached(name: str) -> str:
     return found[1] if found else ""
 
 
+@pytest.mark.full
 def test_pip_installs_a_module_that_verifies_arrays(tmp_path: Path) -> None:
     for needed in ("pip", "nanobind", "scikit_build_core"):
         if importlib.util.find_spec(needed) is None:

@@ -34,7 +34,9 @@ std::vector<Json> distinct(const std::vector<Json>& values) {
 }
 
 /// Returns whether the larger of two values is the worse.
-bool is_disturbance(std::string_view name) { return name == "load_average" || name == "noise"; }
+bool is_disturbance(std::string_view name) {
+  return name == "load_average" || name == "highest_load" || name == "noise";
+}
 
 Json largest(const std::vector<Json>& values) {
   Json most;

@@ -32,6 +32,9 @@ def sweep(
 ) -> pd.DataFrame:
     """Measures a sweep in this process; a time is reported only when the hits are correct.
 
+    All blocks are measured by this process, so that what differs between processes is in no
+    interval. For times that are to hold elsewhere, use `beambench run`.
+
     Args:
         config: a sweep as in harness/measure/sweep.schema.json, or the path of its JSON file.
         output: folder for the whole record, which must not hold a run; None: it is not kept.
