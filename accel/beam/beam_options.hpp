@@ -11,7 +11,7 @@
 
 namespace beambench::accel::beam {
 
-/// How samples are tested in an occupied leaf. The hits are the same.
+/// The way in which samples are tested in an occupied leaf; the hits are the same.
 enum class LeafTest : std::uint8_t {
   kSimd,    ///< against the images of primitives, a register of samples at once
   kScalar,  ///< against the images, one sample at a time

@@ -54,7 +54,8 @@ bool is_precise(const CellRecord& cell, double precision) {
 bool is_without_interval(const CellRecord& cell) {
   constexpr std::size_t kMinRepetitions = 6;
   if (!has_blocks(cell)) return repetitions_of(cell) < kMinRepetitions;
-  return !trace_time(cell) || !trace_time(cell)->confidence;
+  const auto trace = trace_time(cell);
+  return !trace || !trace->confidence;
 }
 
 /// Widens the intervals of ratios by a part that chance does not explain.

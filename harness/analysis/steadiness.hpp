@@ -8,7 +8,7 @@
 
 namespace beambench::analysis {
 
-/// How the late blocks of a run compare with the early ones, over all cells.
+/// A comparison of the late blocks of a run with the early ones, over all cells.
 struct Steadiness {
   double shift;  ///< of the logarithms of times: 0.03 where late blocks took 3% longer
   double limit;  ///< by which it differs from 0 by chance in 95% of the runs of a steady machine

@@ -18,8 +18,8 @@ namespace beambench::measure {
 /// A cell's part in a block.
 struct BlockCell {
   PlannedCell cell;
-  /// What earlier blocks found out: empty for a cell to be counted and verified. Of its repetitions
-  /// only their number matters.
+  /// The findings of earlier blocks: empty for a cell to be counted and verified. Of its
+  /// repetitions only their number matters.
   CellRecord earlier;
   int repetitions;  ///< to make in this block
 };
@@ -35,7 +35,7 @@ struct Block {
   int core;           ///< to pin to; -1: any
 };
 
-/// What the measuring of a block reports while it goes on.
+/// The receivers of reports while a block is measured.
 struct BlockWatch {
   /// Receives the events of the cells and warnings.
   EventSink sink;

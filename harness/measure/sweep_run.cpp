@@ -326,19 +326,17 @@ class SweepRun {
                                progress_.advance(work_done());
                              }};
       const std::optional<BrokenBlock> broken = run(block, watch);
-      const std::vector<BlockCell> left = due(open, number);
       for (OpenCell& cell : open.cells) {
         if (broken && (!broken->cell || *broken->cell == cell.planned.index)) {
           fail(open, cell, broken->how);
-        } else if (!broken &&
-                   std::ranges::count(left, cell.planned.index,
-                                      [](const BlockCell& each) { return each.cell.index; }) > 0) {
+        } else if (!broken && lacking(open, cell, number) > 0) {
           fail(open, cell, "the process of its block ended without all repetitions");
         }
       }
       if (!broken) break;
     }
     std::erase_if(open.cells, [](const OpenCell& cell) { return cell.record.is_finished; });
+    finish_if_complete(open);
     log_throttling();
   }
 
@@ -350,14 +348,19 @@ class SweepRun {
     return std::nullopt;
   }
 
-  /// Returns what is left of a block: the cells that are not finished, with the repetitions that
-  /// they lack.
+  /// Returns the number of repetitions that a cell lacks in a block; 0 where it is finished.
+  int lacking(const OpenView& open, const OpenCell& cell, int number) const {
+    if (cell.record.is_finished) return 0;
+    return std::max(std::min(limits_.each - turns(cell.record, number),
+                             limits_.repetitions(open.blocks) - turns(cell.record)),
+                    0);
+  }
+
+  /// Returns what is left of a block: the cells that lack repetitions.
   std::vector<BlockCell> due(const OpenView& open, int number) const {
     std::vector<BlockCell> cells;
     for (const OpenCell& cell : open.cells) {
-      if (cell.record.is_finished) continue;
-      const int left = std::min(limits_.each - turns(cell.record, number),
-                                limits_.repetitions(open.blocks) - turns(cell.record));
+      const int left = lacking(open, cell, number);
       if (left > 0) cells.push_back({cell.planned, cell.record, left});
     }
     return cells;
@@ -392,12 +395,17 @@ class SweepRun {
 
   /// Finishes the cells of the views that have all of their blocks.
   void finish_complete() {
-    for (OpenView& open : views_) {
-      if (!due(open, open.blocks_made).empty()) continue;
-      for (OpenCell& cell : open.cells) finish(cell.record, open.reason);
-      open.cells.clear();
-    }
+    for (OpenView& open : views_) finish_if_complete(open);
     std::erase_if(views_, [](const OpenView& open) { return open.cells.empty(); });
+  }
+
+  void finish_if_complete(OpenView& open) {
+    const auto lacks = [&](const OpenCell& cell) {
+      return lacking(open, cell, open.blocks_made) > 0;
+    };
+    if (std::ranges::any_of(open.cells, lacks)) return;
+    for (OpenCell& cell : open.cells) finish(cell.record, open.reason);
+    open.cells.clear();
   }
 
   /// Returns the number of whole blocks that all cells of a view have.
@@ -431,15 +439,13 @@ class SweepRun {
     progress_.finish(result_line(cell));
   }
 
-  /// Returns the progress of the unfinished, in whole cells.
+  /// Returns the progress of the unfinished, in whole cells: by blocks, because it is asked for
+  /// with each event, while a contender may be timed.
   double work_done() const {
     double done = 0.0;
     for (const OpenView& open : views_) {
-      for (const OpenCell& cell : open.cells) {
-        if (cell.record.is_finished) continue;
-        done += std::min(1.0, static_cast<double>(turns(cell.record)) /
-                                  limits_.repetitions(std::max(open.blocks, 1)));
-      }
+      const double part = static_cast<double>(open.blocks_made) / std::max(open.blocks, 1);
+      done += static_cast<double>(open.cells.size()) * std::min(part, 1.0);
     }
     return done;
   }

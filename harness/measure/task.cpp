@@ -108,7 +108,7 @@ class RaysTask : public Task {
     const auto null = accel::registry().choose({"null", {{"rays", rays}}}).build(scene());
     return harness_ms(core_, [&] { trace(*null); });
   }
-  /// Asks the oracle when it is first called.
+  /// Returns the hits of the oracle, which are found when they are first needed.
   const verify::ReferenceHits& reference() {
     if (!reference_) reference_.emplace(scene(), *std::exchange(input_, std::nullopt));
     return *reference_;
@@ -210,7 +210,7 @@ class PictureTask : public Task {
     return *shading_ms_;
   }
 
-  /// Asks the oracle when it is first called.
+  /// Returns the hits of the oracle, which are found when they are first needed.
   const verify::ReferenceHits& reference() {
     if (!reference_) reference_.emplace(scene(), rays_);
     return *reference_;

@@ -83,8 +83,7 @@ int watch(pid_t child, const HeldSignals& signals) {
 }
 
 pid_t start(char** arguments, const Activity& activity, const HeldSignals& signals) {
-  std::string variable = activity.variable();
-  ::setenv(kGuardVariable, variable.substr(variable.find('=') + 1).c_str(), 1);
+  ::setenv(kGuardVariable, std::to_string(activity.descriptor()).c_str(), 1);
   const pid_t guard = ::getpid();
   const pid_t child = ::fork();
   if (child == 0) become_guarded(arguments, guard, signals);

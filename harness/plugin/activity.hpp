@@ -31,7 +31,7 @@ class Activity {
 
   /// Returns the descriptor for the process that writes here, which inherits it.
   int descriptor() const { return descriptor_; }
-  /// Returns the environment variable that tells a process of it: "BEAMBENCH_GUARD=3".
+  /// Returns the environment variable by which a process opens it: "BEAMBENCH_GUARD=3".
   std::string variable() const;
 
  private:

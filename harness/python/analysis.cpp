@@ -82,6 +82,18 @@ std::vector<NameFields> name_cells(const std::vector<CellFields>& list) {
   return names;
 }
 
+/// Binds a function that pairs times by their turns.
+template <class PairedRatio>
+void bind_ratio(nb::module_& module, const char* name, PairedRatio paired, const char* text) {
+  module.def(
+      name,
+      [paired](const std::map<int, double>& over, const std::map<int, double>& under) {
+        const auto ratio = paired(over, under);
+        return ratio ? std::optional(fields_of(*ratio)) : std::nullopt;
+      },
+      nb::arg("over"), nb::arg("under"), text);
+}
+
 }  // namespace
 
 void bind_analysis(nb::module_& module) {
@@ -93,20 +105,20 @@ void bind_analysis(nb::module_& module) {
       nb::arg("folder"), "Analyzes the log of a run; returns the text of analysis.json.");
   module.def("name_cells", &name_cells, nb::arg("cells"),
              "Returns contender, subject and view of each cell.");
+  bind_ratio(module, "paired_ratio", analysis::paired_ratio,
+             "Returns the median ratio of the common rounds.");
+  bind_ratio(module, "block_ratio", analysis::block_ratio,
+             "Returns the mean ratio of the common blocks.");
   module.def(
-      "paired_ratio",
-      [](const analysis::TimesByRound& over, const analysis::TimesByRound& under) {
-        const auto ratio = analysis::paired_ratio(over, under);
-        return ratio ? std::optional(fields_of(*ratio)) : std::nullopt;
+      "is_undisturbed",
+      [](double trace_ms, double trace_cpu_ms) {
+        measure::Repetition repetition{};
+        repetition.trace_ms = trace_ms;
+        repetition.trace_cpu_ms = trace_cpu_ms;
+        return repetition.is_undisturbed();
       },
-      nb::arg("over"), nb::arg("under"), "Returns the median ratio of the common rounds.");
-  module.def(
-      "block_ratio",
-      [](const analysis::TimesByBlock& over, const analysis::TimesByBlock& under) {
-        const auto ratio = analysis::block_ratio(over, under);
-        return ratio ? std::optional(fields_of(*ratio)) : std::nullopt;
-      },
-      nb::arg("over"), nb::arg("under"), "Returns the mean ratio of the common blocks.");
+      nb::arg("trace_ms"), nb::arg("trace_cpu_ms"),
+      "Returns whether a trace had its processor for itself.");
   module.def(
       "unpaired_ratio",
       [](const Ends& over, const Ends& under) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <vector>
 
@@ -25,6 +26,20 @@ MeanAndDeviation of_logarithms(std::span<const double> values) {
   return {mean, values.size() > 1 ? std::sqrt(squares / (count - 1.0)) : 0.0};
 }
 
+/// Returns the least positive value of each block: others are disturbed, absent or below the
+/// clock's resolution.
+template <class Figure>
+std::map<int, double> least(const CellRecord& cell, Figure figure) {
+  std::map<int, double> found;
+  for (const Repetition& one : cell.repetitions) {
+    const double value = std::invoke(figure, one);
+    if (value <= 0.0) continue;
+    const auto [place, is_new] = found.emplace(one.block, value);
+    if (!is_new) place->second = std::min(place->second, value);
+  }
+  return found;
+}
+
 Interval around(double mean, double half_width) {
   return {std::exp(mean - half_width), std::exp(mean + half_width)};
 }
@@ -45,25 +60,13 @@ Estimate estimate(std::span<const double> values) {
 
 std::map<int, double> least_by_block(const CellRecord& cell,
                                      const std::function<double(const Repetition&)>& figure) {
-  std::map<int, double> least;
-  for (const Repetition& one : cell.repetitions) {
-    const double value = one.is_undisturbed() ? figure(one) : 0.0;
-    if (value <= 0.0) continue;  // disturbed, absent or below the clock's resolution
-    const auto [place, is_new] = least.emplace(one.block, value);
-    if (!is_new) place->second = std::min(place->second, value);
-  }
-  return least;
+  return least(cell,
+               [&](const Repetition& one) { return one.is_undisturbed() ? figure(one) : 0.0; });
 }
 
 std::map<int, double> trace_by_block(const CellRecord& cell, TraceClock clock) {
-  if (clock == TraceClock::kWall) return least_by_block(cell, &Repetition::trace_ms);
-  std::map<int, double> least;
-  for (const Repetition& one : cell.repetitions) {
-    if (one.trace_cpu_ms <= 0.0) continue;
-    const auto [place, is_new] = least.emplace(one.block, one.trace_cpu_ms);
-    if (!is_new) place->second = std::min(place->second, one.trace_cpu_ms);
-  }
-  return least;
+  return clock == TraceClock::kWall ? least_by_block(cell, &Repetition::trace_ms)
+                                    : least(cell, &Repetition::trace_cpu_ms);
 }
 
 bool is_disturbed(const CellRecord& cell) {
@@ -73,11 +76,14 @@ bool is_disturbed(const CellRecord& cell) {
 }
 
 int blocks_for_precision(double spread, double precision, int maximum) {
-  for (int blocks = 2; blocks < maximum; ++blocks) {
-    const double half = std::sqrt(2.0) * student_t(blocks - 1) * spread / std::sqrt(blocks);
-    if (half <= precision) return blocks;
-  }
-  return std::max(maximum, 2);
+  maximum = std::max(maximum, 2);
+  const auto is_enough = [&](int blocks) {
+    return std::sqrt(2.0) * student_t(blocks - 1) * spread / std::sqrt(blocks) <= precision;
+  };
+  if (!is_enough(maximum)) return maximum;  // the usual case of a precision that cannot be had
+  int blocks = 2;
+  while (!is_enough(blocks)) ++blocks;
+  return blocks;
 }
 
 double spread_of(const CellRecord& cell) {

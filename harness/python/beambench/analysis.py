@@ -12,7 +12,7 @@ from dataclasses import astuple, dataclass
 from typing import Any
 
 from beambench import _beambench
-from beambench._beambench import break_even_rays, median_interval, name_cells
+from beambench._beambench import break_even_rays, is_undisturbed, median_interval, name_cells
 from beambench.arrays import encoded
 
 __all__ = [
@@ -22,6 +22,7 @@ __all__ = [
     "block_ratio",
     "break_even_rays",
     "geometric_mean",
+    "is_undisturbed",
     "median_interval",
     "name_cells",
     "paired_ratio",

@@ -10,7 +10,14 @@ from typing import Literal
 
 import pandas as pd
 
-from beambench.analysis import Median, Ratio, block_ratio, paired_ratio, unpaired_ratio
+from beambench.analysis import (
+    Median,
+    Ratio,
+    block_ratio,
+    is_undisturbed,
+    paired_ratio,
+    unpaired_ratio,
+)
 from beambench_report.base.records import TIMED_VERDICTS
 from beambench_report.base.run_log import LoggedCell, Repetition, logged_cells
 
@@ -119,9 +126,7 @@ def _cell_file(cell: LoggedCell) -> CellFile:
 def _fastest_of_blocks(repetitions: Sequence[Repetition]) -> list[Repetition]:
     """The undisturbed repetition of each block with the fastest trace."""
     undisturbed = [
-        one
-        for one in repetitions
-        if one["trace_ms"] - one["trace_cpu_ms"] <= max(0.03 * one["trace_ms"], 0.02)
+        one for one in repetitions if is_undisturbed(one["trace_ms"], one["trace_cpu_ms"])
     ]
     slowest_first = sorted(undisturbed, key=lambda one: -one["trace_ms"])
     return list({one["block"]: one for one in slowest_first}.values())
