@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -95,14 +96,17 @@ void Registry::require_own_parameter(const StructureInfo& structure,
                   structure.name, excerpt(name), fmt::join(owners, ", "), fmt::join(valid, ", ")));
 }
 
+std::vector<StructureChoice> Registry::choose_all(const Spec& spec) const {
+  if (spec != Spec{"all", {}}) return {choose(spec)};
+  std::vector<StructureChoice> choices;
+  for (const auto& info : structures_) choices.push_back(choose({info.name, {}}));
+  return choices;
+}
+
 std::vector<StructureChoice> Registry::choose_list(std::string_view text) const {
   std::vector<StructureChoice> choices;
   for (const Spec& spec : parse_spec_list(text)) {
-    if (spec.name == "all" && spec.parameters.empty()) {
-      for (const auto& info : structures_) choices.push_back(choose({info.name, {}}));
-    } else {
-      choices.push_back(choose(spec));
-    }
+    std::ranges::move(choose_all(spec), std::back_inserter(choices));
   }
   return choices;
 }

@@ -100,8 +100,9 @@ class Registry {
   /// Chooses a structure. Throws InputError for an unknown name (with the nearest valid name and
   /// all valid ones) or parameter.
   StructureChoice choose(const Spec& spec) const;
-  /// Reads a comma-separated list as typed after --accel; `all` is every structure with its
-  /// defaults.
+  /// Chooses a structure; `all` is every structure with its defaults. Throws like `choose`.
+  std::vector<StructureChoice> choose_all(const Spec& spec) const;
+  /// Reads a comma-separated list as typed after --accel.
   std::vector<StructureChoice> choose_list(std::string_view text) const;
 
  private:

@@ -155,7 +155,7 @@ inline constexpr std::size_t kMaxTileDepth = 97;
 struct TileHierarchyOptions {
   std::uint32_t max_leaf = 32;   ///< most primitives of a leaf
   bool parallel = false;         ///< build, and trace images, on all cores
-  bool backface_culling = true;  ///< leave out the invisible backs of solids in images
+  bool backface_culling = false;  ///< leave out the invisible backs of solids in images
 };
 
 /// Throws InputError if the scene needs more than TileChild::kIndices leaves of a kind.

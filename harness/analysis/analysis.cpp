@@ -93,6 +93,8 @@ Json to_json(const std::vector<Standing>& standings) {
   for (const Standing& one : standings) {
     list.push_back({{"contender", one.contender},
                     {"structure", one.structure},
+                    {"variant", one.variant},
+                    {"isa", one.isa},
                     {"build_ms", one.build_ms},
                     {"ns_per_ray", one.ns_per_ray},
                     {"ratio", to_json(one.ratio)},

@@ -158,10 +158,11 @@ void require_each_cell_once(const std::vector<ShardFolder>& shards) {
 void require_finished(const ShardFolder& shard) {
   const auto finished =
       static_cast<std::size_t>(std::ranges::count_if(shard.run.cells, &CellRecord::is_finished));
-  if (shard.run.is_ended() && finished == shard.facts.cells) return;
+  const std::size_t wanted = shard.facts.cells - shard.run.passed_over.size();
+  if (shard.run.is_ended() && finished == wanted) return;
   refuse(fmt::format("shard {} in '{}' has {} of {}; finish it with: beambench run --resume {}",
                      to_string(shard.facts.shard), shard.path(), finished,
-                     base::counted(shard.facts.cells, "cell"), shell_quoted(shard.path())));
+                     base::counted(wanted, "cell"), shell_quoted(shard.path())));
 }
 
 /// Refuses a manifest that was changed since, before anything is written.
@@ -249,10 +250,10 @@ class FolderAside {
   fs::path path_;
 };
 
-/// Copies the events of a cell from the log of a shard.
+/// Copies the events of cells, and of tuning, from the log of a shard.
 void copy_cells(const ShardFolder& shard, RunLog& log) {
   measure::for_each_event(shard.log.folder(), [&](Json event) {
-    if (!event.contains("index")) return;
+    if (!event.contains("index") && event.at("event") != "tuning") return;
     if (event.at("event") == "cell") event["shard"] = shard.facts.shard.number;
     log.add(event);
   });
@@ -265,6 +266,7 @@ void write_log(const InOrder& shards, const fs::path& path) {
   for (const ShardFolder* shard : shards) {
     manifests.push_back(shard->run.manifest);
     plan.insert(plan.end(), shard->run.plan.begin(), shard->run.plan.end());
+    plan.insert(plan.end(), shard->run.passed_over.begin(), shard->run.passed_over.end());
   }
   const std::size_t wanted = shards.front()->facts.cells_of_sweep;
   if (plan.size() != wanted) {

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "harness/measure/plan.hpp"
+#include "harness/rays/ray_kind.hpp"
 #include "scenes/base/parameters.hpp"
 
 namespace beambench::analysis {
@@ -43,27 +45,35 @@ struct Differences {
   std::map<std::string, Variants> structures;
   std::map<std::string, std::set<std::string>> cameras;  ///< by scene
   std::set<int> samples;
-  std::set<std::string> ray_kinds;
+  std::set<std::string> ray_kinds;  ///< whatever their order
+  std::set<std::string_view> orders;
   std::set<std::string> machines;
 
   explicit Differences(std::span<const NamedCell> cells) {
     for (const NamedCell& cell : cells) {
-      structures[cell.structure].add(cell);
+      if (cell.parameter_sets == 1) structures[cell.structure].add(cell);
       cameras[cell.scene].insert(cell.camera);
       samples.insert(cell.samples);
-      ray_kinds.insert(cell.ray_kind);
+      const auto [kind, order] = rays::divide_label(cell.ray_kind);
+      ray_kinds.insert(kind);
+      orders.insert(order);
       machines.insert(cell.machine_id);
     }
   }
 
   std::string contender(const NamedCell& cell) const {
     std::string label = cell.structure;
-    for (const auto& [name, value] : parameters_of(cell)) {
-      if (structures.at(cell.structure).differ_in(name, value)) {
-        label += fmt::format(" {}={}", name, value);
+    if (cell.parameter_sets > 1) {
+      label += fmt::format(" (best of {})", cell.parameter_sets);
+    } else {
+      for (const auto& [name, value] : parameters_of(cell)) {
+        if (structures.at(cell.structure).differ_in(name, value)) {
+          label += fmt::format(" {}={}", name, value);
+        }
       }
     }
-    return label;
+    const bool is_sorted = rays::divide_label(cell.ray_kind).order == rays::kSortedOrder;
+    return is_sorted && orders.size() > 1 ? label + ", sorted rays" : label;
   }
 
   std::string subject(const NamedCell& cell) const {
@@ -71,7 +81,7 @@ struct Differences {
     const auto has_several = [](const auto& entry) { return entry.second.size() > 1; };
     if (std::ranges::any_of(cameras, has_several)) title += ", camera " + cell.camera;
     if (samples.size() > 1) title += fmt::format(", {} samples", cell.samples);
-    if (ray_kinds.size() > 1) title += ", " + cell.ray_kind + " rays";
+    if (ray_kinds.size() > 1) title += ", " + rays::divide_label(cell.ray_kind).rays + " rays";
     return title;
   }
 

@@ -14,15 +14,18 @@ struct NamedCell {
   std::string structure;
   std::string parameters;
   int samples;
-  std::string ray_kind;
+  std::string ray_kind;  ///< with its order
   std::string machine_id;
+  int parameter_sets;  ///< tried for its contender; 1 where it is not tuned
 };
 
 /// The names of a cell among others.
 struct Names {
-  std::string contender;  ///< the structure, with the parameters by which its variants differ
-  std::string subject;    ///< the scene, with camera, samples and kind of rays where it varies
-  std::string view;       ///< the same with the machine: what is compared
+  /// The structure, with the parameters by which its variants differ and the order of the rays
+  /// where that varies; tuned, `embree (best of 8)`.
+  std::string contender;
+  std::string subject;  ///< the scene, with camera, samples and kind of rays where it varies
+  std::string view;     ///< the same with the machine: what is compared
 };
 
 /// Returns the names of each cell.

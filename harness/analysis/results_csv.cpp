@@ -63,7 +63,9 @@ void add_identity(Row& row, const CellRecord& cell) {
   row["width"] = cell.id.resolution.width;
   row["height"] = cell.id.resolution.height;
   row["samples"] = cell.id.samples;
+  row["parameter_sets"] = cell.parameter_sets;
   row["ray_kind"] = cell.id.rays;
+  row["order"] = rays::divide_label(cell.id.rays).order;
   row["query"] = rays::to_string(cell.rays.query);
   row["query_path"] = cell.harness ? Json(to_string(cell.harness->path)) : Json();
   row["rays"] = cell.rays.rays;
@@ -374,8 +376,12 @@ std::string csv_table(std::span<const Row> rows) {
 
 void write_results(std::ostream& out, const Run& run) {
   const std::map<int, RunFacts> facts = facts_by_shard(run.manifest);
-  write_table(out, run.cells.size(),
-              [&](std::size_t i) { return to_row(facts.at(run.cells[i].shard), run.cells[i]); });
+  const std::set<std::size_t> outpaced = outpaced_sets(run);
+  write_table(out, run.cells.size(), [&](std::size_t i) {
+    Row row = to_row(facts.at(run.cells[i].shard), run.cells[i]);
+    row["outpaced"] = outpaced.contains(run.cells[i].index);
+    return row;
+  });
 }
 
 }  // namespace beambench::analysis

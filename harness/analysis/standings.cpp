@@ -139,9 +139,14 @@ Standings of_view(const Names& names, const ViewCells& all,
   }
   const CellRecord& first = *finest.begin()->second;
   const TraceClock clock = clock_of(finest);
-  Standings result{
-      names.view, names.subject, rays::to_string(first.id.resolution), first.id.rays, most, {}, {},
-      {}};
+  Standings result{names.view,
+                   names.subject,
+                   rays::to_string(first.id.resolution),
+                   rays::divide_label(first.id.rays).rays,
+                   most,
+                   {},
+                   {},
+                   {}};
   result.clock = clock;
   result.is_degenerate = is_degenerate(first);
   std::vector<std::pair<double, std::string>> order;
@@ -166,7 +171,11 @@ Standings of_view(const Names& names, const ViewCells& all,
   if (base == order.end()) return result;
   for (const auto& [trace_ms, contender] : order) {
     const CellRecord& cell = *finest.at(contender);
-    Standing standing{contender, cell.id.structure, build_ms_of(cell),
+    Standing standing{contender,
+                      cell.id.structure,
+                      cell.parameter_sets > 1 ? measure::shown_structure(cell.id) : "",
+                      cell.statistics ? cell.statistics->instruction_set : "",
+                      build_ms_of(cell),
                       1e6 * trace_ms / static_cast<double>(most),
                       trace_ratio(cell, *finest.at(base->second), clock)};
     auto& list = is_reference(standing.structure) ? result.references : result.ranked;
@@ -215,6 +224,10 @@ std::string_view to_string(Rank rank) {
   return kNames[static_cast<std::size_t>(rank)];
 }
 
+std::string Standing::name() const {
+  return variant.empty() ? contender : variant + contender.substr(structure.size());
+}
+
 Rank Standing::rank() const {
   if (!ratio.interval) return Rank::kUnranked;
   if (!ratio.prediction) return ratio.interval->low <= 1.0 ? Rank::kTied : Rank::kBehind;
@@ -248,6 +261,24 @@ std::optional<double> Standings::break_even_rays() const {
   return last == nullptr ? std::nullopt : std::optional(break_even(ranked.front(), *last));
 }
 
+std::set<std::size_t> outpaced_sets(const measure::Run& run) {
+  std::map<std::string, std::vector<std::pair<double, std::size_t>>> contenders;
+  for (const CellRecord& cell : run.cells) {
+    if (cell.parameter_sets == 1) continue;
+    measure::CellId contender = cell.id;
+    contender.parameters.clear();
+    const auto trace = cell.has_times() ? trace_time(cell) : std::nullopt;
+    contenders[contender.name()].emplace_back(
+        trace ? trace->value : std::numeric_limits<double>::infinity(), cell.index);
+  }
+  std::set<std::size_t> outpaced;
+  for (auto& [contender, sets] : contenders) {
+    std::ranges::sort(sets);
+    for (std::size_t i = 1; i < sets.size(); ++i) outpaced.insert(sets[i].second);
+  }
+  return outpaced;
+}
+
 std::vector<Names> names_of(const measure::Run& run) {
   const std::map<int, measure::RunFacts> facts = facts_by_shard(run.manifest);
   std::vector<NamedCell> cells;
@@ -255,7 +286,8 @@ std::vector<Names> names_of(const measure::Run& run) {
   for (const auto& [scene, camera, structure, parameters, resolution, samples, rays] :
        run.cells | std::views::transform(&CellRecord::id)) {
     cells.push_back({scene, camera, structure, parameters, samples, rays,
-                     facts.at(run.cells[cells.size()].shard).machine_id});
+                     facts.at(run.cells[cells.size()].shard).machine_id,
+                     run.cells[cells.size()].parameter_sets});
   }
   return name_cells(cells);
 }
@@ -278,7 +310,9 @@ std::vector<Standings> standings(const measure::Run& run) {
   const std::vector<Names> names = names_of(run);
   std::vector<std::pair<Names, ViewCells>> views;
   std::vector<std::pair<std::string, std::string>> structures;  // of each contender
+  const std::set<std::size_t> outpaced = outpaced_sets(run);
   for (std::size_t i = 0; i < run.cells.size(); ++i) {
+    if (outpaced.contains(run.cells[i].index)) continue;
     auto view = std::ranges::find_if(
         views, [&](const auto& entry) { return entry.first.view == names[i].view; });
     if (view == views.end()) view = views.insert(views.end(), {names[i], {}});

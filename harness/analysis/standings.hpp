@@ -1,8 +1,10 @@
 #pragma once
 // Who is fastest: in each view, by how much, and over all views of one kind of rays.
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -33,10 +35,14 @@ std::string_view to_string(Rank rank);  // "tied", "behind", "undecided", "unran
 struct Standing {
   std::string contender;  ///< the structure, with the parameters by which its variants differ
   std::string structure;  ///< the bare name
+  std::string variant;    ///< of a tuned contender: `embree:mode=stream,robust=false`; else empty
+  std::string isa;        ///< the instruction set of its SIMD code; empty: it has none
   double build_ms;        ///< the fastest; in records without blocks the median
   double ns_per_ray;  ///< of the first trace after a build; in records without blocks the median
   TimeRatio ratio;    ///< its trace time over that of the fastest
 
+  /// Returns the contender; where it is tuned, with its variant.
+  std::string name() const;
   Rank rank() const;
   bool is_tied() const { return rank() == Rank::kTied; }
 };
@@ -96,6 +102,10 @@ struct OverallStandings {
   std::vector<MeanStanding> means;  ///< those with times in every view first, the fastest ahead
   std::vector<MeanStanding> references;
 };
+
+/// Returns the indices of the cells of tuned contenders that others of the same contender outpace
+/// in their view: two are measured, and the faster one with correct hits stands for the contender.
+std::set<std::size_t> outpaced_sets(const measure::Run& run);
 
 /// Returns the names of each cell of a run.
 std::vector<Names> names_of(const measure::Run& run);

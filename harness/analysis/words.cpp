@@ -40,9 +40,9 @@ std::string winners(const Standings& view) {
   std::vector<std::string> tied, others;
   for (const Standing& one : view.ranked) {
     if (&one == view.ranked.data() || one.is_tied()) {
-      tied.push_back(one.contender);
+      tied.push_back(one.name());
     } else if (one.rank() != Rank::kBehind) {
-      others.push_back(one.contender);
+      others.push_back(one.name());
     }
   }
   return fmt::format("{}{}{}{}", tied.size() > 1 ? "tie: " : "", fmt::join(tied, ", "),
@@ -51,7 +51,7 @@ std::string winners(const Standings& view) {
 
 std::string against(const Standing* other, bool with_name) {
   if (other == nullptr) return "-";
-  return (with_name ? other->contender + " " : "") + in_words(other->ratio);
+  return (with_name ? other->name() + " " : "") + in_words(other->ratio);
 }
 
 /// Returns `exhaustive: left out by the sweep (more than 1000 primitives), in 3 views`.
@@ -135,10 +135,10 @@ std::string describe_contenders(std::span<const Standings> views) {
   std::string out;
   for (const Standings& view : views) {
     std::vector<std::vector<std::string>> lines{
-        {"contender", "build ms", "ns per ray", "Mrays/s", "times the fastest"}};
+        {"contender", "SIMD", "build ms", "ns per ray", "Mrays/s", "times the fastest"}};
     const auto add = [&](const Standing& one, const std::string& note) {
-      lines.push_back({one.contender + note, fmt::format("{:.4g}", one.build_ms),
-                       fmt::format("{:.4g}", one.ns_per_ray),
+      lines.push_back({one.name() + note, one.isa.empty() ? "-" : one.isa,
+                       fmt::format("{:.4g}", one.build_ms), fmt::format("{:.4g}", one.ns_per_ray),
                        fmt::format("{:.4g}", 1e3 / one.ns_per_ray), in_words(one.ratio)});
     };
     for (const Standing& one : view.ranked) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -127,9 +128,23 @@ void print_entry(const Info& info, const std::string& note) {
   print_parameters(info.parameters);
 }
 
+/// Returns the instruction set of the SIMD code that a structure with its defaults runs on this
+/// machine, as it states it; nothing where it runs none.
+std::optional<std::string> simd_of(const accel::StructureInfo& info) {
+  const scenes::Scene scene = scenes::load_scene("tetra:n=1");
+  try {
+    const auto structure = accel::registry().choose({info.name, {}}).build(scene);
+    const std::string isa = structure->statistics().instruction_set;
+    return isa.empty() ? std::nullopt : std::optional(isa);
+  } catch (const InputError&) {  // over this scene it is not built
+    return std::nullopt;
+  }
+}
+
 void print_structure(const accel::StructureInfo& info) {
-  print_entry(
-      info, fmt::format("  [{}]{}", conformance_name(info.conformance), origin_text(info.origin)));
+  const auto simd = simd_of(info);
+  print_entry(info, fmt::format("  [{}, {}]{}", conformance_name(info.conformance),
+                                simd ? "SIMD: " + *simd : "no SIMD", origin_text(info.origin)));
 }
 
 void print_counters(std::span<const accel::CounterInfo> counters) {
@@ -202,7 +217,7 @@ void print_text() {
   fmt::print("\n{}",
              wrap("bit-exact: hits equal to exhaustive bit for bit; tolerance: arithmetic of "
                   "its own, verified by the differ's classes; baseline: finds no hits by "
-                  "design.",
+                  "design. SIMD: the instruction set that it uses here with its defaults.",
                   2));
   fmt::print("\nScenes, as NAME:parameter=value,... (or the path of a mesh or of an NFF file):\n");
   for (const scenes::SceneInfo& info : scenes::scene_catalogue()) {
@@ -249,6 +264,7 @@ void print_json() {
         {{"name", info.name},
          {"summary", info.summary},
          {"conformance", conformance_name(info.conformance)},
+         {"simd", simd_of(info) ? Json(*simd_of(info)) : Json()},
          {"origin", origin_json(info.origin)},
          {"parameters", parameters_json(info.parameters)},
          {"counters", counters_json(accel::registry().own_counters(info.name))}});

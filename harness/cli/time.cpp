@@ -17,6 +17,7 @@
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/interruption.hpp"
 #include "harness/measure/sweep_run.hpp"
+#include "harness/measure/tuning.hpp"
 #include "harness/plugin/load_plugin.hpp"
 #include "scenes/base/error.hpp"
 #include "scenes/base/files.hpp"
@@ -32,7 +33,7 @@ constexpr int kMaxForExhaustive = 1000;
 
 struct TimeRequest {
   std::vector<std::string> scenes;
-  std::string structures = "tile-beam,sah-bvh,embree:mode=single,embree:mode=packet16";
+  std::string structures = "tile-beam,sah-bvh,embree";
   std::string camera;
   std::string resolution = "640x480";
   std::vector<std::string> rays{"primary"};
@@ -78,17 +79,24 @@ nlohmann::json scenes_of(const TimeRequest& request) {
   return scenes;
 }
 
+/// Returns the structures in the form of `beambench run`. Embree without parameters is measured at
+/// its best, because its defaults are a mode that hardly any program would choose.
+nlohmann::json structures_of(const std::string& text) {
+  nlohmann::json structures = nlohmann::json::array();
+  for (const measure::SweptStructure& swept : measure::read_structures(text, accel::registry())) {
+    const std::string label = swept.sets.front().short_label();
+    structures.push_back(swept.is_tuned || label == "embree" ? measure::kBestEmbreeText : label);
+  }
+  return structures;
+}
+
 /// Returns the request in the form of `beambench run`. At least six repetitions, because fewer give
 /// no interval, and then nothing would be decided.
 nlohmann::json sweep_of(const TimeRequest& request) {
-  nlohmann::json structures = nlohmann::json::array();
-  for (const auto& choice : accel::registry().choose_list(request.structures)) {
-    structures.push_back(choice.short_label());
-  }
   return {{"name", "time"},
           {"description", "Written by beambench time --save."},
           {"scenes", scenes_of(request)},
-          {"structures", structures},
+          {"structures", structures_of(request.structures)},
           {"resolutions", {request.resolution}},
           {"samples", {request.samples}},
           {"rays", request.rays},
@@ -137,8 +145,10 @@ void add_time_command(CLI::App& app, int& exit_code) {
   const auto request = std::make_shared<TimeRequest>();
   command->add_option("SCENE", request->scenes, kSceneHelp)->required();
   command
-      ->add_option("--accel", request->structures,
-                   "Structures, as 'beambench list' names them, separated by commas, or 'all'")
+      ->add_option(
+          "--accel", request->structures,
+          "Structures, as 'beambench list' names them, separated by commas, or 'all'; 'embree' "
+          "is embree:mode=best, its modes and flags tried on a tuning camera")
       ->capture_default_str();
   command->add_option("--camera", request->camera, "By name (default: each scene's first)");
   command->add_option("--resolution", request->resolution, "WIDTHxHEIGHT")->capture_default_str();

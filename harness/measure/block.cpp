@@ -1,6 +1,7 @@
 #include "harness/measure/block.hpp"
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -17,12 +18,31 @@
 namespace beambench::measure {
 namespace {
 
-/// The facts of the view's rays, where an earlier block found them out.
-std::optional<RaySetFacts> known_facts(const Block& block) {
+/// The facts of the view's rays in one order, where an earlier block found them out.
+std::optional<RaySetFacts> known_facts(const Block& block, bool is_sorted) {
   for (const BlockCell& each : block.cells) {
-    if (each.earlier.diff) return each.earlier.rays;
+    if (each.earlier.diff && each.cell.rays.is_sorted == is_sorted) return each.earlier.rays;
   }
   return std::nullopt;
+}
+
+/// The tasks of a view, by whether their rays are sorted.
+using Tasks = std::map<bool, std::unique_ptr<Task>>;
+
+/// Makes the tasks of the block's cells, and warns of unexpected rays. Throws like `make_task`.
+Tasks make_tasks(const Block& block, const CellEvents& events) {
+  Tasks tasks;
+  for (const BlockCell& each : block.cells) {
+    std::unique_ptr<Task>& task = tasks[each.cell.rays.is_sorted];
+    if (task) continue;
+    const auto known = known_facts(block, each.cell.rays.is_sorted);
+    task = make_task(block.view, each.cell.rays, block.core, known);
+    if (known) continue;
+    if (const auto warning = task->warning()) {
+      events.warn(fmt::format("{}: {}.", block.view.shown_name(), *warning));
+    }
+  }
+  return tasks;
 }
 
 /// Reports that no cell can be measured.
@@ -67,20 +87,18 @@ void take(Turn& turn, const Instruments& instruments, int round, int position, i
 void measure_block(const Block& block, const GoogleBenchmark& benchmark, const BlockWatch& watch) {
   const CellEvents events(watch.sink);
   watch.before_each_piece(std::nullopt);
-  std::unique_ptr<Task> task;
+  Tasks tasks;
   try {
-    task = make_task(block.view, block.core, known_facts(block));
+    tasks = make_tasks(block, events);
   } catch (const rays::NoRaysError& error) {
     return fail_all(block, events, verify::Verdict::kNoRays, error.what());
   } catch (const InputError& error) {
     return fail_all(block, events, verify::Verdict::kError, error.what());
   }
-  if (const auto warning = task->warning()) {
-    events.warn(fmt::format("{}: {}.", block.view.shown_name(), *warning));
-  }
   std::vector<Turn> turns;
   for (const BlockCell& each : block.cells) {
-    turns.push_back({Contender(each.cell, *task, block.second_traces, each.earlier),
+    turns.push_back({Contender(each.cell, *tasks.at(each.cell.rays.is_sorted), block.second_traces,
+                               each.earlier),
                      each.cell.index, each.repetitions});
     if (each.earlier.diff) continue;
     watch.before_each_piece(each.cell.index);

@@ -28,11 +28,12 @@ struct BlockCell {
 struct Block {
   CellGroup view;  ///< without its cells
   std::vector<BlockCell> cells;
-  int number;         ///< of the view's blocks, from 0
-  int first_round;    ///< of its repetitions: rounds are counted over all blocks of a view
-  int second_traces;  ///< of each cell: so many of its first repetitions are followed by one
-  int tries;          ///< of a repetition that other processes disturb, at most
-  int core;           ///< to pin to; -1: any
+  int number;          ///< of the view's blocks, from 0
+  int first_round;     ///< of its repetitions: rounds are counted over all blocks of a view
+  int second_traces;   ///< of each cell: so many of its first repetitions are followed by one
+  int tries;           ///< of a repetition that other processes disturb, at most
+  int core;            ///< to pin to; -1: any
+  bool tunes = false;  ///< its cells are candidates to be timed once (tuning.hpp)
 };
 
 /// The receivers of reports while a block is measured.

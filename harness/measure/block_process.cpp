@@ -20,6 +20,7 @@
 
 #include "accel/core/registry.hpp"
 #include "harness/measure/record/cell_json.hpp"
+#include "harness/measure/tuning.hpp"
 #include "harness/plugin/activity.hpp"
 #include "scenes/base/error.hpp"
 #include "scenes/base/json_text.hpp"
@@ -32,10 +33,21 @@ namespace {
 using plugin::Activity;
 using Json = nlohmann::ordered_json;
 
+/// Returns rays as they are chosen.
+std::string text_of(const rays::RayChoice& rays) {
+  return rays.file.empty() ? rays.label : name_of_path(rays.file.string());
+}
+
+rays::RayChoice rays_of(const Json& text) {
+  return rays::parse_ray_choice(path_of_name(text.get<std::string>()));
+}
+
 /// Events as a log has them are the description of what earlier blocks found out.
 Json to_json(const BlockCell& each) {
   Json json{{"index", each.cell.index},
             {"structure", each.cell.structure.label()},
+            {"rays", text_of(each.cell.rays)},
+            {"parameter_sets", each.cell.parameter_sets},
             {"repetitions", each.repetitions}};
   if (!each.earlier.diff) return json;
   json["done"] = each.earlier.repetitions.size();
@@ -50,26 +62,28 @@ Json to_json(const Block& block) {
   Json cells = Json::array();
   for (const BlockCell& each : block.cells) cells.push_back(to_json(each));
   const CellGroup& view = block.view;
-  return {
-      {"scene", name_of_path(view.spec)},
-      {"scene_hash", view.scene_hash},
-      {"camera", view.camera.name},
-      {"resolution", rays::to_string(view.resolution)},
-      {"samples", view.samples},
-      {"rays", view.rays.file.empty() ? view.rays.label : name_of_path(view.rays.file.string())},
-      {"threads", view.threads},
-      {"number", block.number},
-      {"first_round", block.first_round},
-      {"second_traces", block.second_traces},
-      {"tries", block.tries},
-      {"core", block.core},
-      {"cells", cells}};
+  return {{"scene", name_of_path(view.spec)},
+          {"scene_hash", view.scene_hash},
+          {"camera", view.camera.name},
+          {"resolution", rays::to_string(view.resolution)},
+          {"samples", view.samples},
+          {"rays", text_of(view.rays)},
+          {"threads", view.threads},
+          {"number", block.number},
+          {"first_round", block.first_round},
+          {"second_traces", block.second_traces},
+          {"tries", block.tries},
+          {"core", block.core},
+          {"tunes", block.tunes},
+          {"cells", cells}};
 }
 
 BlockCell read_cell(const Json& json, const CellGroup& view) {
   const accel::StructureChoice structure =
       accel::registry().choose_list(json.at("structure").get<std::string>()).front();
-  BlockCell each{{json.at("index").get<std::size_t>(), id_of(view, structure), structure},
+  const rays::RayChoice rays = rays_of(json.at("rays"));
+  BlockCell each{{json.at("index").get<std::size_t>(), id_of(view, structure, rays), structure,
+                  rays, json.at("parameter_sets").get<int>()},
                  CellRecord{},
                  json.at("repetitions").get<int>()};
   for (const Json& event : json.value("earlier", Json::array())) apply(event, each.earlier);
@@ -89,7 +103,7 @@ Block read_block(const Json& json) {
   view.camera = scenes::find_camera(*view.scene, json.at("camera").get<std::string>());
   view.resolution = rays::parse_resolution(json.at("resolution").get<std::string>());
   view.samples = json.at("samples").get<int>();
-  view.rays = rays::parse_ray_choice(path_of_name(json.at("rays").get<std::string>()));
+  view.rays = rays_of(json.at("rays"));
   view.threads = json.at("threads").get<int>();
   Block block{std::move(view),
               {},
@@ -97,7 +111,8 @@ Block read_block(const Json& json) {
               json.at("first_round").get<int>(),
               json.at("second_traces").get<int>(),
               json.at("tries").get<int>(),
-              json.at("core").get<int>()};
+              json.at("core").get<int>(),
+              json.at("tunes").get<bool>()};
   for (const Json& cell : json.at("cells")) block.cells.push_back(read_cell(cell, block.view));
   return block;
 }
@@ -260,7 +275,11 @@ int serve_block(Activity& activity) {
   const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
   try {
     const Block block = read_block(parse_json<Json>(text, "a block"));
-    measure_block(block, GoogleBenchmark({}), {write, show});
+    if (block.tunes) {
+      time_candidates(block, {write, show});
+    } else {
+      measure_block(block, GoogleBenchmark({}), {write, show});
+    }
   } catch (const InputError& error) {
     write({{"event", "refused"}, {"message", error.what()}});
   }

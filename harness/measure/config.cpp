@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include "harness/measure/find_sweep.hpp"
 #include "harness/measure/json_node.hpp"
 #include "harness/measure/sweep_schema.hpp"
+#include "harness/measure/tuning.hpp"
 #include "scenes/base/json_text.hpp"
 
 namespace beambench::measure {
@@ -108,14 +110,15 @@ std::vector<Spec> multiply_out(const std::string& structure,
   return specs;
 }
 
-/// Returns the structures that an entry stands for: a text as after `--accel` ("samet:max_level=6",
-/// "all"), or an object {"structure": name, "parameters": {name: value or list of values}} whose
-/// lists are multiplied out, the alphabetically last parameter varying fastest.
-std::vector<accel::StructureChoice> read_structure_entry(const JsonNode& node,
-                                                         const accel::Registry& structures) {
+/// Returns the contenders that an entry stands for: a text as after `--accel` ("samet:max_level=6",
+/// "all", "embree:mode=best"), or an object {"structure": name, "parameters": {name: value or list
+/// of values}, "tune": true or false} whose lists are multiplied out, the alphabetically last
+/// parameter varying fastest.
+std::vector<SweptStructure> read_structure_entry(const JsonNode& node,
+                                                 const accel::Registry& structures) {
   if (node.value().is_string()) {
     const std::string text = node.text();
-    return node.checked([&] { return structures.choose_list(text); });
+    return node.checked([&] { return read_structures(text, structures); });
   }
   const JsonNode name_node = *node.find("structure");
   const std::string name = name_node.text();
@@ -126,10 +129,31 @@ std::vector<accel::StructureChoice> read_structure_entry(const JsonNode& node,
       parameters.push_back(read_parameter(name, key, value, structures));
     }
   }
-  std::vector<accel::StructureChoice> choices;
-  for (const Spec& spec : multiply_out(name, parameters))
-    choices.push_back(structures.choose(spec));
-  return choices;
+  std::vector<SweptStructure> swept;
+  for (const Spec& spec : multiply_out(name, parameters)) {
+    swept.push_back({{structures.choose(spec)}});
+  }
+  if (!node.value().value("tune", false)) return swept;
+  if (swept.size() > kMaxParameterSets) {
+    node.fail(
+        fmt::format("its lists multiply to {} parameter sets; every contender is tuned with "
+                    "the same budget, at most {}",
+                    swept.size(), kMaxParameterSets));
+  }
+  SweptStructure tuned{{}, true};
+  for (SweptStructure& one : swept) tuned.sets.push_back(std::move(one.sets.front()));
+  return {tuned};
+}
+
+/// Refuses two tuned entries of one structure, whose rows could not be told apart.
+void require_tuned_once(const JsonNode& root, const std::vector<SweptStructure>& structures) {
+  std::set<std::string> tuned;
+  for (const SweptStructure& each : structures) {
+    if (!each.is_tuned || tuned.insert(each.sets.front().info().name).second) continue;
+    root.find("structures")
+        ->fail(fmt::format("'{}' is tuned twice; put all of its parameter sets into one entry",
+                           each.sets.front().info().name));
+  }
 }
 
 SceneEntry read_scene(const JsonNode& node) {
@@ -238,6 +262,19 @@ int read_threads(const JsonNode& root, const SweepConfig& config) {
 
 }  // namespace
 
+std::vector<SweptStructure> read_structures(const std::string& text,
+                                            const accel::Registry& structures) {
+  std::vector<SweptStructure> swept;
+  for (const Spec& spec : parse_spec_list(text)) {
+    if (spec == kBestEmbree) {
+      swept.push_back({best_embree(structures), true});
+    } else {
+      for (auto& choice : structures.choose_all(spec)) swept.push_back({{std::move(choice)}});
+    }
+  }
+  return swept;
+}
+
 SweepConfig read_sweep(const std::string& asked, const accel::Registry& structures) {
   const std::filesystem::path path = find_sweep(asked);
   return parse_sweep(read_json_file<nlohmann::json>(path), path.string(), structures);
@@ -260,6 +297,7 @@ SweepConfig parse_sweep(nlohmann::json source, const std::string& name,
                       std::back_inserter(config.structures));
     require_affordable(root, static_cast<double>(config.structures.size()));  // `all` are many
   }
+  require_tuned_once(root, config.structures);
   read_rays(root, config);
   config.threads = read_threads(root, config);
   read_effort(root, config);

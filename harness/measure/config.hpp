@@ -31,11 +31,19 @@ struct Exclusion {
   std::optional<std::uint64_t> rays_above;
 };
 
+/// A contender of a sweep.
+struct SweptStructure {
+  /// Its parameter sets: one; or, where it is tuned, those of which the two fastest on the tuning
+  /// camera are measured (tuning.hpp).
+  std::vector<accel::StructureChoice> sets;
+  bool is_tuned = false;
+};
+
 struct SweepConfig {
   std::string name;
   std::string description;
   std::vector<SceneEntry> scenes;
-  std::vector<accel::StructureChoice> structures;  ///< lists of parameters multiplied out
+  std::vector<SweptStructure> structures;  ///< lists of parameters multiplied out
   std::vector<rays::Resolution> resolutions;
   std::vector<int> samples;
   std::vector<rays::RayChoice> rays;
@@ -59,6 +67,11 @@ struct SweepConfig {
 /// /structures/1/parameters/max_level: ...`, and where the lists multiply to more than 100,000
 /// cells, which is determined before any is made.
 SweepConfig read_sweep(const std::string& asked, const accel::Registry& structures);
+
+/// Reads contenders as typed after `--accel`: "samet:max_level=6,embree:mode=best", "all". Throws
+/// as `Registry::choose_list`.
+std::vector<SweptStructure> read_structures(const std::string& text,
+                                            const accel::Registry& structures);
 
 /// Reads the same from a configuration in memory; `name` stands for it in messages.
 SweepConfig parse_sweep(nlohmann::json source, const std::string& name,

@@ -44,6 +44,7 @@ Contender::Contender(const PlannedCell& cell, Task& task, int second_traces, Cel
       record_(std::move(earlier)) {
   record_.index = cell.index;
   record_.id = cell.id;
+  record_.parameter_sets = cell.parameter_sets;
   record_.rays = task.facts();
 }
 

@@ -54,40 +54,82 @@ bool applies(const Exclusion& rule, const CellGroup& group, const SceneEntry& en
   return !rule.rays_above || ray_count(group) > *rule.rays_above;
 }
 
+/// Rays, in the orders in which they are traced.
+using Orders = std::vector<rays::RayChoice>;
+
+/// A group that is not in the plan yet.
+struct NewGroup {
+  CellGroup group;
+  Orders orders;
+};
+
 /// Adds the group's cells, each once; `names` are those of the cells in the plan.
-void add_group(const SweepConfig& config, const SceneEntry& entry, CellGroup group, Plan& plan,
+void add_group(const SweepConfig& config, const SceneEntry& entry, NewGroup made, Plan& plan,
                std::set<std::string>& names) {
-  for (const accel::StructureChoice& structure : config.structures) {
-    if (std::ranges::any_of(config.exclude, [&](const Exclusion& rule) {
-          return applies(rule, group, entry, structure);
-        })) {
-      continue;
-    }
-    CellId id = id_of(group, structure);
-    if (names.insert(id.name()).second) {
-      group.cells.push_back({names.size() - 1, std::move(id), structure});
-    } else {
-      ++plan.merged;
+  CellGroup& group = made.group;
+  for (const rays::RayChoice& rays : made.orders) {
+    for (const SweptStructure& swept : config.structures) {
+      for (const accel::StructureChoice& structure : swept.sets) {
+        if (std::ranges::any_of(config.exclude, [&](const Exclusion& rule) {
+              return applies(rule, group, entry, structure);
+            })) {
+          continue;
+        }
+        CellId id = id_of(group, structure, rays);
+        if (names.insert(id.name()).second) {
+          group.cells.push_back({names.size() - 1, std::move(id), structure, rays,
+                                 swept.is_tuned ? static_cast<int>(swept.sets.size()) : 1});
+        } else {
+          ++plan.merged;
+        }
+      }
     }
   }
   if (!group.cells.empty()) plan.groups.push_back(std::move(group));
 }
 
+/// Returns the rays of a sweep, those that differ only in their order together.
+std::vector<Orders> by_kind(const std::vector<rays::RayChoice>& all) {
+  const auto kind = [](const rays::RayChoice& rays) { return rays::divide_label(rays.label).rays; };
+  std::vector<Orders> kinds;
+  for (const rays::RayChoice& rays : all) {
+    const auto same = std::ranges::find_if(
+        kinds, [&](const Orders& orders) { return kind(orders.front()) == kind(rays); });
+    (same == kinds.end() ? kinds.emplace_back() : *same).push_back(rays);
+  }
+  return kinds;
+}
+
+/// Returns rays in the order in which they are made.
+rays::RayChoice unsorted(rays::RayChoice rays) {
+  rays.is_sorted = false;
+  rays.label = rays::divide_label(rays.label).rays;
+  return rays;
+}
+
 /// Returns the groups of a scene in one of its views.
-std::vector<CellGroup> groups_of(const SweepConfig& config, const std::string& spec,
-                                 const std::shared_ptr<const scenes::Scene>& scene,
-                                 std::uint64_t hash, const scenes::Camera& camera) {
-  std::vector<CellGroup> groups;
+std::vector<NewGroup> groups_of(const SweepConfig& config, const std::string& spec,
+                                const std::shared_ptr<const scenes::Scene>& scene,
+                                std::uint64_t hash, const scenes::Camera& camera) {
+  std::vector<NewGroup> groups;
   for (const rays::Resolution& resolution : config.resolutions) {
     for (const int samples : config.samples) {
       const bool first = camera.name == scene->cameras.front().name &&
                          resolution == config.resolutions.front() &&
                          samples == config.samples.front();
-      for (const rays::RayChoice& rays : config.rays) {
+      for (Orders& orders : by_kind(config.rays)) {
         // The rays of a file are the same in every view: they are traced once.
-        if (!rays.file.empty() && !first) continue;
-        groups.push_back(
-            {scene, hash, camera, resolution, samples, rays, config.threads, {}, spec});
+        if (!orders.front().file.empty() && !first) continue;
+        groups.push_back({{scene,
+                           hash,
+                           camera,
+                           resolution,
+                           samples,
+                           unsorted(orders.front()),
+                           config.threads,
+                           {},
+                           spec},
+                          std::move(orders)});
       }
     }
   }
@@ -119,10 +161,15 @@ std::string CellGroup::shown_name() const {
   return name().replace(0, scene->name.size(), shown_scene(scene->name));
 }
 
-CellId id_of(const CellGroup& view, const accel::StructureChoice& structure) {
-  return {
-      view.scene->name, view.camera.name, structure.info().name, structure.parameters().canonical(),
-      view.resolution,  view.samples,     view.rays.label};
+CellId id_of(const CellGroup& view, const accel::StructureChoice& structure,
+             const rays::RayChoice& rays) {
+  return {view.scene->name,
+          view.camera.name,
+          structure.info().name,
+          structure.parameters().canonical(),
+          view.resolution,
+          view.samples,
+          rays.label};
 }
 
 std::size_t Plan::cell_count() const {
@@ -138,7 +185,7 @@ Plan make_plan(const SweepConfig& config) {
     const std::shared_ptr<const scenes::Scene> scene = load(entry);
     const std::uint64_t hash = scenes::scene_hash(*scene);
     for (const scenes::Camera& camera : cameras_of(*scene, entry)) {
-      for (CellGroup& group : groups_of(config, entry.spec, scene, hash, camera)) {
+      for (NewGroup& group : groups_of(config, entry.spec, scene, hash, camera)) {
         add_group(config, entry, std::move(group), plan, names);
       }
     }
@@ -163,12 +210,16 @@ std::string shown_scene(const std::string& scene) {
   return shortened(scenes::scene_catalogue(), scene);
 }
 
+std::string shown_structure(const CellId& id) {
+  const std::string colon = id.parameters.empty() ? "" : ":";
+  return shortened(accel::registry().structures(), id.structure + colon + id.parameters);
+}
+
 std::string shown_name(const CellId& id) {
   CellId shown = id;
   shown.scene = shown_scene(id.scene);
+  shown.structure = shown_structure(id);
   shown.parameters.clear();
-  const std::string colon = id.parameters.empty() ? "" : ":";
-  shown.structure = shortened(accel::registry().structures(), id.structure + colon + id.parameters);
   return shown.name();
 }
 

@@ -19,17 +19,21 @@ struct PlannedCell {
   std::size_t index;  ///< in the whole plan: the order of the record's rows
   CellId id;
   accel::StructureChoice structure;
+  rays::RayChoice rays;  ///< those of its view, in one of their orders
+  /// The number of parameter sets of which it is one, where its contender is tuned with these rays;
+  /// else 1.
+  int parameter_sets = 1;
 };
 
-/// The cells with the same rays over the same scene: contenders, measured in turns.
+/// The cells with the same rays, in any order, over the same scene: contenders, measured in turns.
 struct CellGroup {
   std::shared_ptr<const scenes::Scene> scene;  ///< freed when the last of its groups is done
   std::uint64_t scene_hash;
   scenes::Camera camera;
   rays::Resolution resolution;
   int samples;
-  rays::RayChoice rays;
-  int threads = 1;  ///< that trace an image
+  rays::RayChoice rays;  ///< in the order in which they are made
+  int threads = 1;       ///< that trace an image
   std::vector<PlannedCell> cells;
   std::string spec{};  ///< of the scene, as the configuration has it
 
@@ -40,8 +44,9 @@ struct CellGroup {
   rays::ImageOfRays image() const { return {camera, resolution, samples}; }
 };
 
-/// Returns the identity of a structure's cell in a view.
-CellId id_of(const CellGroup& view, const accel::StructureChoice& structure);
+/// Returns the identity of a structure's cell in a view, with its rays in some order.
+CellId id_of(const CellGroup& view, const accel::StructureChoice& structure,
+             const rays::RayChoice& rays);
 
 struct Plan {
   std::vector<CellGroup> groups;
@@ -70,6 +75,9 @@ void filter_cells(Plan& plan, Keep keep) {
 /// Returns `CellId::name` without the parameters of the scene and the structure that are at their
 /// defaults, which would fill lines: `escena1/default/320x200/1/primary/samet:max_level=6`.
 std::string shown_name(const CellId& id);
+
+/// Returns the same for a structure: `samet:max_level=6`.
+std::string shown_structure(const CellId& id);
 
 /// Returns the same for a scene's name: `tetra:n=4`, or `tetra` for `tetra:n=6`. A path stays as it
 /// is.

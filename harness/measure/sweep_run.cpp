@@ -20,6 +20,7 @@
 #include "harness/measure/block_process.hpp"
 #include "harness/measure/division.hpp"
 #include "harness/measure/measurement.hpp"
+#include "harness/measure/open_view.hpp"
 #include "harness/measure/plan.hpp"
 #include "harness/measure/record/block_statistics.hpp"
 #include "harness/measure/record/conditions.hpp"
@@ -27,6 +28,7 @@
 #include "harness/measure/record/manifest.hpp"
 #include "harness/measure/record/robust_statistics.hpp"
 #include "harness/measure/record/run_log.hpp"
+#include "harness/measure/tuning.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "scenes/base/error.hpp"
 #include "scenes/base/json_text.hpp"
@@ -77,66 +79,6 @@ std::vector<PlannedName> names_of(const Plan& plan) {
 
 std::optional<ShardFacts> facts_of(const std::optional<PlannedShard>& shard) {
   return shard ? std::optional(shard->facts) : std::nullopt;
-}
-
-/// A cell while it is measured.
-struct OpenCell {
-  PlannedCell planned;
-  CellRecord record;
-};
-
-/// A view while it is measured.
-struct OpenView {
-  CellGroup view;  ///< without its cells
-  std::vector<OpenCell> cells;
-  int blocks_made = 0;
-  double block_ms = 0.0;  ///< of the first block, with the start of its process
-  int blocks = 1;         ///< planned; before that, as many as are allowed
-  StopReason reason = StopReason::kRepetitions;  ///< why there are no more
-};
-
-/// How a sweep's repetitions are divided into blocks.
-struct BlockLimits {
-  int each;     ///< repetitions of a cell in a block: three, or four and five where few are made
-  int minimum;  ///< blocks that are made even when the time is up
-  int maximum;
-  int repetitions_allowed;
-
-  explicit BlockLimits(const SweepConfig& config)
-      : repetitions_allowed(config.maximum_repetitions) {
-    constexpr int kMinEach = 3;
-    const int blocks = std::max(repetitions_allowed / kMinEach, 1);
-    each = repetitions_allowed < kMinEach * kMinEach ? (repetitions_allowed + blocks - 1) / blocks
-                                                     : kMinEach;
-    maximum = (repetitions_allowed + each - 1) / each;
-    minimum = std::min((config.minimum_repetitions + each - 1) / each, maximum);
-  }
-
-  /// Returns the repetitions of a cell in that many blocks.
-  int repetitions(int blocks) const { return std::min(blocks * each, repetitions_allowed); }
-};
-
-/// A spread that blocks have at least, whatever that of the repetitions of one: some processes are
-/// faster than others.
-constexpr double kMinSpread = 0.01;
-
-/// Returns how often a contender had its turn, in a block or in all: a repetition that was
-/// disturbed and the one that replaces it are one turn.
-int turns(const CellRecord& cell, std::optional<int> block = std::nullopt) {
-  std::set<std::pair<int, int>> made;
-  for (const Repetition& one : cell.repetitions) {
-    if (!block || one.block == *block) made.emplace(one.block, one.round);
-  }
-  return static_cast<int>(made.size());
-}
-
-/// Returns the first round without a repetition of any contender of a view.
-int next_round(const OpenView& open) {
-  int next = 0;
-  for (const OpenCell& cell : open.cells) {
-    for (const Repetition& one : cell.record.repetitions) next = std::max(next, one.round + 1);
-  }
-  return next;
 }
 
 class SweepRun {
@@ -194,6 +136,7 @@ class SweepRun {
     require_same_run(log.folder(), run, config_.source, to_json(manifest_));
     read_as_written((log.folder() / kLogName).string(), "begin a new run with -o",
                     [&] { continue_with(manifest_, run.manifest); });
+    for (const PlannedName& cell : run.passed_over) finished_.insert(cell.index);
     for (CellRecord& cell : run.cells) {
       if (cell.is_finished) {
         finished_.insert(cell.index);
@@ -206,12 +149,12 @@ class SweepRun {
 
   /// Returns the record of a cell, from an earlier part of the run where it was begun. One whose
   /// results were wrong is verified again.
-  CellRecord earlier(const CellGroup& view, const PlannedCell& cell) {
+  CellRecord earlier(const PlannedCell& cell) {
     auto found = unfinished_.extract(cell.index);
     if (found && verify::is_right(found.mapped().verdict)) return std::move(found.mapped());
     CellRecord record{};
     record.index = cell.index;
-    record.id = id_of(view, cell.structure);
+    record.id = cell.id;
     return record;
   }
 
@@ -230,7 +173,7 @@ class SweepRun {
       open.blocks = limits_.maximum;
       for (PlannedCell& cell : std::exchange(group.cells, {})) {
         if (finished_.contains(cell.index)) continue;
-        CellRecord record = earlier(group, cell);
+        CellRecord record = earlier(cell);
         for (const Repetition& one : record.repetitions) {
           open.blocks_made = std::max(open.blocks_made, one.block + 1);
         }
@@ -253,65 +196,105 @@ class SweepRun {
   void measure() {
     const base::Stopwatch watch;
     for (OpenView& open : views_) {
+      for (bool is_sorted : {false, true}) tune(open, is_sorted);
       const base::Stopwatch block_watch;
       run_block(open);
       open.block_ms = block_watch.milliseconds();
     }
     finish_complete();
-    plan_blocks(1e3 * budget_seconds() - watch.milliseconds());
+    plan_blocks(views_, limits_, config_, 1e3 * budget_seconds() - watch.milliseconds());
     finish_complete();
+    int passes = 1;
+    for (const OpenView& open : views_) passes = std::max(passes, open.blocks);
     Random random(rays::fingerprint(manifest_.run.run_id));
     for (int pass = 1; !views_.empty(); ++pass) {
-      const double part = std::min(1.0, static_cast<double>(pass) / std::max(passes_ - 1, 1));
+      const double part = std::min(1.0, static_cast<double>(pass) / std::max(passes - 1, 1));
       shuffle(views_, random);
       for (OpenView& open : views_) {
-        if (blocks_done(open) <= part * (open.blocks - 1)) run_block(open);
+        if (blocks_done(open, limits_) <= part * (open.blocks - 1)) run_block(open);
       }
       finish_complete();
     }
   }
 
-  /// Fixes the number of blocks of each view: at least those of the sweep, as many as the precision
-  /// needs, but no more than the time allows.
-  void plan_blocks(double left_ms) {
-    const int fewest = std::max(limits_.minimum, std::min(config_.blocks, limits_.maximum));
-    for (OpenView& open : views_) {
-      double spread = kMinSpread;
-      for (const OpenCell& cell : open.cells) spread = std::max(spread, spread_of(cell.record));
-      const int needed = blocks_for_precision(spread, config_.precision, limits_.maximum);
-      open.blocks = std::clamp(needed, fewest, limits_.maximum);
-      open.reason = open.blocks == limits_.maximum && needed >= limits_.maximum
-                        ? StopReason::kRepetitions
-                        : StopReason::kPrecision;
+  /// Chooses the parameter sets of tuned contenders, of which the fastest are measured: where there
+  /// are more of them than that, so not again where the run is resumed. A set that ends its process
+  /// has no time, and the others go on.
+  void tune(OpenView& open, bool is_sorted) {
+    std::map<std::string, std::vector<std::size_t>> contenders;
+    std::vector<BlockCell> untried;
+    for (const OpenCell& cell : open.cells) {
+      if (cell.planned.parameter_sets == 1 || cell.planned.rays.is_sorted != is_sorted) continue;
+      contenders[cell.planned.id.structure].push_back(cell.planned.index);
     }
-    // The views with the most blocks give theirs up first.
-    while (expected_ms() > left_ms) {
-      const auto most = std::ranges::max_element(views_, {}, &OpenView::blocks);
-      if (most == views_.end() || most->blocks <= limits_.minimum) break;
-      const int top = most->blocks;
-      for (OpenView& open : views_) {
-        if (open.blocks < top || open.blocks <= limits_.minimum) continue;
-        --open.blocks;
-        open.reason = StopReason::kBudget;
+    std::erase_if(contenders, [](const auto& each) { return each.second.size() <= kMeasuredSets; });
+    for (const OpenCell& cell : open.cells) {
+      const auto found = contenders.find(cell.planned.id.structure);
+      if (found != contenders.end() && std::ranges::count(found->second, cell.planned.index) > 0) {
+        untried.push_back({cell.planned, cell.record, 0});
       }
     }
-    for (const OpenView& open : views_) passes_ = std::max(passes_, open.blocks);
+    if (untried.empty()) return;
+    progress_.start("tuning for " + open.view.shown_name());
+    std::map<std::size_t, Json> found = try_candidates(open, std::move(untried));
+    for (const auto& [contender, sets] : contenders) keep_fastest(open, sets, found);
   }
 
-  /// Returns the time of the blocks that are left.
-  double expected_ms() const {
-    double sum = 0.0;
-    for (const OpenView& open : views_) {
-      sum += open.block_ms * std::max(open.blocks - blocks_done(open), 0);
+  /// Returns an event `candidate` for each cell.
+  std::map<std::size_t, Json> try_candidates(const OpenView& open, std::vector<BlockCell> untried) {
+    std::map<std::size_t, Json> found;
+    const BlockWatch watch{
+        [&](const Json& event) { found[event.at("index").get<std::size_t>()] = event; },
+        [&](std::optional<std::size_t>) { options_.before_each_piece(); }};
+    while (!untried.empty()) {
+      const Block block{open.view, untried, 0, 0, 0, 1, core_, true};
+      const std::optional<BrokenBlock> broken = run(block, watch);
+      for (const BlockCell& each : untried) {
+        const std::size_t index = each.cell.index;
+        if (broken && (!broken->cell || *broken->cell == index) && !found.contains(index)) {
+          found[index] = {{"event", "candidate"}, {"index", index}, {"error", broken->how}};
+        }
+      }
+      if (!broken) break;
+      std::erase_if(untried, [&](const BlockCell& c) { return found.contains(c.cell.index); });
     }
-    return sum;
+    return found;
+  }
+
+  /// Drops all parameter sets of a contender but the fastest, and records their times.
+  void keep_fastest(OpenView& open, const std::vector<std::size_t>& sets,
+                    const std::map<std::size_t, Json>& found) {
+    std::map<std::size_t, double> times;
+    Json candidates = Json::array();
+    for (const OpenCell& cell : open.cells) {
+      const std::size_t index = cell.planned.index;
+      if (std::ranges::count(sets, index) == 0) continue;
+      Json event = found.at(index);
+      if (event.contains("trace_ms")) times[index] = event.at("trace_ms").get<double>();
+      event["name"] = cell.planned.id.name();
+      event.erase("event");
+      candidates.push_back(std::move(event));
+    }
+    const std::vector<std::size_t> kept = fastest(times, sets);
+    const scenes::Camera camera = tuning_camera(open.view.camera);
+    const auto coordinates = [](const glm::vec3& v) { return Json::array({v.x, v.y, v.z}); };
+    log_.add({{"event", "tuning"},
+              {"view", open.view.name()},
+              {"camera", {{"from", coordinates(camera.from)}, {"at", coordinates(camera.at)}}},
+              {"candidates", std::move(candidates)},
+              {"kept", kept}});
+    const std::size_t dropped = std::erase_if(open.cells, [&](const OpenCell& cell) {
+      const std::size_t index = cell.planned.index;
+      return std::ranges::count(sets, index) > 0 && std::ranges::count(kept, index) == 0;
+    });
+    progress_.skip(dropped);
   }
 
   /// Measures a block of a view, again where a contender ended its process.
   void run_block(OpenView& open) {
     progress_.start(open.view.shown_name());
     const int number = open.blocks_made++;
-    for (std::vector<BlockCell> cells; !(cells = due(open, number)).empty();) {
+    for (std::vector<BlockCell> cells; !(cells = due(open, number, limits_)).empty();) {
       const Block block{open.view,
                         std::move(cells),
                         number,
@@ -329,7 +312,7 @@ class SweepRun {
       for (OpenCell& cell : open.cells) {
         if (broken && (!broken->cell || *broken->cell == cell.planned.index)) {
           fail(open, cell, broken->how);
-        } else if (!broken && lacking(open, cell, number) > 0) {
+        } else if (!broken && lacking(open, cell, number, limits_) > 0) {
           fail(open, cell, "the process of its block ended without all repetitions");
         }
       }
@@ -344,26 +327,12 @@ class SweepRun {
     if (!options_.block_program.empty()) {
       return measure_in_process(block, options_.block_program, watch);
     }
-    measure_block(block, benchmark_, watch);
-    return std::nullopt;
-  }
-
-  /// Returns the number of repetitions that a cell lacks in a block; 0 where it is finished.
-  int lacking(const OpenView& open, const OpenCell& cell, int number) const {
-    if (cell.record.is_finished) return 0;
-    return std::max(std::min(limits_.each - turns(cell.record, number),
-                             limits_.repetitions(open.blocks) - turns(cell.record)),
-                    0);
-  }
-
-  /// Returns what is left of a block: the cells that lack repetitions.
-  std::vector<BlockCell> due(const OpenView& open, int number) const {
-    std::vector<BlockCell> cells;
-    for (const OpenCell& cell : open.cells) {
-      const int left = lacking(open, cell, number);
-      if (left > 0) cells.push_back({cell.planned, cell.record, left});
+    if (block.tunes) {
+      time_candidates(block, watch);
+    } else {
+      measure_block(block, benchmark_, watch);
     }
-    return cells;
+    return std::nullopt;
   }
 
   /// Records an event of a block.
@@ -401,20 +370,11 @@ class SweepRun {
 
   void finish_if_complete(OpenView& open) {
     const auto lacks = [&](const OpenCell& cell) {
-      return lacking(open, cell, open.blocks_made) > 0;
+      return lacking(open, cell, open.blocks_made, limits_) > 0;
     };
     if (std::ranges::any_of(open.cells, lacks)) return;
     for (OpenCell& cell : open.cells) finish(cell.record, open.reason);
     open.cells.clear();
-  }
-
-  /// Returns the number of whole blocks that all cells of a view have.
-  int blocks_done(const OpenView& open) const {
-    int fewest = limits_.maximum;
-    for (const OpenCell& cell : open.cells) {
-      fewest = std::min(fewest, turns(cell.record) / limits_.each);
-    }
-    return fewest;
   }
 
   CellEvents events() {
@@ -464,14 +424,13 @@ class SweepRun {
   std::FILE* messages_;
   int core_;
   Manifest manifest_;
-  std::set<std::size_t> finished_;                ///< by an earlier part of the run: cells
+  std::set<std::size_t> finished_;  ///< by an earlier part of the run, or passed over: cells
   std::map<std::size_t, CellRecord> unfinished_;  ///< begun by it
   std::uint64_t log_bytes_ = 0;                   ///< that it wrote
   RunLog log_;
   ThrottlingWatch throttling_;
   std::vector<PlannedName> names_;  ///< of all cells
   std::vector<OpenView> views_;
-  int passes_ = 1;  ///< over all views
   base::Progress progress_;
 };
 

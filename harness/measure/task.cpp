@@ -35,30 +35,18 @@ void require_same(std::uint64_t hash, std::uint64_t known) {
 /// Rays that do not depend on the results: an image's, or a list.
 class RaysTask : public Task {
  public:
-  RaysTask(const CellGroup& group, int core, const std::optional<RaySetFacts>& known)
+  RaysTask(const CellGroup& group, const rays::RayChoice& rays, int core,
+           const std::optional<RaySetFacts>& known)
       : Task(group, known),
-        input_(rays::make_trace_input(*group.scene, group.image(), group.rays)),
+        input_(rays::make_trace_input(*group.scene, group.image(), rays)),
         results_(rays::make_results(input())),
         core_(core) {
-    const std::uint64_t hash = rays::fingerprint(input());
-    if (known) {
-      require_same(hash, known->rays_hash);
-      return;
-    }
-    facts_.scene_hash = group.scene_hash;
-    facts_.rays_hash = hash;
-    facts_.seed = input().seed();
-    facts_.primitives = scene().primitives.size();
-    facts_.rays = input().size();
-    facts_.query = input().query();
-    const bool any_hit = facts_.query == rays::Query::kAnyHit;
-    (any_hit ? facts_.occluded_share : facts_.hit_share) =
-        share(reference().hit_count(), input().size());
-    facts_.coherence = rays::coherence(input());
-    warning_ = rays::share_warning(input(), reference().hit_count());
+    if (known) require_same(rays::fingerprint(input()), known->rays_hash);
   }
 
-  std::optional<std::string> warning() const override { return warning_; }
+  std::optional<std::string> warning() override {
+    return rays::share_warning(input(), reference().hit_count());
+  }
   void poison() override { rays::poison(results_); }
   void require_support(const accel::StructureChoice& choice) const override {
     rays::require_support(choice, input());
@@ -87,6 +75,21 @@ class RaysTask : public Task {
   }
 
  private:
+  RaySetFacts find_facts() override {
+    RaySetFacts facts;
+    facts.scene_hash = group_.scene_hash;
+    facts.rays_hash = rays::fingerprint(input());
+    facts.seed = input().seed();
+    facts.primitives = scene().primitives.size();
+    facts.rays = input().size();
+    facts.query = input().query();
+    const bool any_hit = facts.query == rays::Query::kAnyHit;
+    (any_hit ? facts.occluded_share : facts.hit_share) =
+        share(reference().hit_count(), input().size());
+    facts.coherence = rays::coherence(input());
+    return facts;
+  }
+  std::uint64_t ray_count() override { return input().size(); }
   QueryPath path_of(const accel::Accelerator& structure) const override {
     const accel::ImageRays made = structure.statistics().image_rays;
     if (input().image() == nullptr) {
@@ -117,7 +120,6 @@ class RaysTask : public Task {
 
   std::optional<rays::TraceInput> input_;  ///< until the reference has it
   std::optional<verify::ReferenceHits> reference_;
-  std::optional<std::string> warning_;
   rays::TraceResults results_;
   int core_;
 };
@@ -138,16 +140,15 @@ std::uint64_t hash_of(const accel::PrimaryRays& rays, const render::RecordedPict
 /// all of them recorded, must give the same bits as the timed one.
 class PictureTask : public Task {
  public:
-  PictureTask(const CellGroup& group, int core, const std::optional<RaySetFacts>& known)
+  PictureTask(const CellGroup& group, const rays::RayChoice& rays, int core,
+              const std::optional<RaySetFacts>& known)
       : Task(group, known),
         core_(core),
         rays_(group.image().rays()),
-        options_(render::whitted_options(group.rays)),
+        options_(render::whitted_options(rays)),
         shaded_(std::make_shared<const render::ShadedScene>(*group.scene)),
         hits_(rays_.width(), rays_.height(), rays_.samples()),
-        image_(rays_.width(), rays_.height()) {
-    if (!known) draw_by_oracle();
-  }
+        image_(rays_.width(), rays_.height()) {}
 
   void poison() override {
     rays::poison(hits_);
@@ -206,7 +207,7 @@ class PictureTask : public Task {
  private:
   QueryPath path_of(const accel::Accelerator&) const override { return QueryPath::kPicture; }
   double measure_harness_ms(QueryPath) override {
-    if (!shading_ms_) draw_by_oracle();
+    if (!shading_ms_) find_facts();
     return *shading_ms_;
   }
 
@@ -216,13 +217,14 @@ class PictureTask : public Task {
     return *reference_;
   }
 
+  std::uint64_t ray_count() override { return facts().rays; }
+
   /// Finds out the facts, and the time of the picture without a structure: its results are known.
-  void draw_by_oracle() {
+  RaySetFacts find_facts() override {
     const accel::oracle::Oracle oracle(scene(), glm::length(glm::dvec3(rays_.eye())));
     const render::RecordedPicture picture =
         render::record_picture(shaded_, render::OracleQueries(oracle), rays_, reference().rounded(),
                                options_, rays::HitCheck(scene(), "the oracle"));
-    set_facts(picture);
     hits_ = picture.primary;
     const auto& [reflected, refracted, shadow] = picture.asked;
     shading_ms_ = harness_ms(core_, [&] {
@@ -231,18 +233,21 @@ class PictureTask : public Task {
       const render::ReplayedResults lights(shadow);
       draw({&mirrors, &glass, &lights});
     });
+    return facts_of(picture);
   }
 
-  void set_facts(const render::RecordedPicture& picture) {
+  RaySetFacts facts_of(const render::RecordedPicture& picture) const {
     const render::RayCensus& census = picture.census;
-    facts_.scene_hash = group_.scene_hash;
-    facts_.rays_hash = hash_of(rays_, picture);
-    facts_.primitives = scene().primitives.size();
-    facts_.rays = census.all_rays();
-    facts_.query = rays::Query::kPicture;
-    facts_.hit_share = share(census.eye_hits + census.secondary_hits,
-                             census.eye + census.reflected + census.refracted);
-    if (census.shadow > 0) facts_.occluded_share = share(census.shadow_hidden, census.shadow);
+    RaySetFacts facts;
+    facts.scene_hash = group_.scene_hash;
+    facts.rays_hash = hash_of(rays_, picture);
+    facts.primitives = scene().primitives.size();
+    facts.rays = census.all_rays();
+    facts.query = rays::Query::kPicture;
+    facts.hit_share = share(census.eye_hits + census.secondary_hits,
+                            census.eye + census.reflected + census.refracted);
+    if (census.shadow > 0) facts.occluded_share = share(census.shadow_hidden, census.shadow);
+    return facts;
   }
   render::RayCensus draw(const render::RayStructures& structures) {
     return render::draw_in_order(
@@ -270,12 +275,12 @@ HarnessShare Task::harness_share(const accel::Accelerator& structure) {
   return {path, entry->second};
 }
 
-std::unique_ptr<Task> make_task(const CellGroup& group, int core,
+std::unique_ptr<Task> make_task(const CellGroup& group, const rays::RayChoice& rays, int core,
                                 const std::optional<RaySetFacts>& known) {
-  if (group.rays.kind == rays::RayKind::kWhitted) {
-    return std::make_unique<PictureTask>(group, core, known);
+  if (rays.kind == rays::RayKind::kWhitted) {
+    return std::make_unique<PictureTask>(group, rays, core, known);
   }
-  return std::make_unique<RaysTask>(group, core, known);
+  return std::make_unique<RaysTask>(group, rays, core, known);
 }
 
 }  // namespace beambench::measure

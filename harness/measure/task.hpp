@@ -30,13 +30,17 @@ class Task {
   virtual ~Task() = default;
 
   const scenes::Scene& scene() const { return *group_.scene; }
-  const RaySetFacts& facts() const { return facts_; }
-  accel::Workload workload() const {
-    return {group_.camera, static_cast<std::size_t>(facts_.rays), group_.threads};
+  /// Returns the facts of the rays. Asks the oracle the first time, where they are not known.
+  const RaySetFacts& facts() {
+    if (!facts_) facts_ = find_facts();
+    return *facts_;
+  }
+  accel::Workload workload() {
+    return {group_.camera, static_cast<std::size_t>(ray_count()), group_.threads};
   }
 
   /// Returns a clause about unexpected rays.
-  virtual std::optional<std::string> warning() const { return std::nullopt; }
+  virtual std::optional<std::string> warning() { return std::nullopt; }
 
   /// Overwrites all results with invalid ones, so that the differ finds each one that is not
   /// written.
@@ -60,25 +64,27 @@ class Task {
  protected:
   /// The group must outlive it. `known` as for `make_task`.
   Task(const CellGroup& group, const std::optional<RaySetFacts>& known)
-      : group_(group), facts_(known.value_or(RaySetFacts())) {}
+      : group_(group), facts_(known) {}
 
+  virtual RaySetFacts find_facts() = 0;
+  virtual std::uint64_t ray_count() = 0;
   virtual QueryPath path_of(const accel::Accelerator& structure) const = 0;
   /// Returns the time of a trace by `path`, which is not the structure's own, where results cost
   /// nothing.
   virtual double measure_harness_ms(QueryPath path) = 0;
 
   const CellGroup& group_;
-  RaySetFacts facts_;
 
  private:
+  std::optional<RaySetFacts> facts_;
   std::map<QueryPath, double> harness_ms_;
 };
 
-/// Makes the task of a group. `core` is the core to measure the harness's own time on (-1: any).
-/// `known` are its facts where an earlier process found them out: then the oracle is asked only
-/// where results are verified. Throws like `make_trace_input`, and InputError where the rays are
-/// not those that are known.
-std::unique_ptr<Task> make_task(const CellGroup& group, int core,
+/// Makes the task of a group, with its rays in one of their orders. `core` is the core to measure
+/// the harness's own time on (-1: any). `known` are its facts where an earlier process found them
+/// out: then the oracle is asked only where results are verified. Throws like `make_trace_input`,
+/// and InputError where the rays are not those that are known.
+std::unique_ptr<Task> make_task(const CellGroup& group, const rays::RayChoice& rays, int core,
                                 const std::optional<RaySetFacts>& known);
 
 }  // namespace beambench::measure

@@ -66,8 +66,8 @@ RatioFields mean_of(const std::vector<RatioFields>& list) {
   return fields_of(analysis::geometric_mean(ratios));
 }
 
-using CellFields =
-    std::tuple<std::string, std::string, std::string, std::string, int, std::string, std::string>;
+using CellFields = std::tuple<std::string, std::string, std::string, std::string, int, std::string,
+                              std::string, int>;
 using NameFields = std::tuple<std::string, std::string, std::string>;
 
 std::vector<NameFields> name_cells(const std::vector<CellFields>& list) {

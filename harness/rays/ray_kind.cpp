@@ -17,6 +17,13 @@ ParameterInfo seed_parameter() {
   return integer_parameter("seed", 1, 0, std::int64_t{1} << 53, "of the random numbers");
 }
 
+ParameterInfo order_parameter() {
+  return choice_parameter("order", std::string(kListOrder),
+                          {std::string(kListOrder), std::string(kSortedOrder)},
+                          "as the rays are made, or sorted by direction and origin beforehand, "
+                          "which costs the structure nothing, and without the marks of pencils");
+}
+
 std::vector<ParameterInfo> whitted_parameters() {
   return {integer_parameter("depth", 5, 1, 64, "maximum ray depth, the primary ray included"),
           real_parameter("least_weight", 0.0, 0.0, 1.0,
@@ -29,7 +36,7 @@ std::vector<ParameterInfo> occlusion_parameters() {
   return {integer_parameter("samples", 16, 1, 1024, "rays from each primary hit"),
           real_parameter("distance", 0.1, 1e-6, 1e6,
                          "where the rays end, in diagonals of the scene's box"),
-          seed_parameter()};
+          seed_parameter(), order_parameter()};
 }
 
 const std::vector<RayKindInfo>& all_kinds() {
@@ -43,23 +50,23 @@ const std::vector<RayKindInfo>& all_kinds() {
        "shadow",
        "from where primary rays hit to each light that the surface faces, light by light; any hit",
        Query::kAnyHit,
-       {}},
+       {order_parameter()}},
       {RayKind::kReflection,
        "reflection",
        "mirrored at the surface where primary rays hit, as if all were mirrors",
        Query::kClosestHit,
-       {}},
+       {order_parameter()}},
       {RayKind::kMirror,
        "mirror",
        "mirrored where primary rays hit planar mirrors, which are flat polygons with a specular "
        "factor; mirror by mirror",
        Query::kClosestHit,
-       {}},
+       {order_parameter()}},
       {RayKind::kDiffuse,
        "diffuse",
        "one from each primary hit, its direction random by the cosine with the surface's normal",
        Query::kClosestHit,
-       {seed_parameter()}},
+       {seed_parameter(), order_parameter()}},
       {RayKind::kOcclusion, "ao",
        "ambient occlusion: several from each primary hit, each direction random as those of "
        "'diffuse' rays, which end at a distance; any hit",
@@ -70,12 +77,12 @@ const std::vector<RayKindInfo>& all_kinds() {
        Query::kClosestHit,
        {integer_parameter("bounces", 4, 1, 64,
                           "scattered rays of a path, the one from the primary hit included"),
-        seed_parameter()}},
+        seed_parameter(), order_parameter()}},
       {RayKind::kRandom,
        "random",
        "as many as the image has samples, uniform among all lines through the scene's box",
        Query::kClosestHit,
-       {seed_parameter()}},
+       {seed_parameter(), order_parameter()}},
       {RayKind::kWhitted, "whitted",
        "a whole picture: camera, shadow, reflected and refracted rays, which follow from the "
        "structure's own hits; 'run' and 'verify' verify every one",
@@ -83,8 +90,9 @@ const std::vector<RayKindInfo>& all_kinds() {
   return kinds;
 }
 
-bool has_seed(const RayKindInfo& info) {
-  return std::ranges::find(info.parameters, "seed", &ParameterInfo::name) != info.parameters.end();
+bool has(const RayKindInfo& info, std::string_view parameter) {
+  return std::ranges::find(info.parameters, parameter, &ParameterInfo::name) !=
+         info.parameters.end();
 }
 
 RayChoice choose(const Spec& spec) {
@@ -98,8 +106,9 @@ RayChoice choose(const Spec& spec) {
                     excerpt(spec.name), fmt::join(names, ", "), kRayFileEnding, kCsvEnding));
   }
   const Parameters parameters(info->name, info->parameters, spec.parameters);
-  RayChoice choice{info->kind, 0, {}, parameters.short_label()};
-  if (has_seed(*info)) choice.seed = static_cast<std::uint64_t>(parameters.integer("seed"));
+  RayChoice choice{info->kind, 0, false, {}, parameters.short_label()};
+  if (has(*info, "seed")) choice.seed = static_cast<std::uint64_t>(parameters.integer("seed"));
+  if (has(*info, "order")) choice.is_sorted = parameters.choice("order") == kSortedOrder;
   return choice;
 }
 
@@ -131,6 +140,16 @@ std::string_view to_string(RayKind kind) { return info_of(kind).name; }
 
 RayChoice parse_ray_choice(std::string_view text) {
   return is_ray_file(text) ? choose_file(text) : choose(parse_spec(text));
+}
+
+OrderedLabel divide_label(const std::string& label) {
+  const std::string sorted = fmt::format("order={}", kSortedOrder);
+  const std::size_t begin = is_ray_file(label) ? std::string::npos : label.find(sorted);
+  if (begin == std::string::npos) return {label, kListOrder};
+  std::string rays = label;
+  const bool is_followed = rays.size() > begin + sorted.size();  // by another parameter
+  rays.erase(is_followed ? begin : begin - 1, sorted.size() + 1);
+  return {rays, kSortedOrder};
 }
 
 Parameters parameters_of(const RayChoice& choice) {

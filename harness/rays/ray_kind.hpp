@@ -60,7 +60,8 @@ inline bool is_ray_file(std::string_view text) {
 struct RayChoice {
   RayKind kind = RayKind::kPrimary;  ///< for a file: whatever was saved
   std::uint64_t seed = 0;            ///< for a random kind; 0 for the others
-  std::filesystem::path file;        ///< empty: the rays are made
+  bool is_sorted = false;            ///< a list in another order than that in which it is made
+  std::filesystem::path file{};      ///< empty: the rays are made
   /// The name in records and commands: `shadow`, `diffuse`, `diffuse:seed=7`, or the file's name
   /// (`name_of_path`).
   std::string label = "primary";
@@ -71,6 +72,18 @@ struct RayChoice {
 /// Parses `primary`, `diffuse:seed=7` or `some/file.rays`. Throws InputError listing the valid
 /// names or parameters. A file is not opened yet.
 RayChoice parse_ray_choice(std::string_view text);
+/// The order of the rays of a list, by the names in records.
+inline constexpr std::string_view kListOrder = "list";      ///< as they are made or saved
+inline constexpr std::string_view kSortedOrder = "sorted";  ///< by direction and origin
+/// A label without the order, and the order.
+struct OrderedLabel {
+  std::string rays;
+  std::string_view order;
+};
+/// Divides a label: `diffuse:order=sorted,seed=7` is `diffuse:seed=7`, `sorted`. A file's rays are
+/// in the order of the file.
+OrderedLabel divide_label(const std::string& label);
+
 /// Returns the values of a choice's parameters; there are none for a file.
 Parameters parameters_of(const RayChoice& choice);
 /// Parses a comma-separated list, each choice once. Throws as parse_ray_choice.

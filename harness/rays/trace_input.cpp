@@ -12,6 +12,7 @@
 #include "harness/rays/fingerprint.hpp"
 #include "harness/rays/ray_file.hpp"
 #include "harness/rays/ray_generators.hpp"
+#include "harness/rays/ray_order.hpp"
 #include "scenes/base/error.hpp"
 
 namespace beambench::rays {
@@ -98,6 +99,7 @@ RaySet made_set(const scenes::Scene& scene, const accel::PrimaryRays& primary,
                 const RayChoice& choice) {
   RaySet set{made_rays(scene, primary, choice), choice.label, info_of(choice.kind).query,
              choice.seed, scenes::scene_hash(scene)};
+  if (choice.is_sorted) sort_rays(set, scene.bounds);
   if (!set.samples.empty()) set.image = std::make_shared<const accel::PrimaryRays>(primary);
   if (set.rays.empty()) {
     throw NoRaysError(fmt::format(

@@ -16,6 +16,8 @@ namespace beambench {
 struct Spec {
   std::string name;
   std::vector<std::pair<std::string, std::string>> parameters;
+
+  friend bool operator==(const Spec&, const Spec&) = default;
 };
 
 /// Throws InputError when the text is not of that form or gives a key twice.

@@ -116,10 +116,10 @@ INSTANTIATE_TEST_SUITE_P(Structures, PinnedWork, ::testing::Values(
     PinnedRow{"z-buffer", "tetra:n=6", {{"primitive_tests", 1444}}},
     PinnedRow{"z-buffer", "escena1", {{"primitive_tests", 3411}}},
     PinnedRow{"z-buffer", "closed-room:detail=4", {{"primitive_tests", 5535}}},
-    PinnedRow{"tile-beam", "tetra:n=6", {{"beams", 1}, {"box_tests", 272}, {"leaves", 256}, {"primitive_tests", 4096}, {"traversal_steps", 273}}},
-    PinnedRow{"tile-beam", "bumpy:triangles=50700", {{"beams", 1}, {"box_tests", 2362}, {"leaves", 1389}, {"primitive_tests", 30'245}, {"traversal_steps", 1651}}},
-    PinnedRow{"tile-beam", "soup:triangles=100000", {{"beams", 1}, {"box_tests", 17'824}, {"leaves", 13'301}, {"primitive_tests", 99'983}, {"traversal_steps", 17'812}}},
-    PinnedRow{"tile-beam", "closed-room:detail=4", {{"beams", 1}, {"box_tests", 346}, {"leaves", 224}, {"primitive_tests", 5083}, {"traversal_steps", 284}}},
+    PinnedRow{"tile-beam:backface_culling=true", "tetra:n=6", {{"beams", 1}, {"box_tests", 272}, {"leaves", 256}, {"primitive_tests", 4096}, {"traversal_steps", 273}}},
+    PinnedRow{"tile-beam:backface_culling=true", "bumpy:triangles=50700", {{"beams", 1}, {"box_tests", 2362}, {"leaves", 1389}, {"primitive_tests", 30'245}, {"traversal_steps", 1651}}},
+    PinnedRow{"tile-beam:backface_culling=true", "soup:triangles=100000", {{"beams", 1}, {"box_tests", 17'824}, {"leaves", 13'301}, {"primitive_tests", 99'983}, {"traversal_steps", 17'812}}},
+    PinnedRow{"tile-beam:backface_culling=true", "closed-room:detail=4", {{"beams", 1}, {"box_tests", 346}, {"leaves", 224}, {"primitive_tests", 5083}, {"traversal_steps", 284}}},
     PinnedRow{"tile-beam:backface_culling=false", "bumpy:triangles=50700", {{"beams", 1}, {"box_tests", 2368}, {"leaves", 1695}, {"primitive_tests", 36'114}, {"traversal_steps", 1959}}},
     PinnedRow{"tile-beam:backface_culling=false", "closed-room:detail=4", {{"beams", 1}, {"box_tests", 346}, {"leaves", 247}, {"primitive_tests", 5552}, {"traversal_steps", 307}}}
   ), row_name);

@@ -11,7 +11,7 @@ namespace beambench::analysis {
 namespace {
 
 NamedCell cell(const std::string& structure, const std::string& parameters) {
-  return {"a", "default", structure, parameters, 1, "primary", "0123456789abcdef"};
+  return {"a", "default", structure, parameters, 1, "primary", "0123456789abcdef", 1};
 }
 
 std::vector<std::string> contenders(const std::vector<NamedCell>& cells) {
@@ -53,6 +53,21 @@ TEST(Names, AViewStatesWhatVaries) {
             (List{"a, primary rays", "a, shadow rays"}));
   EXPECT_EQ(views<std::string>(&NamedCell::machine_id, "0123456789abcdef", "fedcba9876543210"),
             (List{"a, machine 01234567", "a, machine fedcba98"}));
+}
+
+TEST(Names, ATunedContenderIsNamedByItsNumberOfParameterSets) {
+  NamedCell best = cell("embree", "mode=stream");
+  best.parameter_sets = 8;
+  EXPECT_EQ(contenders({best, cell("embree", "mode=single")}),
+            (std::vector<std::string>{"embree (best of 8)", "embree"}));
+}
+
+TEST(Names, TheOrderOfTheRaysIsOfTheContenderNotOfTheView) {
+  std::vector<NamedCell> cells{cell("samet", ""), cell("samet", "")};
+  cells[0].ray_kind = "diffuse:seed=7";
+  cells[1].ray_kind = "diffuse:order=sorted,seed=7";
+  EXPECT_EQ(contenders(cells), (std::vector<std::string>{"samet", "samet, sorted rays"}));
+  EXPECT_EQ(name_cells(cells)[0].view, name_cells(cells)[1].view);
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ inline nlohmann::ordered_json quiet_manifest() {
 /// A run of exactly these cells, in this order.
 inline measure::Run run_of(std::vector<measure::CellRecord> cells,
                            nlohmann::json config = nlohmann::json::object()) {
-  measure::Run run{quiet_manifest(), std::move(config), {}, std::move(cells)};
+  measure::Run run{quiet_manifest(), std::move(config), {}, {}, std::move(cells)};
   for (std::size_t i = 0; i < run.cells.size(); ++i) {
     run.cells[i].index = i;
     run.plan.push_back({i, run.cells[i].id.name()});

@@ -225,7 +225,7 @@ TEST_F(Config, ListsOfParametersAreMultipliedOut) {
       R"([{"structure": "samet", "parameters": {"max_level": [3, 4], "root": ["cube", "box"]}}])");
   const SweepConfig config = read(document);
   std::vector<std::string> labels;
-  for (const accel::StructureChoice& choice : config.structures) labels.push_back(choice.label());
+  for (const SweptStructure& one : config.structures) labels.push_back(one.sets.front().label());
   ASSERT_EQ(labels.size(), 4U);
   EXPECT_TRUE(scenes::says(labels[0], {"max_level=3", "root=cube"}));
   EXPECT_TRUE(scenes::says(labels[1], {"max_level=3", "root=box"}));

@@ -2,12 +2,14 @@
 // finished cells are not repeated.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <functional>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <numeric>
 #include <set>
 #include <span>
@@ -32,6 +34,7 @@
 #include "harness/measure/record/cell_json.hpp"
 #include "harness/measure/record/run_log.hpp"
 #include "harness/measure/sweep_run.hpp"
+#include "harness/measure/tuning.hpp"
 #include "tests/scenes/thrown_message.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -451,6 +454,114 @@ TEST_F(Sweep, TracesEveryKindOfRays) {
   }
   EXPECT_EQ(hashes.size(), 7U);
   for (const auto& [kind, of_kind] : hashes) EXPECT_EQ(of_kind.size(), 1U) << kind;
+}
+
+TEST_F(Sweep, BothOrdersOfAListAreOneView) {
+  json both = config({"exhaustive", "embree"});
+  both["rays"] = {"diffuse", "diffuse:order=sorted"};
+  const analysis::Analysis outcome = run(both);
+  EXPECT_EQ(outcome.failed, 0U);
+  ASSERT_EQ(outcome.views.size(), 1U);
+  EXPECT_EQ(outcome.views.front().ray_kind, "diffuse");
+  std::set<std::string> contenders;
+  for (const auto& one : outcome.views.front().ranked) contenders.insert(one.contender);
+  for (const auto& one : outcome.views.front().references) contenders.insert(one.contender);
+  EXPECT_EQ(contenders, (std::set<std::string>{"exhaustive", "exhaustive, sorted rays", "embree",
+                                               "embree, sorted rays"}));
+  std::map<std::string, std::set<json>> hashes, rays;
+  for (const json& cell : all_cells()) {
+    hashes[cell["row"]["order"]].insert(cell["row"]["rays_hash"]);
+    rays[cell["row"]["order"]].insert(cell["row"]["rays"]);
+  }
+  EXPECT_EQ(hashes.at("list").size(), 1U);
+  EXPECT_EQ(hashes.at("sorted").size(), 1U);
+  EXPECT_NE(hashes.at("list"), hashes.at("sorted"));
+  EXPECT_EQ(rays.at("list"), rays.at("sorted"));
+}
+
+/// The events of one kind in a log.
+std::vector<json> log_events(const std::filesystem::path& run, const std::string& kind) {
+  std::vector<json> found;
+  for_each_event(run, [&](const nlohmann::ordered_json& event) {
+    if (event.at("event") == kind) found.emplace_back(event);
+  });
+  return found;
+}
+
+TEST_F(Sweep, TunedContendersAreMeasuredWithTheirTwoFastestParameterSets) {
+  const json tuned{
+      {"structure", "samet"}, {"parameters", {{"max_level", {1, 2, 3, 4}}}}, {"tune", true}};
+  const analysis::Analysis outcome = run(config({"exhaustive", tuned}));
+  EXPECT_EQ(outcome.failed, 0U);
+  EXPECT_EQ(outcome.planned, 3U);
+  ASSERT_EQ(outcome.views.size(), 1U);
+  ASSERT_EQ(outcome.views.front().ranked.size(), 1U) << "the faster of two stands for all";
+  const analysis::Standing& shown = outcome.views.front().ranked.front();
+  EXPECT_EQ(shown.contender, "samet (best of 4)");
+  EXPECT_TRUE(shown.name().starts_with("samet:max_level=") &&
+              shown.name().ends_with(" (best of 4)"))
+      << shown.name();
+
+  const std::vector<json> tunings = log_events(results(), "tuning");
+  ASSERT_EQ(tunings.size(), 1U);
+  EXPECT_EQ(tunings.front()["candidates"].size(), 4U);
+  std::map<int, double> times;
+  for (const json& each : tunings.front()["candidates"]) times[each["index"]] = each["trace_ms"];
+  for (const int kept : tunings.front()["kept"].get<std::vector<int>>()) {
+    EXPECT_LE(std::ranges::count_if(times, [&](const auto& t) { return t.second < times[kept]; }),
+              1);
+  }
+  EXPECT_EQ(std::ranges::count_if(
+                all_cells(), [](const json& cell) { return cell["row"]["parameter_sets"] == 4; }),
+            2);
+}
+
+TEST_F(Sweep, ATunedRunIsResumedWithTheSetsThatWereChosen) {
+  const json tuned{
+      {"structure", "samet"}, {"parameters", {{"max_level", {1, 2, 3, 4}}}}, {"tune", true}};
+  const json document = config({tuned});
+  run(document);
+  const std::string table = read_text(results() / "results.csv");
+  EXPECT_EQ(run(document, true).planned, 2U);
+  EXPECT_EQ(log_events(results(), "tuning").size(), 1U);
+  EXPECT_EQ(read_text(results() / "results.csv"), table);
+}
+
+TEST_F(Sweep, AParameterSetThatCannotBeBuiltLosesTheTuning) {
+  structures_.add({"picky",
+                   "Fails for some.",
+                   accel::Conformance::kBitExact,
+                   {integer_parameter("n", 0, 0, 9, "of what")},
+                   [](const scenes::Scene& scene, const Parameters& parameters,
+                      const accel::Workload&) -> std::unique_ptr<accel::Accelerator> {
+                     if (parameters.integer("n") < 2) throw InputError("n is too small");
+                     return accel::registry().choose({"exhaustive", {}}).build(scene);
+                   }});
+  const json tuned{{"structure", "picky"}, {"parameters", {{"n", {0, 1, 2}}}}, {"tune", true}};
+  EXPECT_EQ(run(config({tuned})).failed, 0U);
+  const json tuning = log_events(results(), "tuning").front();
+  EXPECT_EQ(tuning["kept"], json({2}));
+  EXPECT_EQ(tuning["candidates"][0]["error"], "n is too small");
+}
+
+TEST(Tuning, TheCameraIsTurnedAboutThePointThatItLooksAt) {
+  scenes::Camera camera;
+  camera.from = {0.0F, 0.0F, 10.0F};
+  camera.at = {0.0F, 0.0F, 0.0F};
+  const scenes::Camera turned = tuning_camera(camera);
+  EXPECT_EQ(turned.at, camera.at);
+  EXPECT_NEAR(turned.from.x, 10.0 * std::sin(std::numbers::pi / 12), 1e-5);
+  EXPECT_NEAR(turned.from.z, 10.0 * std::cos(std::numbers::pi / 12), 1e-5);
+  EXPECT_NEAR(turned.from.y, 0.0, 1e-6);
+}
+
+TEST(Tuning, EmbreesModesKeepToTheBudget) {
+  const auto sets = best_embree(accel::registry());
+  std::set<std::string> labels;
+  for (const accel::StructureChoice& each : sets) labels.insert(each.label());
+  EXPECT_EQ(labels.size(), sets.size());
+  EXPECT_LE(sets.size(), kMaxParameterSets);
+  EXPECT_GE(sets.size(), 6U);
 }
 
 TEST_F(Sweep, DrawsWholePictures) {

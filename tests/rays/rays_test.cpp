@@ -46,6 +46,50 @@ TraceInput input_over(const scenes::Scene& scene, std::string_view rays,
   return make_trace_input(scene, {scene.cameras.front(), resolution, 1}, parse_ray_choice(rays));
 }
 
+TEST(Order, ALabelIsDividedIntoRaysAndOrder) {
+  const auto divided = [](const std::string& label) {
+    const OrderedLabel found = divide_label(parse_ray_choice(label).label);
+    return std::pair(found.rays, std::string(found.order));
+  };
+  using Both = std::pair<std::string, std::string>;
+  EXPECT_EQ(divided("primary"), Both("primary", "list"));
+  EXPECT_EQ(divided("diffuse:order=list"), Both("diffuse", "list"));
+  EXPECT_EQ(divided("diffuse:order=sorted"), Both("diffuse", "sorted"));
+  EXPECT_EQ(divided("ao:order=sorted,samples=2"), Both("ao:samples=2", "sorted"));
+  EXPECT_EQ(divided("order=sorted.rays"), Both("order=sorted.rays", "list"));
+}
+
+/// All rays of a list as texts, which can be sorted.
+std::vector<std::string> texts_of(const TraceInput& input) {
+  std::vector<std::string> texts;
+  for (const accel::Ray& ray : input.list()->rays) {
+    texts.push_back(fmt::format("{} {} {} {} {} {}", ray.origin.x, ray.origin.y, ray.origin.z,
+                                ray.direction.x, ray.direction.y, ray.direction.z));
+  }
+  return texts;
+}
+
+TEST(Order, SortedRaysAreTheSameRaysAndMoreCoherent) {
+  const scenes::Scene scene = scenes::load_scene("balls:n=1");
+  for (const char* kind : {"shadow", "reflection", "diffuse", "ao", "path", "random"}) {
+    const TraceInput list = input_over(scene, kind);
+    const TraceInput sorted = input_over(scene, fmt::format("{}:order=sorted", kind));
+    std::vector<std::string> all = texts_of(list), also = texts_of(sorted);
+    std::ranges::sort(all);
+    std::ranges::sort(also);
+    EXPECT_EQ(all, also) << kind;
+    EXPECT_NE(fingerprint(list), fingerprint(sorted)) << kind;
+    EXPECT_TRUE(sorted.list()->pencils.empty()) << kind;
+    if (std::string_view(kind) == "shadow") continue;  // of few lights: coherent as they are
+    EXPECT_GT(coherence(sorted), coherence(list)) << kind;
+  }
+}
+
+TEST(Order, ImagesHaveNone) {
+  EXPECT_THROW(parse_ray_choice("primary:order=sorted"), InputError);
+  EXPECT_THROW(parse_ray_choice("whitted:order=sorted"), InputError);
+}
+
 /// One sphere, lit from two sides and seen from the front.
 scenes::Scene lonely_sphere() {
   scenes::SceneBuilder builder("sphere");

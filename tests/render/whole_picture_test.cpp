@@ -53,7 +53,7 @@ std::uint64_t ray_count(const measure::CountedWork& work) {
 TEST(WholePicture, EveryStructureIsRightInEveryRay) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const measure::CellGroup group = group_of(scene_of_all_surfaces(seed));
-    const auto task = measure::make_task(group, -1, std::nullopt);
+    const auto task = measure::make_task(group, group.rays, -1, std::nullopt);
     std::uint64_t expected = 0;
     for (const char* spec : {"exhaustive", "samet", "samet-net", "voxel-grid", "goldsmith-salmon",
                              "sah-bvh", "beam", "tile-beam", "embree"}) {
@@ -71,7 +71,7 @@ TEST(WholePicture, EveryStructureIsRightInEveryRay) {
 
 TEST(WholePicture, CountsWorkByKindOfRays) {
   const measure::CellGroup group = group_of(scene_of_all_surfaces(2));  // with glass
-  const auto task = measure::make_task(group, -1, std::nullopt);
+  const auto task = measure::make_task(group, group.rays, -1, std::nullopt);
   const auto structure = choice("exhaustive").build(task->scene());
   task->trace(*structure);
   const std::uint64_t timed = task->fingerprint();
@@ -99,7 +99,7 @@ TEST(WholePicture, CountsWorkByKindOfRays) {
 
 TEST(WholePicture, ItsFactsAreThoseOfTheOraclesPicture) {
   const measure::CellGroup group = group_of(scenes::load_scene("balls:n=1"));
-  const auto task = measure::make_task(group, -1, std::nullopt);
+  const auto task = measure::make_task(group, group.rays, -1, std::nullopt);
   const measure::RaySetFacts& facts = task->facts();
   EXPECT_EQ(facts.scene_hash, 7U);
   EXPECT_EQ(facts.query, rays::Query::kPicture);
@@ -110,9 +110,11 @@ TEST(WholePicture, ItsFactsAreThoseOfTheOraclesPicture) {
   EXPECT_GT(facts.hit_share.value(), 0.2);
   EXPECT_LT(facts.occluded_share.value(), 0.9);
   EXPECT_FALSE(facts.coherence);
-  EXPECT_EQ(measure::make_task(group, -1, std::nullopt)->facts().rays_hash, facts.rays_hash);
+  EXPECT_EQ(measure::make_task(group, group.rays, -1, std::nullopt)->facts().rays_hash,
+            facts.rays_hash);
   const measure::CellGroup shallow = group_of(scenes::load_scene("balls:n=1"), "whitted:depth=1");
-  EXPECT_NE(measure::make_task(shallow, -1, std::nullopt)->facts().rays_hash, facts.rays_hash);
+  EXPECT_NE(measure::make_task(shallow, shallow.rays, -1, std::nullopt)->facts().rays_hash,
+            facts.rays_hash);
 }
 
 /// `exhaustive`, with occasional errors, but only when it traces single rays.
@@ -144,7 +146,7 @@ class WrongAlone : public accel::TraversalAccelerator<WrongAlone> {
 
 TEST(WholePicture, AWrongRayThatFollowsIsFoundAndNamed) {
   const measure::CellGroup group = group_of(scene_of_all_surfaces(1));  // without glass
-  const auto task = measure::make_task(group, -1, std::nullopt);
+  const auto task = measure::make_task(group, group.rays, -1, std::nullopt);
   for (const auto& [in, name] : {std::pair{WrongAlone::In::kClosest, "reflected rays, ray "},
                                  std::pair{WrongAlone::In::kAny, "shadow rays, ray "}}) {
     const WrongAlone structure(task->scene(), in);

@@ -173,7 +173,7 @@ void expect_right_views(std::uint64_t exhibits) {
   for (std::uint64_t seed = 1; seed <= exhibits; ++seed) {
     Exhibit exhibit(bodies, seed);
     const scenes::Scene& scene = exhibit.scene();
-    const TileBeam culling(scene, {});
+    const TileBeam culling(scene, {.backface_culling = true});
     const TileBeam drawing_all(scene, {.backface_culling = false});
     solids += culling.hierarchy().solids.solids.size();
     EXPECT_TRUE(drawing_all.hierarchy().solids.solids.empty());

@@ -170,6 +170,7 @@ Json facts_json(const CellRecord& cell) {
             {"ray_kind", cell.id.rays},
             {"ray_set", rays_json(cell.rays)},
             {"counters", cell.work.counters}};
+  if (cell.parameter_sets > 1) json["parameter_sets"] = cell.parameter_sets;
   if (!cell.work.kinds.empty()) json["ray_kinds"] = kinds_json(cell.work.kinds);
   if (cell.statistics) json["statistics"] = statistics_json(*cell.statistics);
   add(json, "allocated_bytes", cell.allocated_bytes);
@@ -190,6 +191,7 @@ void read_facts(const Json& event, CellRecord& cell) {
   event.at("samples").get_to(cell.id.samples);
   event.at("ray_kind").get_to(cell.id.rays);
   cell.rays = read_rays(event.at("ray_set"));
+  cell.parameter_sets = event.value("parameter_sets", 1);
   event.at("counters").get_to(cell.work.counters);
   cell.work.kinds.clear();
   for (const Json& kind : event.value("ray_kinds", Json::array())) {

@@ -150,7 +150,10 @@ struct CellRecord {
   std::size_t index;  ///< in the plan of the whole sweep: the order of rows
   CellId id;
   RaySetFacts rays;
-  int shard = 0;             ///< that measured it; 0: the run is no merged one
+  int shard = 0;  ///< that measured it; 0: the run is no merged one
+  /// The number of its contender's parameter sets that were tried on the tuning camera
+  /// (tuning.hpp); 1: it was measured as it was given.
+  int parameter_sets = 1;
   std::string time_utc;      ///< when it was finished
   bool is_finished = false;  ///< it needs no further repetition
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <set>
@@ -84,6 +85,8 @@ class Reader {
       run_.manifest = event.at("manifest");
     } else if (is_of_cell(kind)) {
       apply(event, cell_of(event));
+    } else if (kind == "tuning") {
+      pass_over(event);
     } else if (kind == "block") {
       read_load(event);
     } else if (kind == "warning") {
@@ -124,6 +127,17 @@ class Reader {
     for (const Json& planned : event.at("plan")) {
       run_.plan.push_back({planned.at(0).get<std::size_t>(), planned.at(1).get<std::string>()});
     }
+  }
+
+  /// Moves the cells that were tried but not kept from the plan.
+  void pass_over(const Json& event) {
+    std::set<std::size_t> others;
+    for (const Json& each : event.at("candidates"))
+      others.insert(each.at("index").get<std::size_t>());
+    for (const Json& index : event.at("kept")) others.erase(index.get<std::size_t>());
+    const auto is_other = [&](const PlannedName& cell) { return others.contains(cell.index); };
+    std::ranges::copy_if(run_.plan, std::back_inserter(run_.passed_over), is_other);
+    std::erase_if(run_.plan, is_other);
   }
 
   CellRecord& cell_of(const Json& event) {

@@ -4,6 +4,7 @@
 // One JSON object a line, in the order of events, never rewritten:
 //   header        schema_version, manifest, config, plan: index and name of each cell
 //   resumed       manifest: the run goes on in another process
+//   tuning        the parameter sets of tuned contenders in a view: camera, times, the cells kept
 //   block         the contenders of a view are measured in a new process: its number, the load
 //   cell          the timing of a cell begins: what it is, its rays, its counters and sizes;
 //                 in logs without repetitions, `columns`: figures of results.csv made from them
@@ -54,7 +55,8 @@ struct Run {
   /// The manifest, updated by later events: warnings, throttling, the end.
   nlohmann::ordered_json manifest;
   nlohmann::json config;
-  std::vector<PlannedName> plan;
+  std::vector<PlannedName> plan;         ///< without the cells that tuning left out
+  std::vector<PlannedName> passed_over;  ///< by tuning: other parameter sets were faster
   /// The cells that were begun, in the order of the plan. A cell that is not finished has the
   /// verdict of its verification, and is missing before it.
   std::vector<CellRecord> cells;

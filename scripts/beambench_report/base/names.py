@@ -21,8 +21,11 @@ def with_names(rows: pd.DataFrame) -> pd.DataFrame:
     the rays see, the scene and what else varies. `view`: the same on one machine, what is compared.
     """
     facts = rows[list(_NAMED)].assign(
-        samples=rows["samples"].fillna(0).astype(int), machine_id=rows.get("machine_id", "")
+        samples=rows["samples"].fillna(0).astype(int),
+        machine_id=rows.get("machine_id", ""),
+        parameter_sets=rows.get("parameter_sets", 1),
     )
+    facts["parameter_sets"] = facts["parameter_sets"].fillna(1).astype(int)
     # Lists, because iterating over a column takes three calls for each of its fields.
     names = name_cells(list(zip(*(facts[name].tolist() for name in facts), strict=True)))
     found = pd.DataFrame(names, columns=["contender", "subject", "view"], index=rows.index)

@@ -120,6 +120,8 @@ def read_run(directory: Path) -> Run:
         if len(empty) > 0:
             raise Problem(f"{path}, row {empty[0] + 2}: {name} is empty")
 
+    if "outpaced" in rows:  # another parameter set stands for the contender
+        rows = rows[rows["outpaced"] != "true"].reset_index(drop=True)
     try:
         rows = with_names(rows)
     except InputError as error:
