@@ -519,7 +519,7 @@ TEST_F(Sweep, TunedContendersAreMeasuredWithTheirTwoFastestParameterSets) {
 TEST_F(Sweep, ATunedRunIsResumedWithTheSetsThatWereChosen) {
   const json tuned{
       {"structure", "samet"}, {"parameters", {{"max_level", {1, 2, 3, 4}}}}, {"tune", true}};
-  const json document = config({tuned});
+  const json document = config(json::array({tuned}));
   run(document);
   const std::string table = read_text(results() / "results.csv");
   EXPECT_EQ(run(document, true).planned, 2U);
@@ -538,7 +538,7 @@ TEST_F(Sweep, AParameterSetThatCannotBeBuiltLosesTheTuning) {
                      return accel::registry().choose({"exhaustive", {}}).build(scene);
                    }});
   const json tuned{{"structure", "picky"}, {"parameters", {{"n", {0, 1, 2}}}}, {"tune", true}};
-  EXPECT_EQ(run(config({tuned})).failed, 0U);
+  EXPECT_EQ(run(config(json::array({tuned}))).failed, 0U);
   const json tuning = log_events(results(), "tuning").front();
   EXPECT_EQ(tuning["kept"], json({2}));
   EXPECT_EQ(tuning["candidates"][0]["error"], "n is too small");
