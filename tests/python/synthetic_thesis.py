@@ -14,7 +14,7 @@ Change = Callable[[Row], Row]
 
 _OCTREE = "max_level=6,max_objects=0,root=cube,assign=surface,pad=1e-06,max_references=50000000"
 CANONICAL = {
-    "beam": f"{_OCTREE},handover=0,continue=rays,share_corners=false",
+    "beam": f"{_OCTREE},handover=0,continue=rays,share_corners=false,leaf=exact",
     "samet": _OCTREE,
     "samet-net": _OCTREE,
     "voxel-grid": "resolution=auto,density=4,fill=eager,mailboxes=false,max_voxels=100000000",

@@ -341,6 +341,7 @@ def test_a_time_of_few_repetitions_is_taken_to_be_vague(tmp_path: Path) -> None:
     "row",
     [
         row_of("beam", BEAM.replace("handover=0", "handover=48")),
+        row_of("beam", f"{BEAM},leaf=simd"),
         row_of("beam", BEAM.replace("continue=rays", "continue=beams")),
         row_of("beam", BEAM.replace("max_level=6", "max_level=auto")),
         row_of("voxel-grid", LAZY.replace("lazy", "eager")),

@@ -48,7 +48,7 @@ def test_a_dry_run_lists_sweeps_cells_and_time(capsys: pytest.CaptureFixture[str
     assert run_thesis("--dry-run") == 0
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) == 16
-    assert lines[0].split() == ["synthetic", "80", "cells", "3", "min", "20", "s"]
+    assert lines[0].split() == ["synthetic", "90", "cells", "3", "min", "20", "s"]
     assert lines[-1].startswith("in all")
     assert run_thesis("--dry-run", "--table", "5.4", "--quick") == 0
     assert len(capsys.readouterr().out.splitlines()) == 3
@@ -84,7 +84,7 @@ def test_each_sweep_is_run_once_and_a_finished_one_never_again(
     assert calls(stand_in) == [
         f"run {run}/sweeps/{name}.json -o {run}/{name}" for name in ("synthetic", "best-synthetic")
     ]
-    assert "== run 1 of 2: synthetic: 80 cells" in capsys.readouterr().err
+    assert "== run 1 of 2: synthetic: 90 cells" in capsys.readouterr().err
     # A run interrupted in the middle continues; the finished one is left alone.
     (run / "best-synthetic" / "manifest.json").write_text('{"finished_utc": null}')
     assert run_thesis("--resume", run, "--dry-run") == 0
@@ -150,7 +150,7 @@ def test_a_small_real_run_leaves_a_report(tmp_path: Path, monkeypatch: pytest.Mo
     run = tmp_path / "run"
     assert run_thesis("--table", "5.4", "-o", run, "--beambench", BINARY) == 0
     text = (run / "report.md").read_text()
-    assert "18 cells in 2 runs, all with correct hits." in text
+    assert "19 cells in 2 runs, all with correct hits." in text
     assert "### Table 5.4" in text
     assert (run / "figures" / "figure-5.12.svg").exists()
     assert (run / "synthetic" / "results.csv").exists()

@@ -133,9 +133,9 @@ def test_the_best_is_the_quickest_by_cycles_of_those_that_were_right(everything:
     assert grid.tried == 11
     assert not grid.is_edge
     assert grid.ratio.value == pytest.approx((20 + 1.5 * 131.072) / (5 + 131.072))
-    beam = named["beams (Tr. Haces), handover=0"].choices[1]
+    beam = named["beams (Tr. Haces), handover=0, leaf=exact"].choices[1]
     assert (beam.parameters, beam.tried, beam.ratio.value) == ("max_level=6", 5, 1.0)
-    assert named["beams (Tr. Haces), any handover"].choices[1].tried == 10
+    assert named["beams (Tr. Haces), with today's means"].choices[1].tried == 11
     assert named["embree"].choices[0].parameters == ""
 
 
@@ -264,7 +264,7 @@ def test_a_run_that_cannot_be_read_is_told_and_the_others_are_shown(tmp_path: Pa
     write_report(run, plan)
     text = (run / "report.html").read_text()
     assert "best-synthetic/results.csv" in text
-    assert "80 cells in 1 runs" in text
+    assert "90 cells in 1 runs" in text
 
 
 def test_a_plan_of_before_a_figure_was_drawn_shows_it_too(tmp_path: Path) -> None:

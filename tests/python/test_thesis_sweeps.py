@@ -24,7 +24,13 @@ from beambench_thesis.report.plan import (
 from program import BINARY, beambench
 
 REPOSITORY = Path(__file__).resolve().parents[2]
-DEFAULTS = {"max_level": "6", "max_objects": "0", "handover": "0", "insert": "everywhere"}
+DEFAULTS = {
+    "max_level": "6",
+    "max_objects": "0",
+    "handover": "0",
+    "insert": "everywhere",
+    "leaf": "simd",
+}
 THESIS = {
     "voxel-grid": {"resolution": "32", "fill": "lazy"},
     "goldsmith-salmon": {"order": "given", "queue": "heap", "insert": "terminal"},
@@ -47,6 +53,8 @@ def parameters(cell: PlannedCell) -> dict[str, str]:
 def is_wanted(cell: PlannedCell, row: dict[str, str]) -> bool:
     given = parameters(cell)
     octree = {"max_level": row["max_level"], "max_objects": row["max_objects"] or "0"}
+    if row["algorithm"] == "beam":
+        octree["leaf"] = "exact"
     wanted = THESIS.get(row["algorithm"], octree | {"handover": "0"})
     return (
         cell.scene == row["scene"]

@@ -55,8 +55,7 @@ def best_table(part: PrintedPart, cells: Cells) -> BestTable | None:
     for name in structures:
         for label, only in _pools(name):
             found = (
-                [c for c in cells.of(part.scene, name, at) if only.items() <= c.parameters.items()]
-                for at in resolutions
+                [c for c in cells.of(part.scene, name, at) if _has(c, only)] for at in resolutions
             )
             lines.append(BestLine(label, name, tuple(map(choose, found))))
     lines = [line for line in lines if any(choice.cell for choice in line.choices)]
@@ -100,14 +99,23 @@ def _is_edge(best: Cell, timed: Sequence[Cell]) -> bool:
     return False
 
 
+def _has(cell: Cell, values: dict[str, str]) -> bool:
+    """Has a cell these values of the parameters that its version had?"""
+    return all(cell.parameters.get(name, value) == value for name, value in values.items())
+
+
 def _pools(structure: str) -> list[tuple[str, dict[str, str]]]:
     """Returns the forms of a contender: the thesis's own, and the best where we have others.
 
-    The thesis's beams hand nothing over; its hierarchy places objects beside terminal nodes.
+    The thesis's beams hand nothing over and test samples one by one; its hierarchy places objects beside terminal nodes.
     """
     title = contender_title(structure)
     if structure == "beam":
-        return [(f"{title}, handover=0", {"handover": "0"}), (f"{title}, any handover", {})]
+        of_thesis = {"handover": "0", "leaf": "exact"}
+        return [
+            (f"{title}, handover=0, leaf=exact", of_thesis),
+            (f"{title}, with today's means", {}),
+        ]
     if structure == "goldsmith-salmon":
         return [(f"{title}, insert=terminal", {"insert": "terminal"}), (f"{title}, any insert", {})]
     return [(title, {})]
@@ -120,7 +128,8 @@ def _is_second_pass(part: PrintedPart, cells: Cells, resolution: str) -> bool:
         cell.setting not in own
         for name in part.structures
         for cell in cells.of(part.scene, name, resolution)
-        if cell.run.startswith("best-") or cell.setting is None
+        if cell.run.startswith("best-")
+        or (cell.setting is None and cell.parameters.get("leaf") != "simd")
     )
 
 

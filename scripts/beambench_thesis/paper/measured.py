@@ -38,7 +38,9 @@ from beambench_thesis.paper.evidence import (
 # that the claims do not speak of. Level, objects and voxels are settings of their own.
 _OCTREE = {"root": "cube", "assign": "surface"}
 _THESIS = {
-    "beam": _OCTREE | {"handover": "0", "continue": "rays", "share_corners": "false"},
+    # Its beams test the samples of a leaf as rays are tested; SIMD is another idea (leaf=simd).
+    "beam": _OCTREE
+    | {"handover": "0", "continue": "rays", "share_corners": "false", "leaf": "exact"},
     "samet": _OCTREE,
     "samet-net": _OCTREE,
     "voxel-grid": {"fill": "lazy", "mailboxes": "false"},
