@@ -13,14 +13,16 @@ from beambench_report.__main__ import main
 from beambench_report.base.files import Problem
 from beambench_report.base.palette import PAPER, structure_color
 from beambench_report.base.records import read_run
-from beambench_report.embree_comparison.pairings import Pairing, pairings
+from beambench_report.embree_comparison.pairings import Pairing, headlines, pairings
 from beambench_report.embree_comparison.plots import plots
-from beambench_report.embree_comparison.report import as_markdown, outcome
+from beambench_report.embree_comparison.report import as_markdown
+from beambench_report.embree_comparison.results import outcome
 from beambench_report.embree_comparison.targets import groups
 from program import output_of
 from svg_texts import missing_in
 from synthetic_run import write_run, write_trace_cell
 
+BACKS_DRAWN = "backface_culling=false"
 REPOSITORY = Path(__file__).resolve().parents[2]
 Row = dict[str, object]
 
@@ -92,31 +94,78 @@ def test_the_fastest_right_mode_counts(tmp_path: Path) -> None:
     assert pairing.second_ratio == Ratio(pytest.approx(8.5))
 
 
-def test_the_backs_of_solids_are_a_ratio_of_their_own(tmp_path: Path) -> None:
-    rows = [
+def with_and_without_backs() -> list[Row]:
+    return [
         made
         for scene in groups()[0].scenes
         for made in (
-            row("tile-beam", 1.5, scene=scene),
+            row("tile-beam", 1, scene=scene, backface_culling="true"),
             row("tile-beam", 3, scene=scene, backface_culling="false"),
             row("embree", 12, scene=scene, mode="stream"),
         )
     ]
-    found = duels_of(tmp_path, *rows)
-    assert [one.ratio.value for one in found] == [8] * 6
-    assert [one.unculled_ratio.value for one in found if one.unculled_ratio] == [4] * 6
+
+
+def test_the_headline_draws_the_backs_of_solids(tmp_path: Path) -> None:
+    found = duels_of(tmp_path, *with_and_without_backs())
+    assert sorted(one.ratio.value for one in found) == [4] * 6 + [12] * 6
+    assert [one.ratio.value for one in headlines(found)] == [4] * 6
     text = as_markdown(found)
-    assert "| geometric mean, backs of solids drawn | 4.00" in text
-    assert "Embree is not given" in text
-    (only,) = duels_of(tmp_path, *rows[1:3])
-    assert only.ratio == only.unculled_ratio
-    assert only.ratio.value == 4
+    assert "| tetra, 4 k | 4.00 (3.47 to 4.61), target 8: missed |" in text
+    assert "| **geometric mean, first traces** | 4.00 (3.77 to 4.24), target 12: missed |" in text
+    assert "| geometric mean, backs left out | 12.0" in text
+    assert "| stream | 12.0 | 3.00 | 4.00 (3.47 to 4.61) |" in text
+    assert "Closed solids: neither." in text
 
 
-def test_closedness_is_named_where_it_was_measured(tmp_path: Path) -> None:
-    text = as_markdown(duels_of(tmp_path, *all_triangles(1.5)))
-    assert "backs of solids drawn" not in text
-    assert "Closedness" not in text
+def test_without_the_backs_of_solids_a_target_cannot_be_met(tmp_path: Path) -> None:
+    rows = [made for made in with_and_without_backs() if made["parameters"] != BACKS_DRAWN]
+    text = as_markdown(duels_of(tmp_path, *rows))
+    assert "| tetra, 4 k | 12.0 (10.4 to 13.8), target 8: open, backs left out |" in text
+    assert "| **geometric mean, first traces** | 12.0 (11.3 to 12.7), target 12: open, b" in text
+    assert "for single scenes, 0 of 6 are met, 6 open and 0 missed" in text
+    assert "Closed solids: `tile-beam`, where a table says so." in text
+
+
+def test_an_older_run_with_the_backs_of_solids_is_the_headline(tmp_path: Path) -> None:
+    both = with_and_without_backs()[:3]
+    runs = []
+    for name, rows in (("a-1", both), ("b-2", [both[0], both[2]])):
+        (tmp_path / name).mkdir()
+        named = [made | {"run_id": name} for made in rows]
+        runs.append(read_run(write_run(tmp_path / name, named)))
+    found = pairings(runs)
+    assert {(one.run_id, one.ratio.value) for one in found} == {("a-1", 4), ("b-2", 12)}
+    assert [one.run_id for one in headlines(found)] == ["a-1"]
+
+
+def test_lines_of_sizes_are_of_one_way_to_draw(tmp_path: Path) -> None:
+    rows = [
+        made
+        for size in (10, 20, 40, 80, 160)
+        for made in bumpy(size, "a-1", "1" * 40, backface_culling="true")
+    ]
+    rows += bumpy(40, "a-1", "1" * 40, backface_culling="false")[:1]
+    (plot,) = (one for one in plots(duels_of(tmp_path, *rows)) if "scaling" in one.stem)
+    assert plot.figure.axes[0].get_title() == "bumpy, 1280x1024, no backs"
+
+
+def test_the_report_states_what_each_side_has(tmp_path: Path) -> None:
+    tuned = {"parameter_sets": 8}
+    rows = [
+        row("tile-beam", 2, kind="shadow"),
+        row("embree", 12, kind="shadow", mode="stream") | tuned,
+        row("embree", 6, kind="shadow:order=sorted", mode="stream") | tuned,
+    ]
+    (pairing,) = found = duels_of(tmp_path, *rows)
+    assert (pairing.kind, pairing.ratio.value) == ("shadow", 3)
+    assert pairing.embree.contender == "stream (best of 8), sorted rays"
+    text = as_markdown(found)
+    assert "SIMD: both. Tuned parameters: Embree, by its times from another camera" in text
+    assert "Sorted rays: both, where they are faster." in text
+    neither = as_markdown(duels_of(tmp_path, *(made for made in with_and_without_backs())))
+    assert "Tuned parameters: Embree, the fastest of up to 1 mode by the times below" in neither
+    assert "Sorted rays: neither." in neither
 
 
 def test_images_and_instruction_sets_are_kept_apart(tmp_path: Path) -> None:
@@ -167,7 +216,7 @@ def test_an_image_that_two_runs_measured_counts_once_by_the_newest(tmp_path: Pat
     for order in (runs, runs[::-1]):
         (pairing,) = pairings(order)
         assert (pairing.run_id, pairing.ratio.value) == ("20261122-2", 4)
-        assert "Of 1 targets for single scenes" in as_markdown([pairing])
+        assert "for single scenes, 0 of 1 are met" in as_markdown([pairing])
 
 
 def test_no_scene_is_in_two_groups() -> None:
@@ -209,38 +258,38 @@ def all_triangles(tile: float, isa: str = "best") -> list[Row]:
 
 def test_the_report_tells_what_is_met(tmp_path: Path) -> None:
     text = as_markdown(duels_of(tmp_path, *all_triangles(1.2)))
-    assert "| tetra, 4 k | 10.0 (9.86 to 10.1) met |" in text
-    assert "| **geometric mean, first traces** | 10.0 (9.94 to 10.1) missed |" in text
+    assert "| tetra, 4 k | 10.0 (9.86 to 10.1), target 8: met |" in text
+    assert "| **geometric mean, first traces** | 10.0 (9.94 to 10.1), target 12: missed |" in text
     assert "| geometric mean, second traces | 10.0 |" in text
-    assert "*at least 12*" in text
+    assert "95% confidence interval" in text
     assert "## Both on AVX-512" in text
-    assert "Of 6 targets for single scenes, 6 are met, 0 open, 0 missed, by first traces." in text
+    scenes = "for single scenes, 6 of 6 are met, 0 open and 0 missed"
+    assert f"{scenes}; for geometric means, 0 of 1 are met, 0 open and 1 missed." in text
     assert "(not paired)" in text
     assert "run 20261122-100000-beat-embree, commit 0123456789ab, machine feedfeed" in text
 
 
 def test_half_the_aims_hold_where_both_are_held_to_less(tmp_path: Path) -> None:
     text = as_markdown(duels_of(tmp_path, *all_triangles(1.5, isa="avx2")))
-    assert "| **geometric mean, first traces** | 8.00 (7.95 to 8.05) met |" in text
-    assert "*at least 6*" in text
+    assert "| **geometric mean, first traces** | 8.00 (7.95 to 8.05), target 6: met |" in text
 
 
 def test_a_mean_of_some_scenes_is_not_judged(tmp_path: Path) -> None:
     text = as_markdown(duels_of(tmp_path, *all_triangles(1.5)[:4]))
-    assert "| **geometric mean, first traces** | 8.00 (7.92 to 8.08) of 2 scenes |" in text
+    assert "| **geometric mean, first traces** | 8.00 (7.92 to 8.08), of 2 scenes |" in text
 
 
 def test_a_mean_without_an_interval_is_open(tmp_path: Path) -> None:
     rows = all_triangles(1.5)
     rows[0] |= {"trace_ms_ci_low": "", "trace_ms_ci_high": ""}
     text = as_markdown(duels_of(tmp_path, *rows))
-    assert "| **geometric mean, first traces** | 8.00 open |" in text
+    assert "| **geometric mean, first traces** | 8.00, target 12: open |" in text
 
 
 def test_a_ratio_near_its_aim_shows_on_which_side_it_is(tmp_path: Path) -> None:
     rows = [row("tile-beam", 1), row("embree", 8.004, mode="single")]
     text = as_markdown(duels_of(tmp_path, *rows))
-    assert "| tetra, 4 k | 8.004 (6.94 to 9.23) open |" in text
+    assert "| tetra, 4 k | 8.004 (6.94 to 9.23), target 8: open |" in text
 
 
 def test_weak_baselines_and_what_is_compared_are_named(tmp_path: Path) -> None:
@@ -289,10 +338,10 @@ def test_plots_follow_what_was_measured(tmp_path: Path) -> None:
     assert [plot.stem for plot in plots(many)] == stems
 
 
-def bumpy(size: int, run_id: str, commit: str) -> list[Row]:
+def bumpy(size: int, run_id: str, commit: str, **parameters: str) -> list[Row]:
     scene = {"scene": f"bumpy:triangles={size}", "run_id": run_id, "commit": commit}
     return [
-        row("tile-beam", size, primitives=size) | scene,
+        row("tile-beam", size, primitives=size, **parameters) | scene,
         row("embree", 3 * size, primitives=size, mode="single") | scene,
     ]
 
@@ -387,9 +436,9 @@ def test_kinds_of_rays_have_targets_of_their_own(tmp_path: Path) -> None:
     assert [one.kind for one in found] == ["shadow", "mirror"]
     report = as_markdown(found)
     shadows = report[report.index("### Shadow rays") : report.index("### Rays from small")]
-    assert "2.00 (1.74 to 2.31) missed" in shadows
+    assert "2.00 (1.74 to 2.31), target 2.5: missed" in shadows
     mirrors = report[report.index("### Rays from small") : report.index("## All rays")]
-    assert "2.00 (1.74 to 2.31) met" in mirrors
+    assert "2.00 (1.74 to 2.31), target 0.9: met" in mirrors
 
 
 def test_pictures_are_compared_without_their_shading(tmp_path: Path) -> None:

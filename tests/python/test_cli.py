@@ -94,7 +94,7 @@ def test_list_as_json_says_all_of_each_parameter() -> None:
 @pytest.mark.parametrize(
     ("name", "words", "others"),
     [
-        ("samet", ["max_level=", "neighbor_steps", "[bit-exact]"], ["sah-bvh", "balls"]),
+        ("samet", ["max_level=", "neighbor_steps", "[bit-exact, no SIMD]"], ["sah-bvh", "balls"]),
         ("samet:max_level=4", ["max_level="], ["sah-bvh"]),
         ("balls", ["n=4", "balls:parameter"], ["samet", "tetra"]),
         ("diffuse", ["seed=", "--rays"], ["shadow rays", "samet"]),

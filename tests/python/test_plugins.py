@@ -170,7 +170,7 @@ def test_an_adapter_states_the_commit_of_its_library_alone(prefix: Path, tmp_pat
 
 def test_list_says_what_is_brought_and_by_whom(template: Path, faulty: Path) -> None:
     text = call("--plugin", template, "list", "--plugin", faulty).stdout
-    assert f"mine  [bit-exact]  (of {template})" in text
+    assert f"mine  [bit-exact, no SIMD]  (of {template})" in text
     assert f"helix  (of {template})" in text
     assert f"*.row  (of {faulty})" in text
     assert "A hierarchy to start from" in text

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 TEXT_COLUMNS = (
     "run_id time_utc commit machine_id build_type flags isa structure_isa "
     "library_version library_geometry scene camera scene_hash rays_hash structure parameters "
-    "ray_kind query query_path stop_reason trace_clock verdict"
+    "ray_kind order query query_path stop_reason trace_clock verdict"
 ).split()
 
 

@@ -34,6 +34,16 @@ class Standing:
     """Its trace time over that of the fastest."""
     rank: str
     """"tied" with the fastest, clearly "behind" it, "undecided", or "unranked"."""
+    variant: str = ""
+    """Of a tuned contender, the parameters that stand for it: `embree:mode=stream`."""
+    isa: str = ""
+    """The instruction set of its SIMD code; empty: it has none."""
+
+    @property
+    def name(self) -> str:
+        """The contender; where it is tuned, with its parameters."""
+        note = self.contender.removeprefix(self.structure)
+        return f"{self.variant}{note}" if self.variant else self.contender
 
     @property
     def is_tied(self) -> bool:

@@ -12,6 +12,8 @@ from beambench.analysis import name_cells
 # Lists the plots of a run for programs, as plots/README.md does for people.
 PLOT_INDEX = "index.json"
 _NAMED = ("scene", "camera", "structure", "parameters", "samples", "ray_kind")
+_SORTED = "order=sorted"
+_RAY_FILES = (".rays", ".csv")
 
 
 def with_names(rows: pd.DataFrame) -> pd.DataFrame:
@@ -19,6 +21,7 @@ def with_names(rows: pd.DataFrame) -> pd.DataFrame:
 
     `contender`: the structure, with those parameters that differ between its rows. `subject`: what
     the rays see, the scene and what else varies. `view`: the same on one machine, what is compared.
+    `kind`: the rays, in whatever order.
     """
     facts = rows[list(_NAMED)].assign(
         samples=rows["samples"].fillna(0).astype(int),
@@ -29,7 +32,20 @@ def with_names(rows: pd.DataFrame) -> pd.DataFrame:
     # Lists, because iterating over a column takes three calls for each of its fields.
     names = name_cells(list(zip(*(facts[name].tolist() for name in facts), strict=True)))
     found = pd.DataFrame(names, columns=["contender", "subject", "view"], index=rows.index)
+    found["kind"] = rows["ray_kind"].map(without_order)
     return pd.concat([rows, found], axis="columns").copy()  # in one piece: it had many columns
+
+
+def without_order(label: str) -> str:
+    """Returns the label of rays without their order: `diffuse` for `diffuse:order=sorted`.
+
+    Both orders of a list are one view (harness/rays/ray_kind.cpp divides labels likewise).
+    """
+    kind, _, text = label.partition(":")
+    if _SORTED not in text.split(",") or label.endswith(_RAY_FILES):
+        return label
+    kept = ",".join(item for item in text.split(",") if item != _SORTED)
+    return f"{kind}:{kept}" if kept else kind
 
 
 def machine_label(machine_id: str) -> str:

@@ -36,9 +36,8 @@ FAULTLESS_VERDICTS = (*TIMED_VERDICTS, NO_RAYS, UNSUPPORTED)
 class Run:
     """One run: one row per cell, as in results.csv, and the names that plots and pages use.
 
-    Columns added to those of the file: `contender` (label of structure and parameters), `subject`
-    (title of what the rays see), `view` (the same on one machine: what is compared) and `timed` (do
-    the row's times count?).
+    Columns added to those of the file: those of `with_names`, and `timed` (do the row's times
+    count?).
     """
 
     directory: Path

@@ -8,7 +8,7 @@ from matplotlib.ticker import FuncFormatter, NullLocator
 
 from beambench_report.base.figure import Look, Plot, variant_look, write_below
 from beambench_report.base.palette import INK, PAPER
-from beambench_report.embree_comparison.pairings import Pairing
+from beambench_report.embree_comparison.pairings import Pairing, in_one_way
 from beambench_report.run.panels import (
     chunks,
     hide_repeated_labels,
@@ -25,7 +25,8 @@ _MOST_LINES = 3
 _PANEL_HEIGHT = 2.5  # inches
 _EMBREE, _TILE = "Embree's fastest mode", "tile-beam"
 _STRUCTURES = {_EMBREE: "embree", _TILE: "tile-beam"}
-_READING = "First traces after a build. Bars: 95% intervals, where there are any."
+_READING = "First traces after a build. Bars: 95% confidence intervals, where there are any."
+NO_BACKS = " No backs: tile-beam left out the backs of solids, which Embree cannot."
 _NEWEST = "An image that several runs measured is drawn once, by the newest of them."
 
 
@@ -61,9 +62,10 @@ def growth(found: Sequence[Pairing], axis: Axis) -> list[Plot]:
     lines: dict[str, list[Pairing]] = {}
     for pair in sorted(found, key=axis.size):
         lines.setdefault(axis.line(pair), []).append(pair)
+    alike = {name: in_one_way(own, axis.size) for name, own in lines.items()}
     long = [
-        (name, own)
-        for name, own in lines.items()
+        (f"{name}{', no backs' * own[0].is_culled}", own)
+        for name, own in alike.items()
         if len({axis.size(one) for one in own}) >= _MIN_SIZES
     ]
     return [
@@ -92,7 +94,11 @@ def _growth(stem: str, lines: Mapping[str, Sequence[Pairing]], axis: Axis) -> Pl
     if len(commits) > 1:
         which = f" Filled: commit {commits[-1]}; hollow: {' and '.join(commits[:-1])}."
     write_below(
-        figure, [f"{_READING}{which} {_NEWEST}", *dict.fromkeys(pair.origin for pair in drawn)]
+        figure,
+        [
+            f"{_READING}{NO_BACKS * any(one.is_culled for one in drawn)}{which} {_NEWEST}",
+            *dict.fromkeys(pair.origin for pair in drawn),
+        ],
     )
     return Plot(
         stem,

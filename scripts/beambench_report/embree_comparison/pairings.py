@@ -1,6 +1,6 @@
 """The times of tile beams and of the fastest Embree mode with correct hits, on the same rays."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import pandas as pd
@@ -38,9 +38,10 @@ class Trace:
 
 @dataclass(frozen=True)
 class Pairing:
-    """Both at the same rays. Ratios are Embree's time over that of tile beams, without builds.
+    """Both contenders on the same rays, in either order of a list, each at its fastest.
 
-    Of whole pictures, the times are without shading.
+    Ratios are Embree's time over that of tile beams, without builds. Times of whole pictures are
+    without shading.
     """
 
     kind: str
@@ -53,31 +54,39 @@ class Pairing:
     samples: int
     isa: str
     """What both are limited to: `best`, or the parameter isa."""
+    is_culled: bool
+    """Did tile beams leave out the backs of solids? Embree is not told that surfaces are closed."""
+    modes: tuple[str, ...]
+    """Embree's modes with correct hits, of which the fastest counts."""
     tile: Trace
     embree: Trace
     ratio: Ratio
     second_ratio: Ratio | None
-    unculled_ratio: Ratio | None
-    """The first ratio where tile beams draw the backs of solids, too; None where not measured."""
     run_id: str
     commit: str
     machine: str
     origin: str
     """Run, commit and machine."""
 
+    @property
+    def image(self) -> tuple:
+        """What was traced, and with which instruction set."""
+        return (self.kind, self.scene, self.camera, self.resolution, self.samples, self.isa)
+
 
 def pairings(runs: Iterable[Run]) -> list[Pairing]:
-    """All rays that both traced with correct hits, once, in the order of the rows.
+    """All rays that both traced with correct hits, in the order of the rows.
 
-    Of rays that several runs measured the newest counts. Raises Problem for runs of several
-    machines, whose ratios one table must not mix.
+    With and without the backs of solids they are two pairings; of several runs that measured one
+    of these, the newest counts. Raises Problem for runs of several machines, whose ratios one
+    table must not mix.
     """
     found: dict[tuple, Pairing] = {}
     for run in runs:
         for one in _pairings_of(run):
-            image = (one.kind, one.scene, one.camera, one.resolution, one.samples, one.isa)
-            if image not in found or one.run_id > found[image].run_id:
-                found[image] = one
+            key = (one.image, one.is_culled)
+            if key not in found or one.run_id > found[key].run_id:
+                found[key] = one
     machines = dict.fromkeys(one.machine for one in found.values())
     if len(machines) > 1:
         raise Problem(
@@ -87,21 +96,39 @@ def pairings(runs: Iterable[Run]) -> list[Pairing]:
     return list(found.values())
 
 
+def headlines(found: Iterable[Pairing]) -> list[Pairing]:
+    """One pairing for each image: with the backs of solids drawn where that was measured."""
+    every = list(found)
+    drawn = {one.image for one in every if not one.is_culled}
+    return [one for one in every if not one.is_culled or one.image not in drawn]
+
+
+def in_one_way(found: Iterable[Pairing], size: Callable[[Pairing], int]) -> list[Pairing]:
+    """The pairings with the backs of solids, or those without, whichever have more sizes."""
+    drawn, culled = ([one for one in found if one.is_culled is way] for way in (False, True))
+    return culled if len(set(map(size, culled))) > len(set(map(size, drawn))) else drawn
+
+
 def _pairings_of(run: Run) -> list[Pairing]:
     images: dict[tuple, dict[str, list[Row]]] = {}
-    right = run.rows[(run.rows["verdict"] == OK) & run.rows["ray_kind"].isin(_KINDS)]
+    right = run.rows[(run.rows["verdict"] == OK) & run.rows["kind"].isin(_KINDS)]
     for row in right.to_dict("records"):
         if row["structure"] in _STRUCTURES and row["trace_ms_median"] > 0:
             both = images.setdefault(_image(row), {name: [] for name in _STRUCTURES})
             both[row["structure"]].append(row)
     whole = {image: both for image, both in images.items() if all(both.values())}
     files = read_cell_files(run.directory) if whole else {}
-    return [_pairing(image[-1], *both.values(), files) for image, both in whole.items()]
+    return [
+        _pairing(image[-1], own, both["embree"], files)
+        for image, both in whole.items()
+        for way in (False, True)
+        if (own := [row for row in both["tile-beam"] if _is_culled(row) is way])
+    ]
 
 
 def _image(row: Row) -> tuple:
     """What both must have in common."""
-    names = ("ray_kind", "scene", "camera", "width", "height", "samples", "machine_id", "run_id")
+    names = ("kind", "scene", "camera", "width", "height", "samples", "machine_id", "run_id")
     own = parameter_items(row["parameters"])
     return (*(row[name] for name in names), own.get("isa", "best"))
 
@@ -109,14 +136,12 @@ def _image(row: Row) -> tuple:
 def _pairing(
     isa: str, tiles: Sequence[Row], modes: Sequence[Row], files: Mapping[Identity, CellFile]
 ) -> Pairing:
-    mode = _fastest(modes)
-    unculled = [row for row in tiles if not _is_culled(row)]
-    row = _fastest([row for row in tiles if _is_culled(row)] or unculled)
+    mode, row = _fastest(modes), _fastest(tiles)
     tile, embree = _trace(row, "tile-beam"), _trace(mode, _mode_name(mode))
     ratio, second = _ratios(mode, row, files)
     commit = f"{row['commit'][:12]}{' (modified)' if row['dirty'] == 'true' else ''}"
     return Pairing(
-        str(row["ray_kind"]),
+        str(row["kind"]),
         str(row["scene"]),
         str(row["camera"]),
         int(row["primitives"]),
@@ -124,11 +149,12 @@ def _pairing(
         int(row["rays"]),
         int(row["samples"]),
         isa,
+        _is_culled(row),
+        tuple(sorted(map(_mode_name, modes))),
         tile,
         embree,
         ratio,
         second,
-        _ratios(mode, _fastest(unculled), files)[0] if unculled else None,
         str(row["run_id"]),
         commit,
         str(row["machine_id"]),
@@ -141,8 +167,7 @@ def _fastest(rows: Iterable[Row]) -> Row:
 
 
 def _is_culled(row: Row) -> bool:
-    """Are the backs of solids left out? By default they are."""
-    return parameter_items(row["parameters"]).get("backface_culling") != "false"
+    return parameter_items(row["parameters"]).get("backface_culling") == "true"
 
 
 def _ratios(mode: Row, row: Row, files: Mapping[Identity, CellFile]) -> tuple[Ratio, Ratio | None]:
@@ -160,7 +185,7 @@ def _ratios(mode: Row, row: Row, files: Mapping[Identity, CellFile]) -> tuple[Ra
 
 def _shading(row: Row) -> float:
     """What a picture's traces have in common, in ms: none of any structure's work."""
-    return float(row["harness_ms"]) if row["ray_kind"] == PICTURE else 0.0
+    return float(row["harness_ms"]) if row["kind"] == PICTURE else 0.0
 
 
 def _mode_name(row: Row) -> str:
@@ -168,7 +193,10 @@ def _mode_name(row: Row) -> str:
     mode = own.get("mode", "single")
     robust = ", robust" if own.get("robust") == "true" else ""
     apart = ", not coherent" if mode != "single" and own.get("coherent") == "false" else ""
-    return f"{mode}{robust}{apart}"
+    sets = row.get("parameter_sets")
+    tuned = f" (best of {sets:.0f})" if pd.notna(sets) and sets > 1 else ""
+    is_sorted = row["kind"] != row["ray_kind"]
+    return f"{mode}{robust}{apart}{tuned}{', sorted rays' if is_sorted else ''}"
 
 
 def _trace(row: Row, contender: str) -> Trace:

@@ -10,8 +10,8 @@ from matplotlib.ticker import FuncFormatter, NullLocator
 from beambench.analysis import Ratio
 from beambench_report.base.figure import Plot, new_figure, write_below
 from beambench_report.base.palette import INK, PAPER, structure_color
-from beambench_report.embree_comparison.growth import PIXELS, PRIMITIVES, growth
-from beambench_report.embree_comparison.pairings import PRIMARY, Pairing
+from beambench_report.embree_comparison.growth import NO_BACKS, PIXELS, PRIMITIVES, growth
+from beambench_report.embree_comparison.pairings import PRIMARY, Pairing, headlines
 from beambench_report.embree_comparison.targets import (
     LARGE,
     MIDDLE,
@@ -31,8 +31,8 @@ _COLOR = structure_color("tile-beam")
 _TARGET_HEIGHT = 0.4  # of the tick of a target, in lines, to each side
 _TICKS = (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100)
 _READING = (
-    "First traces after a build. Line: 95% interval; hollow: too few repetitions for one; tick in "
-    "the line of a marker: its target. At 1 both are equally fast."
+    "First traces after a build. Line: 95% confidence interval; hollow: too few repetitions for "
+    "one; tick in the line of a marker: its target. At 1 both are equally fast."
 )
 _Panel = tuple[Group, Sequence[Pairing]]
 
@@ -43,7 +43,7 @@ def plots(found: Sequence[Pairing]) -> list[Plot]:
     drawn = [
         plot
         for isa in dict.fromkeys(pair.isa for pair in single)
-        for plot in _ratios(isa, [pair for pair in single if pair.isa == isa])
+        for plot in _ratios(isa, [pair for pair in headlines(single) if pair.isa == isa])
     ]
     best = [pair for pair in single if pair.isa == "best" and pair.kind == PRIMARY]
     return [*drawn, *growth(best, PRIMITIVES), *growth(best, PIXELS)]
@@ -98,13 +98,18 @@ def _figure(stem: str, isa: str, shown: Sequence[_Panel]) -> Plot:
                 panel, pair, scenes.index(pair.scene) + shift, target, line * _TARGET_HEIGHT
             )
         panel.set_title(group.title)
-        panel.set_yticks(range(len(scenes)), [group.scenes[scene] for scene in scenes])
+        culled = {pair.scene for pair in own if pair.is_culled}
+        names = [f"{group.scenes[scene]}{', no backs' * (scene in culled)}" for scene in scenes]
+        panel.set_yticks(range(len(scenes)), names)
         panel.set_ylim(len(scenes) - 0.4, -0.6)
         _axis_of_ratios(panel, every)
     panels[-1].set_xlabel("Embree's fastest time over that of tile-beam (higher is better)")
     _legend(figure, _resolutions(every))
     limited = "" if isa == "best" else f" Both are limited to isa={isa}."
-    write_below(figure, [_READING + limited, *dict.fromkeys(pair.origin for pair in every)])
+    no_backs = NO_BACKS * any(pair.is_culled for pair in every)
+    write_below(
+        figure, [_READING + no_backs + limited, *dict.fromkeys(pair.origin for pair in every)]
+    )
     titles = "; ".join(group.title for group, _ in shown)
     return Plot(stem, figure, f"speed of tile beams relative to Embree: {titles}")
 

@@ -1,17 +1,22 @@
 """The targets and what was measured, as Markdown with plots."""
 
-from collections import Counter
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from beambench.analysis import Ratio, geometric_mean
+from beambench.analysis import Ratio
 from beambench_report.base.figure import house_style, write_plot
 from beambench_report.base.files import Problem, write_text
 from beambench_report.base.quantities import markdown_table, number
 from beambench_report.base.records import read_run
-from beambench_report.embree_comparison.pairings import Pairing, pairings
+from beambench_report.embree_comparison.pairings import Pairing, headlines, pairings
 from beambench_report.embree_comparison.plots import plots
-from beambench_report.embree_comparison.targets import Group, groups, part_of_targets
+from beambench_report.embree_comparison.results import (
+    GroupResults,
+    Result,
+    outcomes_in_words,
+    results,
+)
+from beambench_report.embree_comparison.targets import part_of_targets
 
 _COMPARED = (
     "`tile-beam` is a frustum rasterizer: it draws what one point sees, and is compared with "
@@ -19,14 +24,14 @@ _COMPARED = (
     "the fastest Embree mode with correct hits traces some rays over the time of `tile-beam`, both "
     "in one run, on one thread, both writing their answers into the same kind of buffer, by the "
     "same rays. Shadow rays and rays from mirrors are lists in which those of a light or a mirror "
-    "are marked as a pencil; both get the same list. The fastest mode is the one of the smallest "
-    "median."
+    "are marked as a pencil; both get the same list."
 )
-_CLOSED = (
-    "**Closedness.** While it builds, `tile-beam` proves of which triangles solids are made, and "
-    "leaves out their backs, which no eye outside can see. This uses that they are closed, which "
-    "Embree is not given. Ratios without it (`backface_culling=false`), of the same run, stand "
-    "below each geometric mean and in the last table; the targets hold for the default."
+_CULLED = (
+    "**Backs of solids.** `tile-beam` can prove while it builds which triangles form solids, and "
+    "leave out their backs, which no eye outside can see. Embree is not told that surfaces are "
+    "closed, so the comparison is the one without it (`backface_culling=false`), where that was "
+    "measured. Ratios marked `backs left out` are of `backface_culling=true` alone; they can miss "
+    "a target, but not meet it. In the last table, all of a row without the first ratio is of it."
 )
 _TRACES = (
     "**Which trace.** The ratios in the tables, and the targets, are of the first trace after a "
@@ -35,21 +40,21 @@ _TRACES = (
     "table."
 )
 _PAIRED = (
-    "The contenders take turns, and the ratio is the median over rounds of the ratio of the two "
-    "times in one round (paired). "
+    "The contenders take turns, and the ratio is made of their two times in one block or, in "
+    "records of one process, in one round (paired). "
 )
 _NOT_PAIRED = (
     "The single repetitions of these runs are not here, so the intervals are made of those of both "
-    "medians (not paired), as a rule wider than paired ones. "
+    "times (not paired), as a rule wider than paired ones. "
 )
 _SOME_PAIRED = (
-    "Where a run has its single repetitions, the ratio is the median over rounds of the ratio of "
-    "the two times in one round; otherwise it is of the medians, marked `not paired`. "
+    "Where a run has its single repetitions, the ratio is made of the two times in one block or "
+    "round; otherwise it is of the medians. "
 )
 _DECIDED = (
-    "A target is `met` or `missed` when the whole interval lies on one side of it, otherwise "
-    "`open`; without an interval, which takes six repetitions of both, it is `open`. A geometric "
-    "mean has an interval, and is compared with its target, where each of its scenes has one."
+    "Behind each ratio stands its target, which is `met` or `missed` when the whole interval lies "
+    "on one side of it, otherwise `open`; without an interval it is `open`. A geometric mean has "
+    "an interval where each of its scenes has one, and a target where each scene was measured."
 )
 
 
@@ -77,37 +82,55 @@ def as_markdown(found: Sequence[Pairing], plots: Sequence[str] = ()) -> str:
     """The report; `plots` are the files of its figures."""
     paired = [one.ratio.paired for one in found]
     how = _PAIRED if all(paired) else _SOME_PAIRED if any(paired) else _NOT_PAIRED
-    intervals = f"**Intervals.** In brackets: the 95% interval of the ratio. {how}{_DECIDED}"
+    intervals = (
+        f"**Intervals.** In parentheses: the 95% confidence interval of the ratio. {how}{_DECIDED}"
+    )
     lines = ["# Tile beams against Embree: a frustum rasterizer beside a general ray tracer", ""]
-    closed = [_CLOSED] if any(one.unculled_ratio for one in found) else []
-    for text in (_COMPARED, *closed, _TRACES, intervals, *(f"![{plot}]({plot})" for plot in plots)):
+    culled = [_CULLED] if any(one.is_culled for one in found) else []
+    shown = (f"![{plot}]({plot})" for plot in plots)
+    for text in (_COMPARED, _advantages(found), *culled, _TRACES, intervals, *shown):
         lines += [text, ""]
     lines += [*(f"- {origin}" for origin in dict.fromkeys(one.origin for one in found)), ""]
-    single = [one for one in found if one.samples == 1]
-    for isa in dict.fromkeys(one.isa for one in single):
-        lines += [*_of_isa(isa, [one for one in single if one.isa == isa]), ""]
+    for isa in dict.fromkeys(one.isa for one in found if one.samples == 1):
+        lines += [*_of_isa(isa, found), ""]
     return "\n".join([*lines, *_every(found), "", ""])
 
 
-def outcome(ratio: Ratio, target: float) -> str:
-    """`met`, `missed`, or `open` where the interval holds the target or there is none."""
-    if ratio.interval is None:
-        return "open"
-    low, high = ratio.interval
-    if low >= target:
-        return "met"
-    return "open" if high >= target else "missed"
+def _advantages(found: Sequence[Pairing]) -> str:
+    """Returns who has SIMD, tuned parameters, sorted rays and closed solids."""
+    simd = {bool(trace.isa) for one in found for trace in (one.tile, one.embree)}
+    modes = [mode for one in found for mode in one.modes]
+    most = max(len(one.modes) for one in found)
+    tuned = f"the fastest of up to {most} mode{'s' * (most > 1)} by the times below"
+    if all("best of" in mode for mode in modes):
+        tuned = "by its times from another camera"
+    is_sorted = any("sorted rays" in mode for mode in modes)
+    has_backs = all(not one.is_culled for one in headlines(found))
+    return (
+        f"**What each side has.** SIMD: {'both' if simd == {True} else 'see the sections'}. Tuned "
+        f"parameters: Embree, {tuned}; `tile-beam` has its defaults. Sorted rays: "
+        f"{'both, where they are faster' if is_sorted else 'neither'}. Closed solids: "
+        f"{'neither' if has_backs else '`tile-beam`, where a table says so'}."
+    )
 
 
 def _of_isa(isa: str, found: Sequence[Pairing]) -> Iterable[str]:
     part = part_of_targets(isa)
     limited = "" if isa == "best" else f" (isa={isa}: {part:g} of the targets)"
-    sets = dict.fromkeys(_instruction_sets(one.tile.isa, one.embree.isa) for one in found)
-    yield from (f"## {', '.join(sets)}{limited}", "", _summary(found, part))
-    for group in groups():
-        if table := _group_table(group, found, part):
-            note = [group.note, ""] if group.note else []
-            yield from ("", f"### {group.title}", "", *note, *table)
+    sets = dict.fromkeys(
+        _instruction_sets(one.tile.isa, one.embree.isa)
+        for one in found
+        if one.isa == isa and one.samples == 1
+    )
+    every = results(found, isa)
+    yield from (
+        f"## {', '.join(sets)}{limited}",
+        "",
+        f"Targets by first traces: {outcomes_in_words(every)}.",
+    )
+    for one in every:
+        note = [one.group.note, ""] if one.group.note else []
+        yield from ("", f"### {one.group.title}", "", *note, *_table(one))
 
 
 def _instruction_sets(tile: str, embree: str) -> str:
@@ -118,79 +141,40 @@ def _instruction_sets(tile: str, embree: str) -> str:
     return f"Both on {ours}" if ours == theirs else f"tile-beam on {ours}, Embree on {theirs}"
 
 
-def outcomes(found: Sequence[Pairing], part: float) -> Counter[str]:
-    """Counts the outcomes of the targets of single scenes; `part` of each target holds."""
-    return Counter(
-        outcome(one.ratio, part * group.targets[one.resolution])
-        for group in groups()
-        for one in found
-        if group.holds(one)
-    )
-
-
-def _summary(found: Sequence[Pairing], part: float) -> str:
-    counts = outcomes(found, part)
-    return (
-        f"Of {counts.total()} targets for single scenes, {counts['met']} are met, "
-        f"{counts['open']} open, {counts['missed']} missed, by first traces."
-    )
-
-
-def _group_table(group: Group, found: Sequence[Pairing], part: float) -> list[str]:
-    at = {(one.scene, one.resolution): one for one in found if group.holds(one)}
-    sizes = [size for size in group.targets if any(size == there for _, there in at)]
-    if not sizes:
-        return []
-    lines = [
-        [title, *(_cell(at.get((scene, size)), part * group.targets[size]) for size in sizes)]
-        for scene, title in group.scenes.items()
-        if any((scene, size) in at for size in sizes)
+def _table(one: GroupResults) -> list[str]:
+    rows = [
+        *one.scenes.items(),
+        ("**geometric mean, first traces**", one.means),
+        ("geometric mean, second traces", one.second),
+        ("geometric mean, backs left out", one.culled),
     ]
-    lines.append(["*target*", *(f"*at least {part * group.targets[size]:g}*" for size in sizes)])
-    if len(group.scenes) > 1:
-        targets = {size: part * target for size, target in group.mean_targets.items()}
-        first = {size: [one.ratio for key, one in at.items() if key[1] == size] for size in sizes}
-        means = (_mean(group, first[size], targets.get(size)) for size in sizes)
-        lines.append(["**geometric mean, first traces**", *means])
-        if targets:
-            lines.append(
-                ["*target of the mean*", *(f"*at least {targets[size]:g}*" for size in sizes)]
-            )
-        of_others = {
-            "geometric mean, second traces": [one.second_ratio for one in at.values()],
-            "geometric mean, backs of solids drawn": [one.unculled_ratio for one in at.values()],
-        }
-        for title, ratios in of_others.items():
-            if any(ratios):
-                of_size = (
-                    [ratio for (_, there), ratio in zip(at, ratios, strict=True) if there == size]
-                    for size in sizes
-                )
-                means = (_mean(group, [one for one in own if one], None) for own in of_size)
-                lines.append([title, *means])
-    return markdown_table(["scene", *sizes], lines, range(1, len(sizes) + 1))
+    scenes = len(one.group.scenes)
+    lines = [
+        [title, *(_cell(own[size], scenes) if size in own else "" for size in one.sizes)]
+        for title, own in rows
+        if own
+    ]
+    return markdown_table(["scene", *one.sizes], lines, range(1, len(one.sizes) + 1))
 
 
-def _cell(one: Pairing | None, target: float) -> str:
-    return "" if one is None else f"{_text(one.ratio, target)} {outcome(one.ratio, target)}"
-
-
-def _mean(group: Group, ratios: Sequence[Ratio], target: float | None) -> str:
-    """A mean of some scenes only is not compared with the target."""
-    if not ratios:
-        return ""
-    mean = geometric_mean(ratios)
-    if len(ratios) < len(group.scenes):
-        return f"{_text(mean)} of {len(ratios)} scenes"
-    return _text(mean) if target is None else f"{_text(mean, target)} {outcome(mean, target)}"
+def _cell(one: Result, scenes: int) -> str:
+    parts = [_text(one.ratio, one.target)]
+    if one.target is not None:
+        parts.append(f"target {one.target:g}: {one.outcome}")
+    if one.is_culled:
+        parts.append("backs left out")
+    if 1 < one.scenes < scenes:
+        parts.append(f"of {one.scenes} scenes")
+    return ", ".join(parts)
 
 
 def _every(found: Sequence[Pairing]) -> list[str]:
     heads = (
         "rays, scene, resolution, samples, primitives, limited to, fastest mode, Embree ms, "
-        "tile-beam ms, ratio, ratio of second traces, ratio with the backs of solids, "
+        "tile-beam ms, ratio, ratio of second traces, ratio with the backs left out, "
         "Embree's build ms, tile-beam's build ms"
     ).split(", ")
+    culled = {one.image: one.ratio for one in found if one.is_culled}
     rows = (
         (
             one.kind,
@@ -202,13 +186,13 @@ def _every(found: Sequence[Pairing]) -> list[str]:
             one.embree.contender,
             number(one.embree.first.value),
             number(one.tile.first.value),
-            _text(one.ratio),
+            "" if one.is_culled else _text(one.ratio),
             "" if one.second_ratio is None else _text(one.second_ratio),
-            "" if one.unculled_ratio is None else _text(one.unculled_ratio),
+            _text(culled[one.image]) if one.image in culled else "",
             number(one.embree.build),
             number(one.tile.build),
         )
-        for one in found
+        for one in headlines(found)
     )
     return ["## All rays", "", *markdown_table(heads, rows, (3, 4, *range(7, 14)))]
 

@@ -9,6 +9,7 @@ from beambench.analysis import Ratio
 from beambench_operations.publish.figures.cells import Cells
 from beambench_operations.publish.figures.comparison import figures_of, read_pairings
 from beambench_operations.publish.reports import BEAT_EMBREE
+from beambench_report.embree_comparison.pairings import in_one_way
 
 _MILLION = "bumpy:triangles=1000000"
 _FEWER = "bumpy:triangles=200000"
@@ -21,12 +22,12 @@ def figures(folder: Path) -> dict[str, Any]:
     found = read_pairings(folder, BEAT_EMBREE)
     best = [one for one in found if one.isa == "best"]
     bumpy = [one for one in best if one.scene.startswith("bumpy:")]
-    growing = sorted(
-        (one for one in bumpy if one.resolution == "1280x1024"), key=lambda one: one.primitives
+    growing = in_one_way(
+        [one for one in bumpy if one.resolution == "1280x1024"], lambda one: one.primitives
     )
     million = [one for one in bumpy if one.scene == _MILLION]
     return figures_of(found) | {
-        "growing": growing,
+        "growing": sorted(growing, key=lambda one: one.primitives),
         "build": {
             "tile_beam": [one.tile.build for one in million],
             "embree": [one.embree.build for one in million],

@@ -60,6 +60,15 @@ class Cells:
         )
 
     @property
+    def about_backs(self) -> str:
+        """A sentence where `tile-beam` leaves out the backs of solids; empty where it does not."""
+        if self.having("tile-beam:backface_culling=true").empty:
+            return ""
+        return (
+            "`tile-beam` leaves out the backs of closed solids here, which no other structure does."
+        )
+
+    @property
     def scenes(self) -> list[str]:
         """In the order of the rows."""
         return list(dict.fromkeys(self.rows["scene"]))

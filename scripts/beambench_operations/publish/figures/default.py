@@ -19,6 +19,7 @@ def figures(folder: Path) -> dict[str, Any]:
     (of_primary,) = analysis.means
     return {
         "cells": len(cells.rows),
+        "about_backs": cells.about_backs,
         "wrong": len(cells.wrong),
         "views": analysis.views,
         "means": of_primary.means,

@@ -31,6 +31,7 @@ def figures(folder: Path) -> dict[str, Any]:
         "scenes": cells.scenes,
         "size": cells.sizes[0],
         "cells": len(cells.rows),
+        "about_backs": cells.about_backs,
         "wrong": len(cells.wrong),
         "mean": {kind: own["mean"] for kind, own in means.items()},
         "wins": {kind: own["wins"] for kind, own in means.items()},

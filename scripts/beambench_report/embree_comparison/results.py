@@ -1,0 +1,135 @@
+"""The ratios of each group of scenes beside their targets, and the means."""
+
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from beambench.analysis import Ratio, geometric_mean
+from beambench_report.embree_comparison.pairings import Pairing, headlines
+from beambench_report.embree_comparison.targets import Group, groups, part_of_targets
+
+
+@dataclass(frozen=True)
+class Result:
+    """A ratio, or the geometric mean of several, beside its target."""
+
+    ratio: Ratio
+    target: float | None = None
+    """None where there is none, or a mean lacks a scene."""
+    is_culled: bool = False
+    """Was only `tile-beam` without the backs of solids measured?"""
+    scenes: int = 1
+
+    @property
+    def outcome(self) -> str:
+        """`met`, `missed` or `open`; empty without a target.
+
+        A ratio that needs closed solids can miss a target, but not meet it.
+        """
+        if self.target is None:
+            return ""
+        found = outcome(self.ratio, self.target)
+        return "open" if found == "met" and self.is_culled else found
+
+
+@dataclass(frozen=True)
+class GroupResults:
+    """The results of one group; those of one scene, and means, by resolution."""
+
+    group: Group
+    sizes: tuple[str, ...]
+    scenes: Mapping[str, Mapping[str, Result]]
+    """By the titles of the scenes."""
+    means: Mapping[str, Result]
+    """Of the first traces of several scenes."""
+    second: Mapping[str, Result]
+    """The same of second traces."""
+    culled: Mapping[str, Result]
+    """The same of first traces without the backs of solids, where `means` has them: extra."""
+
+
+def outcome(ratio: Ratio, target: float) -> str:
+    """`met`, `missed`, or `open` where the interval holds the target or there is none."""
+    if ratio.interval is None:
+        return "open"
+    low, high = ratio.interval
+    if low >= target:
+        return "met"
+    return "open" if high >= target else "missed"
+
+
+def outcomes_in_words(every: Sequence[GroupResults]) -> str:
+    """Counts the targets of single scenes and of means that are met, open and missed."""
+    parts = []
+    for what, shown in (
+        (
+            "single scenes",
+            [one for own in every for row in own.scenes.values() for one in row.values()],
+        ),
+        ("geometric means", [one for own in every for one in own.means.values()]),
+    ):
+        counts = Counter(one.outcome for one in shown if one.target is not None)
+        if counts:
+            parts.append(
+                f"for {what}, {counts['met']} of {counts.total()} are met, {counts['open']} open "
+                f"and {counts['missed']} missed"
+            )
+    return "; ".join(parts)
+
+
+def results(found: Iterable[Pairing], isa: str) -> list[GroupResults]:
+    """Returns the groups of which anything was measured at that instruction set."""
+    own = [one for one in found if one.isa == isa and one.samples == 1]
+    every = (_of_group(group, own, part_of_targets(isa)) for group in groups())
+    return [one for one in every if one.scenes]
+
+
+def _of_group(group: Group, found: Sequence[Pairing], part: float) -> GroupResults:
+    held = [one for one in found if group.holds(one)]
+    shown = headlines(held)
+    sizes = tuple(size for size in group.targets if any(one.resolution == size for one in shown))
+    scenes = {
+        title: {
+            one.resolution: Result(one.ratio, part * group.targets[one.resolution], one.is_culled)
+            for one in shown
+            if one.scene == scene
+        }
+        for scene, title in group.scenes.items()
+    }
+    targets = {size: part * target for size, target in group.mean_targets.items()}
+    drawn = {one.resolution for one in shown if not one.is_culled}
+    culled = [one for one in held if one.is_culled and one.resolution in drawn]
+    return GroupResults(
+        group,
+        sizes,
+        {title: own for title, own in scenes.items() if own},
+        _means(group, shown, lambda one: one.ratio, targets),
+        _means(group, shown, lambda one: one.second_ratio),
+        {
+            size: replace(mean, is_culled=False)
+            for size, mean in _means(group, culled, lambda one: one.ratio).items()
+        },
+    )
+
+
+def _means(
+    group: Group,
+    found: Sequence[Pairing],
+    ratio_of: Callable[[Pairing], Ratio | None],
+    targets: Mapping[str, float] | None = None,
+) -> dict[str, Result]:
+    """Returns the geometric mean at each resolution, of the scenes with backs where there are any.
+
+    A mean of some scenes only has no target.
+    """
+    means = {}
+    for size in group.targets if len(group.scenes) > 1 else ():
+        every = [one for one in found if one.resolution == size]
+        own = [one for one in every if not one.is_culled] or every
+        ratios = [ratio for one in own if (ratio := ratio_of(one))]
+        if ratios:
+            whole = len(ratios) == len(group.scenes)
+            target = (targets or {}).get(size) if whole else None
+            is_culled = any(one.is_culled for one in own)
+            means[size] = Result(geometric_mean(ratios), target, is_culled, len(ratios))
+    return means
