@@ -137,8 +137,9 @@ def _read_csv(path: Path) -> pd.DataFrame:
             path, dtype=texts, keep_default_na=False, na_values=[""], low_memory=False
         )
         rows = unguarded(rows).rename(columns=RENAMED_COLUMNS)
-        if "trace_ms" not in rows and "trace_ms_median" in rows:  # a record of one process
-            rows["trace_ms"] = rows["trace_ms_median"]
+        for name in ("trace_ms", "total_ms"):
+            if name not in rows and f"{name}_median" in rows:  # a record of one process
+                rows[name] = rows[f"{name}_median"]
         return rows
     except FileNotFoundError:
         remedy = "give the folder that `beambench run` wrote"
