@@ -137,10 +137,12 @@ def _read_csv(path: Path) -> pd.DataFrame:
             path, dtype=texts, keep_default_na=False, na_values=[""], low_memory=False
         )
         rows = unguarded(rows).rename(columns=RENAMED_COLUMNS)
-        for name in ("trace_ms", "total_ms"):
-            if name not in rows and f"{name}_median" in rows:  # a record of one process
-                rows[name] = rows[f"{name}_median"]
-        return rows
+        medians = {
+            name: rows[f"{name}_median"]
+            for name in ("trace_ms", "total_ms")
+            if name not in rows and f"{name}_median" in rows  # a record of one process
+        }
+        return rows.assign(**medians)
     except FileNotFoundError:
         remedy = "give the folder that `beambench run` wrote"
         if has_log(path.parent):
