@@ -88,7 +88,10 @@ def write_night(
             "rays_hash": "2",
         }
         row = plant(night, _timed(row | labels, float(np.exp(random.normal(0, NOISE)))))
-        rows.append(row | ({"blocks": blocks, "schema_version": 2} if blocks else {}))
+        if blocks:
+            times = {name: row[f"{name}_median"] for name in ("trace_ms", "total_ms")}
+            row |= {"blocks": blocks, "schema_version": 2} | times
+        rows.append(row)
         if blocks and row["total_ms"] != "":
             write_repeated_cell(folder, row, _repetitions(row, random.normal(0, NOISE, blocks)))
     write_run(folder, rows)
