@@ -74,6 +74,10 @@ void widen(std::vector<Standing>& standings, double excess) {
 /// Returns a number, or null for infinity, which JSON lacks.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
+const char* name_of(measure::TraceClock clock) {
+  return clock == measure::TraceClock::kCpu ? "cpu" : "wall";
+}
+
 Json to_json(const TimeRatio& ratio) {
   Json json{{"value", ratio.value}};
   if (ratio.interval) {
@@ -113,7 +117,7 @@ Json to_json(const Standings& view) {
             {"size", view.size},
             {"ray_kind", view.ray_kind},
             {"rays", view.rays},
-            {"clock", view.clock == measure::TraceClock::kCpu ? "cpu" : "wall"},
+            {"clock", name_of(view.clock)},
             {"ranked", to_json(view.ranked)},
             {"references", to_json(view.references)},
             {"left_out", left_out},
@@ -236,6 +240,7 @@ Analysis analyze(const measure::Run& run) {
   }
   analysis.means = overall(analysis.views);
   analysis.overheads = largest_overheads(run);
+  analysis.block_totals = block_totals(run);
   return analysis;
 }
 
@@ -246,6 +251,7 @@ int exit_code_of(const Analysis& analysis) {
 
 Json to_json(const Analysis& analysis) {
   Json views = Json::array(), means = Json::array(), overheads = Json::array();
+  Json totals = Json::array();
   for (const Standings& view : analysis.views) views.push_back(to_json(view));
   for (const OverallStandings& one : analysis.means) {
     means.push_back({{"ray_kind", one.ray_kind},
@@ -256,6 +262,11 @@ Json to_json(const Analysis& analysis) {
   for (const Overhead& one : analysis.overheads) {
     overheads.push_back(
         {{"query_path", one.path}, {"cell", one.cell}, {"title", one.title}, {"part", one.part}});
+  }
+  for (const BlockTotals& one : analysis.block_totals) {
+    Json ms = Json::object();
+    for (const auto& [block, time] : one.ms) ms[std::to_string(block)] = time;
+    totals.push_back({{"cell", one.cell}, {"clock", name_of(one.clock)}, {"total_ms", ms}});
   }
   return {{"schema_version", 2},
           {"cells", analysis.cells},
@@ -270,7 +281,8 @@ Json to_json(const Analysis& analysis) {
                                              : Json()},
           {"views", views},
           {"means", means},
-          {"harness_overheads", overheads}};
+          {"harness_overheads", overheads},
+          {"block_totals", totals}};
 }
 
 }  // namespace beambench::analysis

@@ -42,6 +42,7 @@ struct Analysis {
   std::vector<Standings> views;
   std::vector<OverallStandings> means;
   std::vector<Overhead> overheads;  ///< the largest first
+  std::vector<BlockTotals> block_totals;
 };
 
 /// Draws the conclusions from a run, which may have been cut off. Depends on nothing else.

@@ -27,7 +27,7 @@ std::optional<TimeRatio> block_ratio(const TimesByBlock& over, const TimesByBloc
   const std::vector<double> ratios = common_ratios(over, under);
   if (ratios.empty()) return std::nullopt;
   const measure::Estimate mean = measure::estimate(ratios);
-  return TimeRatio{mean.value, mean.confidence, true, mean.prediction};
+  return TimeRatio{mean.value, mean.confidence, true, mean.prediction, mean.error};
 }
 
 std::optional<TimeRatio> paired_ratio(const TimesByRound& over, const TimesByRound& under) {

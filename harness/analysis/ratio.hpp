@@ -29,6 +29,7 @@ struct TimeRatio {
   bool is_paired = false;  ///< was it made block by block, or round by round?
   /// Where a second run of equal size is expected with 95%; only with blocks.
   std::optional<Interval> prediction{};
+  std::optional<double> error{};  ///< standard error of its logarithm; only with blocks
 };
 
 /// A median with its 95% interval.

@@ -129,12 +129,17 @@ void add_blocks(Row& row, const CellRecord& cell) {
           : Json();
 }
 
-/// Adds the trace time by which contenders are compared, with both intervals and the clock.
+/// Adds a time by which contenders are compared, with both intervals.
+void add_time(Row& row, const std::string& name, const std::optional<Estimate>& time) {
+  row[name] = time ? Json(time->value) : Json();
+  add_interval(row, name + "_ci", time ? time->confidence : std::nullopt);
+  add_interval(row, name + "_pi", time ? time->prediction : std::nullopt);
+}
+
+/// Adds the trace time, and the clock by which both times are compared.
 void add_trace(Row& row, const CellRecord& cell) {
   const auto trace = cell.has_times() ? trace_time(cell) : std::nullopt;
-  row["trace_ms"] = trace ? Json(trace->value) : Json();
-  add_interval(row, "trace_ms_ci", trace ? trace->confidence : std::nullopt);
-  add_interval(row, "trace_ms_pi", trace ? trace->prediction : std::nullopt);
+  add_time(row, "trace_ms", trace);
   row["trace_clock"] =
       trace ? Json(has_blocks(cell) && is_disturbed(cell) ? "cpu" : "wall") : Json();
 }
@@ -161,7 +166,7 @@ void add_times(Row& row, const CellRecord& cell) {
   const std::vector<double> totals = samples(&Repetition::total_ms);
   const std::optional<double> spread = repeat_spread_of_minimum(totals);
   add_wall_time(row, "total", totals);
-  add_intervals(row, cell, "total_ms", &Repetition::total_ms, totals);
+  add_time(row, "total_ms", known ? total_time(cell) : std::nullopt);
   row["total_ms_min_spread"] = spread ? Json(*spread) : Json();
   const std::vector<double> cycles = samples(&Repetition::total_mcycles);
   row["clock_ghz_median"] = median_of(&Repetition::clock_ghz);

@@ -33,7 +33,8 @@ bool is_reference(const std::string& structure) {
 
 /// Returns the median of a figure of a cell without blocks: of its repetitions, or as it was summed
 /// up.
-std::optional<Estimate> median_of(const CellRecord& cell, double Repetition::*figure,
+template <class Figure>
+std::optional<Estimate> median_of(const CellRecord& cell, Figure figure,
                                   const std::string& column) {
   if (cell.has_times()) {
     const std::vector<double> samples = measure::collect(cell, figure);
@@ -49,6 +50,13 @@ double build_ms_of(const CellRecord& cell) {
   if (has_blocks(cell)) return measure::minimum(measure::collect(cell, &Repetition::build_ms));
   const auto build = median_of(cell, &Repetition::build_ms, "build_ms");
   return build ? build->value : 0.0;
+}
+
+/// Returns the mean over the blocks of a cell; nothing where its hits are not correct.
+std::optional<Estimate> mean_of(const CellRecord& cell, const TimesByBlock& by_block) {
+  if (!cell.keeps_times() || by_block.empty()) return std::nullopt;
+  const auto values = by_block | std::views::values;
+  return measure::estimate(std::vector<double>(values.begin(), values.end()));
 }
 
 TimesByRound trace_times(const CellRecord& cell) {
@@ -122,9 +130,10 @@ bool is_degenerate(const CellRecord& cell) {
 
 /// Returns the clock by which a view's contenders are compared: the CPU clock where other processes
 /// disturbed one of them too often. (With several threads nothing is known to be disturbed.)
-TraceClock clock_of(const std::map<std::string, const CellRecord*>& cells) {
-  const bool disturbed = std::ranges::any_of(cells, [](const auto& entry) {
-    return has_blocks(*entry.second) && measure::is_disturbed(*entry.second);
+template <class Cells>
+TraceClock clock_of(const Cells& cells) {
+  const bool disturbed = std::ranges::any_of(cells, [](const CellRecord* cell) {
+    return has_blocks(*cell) && measure::is_disturbed(*cell);
   });
   return disturbed ? TraceClock::kCpu : TraceClock::kWall;
 }
@@ -138,7 +147,7 @@ Standings of_view(const Names& names, const ViewCells& all,
     if (cell->rays.rays == most) finest[contender] = cell;
   }
   const CellRecord& first = *finest.begin()->second;
-  const TraceClock clock = clock_of(finest);
+  const TraceClock clock = clock_of(finest | std::views::values);
   Standings result{names.view,
                    names.subject,
                    rays::to_string(first.id.resolution),
@@ -298,12 +307,33 @@ bool has_blocks(const CellRecord& cell) {
 
 std::optional<Estimate> trace_time(const CellRecord& cell, std::optional<TraceClock> clock) {
   if (!has_blocks(cell)) return median_of(cell, &Repetition::trace_ms, "trace_ms");
-  if (!cell.keeps_times()) return std::nullopt;
-  std::vector<double> times;
-  for (const auto& [block, time] : trace_by_block(cell, clock.value_or(own_clock(cell)))) {
-    times.push_back(time);
+  return mean_of(cell, trace_by_block(cell, clock.value_or(own_clock(cell))));
+}
+
+std::optional<Estimate> total_time(const CellRecord& cell) {
+  if (!has_blocks(cell)) return median_of(cell, &Repetition::total_ms, "total_ms");
+  return mean_of(cell, total_by_block(cell, own_clock(cell)));
+}
+
+std::vector<BlockTotals> block_totals(const measure::Run& run) {
+  const std::vector<Names> names = names_of(run);
+  std::vector<std::string> view_of;  // each cell, with the resolution
+  std::map<std::string, std::vector<const CellRecord*>> views;
+  for (std::size_t i = 0; i < run.cells.size(); ++i) {
+    const CellRecord& cell = run.cells[i];
+    view_of.push_back(names[i].view + ' ' + rays::to_string(cell.id.resolution));
+    views[view_of.back()].push_back(&cell);
   }
-  return times.empty() ? std::nullopt : std::optional(measure::estimate(times));
+  std::map<std::string, TraceClock> clocks;
+  for (const auto& [view, cells] : views) clocks[view] = clock_of(cells);
+  std::vector<BlockTotals> totals;
+  for (std::size_t i = 0; i < run.cells.size(); ++i) {
+    const CellRecord& cell = run.cells[i];
+    if (!has_blocks(cell) || !cell.keeps_times()) continue;
+    const TraceClock clock = clocks.at(view_of[i]);
+    totals.push_back({cell.id.name(), clock, total_by_block(cell, clock)});
+  }
+  return totals;
 }
 
 std::vector<Standings> standings(const measure::Run& run) {

@@ -119,6 +119,19 @@ bool has_blocks(const measure::CellRecord& cell);
 std::optional<measure::Estimate> trace_time(
     const measure::CellRecord& cell, std::optional<measure::TraceClock> clock = std::nullopt);
 
+/// Returns the time of building and tracing of a cell, likewise.
+std::optional<measure::Estimate> total_time(const measure::CellRecord& cell);
+
+/// The time of building and tracing of a cell in each block.
+struct BlockTotals {
+  std::string cell;           ///< its name
+  measure::TraceClock clock;  ///< that of all cells with these rays
+  TimesByBlock ms;
+};
+
+/// Returns those of each cell that was measured in blocks and has times, in the order of the run.
+std::vector<BlockTotals> block_totals(const measure::Run& run);
+
 /// Returns the standings of each view, in the order of the plan. The conditions of the sweep
 /// explain why a contender is absent.
 std::vector<Standings> standings(const measure::Run& run);

@@ -32,9 +32,9 @@ using analysis::TimeRatio;
 
 /// A value and the ends of its interval.
 using Ends = std::tuple<double, std::optional<double>, std::optional<double>>;
-/// The same, whether the ratio is paired, and the ends of its prediction interval.
+/// The same, whether the ratio is paired, the ends of its prediction interval, and its error.
 using RatioFields = std::tuple<double, std::optional<double>, std::optional<double>, bool,
-                               std::optional<double>, std::optional<double>>;
+                               std::optional<double>, std::optional<double>, std::optional<double>>;
 
 std::optional<measure::Interval> interval_of(std::optional<double> low,
                                              std::optional<double> high) {
@@ -48,20 +48,21 @@ Median median_of(const Ends& ends) {
 
 RatioFields fields_of(const TimeRatio& ratio) {
   using End = std::optional<double>;
-  const auto& [value, interval, is_paired, prediction] = ratio;
+  const auto& [value, interval, is_paired, prediction, error] = ratio;
   return {value,
           interval ? End(interval->low) : End(),
           interval ? End(interval->high) : End(),
           is_paired,
           prediction ? End(prediction->low) : End(),
-          prediction ? End(prediction->high) : End()};
+          prediction ? End(prediction->high) : End(),
+          error};
 }
 
 RatioFields mean_of(const std::vector<RatioFields>& list) {
   std::vector<TimeRatio> ratios;
-  for (const auto& [value, low, high, is_paired, predicted_low, predicted_high] : list) {
-    ratios.push_back(
-        {value, interval_of(low, high), is_paired, interval_of(predicted_low, predicted_high)});
+  for (const auto& [value, low, high, is_paired, predicted_low, predicted_high, error] : list) {
+    ratios.push_back({value, interval_of(low, high), is_paired,
+                      interval_of(predicted_low, predicted_high), error});
   }
   return fields_of(analysis::geometric_mean(ratios));
 }

@@ -113,8 +113,8 @@ const char* const kContract =
     "trace_warm_ms_median,trace_warm_ms_ci_low,trace_warm_ms_ci_high,"
     "trace_warm_ms_pi_low,trace_warm_ms_pi_high,"
     "harness_ms,trace_net_ms_median,"
-    "total_ms_median,total_ms_min,total_ms_mad,total_ms_ci_low,total_ms_ci_high,total_ms_pi_low,"
-    "total_ms_pi_high,"
+    "total_ms_median,total_ms_min,total_ms_mad,total_ms,total_ms_ci_low,total_ms_ci_high,"
+    "total_ms_pi_low,total_ms_pi_high,"
     "total_ms_min_spread,"
     "clock_ghz_median,total_mcycles_median,total_mcycles_ci_low,total_mcycles_ci_high,"
     "total_mcycles_pi_low,total_mcycles_pi_high,"
@@ -143,6 +143,7 @@ TEST(CellRow, SumsUpTheRepetitions) {
   EXPECT_EQ(row.at("total_ms_median"), 14.0);
   EXPECT_EQ(row.at("trace_ms_ci_low"), 10.0);
   EXPECT_EQ(row.at("trace_ms_ci_high"), 10.0);
+  EXPECT_EQ(row.at("total_ms"), 14.0);
   EXPECT_EQ(row.at("total_ms_ci_low"), 11.0);
   EXPECT_EQ(row.at("total_ms_ci_high"), 17.0);
   EXPECT_EQ(row.at("total_ms_min_spread"), 4.0) << "the fifth-lowest of seven";
@@ -216,8 +217,9 @@ TEST(CellRow, WithoutTheVerdictOkItKeepsCountersAndLosesTimes) {
   const Row row = to_row(kRun, cell);
   for (const auto& [column, value] : row.items()) {
     const bool is_time = column.find("_ms_") != std::string::npos || column == "harness_ms" ||
-                         column == "trace_ms" || column == "trace_clock" || column == "blocks" ||
-                         column == "disturbed" || column.find("mcycles") != std::string::npos ||
+                         column == "trace_ms" || column == "total_ms" || column == "trace_clock" ||
+                         column == "blocks" || column == "disturbed" ||
+                         column.find("mcycles") != std::string::npos ||
                          column == "clock_ghz_median" || column == "mrays_per_s" ||
                          column.ends_with("_cycles") || column.ends_with("_instructions") ||
                          column.ends_with("_cache_misses");

@@ -42,6 +42,23 @@ TEST(Standings, RatiosArePairedBlockByBlock) {
   EXPECT_NEAR(behind.ratio.interval->high, 1.1, 1e-12);
 }
 
+TEST(BlockTotals, AreByTheClockOfAllThatAreCompared) {
+  std::vector<CellRecord> cells{cell_of({"samet", {1.0, 2.0}, 0.5}),
+                                cell_of({"embree", {3.0, 4.0}}),
+                                cell_of({"null", {}, 1.0, "", Verdict::kMismatch})};
+  const std::vector<BlockTotals> totals = block_totals(run_of(cells));
+  ASSERT_EQ(totals.size(), 2U);
+  EXPECT_EQ(totals[0].cell, "escena1/default/100x10/1/primary/samet");
+  EXPECT_EQ(totals[0].ms, (TimesByBlock{{0, 1.5}, {1, 2.5}}));
+  for (measure::Repetition& one : cells[1].repetitions) one.trace_ms *= 2.0;  // waited
+  const std::vector<BlockTotals> disturbed = block_totals(run_of(cells));
+  EXPECT_EQ(disturbed[0].clock, measure::TraceClock::kCpu);
+  EXPECT_EQ(disturbed[0].ms, (TimesByBlock{{0, 1.0}, {1, 2.0}})) << "no CPU time of its builds";
+  EXPECT_EQ(disturbed[1].ms, (TimesByBlock{{0, 3.0}, {1, 4.0}}));
+  cells[0] = of_one_process(cells[0]);
+  EXPECT_EQ(block_totals(run_of(cells)).size(), 1U);
+}
+
 TEST(Standings, WhatTheNoiseHidesIsUndecided) {
   const std::vector<CellRecord> cells{
       cell_of({"samet", {1.0, 1.2, 0.9, 1.1, 1.0, 1.3, 0.8, 1.05}}),

@@ -13,10 +13,11 @@ from beambench_operations.history.night import night_of
 from beambench_operations.history.store import History
 from beambench_operations.nightly.home import Home
 from beambench_report.base.records import read_run
-from synthetic_run import synthetic_rows, without_times, write_run
+from synthetic_run import synthetic_rows, without_times, write_repeated_cell, write_run
 
 SCENES = ("escena1", "tetra:n=5")
 NOISE = 0.01
+BLOCKS = 4
 
 Row = dict[str, object]
 Plant = Callable[[int, Row], Row]
@@ -59,14 +60,21 @@ def counting(structure: str, scene: str, factors: Iterable[float]) -> Plant:
     return plant
 
 
-def write_nights(home: Home, count: int, plant: Plant = nothing, seed: int = 7) -> list[Path]:
-    """Writes the folders of runs into a home; returns them."""
+def write_nights(
+    home: Home, count: int, plant: Plant = nothing, seed: int = 7, old: int = 0
+) -> list[Path]:
+    """Writes the folders of runs into a home; the first `old` of them are from before blocks."""
     random = np.random.default_rng(seed)
-    return [write_night(home, night, random, plant) for night in range(count)]
+    return [
+        write_night(home, night, random, plant, blocks=0 if night < old else BLOCKS)
+        for night in range(count)
+    ]
 
 
-def write_night(home: Home, night: int, random: np.random.Generator, plant: Plant) -> Path:
-    """Writes one completed run."""
+def write_night(
+    home: Home, night: int, random: np.random.Generator, plant: Plant, *, blocks: int = BLOCKS
+) -> Path:
+    """Writes one completed run; without blocks as it was before them."""
     run_id = f"2026{1 + night // 28:02d}{1 + night % 28:02d}T030000Z"
     folder = home.folder / run_id
     folder.mkdir(parents=True)
@@ -79,7 +87,13 @@ def write_night(home: Home, night: int, random: np.random.Generator, plant: Plan
             "scene_hash": "1",
             "rays_hash": "2",
         }
-        rows.append(plant(night, _timed(row | labels, float(np.exp(random.normal(0, NOISE))))))
+        row = plant(night, _timed(row | labels, float(np.exp(random.normal(0, NOISE)))))
+        if blocks:
+            times = {name: row[f"{name}_median"] for name in ("trace_ms", "total_ms")}
+            row |= {"blocks": blocks, "schema_version": 2} | times
+        rows.append(row)
+        if blocks and row["total_ms"] != "":
+            write_repeated_cell(folder, row, _repetitions(row, random.normal(0, NOISE, blocks)))
     write_run(folder, rows)
     (folder / "manifest.json").write_text(
         json.dumps({"run_id": run_id, "finished_utc": labels["time_utc"], "sweep": "made-up"})
@@ -98,12 +112,19 @@ def add_all(home: Home, folders: Iterable[Path]) -> list[list]:
 
 
 def _timed(row: Row, factor: float) -> Row:
-    times = {name: float(row[name]) * factor for name in row if _is_time(name) and row[name] != ""}
-    times["clock_ghz_median"] = 3.0
-    for part in ("build", "trace"):
-        times[f"{part}_cpu_ms_median"] = times[f"{part}_ms_median"]
-    return row | times
+    return row | {name: float(row[name]) * factor for name in row if is_time(name, row)}
 
 
-def _is_time(name: str) -> bool:
-    return "_ms_" in name or "_mcycles_" in name
+def is_time(name: str, row: Row) -> bool:
+    """Is this a time of the row?"""
+    return ("_ms" in name or "_mcycles_" in name) and row[name] != ""
+
+
+def _repetitions(row: Row, noise: np.ndarray) -> list[dict[str, float]]:
+    """Returns one for each block, whose geometric mean is the row's time."""
+    parts = [(name, float(row[f"{name}_ms_median"])) for name in ("build", "trace")]
+    return [
+        {"round": block, "block": block, "position": 0}
+        | {f"{name}{end}": ms * factor for name, ms in parts for end in ("_ms", "_cpu_ms")}
+        for block, factor in enumerate(np.exp(noise - noise.mean()))
+    ]

@@ -48,7 +48,8 @@ def synthetic_rows() -> list[dict[str, object]]:
 def write_run(folder: Path, rows: list[dict[str, object]], without: tuple[str, ...] = ()) -> Path:
     """Writes rows into FOLDER/results.csv (missing fields stay empty); returns FOLDER."""
     """Writes rows (fields not given stay empty) and their analysis; returns FOLDER."""
-    columns = [name for name in COLUMNS if name not in without]
+    of_blocks = {"trace_ms", "total_ms"} - set(rows[0] if rows else ())
+    columns = [name for name in COLUMNS if name not in {*without, *of_blocks}]
     columns += [name for name in rows[0] if name not in COLUMNS] if rows else []
     with (folder / "results.csv").open("w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, columns, extrasaction="ignore")

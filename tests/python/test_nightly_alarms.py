@@ -22,8 +22,18 @@ from beambench_operations.nightly.calibration import (
 )
 from beambench_operations.nightly.home import Home
 from beambench_report.base.files import Problem
-from synthetic_nights import Row, add_all, counting, nothing, slower, write_nights, wrong
-from synthetic_run import synthetic_rows, without_times, write_cell
+from synthetic_nights import (
+    NOISE,
+    Row,
+    add_all,
+    counting,
+    nothing,
+    slower,
+    write_night,
+    write_nights,
+    wrong,
+)
+from synthetic_run import without_times
 
 NIGHTS = 30
 
@@ -53,6 +63,31 @@ def test_a_structure_slower_by_5_percent_in_one_scene_is_found_and_named_once(ho
     assert alarm.details["since_commit"] >= "0000010def5678"
     assert alarm.night <= 29, "as soon as some twelve nights were slower"
     assert "exhaustive in tetra:n=5: +" in sentence(alarm)
+
+
+def test_nights_from_before_blocks_are_compared_with_none(home: Home) -> None:
+    slow, more = slower("exhaustive", "tetra:n=5", 1.5, 13), counting("samet", "escena1", [1] * 13)
+
+    def plant(night: int, row: Row) -> Row:
+        return slow(night, row) if night >= 13 else more(night, row | {"build_ms_median": 9.0})
+
+    assert flat(add_all(home, write_nights(home, NIGHTS, plant, old=13))) == []
+
+
+def test_nights_in_blocks_are_compared_after_those_from_before(home: Home) -> None:
+    plant = slower("exhaustive", "tetra:n=5", 1.05, 16)
+    folders = write_nights(home, NIGHTS + 4, lambda night, row: plant(night - 4, row), old=4)
+    [alarm] = flat(add_all(home, folders))
+    assert alarm.details["title"] == "exhaustive in tetra:n=5"
+    assert alarm.details["nights_before"] <= 17, "none of the four is among them"
+
+
+def test_a_night_before_blocks_has_no_alarm_but_of_wrong_hits(home: Home) -> None:
+    more = counting("samet", "escena1", [1, 1.5, 1.5])
+    bad = wrong("exhaustive", "tetra:n=5", 1)
+    folders = write_nights(home, 3, lambda night, row: bad(night, more(night, row)), old=3)
+    told = add_all(home, folders)
+    assert [{alarm.kind for alarm in night} for night in told] == [set(), {"verdict"}, {"verdict"}]
 
 
 def test_a_structure_that_got_faster_is_no_regression(home: Home) -> None:
@@ -205,17 +240,20 @@ def test_an_earlier_gain_does_not_hide_a_later_loss() -> None:
     assert [step.series for step in find_steps(values)] == [2]
 
 
-def test_noise_can_be_drawn_from_raw_samples(tmp_path: Path) -> None:
+def test_noise_can_be_drawn_from_the_blocks_of_a_run(home: Home) -> None:
     random = np.random.default_rng(13)
-    for row in synthetic_rows():
-        total = float(row["total_ms_median"])
-        write_cell(
-            tmp_path, row, {turn: total * float(random.lognormal(0, 0.01)) for turn in range(20)}
-        )
-    with pytest.raises(Problem, match="build_cpu_ms"):
-        noise_of_samples([tmp_path])
-    with pytest.raises(Problem, match="raw samples were not pruned"):
-        noise_of_samples([tmp_path / "nothing"])
+    many, few = (
+        write_night(home, place, random, nothing, blocks=count)
+        for place, count in ((0, 40), (1, 4))
+    )
+    drawn = noise_of_samples([many, few])
+    assert [scene.shape for scene in drawn.scenes] == [(200, 3)] * 2
+    # Both times of a ratio vary; a night has eight blocks, and a scene three resolutions.
+    expected = NOISE * np.sqrt(2 / 8 / 3)
+    assert drawn.standard_deviation == pytest.approx(expected, rel=0.3)
+    assert drawn.within == pytest.approx(expected, rel=0.3)
+    with pytest.raises(Problem, match="8 blocks"):
+        noise_of_samples([few])
 
 
 def test_a_night_that_is_judged_again_raises_the_same(home: Home) -> None:

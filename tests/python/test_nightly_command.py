@@ -21,7 +21,16 @@ from beambench_report.base.files import Problem
 from beambench_report.base.records import read_run
 from program import BINARY
 from run_logs import begun_cells, events, forget_cell
-from synthetic_nights import add_all, counting, nothing, slower, write_night, write_nights, wrong
+from synthetic_nights import (
+    add_all,
+    counting,
+    is_time,
+    nothing,
+    slower,
+    write_night,
+    write_nights,
+    wrong,
+)
 from synthetic_run import without_times
 
 TINY = {
@@ -208,11 +217,19 @@ def test_turns_of_noise_tell_nothing(tmp_path: Path) -> None:
         compare_turns(first[:5], second[:5])
 
 
+def test_turns_before_blocks_are_compared_with_none_in_blocks(tmp_path: Path) -> None:
+    old = write_nights(Home(tmp_path / "a"), 6, nothing, seed=1, old=6)
+    new = write_nights(Home(tmp_path / "b"), 6, nothing, seed=2)
+    with pytest.raises(Problem, match=r"a/\S+: was measured by a program from before blocks"):
+        compare_turns(old, new)
+    assert compare_turns(old, old).slower == []
+
+
 def test_turns_without_noise_leave_nothing_open(tmp_path: Path) -> None:
     first = write_nights(Home(tmp_path / "a"), 6, nothing, seed=1)
     second = write_nights(Home(tmp_path / "b"), 6, nothing, seed=1)
     outcome = compare_turns(first, second)
-    assert outcome.together == Ratio(1.0, 1.0, 1.0, paired=True)
+    assert outcome.together == Ratio(1.0, 1.0, 1.0, True, 1.0, 1.0, 0.0)
     assert outcome.verdict().endswith("over 24 cells).")
 
 
@@ -221,17 +238,13 @@ def test_ratios_on_one_side_by_a_common_cause_are_no_verdict(tmp_path: Path) -> 
 
     def moment(night: int, row: dict) -> dict:
         factor = (0.97, 1.02, 0.95, 0.96, 1.01, 0.98)[night]
-        return row | {name: row[name] * factor for name in row if _is_timed(name, row)}
+        return row | {name: row[name] * factor for name in row if is_time(name, row)}
 
     first = write_nights(Home(tmp_path / "a"), 6, nothing, seed=1)
     outcome = compare_turns(first, write_nights(Home(tmp_path / "b"), 6, moment, seed=1))
     assert all(cell.ratio.value < 1 for cell in outcome.cells)
     assert outcome.together.low < 1 < outcome.together.high
     assert outcome.slower == []
-
-
-def _is_timed(name: str, row: dict) -> bool:
-    return ("_ms_" in name or "_mcycles_" in name) and row[name] != ""
 
 
 def test_each_program_goes_first_equally_often(tmp_path: Path, sweep: Path) -> None:
@@ -271,7 +284,7 @@ def test_diff_puts_two_files_beside_each_other(
 
 def elsewhere(_night: int, row: dict) -> dict:
     """Simulates a machine that takes three times as long."""
-    times = {name: 3 * row[name] for name in row if "_ms_" in name and row[name] != ""}
+    times = {name: 3 * row[name] for name in row if is_time(name, row)}
     return {**row, **times, "machine_id": "b"}
 
 
@@ -319,6 +332,12 @@ def test_without_embree_another_common_contender_is_the_reference(tmp_path: Path
     told = diff(a, b)
     assert "over that of samet max_level=6,max_objects=0 in the same file" in told.what
     assert all(pair.ratio.value == pytest.approx(1.0, rel=0.1) for pair in told.pairs)
+
+
+def test_diff_warns_of_a_file_from_before_blocks(tmp_path: Path) -> None:
+    [a] = write_nights(Home(tmp_path / "a"), 1, nothing, old=1)
+    [b] = write_nights(Home(tmp_path / "b"), 1, nothing)
+    assert diff(a, b).warning.startswith("WARNING: one file is from before blocks.")
 
 
 def test_diff_refuses_what_it_cannot_read(tmp_path: Path) -> None:

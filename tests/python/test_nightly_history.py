@@ -8,16 +8,19 @@ import shutil
 import sqlite3
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from beambench_operations.history.night import night_of
+from beambench_operations.history.nights import read_nights
 from beambench_operations.history.store import SCHEMA_VERSION, History
 from beambench_operations.nightly.home import Home, abandon, only_one, prune
 from beambench_operations.nightly.run import catch_up, rebuild_history
+from beambench_report.base.analysis import read_analysis
 from beambench_report.base.files import Problem
 from beambench_report.base.records import read_run
 from beambench_report.base.run_log import has_log
-from synthetic_nights import add_all, counting, write_nights, wrong
+from synthetic_nights import BLOCKS, add_all, counting, write_nights, wrong
 from synthetic_run import synthetic_rows, without_times, write_cell, write_run
 
 
@@ -92,6 +95,45 @@ def test_another_version_is_refused_until_it_is_rebuilt(home: Home) -> None:
     History(home.history).read("SELECT 1")
 
 
+def test_a_history_from_before_blocks_is_read_on(home: Home) -> None:
+    *known, new = write_nights(home, 3, old=2)
+    add_all(home, known)
+    with sqlite3.connect(home.history) as base:
+        base.execute("ALTER TABLE nights DROP COLUMN in_blocks")
+        base.execute("ALTER TABLE figures DROP COLUMN error")
+        base.execute("PRAGMA user_version = 1")
+    base.close()
+    add_all(home, [new])
+    with History(home.history) as history:
+        assert list(read_nights(history).nights["in_blocks"]) == [0, 0, 1]
+        assert history.read(
+            "SELECT count(ratio) > 0, count(error) FROM figures WHERE night = 2"
+        ) == [(1, 0)]
+    before = [line for line in everything(home.history) if line.startswith("INSERT")]
+    assert rebuild_history(home) == 3
+    assert [line for line in everything(home.history) if line.startswith("INSERT")] == before
+
+
+def test_a_ratio_is_the_mean_over_the_blocks_with_its_error(home: Home) -> None:
+    [folder] = write_nights(home, 1)
+    totals = read_analysis(folder).block_totals
+    for one in night_of(read_run(folder)).figures:
+        own, base = (
+            np.log(list(totals["/".join(map(str, name))].values()))
+            for name in (_name(one.key), _name(one.reference))
+        )
+        logs = own - base
+        assert len(logs) == BLOCKS
+        assert one.ratio == pytest.approx(np.exp(logs.mean()))
+        assert one.error == pytest.approx(logs.std(ddof=1) / np.sqrt(BLOCKS), abs=1e-12)
+
+
+def _name(key: tuple) -> tuple:
+    scene, camera, structure, parameters, width, height, samples, rays = key
+    accel = f"{structure}:{parameters}".rstrip(":")
+    return scene, camera, f"{width}x{height}", samples, rays, accel
+
+
 def test_a_torn_file_is_refused(home: Home) -> None:
     add_all(home, write_nights(home, 2))
     data = home.history.read_bytes()
@@ -149,7 +191,7 @@ def test_a_lock_dies_with_its_holder(home: Home) -> None:
 
 
 def test_old_raw_samples_are_pruned_but_not_what_was_wrong(home: Home) -> None:
-    folders = write_nights(home, 4)
+    folders = write_nights(home, 4, old=4)
     right, bad = synthetic_rows()[0], without_times(synthetic_rows()[1], "mismatch")
     for number, folder in enumerate(folders):
         write_cell(folder, right)

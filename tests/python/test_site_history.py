@@ -98,6 +98,33 @@ def test_a_fine_night_says_so(tmp_path: Path) -> None:
     assert "in the newest" not in (home.site / "index.html").read_text()
 
 
+def test_nights_from_before_blocks_are_shown_and_marked(chromium: Browser, tmp_path: Path) -> None:
+    home = Home(tmp_path)
+    add_all(home, write_nights(home, 4, nothing, old=2))
+    write_site([home.folder], home.site)
+    page = history_of(home)
+    text = page.read_text()
+    assert "2 of the 4 runs are from before blocks: shown, and compared with no" in text
+    assert "this machine has 2 runs in blocks" in text
+    assert text.count("before blocks: not compared") == 2
+    assert len(list((home.site / "compare").glob("*-vs-*.html"))) == 2, "none across the change"
+    chromium.open(page)
+    points = "[...document.querySelectorAll('#series circle')].map(dot => dot.getAttribute('fill'))"
+    hollow = [fill == "none" for fill in chromium.evaluate(points)]
+    assert hollow == [True, True, False, False] * 4
+    chromium.open(home.site / "compare/index.html")
+    chromium.evaluate(
+        "(() => { const one = document.querySelector('[name=before]'); one.selectedIndex = 0;"
+        " one.dispatchEvent(new Event('input', { bubbles: true })); })()"
+    )
+    status = "document.getElementById('status').innerText"
+    for _ in range(50):
+        if "before blocks" in chromium.evaluate(status):
+            break
+    assert "One of these runs is from before blocks" in chromium.evaluate(status)
+    assert chromium.evaluate("document.querySelectorAll('#any-table tbody tr').length") == 0
+
+
 def test_the_first_night_has_a_page_but_no_history(tmp_path: Path) -> None:
     home = Home(tmp_path)
     add_all(home, write_nights(home, 1, nothing))

@@ -54,8 +54,9 @@ Estimate estimate(std::span<const double> values) {
   const auto [mean, deviation] = of_logarithms(values);
   if (values.size() < 2) return {std::exp(mean)};
   const auto count = static_cast<double>(values.size());
-  const double half = student_t(static_cast<int>(values.size()) - 1) * deviation / std::sqrt(count);
-  return {std::exp(mean), around(mean, half), around(mean, std::sqrt(2.0) * half)};
+  const double error = deviation / std::sqrt(count);
+  const double half = student_t(static_cast<int>(values.size()) - 1) * error;
+  return {std::exp(mean), around(mean, half), around(mean, std::sqrt(2.0) * half), error};
 }
 
 std::map<int, double> least_by_block(const CellRecord& cell,
@@ -67,6 +68,11 @@ std::map<int, double> least_by_block(const CellRecord& cell,
 std::map<int, double> trace_by_block(const CellRecord& cell, TraceClock clock) {
   return clock == TraceClock::kWall ? least_by_block(cell, &Repetition::trace_ms)
                                     : least(cell, &Repetition::trace_cpu_ms);
+}
+
+std::map<int, double> total_by_block(const CellRecord& cell, TraceClock clock) {
+  if (clock == TraceClock::kWall) return least_by_block(cell, &Repetition::total_ms);
+  return least(cell, [](const Repetition& one) { return one.build_cpu_ms + one.trace_cpu_ms; });
 }
 
 bool is_disturbed(const CellRecord& cell) {

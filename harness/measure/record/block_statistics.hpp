@@ -20,6 +20,7 @@ struct Estimate {
   /// Covers the value of a second run of as many blocks with 95%: wider by the square root of two,
   /// since both runs vary.
   std::optional<Interval> prediction{};
+  std::optional<double> error{};  ///< standard error of the value's logarithm, with two blocks
 };
 
 /// Returns the estimate of positive values that vary by factors: the mean of their logarithms, with
@@ -45,6 +46,9 @@ std::map<int, double> least_by_block(const CellRecord& cell,
 /// repetition (`Repetition::is_undisturbed`), or by the CPU clock its least. A block without an
 /// undisturbed repetition has no wall time.
 std::map<int, double> trace_by_block(const CellRecord& cell, TraceClock clock);
+
+/// Returns the time of building and tracing of a cell in each block, likewise.
+std::map<int, double> total_by_block(const CellRecord& cell, TraceClock clock);
 
 /// Returns whether the wall times of a cell are too few to compare it by: those of less than half
 /// of its blocks.

@@ -42,6 +42,8 @@ class Ratio:
     predicted_low: float | None = None
     predicted_high: float | None = None
     """Where that of a second run of equal size falls with 95%; only with blocks."""
+    error: float | None = None
+    """The standard error of its logarithm; only with blocks."""
 
     @property
     def rank(self) -> str:
@@ -50,7 +52,7 @@ class Ratio:
         "tied": equivalent to it, within 3%; "behind": clearly slower; "undecided"; "unranked":
         without an interval.
         """
-        return _beambench.rank(*astuple(self))
+        return _beambench.rank(*astuple(self)[:-1])
 
     @property
     def interval(self) -> tuple[float, float] | None:

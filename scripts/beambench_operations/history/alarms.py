@@ -64,7 +64,7 @@ _MANY = 5
 
 def find_alarms(history: History, night: int) -> list[Alarm]:
     """Returns the alarms of a night of the history, compared with the nights before it."""
-    nights = read_nights(history, night, NIGHTS)
+    nights = read_nights(history, night, NIGHTS, compared=True)
     before = set(nights.nights["number"][:-1])
     earlier = [one for one in history.alarms() if one.kind == "time" and one.night in before]
     found = [*_wrong(nights), *_more_work(nights), *_slower(nights, earlier)]

@@ -7,15 +7,15 @@ from pathlib import Path
 
 import pandas as pd
 
-from beambench_report.base.cell_files import IDENTITY
+from beambench.analysis import Ratio, block_ratio, unpaired_ratio
+from beambench_report.base.analysis import has_analysis, read_analysis
+from beambench_report.base.cell_files import IDENTITY, median_of, name_of
 from beambench_report.base.columns import COUNTER_SUFFIX
 from beambench_report.base.files import Problem
 from beambench_report.base.machine import machine_of
 from beambench_report.base.records import FAULTLESS_VERDICTS, Run, size_of
 
 Key = tuple[str, str, str, str, int, int, int, str]
-
-_WAITED = 0.9  # a thread that ran for a smaller part of its time was kept waiting
 
 # Contenders of one view answered the same rays; ratios are between them only.
 VIEW = ("scene", "camera", "width", "height", "samples", "ray_kind")
@@ -32,6 +32,8 @@ class Figure:
     verdict: str
     reference: Key | None
     ratio: float | None
+    error: float | None
+    """Standard error of the ratio's logarithm; None below two blocks."""
 
 
 @dataclass(frozen=True)
@@ -45,6 +47,8 @@ class Night:
     machine_id: str
     """With the processor where a manifest names it: nights of two machines are never mixed."""
     csv_sha256: str
+    in_blocks: bool
+    """Others are shown, and compared with no night."""
     figures: tuple[Figure, ...]
 
     @property
@@ -57,20 +61,18 @@ def night_of(run: Run) -> Night:
     """Reads a night from a run. Raises Problem where its rows are not those of one run."""
     rows = run.rows
     _require_one_run(run)
-    times = cycles(rows)
-    references = _references(rows, times)
+    references = references_of(rows)
     keys = keys_of(rows)
+    ratios = _ratios(run, references)
     cells = zip(
-        *(keys, views_of(rows), inputs_of(rows), counters_of(rows), rows["verdict"], times),
+        *(keys, views_of(rows), inputs_of(rows), counters_of(rows), rows["verdict"], ratios),
         strict=True,
     )
     figures = []
-    for key, view, inputs, work, verdict, time in cells:
-        base = references.get(view)
-        reference = keys[base] if base is not None else None
-        has_ratio = base is not None and pd.notna(time)
-        ratio = float(time / times.iloc[base]) if has_ratio else None
-        figures.append(Figure(key, inputs, work, verdict, reference, ratio))
+    for key, view, inputs, work, verdict, ratio in cells:
+        reference = keys[references[view]] if view in references else None
+        value, error = (ratio.value, ratio.error) if ratio else (None, None)
+        figures.append(Figure(key, inputs, work, verdict, reference, value, error))
     last = rows.iloc[-1]
     return Night(
         last["run_id"],
@@ -79,6 +81,7 @@ def night_of(run: Run) -> Night:
         (rows["dirty"] == "true").any(),
         str(machine_of(rows, run.directory)),
         hashlib.sha256((run.directory / "results.csv").read_bytes()).hexdigest(),
+        in_blocks(rows),
         tuple(figures),
     )
 
@@ -125,26 +128,33 @@ def comparable(rows: pd.DataFrame) -> list[tuple]:
     return list(zip(views_of(rows), rows["machine_id"], strict=True))
 
 
-def cycles(rows: pd.DataFrame) -> pd.Series:
-    """Returns the figure to compare rows by: total clock cycles during which the thread ran.
-
-    It is wall time in cycles, less the share in which other processes had the core: shared machines
-    are busy at night, too. The clock is known for each repetition, but the waiting only by medians,
-    so where a thread waited a lot, CPU time at the median clock is the better estimate. Runs that
-    lack these columns are compared by wall time.
-    """
-    needed = ("total_mcycles_median", "clock_ghz_median", "build_cpu_ms_median")
-    timed = rows["timed"]
-    if any(name not in rows or rows.loc[timed, name].isna().any() for name in needed):
-        return rows["total_ms_median"].where(timed & (rows["total_ms_median"] > 0))
-    worked = rows["build_cpu_ms_median"] + rows["trace_cpu_ms_median"]
-    share = worked / rows["total_ms_median"]
-    ran = rows["total_mcycles_median"] * share.clip(upper=1.0)
-    times = ran.where(share > _WAITED, worked * rows["clock_ghz_median"])
-    return times.where(timed & (times > 0))
+def in_blocks(rows: pd.DataFrame) -> bool:
+    """Was the run measured in blocks? Older ones are medians of one process."""
+    return "blocks" in rows and bool(rows["blocks"].notna().any())
 
 
-def _references(rows: pd.DataFrame, times: pd.Series) -> dict[tuple, int]:
+def _ratios(run: Run, references: dict[tuple, int]) -> list[Ratio | None]:
+    """Returns the ratio of each row to the reference of its view, paired by blocks if possible."""
+    known = in_blocks(run.rows) and has_analysis(run.directory)
+    blocks = read_analysis(run.directory).block_totals if known else {}
+    rows = run.rows.to_dict("records")
+    ratios: list[Ratio | None] = []
+    for row, view, timed in zip(rows, views_of(run.rows), is_timed(run.rows), strict=True):
+        if view not in references or not timed:
+            ratios.append(None)
+            continue
+        base = rows[references[view]]
+        paired = block_ratio(*(blocks.get(name_of(one), {}) for one in (row, base)))
+        ratios.append(paired or unpaired_ratio(median_of(row, "total"), median_of(base, "total")))
+    return ratios
+
+
+def is_timed(rows: pd.DataFrame) -> pd.Series:
+    """Has each row a time that can be compared?"""
+    return rows["timed"] & (rows["total_ms"] > 0)
+
+
+def references_of(rows: pd.DataFrame) -> dict[tuple, int]:
     """Returns the reference row of each view: Embree's single rays, if possible.
 
     Embree is the one contender that no commit of ours changes.
@@ -152,7 +162,7 @@ def _references(rows: pd.DataFrame, times: pd.Series) -> dict[tuple, int]:
     known = rows.assign(
         place=range(len(rows)), is_other=~rows["parameters"].str.contains("mode=single")
     )
-    known = known[(rows["structure"] == "embree") & times.notna()]
+    known = known[(rows["structure"] == "embree") & is_timed(rows)]
     # By what it is, not by where it stands: rows come in another order each night.
     best = known.sort_values(["is_other", "parameters", "place"]).drop_duplicates(list(VIEW))
     return dict(zip(views_of(best), best["place"].tolist(), strict=True))

@@ -28,10 +28,12 @@ class Nights:
     """
 
     nights: pd.DataFrame
-    """number, run_id, time_utc, commit, dirty, folder, cells, wrong"""
+    """number, run_id, time_utc, commit, dirty, folder, cells, wrong, in_blocks"""
     cells: pd.DataFrame
     """IDENTITY, the names of `with_names`, `verdict` tonight, `is_reference`"""
     ratios: np.ndarray
+    errors: np.ndarray
+    """Standard errors of their logarithms, from the blocks of each night."""
     works: np.ndarray
     """Number of the counters of each cell in each night; -1 where its inputs differ."""
     counters: dict[int, dict[str, float]]
@@ -82,31 +84,38 @@ def nan_mean(values: np.ndarray) -> np.ndarray:
         return np.nanmean(values, axis=1)
 
 
-def read_nights(history: History, last: int | None = None, most: int | None = None) -> Nights:
+def read_nights(
+    history: History, last: int | None = None, most: int | None = None, *, compared: bool = False
+) -> Nights:
     """The nights up to the one of number `last` (the newest if not given), on its machine.
 
-    Of these, the newest `most`; all if not given.
+    Of these, the newest `most`; all if not given. If `compared`, the earlier ones are those that it
+    is compared with: nights in blocks, where it is one.
     """
     tonight = _tonight(history, last)
-    columns = "n.id, n.run_id, n.time_utc, n.commit_hash, n.dirty, n.folder, n.cells, n.wrong"
+    names = "id run_id time_utc commit_hash dirty folder cells wrong in_blocks".split()
+    columns = ", ".join(f"n.{name}" for name in names)
+    only = "AND (n.id = t.id OR n.in_blocks AND t.in_blocks) " if compared else ""
     rows = history.read(
         f"SELECT {columns} FROM nights n, nights t WHERE t.id = ? AND n.machine_id = t.machine_id "
-        "AND (n.time_utc, n.id) <= (t.time_utc, t.id) ORDER BY n.time_utc DESC, n.id DESC LIMIT ?",
+        f"AND (n.time_utc, n.id) <= (t.time_utc, t.id) {only}"
+        "ORDER BY n.time_utc DESC, n.id DESC LIMIT ?",
         (tonight, most or -1),
     )[::-1]
-    names = "number run_id time_utc commit dirty folder cells wrong".split()
     nights = pd.DataFrame(rows, columns=names)
+    nights = nights.rename(columns={"id": "number", "commit_hash": "commit"})
     cells = _cells_of(history, tonight)
     shape = (len(nights), len(cells))
-    ratios, works = np.full(shape, np.nan), np.full(shape, -1)
+    ratios, errors, works = np.full(shape, np.nan), np.full(shape, np.nan), np.full(shape, -1)
     # One query: a look-up for each night would take longer than all of them together.
     figures = history.read(
-        "SELECT f.night, f.cell, f.work, f.ratio, f.reference IS t.reference "
+        "SELECT f.night, f.cell, f.work, f.ratio, f.error, f.reference IS t.reference "
         "FROM figures f JOIN figures t ON t.cell = f.cell AND t.input = f.input "
         "WHERE t.night = ? AND f.night >= ?",
         (tonight, int(nights["number"].min())),
     )
-    known = pd.DataFrame(figures, columns=["night", "cell", "work", "ratio", "same_reference"])
+    names = ["night", "cell", "work", "ratio", "error", "same_reference"]
+    known = pd.DataFrame(figures, columns=names)
     known = known[known["night"].isin(nights["number"])]
     at = (
         pd.Index(nights["number"]).get_indexer(known["night"]),
@@ -114,13 +123,14 @@ def read_nights(history: History, last: int | None = None, most: int | None = No
     )
     works[at] = known["work"]
     ratios[at] = known["ratio"].where(known["same_reference"] == 1).astype(float)
+    errors[at] = known["error"].astype(float)
     used = set(np.unique(works[works >= 0]).tolist())
     counters = {
         number: {RENAMED_COLUMNS.get(name, name): value for name, value in json.loads(text).items()}
         for number, text in history.read("SELECT id, counters FROM work")
         if number in used
     }
-    return Nights(nights, cells, ratios, works, counters)
+    return Nights(nights, cells, ratios, errors, works, counters)
 
 
 def _tonight(history: History, last: int | None) -> int:

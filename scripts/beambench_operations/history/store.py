@@ -10,8 +10,10 @@ alarms      what a night raised an alarm about, kept so that no later night does
 `machine_id` of a night is the column's, with the processor behind it where the run's manifest names
 it: a series holds nights of one machine only.
 
-`ratio` is the total, in clock cycles during which the thread ran (see night.cycles), over that of
-the contender `reference` of the same run and the same rays.
+`ratio` is the total (build and trace) over that of the contender `reference` of the same run and
+the same rays: the geometric mean of the ratios of the blocks; `error` is the standard error of its
+logarithm. A night that was not measured `in_blocks` has quotients of medians, which are shown and
+never compared.
 """
 
 import json
@@ -27,7 +29,7 @@ from beambench_report.base.cell_files import IDENTITY
 from beambench_report.base.files import Problem, write_whole
 from beambench_report.base.records import read_run
 
-SCHEMA_VERSION = 1
+SCHEMA_VERSION = 2
 
 # Marks the file as a history of ours: "bbnh".
 APPLICATION_ID = 0x62626E68
@@ -43,7 +45,8 @@ CREATE TABLE nights (
   folder TEXT NOT NULL,
   csv_sha256 TEXT NOT NULL,
   cells INTEGER NOT NULL,
-  wrong INTEGER NOT NULL
+  wrong INTEGER NOT NULL,
+  in_blocks INTEGER NOT NULL DEFAULT 0
 );
 CREATE TABLE cells (
   id INTEGER PRIMARY KEY,
@@ -67,6 +70,7 @@ CREATE TABLE figures (
   reference INTEGER REFERENCES cells (id),
   verdict TEXT NOT NULL,
   ratio REAL,
+  error REAL,
   PRIMARY KEY (night, cell)
 ) WITHOUT ROWID;
 CREATE TABLE alarms (
@@ -78,6 +82,11 @@ CREATE TABLE alarms (
 ) WITHOUT ROWID;
 """
 
+
+_FROM_VERSION_1 = """
+ALTER TABLE nights ADD COLUMN in_blocks INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE figures ADD COLUMN error REAL;
+"""
 
 _REMEDY = "rebuild it from the runs: python -m beambench_operations nightly rebuild"
 
@@ -131,11 +140,11 @@ class History:
             inputs = self._numbers("inputs", "hashes", (one.inputs for one in night.figures))
             work = self._numbers("work", "counters", (one.counters for one in night.figures))
             self._base.executemany(
-                "INSERT INTO figures VALUES (?, ?, ?, ?, ?, ?, ?)",
+                "INSERT INTO figures VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
                 [
                     (
                         *(number, cells[one.key], inputs[one.inputs], work[one.counters]),
-                        *(cells.get(one.reference), one.verdict, one.ratio),
+                        *(cells.get(one.reference), one.verdict, one.ratio, one.error),
                     )
                     for one in night.figures
                 ],
@@ -188,6 +197,9 @@ class History:
             return
         if application != APPLICATION_ID:
             raise Problem(f"{self.path}: is an SQLite file, but no history of nightly runs")
+        if version == 1:  # its nights are from before blocks
+            self._base.executescript(f"BEGIN; {_FROM_VERSION_1} PRAGMA user_version = 2; COMMIT;")
+            return
         if version != SCHEMA_VERSION:
             raise Problem(
                 f"{self.path}: has schema version {version}, and this reads {SCHEMA_VERSION}; "
@@ -208,6 +220,7 @@ class History:
         values = (
             *(night.run_id, night.time_utc, night.commit, int(night.dirty), night.machine_id),
             *(str(relative), night.csv_sha256, len(night.figures), night.wrong),
+            int(night.in_blocks),
         )
         marks = ", ".join("?" * len(values))
         cursor = self._base.execute(f"INSERT INTO nights VALUES (NULL, {marks})", values)

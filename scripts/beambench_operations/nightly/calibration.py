@@ -1,31 +1,32 @@
 """How often does pure noise raise a false alarm, and which slow-downs are found?
 
-Noise is taken from repeated runs of one sweep by one program: blocks of consecutive runs are put
+Noise is taken from repeated runs of one sweep by one program: groups of consecutive runs are put
 one after another (block bootstrap), all contenders of a scene together, since they share a
 reference. Nights are then tested one by one, each with those before it, as `scripts/nightly` does.
 """
 
 import json
-from collections import defaultdict
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass
-from math import log, log1p, nan, sqrt
+from math import log1p, nan, sqrt
 from pathlib import Path
 from time import monotonic
 
 import numpy as np
+import pandas as pd
 from scipy import stats
 
-from beambench_operations.history.night import VIEW
+from beambench_operations.history.night import references_of, views_of
 from beambench_operations.history.nights import Nights
 from beambench_operations.history.steps import Rule, find_steps
-from beambench_report.base.cell_files import repetitions_of
+from beambench_report.base.analysis import read_analysis
+from beambench_report.base.cell_files import name_of
 from beambench_report.base.files import Problem
-from beambench_report.base.run_log import LOG, logged_cells
+from beambench_report.base.records import read_run
 
-BLOCK = 5
+_GROUP = 5
 SCENES = 15
-_LEAST_NIGHTS = 2 * BLOCK
+_LEAST_NIGHTS = 2 * _GROUP
 _WAIT = 24
 _REPORT_SECONDS = 10.0
 _SEED = 1999
@@ -37,6 +38,8 @@ class Noise:
 
     scenes: tuple[np.ndarray, ...]
     nights: int
+    within: float = nan
+    """Standard error of a usual series by the blocks of one night."""
 
     @property
     def standard_deviation(self) -> float:
@@ -71,6 +74,7 @@ class Calibration:
     alarms_high: float
     noise: float
     noise_nights: int
+    within: float
     rule: Rule
     power: tuple[Power, ...]
 
@@ -91,7 +95,8 @@ class Calibration:
             f"together ({self._in_100_nights(self.alarms)} in 100 nights, 95% interval "
             f"{self._in_100_nights(self.alarms_low)} to {self._in_100_nights(self.alarms_high)}); "
             f"the noise was drawn from {self.noise_nights} nights, {100 * self.noise:.2g}% "
-            "(standard deviation of a usual series)."
+            "(standard deviation of a usual series); by the blocks of one night it would be "
+            f"{100 * self.within:.2g}%."
         ]
         lines += [
             f"A slow-down by {one.slowdown:.1%} was found and named in {one.found:.1%} of "
@@ -132,11 +137,13 @@ def noise_of(nights: Nights) -> Noise:
     whole = np.isfinite(pooled).all(axis=1)
     scenes = nights.pools["scene"].to_numpy()
     parts = tuple(pooled[np.ix_(whole, scenes == scene)] for scene in dict.fromkeys(scenes))
-    return Noise(parts, int(whole.sum()))
+    squares = np.square(nights.errors)
+    within = [squares[:, own].mean(axis=1) / len(own) for own in nights.pools["members"]]
+    return Noise(parts, int(whole.sum()), sqrt(np.nanmedian(within)) if within else nan)
 
 
 def has_enough(noise: Noise) -> bool:
-    """Are there nights enough to draw blocks from?"""
+    """Are there nights enough to draw from?"""
     return noise.nights >= _LEAST_NIGHTS and bool(noise.scenes)
 
 
@@ -145,8 +152,8 @@ def synthetic_nights(noise: Noise, nights: int, random: np.random.Generator) -> 
     columns = []
     for number in range(SCENES):
         source = noise.scenes[number % len(noise.scenes)]
-        starts = random.integers(0, len(source), -(-nights // BLOCK))
-        places = (starts[:, None] + np.arange(BLOCK)).ravel() % len(source)
+        starts = random.integers(0, len(source), -(-nights // _GROUP))
+        places = (starts[:, None] + np.arange(_GROUP)).ravel() % len(source)
         columns.append(source[places[:nights]])
     return np.concatenate(columns, axis=1)
 
@@ -179,7 +186,7 @@ def calibrate(
     high = float(stats.chi2.ppf(0.975, 2 * alarms + 2) / 2)
     power = _powers(noise, slowdowns, effort or Effort(), rule, random, report)
     alarmed = (alarms, low, high)
-    drawn_from = (noise.standard_deviation, noise.nights)
+    drawn_from = (noise.standard_deviation, noise.nights, noise.within)
     return Calibration(nights, values.shape[1], *alarmed, *drawn_from, rule, power)
 
 
@@ -245,71 +252,45 @@ def _nights_until_found(
     return 0
 
 
-PROCESS = 0.004
-"""Standard deviation of a ratio from one process to the next: two default runs of commit f245b10,
-96 cells."""
-
-_ROUNDS = 9  # the least repetitions of a nightly cell
+_BLOCKS = 8  # of a night, where its sweep does not say
 _NIGHTS = 200
 
 
 def noise_of_samples(folders: Iterable[Path]) -> Noise:
-    """Noise from the raw samples of runs. Raises Problem where none has enough of them."""
+    """Noise of nights that are drawn from the blocks of runs: what days differ by is not in it.
+
+    Raises Problem where no run has as many blocks as a night.
+    """
     random = np.random.default_rng(_SEED)
-    scenes: dict[str, list[np.ndarray]] = defaultdict(list)
-    for folder in folders:
-        for scene, contenders in _views(folder):
-            scenes[f"{folder}/{scene}"].append(_nights(contenders, random))
-    if not scenes:
+    drawn = [noise for folder in folders for noise in _drawn(folder, random)]
+    if not drawn:
         raise Problem(
-            f"no run has a view with Embree, others, and {_ROUNDS} repetitions in {LOG}; "
-            "give runs whose raw samples were not pruned"
+            f"no run has a view with Embree, others, and {_BLOCKS} blocks; give runs of a sweep "
+            f"with that many blocks"
         )
-    parts = []
-    for views in scenes.values():
-        # A scene's resolutions are tested together; what a process differs by is in all of them,
-        # and half of it is the reference's, which all contenders share.
-        noise = np.mean([one for one in views if one.shape == views[0].shape], axis=0)
-        size = PROCESS / sqrt(2)
-        noise += random.normal(0, size, noise.shape) + random.normal(0, size, (_NIGHTS, 1))
-        parts.append(noise)
-    return Noise(tuple(parts), _NIGHTS)
+    scenes = tuple(scene for noise in drawn for scene in noise.scenes)
+    return Noise(scenes, _NIGHTS, float(np.median([noise.within for noise in drawn])))
 
 
-def _views(folder: Path) -> Iterable[tuple[str, list[dict[int, float]]]]:
-    """Scene and contenders of each view, Embree's single rays first."""
-    views: dict[tuple, list[tuple[bool, dict[int, float]]]] = defaultdict(list)
-    for cell in logged_cells(folder):
-        row, repetitions = cell.facts, repetitions_of(cell)
-        try:
-            if len(repetitions) < _ROUNDS or row["structure"] == "null":
-                continue
-            view = tuple(row[name] for name in VIEW)
-            logs = {
-                one["round"]: log((one["build_cpu_ms"] + one["trace_cpu_ms"]) * one["clock_ghz"])
-                for one in repetitions
-            }
-        except (ValueError, KeyError, TypeError) as error:
-            raise Problem(
-                f"{folder / LOG}: has no repetitions of a run ({error}); measure it anew"
-            ) from None
-        is_reference = row["structure"] == "embree" and "mode=single" in row["parameters"]
-        views[view].append((is_reference, logs))
-    for view, cells in views.items():
-        cells.sort(key=lambda cell: not cell[0])
-        if cells[0][0] and len(cells) > 1:
-            yield view[0], [logs for _, logs in cells]
-
-
-def _nights(contenders: Sequence[dict[int, float]], random: np.random.Generator) -> np.ndarray:
-    rounds = max(max(logs) for logs in contenders) + 1
-    starts = random.integers(0, rounds, _NIGHTS)
-    medians = np.empty((_NIGHTS, len(contenders)))
-    for place, logs in enumerate(contenders):
-        order, values = np.array(sorted(logs.items())).T
-        first = np.searchsorted(order, starts) % len(order)
-        medians[:, place] = np.median(
-            values[(first[:, None] + np.arange(_ROUNDS)) % len(order)], axis=1
-        )
-    ratios = medians[:, 1:] - medians[:, :1]
-    return ratios - np.median(ratios, axis=0)
+def _drawn(folder: Path, random: np.random.Generator) -> Iterator[Noise]:
+    """The noise of a run's scenes: means of blocks, the same ones for all that it measured."""
+    rows = read_run(folder).rows
+    bases, totals = references_of(rows), read_analysis(folder).block_totals
+    names = [name_of(row) for row in rows.to_dict("records")]
+    logs = {}
+    for place, view in enumerate(views_of(rows)):
+        own = pd.Series(totals.get(names[place], {}), dtype=float)
+        base = pd.Series(totals.get(names[bases[view]], {}) if view in bases else {}, dtype=float)
+        if np.isfinite(ratio := np.log(own / base)).sum() >= _BLOCKS:
+            logs[place] = ratio
+    if not logs:
+        return
+    table = pd.DataFrame(logs)
+    blocks = random.integers(0, len(table), (_NIGHTS, _BLOCKS))
+    cells = rows.iloc[list(logs)].reset_index(drop=True)
+    cells["is_reference"] = np.isin(list(logs), list(bases.values()))
+    nights = table.to_numpy()[blocks]
+    ratios = np.exp(np.nanmean(nights, axis=1))
+    errors = np.nanstd(nights, axis=1, ddof=1) / sqrt(_BLOCKS)
+    no_works = np.full(ratios.shape, -1)
+    yield noise_of(Nights(pd.DataFrame(), cells, ratios, errors, no_works, {}))

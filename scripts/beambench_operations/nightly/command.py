@@ -74,7 +74,7 @@ def add_nightly_command(commands: Commands) -> None:
         metavar="RUN",
         help="ten or more runs of one sweep by one program; if none is given, those of the history",
     )
-    calibration("--samples", action="store_true", help="draw nights from the runs' raw samples")
+    calibration("--samples", action="store_true", help="draw nights from the blocks of the runs")
     calibration("--nights", type=int, default=1000, metavar="N")
     usual = Effort()
     for name, kind, words in (
@@ -154,8 +154,8 @@ def _calibrate(options: Options) -> int:
         noise = noise_of(_nights(options.home.history))
     if not has_enough(noise):
         raise Problem(
-            f"{noise.nights} nights are too few to draw noise from; ten are needed, or raw samples "
-            "of a run: --samples RUN"
+            f"{noise.nights} nights in blocks are too few to draw noise from; ten are needed, or "
+            "the blocks of a run: --samples RUN"
         )
     if options.trials < 1 or options.seconds <= 0 or options.precision <= 0:
         raise Problem("--trials must be at least 1, --seconds and --precision above 0")
@@ -169,4 +169,4 @@ def _calibrate(options: Options) -> int:
 
 def _nights(file: Path) -> Nights:
     with History(file) as history:
-        return read_nights(history)
+        return read_nights(history, compared=True)

@@ -1,7 +1,8 @@
 """Two commits of this machine, measured in turns: what scripts/compare runs once both are built.
 
 The history needs a dozen nights to separate a slow-down from noise. Two programs that take turns
-on one machine need minutes: each turn gives a pair of figures that the machine treated alike. The
+on one machine need minutes: each turn gives a pair of times that the machine treated alike, the
+means over the blocks of two runs, and pairs are averaged as blocks are (`block_ratio`). The
 order is A B, B A, A B, ..., each first as often as the other, so that neither a drift of the
 machine nor the place within a turn favors one of them.
 
@@ -10,19 +11,23 @@ program against itself, twice 12 turns beside builds: a mean correlation of 0.28
 cells, and no effect of the place within a turn, -1.9% and +0.5%). Most ratios, or all, may thus lie
 on one side of 1 by chance, and some intervals exclude 1 together. Cells are therefore tested
 together, by Holm's correction, and the ratio of all of them is made turn by turn.
+
+TOLERANCE is not the margin of 3% within which two contenders of one run rank as equal. There, a
+small difference would order what nobody needs to have ordered; here, one program is the other's
+successor, and small losses add up.
 """
 
 from dataclasses import dataclass
-from math import sqrt
+from math import log
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 from scipy import stats
 
-from beambench.analysis import Ratio, paired_ratio
+from beambench.analysis import Ratio, block_ratio
 from beambench_operations.history.alarms import SHARE
-from beambench_operations.history.night import cell_titles, cycles, keys_of
+from beambench_operations.history.night import cell_titles, in_blocks, is_timed, keys_of
 from beambench_operations.history.steps import holm
 from beambench_report.base.cell_files import IDENTITY
 from beambench_report.base.files import Problem, output_of, say
@@ -35,7 +40,7 @@ _GONE = {
     UNSUPPORTED: "the structure does not support this any more",
 }
 LEAST_TURNS = 6
-"""The fewest pairs whose median has a 95% interval."""
+"""Student's t of fewer pairs is so wide that only large slow-downs are found."""
 
 
 @dataclass(frozen=True)
@@ -155,19 +160,25 @@ def compare_turns(first: list[Path], second: list[Path]) -> Outcome:
         )
     times_a, rows_a = _table(first)
     times_b, rows_b = _table(second)
+    if in_blocks(rows_a) != in_blocks(rows_b):
+        old = first if in_blocks(rows_b) else second
+        raise Problem(
+            f"{old[-1]}: was measured by a program from before blocks, whose times are medians; "
+            "compare it with another of these, or two programs that measure in blocks"
+        )
     titles = cell_titles(rows_b)
     baselines = set(keys_of(rows_b[rows_b["verdict"] == BASELINE]))
     shared = [key for key in times_a.columns if key in times_b.columns]
     cells = [key for key in shared if key not in baselines]
     ratios = ((titles[key], *_ratio(times_b[key], times_a[key])) for key in cells)
     compared = [
-        Comparison(title, len(logs), ratio, _p_value(logs))
-        for title, ratio, logs in ratios
+        Comparison(title, pairs, ratio, _p_value(ratio, pairs))
+        for title, pairs, ratio in ratios
         if ratio and ratio.interval
     ]
     if not compared:
         raise Problem("no cell has times in enough turns of both programs; were their hits right?")
-    together, _ = _ratio(_mean_cell(times_b[cells]), _mean_cell(times_a[cells]))
+    _, together = _ratio(_mean_cell(times_b[cells]), _mean_cell(times_a[cells]))
     return Outcome(
         compared,
         holm(compared, len(compared), LEVEL),  # each tests for more than TOLERANCE already
@@ -179,16 +190,18 @@ def compare_turns(first: list[Path], second: list[Path]) -> Outcome:
 def _table(folders: list[Path]) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Times, one row per turn and one column per cell; and the rows of the last turn."""
     runs = [read_run(folder).rows for folder in folders]
-    turns = [pd.Series(cycles(rows).to_numpy(), pd.Index(keys_of(rows))) for rows in runs]
+    turns = [
+        pd.Series(rows["total_ms"].where(is_timed(rows)).to_numpy(), pd.Index(keys_of(rows)))
+        for rows in runs
+    ]
     return pd.DataFrame(turns), runs[-1]
 
 
-def _ratio(times_b: pd.Series, times_a: pd.Series) -> tuple[Ratio | None, np.ndarray]:
-    """Paired by turns; and the logarithm of each turn's ratio."""
+def _ratio(times_b: pd.Series, times_a: pd.Series) -> tuple[int, Ratio | None]:
+    """How many turns have both times, and their ratio, paired by turns."""
     known = times_b.notna() & times_a.notna()
-    over, under = times_b[known], times_a[known]
-    logs = np.log(over.to_numpy()) - np.log(under.to_numpy())
-    return paired_ratio(over.to_dict(), under.to_dict()), logs
+    ratio = block_ratio(times_b[known].to_dict(), times_a[known].to_dict())
+    return int(known.sum()), ratio
 
 
 def _mean_cell(times: pd.DataFrame) -> pd.Series:
@@ -196,9 +209,9 @@ def _mean_cell(times: pd.DataFrame) -> pd.Series:
     return pd.Series(np.exp(np.log(times.to_numpy(float)).mean(axis=1)), index=times.index)
 
 
-def _p_value(logs: np.ndarray) -> float:
-    error = max(float(logs.std(ddof=1)) / sqrt(len(logs)), 1e-6)
-    return float(stats.t.sf((logs.mean() - TOLERANCE) / error, len(logs) - 1))
+def _p_value(ratio: Ratio, pairs: int) -> float:
+    error = max(ratio.error or 0.0, 1e-6)
+    return float(stats.t.sf((log(ratio.value) - TOLERANCE) / error, pairs - 1))
 
 
 def _differences(first: pd.DataFrame, second: pd.DataFrame, titles: dict) -> list[str]:

@@ -15,7 +15,14 @@ from pathlib import Path
 import pandas as pd
 
 from beambench.analysis import Median, Ratio, unpaired_ratio
-from beambench_operations.history.night import cell_titles, comparable, inputs_of, keys_of, views_of
+from beambench_operations.history.night import (
+    cell_titles,
+    comparable,
+    in_blocks,
+    inputs_of,
+    keys_of,
+    views_of,
+)
 from beambench_report.base.cell_files import (
     CellFile,
     Identity,
@@ -48,7 +55,7 @@ class Difference:
 
     what: str
     warning: str
-    """Empty where both files are of one machine."""
+    """Empty where both files are of one machine, and both or neither in blocks."""
     pairs: list[Pair]
     only_a: int
     only_b: int
@@ -100,6 +107,11 @@ def diff(first: Path, second: Path, *, relative: bool | None = None) -> Differen
             f"WARNING: two machines. A is of machine {file_a.machine}, B of {file_b.machine}. "
             "Their milliseconds cannot be compared; shown are ratios to a contender of both files."
         )
+    if in_blocks(file_a.rows) != in_blocks(file_b.rows):
+        warning = (
+            f"{warning}\nWARNING: one file is from before blocks. Its times are medians of one "
+            "process, and longer than the fastest of each block for that reason alone."
+        ).lstrip()
     reference = _reference(file_a.rows, file_b.rows) if relative else None
     known_a, known_b = _figures(file_a, reference), _figures(file_b, reference)
     titles = cell_titles(file_b.rows)

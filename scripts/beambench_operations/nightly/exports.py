@@ -9,8 +9,9 @@ from pathlib import Path
 
 import pandas as pd
 
+from beambench_report.base.cell_files import name_of
 from beambench_report.base.files import Problem, write_text
-from beambench_report.base.records import Run, contenders_with_times, size_of
+from beambench_report.base.records import Run, contenders_with_times
 
 BIGGER_IS_BETTER = "benchmark-bigger-is-better.json"
 GOOGLE_BENCHMARK = "benchmark-google.json"
@@ -29,7 +30,7 @@ def bigger_is_better(run: Run) -> str:
     """Returns million rays per second, build included, in the format customBiggerIsBetter."""
     entries = []
     for _, row in contenders_with_times(run.rows).iterrows():
-        total = row["total_ms_median"]
+        total = row["total_ms"]
         entry = {
             "name": benchmark_name(row),
             "unit": "Mrays/s",
@@ -55,7 +56,4 @@ def google_benchmark(run: Run) -> str:
 
 def benchmark_name(row: pd.Series) -> str:
     """The name of a cell: as Google Benchmark's, parts between slashes, no blanks."""
-    accel = f"{row['structure']}:{row['parameters']}".rstrip(":")
-    view = (row["scene"], row["camera"], size_of(row), f"{row['samples']:.0f}", row["ray_kind"])
-    parts = (*view, accel)
-    return "/".join(part.replace(" ", "_") for part in parts)
+    return name_of(row).replace(" ", "_")

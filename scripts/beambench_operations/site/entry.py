@@ -13,7 +13,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from beambench.analysis import Median, Ratio
-from beambench_operations.history.night import comparable, counters_of, inputs_of
+from beambench_operations.history.night import comparable, counters_of, in_blocks, inputs_of
 from beambench_report.base.analysis import Analysis, has_analysis, read_analysis
 from beambench_report.base.cell_files import (
     CellFile,
@@ -55,7 +55,7 @@ class Cell:
     work: str
     """Of its counters."""
     ms: Ends | None
-    """Median of build and trace with its interval; None where no time counts."""
+    """Build and trace, with their interval; None where no time counts."""
     ratio: Ends | None
     """Of these to the reference of the same run, paired where the repetitions are known."""
 
@@ -82,6 +82,8 @@ class Entry:
     machine_ids: tuple[str, ...]
     processor: str
     sweep: str
+    in_blocks: bool
+    """Runs from before blocks are compared with none in blocks."""
     cut_off: bool
     wrong: int
     without_rays: int
@@ -127,6 +129,7 @@ def entry_of(run: Run) -> Entry:
         machine_ids=machine.ids,
         processor=machine.processor,
         sweep=manifest.sweep,
+        in_blocks=in_blocks(rows),
         cut_off=manifest.cut_off,
         wrong=int((~rows["verdict"].isin(FAULTLESS_VERDICTS)).sum()),
         without_rays=int((rows["verdict"] == NO_RAYS).sum()),

@@ -55,6 +55,7 @@ def page_values(history: MachineHistory, address: Address, repository: Repositor
         "rule": Rule(),
         "counter_share": SHARE,
         "nights": rows[::-1],
+        "not_in_blocks": sum(not row["in_blocks"] for row in rows),
         "charts": chart_data(nights, history.alarms, rows),
     }
 
@@ -90,12 +91,12 @@ def _earlier(history: MachineHistory, address: Address) -> list[tuple[str, str, 
 
 def _not_tested(nights: Nights) -> str:
     """Why times are not tested yet; nothing where they are."""
-    known = len(nights.nights)
+    known = int(nights.nights["in_blocks"].sum())
     if known >= 2 * Rule().side:
         return ""
     return (
-        f"Times are not tested yet: this machine has {known} runs, and a step needs {Rule().side} "
-        "on each side. Until then use scripts/compare REV_A REV_B."
+        f"Times are not tested yet: this machine has {known} runs in blocks, and a step needs "
+        f"{Rule().side} on each side. Until then use scripts/compare REV_A REV_B."
     )
 
 
@@ -138,6 +139,7 @@ def _night(row: Mapping) -> dict:
         "commit": row["commit"][:12],
         "subject": row["subject"],
         "change": "" if change is None else change.url or f"#change-{row['place']}",
+        "in_blocks": bool(row["in_blocks"]),
     }
 
 

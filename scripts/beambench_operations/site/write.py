@@ -202,7 +202,9 @@ def _write_comparisons(site: _Site, runs: Sequence[_Run], published: Path | None
     by_sweep.pop("", None)
     for own in by_sweep.values():
         for place, run in enumerate(own):
-            earlier = own[:place][::-1]
+            earlier = [
+                one for one in own[:place][::-1] if one.entry.in_blocks == run.entry.in_blocks
+            ]
             here = (one for one in earlier if not one.entry.machine.differs_from(run.entry.machine))
             before = next(here, None)
             others = [("the run before", before)] if before else []

@@ -171,6 +171,8 @@ class Analysis:
     """Of each kind of rays."""
     overheads: tuple[Overhead, ...]
     """Of each query path, the largest first."""
+    block_totals: Mapping[str, Mapping[int, float]]
+    """Build and trace of each cell, by its name, in each block; none in records of one process."""
 
     @property
     def right(self) -> int:
@@ -249,6 +251,10 @@ def _analysis(source: _Json) -> Analysis:
             for one in source["means"]
         ),
         tuple(Overhead(**one) for one in source["harness_overheads"]),
+        {
+            one["cell"]: {int(block): ms for block, ms in one["total_ms"].items()}
+            for one in source.get("block_totals", ())
+        },
     )
 
 

@@ -18,7 +18,7 @@ from beambench.analysis import (
     paired_ratio,
     unpaired_ratio,
 )
-from beambench_report.base.records import TIMED_VERDICTS
+from beambench_report.base.records import TIMED_VERDICTS, size_of
 from beambench_report.base.run_log import LoggedCell, Repetition, logged_cells
 
 IDENTITY = ("scene", "camera", "structure", "parameters", "width", "height", "samples", "ray_kind")
@@ -86,11 +86,21 @@ def repetitions_of(cell: LoggedCell) -> list[Repetition]:
     return cell.repetitions if cell.verdict in TIMED_VERDICTS else []
 
 
+def name_of(row: Mapping[str, object]) -> str:
+    """The name of a row's cell in logs and analyses."""
+    accel = f"{row['structure']}:{row['parameters']}".rstrip(":")
+    view = (row["scene"], row["camera"], size_of(row), f"{row['samples']:.0f}", row["ray_kind"])
+    return "/".join((*view, accel))
+
+
 def median_of(row: Mapping[str, object], phase: str) -> Median:
-    """The median of a phase, "total" or "trace", of a row of results.csv, with its interval."""
-    middle, low, high = (row.get(f"{phase}_ms_{what}") for what in ("median", "ci_low", "ci_high"))
-    known = [None if end is None or pd.isna(end) else float(end) for end in (low, high)]
-    return Median(float(middle), *known)
+    """The time of a phase, "total" or "trace", by which a row is compared, with its interval.
+
+    The mean over its blocks; in records of one process, the median of the repetitions.
+    """
+    ends = (row.get(f"{phase}_ms_ci_{end}") for end in ("low", "high"))
+    known = [None if end is None or pd.isna(end) else float(end) for end in ends]
+    return Median(float(row[f"{phase}_ms"]), *known)
 
 
 def ratio_of(

@@ -138,9 +138,12 @@ def _read_csv(path: Path) -> pd.DataFrame:
             path, dtype=texts, keep_default_na=False, na_values=[""], low_memory=False
         )
         rows = unguarded(rows).rename(columns=RENAMED_COLUMNS)
-        if "trace_ms" not in rows and "trace_ms_median" in rows:  # a record of one process
-            rows["trace_ms"] = rows["trace_ms_median"]
-        return rows
+        medians = {
+            name: rows[f"{name}_median"]
+            for name in ("trace_ms", "total_ms")
+            if name not in rows and f"{name}_median" in rows  # a record of one process
+        }
+        return rows.assign(**medians)
     except FileNotFoundError:
         remedy = "give the folder that `beambench run` wrote"
         if has_log(path.parent):

@@ -86,6 +86,12 @@
     if (one !== form.elements.before.value || two !== form.elements.after.value) return;
     const [before, after] = [loaded.get(one), loaded.get(two)];
     const apart = differ(before, after);
+    if (before.in_blocks !== after.in_blocks) {
+      document.getElementById("warning").hidden = true;
+      status.textContent = "One of these runs is from before blocks: its times are medians, and they are not compared.";
+      table.tBodies[0].replaceChildren();
+      return;
+    }
     const [reference, [thenRatios, nowRatios]] = ratios(before, after);
     const known = new Map(before.cells.map((cell) => [cell[KEY], cell]));
     const pairs = after.cells

@@ -114,6 +114,8 @@
     let path = "";
     let open = false;
     line.values.forEach((value, place) => {
+      // Nights that are not compared are not connected.
+      if (data.nights[place].in_blocks !== data.nights[place - 1]?.in_blocks) open = false;
       if (value !== null) path += `${open ? "L" : "M"}${x(place).toFixed(1)} ${y(value).toFixed(1)}`;
       open = value !== null;
     });
@@ -124,8 +126,11 @@
     line.values.flatMap((value, place) => {
       if (value === null) return [];
       const night = data.nights[place];
-      const words = `${line.name}: ${inWords(value)} × Embree\n${night.run}\ncommit ${night.commit} ${night.subject}`;
-      const dot = make("circle", { cx: x(place).toFixed(1), cy: y(value).toFixed(1), r: data.nights.length > 60 ? 2.5 : 4, fill: shown(line.color) });
+      const how = night.in_blocks ? "" : " (before blocks: not compared)";
+      const words = `${line.name}: ${inWords(value)} × Embree${how}\n${night.run}\ncommit ${night.commit} ${night.subject}`;
+      const color = shown(line.color);
+      const paint = night.in_blocks ? { fill: color } : { fill: "none", stroke: color };
+      const dot = make("circle", { cx: x(place).toFixed(1), cy: y(value).toFixed(1), r: data.nights.length > 60 ? 2.5 : 4, ...paint });
       return [night.href ? link(night.href, words, dot) : make("g", {}, dot, make("title", {}, words))];
     });
 
