@@ -199,7 +199,7 @@ def test_trials_end_when_the_time_is_up() -> None:
 
 def test_a_larger_slow_down_is_never_found_less_often() -> None:
     """Every size is planted into the same noise: with few separate trials, chance would decide."""
-    told = calibrate(noise(), 24, (0.01, 0.02, 0.03, 0.04), Effort(precision=0.01, trials=25))
+    told = calibrate(noise(), 24, (0.01, 0.02, 0.03), Effort(precision=0.01, trials=10))
     found = [one.found for one in told.power]
     assert found == sorted(found)
     assert found[0] < found[-1]

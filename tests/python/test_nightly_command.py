@@ -17,6 +17,7 @@ from beambench_operations.nightly.compare import compare_turns, measure_in_turns
 from beambench_operations.nightly.diff import diff
 from beambench_operations.nightly.home import Home, only_one
 from beambench_operations.nightly.run import _free_folder
+from beambench_operations.site import write
 from beambench_report.base.files import Problem
 from beambench_report.base.records import read_run
 from program import BINARY
@@ -64,6 +65,12 @@ def sweep(tmp_path: Path) -> Path:
     path = tmp_path / "tiny.json"
     path.write_text(json.dumps(TINY))
     return path
+
+
+@pytest.fixture
+def without_pages(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Leaves the page of each run empty: its plot takes longer to draw than a night to measure."""
+    monkeypatch.setattr(write, "render", lambda *_, **__: "")
 
 
 @pytest.mark.parametrize("script", ["nightly", "compare"])
@@ -136,6 +143,7 @@ def test_two_nights_in_a_row(
 
 
 @needs_binary
+@pytest.mark.usefixtures("without_pages")
 def test_a_run_that_was_cut_off_is_resumed(tmp_path: Path, sweep: Path) -> None:
     home = tmp_path / "home"
     assert night(home, sweep) == 0
@@ -159,6 +167,7 @@ def test_a_second_run_is_refused_while_one_goes_on(
     assert "a nightly run is in progress (process " in capsys.readouterr().err
 
 
+@pytest.mark.usefixtures("without_pages")
 def test_a_wrong_hit_ends_with_1_and_is_named(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -172,6 +181,7 @@ def test_a_wrong_hit_ends_with_1_and_is_named(
     assert told.out == f"{home.page}\n"
 
 
+@pytest.mark.usefixtures("without_pages")
 def test_a_run_from_elsewhere_is_copied_so_that_a_rebuild_finds_it(tmp_path: Path) -> None:
     [folder] = write_nights(Home(tmp_path / "elsewhere"), 1, nothing)
     arguments = ["nightly", "add", folder, "--home", tmp_path / "home"]

@@ -223,7 +223,8 @@ def test_an_interrupted_run_is_resumed_and_leaves_records_pictures_plots_and_a_p
         "resolutions": ["32x20", "64x40"],
         "precision": 1e-9,
         "repetitions": {"minimum": 20, "maximum": 100000},
-        "budget_seconds": 6,
+        "budget_seconds": 1,  # of each of six cells: the run is interrupted during its second
+        "warm_up_seconds": 0,
     }
     (tmp_path / "small.json").write_text(json.dumps(sweep))
     run = tmp_path / "a run"

@@ -16,6 +16,7 @@ from beambench_operations.campaign.programs import Programs
 from beambench_operations.campaign.rows import cells_of, difference
 from beambench_report.base.records import read_run
 from beambench_report.run.page import render
+from beambench_report.run.plots import KINDS
 from program import BINARY, beambench, refused
 from run_logs import Event, begun_cells, change_events, change_manifest, cut_off, forget_cell
 
@@ -84,7 +85,7 @@ def test_four_shards_have_the_rows_of_one_run(measured: Path, tmp_path: Path) ->
     assert (one[keys] == merged[keys]).all(axis=None), "in the same order"
     assert (one["verdict"] == merged["verdict"]).all()
     assert merged["run_id"].nunique() == 1
-    render(read_run(tmp_path / "merged"))
+    render(read_run(tmp_path / "merged"), drawn_kinds=())
 
 
 def test_the_manifest_has_the_conditions_of_every_shard(measured: Path, tmp_path: Path) -> None:
@@ -139,7 +140,7 @@ def test_rows_keep_their_machines(copy: Path) -> None:
     for view in merged.views:
         assert ", machine " in view
         assert f"{view} " in summary
-    render(merged)
+    render(merged, drawn_kinds=KINDS[:1])
     refused(beambench("run", "--resume", copy / "merged"), ["merged from the shards"])
 
 

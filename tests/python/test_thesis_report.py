@@ -15,7 +15,7 @@ from beambench_thesis.paper.cells import Cells, read_cells
 from beambench_thesis.paper.evidence import Measured, setting
 from beambench_thesis.paper.printed import parts_of, printed_parts
 from beambench_thesis.report.plan import Plan, keep_plan, make_plan, read_plan
-from beambench_thesis.report.report import gather
+from beambench_thesis.report.report import Report, gather
 from beambench_thesis.report.tables import fill
 from beambench_thesis.report.write import write_report
 from browser import Browser, find_browser
@@ -30,6 +30,18 @@ PLAN = make_plan([], [], False)
 def everything(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """All runs, all correct."""
     return write_runs(tmp_path_factory.mktemp("thesis") / "run", PLAN)
+
+
+@pytest.fixture(scope="module")
+def cells(everything: Path) -> Cells:
+    """The cells of all runs."""
+    return cells_in(everything)
+
+
+@pytest.fixture(scope="module")
+def report(everything: Path) -> Report:
+    """What the page of all runs states."""
+    return gather(everything, PLAN)
 
 
 @pytest.fixture(scope="module")
@@ -48,9 +60,9 @@ def nothing(_: str) -> str:
 
 
 def test_every_number_that_the_thesis_prints_has_its_place_and_a_time_of_ours(
-    everything: Path, repository: Path
+    cells: Cells, repository: Path
 ) -> None:
-    cells, seen = cells_in(everything), 0
+    seen = 0
     with (repository / "results/thesis/times.csv").open() as file:
         printed = len(list(csv.reader(file))) - 1
     for part in printed_parts():
@@ -63,9 +75,9 @@ def test_every_number_that_the_thesis_prints_has_its_place_and_a_time_of_ours(
 
 
 def test_a_cell_holds_both_times_and_both_shapes_over_the_first_row_at_320x200(
-    everything: Path,
+    cells: Cells,
 ) -> None:
-    table = fill(parts_of("5.4")[0], cells_in(everything), nothing)
+    table = fill(parts_of("5.4")[0], cells, nothing)
     beam, samet = table.lines[0].entries, table.lines[1].entries
     assert (beam[0].thesis, beam[0].thesis_shape) == (2.21, 1.0)
     assert samet[4].thesis == 45.87
@@ -84,10 +96,10 @@ def test_a_cell_holds_both_times_and_both_shapes_over_the_first_row_at_320x200(
 
 
 def test_the_thesiss_hierarchy_places_objects_beside_terminal_nodes_and_the_other_is_an_extra(
-    everything: Path,
+    cells: Cells,
 ) -> None:
     for part in (*parts_of("5.6"), *parts_of("5.7"), *parts_of("5.8")):
-        lines = fill(part, cells_in(everything), nothing).lines
+        lines = fill(part, cells, nothing).lines
         of_hierarchies = [line for line in lines if line.structure == "goldsmith-salmon"]
         assert [(line.label, line.is_reference) for line in of_hierarchies] == [
             ("hierarchy (Bounding Box)", False),
@@ -99,8 +111,8 @@ def test_the_thesiss_hierarchy_places_objects_beside_terminal_nodes_and_the_othe
                 assert wanted.items() <= entry.ours.parameters.items()
 
 
-def test_leaves_and_pixels_stand_beside_table_5_3(everything: Path) -> None:
-    lines = fill(parts_of("5.3")[0], cells_in(everything), nothing).lines
+def test_leaves_and_pixels_stand_beside_table_5_3(cells: Cells) -> None:
+    lines = fill(parts_of("5.3")[0], cells, nothing).lines
     assert lines[2].label == "level 6"
     assert lines[2].counts == ((1529, 600), (212142, round(0.2 * 1310720)))
 
@@ -123,9 +135,9 @@ def test_a_cell_that_was_wrong_has_no_time_but_its_verdict(tmp_path: Path) -> No
     assert "no time: mismatch" in (run / "report.md").read_text()
 
 
-def test_the_best_is_the_quickest_by_cycles_of_those_that_were_right(everything: Path) -> None:
+def test_the_best_is_the_quickest_by_cycles_of_those_that_were_right(cells: Cells) -> None:
     part = parts_of("5.7")[1]
-    table = best_table(part, cells_in(everything))
+    table = best_table(part, cells)
     assert table.resolutions == ("320x200", "1280x1024")
     named = {line.label: line for line in table.lines}
     grid = named["voxel grid (Matriz Voxel)"].choices[1]
@@ -190,9 +202,11 @@ def test_the_page_holds_everything_and_every_number_leads_to_its_row(page: str) 
     assert f"{planned:,} cells in 15 runs, all with correct hits." in page
 
 
-def test_a_row_of_the_list_names_file_line_and_cell(everything: Path, page: str) -> None:
+def test_a_row_of_the_list_names_file_line_and_cell(
+    everything: Path, cells: Cells, page: str
+) -> None:
     assert page
-    cell = cells_in(everything).at(setting("escena2", "samet", "640x480", level=6))
+    cell = cells.at(setting("escena2", "samet", "640x480", level=6))
     with (everything / "rows.csv").open() as file:
         row = list(csv.DictReader(file))[cell.number - 1]
     assert (row["file"], row["row"]) == ("synthetic/results.csv", str(cell.number))
@@ -203,16 +217,16 @@ def test_a_row_of_the_list_names_file_line_and_cell(everything: Path, page: str)
     assert f"#{cell.number} |" in (everything / "report.md").read_text()
 
 
-def test_captions_hold_the_thesiss_numbers(everything: Path) -> None:
-    captions = {figure.number: figure.caption for figure in gather(everything, PLAN).figures}
+def test_captions_hold_the_thesiss_numbers(report: Report) -> None:
+    captions = {figure.number: figure.caption for figure in report.figures}
     assert "Samet 2.26 to 45.87 s" in captions["5.12"]
     assert "Escena 1 2.21 to 13.52 s (+512%)" in captions["5.8"]
     assert "Caracol" in captions["5.10"]
     assert "93 s" in captions["5.17"]
 
 
-def test_captions_state_that_bars_of_few_repetitions_are_an_assumption(everything: Path) -> None:
-    captions = [figure.caption for figure in gather(everything, PLAN).figures]
+def test_captions_state_that_bars_of_few_repetitions_are_an_assumption(report: Report) -> None:
+    captions = [figure.caption for figure in report.figures]
     with_bars = [caption for caption in captions if "ars are intervals" in caption]
     assert len(with_bars) > 10
     assert all("15% to each side by assumption" in caption for caption in with_bars)
@@ -223,8 +237,8 @@ def test_every_axis_and_color_of_a_figure_is_named(everything: Path, page: str) 
     assert missing_in(everything / "figures") == {}
 
 
-def test_figures_are_drawn_as_multiples_of_the_same_base(everything: Path) -> None:
-    figures = {figure.number: figure for figure in gather(everything, PLAN).figures}
+def test_figures_are_drawn_as_multiples_of_the_same_base(report: Report) -> None:
+    figures = {figure.number: figure for figure in report.figures}
     for panel in figures["5.12"].panels:
         for side in (panel.left, panel.right):
             assert side.lines[0].at[0][1].value == pytest.approx(1.0)

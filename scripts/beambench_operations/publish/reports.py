@@ -16,7 +16,7 @@ from beambench_report.haines.report import write_report as write_haines
 from beambench_report.havran.report import write_report as write_havran
 from beambench_report.run.ratio_table import write_ratios
 from beambench_report.run.winners import write_winners
-from beambench_thesis.chapter6.report import write_report as write_cluster
+from beambench_thesis.chapter6.report import report as report_on_cluster
 from beambench_thesis.report.plan import read_plan
 from beambench_thesis.report.report import gather
 from beambench_thesis.report.write import as_markdown as as_thesis
@@ -39,7 +39,7 @@ def _thesis(folder: Path) -> str:
 
 
 def _in_copy(write: Callable[[Path], object], folder: Path) -> str:
-    """Returns the report of a command that also draws plots, run in a copy of the folder."""
+    """Returns the report of a command that writes it, run in a copy of the folder."""
     with tempfile.TemporaryDirectory() as copy:
         for table in (*folder.glob("*.csv"), *folder.glob("*.json")):
             shutil.copy(table, copy)
@@ -49,7 +49,7 @@ def _in_copy(write: Callable[[Path], object], folder: Path) -> str:
 
 _REPORTS: dict[str, Callable[[Path], str]] = {
     "beat-embree/report.md": partial(_comparison, BEAT_EMBREE),
-    "cluster/report.md": partial(_in_copy, write_cluster),
+    "cluster/report.md": lambda folder: report_on_cluster(folder)[0],
     "haines/report.md": partial(_in_copy, write_haines),
     "havran/report.md": partial(_in_copy, write_havran),
     "libraries/embree-4/to-embree.md": partial(write_ratios, base=WATERTIGHT),

@@ -4,7 +4,7 @@ import json
 import re
 import textwrap
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 from pathlib import Path
 from typing import Literal
 
@@ -78,16 +78,26 @@ class Dictionary:
     schema_version: int
     groups: tuple[Group, ...]
 
-    @property
+    @cached_property
     def columns(self) -> tuple[Column, ...]:
         """Every column in the order of the file."""
         return tuple(column for group in self.groups for column in group.columns)
 
     def find(self, name: str) -> Column | None:
         """Returns the entry of a file's column: that of its name, or of the narrowest pattern."""
-        found = [column for column in self.columns if column.is_that(name)]
-        # A pattern with the kind of rays is narrower than that of any counter.
-        return min(found, key=lambda one: (one.is_pattern, not one.is_of_a_kind), default=None)
+        if name not in self._found:
+            found = [column for column in self.columns if column.is_that(name)]
+            # A pattern with the kind of rays is narrower than that of any counter.
+            narrowest = min(
+                found, key=lambda one: (one.is_pattern, not one.is_of_a_kind), default=None
+            )
+            self._found[name] = narrowest
+        return self._found[name]
+
+    @cached_property
+    def _found(self) -> dict[str, Column | None]:
+        """What `find` has returned: every reader asks for the same columns."""
+        return {}
 
 
 @cache

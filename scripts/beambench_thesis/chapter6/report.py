@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from beambench_report.base.figure import house_style, write_plot
+from beambench_report.base.figure import Plot, house_style, write_plot
 from beambench_report.base.files import write_text
 from beambench_report.base.quantities import markdown_table, number
 from beambench_thesis.chapter6.divisions import division_plots, divisions_sections
@@ -35,6 +35,14 @@ _SHOWN = (1, 2, 4, 6, 8, 10, 12, 14)
 
 def write_report(folder: Path) -> list[Path]:
     """Writes FOLDER/report.md and the figures that it shows."""
+    with house_style():
+        text, plots = report(folder)
+        written = [path for plot in plots for path in write_plot(plot, folder)]
+    return [*written, write_text(folder / "report.md", text)]
+
+
+def report(folder: Path) -> tuple[str, list[Plot]]:
+    """Returns the text of the report, and its figures, which must be saved within `house_style`."""
     simulations = read_simulations(folder)
     recorded = read_recorded(folder)
     split = read_split(folder)
@@ -44,16 +52,12 @@ def write_report(folder: Path) -> list[Path]:
         None if scene_divisions is None else scene_divisions_section(scene_divisions),
         measured_section(folder),
     )
-    written = []
-    with house_style():
-        plots = cluster_plots(simulations, read_processes(folder))
-        plots += division_plots(simulations)
-        if split is not None:
-            plots.append(split_plot(split))
-        if scene_divisions is not None:
-            plots.append(scene_divisions_plot(scene_divisions))
-        for plot in plots:
-            written += write_plot(plot, folder)
+    plots = cluster_plots(simulations, read_processes(folder))
+    plots += division_plots(simulations)
+    if split is not None:
+        plots.append(split_plot(split))
+    if scene_divisions is not None:
+        plots.append(scene_divisions_plot(scene_divisions))
     shown = {plot.stem: f"![{plot.summary}]({plot.stem}.png)\n" for plot in plots}
     constant, per_ray = thesis_seconds()
     text = rendered(
@@ -71,7 +75,7 @@ def write_report(folder: Path) -> list[Path]:
         assumptions=_assumptions(simulations),
         more=[section for section in more if section is not None],
     )
-    return [*written, write_text(folder / "report.md", text)]
+    return text, plots
 
 
 def _recorded(recorded: dict) -> list[str]:

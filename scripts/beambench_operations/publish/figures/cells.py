@@ -4,6 +4,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal
 
+import numpy as np
 import pandas as pd
 
 from beambench.analysis import Ratio, geometric_mean
@@ -32,10 +33,11 @@ class Cells:
 
     def having(self, contender: str = "", **columns: str) -> pd.DataFrame:
         """The rows of a contender, or of all, with these values; none is no error."""
-        rows = self.rows
-        for name, value in columns.items():
-            rows = rows[rows[name] == value]
-        return rows[self._is(rows, contender)] if contender else rows
+        # One selection: each copies all columns.
+        wanted = [self.rows[name] == value for name, value in columns.items()]
+        if contender:
+            wanted.append(self._is(contender))
+        return self.rows[np.logical_and.reduce(wanted)] if wanted else self.rows
 
     def row(self, contender: str, **columns: str) -> pd.Series:
         """The only such row that has times. Raises Problem where there is none, or several."""
@@ -83,13 +85,12 @@ class Cells:
         """The rows whose hits are not correct."""
         return self.rows[~self.rows["verdict"].isin(FAULTLESS_VERDICTS)]
 
-    @staticmethod
-    def _is(rows: pd.DataFrame, contender: str) -> pd.Series:
+    def _is(self, contender: str) -> pd.Series:
         structure, _, text = contender.partition(":")
         wanted = parameter_items(text).items()
-        return (rows["structure"] == structure) & rows["parameters"].map(
-            lambda own: wanted <= parameter_items(own).items()
-        )
+        parameters = self.rows["parameters"]
+        those = [own for own in parameters.unique() if wanted <= parameter_items(own).items()]
+        return (self.rows["structure"] == structure) & parameters.isin(those)
 
 
 def counted(published: Path) -> dict[str, Any]:
