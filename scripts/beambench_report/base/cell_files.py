@@ -87,8 +87,9 @@ def repetitions_of(cell: LoggedCell) -> list[Repetition]:
 
 
 def median_of(row: Mapping[str, object], phase: str) -> Median:
-    """The median of a phase, "total" or "trace", of a row of results.csv, with its interval."""
-    middle, low, high = (row.get(f"{phase}_ms_{what}") for what in ("median", "ci_low", "ci_high"))
+    """A row's time of a phase, "total" or "trace", with its 95% confidence interval."""
+    middle = row["trace_ms" if phase == "trace" else f"{phase}_ms_median"]
+    low, high = (row.get(f"{phase}_ms_ci_{end}") for end in ("low", "high"))
     known = [None if end is None or pd.isna(end) else float(end) for end in (low, high)]
     return Median(float(middle), *known)
 

@@ -119,6 +119,8 @@ def read_run(directory: Path) -> Run:
         if len(empty) > 0:
             raise Problem(f"{path}, row {empty[0] + 2}: {name} is empty")
 
+    if "trace_ms" not in rows or rows["trace_ms"].isna().all():  # a record of one process
+        rows = rows.assign(trace_ms=rows["trace_ms_median"])
     if "outpaced" in rows:  # another parameter set stands for the contender
         rows = rows[rows["outpaced"] != "true"].reset_index(drop=True)
     try:
@@ -137,10 +139,7 @@ def _read_csv(path: Path) -> pd.DataFrame:
         rows = pd.read_csv(
             path, dtype=texts, keep_default_na=False, na_values=[""], low_memory=False
         )
-        rows = unguarded(rows).rename(columns=RENAMED_COLUMNS)
-        if "trace_ms" not in rows and "trace_ms_median" in rows:  # a record of one process
-            rows["trace_ms"] = rows["trace_ms_median"]
-        return rows
+        return unguarded(rows).rename(columns=RENAMED_COLUMNS)
     except FileNotFoundError:
         remedy = "give the folder that `beambench run` wrote"
         if has_log(path.parent):
