@@ -73,12 +73,22 @@ def _add_claims(commands: Commands) -> None:
         metavar="RUN",
         help="folder of a run, of the simulated cluster, or of censuses (scan.json, beams.json)",
     )
+    claims(
+        "--further",
+        type=Path,
+        nargs="+",
+        default=[],
+        metavar="RUN",
+        help="runs of some cells again, made after a look at the verdicts: their cells get wider "
+        "intervals, so that both looks together have 95%%",
+    )
     claims("--cells", action="store_true", help="list every cell, too")
     claims(*("-o", "--output"), type=Path, metavar="FILE.md", help="if not given, it is printed")
 
 
 def _claims(options: Options) -> Result:
-    text = claims_as_markdown(judge_claims(options.runs), cells=options.cells)
+    found = judge_claims([*options.runs, *options.further], further=options.further)
+    text = claims_as_markdown(found, cells=options.cells)
     return [write_text(options.output, text)] if options.output else text
 
 

@@ -19,7 +19,16 @@ from beambench_report.base.records import read_run
 from beambench_thesis.__main__ import main
 from beambench_thesis.chapter5.cost import fit_costs, r_squared
 from beambench_thesis.claims.comparisons import fit_line
-from beambench_thesis.claims.register import ALL_CLAIMS, SWEPT_CLAIMS, judge, judge_claims
+from beambench_thesis.claims.register import (
+    ALL_CLAIMS,
+    SWEPT_CLAIMS,
+    Finding,
+    JudgedClaim,
+    SecondLook,
+    judge,
+    judge_claims,
+    second_looks,
+)
 from beambench_thesis.claims.verdict import (
     Check,
     Claim,
@@ -56,6 +65,21 @@ def measured(value: float, half: float = 0.1) -> Measured:
 
 
 # Cells and verdicts
+
+
+def judged(*checks: Check) -> JudgedClaim:
+    finding = Finding(verdict_of(checks), list(checks))
+    return JudgedClaim(ALL_CLAIMS[0], finding, finding, None)
+
+
+def test_a_second_look_names_the_cells_that_were_measured_again() -> None:
+    clock = 1 + 1e-12  # the rate of all runs together changes seconds, not their ratios
+    same, close = Check("a", YES, "1 against 2", 2.0), Check("b", UNDECIDED, "1 against 1", 1.01)
+    before = [judged(same, close), judged(same)]
+    after = [judged(Check("a", YES, "1 against 2", 2.0 * clock), Check("b", YES, "", 1.02))]
+    after += [judged(same)]
+    (found,) = second_looks(before, after)
+    assert found == SecondLook(ALL_CLAIMS[0].name, 1, 2, Verdict.UNDECIDED, Verdict.HOLDS)
 
 
 @pytest.mark.parametrize(

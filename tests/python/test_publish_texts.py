@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from bare_figures import bare_figures
+from beambench.analysis import Ratio
 from beambench_operations.publish.documents import (
     PUBLISHED,
     differences,
@@ -17,6 +18,7 @@ from beambench_operations.publish.documents import (
     write_documents,
 )
 from beambench_operations.publish.figures.thesis import compared, more_runs, times_found_again
+from beambench_operations.publish.figures.threads import is_implausible
 from beambench_operations.publish.layout import laid_out
 from beambench_report.base.files import Problem
 from beambench_report.base.records import read_run
@@ -103,6 +105,28 @@ def test_more_repetitions_count_if_they_are_of_the_same_commit_and_machine(tmp_p
     assert more_runs(tmp_path / "thesis") == [tmp_path / "thesis-more/octree"]
     write("thesis-more/samples", commit="another")
     assert more_runs(tmp_path / "thesis") == []
+
+
+@pytest.mark.parametrize(
+    ("speedup", "threads", "expected"),
+    [
+        (Ratio(2.27), 2, True),
+        (Ratio(2.01, 1.9, 2.1), 2, True),
+        (Ratio(2.0), 2, False),
+        (Ratio(2.27), 3, False),
+    ],
+)
+def test_a_speedup_above_the_number_of_threads_is_implausible(
+    speedup: Ratio, threads: int, expected: bool
+) -> None:
+    assert is_implausible(speedup, threads) is expected
+
+
+def test_implausible_speedups_are_marked_and_left_out_of_ranges() -> None:
+    text = " ".join((PUBLISHED / "threads/README.md").read_text("utf-8").split())
+    assert "| 2.27, implausible |" in text
+    assert "the single-threaded run was probably disturbed" in text
+    assert not re.search(r"gain [\d.]+ to 2\.[1-9]", text)
 
 
 def test_every_published_table_of_results_is_that_of_a_run() -> None:

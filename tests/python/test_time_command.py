@@ -19,7 +19,9 @@ def test_time_ranks_the_structures_and_ends_with_two_verdicts() -> None:
     text = output_of("time", "tetra:n=3", "--accel", "samet,sah-bvh,exhaustive", *QUICK)
     lines = text.splitlines()
     assert lines[0] == "tetra:n=3 32x20, 640 primary rays"
-    assert lines[1].split() == "contender build ms ns per ray Mrays/s times the fastest".split()
+    assert (
+        lines[1].split() == "contender SIMD build ms ns per ray Mrays/s times the fastest".split()
+    )
     ranked = [line.split()[0] for line in lines[2:5]]
     assert set(ranked) == {"samet", "sah-bvh", "exhaustive"}
     assert ranked[-1] == "exhaustive"

@@ -43,6 +43,41 @@ def test_a_structure_counts_once_with_its_best_parameters(tmp_path: Path) -> Non
     assert race.words == "`sah-bvh`; 2.00 `samet`"
 
 
+def test_a_structure_counts_with_its_better_order_of_rays(tmp_path: Path) -> None:
+    example = synthetic_rows()[0] | {"parameters": "", "verdict": "ok"}
+    times = {
+        ("embree", "diffuse"): 20,
+        ("embree", "diffuse:order=sorted"): 12,
+        ("sah-bvh", "diffuse"): 15,
+    }
+    rows = [
+        example
+        | {"structure": structure, "ray_kind": kind, "trace_ms_median": ms}
+        | {"trace_ms_ci_low": 0.99 * ms, "trace_ms_ci_high": 1.01 * ms, "total_ms_median": ms + 1}
+        for (structure, kind), ms in times.items()
+    ]
+    (race,) = races(read_run(write_run(tmp_path, rows)).rows, {})
+    assert race.ray_kind == "diffuse"
+    assert race.words == "`embree`; 1.25 `sah-bvh`"
+    assert list(race.ranked["contender"]) == ["embree, sorted rays", "sah-bvh"]
+
+
+def test_ratios_of_blocks_may_be_undecided(tmp_path: Path) -> None:
+    """A ratio of blocks is a tie only where it is equivalent within 3%."""
+    run = read_run(a_run(tmp_path, {("samet", ""): (11, 9, 12), ("sah-bvh", ""): (10, 9, 11)}))
+    blocks = {"sah-bvh": [9.8, 10, 10.2, 10], "samet": [10, 11, 11.5, 10.2]}
+    files = {
+        identity(row): CellFile(
+            "", (), {}, dict(enumerate(blocks[row["structure"]])), in_blocks=True
+        )
+        for row in run.rows.to_dict("records")
+    }
+    (race,) = races(run.rows, files)
+    assert race.tied == ["sah-bvh"]
+    assert not race.is_decided
+    assert race.words.endswith("`samet`, undecided")
+
+
 def test_a_ratio_whose_interval_holds_1_is_a_tie(tmp_path: Path) -> None:
     run = a_run(
         tmp_path,

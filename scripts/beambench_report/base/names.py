@@ -21,7 +21,7 @@ def with_names(rows: pd.DataFrame) -> pd.DataFrame:
 
     `contender`: the structure, with those parameters that differ between its rows. `subject`: what
     the rays see, the scene and what else varies. `view`: the same on one machine, what is compared.
-    `kind`: the rays, in whatever order.
+    `kind`: the rays, in whatever order. `is_tuned`: was it the best of several parameter sets?
     """
     facts = rows[list(_NAMED)].assign(
         samples=rows["samples"].fillna(0).astype(int),
@@ -32,6 +32,7 @@ def with_names(rows: pd.DataFrame) -> pd.DataFrame:
     # Lists, because iterating over a column takes three calls for each of its fields.
     names = name_cells(list(zip(*(facts[name].tolist() for name in facts), strict=True)))
     found = pd.DataFrame(names, columns=["contender", "subject", "view"], index=rows.index)
+    found["is_tuned"] = facts["parameter_sets"] > 1
     found["kind"] = rows["ray_kind"].map(without_order)
     return pd.concat([rows, found], axis="columns").copy()  # in one piece: it had many columns
 

@@ -134,6 +134,9 @@ def _read(path: Path) -> pd.DataFrame:
         if len(empty) > 0:
             raise Problem(f"{path}, row {empty[0] + 2}: {name} is empty")
 
+    for name in ("trace_ms", "total_ms"):
+        if name not in rows or rows[name].isna().all():  # a record of one process
+            rows = rows.assign(**{name: rows[f"{name}_median"]})
     if "outpaced" in rows:  # another parameter set stands for the contender
         rows = rows[rows["outpaced"] != "true"].reset_index(drop=True)
     try:
@@ -152,13 +155,7 @@ def _read_csv(path: Path) -> pd.DataFrame:
         rows = pd.read_csv(
             path, dtype=texts, keep_default_na=False, na_values=[""], low_memory=False
         )
-        rows = unguarded(rows).rename(columns=RENAMED_COLUMNS)
-        medians = {
-            name: rows[f"{name}_median"]
-            for name in ("trace_ms", "total_ms")
-            if name not in rows and f"{name}_median" in rows  # a record of one process
-        }
-        return rows.assign(**medians)
+        return unguarded(rows).rename(columns=RENAMED_COLUMNS)
     except FileNotFoundError:
         remedy = "give the folder that `beambench run` wrote"
         if has_log(path.parent):

@@ -113,7 +113,7 @@ def _pairings_of(run: Run) -> list[Pairing]:
     images: dict[tuple, dict[str, list[Row]]] = {}
     right = run.rows[(run.rows["verdict"] == OK) & run.rows["kind"].isin(_KINDS)]
     for row in right.to_dict("records"):
-        if row["structure"] in _STRUCTURES and row["trace_ms_median"] > 0:
+        if row["structure"] in _STRUCTURES and row["trace_ms"] > 0:
             both = images.setdefault(_image(row), {name: [] for name in _STRUCTURES})
             both[row["structure"]].append(row)
     whole = {image: both for image, both in images.items() if all(both.values())}
@@ -163,7 +163,7 @@ def _pairing(
 
 
 def _fastest(rows: Iterable[Row]) -> Row:
-    return min(rows, key=lambda row: row["trace_ms_median"])
+    return min(rows, key=lambda row: row["trace_ms"])
 
 
 def _is_culled(row: Row) -> bool:

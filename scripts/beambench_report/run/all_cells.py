@@ -21,6 +21,8 @@ _FIRST_SHOWN = (
     "repetitions build_ms_median trace_ms_median total_ms_median mrays_per_s memory_bytes "
     "primitive_tests_per_ray verdict"
 ).split()
+_OWN = ("contender", "subject", "view", "is_tuned", "kind", "timed")
+"""The columns that `Run` adds."""
 _NAMES = {
     "contender": "The structure, with those parameters that differ between rows of this run.",
     "view": "What the rays see: the scene, and whatever else differs between rows of this run.",
@@ -49,7 +51,7 @@ def pack(run: Run, own: Mapping[str, Column] | None = None) -> AllCells:
         for name, own_texts in texts.items()
     ]
     same = []
-    for name in rows.columns.drop(["contender", "subject", "view", "timed"]):
+    for name in rows.columns.drop([*_OWN]):
         series = rows[name]
         entry = own.get(name) or dictionary().find(name) or _unknown(series)
         first = series.iloc[0]

@@ -37,7 +37,7 @@ def counters(measured: Measured) -> list[Plot]:
     plots = []
     for view, stem in file_stems(run.views).items():
         finest = run.finest(view).drop_duplicates("contender", keep="last")
-        finest = finest.sort_values("trace_ms_median", kind="stable")
+        finest = finest.sort_values("trace_ms", kind="stable")
         for names, words, prefix in (
             (run.counters, "work per ray", "counters"),
             (run.counters_by_kind, "work per ray by kind of rays", "counters-by-kind"),

@@ -165,7 +165,7 @@ def break_even_table(run: Run) -> pd.DataFrame:
     for title in run.views:
         rows = run.view(title)
         rows = rows[rows["timed"] & (rows["verdict"] == OK)]
-        rows = rows.dropna(subset=["build_ms_median", "trace_ms_median"])
+        rows = rows.dropna(subset=["build_ms_median", "trace_ms"])
         rows = rows.drop_duplicates(["contender", "rays"])
         contenders = {name: own.set_index("rays") for name, own in rows.groupby("contender")}
         for one, other in itertools.permutations(rows["contender"].unique(), 2):
@@ -187,7 +187,7 @@ Cost = tuple[float, float]
 
 
 def _cost(row: pd.Series) -> Cost:
-    return row["build_ms_median"], 1e6 * row["trace_ms_median"] / row.name
+    return row["build_ms_median"], 1e6 * row["trace_ms"] / row.name
 
 
 def break_even(mine: Cost, other: Cost) -> tuple[float | None, str]:

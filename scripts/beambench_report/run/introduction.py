@@ -53,10 +53,11 @@ def traced(rows: pd.DataFrame) -> str:
     sizes = [size_of(row) for _, row in sized.iterrows()]
     if len(sizes) > _MOST_SIZES:
         sizes = [f"{len(sizes)} resolutions from {sizes[0]} to {sizes[-1]}"]
-    kinds = _listed(dict.fromkeys(rows["ray_kind"]))
+    kinds = _listed(dict.fromkeys(rows["kind"]))
+    is_sorted = bool((rows["kind"] != rows["ray_kind"]).any())
     return " · ".join(
         (
-            f"{kinds[:1].upper()}{kinds[1:]} rays",
+            f"{kinds[:1].upper()}{kinds[1:]} rays{', also sorted' * is_sorted}",
             ", ".join(sizes),
             _counts(rows["samples"], "sample", " per pixel"),
             _counts(rows["threads"], "thread"),

@@ -48,7 +48,7 @@ class Measured:
         ns of every repetition) and `is_reference`.
         """
         rows = self.run.rows
-        rows = rows[rows["timed"] & (rows["trace_ms_median"] > 0) & (rows["rays"] > 0)]
+        rows = rows[rows["timed"] & (rows["trace_ms"] > 0) & (rows["rays"] > 0)]
         rows = rows.drop_duplicates(["view", "contender", "rays"], keep="last")
         cells = [self._cell(row) for _, row in rows.iterrows()]
         added = pd.DataFrame(
@@ -94,7 +94,7 @@ def by_kind(rows: pd.DataFrame, views: Iterable[str]) -> dict[str, list[str]]:
     groups: dict[str, list[str]] = {}
     for view in views:
         first = rows[rows["view"] == view].iloc[0]
-        parts = [f"{first['ray_kind']} rays"]
+        parts = [f"{first['kind']} rays"]
         if rows["samples"].nunique() > 1:
             parts.append(f"{first['samples']:.0f} samples")
         groups.setdefault(", ".join(parts), []).append(view)

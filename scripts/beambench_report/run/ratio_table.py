@@ -13,7 +13,7 @@ from beambench_report.base.files import Problem, write_text
 from beambench_report.base.quantities import markdown_table, number
 from beambench_report.base.records import OK, read_run
 
-_VIEW = ["scene", "camera", "width", "height", "ray_kind", "machine_id"]
+_VIEW = ["scene", "camera", "width", "height", "kind", "machine_id"]
 _TIME = "trace_net_ms_median"
 
 
@@ -31,7 +31,7 @@ def _text(rows: pd.DataFrame, base: str) -> str:
     rows = rows[rows["structure"] != "null"]
     correct = rows[rows["timed"] & (rows["verdict"] == OK) & (rows[_TIME] > 0)]
     ratios = _ratios(correct, base)
-    kinds = list(dict.fromkeys(rows["ray_kind"]))
+    kinds = list(dict.fromkeys(rows["kind"]))
     scenes = list(dict.fromkeys(rows["scene"]))
     contenders = list(dict.fromkeys(rows["contender"]))
     first_machine = correct.groupby("scene")["machine_id"].transform("first")
@@ -40,7 +40,7 @@ def _text(rows: pd.DataFrame, base: str) -> str:
     body = []
     for contender in contenders:
         own = ratios[ratios["contender"] == contender]
-        found = own.set_index(["scene", "ray_kind"])["ratio"].groupby(level=[0, 1]).agg(gmean)
+        found = own.set_index(["scene", "kind"])["ratio"].groupby(level=[0, 1]).agg(gmean)
         cells = [
             f"{number(build[contender, scene]) if (contender, scene) in build else '-'}; "
             + ", ".join(

@@ -35,8 +35,8 @@ def choose_reference(run: Run, wanted: str | None = None) -> str | None:
     views = right.groupby("contender")["view"].nunique()
     most = [name for name in contenders if views[name] == views.max()]
     finest = pd.concat([run.finest(view) for view in run.views])
-    finest = finest[finest["timed"] & (finest["trace_ms_median"] > 0)]
-    times = np.log(finest["trace_ms_median"] / finest["rays"]).groupby(finest["contender"]).mean()
+    finest = finest[finest["timed"] & (finest["trace_ms"] > 0)]
+    times = np.log(finest["trace_ms"] / finest["rays"]).groupby(finest["contender"]).mean()
     return min(
         (name for name in most if _is_embree(name)),
         key=lambda name: times.get(name, inf),

@@ -62,7 +62,7 @@ def swept(measured: Measured) -> list[Plot]:
 
 
 def _sweep(rows: pd.DataFrame) -> _Sweep | None:
-    rows = rows[~rows["is_reference"]]
+    rows = rows[~rows["is_reference"] & ~rows["is_tuned"]]
     varying = {
         structure: varying_parameters(own["parameters"])
         for structure, own in rows.groupby("structure", sort=False)
@@ -138,7 +138,7 @@ def _figure(
     reading = (
         f"The trace time of {sweep.base} over that of each other, both with the same "
         f"{sweep.parameter}; medians of the first trace after a build, build not included. "
-        "Bars: 95% interval of the ratio, where there is one."
+        "Bars: 95% confidence interval of the ratio, where there is one."
     )
     return plot_of_views(measured.run, stem, figure, views, what, reading)
 

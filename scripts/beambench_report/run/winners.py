@@ -1,9 +1,9 @@
 """Which structure wins where: each structure with its own best parameters, view by view.
 
 Beside the analysis of a run, which ranks every contender, a structure counts once here: with the
-parameters that give it the least median trace time in the view. A structure is tied with the
-fastest where the interval of the ratio of their times holds 1, as in the analysis of a run. Where a
-ratio has no interval, because a cell was repeated too seldom, the medians decide.
+parameters, and the order of the rays, that give it the least trace time in the view. Whether it is
+tied with the fastest is decided as there, by `Ratio.rank`. Where a ratio has no interval, because a
+cell was repeated too seldom, the times decide.
 """
 
 from collections import Counter
@@ -38,8 +38,8 @@ class Race:
 
     @property
     def is_decided(self) -> bool:
-        """Does the ratio of the second to the fastest have an interval?"""
-        return len(self.ranked) < 2 or bool(self.ranked["has_interval"].iloc[1])
+        """Is the second known to be tied with the fastest, or behind it?"""
+        return len(self.ranked) < 2 or self.ranked["rank"].iloc[1] in ("tied", "behind")
 
     @property
     def words(self) -> str:
@@ -50,7 +50,8 @@ class Race:
         if others.empty:
             return text
         second = others.iloc[0]
-        return f"{text}; {second['ratio']:.2f} `{second['structure']}`"
+        note = ", undecided" * (second["rank"] == "undecided")
+        return f"{text}; {second['ratio']:.2f} `{second['structure']}`{note}"
 
 
 def races(rows: pd.DataFrame, files: Mapping[Identity, CellFile]) -> list[Race]:
@@ -58,8 +59,8 @@ def races(rows: pd.DataFrame, files: Mapping[Identity, CellFile]) -> list[Race]:
     timed = contenders_with_times(rows)
     timed = timed[~timed["structure"].isin(REFERENCES)]
     found = []
-    for (scene, _, _, _, _, kind), group in timed.groupby([*_VIEW, "ray_kind"], sort=False):
-        best = group.loc[group.groupby("structure")["trace_ms_median"].idxmin()]
+    for (scene, _, _, _, _, kind), group in timed.groupby([*_VIEW, "kind"], sort=False):
+        best = group.loc[group.groupby("structure")["trace_ms"].idxmin()]
         found.append(Race(str(scene), str(kind), with_ratios(best, files)))
     return found
 
@@ -67,15 +68,15 @@ def races(rows: pd.DataFrame, files: Mapping[Identity, CellFile]) -> list[Race]:
 def with_ratios(rows: pd.DataFrame, files: Mapping[Identity, CellFile]) -> pd.DataFrame:
     """Returns the rows of one view, the fastest first, compared with it.
 
-    `ratio` is that of the trace times, as in the plots. `is_tied` is true of the
-    fastest, and of those that are as fast by their interval.
+    `ratio` is that of the trace times, as in the plots. `is_tied` is true of the fastest, and of
+    those of the `rank` "tied".
     """
-    ranked = rows.sort_values("trace_ms_median")
+    ranked = rows.sort_values("trace_ms")
     fastest = ranked.iloc[0]
     ratios = [ratio_of("trace", row, fastest, files) for _, row in ranked.iterrows()]
     return ranked.assign(
         ratio=[ratio.value for ratio in ratios],
-        has_interval=[ratio.interval is not None for ratio in ratios],
+        rank=[ratio.rank for ratio in ratios],
         is_tied=[place == 0 or ratio.rank == "tied" for place, ratio in enumerate(ratios)],
     )
 
@@ -130,5 +131,6 @@ def _by_scene(found: Sequence[Race]) -> str:
     lines = markdown_table(("scene", *kinds), rows)
     return (
         "## By scene\n\nThe fastest, with those tied with it, and the next with its ratio. "
-        "Tied: the interval of the ratio of their times holds 1.\n\n" + "\n".join(lines) + "\n"
+        "Tied: by the 95% confidence interval of the ratio of their times, "
+        "as in the analysis of a run.\n\n" + "\n".join(lines) + "\n"
     )

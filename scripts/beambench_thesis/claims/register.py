@@ -1,7 +1,8 @@
 """Every claim judged by the thesis's own figures and by a run's, and the table of them."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
+from math import isclose
 from pathlib import Path
 
 import pandas as pd
@@ -53,17 +54,23 @@ SWEPT_CLAIMS = (*CLAIMS, *PROSE_CLAIMS)
 ALL_CLAIMS = (*CLAIMS, *CLUSTER_CLAIMS, *PROSE_CLAIMS)
 
 
-def judge_claims(runs: Sequence[Path], claims: Sequence[Claim] = ALL_CLAIMS) -> list[JudgedClaim]:
+def judge_claims(
+    runs: Sequence[Path],
+    claims: Sequence[Claim] = ALL_CLAIMS,
+    further: Collection[Path] = (),
+) -> list[JudgedClaim]:
     """Judges the claims by runs of sweeps, a folder of censuses and a simulated cluster.
 
-    Without them ours are not tested. Raises Problem where one cannot be read.
+    Without them ours are not tested. `further` are those of the runs that were made after a look at
+    the verdicts by the others: an allowance is made for the second look (base/fastest.py).
+    Raises Problem where one cannot be read.
     """
     clusters = [run for run in runs if is_cluster_folder(run)]
     censuses = [run for run in runs if is_census_folder(run)]
     for kind, folders in (("simulated cluster", clusters), ("folder of censuses", censuses)):
         if len(folders) > 1:
             raise Problem(f"{folders[1]}: there is another {kind}, {folders[0]}; name one")
-    swept = measured_evidence([run for run in runs if run not in (*clusters, *censuses)])
+    swept = measured_evidence([run for run in runs if run not in (*clusters, *censuses)], further)
     counted = [swept.work, *(census_work(folder) for folder in censuses)]
     measured = replace(
         swept,
@@ -77,6 +84,38 @@ def judge_claims(runs: Sequence[Path], claims: Sequence[Claim] = ALL_CLAIMS) -> 
         )
         for claim in claims
     ]
+
+
+@dataclass(frozen=True)
+class SecondLook:
+    """A claim of which some cells were measured again after its first verdict."""
+
+    claim: str
+    again: int
+    """The number of its cells that were."""
+    cells: int
+    before: Verdict
+    after: Verdict
+
+
+def second_looks(before: Sequence[JudgedClaim], after: Sequence[JudgedClaim]) -> list[SecondLook]:
+    """Compares the verdicts without and with further runs; cells with other figures have both."""
+    found = []
+    for first, second in zip(before, after, strict=True):
+        known = {check.cell: check for check in first.ours.checks}
+        own = second.ours.checks
+        again = sum(check.cell in known and _is_other(known[check.cell], check) for check in own)
+        if again:
+            verdicts = (first.ours.verdict, second.ours.verdict)
+            found.append(SecondLook(second.claim.name, again, len(own), *verdicts))
+    return found
+
+
+def _is_other(first: Check, second: Check) -> bool:
+    """Do the figures differ by more than a common clock rate, which ratios do not depend on?"""
+    if first.ratio is None or second.ratio is None:
+        return first.outcome is not second.outcome
+    return not isclose(first.ratio, second.ratio, rel_tol=1e-6)
 
 
 _MAX_NAMED = 4

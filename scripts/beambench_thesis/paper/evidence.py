@@ -14,7 +14,7 @@ from beambench_report.base.published import FINEST, read_published
 
 @dataclass(frozen=True)
 class Measured:
-    """A positive figure and its 95% interval; a counted or printed one is its own interval.
+    """A positive figure and its 95% prediction interval; a counted or printed one has itself.
 
     Figures are measured independently of one another, so their errors are combined as independent
     ones are: by the root of the sum of their squares (propagation of uncertainty, JCGM 100:2008,

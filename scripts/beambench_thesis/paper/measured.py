@@ -5,7 +5,7 @@ with pixels shaded one after the other along the rows, and `beams.json`, beam by
 shadow cache for the picture (`--shadows cache --order scan` and `--order beams`).
 """
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import asdict
 from math import hypot, isnan, nan, sqrt
 from pathlib import Path
@@ -63,10 +63,11 @@ _TASKS = ("nonterminal", "occupied", "leaving")
 _BEAM_COUNTS = ("beams", "beams_nonterminal", "beams_occupied", "beams_made", "beams_divided")
 
 
-def measured_evidence(directories: Sequence[Path]) -> Evidence:
+def measured_evidence(directories: Sequence[Path], further: Collection[Path] = ()) -> Evidence:
     """Returns the correct rows of one or more runs that have the thesis's scenes and contenders.
 
-    If several runs measured a cell, the repetitions of all count. Raises Problem where a run cannot
+    If several runs measured a cell, the repetitions of all count; `further` are those of the runs
+    that were made after a look at the others. Raises Problem where a run cannot
     be read, or has rows of several machines.
     """
     runs = [read_run(directory) for directory in directories]
@@ -74,7 +75,7 @@ def measured_evidence(directories: Sequence[Path]) -> Evidence:
         return NOTHING
     for run in runs:
         require_one_machine(run.rows, run.directory)
-    every = [_compared(rows) for rows in with_fastest(runs)]
+    every = [_compared(rows) for rows in with_fastest(runs, further)]
     # One clock for all runs: what they differ by in cycles, they differ by in these seconds.
     cycles, ms = (
         pd.concat(rows[f"total_{name}_median"] for rows in every) for name in ("mcycles", "ms")

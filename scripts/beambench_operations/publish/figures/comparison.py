@@ -36,7 +36,8 @@ def marked(one: Result) -> str:
     return f"{mark}{brief(one.ratio)}{mark}{target}{' †' * one.is_culled}"
 
 
-def with_target(one: Result) -> str:
-    """A mean with its interval, its target and whether it meets that."""
+def with_target(one: Result, size: str = "") -> str:
+    """A mean with its interval, its target and whether it meets that; `size` in a sentence."""
+    at = f" at {size}" if size else ""
     target = "" if one.target is None else f", target {one.target:g}: {one.outcome}"
-    return f"{interval(one.ratio)}{target}{' †' * one.is_culled}"
+    return f"{interval(one.ratio)}{at}{target}{' †' * one.is_culled}"

@@ -17,7 +17,7 @@ _WATERTIGHT = "embree, watertight"
 def figures(folder: Path) -> dict[str, Any]:
     """Geometric means over the views, as times the fastest; every camera; the large scene."""
     cells = Cells(folder)
-    kinds = list(dict.fromkeys(cells.rows["ray_kind"]))
+    kinds = list(dict.fromkeys(cells.rows["kind"]))
     means = {kind: _means(cells, kind) for kind in kinds}
     embree = {
         kind: min((value, name) for name, value in own["mean"].items() if _is_embree(name))
@@ -56,7 +56,7 @@ def _name(row: pd.Series) -> str:
 
 
 def _means(cells: Cells, kind: str) -> dict[str, dict]:
-    timed = cells.having(ray_kind=kind).query("timed")
+    timed = cells.having(kind=kind).query("timed")
     timed = timed.assign(name=timed.apply(_name, axis=1))
     views = (with_ratios(own, cells.files) for _, own in timed.groupby("scene", sort=False))
     ranked = pd.concat(views)

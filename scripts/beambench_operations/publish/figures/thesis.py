@@ -17,7 +17,9 @@ from beambench_thesis.claims.chapter6 import CLUSTER_CLAIMS
 from beambench_thesis.claims.register import (
     SWEPT_CLAIMS,
     JudgedClaim,
+    SecondLook,
     judge_claims,
+    second_looks,
     summary,
 )
 from beambench_thesis.claims.verdict import ALIKE, Outcome, Verdict
@@ -38,10 +40,14 @@ def figures(folder: Path) -> dict[str, Any]:
     report = gather(folder, read_plan(folder), None)
     second = _second(folder)
     more = more_runs(folder)
-    swept = report.claims
-    if second is not None or more:
-        runs = [*report.cells.runs, *(second.cells.runs if second else ()), *more]
-        swept = judge_claims([*runs, folder / CENSUS], SWEPT_CLAIMS)
+    swept: Sequence[JudgedClaim] = report.claims
+    runs = [*report.cells.runs, *(second.cells.runs if second else ()), folder / CENSUS]
+    if second is not None:
+        swept = judge_claims(runs, SWEPT_CLAIMS)
+    looks: list[SecondLook] = []
+    if more:
+        before, swept = swept, judge_claims([*runs, *more], SWEPT_CLAIMS, more)
+        looks = second_looks(before, swept)
     cluster = folder.parent / "cluster"
     claims = [*swept, *(judge_claims([cluster], CLUSTER_CLAIMS) if cluster.is_dir() else ())]
     tested = [one for one in claims if one.ours.verdict is not Verdict.NOT_TESTED]
@@ -59,6 +65,7 @@ def figures(folder: Path) -> dict[str, Any]:
         "alike": ALIKE,
         "again": _again(report, second) if second else None,
         "more": len(more),
+        "looks": looks,
         "mirrors": mirrors,
         "unread": unread,
         "sampling": _samplings(folder / "sampling.csv"),

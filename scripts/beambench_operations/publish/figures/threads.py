@@ -1,34 +1,62 @@
 """results/published/threads: one thread and two."""
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
+from beambench.analysis import Ratio, unpaired_ratio
 from beambench_operations.publish.figures.cells import Cells
+from beambench_operations.publish.figures.formats import fixed, interval
+from beambench_report.base.cell_files import median_of
+
+_THREADS = 2
+
+
+def is_implausible(speedup: Ratio, threads: int) -> bool:
+    """Is it above the number of threads? Then the single-threaded run was probably disturbed."""
+    return speedup.value > threads
 
 
 def figures(folder: Path) -> dict[str, Any]:
     """Returns the speedup of two threads over one, by scene and structure."""
-    one, two = Cells(folder / "1"), Cells(folder / "2")
+    one, two = Cells(folder / "1"), Cells(folder / str(_THREADS))
     gain = {
         name: {
-            scene: one.row(name, scene=scene)["trace_ms_median"]
-            / two.row(name, scene=scene)["trace_ms_median"]
+            scene: unpaired_ratio(
+                *(median_of(cells.row(name, scene=scene), "trace") for cells in (one, two))
+            )
             for scene in one.scenes
         }
         for name in dict.fromkeys(one.rows["structure"])
     }
+    every = [speedup for own in gain.values() for speedup in own.values()]
     classic = [gain[name].values() for name in gain if name not in ("beam", "tile-beam")]
-    flat = [value for own in classic for value in own]
     return {
         "scenes": one.scenes,
         "size": one.sizes[0],
+        "threads": _THREADS,
         "gain": gain,
+        "shown": _shown,
+        "all": len(every),
+        "implausible": sum(is_implausible(one, _THREADS) for one in every),
         "range": {
-            "beam": (min(gain["beam"].values()), max(gain["beam"].values())),
-            "tile_beam": (min(gain["tile-beam"].values()), max(gain["tile-beam"].values())),
-            "others": (min(flat), max(flat)),
+            "beam": _range(gain["beam"].values()),
+            "tile_beam": _range(gain["tile-beam"].values()),
+            "others": _range(speedup for own in classic for speedup in own),
         },
         "tile_beam_ms": [
             one.row("tile-beam", scene=scene)["trace_ms_median"] for scene in one.scenes
         ],
     }
+
+
+def _shown(speedup: Ratio) -> str:
+    """A field of the table, marked where it is implausible."""
+    text = interval(speedup) if speedup.interval else fixed(speedup)
+    return f"{text}, implausible" if is_implausible(speedup, _THREADS) else text
+
+
+def _range(speedups: Iterable[Ratio]) -> tuple[float, float]:
+    """Returns the least and the largest plausible one."""
+    known = [one.value for one in speedups if not is_implausible(one, _THREADS)]
+    return min(known), max(known)
