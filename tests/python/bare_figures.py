@@ -9,7 +9,8 @@ from pathlib import Path
 # kind of interval it is.
 _COMPUTED = re.compile(
     r"\{\{.*?\}\}|\{%.*?%\}|\{#.*?#\}|```.*?```|``.*?``|`[^`\n]*`|\]\([^)]*\)|<!--.*?-->"
-    r"|95% (?:prediction )?intervals?|(?:section|tables?|figures?) \d[\d.]*(?: and \d[\d.]*)?",
+    r"|95%\s(?:prediction\s|confidence\s)?intervals?"
+    r"|(?:section|tables?|figures?) \d[\d.]*(?: and \d[\d.]*)?",
     re.DOTALL,
 )
 _UNITS = "times|ms|ns|s|min|h|MB|GB|KB|bytes|cells|rays|percent|points"

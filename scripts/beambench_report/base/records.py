@@ -136,7 +136,7 @@ def _read(path: Path) -> pd.DataFrame:
 
     for name in ("trace_ms", "total_ms"):
         if name not in rows or rows[name].isna().all():  # a record of one process
-            rows = rows.assign(**{name: rows[f"{name}_median"]})
+            rows = rows.copy().assign(**{name: rows[f"{name}_median"]})
     if "outpaced" in rows:  # another parameter set stands for the contender
         rows = rows[rows["outpaced"] != "true"].reset_index(drop=True)
     try:

@@ -3,7 +3,7 @@
 import shlex
 from collections.abc import Iterator, Mapping, Sequence
 
-from beambench_report.base.cell_files import CellFile, Identity, identity
+from beambench_report.base.cell_files import IDENTITY, CellFile, Identity, identity
 from beambench_report.base.machine import Manifest
 from beambench_report.base.records import FAULTLESS_VERDICTS, Run
 from beambench_report.run.images import Figures, Image
@@ -39,7 +39,7 @@ def absent(
         )
     timed = run.rows[run.rows["timed"]]
     repeated = {cell for cell, file in files.items() if file.total_ms}
-    without = sum(identity(row) not in repeated for row in timed.to_dict("records"))
+    without = sum(identity(row) not in repeated for row in timed[list(IDENTITY)].to_dict("records"))
     if not repeated:
         yield (
             "The repetitions of the cells are not in this folder: ratios are of medians and have "

@@ -107,7 +107,8 @@ def _has(cell: Cell, values: dict[str, str]) -> bool:
 def _pools(structure: str) -> list[tuple[str, dict[str, str]]]:
     """Returns the forms of a contender: the thesis's own, and the best where we have others.
 
-    The thesis's beams hand nothing over and test samples one by one; its hierarchy places objects beside terminal nodes.
+    The thesis's beams hand nothing over and test samples one by one; its hierarchy places
+    objects beside terminal nodes.
     """
     title = contender_title(structure)
     if structure == "beam":
