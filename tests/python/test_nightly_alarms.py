@@ -181,7 +181,7 @@ def test_calibration_finds_what_is_large_and_counts_what_is_false() -> None:
     assert told.power[0].low == 0.0
     assert told.power[1].low == pytest.approx(36 / (36 + 1.959964**2))  # Wilson's, for all of n
     assert told.smallest_found == 0.05
-    assert "100.0% of 36 trials (95% interval 90.4% to 100.0%)" in told.summary()
+    assert "100.0% of 36 trials (95% confidence interval 90.4% to 100.0%)" in told.summary()
     assert json.loads(told.as_json())["power"][1]["low"] == told.power[1].low
 
 

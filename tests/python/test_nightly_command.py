@@ -410,7 +410,7 @@ def test_compare_builds_each_commit_and_measures_in_turns(
         check=False,
     )
     assert done.returncode in (0, 1), done.stderr  # times on a busy machine are not judged here
-    assert done.stdout.startswith("    B/A  95% interval")
+    assert done.stdout.startswith("    B/A  95% confidence")
     assert "samet in stetra at 32x20" in done.stdout
     assert done.stdout.splitlines()[-1].startswith(("No cell is slower", "SLOWER"))
     turns = [line for line in done.stderr.splitlines() if line.startswith("== turn")]

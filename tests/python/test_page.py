@@ -297,7 +297,7 @@ def test_what_is_not_there_is_left_out(run_folder: Path) -> None:
         "There is no config.json",
         "The repetitions of the cells are not in this folder: ratios are of medians",
         "There is no figure 'distributions'; it needs repetitions",
-        "The record has no 95% intervals of the trace times",
+        "The record has no 95% confidence intervals of the trace times",
         "There are no pictures of the scenes",
     ):
         assert words in reader.text
@@ -354,9 +354,11 @@ def test_of_a_folder_with_intervals_but_no_repetitions_the_page_has_intervals(
     ]
     text = page_of(write_run(tmp_path, rows)).text
     assert "The repetitions of the cells are not in this folder" in text
-    assert "has no 95% intervals" not in text
-    assert "95% interval of the median trace" in text  # below the figures of the trace times
-    assert "geometric mean with its 95% interval" in text
+    assert "has no 95% confidence intervals" not in text
+    assert (
+        "95% confidence interval of the first trace" in text
+    )  # below the figures of the trace times
+    assert "95% confidence interval of measuring" in text
 
 
 def test_repetitions_of_some_cells_only_are_counted(run_folder: Path) -> None:
@@ -560,3 +562,55 @@ def test_the_work_of_a_page_grows_little_with_its_rows(tmp_path: Path) -> None:
     assert (calls[1] - calls[0]) / 4_000 < 200, "of Python functions for each row"
     assert re.search(r"all 4,500 <a [^>]*>cells</a> are correct", pages[1])
     assert (len(pages[1]) - len(pages[0])) / 4_000 < 500, "characters for each row"
+
+
+def changed_analysis(folder: Path, **changes: object) -> Path:
+    """Changes what analysis.json has of the run, and of its first view's fastest."""
+    file = folder / "analysis.json"
+    source = json.loads(file.read_text())
+    source["steadiness"] = changes.get("steadiness")
+    source["views"][0]["clock"] = changes.get("clock", "wall")
+    source["views"][0]["ranked"][0] |= changes.get("fastest", {})
+    source["views"][0]["ranked"][1] |= changes.get("second", {})
+    source["means"][0]["means"][0] |= changes.get("mean", {})
+    file.write_text(json.dumps(source))
+    return folder
+
+
+def test_an_unsteady_run_says_so_first(run_folder: Path) -> None:
+    steady = text_of(changed_analysis(run_folder, steadiness={"shift": 0.01, "limit": 0.02}))
+    assert "not steady" not in steady
+    text = text_of(changed_analysis(run_folder, steadiness={"shift": -0.05, "limit": 0.02}))
+    assert "The machine was not steady: take the times with care" in text
+
+
+def test_a_view_compared_by_cpu_time_says_so(run_folder: Path) -> None:
+    assert "CPU time" not in text_of(run_folder).partition("Data dictionary The columns")[0]
+    text = text_of(changed_analysis(run_folder, clock="cpu"))
+    assert "1280x1024, by CPU time" in text
+    assert "Compared by CPU time, because other work interrupted too many" in text
+
+
+def test_a_contender_that_may_be_as_fast_is_named(run_folder: Path) -> None:
+    changed_analysis(run_folder, second={"rank": "undecided"})
+    text = text_of(run_folder)
+    second = read_analysis(run_folder).views[0].ranked[1].name
+    assert f"; whether {second} is as fast is not decided." in text
+    assert f"undecided: {second}" in text
+
+
+def test_a_mean_has_the_intervals_of_measuring_and_of_the_scatter(run_folder: Path) -> None:
+    text = text_of(changed_analysis(run_folder, mean={"scatter_low": 1.5, "scatter_high": 2.5}))
+    assert "95% confidence interval of measuring" in text
+    assert "1.50 to 2.50" in text.partition("scatter between views")[2]
+
+
+def test_a_tuned_contender_has_its_parameters_and_others_their_simd(tmp_path: Path) -> None:
+    tuned = {"parameter_sets": 8, "structure_isa": "AVX512", "outpaced": "false"}
+    rows = [row | tuned if row["structure"] == "embree" else row for row in synthetic_rows()]
+    fastest = {"contender": "embree (best of 8)", "variant": "embree:mode=single"}
+    text = text_of(changed_analysis(write_run(tmp_path, rows), fastest=fastest))
+    assert "Least time: embree:mode=single (best of 8)" in text
+    assert "embree (best of 8): mode=single" in text
+    assert "memory SIMD" in text
+    assert "AVX512" in text

@@ -55,7 +55,7 @@ class Power:
     slowdown: float
     found: float
     low: float
-    """Of the 95% interval of `found`."""
+    """Of the 95% confidence interval of `found`."""
     high: float
     trials: int
     nights_until: float
@@ -92,7 +92,7 @@ class Calibration:
         """For people."""
         lines = [
             f"{self.alarms} alarms in {self.nights} nights of pure noise over {self.series} series "
-            f"together ({self._in_100_nights(self.alarms)} in 100 nights, 95% interval "
+            f"together ({self._in_100_nights(self.alarms)} in 100 nights, 95% confidence interval "
             f"{self._in_100_nights(self.alarms_low)} to {self._in_100_nights(self.alarms_high)}); "
             f"the noise was drawn from {self.noise_nights} nights, {100 * self.noise:.2g}% "
             "(standard deviation of a usual series); by the blocks of one night it would be "
@@ -100,7 +100,7 @@ class Calibration:
         ]
         lines += [
             f"A slow-down by {one.slowdown:.1%} was found and named in {one.found:.1%} of "
-            f"{one.trials} trials (95% interval {one.low:.1%} to {one.high:.1%}), after "
+            f"{one.trials} trials (95% confidence interval {one.low:.1%} to {one.high:.1%}), after "
             f"{one.nights_until:.0f} nights."
             for one in self.power
         ]

@@ -78,7 +78,11 @@ def add_nightly_command(commands: Commands) -> None:
     calibration("--nights", type=int, default=1000, metavar="N")
     usual = Effort()
     for name, kind, words in (
-        ("precision", float, "half the width that the 95%% intervals of the powers should have"),
+        (
+            "precision",
+            float,
+            "half the width that the 95%% confidence intervals of the powers should have",
+        ),
         ("trials", int, "at most"),
         ("seconds", float, "at most, for the trials"),
     ):

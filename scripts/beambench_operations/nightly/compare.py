@@ -80,7 +80,7 @@ class Outcome:
     def table(self) -> str:
         """A line for each cell, the one that got slowest first."""
         named = {cell.title for cell in self.slower}
-        lines = [f"{'B/A':>7}  {'95% interval':<17} {'turns':>5}  cell"]
+        lines = [f"{'B/A':>7}  {'95% confidence':<17} {'turns':>5}  cell"]
         for cell in sorted(self.cells, key=lambda cell: -cell.ratio.value):
             mark = "  SLOWER" if cell.title in named else ""
             lines.append(f"{_line(cell.ratio)} {cell.pairs:>5}  {cell.title}{mark}")

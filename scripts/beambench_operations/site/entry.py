@@ -37,7 +37,7 @@ _BEGIN, _END = "beambench.add(", ");\n"
 
 
 Ends = tuple[float, float | None, float | None]
-"""A figure and its 95% interval."""
+"""A figure and its 95% confidence interval."""
 
 
 @dataclass(frozen=True)

@@ -102,6 +102,11 @@ class Standings:
         return tuple(one for one in self.ranked[1:] if one.is_tied)
 
     @property
+    def undecided(self) -> tuple[Standing, ...]:
+        """The contenders of which it is not known whether they are as fast, or slower."""
+        return tuple(one for one in self.ranked[1:] if one.rank == "undecided")
+
+    @property
     def behind(self) -> Standing | None:
         """The first contender that is clearly slower than the fastest."""
         return next((one for one in self.ranked if one.rank == "behind"), None)
@@ -129,7 +134,7 @@ class Mean:
     """Views in which it is the fastest or tied with it."""
     scatter_low: float | None = None
     scatter_high: float | None = None
-    """95% interval of the mean by the scatter between the views."""
+    """95% confidence interval of the mean by the scatter between the views."""
 
 
 @dataclass(frozen=True)
@@ -141,6 +146,21 @@ class Overall:
     means: tuple[Mean, ...]
     """Those with times in every view, the fastest first; then the others."""
     references: tuple[Mean, ...]
+
+
+@dataclass(frozen=True)
+class Steadiness:
+    """The late blocks of a run compared with its early ones."""
+
+    shift: float
+    """Of the logarithms of times: 0.03 where late blocks took 3% longer."""
+    limit: float
+    """What chance explains."""
+
+    @property
+    def is_steady(self) -> bool:
+        """Was the machine as fast late in the run as early?"""
+        return abs(self.shift) <= self.limit
 
 
 @dataclass(frozen=True)
@@ -165,7 +185,9 @@ class Analysis:
     unsupported: int
     """Of rays or primitives that the structure does not support."""
     reasons_for_care: tuple[str, ...]
-    """Why the times are worth little, in clauses."""
+    """Why the times are worth little, in clauses; that the machine was not steady is the first."""
+    steadiness: Steadiness | None
+    """None where there are too few blocks for the test."""
     views: tuple[Standings, ...]
     means: tuple[Overall, ...]
     """Of each kind of rays."""
@@ -195,6 +217,16 @@ class Analysis:
     def ratios_are_paired(self) -> bool:
         """Was any ratio to the fastest made round by round?"""
         return any(ratio.paired for ratio in self._ratios)
+
+    @property
+    def is_unsteady(self) -> bool:
+        """Were late blocks faster or slower than early ones, beyond chance?"""
+        return self.steadiness is not None and not self.steadiness.is_steady
+
+    @property
+    def has_blocks(self) -> bool:
+        """Do ratios come from blocks, so that they are ranked by equivalence?"""
+        return any(ratio.predicted_low is not None for ratio in self._ratios)
 
     @property
     def ties_are_known(self) -> bool:
@@ -242,6 +274,7 @@ def _analysis(source: _Json) -> Analysis:
     return Analysis(
         *(source[name] for name in counts),
         tuple(source["reasons_for_care"]),
+        Steadiness(**steadiness) if (steadiness := source.get("steadiness")) else None,
         tuple(_view(view) for view in source["views"]),
         tuple(
             Overall(

@@ -20,8 +20,8 @@ _MOST_DOTS = 700  # of a figure, or its file grows large
 _FARTHEST = 30  # percent; what lies beyond is drawn at the end
 _EXPLANATION = (
     "Each dot is one repetition, the first trace after a build; the stroke is the median, the bar "
-    "behind it its 95% interval. Left: as measured. Right: how far from the contender's own "
-    "median, in %; triangles lie beyond the axis.{thinned}"
+    "behind it its 95% confidence interval. Left: as measured. Right: how far from the contender's "
+    "own median, in %; triangles lie beyond the axis.{thinned}"
 )
 
 

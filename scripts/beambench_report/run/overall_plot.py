@@ -18,8 +18,8 @@ from beambench_report.run.panels import MOST_ROWS, finish, panels_with_legend
 _MOST_DOTS = 150  # with a hover title each; beyond, one title for all dots of a row
 _GAP = 1.1  # rows between contenders and references
 _EXPLANATION = (
-    "Small: each view at its highest resolution, the median of the first trace after a build over "
-    "that of the view's fastest (build not included). Large: their geometric mean{interval}. "
+    "Small: each view at its highest resolution, the first trace after a build over that of the "
+    "view's fastest (build not included). Large: their geometric mean{lines}. "
     "References find nothing (null) or test everything (exhaustive): they do not compete."
 )
 
@@ -54,7 +54,13 @@ def _overall(measured: Measured, one: Overall, stem: str) -> Plot:
         _draw_mean(panel, place, mean, look)
         _write_values(panel, place, mean, one.views, is_best=place == 0)
     _label(panel, rows, one, last)
-    has_intervals = any(mean.ratio.interval for mean in means)
+    drawn = {
+        "thick line: 95% confidence interval of measuring": any(m.ratio.interval for m in means),
+        "thin line: 95% confidence interval by the scatter between views": any(
+            m.scatter_low is not None for m in means
+        ),
+    }
+    lines = "; ".join(line for line, is_drawn in drawn.items() if is_drawn)
     views = f"{one.views} views" if one.views > 1 else standings[0].view
     summary = f"trace time over the fastest, {views}, {one.ray_kind} rays"
     return Plot(
@@ -62,8 +68,8 @@ def _overall(measured: Measured, one: Overall, stem: str) -> Plot:
         finish(
             figure,
             f"Trace time as a multiple of the fastest: {views}, {one.ray_kind} rays",
-            measured.run.rows[measured.run.rows["ray_kind"] == one.ray_kind],
-            _EXPLANATION.format(interval=" with its 95% interval" if has_intervals else ""),
+            measured.run.rows[measured.run.rows["kind"] == one.ray_kind],
+            _EXPLANATION.format(lines=f" ({lines})" if lines else ""),
         ),
         summary,
     )
@@ -86,6 +92,9 @@ def _draw_views(
 
 
 def _draw_mean(panel: Axes, place: float, mean: Mean, look: Look) -> None:
+    if mean.scatter_low is not None and mean.scatter_high is not None:
+        ends = [mean.scatter_low, mean.scatter_high]
+        panel.plot(ends, [place, place], "|-", color=look.color, linewidth=0.8, markersize=5)
     if mean.ratio.interval:
         low, high = mean.ratio.interval
         panel.plot([low, high], [place, place], color=look.color, linewidth=2.2)
@@ -160,7 +169,7 @@ def _label(panel: Axes, rows: list[tuple[float, Mean]], one: Overall, last: floa
     head = {"va": "bottom", "fontsize": 7, "color": SOFT}
     _beside(panel, _VALUE, -0.7, "mean", ha="right", **head)
     if any(mean.ratio.interval for _, mean in rows):
-        _beside(panel, _INTERVAL, -0.7, "95% interval", ha="right", **head)
+        _beside(panel, _INTERVAL, -0.7, "95% confidence\ninterval", ha="right", **head)
     _beside(panel, _WINS, -0.7, "fastest\nor tied", ha="center", **head)
     if one.references:
         place = rows[len(rows) - len(one.references)][0] - 0.75

@@ -70,7 +70,7 @@ def _resolutions(measured: Measured, kind: str, views: Sequence[str], stem: str)
         f"Trace time of a ray against resolution, {kind}",
         f"ns per ray against resolution, {kind}",
     )
-    reading = "Median of the first trace after a build, build not included; bars: its 95% interval."
+    reading = "First trace after a build, build not included; bars: its 95% confidence interval."
     fewer = _FEWER if len(shown) < len(fastest) else ""
     return plot_of_views(measured.run, stem, figure, views, what, reading + fewer)
 

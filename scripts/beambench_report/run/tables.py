@@ -39,6 +39,7 @@ class Line:
     """A contender's line; the shares are those of its bar, 1 being the whole width."""
 
     contender: str
+    """Its label; where it is tuned, with the parameters that stand for it."""
     color: str
     verdict: str
     fields: tuple[Field, ...]
@@ -78,14 +79,15 @@ def view_table(
     """Times and memory, the quickest first; then those without times; references last."""
     ordered = _in_order(rows)
     headings = (
-        Heading("trace", "ns per ray", "trace_ms_median"),
-        Heading("trace", "ms", "trace_ms_median"),
+        Heading("trace", "ns per ray", "trace_ms"),
+        Heading("trace", "ms", "trace_ms"),
         Heading("build", "ms", "build_ms_median"),
         Heading("total", "ms", "total_ms_median"),
         Heading("total", f"times {reference}" if reference else "ratio"),
         Heading("trace, net", "ms", "trace_net_ms_median"),
         Heading("speed", "Mrays/s", "mrays_per_s"),
         Heading("memory", "", "memory_bytes"),
+        Heading("SIMD", "", "structure_isa", is_number=False),
     )
     scale = _scale(ordered.loc[ordered["timed"], "total_ms_median"])
     lines = tuple(
@@ -115,14 +117,14 @@ def work_table(caption: str, rows: pd.DataFrame, counters: list[str]) -> Table |
 
 def _in_order(rows: pd.DataFrame) -> pd.DataFrame:
     """The quickest trace first, references last."""
-    times = rows["trace_ms_median"].where(rows["timed"])
+    times = rows["trace_ms"].where(rows["timed"])
     keys = pd.DataFrame({"reference": rows["structure"].isin(REFERENCES), "time": times})
     return rows.loc[keys.sort_values(["reference", "time"], kind="stable").index]
 
 
 def _bare_line(row: pd.Series, fields: tuple[Field, ...]) -> Line:
     return Line(
-        row["contender"],
+        f"{row['contender']}: {row['parameters']}" if row["is_tuned"] else row["contender"],
         css_color(row["structure"]),
         row["verdict"] or "no verdict",
         fields,
@@ -158,7 +160,7 @@ def _line(row: pd.Series, ratio: Ratio | None, scale: float) -> Line:
             row.get(f"{part}_ms_ci_{end}", float("nan")) * factor for end in ("low", "high")
         )
         note = f"{number(low)} to {number(high)}" if pd.notna(low) and pd.notna(high) else ""
-        return _figure(row[f"{part}_ms_median"] * factor, note)
+        return _figure(row["trace_ms" if part == "trace" else f"{part}_ms_median"] * factor, note)
 
     build, trace = time("build"), time("trace")
     memory = row["memory_bytes"]
@@ -172,6 +174,7 @@ def _line(row: pd.Series, ratio: Ratio | None, scale: float) -> Line:
         _figure(row.get("trace_net_ms_median") if timed else None),
         _figure(row.get("mrays_per_s") if timed else None),
         MISSING if pd.isna(memory) else Field(size_in_words(memory), memory),
+        _simd(row.get("structure_isa") or ""),
     )
     return replace(
         _bare_line(row, fields),
@@ -179,6 +182,10 @@ def _line(row: pd.Series, ratio: Ratio | None, scale: float) -> Line:
         trace_share=max(min(shares[1], 1.0 - shares[0]), 0.0),
         off_the_scale=sum(shares) > 1.0,
     )
+
+
+def _simd(isa: str) -> Field:
+    return Field(isa or "none", isa)
 
 
 def _figure(value: float | None, note: str = "") -> Field:

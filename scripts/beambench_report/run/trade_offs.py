@@ -21,10 +21,9 @@ _ANY_NUMBER = "00"  # as wide as the numbers that are not known yet
 _COSTS = {"build_ms_median": "build time in ms", "memory_mib": "memory in MiB"}
 _EXPLANATION = (
     "The lower and the further left, the better: the stairs join those of which none other is both "
-    "cheaper and faster (the Pareto front). Bars: 95% interval of the median trace, the first "
-    "after a build. Axes are logarithmic "
-    "where values differ by more than 20 times. null and exhaustive, which build nothing, are left "
-    "out."
+    "cheaper and faster (the Pareto front). Bars: 95% confidence interval of the first trace after "
+    "a build. Axes are logarithmic where values differ by more than 20 times. null and exhaustive, "
+    "which build nothing, are left out."
 )
 
 

@@ -41,7 +41,7 @@ def signed_percent(share: float, digits: int = 0) -> str:
 
 
 def interval(ratio: Ratio) -> str:
-    """The ratio with its 95% interval: 2.40 (2.35 to 2.46)."""
+    """The ratio with its 95% confidence interval: 2.40 (2.35 to 2.46)."""
     if ratio.interval is None:
         return f"{short(ratio)} (no interval)"
     low, high = (number(end) for end in ratio.interval)
