@@ -51,7 +51,7 @@ void add_run(Row& row, const RunFacts& run, const CellRecord& cell) {
   row["threads"] = run.threads;
 }
 
-void add_identity(Row& row, const CellRecord& cell) {
+void add_identity(Row& row, const CellRecord& cell, bool outpaced) {
   row["scene"] = cell.id.scene;
   row["camera"] = cell.id.camera;
   row["scene_hash"] = rays::hex_digits(cell.rays.scene_hash);
@@ -64,6 +64,7 @@ void add_identity(Row& row, const CellRecord& cell) {
   row["height"] = cell.id.resolution.height;
   row["samples"] = cell.id.samples;
   row["parameter_sets"] = cell.parameter_sets;
+  row["outpaced"] = outpaced;
   row["ray_kind"] = cell.id.rays;
   row["order"] = rays::divide_label(cell.id.rays).order;
   row["query"] = rays::to_string(cell.rays.query);
@@ -344,10 +345,10 @@ std::map<int, RunFacts> facts_by_shard(const Json& manifest) {
   return facts;
 }
 
-Row to_row(const RunFacts& run, const CellRecord& cell) {
+Row to_row(const RunFacts& run, const CellRecord& cell, bool outpaced) {
   Row row = Row::object();
   add_run(row, run, cell);
-  add_identity(row, cell);
+  add_identity(row, cell, outpaced);
   add_times(row, cell);
   add_hardware_counts(row, cell);
   add_statistics(row, cell);
@@ -383,9 +384,8 @@ void write_results(std::ostream& out, const Run& run) {
   const std::map<int, RunFacts> facts = facts_by_shard(run.manifest);
   const std::set<std::size_t> outpaced = outpaced_sets(run);
   write_table(out, run.cells.size(), [&](std::size_t i) {
-    Row row = to_row(facts.at(run.cells[i].shard), run.cells[i]);
-    row["outpaced"] = outpaced.contains(run.cells[i].index);
-    return row;
+    const CellRecord& cell = run.cells[i];
+    return to_row(facts.at(cell.shard), cell, outpaced.contains(cell.index));
   });
 }
 

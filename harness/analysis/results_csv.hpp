@@ -30,7 +30,7 @@ measure::RunFacts facts_of(const nlohmann::ordered_json& manifest);
 std::map<int, measure::RunFacts> facts_by_shard(const nlohmann::ordered_json& manifest);
 
 /// Returns the row of a cell. A cell that does not keep its times has null there.
-Row to_row(const measure::RunFacts& run, const measure::CellRecord& cell);
+Row to_row(const measure::RunFacts& run, const measure::CellRecord& cell, bool outpaced = false);
 
 /// Returns a text as a CSV field: in quotes, inner quotes doubled, if it contains a comma, quote or
 /// line end. A text that begins with a character at which a spreadsheet takes it for a formula (=,

@@ -105,7 +105,8 @@ const char* const kContract =
     "schema_version,run_id,time_utc,commit,dirty,machine_id,build_type,flags,isa,structure_isa,"
     "library_version,library_geometry,threads,"
     "scene,camera,scene_hash,rays_hash,seed,primitives,"
-    "structure,parameters,width,height,samples,ray_kind,query,query_path,rays,hit_share,"
+    "structure,parameters,width,height,samples,parameter_sets,outpaced,ray_kind,order,query,query_"
+    "path,rays,hit_share,"
     "occluded_share,coherence,"
     "repetitions,blocks,disturbed,stop_reason,"
     "build_ms_median,build_ms_min,build_ms_mad,trace_ms_median,trace_ms_min,trace_ms_mad,"
@@ -241,10 +242,7 @@ TEST(Results, HaveARowOfEachCellInTheOrderOfThePlan) {
   std::ostringstream out;
   write_results(out, run);
   std::vector<Row> rows;
-  for (const CellRecord& cell : run.cells) {
-    rows.push_back(to_row(facts_of(run.manifest), cell));
-    rows.back()["outpaced"] = false;
-  }
+  for (const CellRecord& cell : run.cells) rows.push_back(to_row(facts_of(run.manifest), cell));
   EXPECT_EQ(out.str(), csv_table(rows));
   EXPECT_EQ(rows[1].at("own_counter_per_ray"), 2.0);
   EXPECT_EQ(rows[0].at("machine_id"), "0123456789abcdef");
