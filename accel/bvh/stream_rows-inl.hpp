@@ -9,50 +9,78 @@
 #endif
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <limits>
 #include <span>
 
 #include <hwy/highway.h>
 
+#include "accel/bvh/box_quads.hpp"
 #include "accel/bvh/stream_tests-inl.hpp"
-#include "accel/core/canonical_ray.hpp"
 #include "accel/core/ray.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::bvh::HWY_NAMESPACE {
 
+/// The places of a stream's rays, relative to the tree's center.
+struct RowsExtent {
+  glm::vec3 middle;  ///< the mean of origins
+  glm::vec3 lower;   ///< the box about the rays from origin to end, if requested
+  glm::vec3 upper;
+};
+
 /// Copies rays for a stream: without zeros in directions, with finite ends. Rays that no stream can
-/// trace (stream_tests-inl.hpp) end before they begin. Returns the mean of the others' origins,
-/// relative to the center.
-inline glm::vec3 fill_rows(std::span<const Ray> rays, const StreamTree& tree, Ray* rows) {
+/// trace (stream_tests-inl.hpp) end before they begin.
+template <bool kWithBox>
+RowsExtent fill_rows(std::span<const Ray> rays, const StreamTree& tree, Ray* rows) {
+  // Four floats at once: origin and t_min, direction and t_max.
+  const auto load_quad = [](const float* from) {
+    Quad quad;
+    std::memcpy(&quad, from, sizeof quad);
+    return quad;
+  };
+  const auto size_of = [](Quad quad) { return quad < quad_of(0.0F) ? -quad : quad; };
+  const Quad center = quad_of(tree.center);
+  const Quad none = quad_of(0.0F);
+  constexpr float kTiny = 1e-18F;
+  const Quad tiny{kTiny, kTiny, kTiny, 0.0F};
+  const Quad largest{kInfinity, kInfinity, kInfinity, std::numeric_limits<float>::max()};
   const float farthest = 4.0F * tree.half_size;
-  const auto without_zero = [](float component) {
-    constexpr float kTiny = 1e-18F;
-    return std::abs(component) < kTiny ? std::copysign(kTiny, component) : component;
-  };
-  const auto largest_of = [](const glm::vec3& v) {
-    return std::max(std::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
-  };
-  glm::vec3 sum(0.0F);
+  Quad sum = none;
+  QuadBox box = QuadBox::empty();
   std::size_t count = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    const glm::vec3& direction = rays[i].direction;
-    Ray& row = rows[i];
-    row.origin = rays[i].origin;
-    row.t_min = rays[i].t_min;
-    row.direction = {without_zero(direction.x), without_zero(direction.y),
-                     without_zero(direction.z)};
-    const glm::vec3 from_center = row.origin - tree.center;
-    const float length = largest_of(direction);
-    const bool can_stream =
-        largest_of(from_center) <= farthest && length >= 0x1p-20F && length <= 0x1p20F;
-    row.t_max = can_stream ? finite(rays[i].t_max) : -1.0F;
-    sum += can_stream ? from_center : glm::vec3(0.0F);
-    count += can_stream ? 1 : 0;
+    const Quad origin = load_quad(&rays[i].origin.x);
+    Quad direction = smaller(load_quad(&rays[i].direction.x), largest);
+    const Quad size = size_of(direction);
+    direction = size < tiny ? (direction < none ? -tiny : tiny) : direction;
+    const Quad from_center = origin - center;
+    const Quad distance = size_of(from_center);
+    const float length = std::max(std::max(size[0], size[1]), size[2]);
+    const float farness = std::max(std::max(distance[0], distance[1]), distance[2]);
+    std::memcpy(&rows[i].origin.x, &origin, sizeof origin);
+    std::memcpy(&rows[i].direction.x, &direction, sizeof direction);
+    if (!(farness <= farthest && length >= 0x1p-20F && length <= 0x1p20F)) {
+      rows[i].t_max = -1.0F;
+      continue;
+    }
+    sum += from_center;
+    ++count;
+    if constexpr (kWithBox) {
+      box.include(from_center);
+      box.include(from_center + direction * quad_of(direction[3]));
+    }
   }
-  return sum / static_cast<float>(std::max(count, std::size_t{1}));
+  const Quad mean = sum / quad_of(static_cast<float>(std::max(count, std::size_t{1})));
+  RowsExtent extent{{mean[0], mean[1], mean[2]}, {}, {}};
+  // The ends are rounded; where that is far from the scene, it does not matter.
+  const Quad wider = quad_of(0x1p-18F * tree.half_size);
+  const scenes::Bounds bounds = QuadBox{box.lower - wider, box.upper + wider}.bounds();
+  extent.lower = bounds.lower;
+  extent.upper = bounds.upper;
+  return extent;
 }
 
 // A ray is two rows of four floats: origin and t_min, direction and t_max.

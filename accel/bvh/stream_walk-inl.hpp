@@ -87,7 +87,7 @@ class StreamWalk {
         counting_(counting) {
     std::uint32_t* const all = memory.lists.data();
     const std::size_t count = stream.rays.size();
-    middle_ = fill_rows(stream.rays, tree_, rows_);
+    extent_ = fill_rows<kAny>(stream.rays, tree_, rows_);
     for (std::size_t i = 0; i < count; ++i) all[i] = place_of(i);
     std::fill_n(guesses_, count, StreamGuess{});
     doubts_.clear();
@@ -97,10 +97,12 @@ class StreamWalk {
   }
 
   void append_undecided(std::vector<std::uint32_t>& left) const {
-    for (std::size_t i = 0; i < stream_.rays.size(); ++i) {
-      const bool was_cut = rows_[i].t_max < finite(stream_.rays[i].t_max);
+    const std::span<const Ray> rays = stream_.rays;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const bool was_cut = rows_[i].t_max < finite(rays[i].t_max);
       const bool found = kAny ? stream_.any[i] != 0 : stream_.t[i] <= rows_[i].t_max;
-      if (was_cut && !found) left.push_back(static_cast<std::uint32_t>(i));
+      // One branch, which is almost never taken.
+      if ((was_cut & !found) != 0) left.push_back(static_cast<std::uint32_t>(i));
     }
   }
 
@@ -160,6 +162,7 @@ class StreamWalk {
 
     std::array<std::uint32_t*, kBvhLanes> ends;
     for (std::size_t lane = 0; lane < kBvhLanes; ++lane) ends[lane] = free + lane * stride;
+    const LaneBits near = children_near(node);
     const hn::RebindToUnsigned<Tag> words;
     for (std::size_t i = 0; i < count; i += kLanes) {
       const LaneRays<Tag> rays = load_rays(rows_, list + i);
@@ -167,6 +170,7 @@ class StreamWalk {
       const auto places = hn::LoadU(words, list + i);
       const Mask present = hn::FirstN(Tag(), count - i);
       for (std::size_t lane = 0; lane < node.count; ++lane) {
+        if (kAny && (near >> lane & 1U) == 0) continue;  // the same for all rays
         const Mask met = hn::And(meet(node, lane, slabs, rays), present);
         ends[lane] += compress_store(words, places, hn::RebindMask(words, met), ends[lane]);
       }
@@ -191,6 +195,24 @@ class StreamWalk {
     }
   }
 
+  /// Returns the children that the box about all rays meets. Only rays for any hits mostly end near
+  /// their origins.
+  HWY_INLINE LaneBits children_near(const StreamNode& node) const {
+    if constexpr (!kAny) return ~LaneBits{0};
+    const LaneTag tag;
+    return test_lanes([&](std::size_t lane) {
+      auto meets = hn::FirstN(tag, kBvhLanes);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto center = hn::Load(tag, &node.center[axis][lane]);
+        const auto half = hn::Load(tag, &node.half[axis][lane]);
+        const auto i = static_cast<int>(axis);
+        meets = hn::And(meets, hn::Le(hn::Sub(center, half), hn::Set(tag, extent_.upper[i])));
+        meets = hn::And(meets, hn::Ge(hn::Add(center, half), hn::Set(tag, extent_.lower[i])));
+      }
+      return meets;
+    });
+  }
+
   HWY_INLINE static Mask meet(const StreamNode& node, std::size_t lane, const SlabLanes<Tag>& slabs,
                               const LaneRays<Tag>& rays) {
     const auto box = [&](const auto& rows) -> Triple<Tag> {
@@ -212,8 +234,9 @@ class StreamWalk {
     for (std::size_t lane = 0; lane < kBvhLanes; lane += kRegister) {
       auto distance = hn::Zero(tag);
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto from_center = hn::Abs(hn::Sub(hn::Load(tag, &node.center[axis][lane]),
-                                                 hn::Set(tag, middle_[static_cast<int>(axis)])));
+        const auto from_center =
+            hn::Abs(hn::Sub(hn::Load(tag, &node.center[axis][lane]),
+                            hn::Set(tag, extent_.middle[static_cast<int>(axis)])));
         const auto from_box =
             hn::Max(hn::Sub(from_center, hn::Load(tag, &node.half[axis][lane])), hn::Zero(tag));
         // Boxes around the mean are at distance 0: of these the one with the nearest center.
@@ -678,7 +701,7 @@ class StreamWalk {
   StreamGuess* guesses_;
   std::vector<StreamPair>& doubts_;
   Counting& counting_;
-  glm::vec3 middle_;  ///< the mean of origins, relative to the tree's center
+  RowsExtent extent_;
 };
 
 }  // namespace beambench::accel::bvh::HWY_NAMESPACE
