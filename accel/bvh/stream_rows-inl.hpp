@@ -86,8 +86,15 @@ RowsExtent fill_rows(std::span<const Ray> rays, const StreamTree& tree, Ray* row
 // A ray is two rows of four floats: origin and t_min, direction and t_max.
 static_assert(sizeof(Ray) == 8 * sizeof(float));
 
+// Lists name rays by the places of their rows, in bytes.
+
+inline std::uint32_t place_of(std::size_t i) { return static_cast<std::uint32_t>(i * sizeof(Ray)); }
+inline std::size_t ray_at(std::uint32_t place) { return place / sizeof(Ray); }
 HWY_INLINE const Ray& row_at(const Ray* rows, std::uint32_t place) {
   return *reinterpret_cast<const Ray*>(reinterpret_cast<const char*>(rows) + place);
+}
+HWY_INLINE Ray& row_at(Ray* rows, std::uint32_t place) {
+  return *reinterpret_cast<Ray*>(reinterpret_cast<char*>(rows) + place);
 }
 
 #if HWY_TARGET == HWY_SCALAR

@@ -16,15 +16,13 @@
 #include <utility>
 #include <vector>
 
-#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
+#include "accel/bvh/stream_hits-inl.hpp"
 #include "accel/bvh/stream_kernels.hpp"
 #include "accel/bvh/stream_memory.hpp"
 #include "accel/bvh/stream_rows-inl.hpp"
 #include "accel/bvh/stream_tests-inl.hpp"
-#include "accel/core/intersect.hpp"
-#include "accel/core/intersect_triangles-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::bvh::HWY_NAMESPACE {
@@ -68,12 +66,6 @@ HWY_INLINE void for_each_bit(LaneBits bits, Visit visit) {
 ///
 /// A list of `kPacket` rays or fewer stays in registers, with masks in place of lists; one of
 /// `kFew` or fewer goes on ray by ray, with boxes and triangles in lanes.
-///
-/// Hits of triangles in float are guesses: a likely hit ends the ray, or shortens it to the guess,
-/// and in the end the canonical test runs once for the best guess of each ray, several rays at
-/// once. Possible hits that are not likely, and likely ones that may be as near as the best, are
-/// confirmed as well. A ray whose guess no canonical test confirms is left to be traced alone, so
-/// that results do not depend on guesses.
 template <bool kAny, class Counting>
 class StreamWalk {
  public:
@@ -82,57 +74,28 @@ class StreamWalk {
         tree_(stream.tree),
         rows_(memory.rows.data()),
         lists_end_(memory.lists.data() + memory.lists.size()),
-        guesses_(memory.guesses.data()),
-        doubts_(memory.doubts),
-        counting_(counting) {
+        counting_(counting),
+        hits_(stream, memory, counting) {
     std::uint32_t* const all = memory.lists.data();
     const std::size_t count = stream.rays.size();
     extent_ = fill_rows<kAny>(stream.rays, tree_, rows_);
     for (std::size_t i = 0; i < count; ++i) all[i] = place_of(i);
-    std::fill_n(guesses_, count, StreamGuess{});
-    doubts_.clear();
-    clear_results();
     visit(stream.bvh.root, all, count, all + stride_of(count));
-    confirm_hits();
+    hits_.confirm_guesses();
   }
 
-  void append_undecided(std::vector<std::uint32_t>& left) const {
-    const std::span<const Ray> rays = stream_.rays;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      const bool was_cut = rows_[i].t_max < finite(rays[i].t_max);
-      const bool found = kAny ? stream_.any[i] != 0 : stream_.t[i] <= rows_[i].t_max;
-      // One branch, which is almost never taken.
-      if ((was_cut & !found) != 0) left.push_back(static_cast<std::uint32_t>(i));
-    }
-  }
+  void append_undecided(std::vector<std::uint32_t>& left) const { hits_.append_undecided(left); }
 
  private:
+  using Hits = StreamHits<kAny, Counting>;
   static constexpr std::size_t kPacket = StreamMemory::kPacket;
   static constexpr std::size_t kFew = 2;
-  static constexpr float kEnded = -1.0F;  ///< t_max of rays that need no more hits
-  static constexpr std::size_t kMostDoubts = 256;
 
-  static std::uint32_t place_of(std::size_t i) {
-    return static_cast<std::uint32_t>(i * sizeof(Ray));
-  }
-  static std::size_t ray_at(std::uint32_t place) { return place / sizeof(Ray); }
   /// The entries for a list of at most `count` rays.
   static std::size_t stride_of(std::size_t count) {
     return (count + kPacket - 1) / kPacket * kPacket + kPacket;
   }
-  Ray& row(std::uint32_t place) const {
-    return *reinterpret_cast<Ray*>(reinterpret_cast<char*>(rows_) + place);
-  }
-
-  void clear_results() {
-    const std::size_t count = stream_.rays.size();
-    if constexpr (kAny) {
-      std::fill_n(stream_.any, count, std::uint8_t{0});
-    } else {
-      std::fill_n(stream_.t, count, kInfinity);
-      std::fill_n(stream_.primitive, count, scenes::kNoPrimitive);
-    }
-  }
+  Ray& row(std::uint32_t place) const { return row_at(rows_, place); }
 
   /// Visits a child with the rays that meet its box, which are at least one. `free`: where lists
   /// may be made.
@@ -268,7 +231,7 @@ class StreamWalk {
     count_leaf(at, count);
     for (std::size_t i = 0; i < count; i += kLanes) {
       for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        hwy::Prefetch(&guesses_[ray_at(list[i + lane])]);  // of which about one changes
+        hits_.prefetch(list[i + lane]);  // of which about one changes
       }
       LaneRays<Tag> rays = load_rays(rows_, list + i);
       const Mask present = hn::FirstN(Tag(), count - i);
@@ -313,9 +276,9 @@ class StreamWalk {
       const Mask better = hn::And(hn::And(found.likely, active), hn::Lt(found.t_high, low));
       const Mask doubtful = hn::AndNot(better, possible);
       if (HWY_UNLIKELY(!hn::AllFalse(Tag(), doubtful))) {
-        for_each_bit(bits_of(doubtful), [&](std::size_t i) { doubt(places[i], number); });
+        for_each_bit(bits_of(doubtful), [&](std::size_t i) { hits_.doubt(places[i], number); });
       }
-      rays.t_max = hn::IfThenElse(better, kAny ? all(kEnded) : found.t_high, rays.t_max);
+      rays.t_max = hn::IfThenElse(better, kAny ? all(Hits::kEnded) : found.t_high, rays.t_max);
       low = hn::IfThenElse(better, found.t_low, low);
       guess = hn::IfThenElse(hn::RebindMask(words, better), hn::Set(words, number), guess);
     }
@@ -328,7 +291,7 @@ class StreamWalk {
     store(rays.t_max, t_high.data());
     hn::Store(guess, words, numbers.data());
     for_each_bit(guessed, [&](std::size_t i) {
-      presume(places[i], {t_low[i], numbers[i]}, t_high[i]);
+      hits_.presume(places[i], {t_low[i], numbers[i]}, t_high[i]);
     });
   }
 
@@ -347,7 +310,7 @@ class StreamWalk {
       }
       const LaneBits bits = bits_of(possible);
       if (bits == 0) continue;
-      for_each_bit(bits, [&](std::size_t i) { confirm(places[i], block.primitives[lane]); });
+      for_each_bit(bits, [&](std::size_t i) { hits_.confirm(places[i], block.primitives[lane]); });
       rays.t_max = load_t_max(places);
     }
   }
@@ -459,7 +422,7 @@ class StreamWalk {
     while (true) {
       if (at.is_leaf()) {
         test_leaf_alone(at, lanes, place);
-        if (kAny && ray.t_max == kEnded) return;
+        if (kAny && ray.t_max == Hits::kEnded) return;
         lanes.t_max = hn::Set(tag, ray.t_max);
       } else {
         const StreamNode& node = tree_.nodes[at.node_index()];
@@ -512,7 +475,7 @@ class StreamWalk {
       } else {
         test_solids_alone(block, lanes, place);
       }
-      if (kAny && row(place).t_max == kEnded) return;
+      if (kAny && row(place).t_max == Hits::kEnded) return;
     }
   }
 
@@ -543,9 +506,9 @@ class StreamWalk {
     for_each_bit(possible, [&](std::size_t lane) {
       const auto number = static_cast<std::uint32_t>(index * kBvhLanes + lane);
       if ((likely >> lane & 1U) != 0) {
-        presume(place, {t_low[lane], number}, kAny ? kEnded : t_high[lane]);
+        hits_.presume(place, {t_low[lane], number}, kAny ? Hits::kEnded : t_high[lane]);
       } else {
-        doubt(place, number);
+        hits_.doubt(place, number);
       }
     });
   }
@@ -562,106 +525,7 @@ class StreamWalk {
       });
     }
     for_each_bit(possible & ((LaneBits{1} << block.count) - 1),
-                 [&](std::size_t lane) { confirm(place, block.primitives[lane]); });
-  }
-
-  /// Runs the canonical test of a sphere or a cone.
-  void confirm(std::uint32_t place, scenes::PrimitiveId id) {
-    counting_.add("confirmed_tests");
-    const std::size_t i = ray_at(place);
-    const float t = intersect(CanonicalRay(stream_.rays[i]), stream_.scene, id);
-    if (is_hit(t)) keep(i, t, id);
-  }
-
-  /// Keeps a confirmed hit if it precedes the best, and shortens its ray.
-  HWY_INLINE void keep(std::size_t i, float t, scenes::PrimitiveId id) {
-    if constexpr (kAny) {
-      stream_.any[i] = 1;
-      rows_[i].t_max = kEnded;
-    } else {
-      if (!precedes({t, id}, {stream_.t[i], stream_.primitive[i]})) return;
-      stream_.t[i] = t;
-      stream_.primitive[i] = id;
-      rows_[i].t_max = std::min(rows_[i].t_max, t);
-    }
-  }
-
-  /// Notes a likely hit before `t_high`. Of two that may be equally near, both are confirmed.
-  HWY_INLINE void presume(std::uint32_t place, const StreamGuess& guess, float t_high) {
-    StreamGuess& best = guesses_[ray_at(place)];
-    if (guess.t_low > row(place).t_max) return;
-    if (kAny || t_high < best.t_low) {
-      best = guess;
-    } else {
-      doubt(place, guess.triangle);
-    }
-    row(place).t_max = std::min(row(place).t_max, t_high);
-  }
-
-  /// Notes a possible hit.
-  void doubt(std::uint32_t place, std::uint32_t triangle) {
-    doubts_.push_back({static_cast<std::uint32_t>(ray_at(place)), triangle});
-    if (doubts_.size() < kMostDoubts) return;
-    confirm_all(doubts_);
-    doubts_.clear();
-  }
-
-  /// Runs the canonical tests of all guesses and doubts.
-  HWY_NOINLINE void confirm_hits() {
-    std::array<StreamPair, kMostDoubts> pairs;
-    std::size_t size = 0;
-    for (std::size_t i = 0; i < stream_.rays.size(); ++i) {
-      pairs[size] = {static_cast<std::uint32_t>(i), guesses_[i].triangle};
-      size += guesses_[i].triangle != kNoTriangle ? 1 : 0;
-      if (size < pairs.size()) continue;
-      confirm_all(pairs);
-      size = 0;
-    }
-    confirm_all(std::span(pairs).first(size));
-    confirm_all(doubts_);
-  }
-
-  void confirm_all(std::span<const StreamPair> pairs) {
-    counting_.add("confirmed_tests", pairs.size());
-    while (!pairs.empty()) {
-      constexpr std::size_t kAhead = 4 * kDoubleLanes;
-      for (std::size_t i = kAhead; i < std::min(kAhead + kDoubleLanes, pairs.size()); ++i) {
-        prefetch_lines(stream_.bvh.blocks[pairs[i].triangle / kBvhLanes]);
-      }
-      const std::size_t count = std::min(kDoubleLanes, pairs.size());
-      confirm_some(pairs.first(count));
-      pairs = pairs.subspan(count);
-    }
-  }
-
-  /// As many pairs as there are lanes, or fewer.
-  HWY_INLINE void confirm_some(std::span<const StreamPair> some) {
-    RayTrianglePairs pairs;
-    std::array<scenes::PrimitiveId, kDoubleLanes> ids;
-    const auto put = [](RayTrianglePairs::Point& point, std::size_t lane, const glm::vec3& v) {
-      point.x[lane] = v.x;
-      point.y[lane] = v.y;
-      point.z[lane] = v.z;
-    };
-    for (std::size_t lane = 0; lane < kDoubleLanes; ++lane) {
-      const auto [i, triangle] = some[std::min(lane, some.size() - 1)];
-      const Ray& ray = stream_.rays[i];
-      const PrimitiveBlock& block = stream_.bvh.blocks[triangle / kBvhLanes];
-      ids[lane] = block.primitives[triangle % kBvhLanes];
-      put(pairs.origin, lane, ray.origin);
-      put(pairs.direction, lane, ray.direction);
-      for (std::size_t which = 0; which < 3; ++which) {
-        put(pairs.corners[which], lane, block.corner(which, triangle % kBvhLanes));
-      }
-    }
-    alignas(64) std::array<double, kDoubleLanes> t;
-    intersect_triangles(pairs, t.data());
-    for (std::size_t lane = 0; lane < some.size(); ++lane) {
-      const std::size_t i = some[lane].ray;
-      const Ray& ray = stream_.rays[i];
-      const float accepted = accept(t[lane], ray.t_min, finite(ray.t_max));
-      if (is_hit(accepted)) keep(i, accepted, ids[lane]);
-    }
+                 [&](std::size_t lane) { hits_.confirm(place, block.primitives[lane]); });
   }
 
   HWY_INLINE void prefetch(ChildReference child) const {
@@ -671,11 +535,6 @@ class StreamWalk {
     } else {
       prefetch_lines(tree_.nodes[child.node_index()]);
     }
-  }
-  template <class Object>
-  HWY_INLINE static void prefetch_lines(const Object& object) {
-    const auto* bytes = reinterpret_cast<const char*>(&object);
-    for (std::size_t at = 0; at < sizeof(Object); at += 64) hwy::Prefetch(bytes + at);
   }
 
   void count_node(const StreamNode& node, std::size_t rays) {
@@ -698,9 +557,8 @@ class StreamWalk {
   const StreamTree& tree_;
   Ray* rows_;
   const std::uint32_t* lists_end_;
-  StreamGuess* guesses_;
-  std::vector<StreamPair>& doubts_;
   Counting& counting_;
+  Hits hits_;
   RowsExtent extent_;
 };
 
