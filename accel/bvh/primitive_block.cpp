@@ -24,7 +24,7 @@ void append(const scenes::Scene& scene, const PrimitivePart& piece, PrimitiveBlo
 }  // namespace
 
 void append_blocks(const scenes::Scene& scene, std::span<const PrimitivePart> pieces, float extent,
-                   std::vector<PrimitiveBlock>& blocks) {
+                   LargePageVector<PrimitiveBlock>& blocks) {
   for (const scenes::PrimitiveKind kind :
        {scenes::PrimitiveKind::kPolygon, scenes::PrimitiveKind::kSphere,
         scenes::PrimitiveKind::kCone}) {

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "accel/bvh/primitive_part.hpp"
+#include "accel/core/large_pages.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::accel::bvh {
@@ -34,6 +34,6 @@ struct alignas(64) PrimitiveBlock {
 /// Appends the blocks of one leaf: of one kind each, kind by kind, pieces in the order given.
 /// `extent` becomes their `leaf_extent`.
 void append_blocks(const scenes::Scene& scene, std::span<const PrimitivePart> pieces, float extent,
-                   std::vector<PrimitiveBlock>& blocks);
+                   LargePageVector<PrimitiveBlock>& blocks);
 
 }  // namespace beambench::accel::bvh

@@ -3,12 +3,18 @@
 
 #include "accel/bvh/probe_ray.hpp"
 #include "accel/bvh/sah_kernels.hpp"
+#include "accel/bvh/stream_kernels.hpp"
+#include "accel/bvh/stream_tree.hpp"
 #include "accel/bvh/wide_bvh.hpp"
 #include "accel/core/traversal_accelerator.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
 #include "scenes/base/parameters.hpp"
 
 namespace beambench::accel::bvh {
+
+struct SahBvhOptions : WideBvhOptions {
+  bool streams = true;  ///< lists of rays go down together (stream_walk-inl.hpp)
+};
 
 /// A binned SAH hierarchy (Wald 2007) of eight children per node, traversed by SIMD in single
 /// precision (Wald, Benthin and Boulos, "Getting rid of packets", 2008). The float tests only
@@ -17,15 +23,21 @@ namespace beambench::accel::bvh {
 class SahBvh : public TraversalAccelerator<SahBvh> {
  public:
   static std::vector<ParameterInfo> parameters();
-  static WideBvhOptions options_from(const Parameters& parameters);
+  static SahBvhOptions options_from(const Parameters& parameters);
 
-  SahBvh(const scenes::Scene& scene, const WideBvhOptions& options)
-      : scene_(&scene), bvh_(build_wide_bvh(scene, options)), kernels_(&best_sah_kernels()) {}
+  SahBvh(const scenes::Scene& scene, const SahBvhOptions& options);
 
   const WideBvh& bvh() const { return bvh_; }
   /// The instruction set in use, as Highway calls it: "AVX2".
   const char* instruction_set() const;
   Statistics statistics() const override;
+  void closest_hits(const RaySource& rays, const HitSpan& hits,
+                    const QueryContext& context) const override;
+  void any_hits(const RaySource& rays, std::span<std::uint8_t> hits,
+                const QueryContext& context) const override;
+
+  /// The number of rays from which on a list is a stream.
+  static constexpr std::size_t kLeastStream = 64;
 
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
@@ -43,9 +55,16 @@ class SahBvh : public TraversalAccelerator<SahBvh> {
   }
 
  private:
+  bool is_stream(const RaySource& rays) const {
+    return streams_ && rays.batch() != nullptr && rays.size() >= kLeastStream && !bvh_.empty();
+  }
+
   const scenes::Scene* scene_;
   WideBvh bvh_;
+  bool streams_;
+  StreamTree stream_tree_;
   const SahKernels* kernels_;
+  const StreamKernels* stream_kernels_;
 };
 
 }  // namespace beambench::accel::bvh

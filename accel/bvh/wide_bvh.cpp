@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include <fmt/format.h>
 
+#include "accel/bvh/collapse.hpp"
 #include "accel/bvh/primitive_part.hpp"
 #include "accel/bvh/spatial_builder.hpp"
 #include "accel/core/padded_bounds.hpp"
@@ -15,22 +17,33 @@
 namespace beambench::accel::bvh {
 namespace {
 
+/// The cost of a binary node that the collapse may remove, relative to the test of a primitive: a
+/// third of a wide node's, since three levels become one (CollapseCosts).
+constexpr float kNodeInPrimitives = 3.0F;
+
 /// Turns the binary hierarchy over a scene's pieces into the wide one.
 class WideBvhBuilder {
  public:
   WideBvhBuilder(const scenes::Scene& scene, const WideBvhOptions& options)
       : scene_(scene), pieces_(collect_parts(scene)) {
-    if (options.builder == BvhBuilder::kSpatial) {
-      binary_ = build_spatial_bvh(scene, pieces_, overlap_tolerance(scene), options.splits);
-    } else {
-      binary_ = build_bvh(padded_boxes(), options.splits);
+    BvhOptions splits = options.splits;
+    if (options.collapse == BvhCollapse::kCost) {
+      splits.block_size = 1;
+      splits.node_cost = kNodeInPrimitives;
+    }
+    binary_ = options.builder == BvhBuilder::kSpatial
+                  ? build_spatial_bvh(scene, pieces_, overlap_tolerance(scene), splits)
+                  : build_bvh(padded_boxes(), splits);
+    if (options.collapse == BvhCollapse::kCost) {
+      CollapseCosts costs;
+      costs.max_leaf = options.splits.max_leaf;
+      collapse_.emplace(binary_, costs);
     }
     wide_.cost = sah_cost(binary_, options.splits);
   }
 
   WideBvh build() {
     wide_.scene_bounds = scene_.bounds;
-    wide_.references = binary_.items.size();
     wide_.visits = ExpectedVisits(scene_.bounds);
     if (!pieces_.empty()) wide_.root = convert(0, 1);
     wide_.nodes.shrink_to_fit();
@@ -53,10 +66,15 @@ class WideBvhBuilder {
   ChildReference convert(std::uint32_t binary_node, std::uint32_t depth) {
     const BvhNode& node = binary_.nodes[binary_node];
     wide_.depth = std::max(wide_.depth, depth);
-    if (node.is_leaf()) return make_leaf(node);
+    if (node.is_leaf()) return make_leaf(node.box, node.first, node.count);
+    if (collapse_ && collapse_->is_leaf(binary_node)) {
+      return make_leaf(node.box, collapse_->first_item(binary_node),
+                       collapse_->item_count(binary_node));
+    }
     wide_.visits.add_node(node.box);
     std::array<std::uint32_t, kBvhLanes> children{};
-    const std::size_t count = gather_children(binary_, binary_node, children);
+    const std::size_t count = collapse_ ? collapse_->children_of(binary_node, children)
+                                        : gather_children(binary_, binary_node, children);
     const auto index = static_cast<std::uint32_t>(wide_.nodes.size());
     wide_.nodes.push_back(make_node(std::span(children).first(count)));
     for (std::size_t lane = 0; lane < count; ++lane) {
@@ -105,12 +123,16 @@ class WideBvhBuilder {
   }
 
   /// Makes a leaf of pieces in increasing id.
-  ChildReference make_leaf(const BvhNode& leaf) {
+  ChildReference make_leaf(const scenes::Bounds& box, std::uint32_t first, std::uint32_t count) {
     ++wide_.leaves;
-    wide_.visits.add_leaf(leaf.box, leaf.count);
     const auto first_block = static_cast<std::uint32_t>(wide_.blocks.size());
-    const auto items = std::span(binary_.items).subspan(leaf.first, leaf.count);
+    auto items = std::span(binary_.items).subspan(first, count);
     std::sort(items.begin(), items.end());
+    // Parts of a piece that were divided may be together again.
+    items = items.first(
+        static_cast<std::size_t>(std::unique(items.begin(), items.end()) - items.begin()));
+    wide_.references += items.size();
+    wide_.visits.add_leaf(box, static_cast<std::uint32_t>(items.size()));
     leaf_pieces_.clear();
     float extent = 0.0F;
     for (const std::uint32_t item : items) {
@@ -133,6 +155,7 @@ class WideBvhBuilder {
   std::vector<PrimitivePart> pieces_;
   std::vector<PrimitivePart> leaf_pieces_;  ///< of the leaf being made
   BinaryBvh binary_;
+  std::optional<Collapse> collapse_;
   WideBvh wide_;
 };
 

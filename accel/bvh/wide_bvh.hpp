@@ -4,11 +4,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "accel/bvh/bvh_builder.hpp"
 #include "accel/bvh/primitive_block.hpp"
 #include "accel/core/expected_visits.hpp"
+#include "accel/core/large_pages.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::accel::bvh {
@@ -58,8 +58,8 @@ static_assert(sizeof(WideNode) == 256);
 /// A hierarchy over a scene's triangles, spheres and cones. A polygon's triangles are separate:
 /// the nearest of them is the polygon's hit. Boxes are widened by `overlap_tolerance`.
 struct WideBvh {
-  std::vector<WideNode> nodes;
-  std::vector<PrimitiveBlock> blocks;
+  LargePageVector<WideNode> nodes;
+  LargePageVector<PrimitiveBlock> blocks;
   ChildReference root;
   scenes::Bounds scene_bounds;
   std::uint32_t depth = 0;  ///< nodes on the longest path to a leaf, leaf included
@@ -76,9 +76,15 @@ enum class BvhBuilder : std::uint8_t {
   kSpatial  ///< `build_spatial_bvh`: pieces may be divided among leaves
 };
 
+enum class BvhCollapse : std::uint8_t {
+  kArea,  ///< `gather_children`: the children with the largest areas give way to their own
+  kCost   ///< `Collapse`: the least cost for streams
+};
+
 struct WideBvhOptions {
   BvhOptions splits;
   BvhBuilder builder = BvhBuilder::kBinned;
+  BvhCollapse collapse = BvhCollapse::kArea;
 };
 
 /// Throws InputError if the scene needs more than ChildReference::kBlockIndices blocks.

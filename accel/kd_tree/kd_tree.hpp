@@ -60,7 +60,7 @@ struct KdTree {
   scenes::Bounds root;  ///< the root's cell, which contains all points where hits are possible
   scenes::Bounds scene_bounds;
   LargePageVector<KdNode> nodes;
-  std::vector<bvh::PrimitiveBlock> blocks;
+  LargePageVector<bvh::PrimitiveBlock> blocks;
   std::uint64_t leaves = 0;
   std::uint64_t empty_leaves = 0;
   std::uint64_t references = 0;

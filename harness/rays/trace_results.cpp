@@ -77,12 +77,13 @@ void require_support(const accel::StructureChoice& choice, const TraceInput& inp
 void trace(const accel::Accelerator& structure, const TraceInput& input, TraceResults& results,
            accel::WorkCounters* counters, int threads) {
   if (auto* any = std::get_if<AnyHits>(&results)) {
-    structure.any_hits(input.list()->batch(), *any, {counters});
+    structure.any_hits(input.list()->batch(), *any, {counters, threads});
   } else if (input.image() != nullptr) {
     structure.closest_hits(*input.image(), std::get<accel::HitBuffer>(results),
                            {counters, threads});
   } else {
-    structure.closest_hits(input.list()->batch(), std::get<accel::HitBuffer>(results), {counters});
+    structure.closest_hits(input.list()->batch(), std::get<accel::HitBuffer>(results),
+                           {counters, threads});
   }
 }
 

@@ -35,8 +35,7 @@ bool is_supported(const accel::StructureChoice& choice, const TraceInput& input)
 void require_support(const accel::StructureChoice& choice, const TraceInput& input);
 
 /// Traces the rays through a structure. `results` has the shape that `make_results` gives.
-/// `counters` may be null. An image is traced on `threads` threads (`accel::thread_count`), a list
-/// on the calling one.
+/// `counters` may be null. `threads` may share the rays (`accel::thread_count`).
 void trace(const accel::Accelerator& structure, const TraceInput& input, TraceResults& results,
            accel::WorkCounters* counters = nullptr, int threads = 1);
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -18,15 +20,23 @@
 namespace beambench::accel {
 namespace {
 
-class SahBvhBuilders : public ::testing::TestWithParam<bvh::BvhBuilder> {
+/// Builder and collapse.
+class SahBvhBuilders
+    : public ::testing::TestWithParam<std::tuple<bvh::BvhBuilder, bvh::BvhCollapse>> {
  protected:
-  static bvh::WideBvhOptions options() { return {{}, GetParam()}; }
+  static bvh::SahBvhOptions options() {
+    return {{{}, std::get<0>(GetParam()), std::get<1>(GetParam())}};
+  }
 };
-INSTANTIATE_TEST_SUITE_P(All, SahBvhBuilders,
-                         ::testing::Values(bvh::BvhBuilder::kBinned, bvh::BvhBuilder::kSpatial),
-                         [](const auto& info) {
-                           return info.param == bvh::BvhBuilder::kBinned ? "Binned" : "Spatial";
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    All, SahBvhBuilders,
+    ::testing::Combine(::testing::Values(bvh::BvhBuilder::kBinned, bvh::BvhBuilder::kSpatial),
+                       ::testing::Values(bvh::BvhCollapse::kArea, bvh::BvhCollapse::kCost)),
+    [](const auto& info) {
+      return std::string(std::get<0>(info.param) == bvh::BvhBuilder::kBinned ? "Binned"
+                                                                             : "Spatial") +
+             (std::get<1>(info.param) == bvh::BvhCollapse::kArea ? "ByArea" : "ByCost");
+    });
 
 TEST_P(SahBvhBuilders, GiveTheHitsOfExhaustive) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
@@ -194,7 +204,7 @@ TEST(SahBvh, HoldsEveryPrimitiveOnceInBoxesThatFit) {
 
 TEST_P(SahBvhBuilders, IsTheSameBuiltInParallel) {
   const scenes::Scene scene = scenes::load_scene("bumpy:triangles=50000");
-  bvh::WideBvhOptions with_tasks = options();
+  bvh::SahBvhOptions with_tasks = options();
   with_tasks.splits.parallel = true;
   const bvh::SahBvh serial(scene, options());
   const bvh::SahBvh parallel(scene, with_tasks);

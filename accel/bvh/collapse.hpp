@@ -1,0 +1,55 @@
+#pragma once
+// Chooses which nodes of a binary hierarchy become the nodes and the leaves of a wide one.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "accel/bvh/bvh_builder.hpp"
+#include "accel/bvh/primitive_block.hpp"
+
+namespace beambench::accel::bvh {
+
+/// What a visit costs a stream of rays: of a node, and of a leaf, by the number of its primitives.
+struct CollapseCosts {
+  float node = 1.0F;
+  float leaf = 0.8F;
+  float primitive = 0.12F;
+  std::uint32_t max_leaf = 8;
+};
+
+/// Finds the wide hierarchy of the least expected cost by dynamic programming (Wald, Benthin and
+/// Boulos, "Getting rid of packets", 2008, section 3.2; Ylitie, Karras and Laine, "Efficient
+/// incoherent ray traversal on GPUs through compressed wide BVHs", 2017, section 3.1): the least
+/// cost of a subtree as a forest of at most k roots is that of both its children with k roots
+/// divided between them. Items of a subtree must stand together, as those of our builders do.
+class Collapse {
+ public:
+  Collapse(const BinaryBvh& bvh, const CollapseCosts& costs);
+
+  /// Returns whether all below a node becomes one leaf.
+  bool is_leaf(std::uint32_t node) const { return plans_[node].is_leaf; }
+  std::uint32_t first_item(std::uint32_t node) const { return plans_[node].first; }
+  std::uint32_t item_count(std::uint32_t node) const { return plans_[node].count; }
+  /// Writes the children of a node that is no leaf, and returns their number.
+  std::size_t children_of(std::uint32_t node, std::array<std::uint32_t, kBvhLanes>& children) const;
+
+ private:
+  struct Plan {
+    std::array<float, kBvhLanes> cost;          ///< least, as at most i + 1 roots
+    std::array<std::uint8_t, kBvhLanes> roots;  ///< of these in the left child; 0: one root
+    std::uint32_t first;                        ///< items below
+    std::uint32_t count;
+    bool is_leaf;
+  };
+
+  void plan(std::uint32_t node, const CollapseCosts& costs);
+  void gather(std::uint32_t node, std::size_t roots, std::array<std::uint32_t, kBvhLanes>& children,
+              std::size_t& count) const;
+
+  const BinaryBvh& bvh_;
+  std::vector<Plan> plans_;
+};
+
+}  // namespace beambench::accel::bvh

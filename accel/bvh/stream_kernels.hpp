@@ -1,0 +1,50 @@
+#pragma once
+// The traversal of the wide hierarchy by streams of rays, compiled for several instruction sets.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "accel/bvh/stream_tree.hpp"
+#include "accel/bvh/wide_bvh.hpp"
+#include "accel/core/ray.hpp"
+#include "accel/core/work_counters.hpp"
+
+namespace beambench::accel::bvh {
+
+/// Rays that go down the hierarchy together, and the places of their results.
+struct Stream {
+  /// The maximum number of rays: their rows, lists and hits then stay in a core's caches.
+  static constexpr std::size_t kMostRays = std::size_t{1} << 15U;
+
+  const WideBvh& bvh;
+  const StreamTree& tree;
+  const scenes::Scene& scene;
+  std::span<const Ray> rays;
+  // Closest hits have t and primitive, any hits 1 or 0.
+  float* t = nullptr;
+  scenes::PrimitiveId* primitive = nullptr;
+  std::uint8_t* any = nullptr;
+};
+
+/// Both queries under one counting policy. They append to `left` the rays that they did not decide,
+/// which must be traced alone. Must not be used for empty hierarchies.
+template <class Counting>
+struct StreamQueries {
+  using Query = void (*)(const Stream&, std::vector<std::uint32_t>& left, Counting&);
+  Query closest;
+  Query any;
+};
+
+struct StreamKernels : StreamQueries<NoCounting>, StreamQueries<WorkCounters> {
+  template <class Counting>
+  const StreamQueries<Counting>& queries() const {
+    return *this;
+  }
+};
+
+/// Returns the kernels for the best instruction set of this machine that Highway supports.
+const StreamKernels& best_stream_kernels();
+
+}  // namespace beambench::accel::bvh

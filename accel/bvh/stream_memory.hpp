@@ -1,0 +1,57 @@
+#pragma once
+// The memory of a stream: its rays, its lists and the hits to be confirmed.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "accel/core/large_pages.hpp"
+#include "accel/core/ray.hpp"
+
+namespace beambench::accel::bvh {
+
+/// Stands for no triangle; others are numbered by block and lane.
+inline constexpr std::uint32_t kNoTriangle = ~std::uint32_t{0};
+
+/// The triangle that a ray presumably hits.
+struct StreamGuess {
+  float t_low = kInfinity;  ///< the hit is not before it
+  std::uint32_t triangle = kNoTriangle;
+};
+
+/// A ray and a triangle that it may hit.
+struct StreamPair {
+  std::uint32_t ray;
+  std::uint32_t triangle;
+};
+
+/// Kept by its thread from one stream to the next, because memory that is new costs as much as the
+/// traversal.
+struct StreamMemory {
+  /// The most rays of a packet, and the entries that may be written behind a list's end.
+  static constexpr std::size_t kPacket = 16;
+  /// A node's lists take eight entries for each of its rays, and the nodes above it have their own:
+  /// mostly less than half of these. Lists for which no room is left go on in packets.
+  static constexpr std::size_t kEntriesPerRay = 32;
+
+  LargePageVector<Ray> rows;             ///< t_max: before which a hit would count
+  LargePageVector<std::uint32_t> lists;  ///< of places of rows, in bytes
+  LargePageVector<StreamGuess> guesses;  ///< of each ray
+  std::vector<StreamPair> doubts;        ///< to be confirmed besides guesses
+
+  void reserve(std::size_t rays) {
+    const std::size_t entries = kEntriesPerRay * (rays + 4 * kPacket);
+    if (rows.size() < rays) {
+      rows.resize(rays);
+      guesses.resize(rays);
+    }
+    if (lists.size() < entries) lists.resize(entries);
+  }
+
+  static StreamMemory& of_thread() {
+    thread_local StreamMemory memory;
+    return memory;
+  }
+};
+
+}  // namespace beambench::accel::bvh

@@ -1,0 +1,262 @@
+// The float tests of streams, which only reject: rays in lanes against one box or primitive, or one
+// ray against several in lanes, for the instruction set being compiled.
+
+#if defined(ACCEL_BVH_STREAM_TESTS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef ACCEL_BVH_STREAM_TESTS_INL
+#undef ACCEL_BVH_STREAM_TESTS_INL
+#else
+#define ACCEL_BVH_STREAM_TESTS_INL
+#endif
+
+#include <cstddef>
+
+#include <hwy/highway.h>
+
+#include "accel/bvh/stream_tree.hpp"
+#include "accel/core/lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace beambench::accel::bvh::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace accel::HWY_NAMESPACE;
+
+// Let e = 2^-24 (a rounding's relative error), S = StreamTree::half_size, o and d the origin and
+// the direction of a ray, and R = |o - center| + S, which is at least the distance along any axis
+// from the origin to any place in the scene. Norms of o and R are those of the largest component,
+// |d| is the sum of the components' sizes. Rays in streams satisfy `can_stream`: |o - center| <= 4
+// S, and the largest component of d is in [2^-20, 2^20]; components below 1e-18 were replaced by
+// that, which moves no point in the scene by more than 2^-36 R.
+
+/// Three coordinates in lanes.
+template <class D>
+struct Triple {
+  hn::Vec<D> x;
+  hn::Vec<D> y;
+  hn::Vec<D> z;
+};
+
+/// Returns the sum of the components' sizes.
+template <class D>
+HWY_INLINE hn::Vec<D> size_of(const Triple<D>& v) {
+  return hn::Add(hn::Add(hn::Abs(v.x), hn::Abs(v.y)), hn::Abs(v.z));
+}
+
+template <class D>
+HWY_INLINE hn::Vec<D> dot_of(const Triple<D>& a, const Triple<D>& b) {
+  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+
+template <class D>
+HWY_INLINE Triple<D> difference(const Triple<D>& a, const Triple<D>& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+
+/// Returns 1 / values, wrong by at most 5 e: NaN for 0.
+template <class D>
+HWY_INLINE hn::Vec<D> inverse_of(D d, hn::Vec<D> values) {
+#if HWY_TARGET == HWY_SCALAR
+  return hn::Div(hn::Set(d, 1.0F), values);
+#else
+  // An estimate of twelve bits or more, and a step of Newton's method.
+  const auto about = hn::ApproximateReciprocal(values);
+  return hn::MulAdd(hn::NegMulAdd(about, values, hn::Set(d, 1.0F)), about, about);
+#endif
+}
+
+/// Returns R.
+template <class D>
+HWY_INLINE hn::Vec<D> reach_of(const Triple<D>& origin, const StreamTree& tree) {
+  const D d;
+  const auto from_center = [&](hn::Vec<D> place, float center) {
+    return hn::Abs(hn::Sub(place, hn::Set(d, center)));
+  };
+  const auto farthest =
+      hn::Max(hn::Max(from_center(origin.x, tree.center.x), from_center(origin.y, tree.center.y)),
+              from_center(origin.z, tree.center.z));
+  return hn::Add(farthest, hn::Set(d, tree.half_size));
+}
+
+/// Rays, or one ray in all lanes.
+template <class D>
+struct LaneRays {
+  Triple<D> origin;
+  hn::Vec<D> t_min;
+  Triple<D> direction;
+  hn::Vec<D> t_max;
+};
+
+/// **Boxes.** On each axis t = (c - (o - center)) / d -+ h / |d|, with the child's center c and
+/// half size h. The roundings of o - center, of its product with 1 / d, of that of c and of h, and
+/// of the two sums move a plane by at most (4 + 4 + 1 + 1 + 5 + 6) e S; 1 / d is wrong by 5 e,
+/// which moves it by 30 e S; and a t that was rounded to float lies up to 6 e S from its own place.
+/// Boxes are widened by 64 e S, so that a hit in a box is never outside the computed interval.
+template <class D>
+class SlabLanes {
+ public:
+  HWY_INLINE SlabLanes(const LaneRays<D>& rays, const StreamTree& tree) {
+    const D d;
+    const auto set_axis = [&](hn::Vec<D> origin, hn::Vec<D> direction, float center, auto& axis) {
+      axis.inverse = inverse_of(d, direction);
+      axis.start = hn::Mul(hn::Sub(origin, hn::Set(d, center)), axis.inverse);
+      axis.size = hn::Abs(axis.inverse);
+    };
+    set_axis(rays.origin.x, rays.direction.x, tree.center.x, x_);
+    set_axis(rays.origin.y, rays.direction.y, tree.center.y, y_);
+    set_axis(rays.origin.z, rays.direction.z, tree.center.z, z_);
+  }
+
+  /// Returns the lanes in which ray and box may meet in [t_min, t_max], and sets the t at which the
+  /// box is entered.
+  HWY_INLINE hn::Mask<D> meet(const Triple<D>& center, const Triple<D>& half, hn::Vec<D> t_min,
+                              hn::Vec<D> t_max, hn::Vec<D>& enter) const {
+    const auto x = hn::MulSub(center.x, x_.inverse, x_.start);
+    const auto y = hn::MulSub(center.y, y_.inverse, y_.start);
+    const auto z = hn::MulSub(center.z, z_.inverse, z_.start);
+    enter = hn::Max(hn::Max(hn::NegMulAdd(half.x, x_.size, x), hn::NegMulAdd(half.y, y_.size, y)),
+                    hn::Max(hn::NegMulAdd(half.z, z_.size, z), t_min));
+    const auto exit =
+        hn::Min(hn::Min(hn::MulAdd(half.x, x_.size, x), hn::MulAdd(half.y, y_.size, y)),
+                hn::Min(hn::MulAdd(half.z, z_.size, z), t_max));
+    return hn::Le(enter, exit);
+  }
+
+ private:
+  struct Axis {
+    hn::Vec<D> inverse;
+    hn::Vec<D> start;
+    hn::Vec<D> size;
+  };
+  Axis x_;
+  Axis y_;
+  Axis z_;
+};
+
+/// **Triangles.** Let s be at least the longest side of the box of any triangle of the leaf, a, b,
+/// c the corners, e1 = b - a, e2 = c - a, n = e1 x e2 and |n| the sum of its components' sizes. The
+/// canonical test accepts if u = -(d x (a - o)) . e2, v = (d x (a - o)) . e1 and w = d . n - u - v
+/// have one sign, and t = (n . (a - o)) / (d . n) is in the interval: its signs and t are those of
+/// exact arithmetic up to 2^-50 of the sizes below.
+/// - u and v are sums of six products of at most R |d| s in all 2 R s |d|, each of which is wrong
+/// by
+///   7 e: by 14 e R s |d|. d . n is wrong by 4 e |n| |d|, where |n| <= 6 s^2; w by the sum of these
+///   and 8 e R s |d| for two roundings more: 36 e R s |d| + 24 e s^2 |d|.
+/// - The sign of d . n, by which u, v and w are turned, is uncertain if d . n is within its error.
+///   All three of a hit are then within 2 x 24 e s^2 |d|, and their signs do not matter.
+///   So min(u, v, w) >= -e s |d| (40 R + 80 s) for every hit.
+/// - The numerator of t is wrong by 6 e |n| R. If |d . n| is more than 16 times its error m, then t
+///   is wrong by (6 e |n| R + |t| m) / |d . n| x 16 / 15, and some roundings.
+///   Otherwise it is not known.
+/// Lengths that may underflow are replaced by larger ones: |n| by 2^-60 (BlockNormals), s by 2^-40.
+template <class D>
+class TriangleLanes {
+ public:
+  struct Found {
+    hn::Mask<D> possible;  ///< the ray may hit the triangle in [t_min, t_max]
+    hn::Mask<D> likely;    ///< presumably it does, not before `t_low` and not after `t_high`
+    hn::Vec<D> t_low;      ///< no hit comes before it
+    hn::Vec<D> t_high;
+  };
+
+  HWY_INLINE TriangleLanes(const LaneRays<D>& rays, const StreamTree& tree, float leaf_extent)
+      : rays_(&rays) {
+    constexpr float kRounding = 0x1p-24F;
+    const D d;
+    const float extent = leaf_extent < 0x1p-40F ? 0x1p-40F : leaf_extent;
+    const auto reach = reach_of(rays.origin, tree);
+    const auto length = size_of(rays.direction);
+    least_area_ = hn::Mul(hn::Mul(length, hn::Set(d, -kRounding * extent)),
+                          hn::MulAdd(reach, hn::Set(d, 40.0F), hn::Set(d, 80.0F * extent)));
+    slope_error_ = hn::Mul(length, hn::Set(d, 4.0F * kRounding));
+    height_error_ = hn::Mul(reach, hn::Set(d, 6.0F * kRounding));
+  }
+
+  /// `normal_size`: |n|.
+  HWY_INLINE Found operator()(const Triple<D>& a, const Triple<D>& b, const Triple<D>& c,
+                              const Triple<D>& normal, hn::Vec<D> normal_size,
+                              hn::Vec<D> t_max) const {
+    const D d;
+    const Triple<D>& along = rays_->direction;
+    const Triple<D> to_a = difference(a, rays_->origin);
+    const Triple<D> turned{hn::MulSub(along.y, to_a.z, hn::Mul(along.z, to_a.y)),
+                           hn::MulSub(along.z, to_a.x, hn::Mul(along.x, to_a.z)),
+                           hn::MulSub(along.x, to_a.y, hn::Mul(along.y, to_a.x))};
+    const auto slope = dot_of(normal, along);
+    const auto sign = hn::And(slope, hn::SignBit(d));
+    const auto steepness = hn::Abs(slope);
+    const auto u = hn::Xor(dot_of(turned, difference(a, c)), sign);
+    const auto v = hn::Xor(dot_of(turned, difference(b, a)), sign);
+    const auto inside = hn::Min(hn::Min(u, v), hn::Sub(steepness, hn::Add(u, v)));
+
+    const auto height = hn::Xor(dot_of(normal, to_a), sign);
+    const auto error = hn::Mul(normal_size, slope_error_);
+    const auto per_steepness = inverse_of(d, steepness);
+    const auto t = hn::Mul(height, per_steepness);
+    const auto size = hn::Abs(t);
+    const auto wrong_height = hn::MulAdd(size, error, hn::Mul(normal_size, height_error_));
+    const auto t_error =
+        hn::MulAdd(size, hn::Set(d, 0x1p-20F),
+                   hn::Mul(wrong_height, hn::Mul(per_steepness, hn::Set(d, 1.125F))));
+    const auto t_low = hn::Sub(t, t_error);
+    const auto t_high = hn::Add(t, t_error);
+    const auto sure = hn::Gt(steepness, hn::Mul(error, hn::Set(d, 16.0F)));
+    const auto in_time = hn::And(hn::Le(t_low, t_max), hn::Ge(t_high, rays_->t_min));
+    Found found;
+    found.possible = hn::And(hn::Ge(inside, least_area_), hn::Or(in_time, hn::Not(sure)));
+    found.likely = hn::And(hn::And(sure, hn::Ge(inside, hn::Zero(d))),
+                           hn::And(hn::Ge(t_low, rays_->t_min), hn::Lt(t_high, t_max)));
+    found.t_low = hn::IfThenElseZero(sure, t_low);
+    found.t_high = t_high;
+    return found;
+  }
+
+ private:
+  const LaneRays<D>* rays_;
+  hn::Vec<D> least_area_;    ///< of u, v and w
+  hn::Vec<D> slope_error_;   ///< of d . n, relative to |n|
+  hn::Vec<D> height_error_;  ///< of n . (a - o), relative to |n|
+};
+
+/// **Spheres.** As ProbeRay's test: the vector from the center to the nearest point of the line is
+/// wrong by at most 21 e R; 32 e R is added to the radius, and as much to the depth.
+template <class D>
+class SphereLanes {
+ public:
+  HWY_INLINE SphereLanes(const LaneRays<D>& rays, const StreamTree& tree) : rays_(&rays) {
+    const D d;
+    const auto reach = reach_of(rays.origin, tree);
+    margin_ = hn::Mul(reach, hn::Set(d, 32.0F * 0x1p-24F));
+    per_square_ = hn::Div(hn::Set(d, 1.0F), dot_of(rays.direction, rays.direction));
+    per_length_ = hn::Sqrt(per_square_);
+  }
+
+  /// Returns the lanes in which the ray may hit the sphere in [t_min, t_max].
+  HWY_INLINE hn::Mask<D> operator()(const Triple<D>& center, hn::Vec<D> radius,
+                                    hn::Vec<D> t_max) const {
+    const D d;
+    const auto wider = hn::Set(d, 1.0F + 0x1p-20F);
+    const Triple<D> to_center = difference(center, rays_->origin);
+    const Triple<D>& along = rays_->direction;
+    const auto t = hn::Mul(dot_of(to_center, along), per_square_);
+    const Triple<D> beside{hn::NegMulAdd(t, along.x, to_center.x),
+                           hn::NegMulAdd(t, along.y, to_center.y),
+                           hn::NegMulAdd(t, along.z, to_center.z)};
+    const auto outer = hn::Mul(hn::Add(radius, margin_), wider);
+    const auto half_chord =
+        hn::MulAdd(outer, hn::Mul(per_length_, wider), hn::Mul(margin_, per_length_));
+    const auto in_time = hn::And(hn::Le(hn::Sub(t, half_chord), hn::Mul(t_max, wider)),
+                                 hn::Ge(hn::Mul(hn::Add(t, half_chord), wider), rays_->t_min));
+    return hn::And(hn::Le(dot_of(beside, beside), hn::Mul(outer, outer)), in_time);
+  }
+
+ private:
+  const LaneRays<D>* rays_;
+  hn::Vec<D> margin_;
+  hn::Vec<D> per_square_;
+  hn::Vec<D> per_length_;
+};
+
+}  // namespace beambench::accel::bvh::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

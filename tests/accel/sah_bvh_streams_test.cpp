@@ -1,0 +1,182 @@
+// Lists of rays that go down the eight-wide hierarchy together: the hits of exhaustive search,
+// whatever the instruction set, the length of the list and the number of threads.
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "accel/bvh/sah_bvh.hpp"
+#include "accel/core/intersect_triangle.hpp"
+#include "accel/exhaustive/exhaustive.hpp"
+#include "harness/rays/trace_input.hpp"
+#include "scenes/catalogue.hpp"
+#include "tests/only_target.hpp"
+#include "tests/random_scene.hpp"
+
+namespace beambench::accel {
+namespace {
+
+using bvh::SahBvh;
+
+/// Expects the hits of exhaustive search for a list.
+void expect_hits_of_exhaustive(const scenes::Scene& scene, const Accelerator& structure,
+                               const std::vector<Ray>& rays) {
+  const exhaustive::Exhaustive exhaustive(scene);
+  HitBuffer closest(static_cast<int>(rays.size()), 1, 1);
+  std::vector<std::uint8_t> any(rays.size(), 7);
+  structure.closest_hits(RayBatch{rays}, closest, {});
+  structure.any_hits(RayBatch{rays}, any, {});
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const auto hit = exhaustive.closest_hit(rays[i]);
+    ASSERT_EQ(closest.get(i), hit) << "ray " << i;
+    ASSERT_EQ(any[i], hit ? 1 : 0) << "ray " << i;
+  }
+}
+
+/// Difficult rays, some of which end at their own hits, have lengths that no stream takes, or come
+/// from far away.
+std::vector<Ray> difficult_rays(const scenes::Scene& scene, std::uint64_t seed, std::size_t count) {
+  Random random(seed);
+  std::vector<Ray> rays = verify::random_rays(scene, count, random);
+  const exhaustive::Exhaustive exhaustive(scene);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const auto hit = exhaustive.closest_hit(rays[i]);
+    if (hit && i % 5 == 0) rays[i].t_max = hit->t;
+    if (hit && i % 7 == 0) rays[i].t_min = hit->t;
+    if (i % 17 == 0) rays[i].direction *= 0x1p-25F;
+    if (i % 19 == 0) rays[i].origin -= 40.0F * rays[i].direction;
+    if (i % 23 == 0) std::swap(rays[i].t_min, rays[i].t_max);
+    if (!(rays[i].t_min <= kInfinity)) rays[i].t_min = 0.0F;
+  }
+  return rays;
+}
+
+class Streams : public ::testing::TestWithParam<std::int64_t> {
+ protected:
+  tests::OnlyTarget only_{GetParam()};
+};
+INSTANTIATE_TEST_SUITE_P(All, Streams, ::testing::ValuesIn(hwy::SupportedAndGeneratedTargets()),
+                         [](const auto& info) { return hwy::TargetName(info.param); });
+
+TEST_P(Streams, GiveTheHitsOfExhaustive) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    const scenes::Scene scene = tests::random_scene(seed, 10 + 2 * static_cast<int>(seed));
+    const auto builder = seed % 3 == 0 ? bvh::BvhBuilder::kSpatial : bvh::BvhBuilder::kBinned;
+    const auto collapse = seed % 2 == 0 ? bvh::BvhCollapse::kCost : bvh::BvhCollapse::kArea;
+    const SahBvh structure(scene, {{{}, builder, collapse}});
+    ASSERT_STREQ(structure.instruction_set(), hwy::TargetName(GetParam()));
+    for (const std::size_t count : {SahBvh::kLeastStream, std::size_t{101}, std::size_t{700}}) {
+      expect_hits_of_exhaustive(scene, structure, difficult_rays(scene, seed + count, count));
+    }
+  }
+}
+
+TEST_P(Streams, GiveTheHitsOfExhaustiveOverDifficultScenes) {
+  for (std::uint64_t seed = 0; seed < 42; ++seed) {
+    SCOPED_TRACE(seed);
+    const scenes::Scene scene = verify::family_scene(seed);
+    expect_hits_of_exhaustive(scene, SahBvh(scene, {}), difficult_rays(scene, seed, 400));
+  }
+  for (const auto& [scene, rays] : {verify::cubes_on_a_lattice(), verify::block_of_squares()}) {
+    SCOPED_TRACE(scene.name);
+    expect_hits_of_exhaustive(scene, SahBvh(scene, {}), rays);
+  }
+}
+
+// Long lists, deep hierarchies, rays aimed at vertices and edges of closed meshes.
+TEST_P(Streams, LoseNothingOnMeshes) {
+  for (const char* name : {"bumpy:triangles=3072", "tetra:n=5", "balls:n=2", "rings:n=1"}) {
+    SCOPED_TRACE(name);
+    const scenes::Scene scene = scenes::load_scene(name);
+    expect_hits_of_exhaustive(scene, SahBvh(scene, {}), difficult_rays(scene, 3, 3000));
+  }
+}
+
+// Lists for which there is no room go on in packets; several parts of a list have one result.
+TEST_P(Streams, TakeListsOfAnyLength) {
+  const scenes::Scene scene = scenes::load_scene("bumpy:triangles=3072");
+  const SahBvh streams(scene, {});
+  bvh::SahBvhOptions options;
+  options.streams = false;
+  const SahBvh single(scene, options);
+  Random random(5);
+  const std::vector<Ray> rays = verify::random_rays(scene, 2 * bvh::Stream::kMostRays + 77, random);
+  HitBuffer hits(static_cast<int>(rays.size()), 1, 1);
+  HitBuffer expected(static_cast<int>(rays.size()), 1, 1);
+  std::vector<std::uint8_t> any(rays.size());
+  std::vector<std::uint8_t> expected_any(rays.size());
+  streams.closest_hits(RayBatch{rays}, hits, {});
+  single.closest_hits(RayBatch{rays}, expected, {});
+  streams.any_hits(RayBatch{rays}, any, {});
+  single.any_hits(RayBatch{rays}, expected_any, {});
+  EXPECT_EQ(hits, expected);
+  EXPECT_EQ(any, expected_any);
+}
+
+TEST_P(Streams, AreTheSameOnThreads) {
+  const scenes::Scene scene = scenes::load_scene("balls:n=3");
+  const SahBvh structure(scene, {});
+  Random random(6);
+  const std::vector<Ray> rays = verify::random_rays(scene, 3 * bvh::Stream::kMostRays, random);
+  const auto trace = [&](int threads) {
+    HitBuffer hits(static_cast<int>(rays.size()), 1, 1);
+    std::vector<std::uint8_t> any(rays.size());
+    WorkCounters counters;
+    structure.closest_hits(RayBatch{rays}, hits, {&counters, threads});
+    structure.any_hits(RayBatch{rays}, any, {&counters, threads});
+    HitBuffer timed(static_cast<int>(rays.size()), 1, 1);
+    structure.closest_hits(RayBatch{rays}, timed, {nullptr, threads});
+    EXPECT_EQ(timed, hits);
+    return std::tuple(hits, any, counters.by_name());
+  };
+  const auto alone = trace(1);
+  EXPECT_EQ(trace(2), alone);
+  EXPECT_EQ(trace(5), alone);
+}
+
+// Nearly all hits are guessed right in float, and confirmed once.
+TEST_P(Streams, ConfirmAboutOncePerHit) {
+  const scenes::Scene scene = scenes::load_scene("bumpy:triangles=20000");
+  const rays::ImageOfRays image = rays::image_of(scene.cameras.front(), {{128, 128}}, 1);
+  const rays::TraceInput input =
+      rays::make_trace_input(scene, image, rays::parse_ray_choice("diffuse"));
+  const SahBvh structure(scene, {});
+  HitBuffer hits(static_cast<int>(input.size()), 1, 1);
+  WorkCounters work;
+  structure.closest_hits(input.list()->batch(), hits, {&work});
+  std::uint64_t hit = 0;
+  for (std::size_t i = 0; i < hits.size(); ++i) hit += hits.get(i) ? 1 : 0;
+  EXPECT_GE(work.by_name().at("confirmed_tests"), hit);
+  EXPECT_LE(work.by_name().at("confirmed_tests"), hit + hit / 10);
+  EXPECT_LE(work.by_name().at("stream_left"), 2U);
+}
+
+TEST(StreamCounters, ArePinned) {
+  if ((hwy::SupportedTargets() & HWY_AVX2) == 0) GTEST_SKIP() << "this machine has no AVX2";
+  const tests::OnlyTarget only(HWY_AVX2);
+  const scenes::Scene scene = scenes::load_scene("escena1");
+  const rays::ImageOfRays image = rays::image_of(scene.cameras.front(), {{64, 64}}, 1);
+  const rays::TraceInput input =
+      rays::make_trace_input(scene, image, rays::parse_ray_choice("diffuse"));
+  const SahBvh structure(scene, {});
+  HitBuffer hits(static_cast<int>(input.size()), 1, 1);
+  WorkCounters work;
+  structure.closest_hits(input.list()->batch(), hits, {&work});
+  std::map<std::string, std::uint64_t> counted;
+  for (const auto& [name, count] : work.by_name()) {
+    if (count != 0 && std::ranges::count(kTestNames, name) == 0) counted[name] = count;
+  }
+  const std::map<std::string, std::uint64_t> expected{
+      {"box_tests", 33'879},       {"confirmed_tests", 2629}, {"leaves", 4603},
+      {"primitive_tests", 35'336}, {"stream_chunks", 603},    {"stream_lists", 9},
+      {"stream_rays", 4585},       {"stream_singles", 4},     {"traversal_steps", 9188}};
+  EXPECT_EQ(counted, expected);
+}
+
+}  // namespace
+}  // namespace beambench::accel
