@@ -120,7 +120,7 @@ def read_run(directory: Path) -> Run:
             raise Problem(f"{path}, row {empty[0] + 2}: {name} is empty")
 
     if "trace_ms" not in rows or rows["trace_ms"].isna().all():  # a record of one process
-        rows = rows.assign(trace_ms=rows["trace_ms_median"])
+        rows = rows.copy().assign(trace_ms=rows["trace_ms_median"])  # of many pieces
     if "outpaced" in rows:  # another parameter set stands for the contender
         rows = rows[rows["outpaced"] != "true"].reset_index(drop=True)
     try:

@@ -3,7 +3,7 @@
 import shlex
 from collections.abc import Iterator, Mapping, Sequence
 
-from beambench_report.base.cell_files import CellFile, Identity, identity
+from beambench_report.base.cell_files import IDENTITY, CellFile, Identity, identity
 from beambench_report.base.machine import Manifest
 from beambench_report.base.records import FAULTLESS_VERDICTS, Run
 from beambench_report.run.images import Figures, Image
@@ -37,7 +37,7 @@ def absent(
             "There is no config.json: whether the sweep left out the cells that are missing is "
             "unknown."
         )
-    timed = run.rows[run.rows["timed"]]
+    timed = run.rows.loc[run.rows["timed"], list(IDENTITY)]
     repeated = {cell for cell, file in files.items() if file.total_ms}
     without = sum(identity(row) not in repeated for row in timed.to_dict("records"))
     if not repeated:
