@@ -37,7 +37,7 @@ def absent(
             "There is no config.json: whether the sweep left out the cells that are missing is "
             "unknown."
         )
-    timed = run.rows[run.rows["timed"]]
+    timed = run.rows.loc[run.rows["timed"], list(IDENTITY)]
     repeated = {cell for cell, file in files.items() if file.total_ms}
     without = sum(identity(row) not in repeated for row in timed[list(IDENTITY)].to_dict("records"))
     if not repeated:
