@@ -53,14 +53,26 @@ def machine_in_words(processor: str) -> str:
 
 
 def made(folder: Path) -> str:
-    """Returns the commits and machines of a folder's runs: `654e80c, EPYC`."""
+    """Returns the commits and machines of a folder's runs: `654e80c, EPYC`.
+
+    Says so where runs are from before blocks: their order is no claim.
+    """
     found = dict.fromkeys(
         (one.short_commit, machine_in_words(one.processor)) for one in origins(folder)
     )
     by_machine: dict[str, list[str]] = {}
     for commit, machine in found:
         by_machine.setdefault(machine, []).append(commit)
-    return "; ".join(f"{', '.join(own)}, {machine}" for machine, own in by_machine.items())
+    texts = [f"{', '.join(own)}, {machine}" for machine, own in by_machine.items()]
+    if not all(_is_in_blocks(table) for table in folder.rglob("results.csv")):
+        texts.append("measured by one process, so unranked")
+    return "; ".join(texts)
+
+
+def _is_in_blocks(table: Path) -> bool:
+    """Were the runs of a results.csv measured in blocks?"""
+    with table.open(encoding="utf-8") as file:
+        return "blocks" in file.readline().split(",")
 
 
 def _origin(manifest: Path, folder: Path) -> Origin:
