@@ -19,9 +19,9 @@ struct QueryContext {
   /// The query adds its work to these. Null in timed code, which counts nothing: a structure has
   /// two instantiations of its traversal.
   WorkCounters* counters = nullptr;
-  /// The maximum number of threads that share the rays of an image or of a batch (`thread_count`; 0:
-  /// the default number). A structure may use fewer: most trace batches on the calling thread. Hits
-  /// and counters do not depend on the number, except for counters of time.
+  /// The maximum number of threads that share the rays of an image or of a batch (`thread_count`;
+  /// 0: the default number). A structure may use fewer: most trace batches on the calling thread.
+  /// Hits and counters do not depend on the number, except for counters of time.
   int threads = 1;
 };
 

@@ -153,8 +153,8 @@ struct TileHierarchy : TileBlocks {
 inline constexpr std::size_t kMaxTileDepth = 97;
 
 struct TileHierarchyOptions {
-  std::uint32_t max_leaf = 32;   ///< most primitives of a leaf
-  bool parallel = false;         ///< build, and trace images, on all cores
+  std::uint32_t max_leaf = 32;    ///< most primitives of a leaf
+  bool parallel = false;          ///< build, and trace images, on all cores
   bool backface_culling = false;  ///< leave out the invisible backs of solids in images
 };
 
