@@ -131,7 +131,7 @@ void print_entry(const Info& info, const std::string& note) {
 /// Returns the instruction set of the SIMD code that a structure with its defaults runs on this
 /// machine, as it states it; nothing where it runs none.
 std::optional<std::string> simd_of(const accel::StructureInfo& info) {
-  const scenes::Scene scene = scenes::load_scene("tetra:n=1");
+  static const scenes::Scene scene = scenes::load_scene("tetra:n=1");
   try {
     const auto structure = accel::registry().choose({info.name, {}}).build(scene);
     const std::string isa = structure->statistics().instruction_set;
@@ -260,11 +260,12 @@ Json origin_json(const std::string& origin) {
 void print_json() {
   Json all;
   for (const accel::StructureInfo& info : accel::registry().structures()) {
+    const auto simd = simd_of(info);
     all["structures"].push_back(
         {{"name", info.name},
          {"summary", info.summary},
          {"conformance", conformance_name(info.conformance)},
-         {"simd", simd_of(info) ? Json(*simd_of(info)) : Json()},
+         {"simd", simd ? Json(*simd) : Json()},
          {"origin", origin_json(info.origin)},
          {"parameters", parameters_json(info.parameters)},
          {"counters", counters_json(accel::registry().own_counters(info.name))}});

@@ -32,8 +32,8 @@ std::vector<accel::StructureChoice> best_embree(const accel::Registry& structure
 scenes::Camera tuning_camera(const scenes::Camera& camera);
 
 /// Times the block's cells from the tuning camera of its view: each is built once and traced a few
-/// times, of which the fastest counts. Writes an event `candidate` for each, with its `trace_ms` or
-/// the `error` for which it has none. No hit is verified: those of the fastest will be.
+/// times, and the fastest trace counts. Writes an event `candidate` for each, with its `trace_ms`
+/// or the `error` for which it has none. No hit is verified: those of the fastest will be.
 void time_candidates(const Block& block, const BlockWatch& watch);
 
 /// Returns the indices of the fastest candidates, at most `kMeasuredSets`; the first of all where

@@ -139,12 +139,16 @@ TEST_P(Streams, AreTheSameOnThreads) {
   EXPECT_EQ(trace(5), alone);
 }
 
+/// The diffuse rays of a square image with that many pixels a side.
+rays::TraceInput diffuse_rays(const scenes::Scene& scene, int side) {
+  const rays::ImageOfRays image = rays::image_of(scene.cameras.front(), {{side, side}}, 1);
+  return rays::make_trace_input(scene, image, rays::parse_ray_choice("diffuse"));
+}
+
 // Nearly all hits are guessed right in float, and confirmed once.
 TEST_P(Streams, ConfirmAboutOncePerHit) {
   const scenes::Scene scene = scenes::load_scene("bumpy:triangles=20000");
-  const rays::ImageOfRays image = rays::image_of(scene.cameras.front(), {{128, 128}}, 1);
-  const rays::TraceInput input =
-      rays::make_trace_input(scene, image, rays::parse_ray_choice("diffuse"));
+  const rays::TraceInput input = diffuse_rays(scene, 128);
   const SahBvh structure(scene, {});
   HitBuffer hits(static_cast<int>(input.size()), 1, 1);
   WorkCounters work;
@@ -160,9 +164,7 @@ TEST(StreamCounters, ArePinned) {
   if ((hwy::SupportedTargets() & HWY_AVX2) == 0) GTEST_SKIP() << "this machine has no AVX2";
   const tests::OnlyTarget only(HWY_AVX2);
   const scenes::Scene scene = scenes::load_scene("escena1");
-  const rays::ImageOfRays image = rays::image_of(scene.cameras.front(), {{64, 64}}, 1);
-  const rays::TraceInput input =
-      rays::make_trace_input(scene, image, rays::parse_ray_choice("diffuse"));
+  const rays::TraceInput input = diffuse_rays(scene, 64);
   const SahBvh structure(scene, {});
   HitBuffer hits(static_cast<int>(input.size()), 1, 1);
   WorkCounters work;
