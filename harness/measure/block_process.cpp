@@ -259,6 +259,14 @@ std::optional<BrokenBlock> measure_in_process(const Block& block,
   return how ? std::optional(BrokenBlock{cell, *how}) : std::nullopt;
 }
 
+void measure_here(const Block& block, const GoogleBenchmark& benchmark, const BlockWatch& watch) {
+  if (block.tunes) {
+    time_candidates(block, watch);
+  } else {
+    measure_block(block, benchmark, watch);
+  }
+}
+
 int serve_block(Activity& activity) {
   // What else is printed, by a plug-in perhaps, must not come between the events.
   std::FILE* const out = ::fdopen(::dup(STDOUT_FILENO), "w");
@@ -275,11 +283,7 @@ int serve_block(Activity& activity) {
   const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
   try {
     const Block block = read_block(parse_json<Json>(text, "a block"));
-    if (block.tunes) {
-      time_candidates(block, {write, show});
-    } else {
-      measure_block(block, GoogleBenchmark({}), {write, show});
-    }
+    measure_here(block, GoogleBenchmark({}), {write, show});
   } catch (const InputError& error) {
     write({{"event", "refused"}, {"message", error.what()}});
   }

@@ -29,6 +29,9 @@ std::optional<BrokenBlock> measure_in_process(const Block& block,
                                               const std::vector<std::string>& program,
                                               const BlockWatch& watch);
 
+/// Measures a block in this process, or times its candidates (`Block::tunes`).
+void measure_here(const Block& block, const GoogleBenchmark& benchmark, const BlockWatch& watch);
+
 /// Reads a block, measures it and writes the events; `activity` is where this process records what
 /// it is doing. Returns the exit code.
 int serve_block(plugin::Activity& activity);

@@ -327,11 +327,7 @@ class SweepRun {
     if (!options_.block_program.empty()) {
       return measure_in_process(block, options_.block_program, watch);
     }
-    if (block.tunes) {
-      time_candidates(block, watch);
-    } else {
-      measure_block(block, benchmark_, watch);
-    }
+    measure_here(block, benchmark_, watch);
     return std::nullopt;
   }
 

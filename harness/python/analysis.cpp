@@ -20,6 +20,7 @@
 #include "harness/analysis/ratio.hpp"
 #include "harness/analysis/standings.hpp"
 #include "harness/python/bindings.hpp"
+#include "harness/rays/ray_kind.hpp"
 #include "scenes/base/error.hpp"
 #include "scenes/base/json_text.hpp"
 
@@ -106,6 +107,10 @@ void bind_analysis(nb::module_& module) {
       nb::arg("folder"), "Analyzes the log of a run; returns the text of analysis.json.");
   module.def("name_cells", &name_cells, nb::arg("cells"),
              "Returns contender, subject and view of each cell.");
+  module.def(
+      "without_order", [](const std::string& label) { return rays::divide_label(label).rays; },
+      nb::arg("label"),
+      "Returns the label of rays without their order: `diffuse` for `diffuse:order=sorted`.");
   bind_ratio(module, "paired_ratio", analysis::paired_ratio,
              "Returns the median ratio of the common rounds.");
   bind_ratio(module, "block_ratio", analysis::block_ratio,

@@ -12,7 +12,13 @@ from dataclasses import astuple, dataclass
 from typing import Any
 
 from beambench import _beambench
-from beambench._beambench import break_even_rays, is_undisturbed, median_interval, name_cells
+from beambench._beambench import (
+    break_even_rays,
+    is_undisturbed,
+    median_interval,
+    name_cells,
+    without_order,
+)
 from beambench.arrays import encoded
 
 __all__ = [
@@ -27,6 +33,7 @@ __all__ = [
     "name_cells",
     "paired_ratio",
     "unpaired_ratio",
+    "without_order",
 ]
 
 

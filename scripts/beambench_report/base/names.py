@@ -7,13 +7,11 @@ from itertools import count
 
 import pandas as pd
 
-from beambench.analysis import name_cells
+from beambench.analysis import name_cells, without_order
 
 # Lists the plots of a run for programs, as plots/README.md does for people.
 PLOT_INDEX = "index.json"
 _NAMED = ("scene", "camera", "structure", "parameters", "samples", "ray_kind")
-_SORTED = "order=sorted"
-_RAY_FILES = (".rays", ".csv")
 
 
 def with_names(rows: pd.DataFrame) -> pd.DataFrame:
@@ -35,18 +33,6 @@ def with_names(rows: pd.DataFrame) -> pd.DataFrame:
     found["is_tuned"] = facts["parameter_sets"] > 1
     found["kind"] = rows["ray_kind"].map(without_order)
     return pd.concat([rows, found], axis="columns").copy()  # in one piece: it had many columns
-
-
-def without_order(label: str) -> str:
-    """Returns the label of rays without their order: `diffuse` for `diffuse:order=sorted`.
-
-    Both orders of a list are one view (harness/rays/ray_kind.cpp divides labels likewise).
-    """
-    kind, _, text = label.partition(":")
-    if _SORTED not in text.split(",") or label.endswith(_RAY_FILES):
-        return label
-    kept = ",".join(item for item in text.split(",") if item != _SORTED)
-    return f"{kind}:{kept}" if kept else kind
 
 
 def machine_label(machine_id: str) -> str:
