@@ -20,6 +20,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "harness/measure/record/cell_json.hpp"
+#include "harness/measure/record/robust_statistics.hpp"
 #include "tests/number_from.hpp"
 #include "tests/scenes/thrown_message.hpp"
 #include "tests/temporary_folder.hpp"
@@ -133,14 +135,28 @@ class Kill : public testing::Test {
     return lines;
   }
 
-  /// Expects the log to be preserved, and no repetition to have been repeated.
+  /// The repetitions in a run's log, by cell.
+  std::map<int, std::vector<Repetition>> repetitions(const std::string& name) const {
+    std::map<int, std::vector<Repetition>> found;
+    for (const json& one : events(name, "repetition")) {
+      found[one["index"].get<int>()].push_back(read_repetition(one));
+    }
+    return found;
+  }
+
+  /// Expects the log to be preserved, and no repetition to have been repeated but one that another
+  /// process disturbed.
   void expect_kept(const std::string& before, const std::string& name) {
     EXPECT_TRUE(log(name).starts_with(before)) << before << "became\n" << log(name);
-    std::map<int, std::set<int>> rounds;
-    for (const json& one : events(name, "repetition")) {
-      const int cell = one["index"];
-      EXPECT_TRUE(rounds[cell].insert(one["round"].get<int>()).second) << one;
-      EXPECT_LE(rounds[cell].size(), std::size_t{kRepetitions}) << "cell " << cell;
+    for (const auto& [cell, made] : repetitions(name)) {
+      std::map<int, const Repetition*> last_of_round;
+      for (const Repetition& one : made) {
+        const auto [last, is_new] = last_of_round.emplace(one.round, &one);
+        EXPECT_TRUE(is_new || !last->second->is_undisturbed())
+            << "cell " << cell << ", round " << one.round;
+        last->second = &one;
+      }
+      EXPECT_LE(last_of_round.size(), std::size_t{kRepetitions}) << "cell " << cell;
     }
   }
 
@@ -151,18 +167,21 @@ class Kill : public testing::Test {
     for (const std::string& row : rows(name)) {
       EXPECT_TRUE(row.ends_with(",ok") || row.ends_with(",baseline")) << row;
     }
-    std::map<int, double> sums;  // of the trace times of each cell
-    for (const json& one : events(name, "repetition")) {
-      sums[one["index"].get<int>()] += one["trace_ms"].get<double>();
-    }
-    for (const auto& [cell, sum] : sums) {
-      const auto is_its_row = [median = 0.5 * sum](const std::string& row) {
-        return has_number(row, median);
+    const auto all = repetitions(name);
+    EXPECT_EQ(all.size(), kCells);
+    for (const auto& [cell, made] : all) {
+      std::vector<double> times;
+      std::set<int> rounds;
+      for (const Repetition& one : made) {
+        times.push_back(one.trace_ms);
+        rounds.insert(one.round);
+      }
+      EXPECT_EQ(rounds.size(), std::size_t{kRepetitions}) << "cell " << cell;
+      const auto is_its_row = [time = median(times)](const std::string& row) {
+        return has_number(row, time);
       };
       EXPECT_TRUE(std::ranges::any_of(rows(name), is_its_row)) << "cell " << cell;
     }
-    EXPECT_EQ(sums.size(), kCells);
-    EXPECT_EQ(events(name, "repetition").size(), std::size_t{kCells * kRepetitions});
     EXPECT_EQ(events(name, "finished").size(), kCells);
     for (const auto& entry : fs::recursive_directory_iterator(folder_.path() / name)) {
       EXPECT_EQ(entry.path().filename().string().find("partial"), std::string::npos) << entry;
