@@ -2,6 +2,7 @@
 
 #include "accel/bvh/goldsmith_salmon.hpp"
 #include "accel/bvh/sah_bvh.hpp"
+#include "accel/core/instruction_set.hpp"
 #include "accel/core/registry.hpp"
 
 namespace beambench::accel::bvh {
@@ -20,7 +21,8 @@ void register_bvh(Registry& registry) {
                 "single rays by SIMD",
                 Conformance::kBitExact, SahBvh::parameters(),
                 [](const scenes::Scene& scene, const Parameters& parameters, const Workload&) {
-                  return std::make_unique<SahBvh>(scene, SahBvh::options_from(parameters));
+                  return std::make_unique<SahBvh>(scene, SahBvh::options_from(parameters),
+                                                  targets_of(parameters.choice("isa")));
                 }});
   registry.describe_counters(
       "sah-bvh",

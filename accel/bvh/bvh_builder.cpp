@@ -6,8 +6,10 @@
 #include <optional>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 #include <tbb/parallel_reduce.h>
 
@@ -192,6 +194,47 @@ class Builder {
 
 BinaryBvh build_bvh(std::span<const scenes::Bounds> boxes, const BvhOptions& options) {
   return Builder(boxes, options).build();
+}
+
+void divide_leaves(BinaryBvh& bvh, std::span<const scenes::Bounds> boxes,
+                   const BvhOptions& options) {
+  std::vector<std::uint32_t> leaves;
+  std::vector<std::uint32_t> depths(bvh.nodes.size(), 1);
+  for (std::uint32_t i = 0; i < bvh.nodes.size(); ++i) {
+    const BvhNode& node = bvh.nodes[i];
+    if (!node.is_leaf()) {
+      depths[node.first] = depths[node.first + 1] = depths[i] + 1;
+    } else if (node.count > 1) {
+      leaves.push_back(i);
+    }
+  }
+  BvhOptions serial = options;
+  serial.parallel = false;
+  std::vector<BinaryBvh> below(leaves.size());
+  const auto build_below = [&](std::size_t i) {
+    const BvhNode& leaf = bvh.nodes[leaves[i]];
+    std::vector<scenes::Bounds> own;
+    own.reserve(leaf.count);
+    for (std::uint32_t k = 0; k < leaf.count; ++k) own.push_back(boxes[bvh.items[leaf.first + k]]);
+    below[i] = build_bvh(own, serial);
+    for (std::uint32_t& item : below[i].items) item = bvh.items[leaf.first + item];
+  };
+  if (options.parallel) {
+    tbb::parallel_for(std::size_t{0}, leaves.size(), build_below);
+  } else {
+    for (std::size_t i = 0; i < leaves.size(); ++i) build_below(i);
+  }
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    const std::uint32_t depth = depths[leaves[i]] + below[i].depth - 1;
+    if (depth > kMaxBvhDepth) continue;
+    bvh.depth = std::max(bvh.depth, depth);
+    const std::uint32_t items = bvh.nodes[leaves[i]].first;
+    const auto nodes = static_cast<std::uint32_t>(bvh.nodes.size()) - 1;  // the first is the leaf's
+    std::ranges::copy(below[i].items, bvh.items.begin() + items);
+    for (BvhNode& node : below[i].nodes) node.first += node.is_leaf() ? items : nodes;
+    bvh.nodes[leaves[i]] = below[i].nodes.front();
+    bvh.nodes.insert(bvh.nodes.end(), below[i].nodes.begin() + 1, below[i].nodes.end());
+  }
 }
 
 double sah_cost(const BinaryBvh& bvh, const BvhOptions& options) {

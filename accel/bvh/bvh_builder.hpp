@@ -41,6 +41,11 @@ inline constexpr std::uint32_t kMaxBvhDepth = 96;
 /// coincide, and those below a depth that only contrived input reaches, are split in the middle.
 BinaryBvh build_bvh(std::span<const scenes::Bounds> boxes, const BvhOptions& options);
 
+/// Builds a hierarchy below each leaf, from its items: leaves may then be smaller, and what is
+/// above remains. A leaf remains where its descendants would be deeper than kMaxBvhDepth.
+void divide_leaves(BinaryBvh& bvh, std::span<const scenes::Bounds> boxes,
+                   const BvhOptions& options);
+
 /// Returns the expected number of node visits and block tests of a ray that meets the root,
 /// weighted according to the options: the cost that the builder minimizes.
 double sah_cost(const BinaryBvh& bvh, const BvhOptions& options);

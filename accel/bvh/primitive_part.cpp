@@ -1,5 +1,8 @@
 #include "accel/bvh/primitive_part.hpp"
 
+#include "accel/core/padded_bounds.hpp"
+#include "accel/core/tolerance.hpp"
+
 namespace beambench::accel::bvh {
 
 std::vector<PrimitivePart> collect_parts(const scenes::Scene& scene) {
@@ -28,6 +31,17 @@ scenes::Bounds part_bounds(const scenes::Scene& scene, const PrimitivePart& part
     bounds.include(scene.vertices[vertex]);
   }
   return bounds;
+}
+
+std::vector<scenes::Bounds> padded_boxes(const scenes::Scene& scene,
+                                         std::span<const PrimitivePart> parts) {
+  const double tolerance = overlap_tolerance(scene);
+  std::vector<scenes::Bounds> boxes;
+  boxes.reserve(parts.size());
+  for (const PrimitivePart& part : parts) {
+    boxes.push_back(padded(part_bounds(scene, part), tolerance));
+  }
+  return boxes;
 }
 
 }  // namespace beambench::accel::bvh

@@ -2,6 +2,7 @@
 // The pieces that leaves refer to in a hierarchy over separate triangles of polygons.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "scenes/scene.hpp"
@@ -20,5 +21,9 @@ std::vector<PrimitivePart> collect_parts(const scenes::Scene& scene);
 
 /// Returns the box of a part, not widened.
 scenes::Bounds part_bounds(const scenes::Scene& scene, const PrimitivePart& part);
+
+/// Returns the boxes of parts, widened by `overlap_tolerance`.
+std::vector<scenes::Bounds> padded_boxes(const scenes::Scene& scene,
+                                         std::span<const PrimitivePart> parts);
 
 }  // namespace beambench::accel::bvh

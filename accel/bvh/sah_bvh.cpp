@@ -1,5 +1,7 @@
 #include "accel/bvh/sah_bvh.hpp"
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include <hwy/targets.h>
@@ -9,25 +11,17 @@
 namespace beambench::accel::bvh {
 namespace {
 
-/// Calls `trace(part, first, left, counting)` for parts of rays, and `trace_alone(i, counting)` for
-/// those that it appends to `left`. Parts are shared among threads, but do not depend on their
-/// number.
-template <class Trace, class TraceAlone>
-void trace_streams(std::span<const Ray> rays, const QueryContext& context, const Trace& trace,
-                   const TraceAlone& trace_alone) {
-  const std::size_t parts = (rays.size() + Stream::kMostRays - 1) / Stream::kMostRays;
-  for_rows(context, static_cast<int>(parts), [&](int begin, int end, auto& counting) {
-    std::vector<std::uint32_t> left;
-    for (auto part = static_cast<std::size_t>(begin); part < static_cast<std::size_t>(end);
-         ++part) {
-      const std::size_t first = rays.size() * part / parts;
-      const std::size_t last = rays.size() * (part + 1) / parts;
-      left.clear();
-      trace(rays.subspan(first, last - first), first, left, counting);
-      for (const std::uint32_t i : left) trace_alone(first + i, counting);
-      counting.add("stream_left", left.size());
-    }
-  });
+/// Calls `trace(first, count, counting)` for each part of a list, which threads share.
+template <class Trace>
+void for_each_part(std::size_t rays, const QueryContext& context, const Trace& trace) {
+  for_rows(context, static_cast<int>(Streams::parts(rays)),
+           [&](int begin, int end, auto& counting) {
+             for (int part = begin; part < end; ++part) {
+               const auto number = static_cast<std::size_t>(part);
+               const std::size_t first = Streams::begin_of(number, rays);
+               trace(first, Streams::begin_of(number + 1, rays) - first, counting);
+             }
+           });
 }
 
 }  // namespace
@@ -43,7 +37,8 @@ std::vector<ParameterInfo> SahBvh::parameters() {
           flag_parameter("parallel", defaults.parallel,
                          "build on all cores; the hierarchy is the same"),
           choice_parameter("lists", "streams", {"streams", "single"},
-                           "streams: the rays of a list go down together; single: one by one")};
+                           "streams: the rays of a list go down together; single: one by one"),
+          isa_parameter()};
 }
 
 SahBvhOptions SahBvh::options_from(const Parameters& parameters) {
@@ -56,12 +51,12 @@ SahBvhOptions SahBvh::options_from(const Parameters& parameters) {
   return options;
 }
 
-SahBvh::SahBvh(const scenes::Scene& scene, const SahBvhOptions& options)
+SahBvh::SahBvh(const scenes::Scene& scene, const SahBvhOptions& options, std::int64_t targets)
     : scene_(&scene),
       bvh_(build_wide_bvh(scene, options)),
       streams_(options.streams),
-      kernels_(&best_sah_kernels()),
-      stream_kernels_(&best_stream_kernels()) {
+      kernels_(&sah_kernels_for(targets)),
+      stream_kernels_(&stream_kernels_for(targets)) {
   if (streams_) stream_tree_ = build_stream_tree(bvh_, options.splits.parallel);
 }
 
@@ -69,31 +64,22 @@ void SahBvh::closest_hits(const RaySource& rays, const HitSpan& hits,
                           const QueryContext& context) const {
   if (!is_stream(rays)) return TraversalAccelerator::closest_hits(rays, hits, context);
   const std::span<const Ray> all = rays.batch()->rays;
-  trace_streams(
-      all, context,
-      [&]<class Counting>(std::span<const Ray> part, std::size_t first,
-                          std::vector<std::uint32_t>& left, Counting& counting) {
-        Stream stream{bvh_, stream_tree_, *scene_, part};
-        stream.t = hits.t() + first;
-        stream.primitive = hits.primitive() + first;
-        stream_kernels_->queries<Counting>().closest(stream, left, counting);
-      },
-      [&](std::size_t i, auto& counting) { hits.set(i, find_closest(all[i], counting)); });
+  for_each_part(all.size(), context, [&](std::size_t first, std::size_t count, auto& counting) {
+    streams().closest_hits(
+        all.subspan(first, count), hits.part(first, count), counting,
+        [&](std::size_t i) { hits.set(first + i, find_closest(all[first + i], counting)); });
+  });
 }
 
 void SahBvh::any_hits(const RaySource& rays, std::span<std::uint8_t> hits,
                       const QueryContext& context) const {
   if (!is_stream(rays)) return TraversalAccelerator::any_hits(rays, hits, context);
   const std::span<const Ray> all = rays.batch()->rays;
-  trace_streams(
-      all, context,
-      [&]<class Counting>(std::span<const Ray> part, std::size_t first,
-                          std::vector<std::uint32_t>& left, Counting& counting) {
-        Stream stream{bvh_, stream_tree_, *scene_, part};
-        stream.any = hits.data() + first;
-        stream_kernels_->queries<Counting>().any(stream, left, counting);
-      },
-      [&](std::size_t i, auto& counting) { hits[i] = find_any(all[i], counting) ? 1 : 0; });
+  for_each_part(all.size(), context, [&](std::size_t first, std::size_t count, auto& counting) {
+    streams().any_hits(
+        all.subspan(first, count), hits.subspan(first, count), counting,
+        [&](std::size_t i) { hits[first + i] = find_any(all[first + i], counting) ? 1 : 0; });
+  });
 }
 
 const char* SahBvh::instruction_set() const { return hwy::TargetName(kernels_->target); }

@@ -3,9 +3,10 @@
 
 #include "accel/bvh/probe_ray.hpp"
 #include "accel/bvh/sah_kernels.hpp"
-#include "accel/bvh/stream_kernels.hpp"
 #include "accel/bvh/stream_tree.hpp"
+#include "accel/bvh/streams.hpp"
 #include "accel/bvh/wide_bvh.hpp"
+#include "accel/core/instruction_set.hpp"
 #include "accel/core/traversal_accelerator.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
 #include "scenes/base/parameters.hpp"
@@ -25,7 +26,9 @@ class SahBvh : public TraversalAccelerator<SahBvh> {
   static std::vector<ParameterInfo> parameters();
   static SahBvhOptions options_from(const Parameters& parameters);
 
-  SahBvh(const scenes::Scene& scene, const SahBvhOptions& options);
+  /// `targets`: the allowed instruction sets (accel/core/instruction_set.hpp).
+  SahBvh(const scenes::Scene& scene, const SahBvhOptions& options,
+         std::int64_t targets = targets_of("best"));
 
   const WideBvh& bvh() const { return bvh_; }
   /// The instruction set in use, as Highway calls it: "AVX2".
@@ -35,9 +38,6 @@ class SahBvh : public TraversalAccelerator<SahBvh> {
                     const QueryContext& context) const override;
   void any_hits(const RaySource& rays, std::span<std::uint8_t> hits,
                 const QueryContext& context) const override;
-
-  /// The number of rays from which on a list is a stream.
-  static constexpr std::size_t kLeastStream = 64;
 
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
@@ -56,8 +56,9 @@ class SahBvh : public TraversalAccelerator<SahBvh> {
 
  private:
   bool is_stream(const RaySource& rays) const {
-    return streams_ && rays.batch() != nullptr && rays.size() >= kLeastStream && !bvh_.empty();
+    return streams_ && rays.batch() != nullptr && rays.size() >= Streams::kLeast && !bvh_.empty();
   }
+  Streams streams() const { return {bvh_, stream_tree_, *scene_, *stream_kernels_}; }
 
   const scenes::Scene* scene_;
   WideBvh bvh_;

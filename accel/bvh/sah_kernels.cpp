@@ -9,6 +9,7 @@
 
 #include "accel/bvh/probe_ray.hpp"
 #include "accel/core/intersect.hpp"
+#include "accel/core/pick_target.hpp"
 #include "accel/core/slab_ray.hpp"
 
 // Highway includes this file once more for each instruction set.
@@ -277,7 +278,9 @@ namespace beambench::accel::bvh {
 
 HWY_EXPORT(kernels);
 
-const SahKernels& best_sah_kernels() { return HWY_DYNAMIC_DISPATCH(kernels)(); }
+const SahKernels& sah_kernels_for(std::int64_t targets) {
+  return pick_target(HWY_DISPATCH_TABLE(kernels), targets)();
+}
 
 }  // namespace beambench::accel::bvh
 #endif

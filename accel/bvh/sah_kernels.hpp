@@ -28,7 +28,8 @@ struct SahKernels : SahQueries<NoCounting>, SahQueries<WorkCounters>, SahQueries
   }
 };
 
-/// Returns the kernels for the best instruction set of this machine that Highway supports.
-const SahKernels& best_sah_kernels();
+/// Returns the kernels for the best instruction set that this machine has among Highway's targets
+/// `targets`, as given by `targets_of`.
+const SahKernels& sah_kernels_for(std::int64_t targets);
 
 }  // namespace beambench::accel::bvh

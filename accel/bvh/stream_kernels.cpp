@@ -1,6 +1,7 @@
 #include "accel/bvh/stream_kernels.hpp"
 
 #include "accel/bvh/stream_memory.hpp"
+#include "accel/core/pick_target.hpp"
 
 // Highway includes this file once more for each instruction set.
 #undef HWY_TARGET_INCLUDE
@@ -38,7 +39,9 @@ namespace beambench::accel::bvh {
 
 HWY_EXPORT(stream_kernels);
 
-const StreamKernels& best_stream_kernels() { return HWY_DYNAMIC_DISPATCH(stream_kernels)(); }
+const StreamKernels& stream_kernels_for(std::int64_t targets) {
+  return pick_target(HWY_DISPATCH_TABLE(stream_kernels), targets)();
+}
 
 }  // namespace beambench::accel::bvh
 #endif

@@ -44,7 +44,8 @@ struct StreamKernels : StreamQueries<NoCounting>, StreamQueries<WorkCounters> {
   }
 };
 
-/// Returns the kernels for the best instruction set of this machine that Highway supports.
-const StreamKernels& best_stream_kernels();
+/// Returns the kernels for the best instruction set that this machine has among Highway's targets
+/// `targets`, as given by `targets_of`.
+const StreamKernels& stream_kernels_for(std::int64_t targets);
 
 }  // namespace beambench::accel::bvh

@@ -4,13 +4,13 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "accel/bvh/collapse.hpp"
-#include "accel/bvh/primitive_part.hpp"
 #include "accel/bvh/spatial_builder.hpp"
-#include "accel/core/padded_bounds.hpp"
 #include "accel/core/tolerance.hpp"
 #include "scenes/base/error.hpp"
 
@@ -21,47 +21,35 @@ namespace {
 /// third of a wide node's, since three levels become one (CollapseCosts).
 constexpr float kNodeInPrimitives = 3.0F;
 
-/// Turns the binary hierarchy over a scene's pieces into the wide one.
+/// Returns the options of a builder whose hierarchy `Collapse` makes wide.
+BvhOptions before_collapse(BvhOptions options) {
+  options.block_size = 1;
+  options.node_cost = kNodeInPrimitives;
+  return options;
+}
+
+/// Turns the binary hierarchy over a scene's parts into the wide one.
 class WideBvhBuilder {
  public:
-  WideBvhBuilder(const scenes::Scene& scene, const WideBvhOptions& options)
-      : scene_(scene), pieces_(collect_parts(scene)) {
-    BvhOptions splits = options.splits;
-    if (options.collapse == BvhCollapse::kCost) {
-      splits.block_size = 1;
-      splits.node_cost = kNodeInPrimitives;
-    }
-    binary_ = options.builder == BvhBuilder::kSpatial
-                  ? build_spatial_bvh(scene, pieces_, overlap_tolerance(scene), splits)
-                  : build_bvh(padded_boxes(), splits);
-    if (options.collapse == BvhCollapse::kCost) {
-      CollapseCosts costs;
-      costs.max_leaf = options.splits.max_leaf;
-      collapse_.emplace(binary_, costs);
-    }
-    wide_.cost = sah_cost(binary_, options.splits);
+  WideBvhBuilder(const scenes::Scene& scene, std::vector<PrimitivePart> parts, BinaryBvh binary)
+      : scene_(scene), parts_(std::move(parts)), binary_(std::move(binary)) {}
+
+  void collapse(std::uint32_t max_leaf) {
+    CollapseCosts costs;
+    costs.max_leaf = max_leaf;
+    collapse_.emplace(binary_, costs);
   }
 
   WideBvh build() {
     wide_.scene_bounds = scene_.bounds;
     wide_.visits = ExpectedVisits(scene_.bounds);
-    if (!pieces_.empty()) wide_.root = convert(0, 1);
+    if (!binary_.nodes.empty()) wide_.root = convert(0, 1);
     wide_.nodes.shrink_to_fit();
     wide_.blocks.shrink_to_fit();
     return std::move(wide_);
   }
 
  private:
-  std::vector<scenes::Bounds> padded_boxes() const {
-    const double tolerance = overlap_tolerance(scene_);
-    std::vector<scenes::Bounds> boxes;
-    boxes.reserve(pieces_.size());
-    for (const PrimitivePart& piece : pieces_) {
-      boxes.push_back(padded(part_bounds(scene_, piece), tolerance));
-    }
-    return boxes;
-  }
-
   /// The recursion is bounded by kMaxBvhDepth.
   ChildReference convert(std::uint32_t binary_node, std::uint32_t depth) {
     const BvhNode& node = binary_.nodes[binary_node];
@@ -122,29 +110,29 @@ class WideBvhBuilder {
     return order;
   }
 
-  /// Makes a leaf of pieces in increasing id.
+  /// Makes a leaf of parts in increasing id.
   ChildReference make_leaf(const scenes::Bounds& box, std::uint32_t first, std::uint32_t count) {
     ++wide_.leaves;
     const auto first_block = static_cast<std::uint32_t>(wide_.blocks.size());
     auto items = std::span(binary_.items).subspan(first, count);
     std::sort(items.begin(), items.end());
-    // Parts of a piece that were divided may be together again.
+    // Pieces of a part that was divided may be together again.
     items = items.first(
         static_cast<std::size_t>(std::unique(items.begin(), items.end()) - items.begin()));
     wide_.references += items.size();
     wide_.visits.add_leaf(box, static_cast<std::uint32_t>(items.size()));
-    leaf_pieces_.clear();
+    leaf_parts_.clear();
     float extent = 0.0F;
     for (const std::uint32_t item : items) {
-      leaf_pieces_.push_back(pieces_[item]);
-      const glm::vec3 sides = part_bounds(scene_, pieces_[item]).extent();
+      leaf_parts_.push_back(parts_[item]);
+      const glm::vec3 sides = part_bounds(scene_, parts_[item]).extent();
       extent = std::max({extent, sides.x, sides.y, sides.z});
     }
-    append_blocks(scene_, leaf_pieces_, extent, wide_.blocks);
+    append_blocks(scene_, leaf_parts_, extent, wide_.blocks);
     if (wide_.blocks.size() > ChildReference::kBlockIndices) {
       throw InputError(
-          fmt::format("sah-bvh over '{}' needs more than {} leaf blocks; use a scene "
-                      "with fewer primitives",
+          fmt::format("the hierarchy over '{}' needs more than {} leaf blocks; use a scene with "
+                      "fewer primitives",
                       scene_.name, ChildReference::kBlockIndices));
     }
     return ChildReference::leaf(first_block,
@@ -152,8 +140,8 @@ class WideBvhBuilder {
   }
 
   const scenes::Scene& scene_;
-  std::vector<PrimitivePart> pieces_;
-  std::vector<PrimitivePart> leaf_pieces_;  ///< of the leaf being made
+  std::vector<PrimitivePart> parts_;
+  std::vector<PrimitivePart> leaf_parts_;  ///< of the leaf being made
   BinaryBvh binary_;
   std::optional<Collapse> collapse_;
   WideBvh wide_;
@@ -162,7 +150,28 @@ class WideBvhBuilder {
 }  // namespace
 
 WideBvh build_wide_bvh(const scenes::Scene& scene, const WideBvhOptions& options) {
-  return WideBvhBuilder(scene, options).build();
+  const bool collapses = options.collapse == BvhCollapse::kCost;
+  const BvhOptions splits = collapses ? before_collapse(options.splits) : options.splits;
+  std::vector<PrimitivePart> parts = collect_parts(scene);
+  BinaryBvh binary = options.builder == BvhBuilder::kSpatial
+                         ? build_spatial_bvh(scene, parts, overlap_tolerance(scene), splits)
+                         : build_bvh(padded_boxes(scene, parts), splits);
+  const double cost = sah_cost(binary, options.splits);
+  WideBvhBuilder builder(scene, std::move(parts), std::move(binary));
+  if (collapses) builder.collapse(options.splits.max_leaf);
+  WideBvh wide = builder.build();
+  wide.cost = cost;
+  return wide;
+}
+
+WideBvh widen_for_streams(const scenes::Scene& scene, std::vector<PrimitivePart> parts,
+                          std::span<const scenes::Bounds> boxes, BinaryBvh binary, bool parallel) {
+  BvhOptions splits = before_collapse({});
+  splits.parallel = parallel;
+  divide_leaves(binary, boxes, splits);
+  WideBvhBuilder builder(scene, std::move(parts), std::move(binary));
+  builder.collapse(splits.max_leaf);
+  return builder.build();
 }
 
 }  // namespace beambench::accel::bvh

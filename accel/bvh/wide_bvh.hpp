@@ -4,9 +4,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "accel/bvh/bvh_builder.hpp"
 #include "accel/bvh/primitive_block.hpp"
+#include "accel/bvh/primitive_part.hpp"
 #include "accel/core/expected_visits.hpp"
 #include "accel/core/large_pages.hpp"
 #include "scenes/scene.hpp"
@@ -89,5 +92,11 @@ struct WideBvhOptions {
 
 /// Throws InputError if the scene needs more than ChildReference::kBlockIndices blocks.
 WideBvh build_wide_bvh(const scenes::Scene& scene, const WideBvhOptions& options);
+
+/// Makes a wide hierarchy for streams from a binary one over a scene's parts (`collect_parts`) and
+/// their boxes, which another structure has built for leaves of its own: these are divided, and
+/// `Collapse` chooses nodes and leaves. Throws like build_wide_bvh.
+WideBvh widen_for_streams(const scenes::Scene& scene, std::vector<PrimitivePart> parts,
+                          std::span<const scenes::Bounds> boxes, BinaryBvh binary, bool parallel);
 
 }  // namespace beambench::accel::bvh

@@ -20,8 +20,8 @@ struct QueryContext {
   /// two instantiations of its traversal.
   WorkCounters* counters = nullptr;
   /// The maximum number of threads that share the rays of an image or of a batch (`thread_count`;
-  /// 0: the default number). A structure may use fewer: most trace batches on the calling thread.
-  /// Hits and counters do not depend on the number, except for counters of time.
+  /// 0: the default number). A structure may use fewer. Hits and counters do not depend on the
+  /// number, except for counters of time.
   int threads = 1;
 };
 

@@ -76,6 +76,16 @@ class HitSpan {
   explicit HitSpan(Hit& hit)
       : t_(&hit.t), primitive_(&hit.primitive), width_(1), height_(1), samples_(1) {}
 
+  /// Returns the hits [first, first + count) as those of a list.
+  HitSpan part(std::size_t first, std::size_t count) const {
+    HitSpan part(*this);
+    part.t_ += first;
+    part.primitive_ += first;
+    part.width_ = static_cast<int>(count);
+    part.height_ = part.samples_ = 1;
+    return part;
+  }
+
   int width() const { return width_; }
   int height() const { return height_; }
   int samples() const { return samples_; }

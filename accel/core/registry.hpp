@@ -30,6 +30,7 @@ struct Workload {
   scenes::Camera camera;  ///< of the primary rays, or of those that secondary rays start from
   std::size_t rays;       ///< their approximate number
   int threads = 1;        ///< for tracing an image; 0: see `thread_count`
+  bool has_lists = true;  ///< false if images are traced, and nothing else
 };
 
 /// Returns the workload to assume where none is known: 640x480 rays from the scene's first camera.

@@ -64,9 +64,10 @@ class TraversalAccelerator : public Accelerator, public Inspector {
   }
   [[gnu::noinline]] void closest_of_list(std::span<const Ray> rays, const HitSpan& hits,
                                          const QueryContext& context) const {
-    with_counting(context.counters, [&](auto& counting) {
-      std::size_t index = 0;
-      for (const Ray& ray : rays) hits.set(index++, self().find_closest(ray, counting));
+    for_rows(context, static_cast<int>(rays.size()), [&](int begin, int end, auto& counting) {
+      for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+        hits.set(i, self().find_closest(rays[i], counting));
+      }
     });
   }
   [[gnu::noinline]] void any_of_image(const PrimaryRays& image, std::span<std::uint8_t> hits,
@@ -79,9 +80,10 @@ class TraversalAccelerator : public Accelerator, public Inspector {
   }
   [[gnu::noinline]] void any_of_list(std::span<const Ray> rays, std::span<std::uint8_t> hits,
                                      const QueryContext& context) const {
-    with_counting(context.counters, [&](auto& counting) {
-      std::size_t index = 0;
-      for (const Ray& ray : rays) hits[index++] = self().find_any(ray, counting) ? 1 : 0;
+    for_rows(context, static_cast<int>(rays.size()), [&](int begin, int end, auto& counting) {
+      for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+        hits[i] = self().find_any(rays[i], counting) ? 1 : 0;
+      }
     });
   }
 

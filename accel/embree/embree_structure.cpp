@@ -38,18 +38,23 @@ class EmbreeStructure : public Accelerator {
                     const QueryContext& context) const override {
     if (const PrimaryRays* image = rays.image()) return trace_image(*image, hits, context.threads);
     if (const RayBatch* batch = rays.batch()) {
-      Context query(coherence_ == Coherence::kAll);
-      return list_.closest_hits(scene_, query, batch->rays, hits);
+      return for_parts(batch->rays.size(), context.threads, [&](std::size_t first, std::size_t n) {
+        Context query(coherence_ == Coherence::kAll);
+        list_.closest_hits(scene_, query, batch->rays.subspan(first, n), hits.part(first, n));
+      });
     }
     Context query(coherence_ != Coherence::kNone);
     hits.set(0, scene_.closest_hit(query, *rays.ray()));
   }
   void any_hits(const RaySource& rays, std::span<std::uint8_t> hits,
-                const QueryContext&) const override {
-    Context query(coherence_ != Coherence::kNone);
+                const QueryContext& context) const override {
     if (const RayBatch* batch = rays.batch()) {
-      return list_.any_hits(scene_, query, batch->rays, hits);
+      return for_parts(batch->rays.size(), context.threads, [&](std::size_t first, std::size_t n) {
+        Context query(coherence_ != Coherence::kNone);
+        list_.any_hits(scene_, query, batch->rays.subspan(first, n), hits.subspan(first, n));
+      });
     }
+    Context query(coherence_ != Coherence::kNone);
     rays.for_each([&](std::size_t index, const Ray& ray) {
       hits[index] = scene_.any_hit(query, ray) ? 1 : 0;
     });
@@ -70,6 +75,19 @@ class EmbreeStructure : public Accelerator {
   }
 
  private:
+  /// Calls `trace(first, count)` for a list of rays: whole on one thread, or for parts that are
+  /// whole packets and streams.
+  template <class Trace>
+  static void for_parts(std::size_t rays, int threads, const Trace& trace) {
+    constexpr std::size_t kPart = 4096;
+    if (thread_count(threads) == 1) return trace(0, rays);
+    on_threads(threads, [&] {
+      share_rows(static_cast<int>((rays + kPart - 1) / kPart), [&](int begin, int end) {
+        const std::size_t first = kPart * static_cast<std::size_t>(begin);
+        trace(first, std::min(kPart * static_cast<std::size_t>(end), rays) - first);
+      });
+    });
+  }
   void trace_image(const PrimaryRays& image, const HitSpan& hits, int threads) const {
     const auto trace = [&](const Band& band) {
       Context query(coherence_ != Coherence::kNone);

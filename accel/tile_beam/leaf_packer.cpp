@@ -63,28 +63,30 @@ void require_index(const scenes::Scene& scene, std::size_t index) {
 /// Packs one leaf after another.
 class LeafPacker {
  public:
-  explicit LeafPacker(const TilePieces& pieces) : pieces_(&pieces) { made_.first.push_back(0); }
+  explicit LeafPacker(const TileParts& parts) : parts_(&parts) { made_.first.push_back(0); }
 
-  /// Reserves memory for that many leaves of a scene's pieces.
+  /// Reserves memory for that many leaves of a scene's parts.
   void reserve(std::size_t leaves) {
-    const std::size_t pieces = pieces_->pieces.size();
-    const scenes::Scene& scene = pieces_->scene;
+    const std::size_t parts = parts_->parts.size();
+    const scenes::Scene& scene = parts_->scene;
     made_.packed.reserve(leaves);
     made_.first.reserve(leaves + 1);
     // Allow for leaves with several blocks; unused room is never touched.
     const std::size_t blocks = leaves + leaves / 2;
-    made_.blocks.meshlets.reserve(blocks * scene.triangles.size() / pieces);
-    made_.blocks.spheres.reserve(blocks * scene.spheres.size() / pieces);
-    made_.blocks.cones.reserve(blocks * scene.cones.size() / pieces);
+    made_.blocks.meshlets.reserve(blocks * scene.triangles.size() / parts);
+    made_.blocks.spheres.reserve(blocks * scene.spheres.size() / parts);
+    made_.blocks.cones.reserve(blocks * scene.cones.size() / parts);
   }
 
   /// `items` are ascending.
   void pack(std::span<const std::uint32_t> items) {
+    const scenes::Scene& scene = parts_->scene;
     for (const auto kind : {scenes::PrimitiveKind::kPolygon, scenes::PrimitiveKind::kSphere,
                             scenes::PrimitiveKind::kCone}) {
       of_kind_.clear();
-      std::ranges::copy_if(items, std::back_inserter(of_kind_),
-                           [&](std::uint32_t item) { return pieces_->pieces[item].kind == kind; });
+      std::ranges::copy_if(items, std::back_inserter(of_kind_), [&](std::uint32_t item) {
+        return scene.primitives[parts_->parts[item].primitive].kind == kind;
+      });
       if (!of_kind_.empty()) pack_blocks(kind, of_kind_);
     }
     made_.first.push_back(static_cast<std::uint32_t>(made_.packed.size()));
@@ -99,7 +101,7 @@ class LeafPacker {
     if (pack_block(kind, items)) return;
     const auto half = static_cast<std::ptrdiff_t>(items.size() / 2);
     const auto center = [&](std::uint32_t item) {
-      const scenes::Bounds& box = pieces_->boxes[item];
+      const scenes::Bounds& box = parts_->boxes[item];
       return box.lower + box.upper;  // twice
     };
     scenes::Bounds centers;
@@ -119,7 +121,7 @@ class LeafPacker {
   /// Returns false, without adding anything, if they do not fit.
   bool pack_block(scenes::PrimitiveKind kind, std::span<const std::uint32_t> items) {
     scenes::Bounds box;
-    for (const std::uint32_t item : items) box.include(pieces_->boxes[item]);
+    for (const std::uint32_t item : items) box.include(parts_->boxes[item]);
     switch (kind) {
       case scenes::PrimitiveKind::kPolygon:
         return pack_triangles(items, box);
@@ -132,7 +134,7 @@ class LeafPacker {
   }
 
   void begin(TileChild::Kind kind, std::size_t index, const scenes::Bounds& box) {
-    require_index(pieces_->scene, index);
+    require_index(parts_->scene, index);
     made_.packed.push_back({TileChild(kind, static_cast<std::uint32_t>(index)), box});
   }
 
@@ -148,11 +150,11 @@ class LeafPacker {
   }
 
   bool pack_triangles(std::span<const std::uint32_t> items, const scenes::Bounds& box) {
-    const scenes::Scene& scene = pieces_->scene;
+    const scenes::Scene& scene = parts_->scene;
     auto& meshlets = made_.blocks.meshlets;
     Meshlet& meshlet = meshlets.emplace_back();
     for (const std::uint32_t item : items) {
-      if (append(meshlet, scene, scene.triangles[pieces_->pieces[item].index])) continue;
+      if (append(meshlet, scene, scene.triangles[parts_->parts[item].index])) continue;
       meshlets.pop_back();
       return false;
     }
@@ -165,12 +167,12 @@ class LeafPacker {
 
   /// Marks the triangles of the last meshlet that belong to solids.
   void note_solids(std::span<const std::uint32_t> items) {
-    const Solids& solids = pieces_->solids;
+    const Solids& solids = parts_->solids;
     if (solids.solids.empty()) return;
     Meshlet& meshlet = made_.blocks.meshlets.back();
     const auto number = static_cast<std::uint32_t>(made_.blocks.meshlets.size() - 1);
     for (std::size_t i = 0; i < items.size(); ++i) {
-      const std::uint32_t solid = solids.of_triangle[pieces_->pieces[items[i]].index];
+      const std::uint32_t solid = solids.of_triangle[parts_->parts[items[i]].index];
       if (solid == Solids::kNone) continue;
       const std::uint32_t bit = 1U << i;
       meshlet.solid |= bit;
@@ -183,23 +185,23 @@ class LeafPacker {
   }
 
   void add(SphereBlock& block, std::uint32_t item) {
-    const scenes::Sphere& sphere = pieces_->scene.spheres[pieces_->pieces[item].index];
+    const scenes::Sphere& sphere = parts_->scene.spheres[parts_->parts[item].index];
     const std::size_t lane = block.count++;
     for (int axis = 0; axis < 3; ++axis) {
       block.center[static_cast<std::size_t>(axis)][lane] = sphere.center[axis];
     }
     block.radius[lane] = sphere.radius;
-    block.primitives[lane] = pieces_->pieces[item].primitive;
+    block.primitives[lane] = parts_->parts[item].primitive;
     if (sphere.inside_only) block.inside_only |= 1U << lane;
   }
 
   void add(ConeBlock& block, std::uint32_t item) {
     const std::size_t lane = block.count++;
-    block.boxes.set(lane, pieces_->boxes[item]);
-    block.primitives[lane] = pieces_->pieces[item].primitive;
+    block.boxes.set(lane, parts_->boxes[item]);
+    block.primitives[lane] = parts_->parts[item].primitive;
   }
 
-  const TilePieces* pieces_;
+  const TileParts* parts_;
   std::vector<std::uint32_t> of_kind_;  ///< of the current leaf; kept for its memory
   PackedLeaves made_;
 };
@@ -285,7 +287,7 @@ constexpr std::size_t kLeavesOfPart = 1024;
 
 }  // namespace
 
-PackedLeaves pack_leaves(const TilePieces& pieces,
+PackedLeaves pack_leaves(const TileParts& parts,
                          std::span<const std::span<const std::uint32_t>> leaves, bool parallel) {
   const auto pack_range = [&](LeafPacker& packer, std::size_t begin, std::size_t end) {
     packer.reserve(end - begin);
@@ -293,15 +295,15 @@ PackedLeaves pack_leaves(const TilePieces& pieces,
   };
   const std::size_t count = (leaves.size() + kLeavesOfPart - 1) / kLeavesOfPart;
   if (!parallel || count < 2) {
-    LeafPacker packer(pieces);
+    LeafPacker packer(parts);
     pack_range(packer, 0, leaves.size());
     return std::move(packer.made());
   }
-  std::vector<LeafPacker> parts(count, LeafPacker(pieces));
+  std::vector<LeafPacker> packers(count, LeafPacker(parts));
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-    pack_range(parts[i], i * kLeavesOfPart, std::min((i + 1) * kLeavesOfPart, leaves.size()));
+    pack_range(packers[i], i * kLeavesOfPart, std::min((i + 1) * kLeavesOfPart, leaves.size()));
   });
-  return Joining(pieces.scene, parts)();
+  return Joining(parts.scene, packers)();
 }
 
 }  // namespace beambench::accel::tile_beam

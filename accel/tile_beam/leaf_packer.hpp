@@ -5,22 +5,15 @@
 #include <span>
 #include <vector>
 
-#include "accel/bvh/bvh_builder.hpp"
+#include "accel/bvh/primitive_part.hpp"
 #include "accel/tile_beam/tile_hierarchy.hpp"
 
 namespace beambench::accel::tile_beam {
 
-/// A piece in a leaf: a triangle of a polygon, or a whole sphere or cone.
-struct TilePiece {
-  scenes::PrimitiveId primitive;
-  std::uint32_t index;  ///< into the scene's triangles, spheres or cones
-  scenes::PrimitiveKind kind;
-};
-
-/// A block made of some of a leaf's pieces.
+/// A block made of some of a leaf's parts.
 struct PackedLeaf {
   TileChild child;
-  scenes::Bounds box;  ///< of its pieces' boxes
+  scenes::Bounds box;  ///< of its parts' boxes
 };
 
 /// The blocks of several leaves.
@@ -35,19 +28,19 @@ struct PackedLeaves {
   }
 };
 
-/// The pieces of a scene, their boxes, and the solids that triangles form.
-struct TilePieces {
+/// The parts of a scene's primitives, their boxes, and the solids that triangles form.
+struct TileParts {
   const scenes::Scene& scene;
   const Solids& solids;
-  std::span<const TilePiece> pieces;
+  std::span<const bvh::PrimitivePart> parts;
   std::span<const scenes::Bounds> boxes;
 };
 
 /// Packs leaves, each given by its items. A leaf becomes a block for each kind of primitive in it,
-/// or several if one is full: at most kTileLanes for a leaf of up to 32 pieces. `parallel`: on all
+/// or several if one is full: at most kTileLanes for a leaf of up to 32 parts. `parallel`: on all
 /// cores; the blocks are the same. Throws InputError when there are more than TileChild::kIndices
 /// blocks of a kind.
-PackedLeaves pack_leaves(const TilePieces& pieces,
+PackedLeaves pack_leaves(const TileParts& parts,
                          std::span<const std::span<const std::uint32_t>> leaves, bool parallel);
 
 }  // namespace beambench::accel::tile_beam

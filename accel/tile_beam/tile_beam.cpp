@@ -116,13 +116,17 @@ struct RayRange {
   const Pencil* pencil;  ///< or null
 };
 
-/// Returns all rays of a batch in order. Pencils whose direction is not that of `toward` are traced
-/// as single rays.
+/// Returns all rays of a batch in order, other rays than those of pencils in parts of a stream
+/// each. Pencils whose direction is not that of `toward` are no pencils here.
 std::vector<RayRange> ranges_of(const RayBatch& batch, bool toward) {
   std::vector<RayRange> ranges;
   std::size_t next = 0;
   const auto single_until = [&](std::size_t end) {
-    if (next < end) ranges.push_back({next, end - next, nullptr});
+    const std::size_t count = end - next;
+    for (std::size_t part = 0; part < bvh::Streams::parts(count); ++part) {
+      const std::size_t first = bvh::Streams::begin_of(part, count);
+      ranges.push_back({next + first, bvh::Streams::begin_of(part + 1, count) - first, nullptr});
+    }
   };
   for (const Pencil& pencil : batch.pencils) {
     if (pencil.toward != toward || pencil.count < TileBeam::least_pencil(toward)) continue;
@@ -147,16 +151,14 @@ struct SeenBatch {
             samples.from(range.first), glm::vec3(range.pencil->apex)};
   }
 
-  /// Returns ranges of rays, divided into parts that are traced at once.
+  /// Returns ranges of rays, those of pencils divided into parts that are traced at once.
   std::vector<RayRange> parts_of(std::span<const RayRange> ranges) const {
-    constexpr std::size_t kSingleRays = 1024;
     std::vector<RayRange> parts;
     const auto unit = std::make_unique_for_overwrite<PencilUnit>();
     for (RayRange left : ranges) {
       while (left.count > 0) {
-        const std::size_t count = left.pencil == nullptr
-                                      ? std::min(left.count, kSingleRays)
-                                      : kernels.count_part(pencil_rays(left), *unit);
+        const std::size_t count =
+            left.pencil == nullptr ? left.count : kernels.count_part(pencil_rays(left), *unit);
         parts.push_back({left.first, count, left.pencil});
         left.first += count;
         left.count -= count;
@@ -187,6 +189,11 @@ struct ClosestOfBatch {
     return seen.kernels.queries<Counting>().closest_hits(rays, unit, hits, first, counting);
   }
   bool is_undecided(std::size_t i) const { return hits.t()[i] == kUndecidedT; }
+  void stream(const bvh::Streams& streams, const RayRange& range, Counting& counting) const {
+    streams.closest_hits(seen.batch.rays.subspan(range.first, range.count),
+                         hits.part(range.first, range.count), counting,
+                         [&](std::size_t i) { single(range.first + i, counting); });
+  }
   bool list(const RayRange& range, Counting& counting) const {
     return kernels.lists<Counting>().closest_hits(seen.hierarchy, seen.scene,
                                                   seen.batch.rays.subspan(range.first, range.count),
@@ -212,6 +219,11 @@ struct AnyOfBatch {
         rays, unit, hits.subspan(first, rays.rays.size()), counting);
   }
   bool is_undecided(std::size_t i) const { return hits[i] == kUndecided; }
+  void stream(const bvh::Streams& streams, const RayRange& range, Counting& counting) const {
+    streams.any_hits(seen.batch.rays.subspan(range.first, range.count),
+                     hits.subspan(range.first, range.count), counting,
+                     [&](std::size_t i) { single(range.first + i, counting); });
+  }
   bool list(const RayRange& range, Counting& counting) const {
     return kernels.lists<Counting>().any_hits(seen.hierarchy, seen.scene,
                                               seen.batch.rays.subspan(range.first, range.count),
@@ -223,8 +235,9 @@ struct AnyOfBatch {
 };
 
 /// Traces a batch: its pencils by `query.pencil`, and what that leaves undecided as single rays;
-/// all other rays by `query.list`, except those that ProbeRay cannot probe, which are single rays
-/// too. `parallel`: parts are distributed among all cores; hits and counts are the same.
+/// all other rays by `query.stream`, or where they are few by `query.list`, except those that
+/// ProbeRay cannot probe, which are single rays too. `parallel`: parts are distributed among all
+/// cores; hits and counts are the same.
 template <class Query, class Counting>
 void trace_parts(const SeenBatch& seen, const Query& query, bool parallel, Counting& counting) {
   using State = QueryState<Counting>;
@@ -241,8 +254,12 @@ void trace_parts(const SeenBatch& seen, const Query& query, bool parallel, Count
       left.count -= answered.count;
     }
   };
+  const std::optional<bvh::Streams> streams = query.structure.streams();
   const auto trace_range = [&](const RayRange& range, State& state) {
     if (range.pencil != nullptr) return trace_pencil(range, state);
+    if (streams && range.count >= bvh::Streams::kLeast) {
+      return query.stream(*streams, range, state.counting);
+    }
     if (!query.list(range, state.counting)) return;
     for (std::size_t i = range.first; i < range.first + range.count; ++i) {
       if (!bvh::ProbeRay::can_probe(seen.batch.rays[i])) query.single(i, state.counting);
@@ -271,13 +288,17 @@ std::size_t solid_bytes(const TileHierarchy& hierarchy) {
 
 void TileBeam::closest_hits(const RaySource& rays, const HitSpan& hits,
                             const QueryContext& context) const {
-  if (const PrimaryRays* image = rays.image()) return trace_image(*image, hits, context);
+  if (const PrimaryRays* image = rays.image()) {
+    return trace(context, [&](bool parallel, auto& counting) {
+      trace_tiles(*kernels_, hierarchy_, *scene_, *image, parallel, hits, counting);
+    });
+  }
   if (rays.batch() == nullptr || hierarchy_.empty()) {
     return TraversalAccelerator::closest_hits(rays, hits, context);
   }
   const SeenBatch seen{hierarchy_, *scene_, *pencil_kernels_, *rays.batch()};
-  with_counting(context.counters, [&]<class Counting>(Counting& counting) {
-    trace_parts(seen, ClosestOfBatch<Counting>{*this, *kernels_, seen, hits}, parallel_, counting);
+  trace(context, [&]<class Counting>(bool parallel, Counting& counting) {
+    trace_parts(seen, ClosestOfBatch<Counting>{*this, *kernels_, seen, hits}, parallel, counting);
   });
 }
 
@@ -287,19 +308,16 @@ void TileBeam::any_hits(const RaySource& rays, std::span<std::uint8_t> hits,
     return TraversalAccelerator::any_hits(rays, hits, context);
   }
   const SeenBatch seen{hierarchy_, *scene_, *pencil_kernels_, *rays.batch()};
-  with_counting(context.counters, [&]<class Counting>(Counting& counting) {
-    trace_parts(seen, AnyOfBatch<Counting>{*this, *kernels_, seen, hits}, parallel_, counting);
+  trace(context, [&]<class Counting>(bool parallel, Counting& counting) {
+    trace_parts(seen, AnyOfBatch<Counting>{*this, *kernels_, seen, hits}, parallel, counting);
   });
 }
 
-void TileBeam::trace_image(const PrimaryRays& rays, const HitSpan& hits,
-                           const QueryContext& context) const {
+template <class Work>
+void TileBeam::trace(const QueryContext& context, const Work& work) const {
   with_counting(context.counters, [&](auto& counting) {
-    const auto trace = [&](bool parallel) {
-      trace_tiles(*kernels_, hierarchy_, *scene_, rays, parallel, hits, counting);
-    };
-    if (thread_count(context.threads) == 1) return trace(parallel_);
-    on_threads(context.threads, [&] { trace(true); });
+    if (thread_count(context.threads) == 1) return work(parallel_, counting);
+    on_threads(context.threads, [&] { work(true, counting); });
   });
 }
 
@@ -365,14 +383,21 @@ std::vector<ParameterInfo> TileBeam::parameters() {
       flag_parameter("backface_culling", defaults.backface_culling,
                      "in images, leave out the backs of closed surfaces that are proven to hide "
                      "them; what is open is traced as without it"),
+      choice_parameter("lists", "auto", {"auto", "streams", "single"},
+                       "of rays that are of no pencil: streams: they go down together; single: one "
+                       "by one; auto: streams, unless only images are traced, which need no "
+                       "hierarchy for them"),
       isa_parameter()};
 }
 
-TileHierarchyOptions TileBeam::options_from(const Parameters& parameters) {
+TileHierarchyOptions TileBeam::options_from(const Parameters& parameters,
+                                            const Workload& workload) {
   TileHierarchyOptions options;
   options.max_leaf = static_cast<std::uint32_t>(parameters.integer("max_leaf"));
   options.parallel = parameters.flag("parallel");
   options.backface_culling = parameters.flag("backface_culling");
+  const std::string& lists = parameters.choice("lists");
+  options.streams = lists == "streams" || (lists == "auto" && workload.has_lists);
   return options;
 }
 
@@ -384,7 +409,7 @@ Statistics TileBeam::statistics() const {
   statistics.leaves = hierarchy_.leaves();
   statistics.references = hierarchy_.references;
   statistics.depth = hierarchy_.depth;
-  statistics.bytes = hierarchy_.bytes() + solid_bytes(hierarchy_);
+  statistics.bytes = hierarchy_.bytes() + solid_bytes(hierarchy_) + hierarchy_.stream_bytes();
   statistics.instruction_set = instruction_set();
   statistics.image_rays = ImageRays::kOwn;
   statistics.more = {{"cost", hierarchy_.cost},
@@ -396,14 +421,15 @@ Statistics TileBeam::statistics() const {
 }
 
 void register_tile_beam(Registry& registry) {
-  registry.add({"tile-beam",
-                "beams the size of screen tiles through a wide hierarchy over meshlets, hits "
-                "resolved by SIMD: the thesis's idea with today's methods",
-                Conformance::kTolerance, TileBeam::parameters(),
-                [](const scenes::Scene& scene, const Parameters& parameters, const Workload&) {
-                  return std::make_unique<TileBeam>(scene, TileBeam::options_from(parameters),
-                                                    targets_of(parameters.choice("isa")));
-                }});
+  registry.add(
+      {"tile-beam",
+       "beams the size of screen tiles through a wide hierarchy over meshlets, hits "
+       "resolved by SIMD: the thesis's idea with today's methods",
+       Conformance::kTolerance, TileBeam::parameters(),
+       [](const scenes::Scene& scene, const Parameters& parameters, const Workload& workload) {
+         return std::make_unique<TileBeam>(scene, TileBeam::options_from(parameters, workload),
+                                           targets_of(parameters.choice("isa")));
+       }});
   registry.describe_counters(
       "tile-beam",
       {{"beams",

@@ -3,9 +3,11 @@
 // over meshlets.
 
 #include "accel/bvh/probe_ray.hpp"
+#include "accel/bvh/streams.hpp"
 #include "accel/core/hit_buffer.hpp"
 #include "accel/core/instruction_set.hpp"
 #include "accel/core/primary_rays.hpp"
+#include "accel/core/registry.hpp"
 #include "accel/core/traversal_accelerator.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
 #include "accel/tile_beam/pencil_kernels.hpp"
@@ -21,11 +23,13 @@ namespace beambench::accel::tile_beam {
 /// Greene, Kass and Miller 1993), and draws the contents of leaves. Images are computed in float,
 /// to within a few roundings of the distances. So are the pencils of batches (shadow rays of a
 /// point light, and rays from a planar mirror), as seen from their common point
-/// (pencil_walk-inl.hpp). Single rays return the hits of the classic structures, bit for bit.
+/// (pencil_walk-inl.hpp). All other rays, alone or in lists, return the hits of the classic
+/// structures, bit for bit; lists go down as streams (accel/bvh/streams.hpp).
 class TileBeam : public TraversalAccelerator<TileBeam> {
  public:
   static std::vector<ParameterInfo> parameters();
-  static TileHierarchyOptions options_from(const Parameters& parameters);
+  /// `workload`: whether lists of rays are expected, where `lists` is `auto`.
+  static TileHierarchyOptions options_from(const Parameters& parameters, const Workload& workload);
 
   /// `targets`: the allowed instruction sets (accel/core/instruction_set.hpp).
   TileBeam(const scenes::Scene& scene, const TileHierarchyOptions& options,
@@ -34,6 +38,7 @@ class TileBeam : public TraversalAccelerator<TileBeam> {
         hierarchy_(build_tile_hierarchy(scene, options)),
         kernels_(&tile_kernels_for(targets)),
         pencil_kernels_(&pencil_kernels_for(targets)),
+        stream_kernels_(&bvh::stream_kernels_for(targets)),
         parallel_(options.parallel) {}
 
   /// The minimum number of rays of a pencil; smaller ones are traced singly, because the fixed cost
@@ -53,6 +58,12 @@ class TileBeam : public TraversalAccelerator<TileBeam> {
                 const QueryContext& context) const override;
   std::vector<BeamPlace> places(const RaySource& rays) const override;
 
+  /// Returns the way of lists of rays; nothing where they are traced ray by ray.
+  std::optional<bvh::Streams> streams() const {
+    if (hierarchy_.stream_bvh.empty()) return std::nullopt;
+    return bvh::Streams{hierarchy_.stream_bvh, hierarchy_.stream_tree, *scene_, *stream_kernels_};
+  }
+
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
     if (hierarchy_.empty()) return std::nullopt;
@@ -70,7 +81,9 @@ class TileBeam : public TraversalAccelerator<TileBeam> {
   }
 
  private:
-  void trace_image(const PrimaryRays& rays, const HitSpan& hits, const QueryContext& context) const;
+  /// Calls `work(parallel, counting)` on the threads of a query.
+  template <class Work>
+  void trace(const QueryContext& context, const Work& work) const;
   std::vector<BeamPlace> places_in_image(const PrimaryRays& rays) const;
   std::vector<BeamPlace> places_in_batch(const RayBatch& batch) const;
 
@@ -78,6 +91,7 @@ class TileBeam : public TraversalAccelerator<TileBeam> {
   TileHierarchy hierarchy_;
   const TileKernels* kernels_;
   const PencilKernels* pencil_kernels_;
+  const bvh::StreamKernels* stream_kernels_;
   bool parallel_;
 };
 

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "accel/bvh/stream_tree.hpp"
+#include "accel/bvh/wide_bvh.hpp"
 #include "accel/core/expected_visits.hpp"
 #include "accel/core/large_pages.hpp"
 #include "accel/tile_beam/solids.hpp"
@@ -138,6 +140,10 @@ struct TileHierarchy : TileBlocks {
   std::uint64_t references = 0;
   ExpectedVisits visits;
   double cost = 0.0;  ///< the cost of the underlying binary hierarchy: see sah_cost
+  /// The same binary hierarchy as streams go down it, with leaves of a few parts; without nodes of
+  /// its own, which are those of `stream_tree`. Empty if lists are traced ray by ray.
+  bvh::WideBvh stream_bvh;
+  bvh::StreamTree stream_tree;
 
   bool empty() const { return references == 0; }
   std::size_t leaves() const { return count(); }
@@ -145,6 +151,10 @@ struct TileHierarchy : TileBlocks {
   std::size_t bytes() const {
     return nodes.size() * sizeof(TileNode) + meshlets.size() * sizeof(Meshlet) +
            spheres.size() * sizeof(SphereBlock) + cones.size() * sizeof(ConeBlock);
+  }
+  /// Returns the bytes that are there for streams alone.
+  std::size_t stream_bytes() const {
+    return stream_bvh.blocks.capacity() * sizeof(bvh::PrimitiveBlock) + stream_tree.bytes();
   }
 };
 
@@ -156,6 +166,7 @@ struct TileHierarchyOptions {
   std::uint32_t max_leaf = 32;    ///< most primitives of a leaf
   bool parallel = false;          ///< build, and trace images, on all cores
   bool backface_culling = false;  ///< leave out the invisible backs of solids in images
+  bool streams = true;            ///< lists of rays go down together (accel/bvh/streams.hpp)
 };
 
 /// Throws InputError if the scene needs more than TileChild::kIndices leaves of a kind.

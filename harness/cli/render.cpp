@@ -240,7 +240,7 @@ accel::StructureChoice chosen_structure(const RenderRequest& request) {
 }
 
 void render(const RenderRequest& request) {
-  render::parse_shading(request.shading);
+  const render::Shading shading = render::parse_shading(request.shading);
   require_exposure(request);
   whitted_options(request.whitted);
   render::image_format(request.file);
@@ -258,8 +258,8 @@ void render(const RenderRequest& request) {
 
   base::Progress progress(1);
   progress.start(fmt::format("{} over {}", choice.info().name, scene.name));
-  const auto accelerator =
-      choice.build(scene, rays::workload_of(image, rays, request.whitted.threads));
+  const auto accelerator = choice.build(scene, {image.camera, rays.count(), request.whitted.threads,
+                                                shading == render::Shading::kWhitted});
   rays::TraceResults results = rays::make_results(rays);
   auto& hits = std::get<accel::HitBuffer>(results);
   const rays::HitCheck check(scene, choice);

@@ -157,7 +157,7 @@ void add_time_command(CLI::App& app, int& exit_code) {
                    "Kinds of rays, as after 'beambench rays SCENE --rays'; several are timed apart")
       ->capture_default_str();
   command->add_option("--samples", request->samples, "Per pixel")->capture_default_str();
-  command->add_option("--threads", request->threads, "That trace an image (1 to 1024)")
+  command->add_option("--threads", request->threads, "That trace an image or a list (1 to 1024)")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command

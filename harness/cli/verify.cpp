@@ -274,7 +274,7 @@ void add_verify_command(CLI::App& app, int& exit_code) {
   CLI::Option* threads =
       command
           ->add_option("--threads", request->threads,
-                       "Threads for images of primary rays; 0: one for each core, within the CPU "
+                       "Threads that trace; 0: one for each core, within the CPU "
                        "quota")
           ->capture_default_str()
           ->check(CLI::Range(0, 1024));

@@ -186,6 +186,8 @@ Exclusion read_exclusion(const JsonNode& node, const accel::Registry& structures
   };
   exclusion.primitives_above = limit("primitives_above");
   exclusion.rays_above = limit("rays_above");
+  if (const auto order = node.find("order"))
+    exclusion.is_sorted = order->text() == rays::kSortedOrder;
   return exclusion;
 }
 
@@ -252,10 +254,8 @@ int read_threads(const JsonNode& root, const SweepConfig& config) {
   if (!node) return 1;
   const int threads = node->value().get<int>();
   for (const rays::RayChoice& rays : config.rays) {
-    if (threads == 1 || rays == rays::RayChoice()) continue;
-    node->fail(
-        "only images of primary rays are traced on several threads; leave out the other "
-        "rays or 'threads'");
+    if (threads == 1 || rays.kind != rays::RayKind::kWhitted) continue;
+    node->fail("pictures are drawn on one thread; leave out 'whitted' or 'threads'");
   }
   return threads;
 }

@@ -29,6 +29,7 @@ struct Exclusion {
   std::optional<std::string> scene;      ///< as the configuration spells it
   std::optional<std::uint64_t> primitives_above;
   std::optional<std::uint64_t> rays_above;
+  std::optional<bool> is_sorted;  ///< the order of a list
 };
 
 /// A contender of a sweep.

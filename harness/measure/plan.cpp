@@ -45,7 +45,8 @@ std::uint64_t ray_count(const CellGroup& group) {
 }
 
 bool applies(const Exclusion& rule, const CellGroup& group, const SceneEntry& entry,
-             const accel::StructureChoice& structure) {
+             const accel::StructureChoice& structure, const rays::RayChoice& rays) {
+  if (rule.is_sorted && *rule.is_sorted != rays.is_sorted) return false;
   if (rule.structure && *rule.structure != structure.info().name) return false;
   if (rule.scene && *rule.scene != entry.spec && *rule.scene != group.scene->name) return false;
   if (rule.primitives_above && group.scene->primitives.size() <= *rule.primitives_above) {
@@ -71,7 +72,7 @@ void add_group(const SweepConfig& config, const SceneEntry& entry, NewGroup made
     for (const SweptStructure& swept : config.structures) {
       for (const accel::StructureChoice& structure : swept.sets) {
         if (std::ranges::any_of(config.exclude, [&](const Exclusion& rule) {
-              return applies(rule, group, entry, structure);
+              return applies(rule, group, entry, structure, rays);
             })) {
           continue;
         }

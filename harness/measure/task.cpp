@@ -90,6 +90,7 @@ class RaysTask : public Task {
     return facts;
   }
   std::uint64_t ray_count() override { return input().size(); }
+  bool has_lists() const override { return input().image() == nullptr; }
   QueryPath path_of(const accel::Accelerator& structure) const override {
     const accel::ImageRays made = structure.statistics().image_rays;
     if (input().image() == nullptr) {
@@ -218,6 +219,7 @@ class PictureTask : public Task {
   }
 
   std::uint64_t ray_count() override { return facts().rays; }
+  bool has_lists() const override { return true; }
 
   /// Finds out the facts, and the time of the picture without a structure: its results are known.
   RaySetFacts find_facts() override {

@@ -36,7 +36,7 @@ class Task {
     return *facts_;
   }
   accel::Workload workload() {
-    return {group_.camera, static_cast<std::size_t>(ray_count()), group_.threads};
+    return {group_.camera, static_cast<std::size_t>(ray_count()), group_.threads, has_lists()};
   }
 
   /// Returns a clause about unexpected rays.
@@ -68,6 +68,7 @@ class Task {
 
   virtual RaySetFacts find_facts() = 0;
   virtual std::uint64_t ray_count() = 0;
+  virtual bool has_lists() const = 0;
   virtual QueryPath path_of(const accel::Accelerator& structure) const = 0;
   /// Returns the time of a trace by `path`, which is not the structure's own, where results cost
   /// nothing.

@@ -214,7 +214,7 @@ double coherence(const TraceInput& input) {
 }
 
 accel::Workload workload_of(const ImageOfRays& image, const TraceInput& input, int threads) {
-  return {image.camera, input.size(), threads};
+  return {image.camera, input.size(), threads, input.image() == nullptr};
 }
 
 void require_made_for(const scenes::Scene& scene, const RaySet& set) {

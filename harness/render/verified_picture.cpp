@@ -142,7 +142,7 @@ std::vector<verify::VerifiedCell> verify_picture(const scenes::Scene& scene,
       scene, choice.label, std::move(contenders), progress,
       [&](const accel::StructureChoice& contender, verify::VerifiedCell& cell) {
         require_support(contender);
-        const auto structure = contender.build(scene, rays::workload_of(image, rays));
+        const auto structure = contender.build(scene, {image.camera, rays.count()});
         accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
         structure->closest_hits(rays, hits, {});
         RecordedPicture picture = record_picture(shaded, *structure, rays, std::move(hits), options,

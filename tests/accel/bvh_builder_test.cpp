@@ -79,6 +79,32 @@ TEST(BvhBuilder, NoBoxesMakeNoNodes) {
   EXPECT_EQ(bvh::sah_cost(bvh, {}), 0.0);
 }
 
+TEST(BvhBuilder, DividedLeavesHoldEveryBoxOnce) {
+  for (const std::size_t count : {std::size_t{1}, std::size_t{30}, std::size_t{3000}}) {
+    const std::vector<scenes::Bounds> boxes = random_boxes(count, count);
+    bvh::BvhOptions coarse;
+    coarse.max_leaf = 32;
+    coarse.block_size = 16;
+    const bvh::BinaryBvh whole = bvh::build_bvh(boxes, coarse);
+    bvh::BvhOptions fine;
+    fine.max_leaf = 4;
+    fine.block_size = 1;
+    bvh::BinaryBvh divided = whole;
+    bvh::divide_leaves(divided, boxes, fine);
+    expect_valid(divided, boxes, fine);
+    for (std::size_t i = 0; i < whole.nodes.size(); ++i) {
+      EXPECT_EQ(divided.nodes[i].box.lower, whole.nodes[i].box.lower);
+      EXPECT_TRUE(whole.nodes[i].is_leaf() || divided.nodes[i].first == whole.nodes[i].first);
+    }
+    bvh::BinaryBvh in_parallel = whole;
+    fine.parallel = true;
+    bvh::divide_leaves(in_parallel, boxes, fine);
+    EXPECT_EQ(in_parallel.items, divided.items);
+    EXPECT_EQ(in_parallel.nodes.size(), divided.nodes.size());
+    EXPECT_EQ(in_parallel.depth, divided.depth);
+  }
+}
+
 TEST(BvhBuilder, IsTheSameBuiltInParallel) {
   const auto boxes = random_boxes(200'000, 9);
   bvh::BvhOptions options;

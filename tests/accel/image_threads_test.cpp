@@ -1,4 +1,5 @@
-// An image on several threads: the same hits and the same counts, whichever thread found them.
+// An image or a list on several threads: the same hits and the same counts, whichever thread found
+// them.
 
 #include <algorithm>
 #include <chrono>
@@ -8,6 +9,7 @@
 #include <set>
 #include <string>
 #include <thread>
+#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -55,6 +57,29 @@ void expect_same_on_threads(const StructureChoice& choice, const scenes::Scene& 
   }
 }
 
+/// Expects the same of a list, longer than what a thread takes at a time.
+void expect_same_list_on_threads(const StructureChoice& choice, const scenes::Scene& scene) {
+  SCOPED_TRACE(choice.label() + " over " + scene.name);
+  if (!choice.info().support.batches) return;
+  // While it exists, Embree limits TBB to the threads of its workload.
+  const auto structure = choice.build(scene, {scene.cameras.front(), 10'000, 8});
+  Random random(17);
+  const std::vector<Ray> rays = verify::random_rays(scene, 10'000, random);
+  const auto trace = [&](int threads) {
+    HitBuffer hits(static_cast<int>(rays.size()), 1, 1);
+    HitBuffer counted(static_cast<int>(rays.size()), 1, 1);
+    std::vector<std::uint8_t> any(rays.size());
+    WorkCounters counters;
+    structure->closest_hits(RayBatch{rays}, hits, {.threads = threads});
+    structure->closest_hits(RayBatch{rays}, counted, {&counters, threads});
+    structure->any_hits(RayBatch{rays}, any, {&counters, threads});
+    EXPECT_EQ(counted, hits);
+    return std::tuple(hits, any, counts(counters));
+  };
+  const auto alone = trace(1);
+  for (const int threads : kThreads) EXPECT_EQ(trace(threads), alone) << threads << " threads";
+}
+
 std::vector<std::string> all_names() {
   std::vector<std::string> names;
   for (const auto& info : registry().structures()) names.push_back(info.name);
@@ -82,6 +107,12 @@ std::string name_of_case(const ::testing::TestParamInfo<std::string>& info) {
   std::string name = info.param;
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
+}
+
+TEST_P(Threads, ChangeNoHitAndNoCountOfLists) {
+  for (const char* name : {"escena1", "bumpy:triangles=768"}) {
+    expect_same_list_on_threads(registry().choose({GetParam(), {}}), scenes::load_scene(name));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Threads, ::testing::ValuesIn(all_names()), name_of_case);

@@ -4,7 +4,9 @@
 
 #include <chrono>
 #include <initializer_list>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -208,13 +210,15 @@ TEST_F(Config, CountingCellsLeavesMistakesToTheReader) {
   }
 }
 
-TEST_F(Config, SeveralThreadsAreForImages) {
+TEST_F(Config, SeveralThreadsAreNotForPictures) {
   EXPECT_EQ(read(fine()).threads, 1);
   json document = fine();
   document["threads"] = 3;
   EXPECT_EQ(read(document).threads, 3);
   document["rays"] = {"primary", "shadow"};
-  EXPECT_TRUE(scenes::says(refusal(document), {"/threads: only images of primary rays"}));
+  EXPECT_EQ(read(document).threads, 3);
+  document["rays"] = {"primary", "whitted"};
+  EXPECT_TRUE(scenes::says(refusal(document), {"/threads: pictures are drawn on one thread"}));
   document["threads"] = 1;
   EXPECT_EQ(read(document).threads, 1);
 }
@@ -270,6 +274,22 @@ TEST_F(Config, ExclusionsLeaveOutCellsThatMeetAllTheirConditions) {
     const bool large = group.resolution.width * group.resolution.height * group.samples > 100;
     EXPECT_EQ(group.cells.size(), large ? 1U : 3U) << group.name();
   }
+}
+
+TEST_F(Config, OneOrderOfAListCanBeLeftOut) {
+  json document = fine();
+  document["rays"] = {"diffuse", "diffuse:order=sorted"};
+  document["exclude"] = json::parse(R"([{"structure": "samet", "order": "sorted"}])");
+  std::set<std::pair<std::string, bool>> planned;
+  const Plan plan = make_plan(read(document));
+  for (const CellGroup& group : plan.groups) {
+    for (const PlannedCell& cell : group.cells) {
+      planned.emplace(cell.structure.info().name, cell.rays.is_sorted);
+    }
+  }
+  EXPECT_TRUE(planned.contains({"samet", false}));
+  EXPECT_FALSE(planned.contains({"samet", true}));
+  EXPECT_TRUE(planned.contains({"null", true}));
 }
 
 TEST_F(Config, APlanWithoutCellsIsRefused) {

@@ -182,7 +182,10 @@ def test_calibration_finds_what_is_large_and_counts_what_is_false() -> None:
     assert told.power[1].low == pytest.approx(36 / (36 + 1.959964**2))  # Wilson's, for all of n
     assert told.smallest_found == 0.05
     assert "100.0% of 36 trials (95% confidence interval 90.4% to 100.0%)" in told.summary()
-    assert json.loads(told.as_json())["power"][1]["low"] == told.power[1].low
+    assert "0.0% to 9.6%)." in str(told.power[0])
+    file = json.loads(told.as_json(), parse_constant=pytest.fail)  # NaN is not JSON
+    assert [one["nights_until"] for one in file["power"]] == [None, told.power[1].nights_until]
+    assert file["power"][1]["low"] == told.power[1].low
 
 
 def test_trials_end_when_the_powers_are_known_well_enough() -> None:

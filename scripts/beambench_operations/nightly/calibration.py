@@ -58,8 +58,17 @@ class Power:
     """Of the 95% confidence interval of `found`."""
     high: float
     trials: int
-    nights_until: float
-    """The median number of nights after the change until it was."""
+    nights_until: float | None
+    """The median number of nights after the change until it was; None where it never was."""
+
+    def __str__(self) -> str:
+        """Returns a sentence."""
+        when = "" if self.nights_until is None else f", after {self.nights_until:.0f} nights"
+        return (
+            f"A slow-down by {self.slowdown:.1%} was found and named in {self.found:.1%} of "
+            f"{self.trials} trials (95% confidence interval {self.low:.1%} to {self.high:.1%})"
+            f"{when}."
+        )
 
 
 @dataclass(frozen=True)
@@ -98,12 +107,7 @@ class Calibration:
             "(standard deviation of a usual series); by the blocks of one night it would be "
             f"{100 * self.within:.2g}%."
         ]
-        lines += [
-            f"A slow-down by {one.slowdown:.1%} was found and named in {one.found:.1%} of "
-            f"{one.trials} trials (95% confidence interval {one.low:.1%} to {one.high:.1%}), after "
-            f"{one.nights_until:.0f} nights."
-            for one in self.power
-        ]
+        lines += map(str, self.power)
         smallest = self.smallest_found
         named = f"{smallest:.1%}" if smallest is not None else "none of these"
         lines.append(
@@ -231,7 +235,7 @@ def _powers(
             len(found) / trials,
             *share_interval(len(found), trials),
             trials,
-            float(np.median(found)) if found else nan,
+            float(np.median(found)) if found else None,
         )
         for slowdown, found in waits.items()
     )

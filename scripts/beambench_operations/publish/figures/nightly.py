@@ -9,7 +9,7 @@ from beambench_report.base.machine import read_manifest
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """The night's cells and time, and both calibrations."""
+    """The night's cells and time, and the calibration."""
     cells = Cells(folder)
     manifest = read_manifest(folder)
     if manifest is None or manifest.seconds is None:
@@ -18,10 +18,7 @@ def figures(folder: Path) -> dict[str, Any]:
         "cells": len(cells.rows),
         "wrong": len(cells.wrong),
         "minutes": manifest.seconds / 60,
-        "calibrations": {
-            name: _calibration(folder / f"{name}.json")
-            for name in ("calibration", "calibration-busy")
-        },
+        "calibration": _calibration(folder / "calibration.json"),
     }
 
 
@@ -29,4 +26,4 @@ def _calibration(file: Path) -> dict[str, Any]:
     source = read_json(file)
     if not isinstance(source, dict):
         raise Problem(f"{file}: there is no calibration; restore it with git")
-    return source | {"found": {one["slowdown"]: one["found"] for one in source["power"]}}
+    return source | {"found": {one["slowdown"]: one for one in source["power"]}}

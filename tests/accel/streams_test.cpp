@@ -1,5 +1,5 @@
-// Lists of rays that go down the eight-wide hierarchy together: the hits of exhaustive search,
-// whatever the instruction set, the length of the list and the number of threads.
+// Lists of rays that go down a hierarchy together, in sah-bvh and tile-beam: the hits of exhaustive
+// search, whatever the instruction set, the length of the list and the number of threads.
 
 #include <algorithm>
 #include <cstdint>
@@ -11,7 +11,9 @@
 
 #include "accel/bvh/sah_bvh.hpp"
 #include "accel/core/intersect_triangle.hpp"
+#include "accel/core/registry.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
+#include "accel/tile_beam/tile_beam.hpp"
 #include "harness/rays/trace_input.hpp"
 #include "scenes/catalogue.hpp"
 #include "tests/only_target.hpp"
@@ -21,6 +23,7 @@ namespace beambench::accel {
 namespace {
 
 using bvh::SahBvh;
+using tile_beam::TileBeam;
 
 /// Expects the hits of exhaustive search for a list.
 void expect_hits_of_exhaustive(const scenes::Scene& scene, const Accelerator& structure,
@@ -70,8 +73,10 @@ TEST_P(Streams, GiveTheHitsOfExhaustive) {
     const auto collapse = seed % 2 == 0 ? bvh::BvhCollapse::kCost : bvh::BvhCollapse::kArea;
     const SahBvh structure(scene, {{{}, builder, collapse}});
     ASSERT_STREQ(structure.instruction_set(), hwy::TargetName(GetParam()));
-    for (const std::size_t count : {SahBvh::kLeastStream, std::size_t{101}, std::size_t{700}}) {
-      expect_hits_of_exhaustive(scene, structure, difficult_rays(scene, seed + count, count));
+    for (const std::size_t count : {bvh::Streams::kLeast, std::size_t{101}, std::size_t{700}}) {
+      const std::vector<Ray> rays = difficult_rays(scene, seed + count, count);
+      expect_hits_of_exhaustive(scene, structure, rays);
+      expect_hits_of_exhaustive(scene, TileBeam(scene, {}), rays);
     }
   }
 }
@@ -80,11 +85,14 @@ TEST_P(Streams, GiveTheHitsOfExhaustiveOverDifficultScenes) {
   for (std::uint64_t seed = 0; seed < 42; ++seed) {
     SCOPED_TRACE(seed);
     const scenes::Scene scene = verify::family_scene(seed);
-    expect_hits_of_exhaustive(scene, SahBvh(scene, {}), difficult_rays(scene, seed, 400));
+    const std::vector<Ray> rays = difficult_rays(scene, seed, 400);
+    expect_hits_of_exhaustive(scene, SahBvh(scene, {}), rays);
+    expect_hits_of_exhaustive(scene, TileBeam(scene, {}), rays);
   }
   for (const auto& [scene, rays] : {verify::cubes_on_a_lattice(), verify::block_of_squares()}) {
     SCOPED_TRACE(scene.name);
     expect_hits_of_exhaustive(scene, SahBvh(scene, {}), rays);
+    expect_hits_of_exhaustive(scene, TileBeam(scene, {}), rays);
   }
 }
 
@@ -93,7 +101,9 @@ TEST_P(Streams, LoseNothingOnMeshes) {
   for (const char* name : {"bumpy:triangles=3072", "tetra:n=5", "balls:n=2", "rings:n=1"}) {
     SCOPED_TRACE(name);
     const scenes::Scene scene = scenes::load_scene(name);
-    expect_hits_of_exhaustive(scene, SahBvh(scene, {}), difficult_rays(scene, 3, 3000));
+    const std::vector<Ray> rays = difficult_rays(scene, 3, 3000);
+    expect_hits_of_exhaustive(scene, SahBvh(scene, {}), rays);
+    expect_hits_of_exhaustive(scene, TileBeam(scene, {}), rays);
   }
 }
 
@@ -118,9 +128,7 @@ TEST_P(Streams, TakeListsOfAnyLength) {
   EXPECT_EQ(any, expected_any);
 }
 
-TEST_P(Streams, AreTheSameOnThreads) {
-  const scenes::Scene scene = scenes::load_scene("balls:n=3");
-  const SahBvh structure(scene, {});
+void expect_same_on_threads(const scenes::Scene& scene, const Accelerator& structure) {
   Random random(6);
   const std::vector<Ray> rays = verify::random_rays(scene, 3 * bvh::Stream::kMostRays, random);
   const auto trace = [&](int threads) {
@@ -137,6 +145,54 @@ TEST_P(Streams, AreTheSameOnThreads) {
   const auto alone = trace(1);
   EXPECT_EQ(trace(2), alone);
   EXPECT_EQ(trace(5), alone);
+}
+
+TEST_P(Streams, AreTheSameOnThreads) {
+  const scenes::Scene scene = scenes::load_scene("balls:n=3");
+  expect_same_on_threads(scene, SahBvh(scene, {}));
+  expect_same_on_threads(scene, TileBeam(scene, {}));
+}
+
+// The rays of a batch before, between and behind its pencils, the short ranges among them too.
+TEST_P(Streams, TakeTheRaysBesidePencils) {
+  const scenes::Scene scene = scenes::load_scene("bumpy:triangles=3072");
+  const TileBeam streams(scene, {});
+  ASSERT_TRUE(streams.streams());
+  const TileBeam single(scene, {.streams = false});
+  ASSERT_FALSE(single.streams());
+  Random random(8);
+  std::vector<Ray> rays = verify::random_rays(scene, 4000, random);
+  const glm::vec3 light = 1.5F * scene.bounds.upper;
+  std::vector<Pencil> pencils;
+  for (const std::size_t first : {std::size_t{20}, std::size_t{1000}, std::size_t{3000}}) {
+    pencils.push_back({.first = first, .count = 600, .apex = light, .toward = true});
+    for (std::size_t i = first; i < first + 600; ++i) {
+      rays[i].direction = light - rays[i].origin;
+      rays[i].t_min = 0.0F;
+      rays[i].t_max = 1.0F;
+    }
+  }
+  const auto trace = [&](const TileBeam& structure) {
+    std::vector<std::uint8_t> any(rays.size());
+    WorkCounters counters;
+    structure.any_hits(RayBatch{rays, pencils}, any, {&counters});
+    return std::pair(any, counters.by_name());
+  };
+  auto [any, counters] = trace(streams);
+  EXPECT_EQ(any, trace(single).first);
+  EXPECT_GT(counters["stream_lists"], 2U);
+}
+
+// Where images alone are traced, nothing is built for lists.
+TEST(StreamsOfTileBeam, AreBuiltForLists) {
+  const scenes::Scene scene = scenes::load_scene("tetra:n=2");
+  const auto bytes = [&](const char* lists, bool has_lists) {
+    const StructureChoice choice = registry().choose({"tile-beam", {{"lists", lists}}});
+    return choice.build(scene, {scene.cameras.front(), 1000, 1, has_lists})->statistics().bytes;
+  };
+  EXPECT_GT(bytes("streams", false), bytes("single", true));
+  EXPECT_EQ(bytes("auto", true), bytes("streams", false));
+  EXPECT_EQ(bytes("auto", false), bytes("single", true));
 }
 
 /// The diffuse rays of a square image with that many pixels a side.
