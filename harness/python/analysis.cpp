@@ -59,6 +59,10 @@ RatioFields fields_of(const TimeRatio& ratio) {
           error};
 }
 
+std::optional<RatioFields> known_fields_of(const std::optional<TimeRatio>& ratio) {
+  return ratio ? std::optional(fields_of(*ratio)) : std::nullopt;
+}
+
 RatioFields mean_of(const std::vector<RatioFields>& list) {
   std::vector<TimeRatio> ratios;
   for (const auto& [value, low, high, is_paired, predicted_low, predicted_high, error] : list) {
@@ -84,18 +88,6 @@ std::vector<NameFields> name_cells(const std::vector<CellFields>& list) {
   return names;
 }
 
-/// Binds a function that pairs times by their turns.
-template <class PairedRatio>
-void bind_ratio(nb::module_& module, const char* name, PairedRatio paired, const char* text) {
-  module.def(
-      name,
-      [paired](const std::map<int, double>& over, const std::map<int, double>& under) {
-        const auto ratio = paired(over, under);
-        return ratio ? std::optional(fields_of(*ratio)) : std::nullopt;
-      },
-      nb::arg("over"), nb::arg("under"), text);
-}
-
 }  // namespace
 
 void bind_analysis(nb::module_& module) {
@@ -111,10 +103,20 @@ void bind_analysis(nb::module_& module) {
       "without_order", [](const std::string& label) { return rays::divide_label(label).rays; },
       nb::arg("label"),
       "Returns the label of rays without their order: `diffuse` for `diffuse:order=sorted`.");
-  bind_ratio(module, "paired_ratio", analysis::paired_ratio,
-             "Returns the median ratio of the common rounds.");
-  bind_ratio(module, "block_ratio", analysis::block_ratio,
-             "Returns the mean ratio of the common blocks.");
+  module.attr("MARGIN") = analysis::kMargin;
+  module.def(
+      "paired_ratio",
+      [](const analysis::TimesByRound& over, const analysis::TimesByRound& under) {
+        return known_fields_of(analysis::paired_ratio(over, under));
+      },
+      nb::arg("over"), nb::arg("under"), "Returns the median ratio of the common rounds.");
+  module.def(
+      "block_ratio",
+      [](const analysis::TimesByBlock& over, const analysis::TimesByBlock& under, int looks) {
+        return known_fields_of(analysis::block_ratio(over, under, looks));
+      },
+      nb::arg("over"), nb::arg("under"), nb::arg("looks"),
+      "Returns the mean ratio of the common blocks.");
   module.def(
       "is_undisturbed",
       [](double trace_ms, double trace_cpu_ms) {

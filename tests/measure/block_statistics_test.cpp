@@ -24,6 +24,7 @@ TEST(StudentT, IsThatOfTables) {
   EXPECT_NEAR(student_t(1), 12.706, 1e-3);
   EXPECT_NEAR(student_t(7), 2.3646, 1e-4);
   EXPECT_NEAR(student_t(1000), 1.9623, 1e-4);
+  EXPECT_NEAR(student_t(7, 2), 2.8412, 1e-4) << "two looks have 97.5% each";
 }
 
 TEST(Estimate, IsTheGeometricMeanWithBothIntervals) {

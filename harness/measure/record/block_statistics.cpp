@@ -46,16 +46,16 @@ Interval around(double mean, double half_width) {
 
 }  // namespace
 
-double student_t(int degrees) {
-  return boost::math::quantile(boost::math::students_t(degrees), 0.975);
+double student_t(int degrees, int looks) {
+  return boost::math::quantile(boost::math::students_t(degrees), 1.0 - 0.025 / looks);
 }
 
-Estimate estimate(std::span<const double> values) {
+Estimate estimate(std::span<const double> values, int looks) {
   const auto [mean, deviation] = of_logarithms(values);
   if (values.size() < 2) return {std::exp(mean)};
   const auto count = static_cast<double>(values.size());
   const double error = deviation / std::sqrt(count);
-  const double half = student_t(static_cast<int>(values.size()) - 1) * error;
+  const double half = student_t(static_cast<int>(values.size()) - 1, looks) * error;
   return {std::exp(mean), around(mean, half), around(mean, std::sqrt(2.0) * half), error};
 }
 

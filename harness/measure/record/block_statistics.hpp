@@ -24,12 +24,13 @@ struct Estimate {
 };
 
 /// Returns the estimate of positive values that vary by factors: the mean of their logarithms, with
-/// the intervals of Student's t.
-Estimate estimate(std::span<const double> values);
+/// the intervals of Student's t. Where the values were looked at `looks` times, more having been
+/// measured after each look, the intervals of all looks together have 95% (Bonferroni).
+Estimate estimate(std::span<const double> values, int looks = 1);
 
 /// Returns the 97.5% quantile of Student's t, by which a standard error becomes the half-width of a
-/// 95% interval. `degrees` from 1.
-double student_t(int degrees);
+/// 95% interval; of several looks, that by which all together have 95%. `degrees` from 1.
+double student_t(int degrees, int looks = 1);
 
 /// The clock by which contenders are compared.
 enum class TraceClock {

@@ -13,6 +13,7 @@ from typing import Any
 
 from beambench import _beambench
 from beambench._beambench import (
+    MARGIN,
     break_even_rays,
     is_undisturbed,
     median_interval,
@@ -22,6 +23,7 @@ from beambench._beambench import (
 from beambench.arrays import encoded
 
 __all__ = [
+    "MARGIN",
     "Median",
     "Ratio",
     "analyze",
@@ -56,7 +58,7 @@ class Ratio:
     def rank(self) -> str:
         """The rank of a contender with this ratio to the fastest.
 
-        "tied": equivalent to it, within 3%; "behind": clearly slower; "undecided"; "unranked":
+        "tied": equivalent to it, within MARGIN; "behind": clearly slower; "undecided"; "unranked":
         without an interval.
         """
         return _beambench.rank(*astuple(self)[:-1])
@@ -90,12 +92,15 @@ def paired_ratio(over: Mapping[int, float], under: Mapping[int, float]) -> Ratio
     return Ratio(*found) if found else None
 
 
-def block_ratio(over: Mapping[int, float], under: Mapping[int, float]) -> Ratio | None:
+def block_ratio(
+    over: Mapping[int, float], under: Mapping[int, float], looks: int = 1
+) -> Ratio | None:
     """Returns the geometric mean of the ratios of the blocks that both have.
 
-    Its intervals are those of Student's t. None where they share no block.
+    Its intervals are those of Student's t: 95% for all `looks` at these times together, where more
+    blocks were measured after a look (Bonferroni). None where they share no block.
     """
-    found = _beambench.block_ratio(dict(over), dict(under))
+    found = _beambench.block_ratio(dict(over), dict(under), looks)
     return Ratio(*found) if found else None
 
 
