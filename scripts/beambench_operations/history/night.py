@@ -8,12 +8,12 @@ from pathlib import Path
 import pandas as pd
 
 from beambench.analysis import Ratio, block_ratio, unpaired_ratio
-from beambench_report.base.analysis import has_analysis, read_analysis
+from beambench_report.base.analysis import block_totals
 from beambench_report.base.cell_files import IDENTITY, median_of, name_of
 from beambench_report.base.columns import COUNTER_SUFFIX
 from beambench_report.base.files import Problem
 from beambench_report.base.machine import machine_of
-from beambench_report.base.records import FAULTLESS_VERDICTS, Run, size_of
+from beambench_report.base.records import FAULTLESS_VERDICTS, Run, in_blocks, size_of
 
 Key = tuple[str, str, str, str, int, int, int, str]
 
@@ -128,15 +128,9 @@ def comparable(rows: pd.DataFrame) -> list[tuple]:
     return list(zip(views_of(rows), rows["machine_id"], strict=True))
 
 
-def in_blocks(rows: pd.DataFrame) -> bool:
-    """Was the run measured in blocks? Older ones are medians of one process."""
-    return "blocks" in rows and bool(rows["blocks"].notna().any())
-
-
 def _ratios(run: Run, references: dict[tuple, int]) -> list[Ratio | None]:
     """Returns the ratio of each row to the reference of its view, paired by blocks if possible."""
-    known = in_blocks(run.rows) and has_analysis(run.directory)
-    blocks = read_analysis(run.directory).block_totals if known else {}
+    blocks = block_totals(run)
     rows = run.rows.to_dict("records")
     ratios: list[Ratio | None] = []
     for row, view, timed in zip(rows, views_of(run.rows), is_timed(run.rows), strict=True):

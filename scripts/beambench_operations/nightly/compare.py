@@ -27,11 +27,18 @@ from scipy import stats
 
 from beambench.analysis import Ratio, block_ratio
 from beambench_operations.history.alarms import SHARE
-from beambench_operations.history.night import cell_titles, in_blocks, is_timed, keys_of
+from beambench_operations.history.night import cell_titles, is_timed, keys_of
 from beambench_operations.history.steps import holm
 from beambench_report.base.cell_files import IDENTITY
 from beambench_report.base.files import Problem, output_of, say
-from beambench_report.base.records import BASELINE, NO_RAYS, TIMED_VERDICTS, UNSUPPORTED, read_run
+from beambench_report.base.records import (
+    BASELINE,
+    NO_RAYS,
+    TIMED_VERDICTS,
+    UNSUPPORTED,
+    in_blocks,
+    read_run,
+)
 
 LEVEL = 0.01
 TOLERANCE = 0.01

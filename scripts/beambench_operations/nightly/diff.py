@@ -18,7 +18,6 @@ from beambench.analysis import Median, Ratio, unpaired_ratio
 from beambench_operations.history.night import (
     cell_titles,
     comparable,
-    in_blocks,
     inputs_of,
     keys_of,
     views_of,
@@ -32,7 +31,13 @@ from beambench_report.base.cell_files import (
 )
 from beambench_report.base.files import Problem
 from beambench_report.base.machine import Machine, machine_of
-from beambench_report.base.records import NO_RAYS, UNSUPPORTED, contenders_with_times, read_run
+from beambench_report.base.records import (
+    NO_RAYS,
+    UNSUPPORTED,
+    contenders_with_times,
+    in_blocks,
+    read_run,
+)
 
 Key = tuple
 Contender = tuple[str, str]

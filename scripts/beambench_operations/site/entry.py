@@ -13,7 +13,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from beambench.analysis import Median, Ratio
-from beambench_operations.history.night import comparable, counters_of, in_blocks, inputs_of
+from beambench_operations.history.night import comparable, counters_of, inputs_of
 from beambench_report.base.analysis import Analysis, has_analysis, read_analysis
 from beambench_report.base.cell_files import (
     CellFile,
@@ -29,6 +29,7 @@ from beambench_report.base.records import (
     NO_RAYS,
     Run,
     contenders_with_times,
+    in_blocks,
     size_of,
 )
 

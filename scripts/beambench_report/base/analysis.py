@@ -14,6 +14,7 @@ from typing import Any, TypeVar
 from beambench import InputError
 from beambench.analysis import Ratio, analyze
 from beambench_report.base.files import Problem, read_json
+from beambench_report.base.records import Run, in_blocks
 from beambench_report.base.run_log import has_log
 
 ANALYSIS = "analysis.json"
@@ -241,6 +242,12 @@ class Analysis:
 def has_analysis(directory: Path) -> bool:
     """Can the conclusions from a run in this folder be had?"""
     return (directory / ANALYSIS).is_file() or has_log(directory)
+
+
+def block_totals(run: Run) -> Mapping[str, Mapping[int, float]]:
+    """Reads build and trace of each cell of a run, by its name, in each block, if it has any."""
+    known = in_blocks(run.rows) and has_analysis(run.directory)
+    return read_analysis(run.directory).block_totals if known else {}
 
 
 def read_analysis(directory: Path) -> Analysis:

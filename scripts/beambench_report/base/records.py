@@ -76,6 +76,11 @@ class Run:
         return rows[rows["rays"] == finest_rays(rows)]
 
 
+def in_blocks(rows: pd.DataFrame) -> bool:
+    """Was the run measured in blocks? Older ones are medians of one process."""
+    return "blocks" in rows and bool(rows["blocks"].notna().any())
+
+
 def finest_rays(rows: pd.DataFrame) -> float:
     """The highest number of rays that two contenders have; of fewer contenders, the highest.
 
