@@ -41,7 +41,7 @@ def fit_line(places: Sequence[float], heights: Sequence[Measured]) -> Line:
         slope,
         intercept,
         r_squared(value, fitted),
-        bool(np.all((low < high) & (low <= fitted) & (fitted <= high))),
+        not np.any((low == high) | (fitted < low) | (fitted > high)),
     )
 
 
@@ -138,7 +138,7 @@ def most(cell: str, shares: dict[str, Measured | None], bound: float, of: int) -
     if len(known) < of or not known:
         return Check(cell, Outcome.MISSING, figures)
     surely = sum(share.low > bound for share in known.values())
-    perhaps = sum(share.high > bound for share in known.values())
+    perhaps = sum(not share.high <= bound for share in known.values())
     outcome = Outcome.YES if 2 * surely > of else Outcome.NO if 2 * perhaps <= of else None
     return Check(cell, outcome or Outcome.UNDECIDED, f"{surely} of {of}: {figures}")
 
@@ -216,6 +216,10 @@ def best_grid(scene: str, sweep: dict[int, Measured], printed: int) -> list[Chec
     checks = [below(f"{scene}, {best} cells before {end}", sweep[best], sweep[end]) for end in ends]
     if best in ends:
         checks = [Check(inside, Outcome.NO, f"best: {best} cells")]
-    alike = [cells for cells, time in sweep.items() if (time - sweep[best]).low <= 0]
+    alike = [
+        cells
+        for cells, time in sweep.items()
+        if below("", sweep[best], time).outcome is not Outcome.YES
+    ]
     figure = Measured(best, min(alike), max(alike))
     return [*checks, between(place, figure, printed / 1.5, printed * 1.5)]

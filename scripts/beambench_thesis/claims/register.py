@@ -153,7 +153,8 @@ def summary(finding: Finding) -> str:
     if len(by_outcome[Outcome.MISSING]) < count:
         yes = by_outcome.pop(Outcome.YES)
         parts.append(f"{len(yes)} of {count} cells{_range_of(yes)}")
-        parts += [_named(outcome, checks) for outcome, checks in by_outcome.items() if checks]
+        parts += [_named(one.value, checks) for one, checks in by_outcome.items() if checks]
+        parts += _unpaired([check for check in finding.checks if not check.aside])
     parts += [
         f"beside it: {check.cell}: {check.outcome.value} ({check.figures})"
         for check in finding.checks
@@ -190,11 +191,20 @@ def _range_of(checks: Sequence[Check]) -> str:
     return f" ({least} times)" if least == most else f" ({least} to {most} times)"
 
 
-def _named(outcome: Outcome, checks: Sequence[Check]) -> str:
+def _unpaired(checks: Sequence[Check]) -> list[str]:
+    """Returns `not paired`, and which where some are: those decided by two intervals."""
+    compared = [check for check in checks if check.is_paired is not None]
+    apart = [check for check in compared if not check.is_paired]
+    if len(apart) == len(compared):
+        return ["not paired"] * bool(apart)
+    return [_named("not paired", [replace(one, figures="") for one in apart])] if apart else []
+
+
+def _named(what: str, checks: Sequence[Check]) -> str:
     named = [f"{check.cell}{f' ({check.figures})' * bool(check.figures)}" for check in checks]
     rest = len(named) - _MAX_NAMED
     more = [f"{rest} more"] if rest > 0 else []
-    return f"{outcome.value}: " + ", ".join(named[:_MAX_NAMED] + more)
+    return f"{what}: " + ", ".join(named[:_MAX_NAMED] + more)
 
 
 def _cells(one: JudgedClaim) -> list[str]:

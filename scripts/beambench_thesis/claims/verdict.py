@@ -4,7 +4,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 from functools import partial
+from math import isnan
 
+from beambench.analysis import MARGIN, Ratio
 from beambench_report.base.quantities import number
 from beambench_thesis.paper.evidence import Evidence, Measured
 
@@ -39,43 +41,62 @@ class Check:
     """What should be the larger figure over what should be the smaller one, if two are compared."""
     aside: bool = False
     """Worth knowing beside the claim, but not a part of it: no verdict depends on it."""
-
-
-ALIKE = 1.05
-"""Two measured figures are equal where their ratio is surely less than this, either way."""
+    is_paired: bool | None = None
+    """Are both figures of the same blocks? None where they were not both measured."""
 
 
 def below(cell: str, smaller: Measured | None, larger: Measured | None, factor: float = 1) -> Check:
     """Is one figure below the other, by `factor` or more?
 
-    The interval of the difference decides between yes and no; figures that are surely alike give
-    no. An exact figure that meets the factor to the digit gives yes.
+    Times of the same blocks are ranked by their ratio, as contenders are. Of others, the interval
+    of the difference decides. Figures that are surely equal within MARGIN give no. An exact figure
+    that meets the factor to the digit gives yes.
     """
     if smaller is None or larger is None:
         return Check(cell, Outcome.MISSING)
-    gap = larger - smaller.times(factor)
-    is_exact = gap.low == gap.high
     figures = f"{number(smaller.value)} against {number(larger.value)}"
-    if gap.low > 0 or (is_exact and gap.value == 0 and factor > 1):
-        outcome = Outcome.YES
-    elif gap.high < 0 or is_exact:
-        outcome = Outcome.NO
-    elif factor == 1 and _are_alike(smaller, larger):
-        outcome = Outcome.NO
-        figures += f", equal within {ALIKE - 1:.0%}"
-    else:
-        outcome = Outcome.UNDECIDED
     ratio = larger.value / smaller.value if smaller.value > 0 else None
-    return Check(cell, outcome, figures, ratio)
+    if paired := larger.blocks.over(smaller.blocks, factor):
+        low, ratio, high = (factor * end for end in (paired.low, paired.value, paired.high))
+        figures += f", {number(ratio)} times ({number(low)} to {number(high)})"
+        outcome = _by_rank(paired, smaller.blocks.over(larger.blocks, 1 / factor))
+    else:
+        outcome = _by_difference(smaller.times(factor), larger, factor > 1)
+    if outcome is None:
+        outcome = Outcome.NO if factor == 1 else Outcome.UNDECIDED
+        figures += f", equal within {MARGIN:.0%}" * (factor == 1)
+    elif any(isnan(one.low) for one in (smaller, larger)) and not paired:
+        figures += ", not ranked: no interval"
+    is_exact = any(one.low == one.high for one in (smaller, larger))
+    return Check(cell, outcome, figures, ratio, is_paired=None if is_exact else bool(paired))
+
+
+def _by_rank(up: Ratio, down: Ratio) -> Outcome | None:
+    """Is the one of the ratio `up` behind the one of its inverse? None where they are tied."""
+    slower = max(up, down, key=lambda ratio: ratio.value)
+    if slower.rank == "behind":
+        return Outcome.YES if slower is up else Outcome.NO
+    return None if slower.rank == "tied" else Outcome.UNDECIDED
+
+
+def _by_difference(bound: Measured, larger: Measured, may_meet: bool) -> Outcome | None:
+    """Is it above the bound, or if exact, does it meet it? None where they are surely equal."""
+    gap = larger - bound
+    if gap.low > 0 or (gap.low == gap.high == 0 and may_meet):
+        return Outcome.YES
+    if gap.high < 0 or gap.low == gap.high:
+        return Outcome.NO
+    return None if _are_alike(bound, larger) else Outcome.UNDECIDED
 
 
 def _are_alike(one: Measured, other: Measured) -> bool:
-    """Does the interval of the ratio lie between 1 / ALIKE and ALIKE? Bounds are never alike."""
+    """Are they tied by the ratio of independent figures? Bounds are never alike."""
     is_bound = any(figure.low == figure.high for figure in (one, other))
     if is_bound or min(one.low, other.low) <= 0:
         return False
-    ratio = one / other
-    return ratio.low > 1 / ALIKE and ratio.high < ALIKE
+    ratio = max(one / other, other / one, key=lambda ratio: ratio.value)
+    ends = (ratio.low, ratio.high)
+    return Ratio(ratio.value, *ends, False, *ends).rank == "tied"
 
 
 def between(cell: str, figure: Measured | None, low: float, high: float, unit: str = "") -> Check:

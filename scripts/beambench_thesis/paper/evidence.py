@@ -2,28 +2,56 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import astuple, dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
-from math import exp, hypot, log
+from math import hypot, nan
 
+import numpy as np
 import pandas as pd
 
+from beambench.analysis import Median, Ratio, block_ratio, unpaired_ratio
 from beambench_report.base.published import FINEST, read_published
+
+
+@dataclass(frozen=True)
+class Blocks:
+    """The time of a cell in each block, building included.
+
+    A block is a process that measured the contenders of one view; over all views and runs each has
+    a number of its own. Where more were measured after a look, there were two `looks`.
+    """
+
+    ms: Mapping[int, float]
+    looks: int = 1
+
+    def over(self, other: Blocks, factor: float = 1) -> Ratio | None:
+        """Returns the paired ratio to another time times a factor, with its confidence interval.
+
+        None where they have fewer than two blocks in common.
+        """
+        under = {block: factor * ms for block, ms in other.ms.items()}
+        ratio = block_ratio(self.ms, under, max(self.looks, other.looks))
+        return ratio if ratio and ratio.interval else None
+
+
+NO_BLOCKS = Blocks({})
 
 
 @dataclass(frozen=True)
 class Measured:
     """A positive figure and its 95% prediction interval; a counted or printed one has itself.
 
-    Figures are measured independently of one another, so their errors are combined as independent
-    ones are: by the root of the sum of their squares (propagation of uncertainty, JCGM 100:2008,
-    section 5.1.2), each side of the interval for itself.
+    Without an interval, both ends are NaN. Figures of the same `blocks` are paired. Others are
+    measured independently of one another, so their errors are combined as independent ones are: by
+    the root of the sum of their squares (propagation of uncertainty, JCGM 100:2008, section 5.1.2),
+    each side of the interval for itself.
     """
 
     value: float
     low: float
     high: float
+    blocks: Blocks = field(default=NO_BLOCKS, compare=False, repr=False)
 
     @classmethod
     def exact(cls, value: float) -> Measured:
@@ -31,17 +59,18 @@ class Measured:
         return cls(value, value, value)
 
     def __truediv__(self, other: Measured) -> Measured:
-        """Returns the ratio; relative errors are combined, as differences of logarithms.
+        """Returns the ratio, paired where it can be.
 
         Where a figure may be zero, which has no logarithm, from the smallest to the largest ratio
         that the intervals allow.
         """
-        ratio = self.value / other.value
+        if paired := self.blocks.over(other.blocks):
+            return Measured(paired.value, paired.predicted_low, paired.predicted_high)
         if min(self.low, other.low) <= 0:
-            return Measured(ratio, self.low / other.high, self.high / other.low)
-        below = hypot(log(self.value / self.low), log(other.high / other.value))
-        above = hypot(log(self.high / self.value), log(other.value / other.low))
-        return Measured(ratio, ratio * exp(-below), ratio * exp(above))
+            value = self.value / other.value
+            return Measured(value, self.low / other.high, self.high / other.low)
+        ratio = unpaired_ratio(*(Median(one.value, one.low, one.high) for one in (self, other)))
+        return Measured(ratio.value, *(ratio.interval or (nan, nan)))
 
     def __sub__(self, other: Measured) -> Measured:
         """Returns the difference; absolute errors are combined."""
@@ -64,17 +93,27 @@ def share(part: Measured, rest: Measured) -> Measured:
             part.high / (part.high + rest.low),
         )
     odds = part / rest
-    return Measured(*(end / (1 + end) for end in astuple(odds)))
+    return Measured(*(end / (1 + end) for end in (odds.value, odds.low, odds.high)))
 
 
-def smallest(figures: Iterable[Measured]) -> Measured:
-    """Returns the least figure: its true value is at most the least upper end."""
-    return Measured(*map(min, zip(*map(astuple, figures), strict=True)))
+def smallest(figures: Sequence[Measured]) -> Measured:
+    """Returns the least figure: its true value is at most the least upper end.
+
+    If all were measured together, it is paired as the one of the least value, as the fastest of a
+    view is.
+    """
+    least = min(figures, key=lambda one: one.value)
+    together = all(one.blocks.over(least.blocks) for one in figures)
+    return Measured(*_ends(figures).min(axis=0).tolist(), least.blocks if together else NO_BLOCKS)
 
 
-def largest(figures: Iterable[Measured]) -> Measured:
+def largest(figures: Sequence[Measured]) -> Measured:
     """Returns the greatest figure: its true value is at least the greatest lower end."""
-    return Measured(*map(max, zip(*map(astuple, figures), strict=True)))
+    return Measured(*_ends(figures).max(axis=0).tolist())
+
+
+def _ends(figures: Sequence[Measured]) -> np.ndarray:
+    return np.array([(one.value, one.low, one.high) for one in figures])
 
 
 def total(figures: Sequence[Measured]) -> Measured:
@@ -184,12 +223,14 @@ class Evidence:
     work: setting, the name of a quantity, its value and interval; a row for each quantity.
     octrees: counts of occupied leaves and of pixels of exit beams at 1280x1024.
     cluster: chapter 6.
+    blocks: of the times of runs in blocks.
     """
 
     times: pd.DataFrame
     work: pd.DataFrame
     octrees: pd.DataFrame
     cluster: ClusterEvidence = NO_CLUSTER
+    blocks: Mapping[Setting, Blocks] = field(default_factory=dict)
 
     def time(
         self,
@@ -214,9 +255,9 @@ class Evidence:
     ) -> dict[int, Measured]:
         """Returns the seconds of one contender by one of its settings, `level` or `cells`."""
         view = {"scene": scene, "contender": contender, "resolution": resolution}
-        rows = rows_with(self.times, **view, objects=OBJECTS, samples=1)
-        rows = rows.drop_duplicates(setting).sort_values(setting)
-        return {key: seconds for (key,), seconds in _figures_by(rows, [setting], "seconds").items()}
+        rows = rows_with(self.times, **view, objects=OBJECTS, samples=1).sort_values(setting)
+        settings = zip(*(rows[name] for name in SETTING), strict=True)
+        return {at[SETTING.index(setting)]: self._times[at] for at in settings}
 
     def count(
         self, quantity: str, scene: str, *, level: int = LEVEL, objects: int = OBJECTS
@@ -263,7 +304,10 @@ class Evidence:
     @cached_property
     def _times(self) -> dict[Setting, Measured]:
         """The times by setting. Where two tables print the same cell, they agree."""
-        return _figures_by(self.times.drop_duplicates(list(SETTING)), SETTING, "seconds")
+        times = _figures_by(self.times.drop_duplicates(list(SETTING)), SETTING, "seconds")
+        return {
+            at: replace(time, blocks=self.blocks.get(at, NO_BLOCKS)) for at, time in times.items()
+        }
 
     @cached_property
     def _work(self) -> dict[tuple[str, str, str, int, str], Measured]:

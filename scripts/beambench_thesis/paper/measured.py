@@ -13,15 +13,18 @@ from typing import Any
 
 import pandas as pd
 
+from beambench_report.base.analysis import block_totals
+from beambench_report.base.cell_files import name_of
 from beambench_report.base.columns import COUNTER_SUFFIX
 from beambench_report.base.fastest import with_fastest
 from beambench_report.base.files import Problem, load_json
 from beambench_report.base.machine import require_one_machine
 from beambench_report.base.names import parameter_items
 from beambench_report.base.published import FINEST, primitives_by_scene
-from beambench_report.base.records import read_run, size_of
+from beambench_report.base.records import Run, read_run, size_of
 from beambench_thesis.paper.evidence import (
     HIERARCHY,
+    NO_BLOCKS,
     NOTHING,
     OCTREES,
     PAPER_HIERARCHY,
@@ -29,8 +32,10 @@ from beambench_thesis.paper.evidence import (
     SETTING,
     TIMES,
     WORK,
+    Blocks,
     Evidence,
     Measured,
+    Setting,
     share,
 )
 
@@ -48,7 +53,7 @@ _THESIS = {
 }
 
 # Between two runs the virtual machine's clock was up to 14% apart (results/published/README.md).
-# So far a figure may be off that was measured too seldom to have an interval of its own.
+# So far a task of beams may be off that was measured too seldom to have an interval of its own.
 UNKNOWN_SPREAD = 0.15
 
 # What the counting pass of another run differs by in one task over the others. Found by repeating a
@@ -89,7 +94,33 @@ def measured_evidence(directories: Sequence[Path], further: Collection[Path] = (
     # In the counting passes of two runs the tasks took other parts of the time: the first's stand.
     is_time = work["quantity"].str.startswith("seconds_").astype(bool)
     once = ~work.duplicated([*SETTING, "quantity"])
-    return Evidence(times.drop_duplicates(list(SETTING)), work[once | ~is_time], octrees)
+    return Evidence(
+        times.drop_duplicates(list(SETTING)),
+        work[once | ~is_time],
+        octrees,
+        blocks=_blocks(runs, further),
+    )
+
+
+def _blocks(runs: Sequence[Run], further: Collection[Path]) -> dict[Setting, Blocks]:
+    """Returns the times of each cell by the blocks of all runs."""
+    numbers: dict[tuple, int] = {}
+    found: dict[Setting, Blocks] = {}
+    for run in runs:
+        totals = block_totals(run)
+        for row in _compared(run.rows).to_dict("records") if totals else ():
+            at = setting_of(row)
+            if at is None:
+                continue
+            view = (run.directory, at["scene"], at["resolution"], at["samples"])
+            own = {
+                numbers.setdefault((*view, block), len(numbers)): ms
+                for block, ms in totals.get(name_of(row), {}).items()
+            }
+            before = found.get(key := tuple(at[name] for name in SETTING), NO_BLOCKS)
+            looks = 2 if run.directory in further else before.looks
+            found[key] = Blocks({**before.ms, **own}, looks)
+    return found
 
 
 def _compared(rows: pd.DataFrame) -> pd.DataFrame:
@@ -183,26 +214,22 @@ def _fastest(row: dict[str, object], seconds: float) -> dict[str, float]:
 def error_between_runs(error: float) -> float:
     """Returns the relative difference to expect from the fastest repetitions of another process.
 
-    UNKNOWN_SPREAD where those of this process are not known.
+    NaN where those of this process are not known.
     """
-    return UNKNOWN_SPREAD if isnan(error) else hypot(error, BETWEEN_RUNS)
+    return hypot(error, BETWEEN_RUNS)
 
 
 def _seconds_by(row: dict[str, object], figure: str, per_second: float) -> dict[str, float]:
-    """Returns the seconds of the figure's median; its spread is UNKNOWN_SPREAD without an interval.
+    """Returns the seconds of the figure's median.
 
     A repeated run's median differs by the errors of both runs and by the difference between
     processes, so the interval is that of the median times the root of two, widened by BETWEEN_RUNS.
     """
     seconds = _number(row, f"{figure}_median") / per_second
     low, high = (_number(row, f"{figure}_ci_{end}") / per_second for end in ("low", "high"))
-    if pd.isna(low) or pd.isna(high):
-        below = above = UNKNOWN_SPREAD * seconds
-    else:
-        below, above = (
-            hypot(sqrt(2) * error, BETWEEN_RUNS * seconds)
-            for error in (seconds - low, high - seconds)
-        )
+    below, above = (
+        hypot(sqrt(2) * error, BETWEEN_RUNS * seconds) for error in (seconds - low, high - seconds)
+    )
     return {"seconds": seconds, "low": seconds - below, "high": seconds + above}
 
 
@@ -245,6 +272,7 @@ def _seconds_of_tasks(row: dict[str, object], counted: dict[str, float]) -> dict
     if any(map(isnan, (trace, *counted.values()))) or sum(counted.values()) <= 0:
         return found
     error = error_between_runs(_number(row, "fastest_error"))
+    error = UNKNOWN_SPREAD if isnan(error) else error
     inverse = Measured(1 / trace, 1 / trace / (1 + error), (1 + error) / trace)
     for task, seconds in counted.items():
         rest = Measured.exact(sum(counted.values()) - seconds)

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cache
+from math import isnan
 
 import pandas as pd
 
@@ -143,7 +144,9 @@ def thesis_seconds(seconds: float | None) -> str:
 
 
 def interval(figure: Measured, factor: float = 1e3, unit: str = " ms") -> str:
-    """Returns `43.1 to 45.0 ms`."""
+    """Returns `43.1 to 45.0 ms`, or a dash where there is none."""
+    if isnan(figure.low):
+        return DASH
     return f"{number(factor * figure.low)} to {number(factor * figure.high)}{unit}"
 
 

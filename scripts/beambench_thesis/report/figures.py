@@ -15,18 +15,13 @@ from beambench_thesis.paper.evidence import (
     published_evidence,
     setting,
 )
-from beambench_thesis.paper.measured import UNKNOWN_SPREAD
 from beambench_thesis.paper.printed import PrintedPart, contender_title, parts_of, scene_title
 from beambench_thesis.report.drawing import FigureData, Panel, Points, Side
 
 ACROSS = "rays / 10,000"
 TICKS = tuple(round(rays(resolution) / 1e4, 2) for resolution in RESOLUTIONS)
 
-# Figures of few repetitions have bars all the same, which nobody measured.
-_BARS = (
-    f"bars are intervals, or {UNKNOWN_SPREAD:.0%} to each side by assumption where a cell has too "
-    "few repetitions for one"
-)
+_BARS = "bars are intervals, for which some cells have too few repetitions"
 
 _RESOLUTION = SETTING.index("resolution")
 

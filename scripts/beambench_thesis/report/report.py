@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
+from beambench.analysis import MARGIN
 from beambench_report.base.files import Problem, read_json
 from beambench_report.base.machine import Manifest, read_manifest
 from beambench_thesis.chapter5.best import BestTable, best_table
@@ -176,6 +177,15 @@ TABLE_WORDS = (
     "per axis filled lazily, objects inserted as given beside terminal nodes (insert=terminal), "
     "Kay and Kajiya's queue, no handover. Rows marked (of today) or (Goldsmith and Salmon 1987) "
     "are not the thesis's."
+)
+CLAIM_WORDS = (
+    "Each claim is a rule that first judges the thesis's own figures, then ours. Holds in part: in "
+    "some cells; undecided: chance may explain the difference; not tested: a cell is not measured. "
+    "Ratios are of what should be larger over what should be smaller. Two times of the same blocks "
+    "are ranked by their paired ratio, as contenders are: they are equal where its 95% confidence "
+    f"interval ends within {MARGIN:.0%} of 1, and otherwise one is below the other where it does "
+    "not contain 1. What is not paired is compared by two 95% prediction intervals, with the same "
+    "margin; counts are exact. A time without an interval is not ranked."
 )
 BEST_WORDS = (
     "Each contender with those of its parameters that made it fastest, building included, in "

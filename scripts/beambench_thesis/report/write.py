@@ -23,6 +23,7 @@ from beambench_thesis.report.drawing import draw
 from beambench_thesis.report.plan import Plan
 from beambench_thesis.report.report import (
     BEST_WORDS,
+    CLAIM_WORDS,
     TABLE_WORDS,
     Report,
     gather,
@@ -110,6 +111,7 @@ def _rendered(made: Environment, template: str, report: Report, **values: object
         table_sizes=RESOLUTIONS,
         table_words=TABLE_WORDS,
         best_words=BEST_WORDS,
+        claim_words=CLAIM_WORDS,
         ratio_interval=partial(interval, factor=1, unit=""),
         cells_of=cells_of,
         states={"finished": "finished", "begun": "cut off", "waiting": "not run"},

@@ -7,6 +7,7 @@ from typing import Any
 
 import pandas as pd
 
+from beambench.analysis import MARGIN
 from beambench_operations.publish.figures.origins import origins
 from beambench_report.base.cell_files import IDENTITY
 from beambench_report.base.fastest import with_fastest
@@ -22,7 +23,7 @@ from beambench_thesis.claims.register import (
     second_looks,
     summary,
 )
-from beambench_thesis.claims.verdict import ALIKE, Outcome, Verdict
+from beambench_thesis.claims.verdict import Outcome, Verdict
 from beambench_thesis.paper.measured import error_between_runs
 from beambench_thesis.report.plan import read_plan
 from beambench_thesis.report.report import Report, gather
@@ -51,6 +52,7 @@ def figures(folder: Path) -> dict[str, Any]:
     cluster = folder.parent / "cluster"
     claims = [*swept, *(judge_claims([cluster], CLUSTER_CLAIMS) if cluster.is_dir() else ())]
     tested = [one for one in claims if one.ours.verdict is not Verdict.NOT_TESTED]
+    paired = [check.is_paired for one in tested for check in one.ours.checks]
     mirrors, unread = read_mirrors(sorted((folder / "mirrors").glob("*.json")))
     return {
         "cells": len(report.cells.cells),
@@ -62,10 +64,12 @@ def figures(folder: Path) -> dict[str, Any]:
             for verdict in _TESTED
         },
         "alone": Counter(one.ours.verdict.value for one in report.claims),
-        "alike": ALIKE,
+        "margin": MARGIN,
         "again": _again(report, second) if second else None,
         "more": len(more),
         "looks": looks,
+        "compared": len(paired) - paired.count(None),
+        "paired": paired.count(True),
         "mirrors": mirrors,
         "unread": unread,
         "sampling": _samplings(folder / "sampling.csv"),

@@ -1,0 +1,240 @@
+"""Claims are ranked as contenders are: by paired ratios, a margin, and an allowance for looks."""
+
+from __future__ import annotations
+
+import re
+from math import nan
+from pathlib import Path
+from random import Random
+
+import pandas as pd
+import pytest
+
+from beambench.analysis import MARGIN
+from beambench_operations.publish.plan import Sweep as Step
+from beambench_operations.publish.plan import read_plan
+from beambench_report.base.published import COARSEST, FINEST
+from beambench_thesis.claims.register import SWEPT_CLAIMS, Finding, judge, summary
+from beambench_thesis.claims.verdict import Check, Outcome, Verdict, below
+from beambench_thesis.paper.evidence import (
+    NO_BLOCKS,
+    NOTHING,
+    SETTING,
+    TIMES,
+    Blocks,
+    Evidence,
+    Measured,
+    Setting,
+    smallest,
+)
+from beambench_thesis.paper.measured import measured_evidence, setting_of
+from beambench_thesis.report.plan import Sweep, make_plan
+from synthetic_run import synthetic_rows, write_repeated_cell, write_run
+from synthetic_thesis import row_of
+
+YES, NO, UNDECIDED, MISSING = Outcome
+
+# What slows a block down is in the times of all of its contenders: by half, from block to block.
+COMMON = [Random(5).uniform(1, 1.5) for _ in range(8)]
+
+
+def timed(factor: float, noise: float = 0.002, looks: int = 1, first: int = 0) -> Measured:
+    """Returns a time of eight blocks, whose own interval is as wide as their common noise."""
+    own = {
+        first + block: common * factor * (1 + noise * (-1) ** block)
+        for block, common in enumerate(COMMON)
+    }
+    return Measured(1.25 * factor, factor, 1.5 * factor, Blocks(own, looks))
+
+
+@pytest.mark.parametrize(
+    ("larger", "outcome"),
+    [
+        (timed(1.06, -0.002), YES),
+        (timed(0.94, -0.002), NO),
+        (timed(1.02, -0.002), NO),  # surely larger, and equal within the margin
+        (timed(1.0, 0.01), NO),
+        (timed(1.04, -0.05), UNDECIDED),
+        (timed(0.98, -0.05), UNDECIDED),
+    ],
+)
+def test_noise_that_is_common_to_a_block_cancels(larger: Measured, outcome: Outcome) -> None:
+    """The intervals of both times overlap by far, but that of their ratio is narrow."""
+    found = below("cell", timed(1), larger)
+    assert (found.outcome, found.is_paired) == (outcome, True)
+    assert found.ratio == pytest.approx(larger.value / 1.25, rel=2e-3)
+    apart = below("cell", *(Measured(one.value, one.low, one.high) for one in (timed(1), larger)))
+    assert (apart.outcome, apart.is_paired) == (UNDECIDED, False)
+
+
+def test_a_ratio_within_the_margin_is_a_tie_whether_paired_or_not() -> None:
+    assert MARGIN == 0.03
+    for tied in (
+        below("cell", timed(1), timed(1.02, -0.002)),
+        below("cell", Measured(10, 9.95, 10.05), Measured(10.1, 10.0, 10.2)),
+    ):
+        assert tied.outcome is NO
+        assert "equal within 3%" in tied.figures
+    four_percent = below("cell", Measured(10, 9.9, 10.1), Measured(10.2, 10.0, 10.4))
+    assert four_percent.outcome is UNDECIDED
+
+
+@pytest.mark.parametrize(
+    ("larger", "outcome"), [(2.1, YES), (1.9, NO), (2.0, UNDECIDED), (2.02, UNDECIDED)]
+)
+def test_a_factor_is_met_by_the_ratio_of_blocks(larger: float, outcome: Outcome) -> None:
+    found = below("cell", timed(1), timed(larger, -0.002), 2)
+    assert found.outcome is outcome
+    assert found.ratio == pytest.approx(larger, rel=2e-3)
+
+
+def test_times_of_other_blocks_are_not_paired() -> None:
+    """Blocks of another view, or of another run, are other processes."""
+    found = below("cell", timed(1), timed(1.06, first=8))
+    assert (found.outcome, found.is_paired) == (UNDECIDED, False)
+    one_in_common = below("cell", timed(1), timed(1.06, first=7))
+    assert (one_in_common.outcome, one_in_common.is_paired) == (UNDECIDED, False)
+
+
+def test_counts_are_exact_and_need_no_pairs() -> None:
+    found = below("cell", Measured.exact(1000), Measured.exact(1001))
+    assert (found.outcome, found.is_paired) == (YES, None)
+
+
+def test_a_time_without_an_interval_is_not_ranked() -> None:
+    without = Measured(1, nan, nan)
+    for smaller, larger in ((without, Measured(9, 8.9, 9.1)), (Measured.exact(9), without)):
+        found = below("cell", smaller, larger)
+        assert found.outcome is UNDECIDED
+        assert found.figures.endswith("not ranked: no interval")
+    assert below("cell", smallest([without, Measured(9, 8, 10)]), timed(99)).outcome is UNDECIDED
+
+
+def test_two_looks_need_more_than_one() -> None:
+    """The ratio is 1.04; its interval begins above 1 with 95%, and below with 97.5%."""
+    once, twice = (
+        below("cell", timed(1), timed(1.04, noise, looks)).outcome
+        for noise, looks in ((-0.038, 1), (-0.038, 2))
+    )
+    assert (once, twice) == (YES, UNDECIDED)
+
+
+def test_the_better_of_two_is_compared_as_the_fastest_of_a_view_is() -> None:
+    better = smallest([timed(1.3), timed(1)])
+    assert below("cell", better, timed(1.06, -0.002)).outcome is YES
+    assert smallest([timed(1.3, first=8), timed(1)]).blocks is NO_BLOCKS
+
+
+def test_a_ratio_is_made_block_by_block_where_it_can_be() -> None:
+    paired, apart = timed(1.06, -0.002) / timed(1), timed(1.06, first=8) / timed(1)
+    assert paired.value == pytest.approx(1.06, rel=1e-4)
+    assert 1.05 < paired.low < paired.high < 1.07
+    assert apart.low < 0.9 < 1.2 < apart.high
+
+
+@pytest.mark.parametrize(
+    ("paired", "words"),
+    [
+        ((True, True), ""),
+        ((True, None), ""),
+        ((False, False), "; not paired"),
+        ((False, None), "; not paired"),
+        ((True, False), "; not paired: 1"),
+    ],
+)
+def test_a_verdict_says_which_comparisons_are_not_paired(
+    paired: tuple[bool | None, ...], words: str
+) -> None:
+    checks = [Check(str(n), YES, ratio=2.0, is_paired=one) for n, one in enumerate(paired)]
+    assert summary(Finding(Verdict.HOLDS, checks)) == f"2 of 2 cells (2.00 times){words}"
+
+
+# Runs in blocks
+
+OCTREE = "max_level=6,max_objects=0,root=cube,assign=surface"
+FACTORS = {"samet": 1.0, "samet-net": 1.06}
+
+
+def write_in_blocks(folder: Path, blocks: int = 8) -> Path:
+    """Writes a run of two contenders at two resolutions, with the noise of their blocks."""
+    folder.mkdir()
+    rows = []
+    for structure, factor in FACTORS.items():
+        for width, height in ((320, 200), (1280, 1024)):
+            row = synthetic_rows()[0] | {"scene": "escena1:seed=1999,spheres=430"}
+            row |= {"structure": structure, "parameters": OCTREE, "width": width, "height": height}
+            rows.append(row | {"blocks": blocks, "trace_ms": 100.0, "total_ms": 100.0})
+            repetitions = [
+                {"round": 0, "position": 0, "block": block, "build_ms": 1.0, "build_cpu_ms": 1.0}
+                | dict.fromkeys(("trace_ms", "trace_cpu_ms"), 100 * factor * common)
+                | {"clock_ghz": 3.0}
+                for block, common in enumerate(COMMON[:blocks])
+            ]
+            write_repeated_cell(folder, rows[-1], repetitions)
+    return write_run(folder, rows)
+
+
+def test_the_contenders_of_a_view_of_one_run_are_paired(tmp_path: Path) -> None:
+    found = measured_evidence([write_in_blocks(tmp_path / "run")])
+    quick, slow = (found.time("escena1", one, FINEST) for one in FACTORS)
+    assert below("cell", quick, slow).outcome is YES
+    coarse = found.time("escena1", "samet-net", COARSEST)
+    assert below("cell", quick, coarse).is_paired is False
+
+
+def test_pairs_of_several_runs_count_together_with_an_allowance_for_looks(tmp_path: Path) -> None:
+    first, second = (write_in_blocks(tmp_path / name, 3) for name in "ab")
+    quick, slow = (
+        measured_evidence([first, second], [second]).time("escena1", one, FINEST) for one in FACTORS
+    )
+    assert quick is not None
+    assert slow is not None
+    assert (len(quick.blocks.ms), quick.blocks.looks) == (6, 2)
+    assert quick.blocks.ms.keys() == slow.blocks.ms.keys()
+
+
+# Extra repetitions
+
+
+class _Asked(dict):
+    """Times that remember which of them were asked for."""
+
+    def __init__(self, times: dict) -> None:
+        super().__init__(times)
+        self.settings: set[Setting] = set()
+
+    def get(self, setting: Setting, default: object = None) -> object:
+        if setting in self:
+            self.settings.add(setting)
+        return super().get(setting, default)
+
+    def __getitem__(self, setting: Setting) -> object:
+        return self.get(setting)
+
+
+def settings_of(sweeps: list[Sweep]) -> set[Setting]:
+    """Returns the settings of the thesis that some sweeps measure."""
+    known = (setting_of(row_of(cell)) for sweep in sweeps for cell in sweep.cells())
+    return {tuple(at[name] for name in SETTING) for at in known if at}
+
+
+def test_extra_repetitions_go_to_all_cells_of_a_close_claim() -> None:
+    (more,) = (folder for folder in read_plan().folders if folder.name == "thesis-more")
+    steps = [step for step in more.steps if isinstance(step, Step)]
+    repeated = settings_of([Sweep(step.into, step.config()) for step in steps])
+    planned = settings_of(list(make_plan((), (), is_quick=False).sweeps))
+    times = [dict(zip(SETTING, at, strict=True)) | {"seconds": 1.0} for at in planned]
+    evidence = Evidence(_table(times), NOTHING.work, NOTHING.octrees)
+    asked = vars(evidence)["_times"] = _Asked(evidence._times)
+    close = re.findall(r"C\d\d", more.title)
+    assert close
+    for claim in SWEPT_CLAIMS:
+        if claim.name in close:
+            judge(claim, evidence)
+    # C12 is about the work of all beams on octrees that divide leaves with any object.
+    beams = {at for at in planned if at[1] == "beam" and at[3] == 0 and at[-1] == 1}
+    assert asked.settings | beams <= repeated
+
+
+def _table(rows: list[dict[str, object]]) -> pd.DataFrame:
+    return pd.DataFrame([{"table": "", "low": 1.0, "high": 1.0} | row for row in rows])[list(TIMES)]
