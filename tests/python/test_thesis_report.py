@@ -225,11 +225,11 @@ def test_captions_hold_the_thesiss_numbers(report: Report) -> None:
     assert "93 s" in captions["5.17"]
 
 
-def test_captions_state_that_bars_of_few_repetitions_are_an_assumption(report: Report) -> None:
+def test_captions_state_that_few_repetitions_have_no_bars(report: Report) -> None:
     captions = [figure.caption for figure in report.figures]
     with_bars = [caption for caption in captions if "ars are intervals" in caption]
     assert len(with_bars) > 10
-    assert all("15% to each side by assumption" in caption for caption in with_bars)
+    assert all("for which some cells have too few repetitions" in caption for caption in with_bars)
 
 
 def test_every_axis_and_color_of_a_figure_is_named(everything: Path, page: str) -> None:
