@@ -2,10 +2,9 @@
 
 namespace beambench::rays {
 
-std::vector<PixelRange> squares_of(const accel::PrimaryRays& image) {
-  constexpr int kSamples = 4096;
+std::vector<PixelRange> squares_of(const accel::PrimaryRays& image, int samples) {
   int side = 4;
-  while (4 * side * side * image.samples() <= kSamples) side *= 2;
+  while (4 * side * side * image.samples() <= samples) side *= 2;
   std::vector<PixelRange> squares;
   for (int top = 0; top < image.height(); top += side) {
     for (int left = 0; left < image.width(); left += side) {

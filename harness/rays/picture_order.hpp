@@ -19,10 +19,13 @@ struct PixelRange {
   int height() const { return bottom - top; }
 };
 
+/// The samples of a square of lists of rays, whose order is the same in all versions.
+inline constexpr int kListSquare = 4096;
+
 /// Divides an image into squares, row by row. Their side is 4 times the largest power of two for
-/// which a square has at most 4096 samples (64 pixels for one sample per pixel); those at the right
-/// and the bottom are truncated.
-std::vector<PixelRange> squares_of(const accel::PrimaryRays& image);
+/// which a square has at most `samples` samples (64 pixels for 4096, one per pixel), but at least
+/// 4; those at the right and the bottom are truncated.
+std::vector<PixelRange> squares_of(const accel::PrimaryRays& image, int samples);
 
 /// Calls `visit(x, y, sample)` for the samples of one of these squares: blocks of 4x4 pixels in
 /// Morton order, so that 16, 256 or 4096 consecutive samples are close together. Within a block,
@@ -55,10 +58,10 @@ void for_each_sample(const PixelRange& square, int samples, const Visit& visit) 
   }
 }
 
-/// Does the same for a whole image, square by square.
+/// Does the same for a whole image, square by square, in the order of lists.
 template <class Visit>
 void for_each_sample(const accel::PrimaryRays& image, const Visit& visit) {
-  for (const PixelRange& square : squares_of(image)) {
+  for (const PixelRange& square : squares_of(image, kListSquare)) {
     for_each_sample(square, image.samples(), visit);
   }
 }

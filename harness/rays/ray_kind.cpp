@@ -29,7 +29,10 @@ std::vector<ParameterInfo> whitted_parameters() {
           real_parameter("least_weight", 0.0, 0.0, 1.0,
                          "rays that contribute less to their pixel are not traced"),
           choice_parameter("shadows", "rays", {"rays", "cache", "light-buffer"},
-                           "how the visibility of a light is determined")};
+                           "how the visibility of a light is determined"),
+          integer_parameter("batch", kPictureBatch, 64, kMaxPictureBatch,
+                            "maximum number of rays of a depth that are shaded, and whose "
+                            "following rays are handed over, together")};
 }
 
 std::vector<ParameterInfo> occlusion_parameters() {

@@ -24,6 +24,11 @@ enum class RayKind {
   kWhitted      ///< all rays of a whole picture, which follow from the structure's own hits
 };
 
+/// The rays of a whole picture that are handed over together by default, and at most. More rays
+/// help streams (accel/bvh/README.md) and need more memory.
+inline constexpr int kPictureBatch = 32768;
+inline constexpr int kMaxPictureBatch = 1 << 19;
+
 /// The result required for a ray.
 enum class Query {
   kClosestHit,

@@ -112,7 +112,8 @@ ShadowMethod parse_shadow_method(std::string_view name) {
 WhittedOptions whitted_options(const rays::RayChoice& choice) {
   const Parameters parameters = rays::parameters_of(choice);
   return {static_cast<int>(parameters.integer("depth")), parameters.real("least_weight"),
-          parse_shadow_method(parameters.choice("shadows"))};
+          parse_shadow_method(parameters.choice("shadows")),
+          static_cast<int>(parameters.integer("batch"))};
 }
 
 LightBuffer::LightBuffer(const scenes::Scene& scene, const glm::vec3& light, int cells)

@@ -39,6 +39,9 @@ struct WhittedOptions {
   /// pixel. 0 traces all.
   double min_weight = 0.0;
   ShadowMethod shadows = ShadowMethod::kRays;
+  /// The maximum number of rays of a depth that are shaded, and whose following rays are handed
+  /// over, together: 1 ... rays::kMaxPictureBatch. Exact structures give the same picture for all.
+  int batch = rays::kPictureBatch;
   /// Spawn a mirror ray at glass even if its specular factor is 0, so that it does not contribute
   /// to the picture: rule 8 of Haines's databases (SPD), whose counts include these rays.
   bool glass_always_mirrors = false;

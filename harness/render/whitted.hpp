@@ -72,13 +72,15 @@ class Whitted {
   };
   Progress begin() const;
 
-  /// Computes linear light along camera rays into the same number of `colors`. Memory is that of
-  /// several thousand rays for each depth, whatever their number. Throws InvalidHit if a hit of the
-  /// camera rays or of a following ray is invalid.
+  /// Computes linear light along camera rays into the same number of `colors`. Memory is that of a
+  /// batch of rays (`WhittedOptions`) for each depth, whatever their number. Throws InvalidHit if a
+  /// hit of the camera rays or of a following ray is invalid.
   void trace_light(const CameraRays& camera, std::span<glm::dvec3> colors,
                    Progress& progress) const;
 
   const Shadows& shadows() const { return shadows_; }
+  /// Returns the maximum number of rays of a batch.
+  int batch() const { return options_.batch; }
   /// Returns whether counts depend on the order of the rays.
   bool remembers_shadows() const { return options_.shadows == ShadowMethod::kCache; }
 

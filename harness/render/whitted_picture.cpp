@@ -37,7 +37,7 @@ class Parts {
   Parts(const accel::PrimaryRays& image, const Whitted& tracer)
       : samples_(image.samples()),
         are_rows_(tracer.remembers_shadows()),
-        ranges_(are_rows_ ? rows_of(image) : rays::squares_of(image)) {}
+        ranges_(are_rows_ ? rows_of(image) : rays::squares_of(image, tracer.batch())) {}
 
   const std::vector<PixelRange>& ranges() const { return ranges_; }
   /// Calls `visit(x, y, sample)` for the samples of a range.
@@ -142,13 +142,13 @@ WhittedPicture whitted_picture(const Whitted& tracer, const accel::PrimaryRays& 
 WhittedPicture whitted_picture_along(std::span<const std::size_t> places, const Whitted& tracer,
                                      const accel::PrimaryRays& rays, const accel::HitBuffer& hits,
                                      const PictureWatch& watch) {
-  constexpr std::size_t kAtOnce = 8192;
+  const auto at_once = static_cast<std::size_t>(tracer.batch());
   const auto samples = static_cast<std::size_t>(rays.samples());
   std::vector<glm::dvec3> sums(places.size() / samples, glm::dvec3(0.0));
   Whitted::Progress progress = tracer.begin();
-  for (std::size_t first = 0; first < places.size(); first += kAtOnce) {
+  for (std::size_t first = 0; first < places.size(); first += at_once) {
     if (watch) watch(static_cast<double>(first) / static_cast<double>(places.size()));
-    const auto some = places.subspan(first, std::min(kAtOnce, places.size() - first));
+    const auto some = places.subspan(first, std::min(at_once, places.size() - first));
     Batch batch;
     batch.reserve(some.size());
     for (const std::size_t place : some) batch.add(rays::ray_at(rays, place), place, hits);

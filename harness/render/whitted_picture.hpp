@@ -36,7 +36,8 @@ using PictureWatch = std::function<void(double part)>;
 /// shared among `threads` threads (`accel::thread_count`); picture and census do not depend on
 /// their number. A part is a square of pixels in the order of `rays::for_each_sample`, so that
 /// neighbors in a batch of rays are neighbors in the picture; with the shadow cache, it is a row,
-/// from left to right, and the cache is empty at its beginning.
+/// from left to right, and the cache is empty at its beginning. A square has at most a batch of
+/// samples, on any number of threads: hits of pencils may depend on the batch.
 WhittedPicture whitted_picture(const Whitted& tracer, const accel::PrimaryRays& rays,
                                const accel::HitBuffer& hits, const PictureWatch& watch = {},
                                int threads = 0);

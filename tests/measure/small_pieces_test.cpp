@@ -56,7 +56,7 @@ TEST(RayKinds, AreReadFromAListEachOnce) {
   for (const char* text :
        {"", "primary,", ",primary", "Primary", "shadows", "shadow:seed=1", "diffuse:seed=x",
         "diffuse:seed=-1", "ao:samples=0", "ao:samples=1025", "ao:distance=0", "ao:distance=-1",
-        "ao:distance=nan", "path:bounces=0"}) {
+        "ao:distance=nan", "path:bounces=0", "whitted:batch=63", "whitted:batch=524289"}) {
     EXPECT_THROW(rays::parse_ray_choices(text), InputError) << text;
   }
 }

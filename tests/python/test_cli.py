@@ -1160,6 +1160,7 @@ WRONG_REQUESTS = [
     (["census", "tetra:n=1", "--depth", "0"], ["--depth"]),
     (["stats", "tetra:n=1", "--accel", "samet", "--rays", "whitted"], ["list", "verify"]),
     (["verify", "tetra:n=1", "--rays", "whitted:depth=0"], ["depth", "1 to 64"]),
+    (["verify", "tetra:n=1", "--rays", "whitted:batch=63"], ["batch", "64 to 524288"]),
     (["census", "tetra:n=1", "--pictures", "/dev/null/here"], ["/dev/null/here", "--pictures"]),
     (["sampling", "tetra:n=1", "--resolution", "9000x9000"], ["9000x9000"]),
     (["sampling", "tetra:n=1", "--repetitions", "0"], ["--repetitions"]),

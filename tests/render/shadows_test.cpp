@@ -98,8 +98,10 @@ TEST(ShadowMethods, AreThoseOfTheKindOfRays) {
     EXPECT_EQ(options.shadows, parse_shadow_method(name));
     EXPECT_EQ(options.min_weight, 0.0);
   }
-  EXPECT_EQ(whitted_options(rays::parse_ray_choice("whitted")).max_depth,
-            WhittedOptions{}.max_depth);
+  const WhittedOptions options = whitted_options(rays::parse_ray_choice("whitted"));
+  EXPECT_EQ(options.max_depth, WhittedOptions{}.max_depth);
+  EXPECT_EQ(options.batch, WhittedOptions{}.batch);
+  EXPECT_EQ(whitted_options(rays::parse_ray_choice("whitted:batch=4096")).batch, 4096);
 }
 
 }  // namespace
