@@ -48,6 +48,7 @@ def figures(folder: Path) -> dict[str, Any]:
             name: {kind: _line(lists, name, None, kind=kind).mean.ratio for kind in KINDS}
             for name in (BINNED, TILE_BEAM, SINGLE)
         },
+        "large": _large(Cells(folder / "large")),
         "embree": {kind: _modes(lists, kind) for kind in KINDS},
         "pictures": {
             size: {
@@ -65,6 +66,15 @@ def figures(folder: Path) -> dict[str, Any]:
         "wrong": [row for one in (lists, pictures) for row in one.wrong.to_dict("records")],
         "cells": len(lists.rows) + len(pictures.rows),
         "with_target": with_target,
+    }
+
+
+def _large(cells: Cells) -> dict[str, dict[str, Ratio]]:
+    """Returns the ratios over one large mesh, by contender and kind of rays."""
+    kinds = dict.fromkeys(cells.rows["kind"])
+    return {
+        name: {kind: _to_embree(cells, name, scene=cells.scenes[0], kind=kind) for kind in kinds}
+        for name in (STREAMS, TILE_BEAM)
     }
 
 
