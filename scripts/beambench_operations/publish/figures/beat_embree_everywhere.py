@@ -12,6 +12,7 @@ from beambench_operations.publish.figures.cells import Cells
 from beambench_operations.publish.figures.comparison import with_target
 from beambench_report.base.cell_files import identity, median_of, ratio_of
 from beambench_report.base.files import Problem
+from beambench_report.base.names import parameter_items
 from beambench_report.embree_comparison.results import Result
 
 STREAMS = "sah-bvh:builder=spatial,collapse=cost"
@@ -23,6 +24,7 @@ _TARGETS = {
     "AVX2": {"diffuse": 1.9, "path:bounces=3": 1.9, "ao:samples=4": 1.4, "reflection": 1.4},
     "AVX-512": {"diffuse": 2.6, "path:bounces=3": 2.6, "ao:samples=4": 1.9, "reflection": 1.8},
 }
+_DEFAULT_BATCH = 32768  # of pictures (harness/rays/ray_kind.hpp)
 _PICTURES = {"AVX2": 1.5, "AVX-512": 2.0}
 
 
@@ -59,6 +61,14 @@ def figures(folder: Path) -> dict[str, Any]:
             }
             for size in pictures.sizes
         },
+        "no_embree": {
+            size: [
+                scene
+                for scene in pictures.scenes
+                if _embree(pictures, scene=scene, size=size).empty
+            ]
+            for size in pictures.sizes
+        },
         "lengths": _lengths(Cells(folder / "lengths")),
         "batches": _batches(Cells(folder / "batches")),
         "threads": _threads(Cells(folder / "threads-1"), Cells(folder / "threads-2")),
@@ -85,7 +95,11 @@ def _isa(cells: Cells) -> str:
 
 
 def _line(cells: Cells, contender: str, target: float | None, **columns: str) -> Line:
-    scenes = {scene: _to_embree(cells, contender, scene=scene, **columns) for scene in cells.scenes}
+    scenes = {
+        scene: _to_embree(cells, contender, scene=scene, **columns)
+        for scene in cells.scenes
+        if not _embree(cells, scene=scene, **columns).empty
+    }
     mean = geometric_mean(list(scenes.values()))
     return Line(scenes, Result(mean, target, scenes=len(scenes)))
 
@@ -110,20 +124,27 @@ def _to_embree(cells: Cells, contender: str, **columns: str) -> Ratio:
 
 
 def _fastest_embree(cells: Cells, **columns: str) -> pd.Series:
-    rows = cells.having("embree", **columns)
-    rows = rows[rows["timed"]]
+    rows = _embree(cells, **columns)
     if rows.empty:
         raise Problem(f"{cells.folder}/results.csv: Embree has no time at {columns}")
     return rows.loc[rows["trace_ms"].idxmin()]
 
 
+def _embree(cells: Cells, **columns: str) -> pd.DataFrame:
+    """Returns Embree's rows that have times: those with correct hits."""
+    rows = cells.having("embree", **columns)
+    return rows[rows["timed"]]
+
+
 def _modes(cells: Cells, kind: str) -> dict[str, str]:
-    """Returns Embree's fastest way by scene: its mode and the order of the list."""
+    """Returns Embree's fastest way by scene: its mode, its coherence flag and the list's order."""
     found = {}
     for scene in cells.scenes:
         row = _fastest_embree(cells, kind=kind, scene=scene)
-        order = "sorted" if row["kind"] != row["ray_kind"] else "as made"
-        found[scene] = f"{row['parameters']}, {order}"
+        own = parameter_items(row["parameters"])
+        flag = {"true": ", coherent", "false": ", not coherent"}.get(own["coherent"], "")
+        order = ", sorted" if row["kind"] != row["ray_kind"] else ""
+        found[scene] = f"{own['mode']}{flag}{order}"
     return found
 
 
@@ -140,14 +161,14 @@ def _lengths(cells: Cells) -> dict[str, dict[int, Ratio]]:
     }
 
 
-def _batches(cells: Cells) -> dict[str, dict[str, dict[str, Ratio]]]:
+def _batches(cells: Cells) -> dict[str, dict[str, dict[int, Ratio]]]:
     """Returns the time of pictures in batches of 4,096 over that in others: scene, contender."""
     kinds = list(dict.fromkeys(cells.rows["kind"]))
     least = next(kind for kind in kinds if kind.endswith("batch=4096"))
     return {
         scene: {
             name: {
-                kind.rpartition("=")[2]: unpaired_ratio(
+                int(kind.partition("=")[2] or _DEFAULT_BATCH): unpaired_ratio(
                     *(
                         median_of(cells.row(name, scene=scene, kind=one), "trace")
                         for one in (least, kind)
