@@ -8,8 +8,12 @@
 
 #include "accel/bvh/stream_kernels.hpp"
 #include "accel/core/hit_buffer.hpp"
+#include "accel/core/registry.hpp"
 
 namespace beambench::accel::bvh {
+
+/// Returns what the counters of streams count, for `Registry::describe_counters`.
+std::vector<CounterInfo> stream_counters();
 
 /// A hierarchy over a scene, and the kernels that send streams down it. What it refers to must
 /// outlive it.

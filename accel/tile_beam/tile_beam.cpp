@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <hwy/cache_control.h>
@@ -430,11 +431,11 @@ void register_tile_beam(Registry& registry) {
          return std::make_unique<TileBeam>(scene, TileBeam::options_from(parameters, workload),
                                            targets_of(parameters.choice("isa")));
        }});
-  registry.describe_counters(
-      "tile-beam",
-      {{"beams",
-        "tiles of the image, and parts of pencils through a side of the cube, that were "
-        "traced"}});
+  std::vector<CounterInfo> counters = bvh::stream_counters();
+  counters.push_back({"beams",
+                      "tiles of the image, and parts of pencils through a side of the cube, that "
+                      "were traced"});
+  registry.describe_counters("tile-beam", std::move(counters));
 }
 
 }  // namespace beambench::accel::tile_beam

@@ -106,6 +106,7 @@ def embree_modes(sweep: dict) -> set[tuple]:
 def test_few_sweeps_ask_for_streams_which_embree_4_has_not(path: Path) -> None:
     modes = {mode for mode, _ in embree_modes(json.loads(path.read_text()))}
     needs_embree_3 = path.name.startswith("beat-embree") or path.name == "pictures.json"
+    needs_embree_3 &= path.stem != "beat-embree-everywhere"  # whose Embree is tuned
     assert ("stream" in modes) == needs_embree_3
 
 

@@ -8,7 +8,7 @@ reference. Nights are then tested one by one, each with those before it, as `scr
 import json
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass
-from math import log1p, nan, sqrt
+from math import log1p, sqrt
 from pathlib import Path
 from time import monotonic
 
@@ -38,7 +38,7 @@ class Noise:
 
     scenes: tuple[np.ndarray, ...]
     nights: int
-    within: float = nan
+    within: float | None = None
     """Standard error of a usual series by the blocks of one night."""
 
     @property
@@ -83,7 +83,7 @@ class Calibration:
     alarms_high: float
     noise: float
     noise_nights: int
-    within: float
+    within: float | None
     rule: Rule
     power: tuple[Power, ...]
 
@@ -99,13 +99,17 @@ class Calibration:
 
     def summary(self) -> str:
         """For people."""
+        by_blocks = (
+            ""
+            if self.within is None
+            else f"; by the blocks of one night it would be {100 * self.within:.2g}%"
+        )
         lines = [
             f"{self.alarms} alarms in {self.nights} nights of pure noise over {self.series} series "
             f"together ({self._in_100_nights(self.alarms)} in 100 nights, 95% confidence interval "
             f"{self._in_100_nights(self.alarms_low)} to {self._in_100_nights(self.alarms_high)}); "
             f"the noise was drawn from {self.noise_nights} nights, {100 * self.noise:.2g}% "
-            "(standard deviation of a usual series); by the blocks of one night it would be "
-            f"{100 * self.within:.2g}%."
+            f"(standard deviation of a usual series){by_blocks}."
         ]
         lines += map(str, self.power)
         smallest = self.smallest_found
@@ -143,7 +147,7 @@ def noise_of(nights: Nights) -> Noise:
     parts = tuple(pooled[np.ix_(whole, scenes == scene)] for scene in dict.fromkeys(scenes))
     squares = np.square(nights.errors)
     within = [squares[:, own].mean(axis=1) / len(own) for own in nights.pools["members"]]
-    return Noise(parts, int(whole.sum()), sqrt(np.nanmedian(within)) if within else nan)
+    return Noise(parts, int(whole.sum()), sqrt(np.nanmedian(within)) if within else None)
 
 
 def has_enough(noise: Noise) -> bool:
@@ -273,7 +277,8 @@ def noise_of_samples(folders: Iterable[Path]) -> Noise:
             f"with that many blocks"
         )
     scenes = tuple(scene for noise in drawn for scene in noise.scenes)
-    return Noise(scenes, _NIGHTS, float(np.median([noise.within for noise in drawn])))
+    within = [noise.within for noise in drawn if noise.within is not None]
+    return Noise(scenes, _NIGHTS, float(np.median(within)) if within else None)
 
 
 def _drawn(folder: Path, random: np.random.Generator) -> Iterator[Noise]:
