@@ -80,22 +80,16 @@ class EmbreeStructure : public Accelerator {
   template <class Trace>
   static void for_parts(std::size_t rays, int threads, const Trace& trace) {
     constexpr std::size_t kPart = 4096;
-    if (thread_count(threads) == 1) return trace(0, rays);
-    on_threads(threads, [&] {
-      share_rows(static_cast<int>((rays + kPart - 1) / kPart), [&](int begin, int end) {
-        const std::size_t first = kPart * static_cast<std::size_t>(begin);
-        trace(first, std::min(kPart * static_cast<std::size_t>(end), rays) - first);
-      });
+    const auto parts = static_cast<int>((rays + kPart - 1) / kPart);
+    for_rows({.threads = threads}, parts, [&](int begin, int end, auto&) {
+      const std::size_t first = kPart * static_cast<std::size_t>(begin);
+      trace(first, std::min(kPart * static_cast<std::size_t>(end), rays) - first);
     });
   }
   void trace_image(const PrimaryRays& image, const HitSpan& hits, int threads) const {
-    const auto trace = [&](const Band& band) {
+    for_rows({.threads = threads}, tile_rows(image), [&](int begin, int end, auto&) {
       Context query(coherence_ != Coherence::kNone);
-      trace_image_(scene_, query, image, band, hits);
-    };
-    if (thread_count(threads) == 1) return trace({0, image.height()});
-    on_threads(threads, [&] {
-      share_rows(tile_rows(image), [&](int begin, int end) { trace(band_of(image, begin, end)); });
+      trace_image_(scene_, query, image, band_of(image, begin, end), hits);
     });
   }
 

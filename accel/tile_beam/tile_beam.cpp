@@ -117,8 +117,8 @@ struct RayRange {
   const Pencil* pencil;  ///< or null
 };
 
-/// Returns all rays of a batch in order, other rays than those of pencils in parts of a stream
-/// each. Pencils whose direction is not that of `toward` are no pencils here.
+/// Returns all rays of a batch in order: pencils whose direction is that of `toward`, and all other
+/// rays in parts of one stream each.
 std::vector<RayRange> ranges_of(const RayBatch& batch, bool toward) {
   std::vector<RayRange> ranges;
   std::size_t next = 0;

@@ -201,14 +201,21 @@ rays::TraceInput diffuse_rays(const scenes::Scene& scene, int side) {
   return rays::make_trace_input(scene, image, rays::parse_ray_choice("diffuse"));
 }
 
+/// The closest hits of a list, and the work for them.
+struct CountedHits {
+  HitBuffer hits;
+  WorkCounters work;
+
+  CountedHits(const Accelerator& structure, const rays::TraceInput& input)
+      : hits(static_cast<int>(input.size()), 1, 1) {
+    structure.closest_hits(input.list()->batch(), hits, {&work});
+  }
+};
+
 // Nearly all hits are guessed right in float, and confirmed once.
 TEST_P(Streams, ConfirmAboutOncePerHit) {
   const scenes::Scene scene = scenes::load_scene("bumpy:triangles=20000");
-  const rays::TraceInput input = diffuse_rays(scene, 128);
-  const SahBvh structure(scene, {});
-  HitBuffer hits(static_cast<int>(input.size()), 1, 1);
-  WorkCounters work;
-  structure.closest_hits(input.list()->batch(), hits, {&work});
+  const auto [hits, work] = CountedHits(SahBvh(scene, {}), diffuse_rays(scene, 128));
   std::uint64_t hit = 0;
   for (std::size_t i = 0; i < hits.size(); ++i) hit += hits.get(i) ? 1 : 0;
   EXPECT_GE(work.by_name().at("confirmed_tests"), hit);
@@ -220,11 +227,7 @@ TEST(StreamCounters, ArePinned) {
   if ((hwy::SupportedTargets() & HWY_AVX2) == 0) GTEST_SKIP() << "this machine has no AVX2";
   const tests::OnlyTarget only(HWY_AVX2);
   const scenes::Scene scene = scenes::load_scene("escena1");
-  const rays::TraceInput input = diffuse_rays(scene, 64);
-  const SahBvh structure(scene, {});
-  HitBuffer hits(static_cast<int>(input.size()), 1, 1);
-  WorkCounters work;
-  structure.closest_hits(input.list()->batch(), hits, {&work});
+  const auto [hits, work] = CountedHits(SahBvh(scene, {}), diffuse_rays(scene, 64));
   std::map<std::string, std::uint64_t> counted;
   for (const auto& [name, count] : work.by_name()) {
     if (count != 0 && std::ranges::count(kTestNames, name) == 0) counted[name] = count;

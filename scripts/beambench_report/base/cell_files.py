@@ -112,7 +112,14 @@ def ratio_of(
     """A time of a row over another one's: paired where the repetitions of both are known."""
     over, under = (files.get(identity(one)) for one in (row, base))
     paired = over.ratio(f"{phase}_ms", under) if over and under else None
-    return paired or unpaired_ratio(median_of(row, phase), median_of(base, phase))
+    return paired or unpaired_ratio_of(phase, row, base)
+
+
+def unpaired_ratio_of(
+    phase: Literal["total", "trace"], row: Mapping[str, object], base: Mapping[str, object]
+) -> Ratio:
+    """A time of a row over another one's that was not measured with it."""
+    return unpaired_ratio(median_of(row, phase), median_of(base, phase))
 
 
 def _cell_file(cell: LoggedCell) -> CellFile:

@@ -137,7 +137,7 @@ def _pairing(
     isa: str, tiles: Sequence[Row], modes: Sequence[Row], files: Mapping[Identity, CellFile]
 ) -> Pairing:
     mode, row = _fastest(modes), _fastest(tiles)
-    tile, embree = _trace(row, "tile-beam"), _trace(mode, _mode_name(mode))
+    tile, embree = _trace(row, "tile-beam"), _trace(mode, mode_name(mode))
     ratio, second = _ratios(mode, row, files)
     commit = f"{row['commit'][:12]}{' (modified)' if row['dirty'] == 'true' else ''}"
     return Pairing(
@@ -150,7 +150,7 @@ def _pairing(
         int(row["samples"]),
         isa,
         _is_culled(row),
-        tuple(sorted(map(_mode_name, modes))),
+        tuple(sorted(map(mode_name, modes))),
         tile,
         embree,
         ratio,
@@ -188,7 +188,8 @@ def _shading(row: Row) -> float:
     return float(row["harness_ms"]) if row["kind"] == PICTURE else 0.0
 
 
-def _mode_name(row: Row) -> str:
+def mode_name(row: Row) -> str:
+    """Embree's mode and flags in a row, and whether its list was sorted."""
     own = parameter_items(row["parameters"])
     mode = own.get("mode", "single")
     robust = ", robust" if own.get("robust") == "true" else ""

@@ -7,12 +7,12 @@ from typing import Any
 
 import pandas as pd
 
-from beambench.analysis import Ratio, geometric_mean, unpaired_ratio
+from beambench.analysis import Ratio, geometric_mean
 from beambench_operations.publish.figures.cells import Cells
 from beambench_operations.publish.figures.comparison import with_target
-from beambench_report.base.cell_files import identity, median_of, ratio_of
+from beambench_report.base.cell_files import identity, ratio_of, unpaired_ratio_of
 from beambench_report.base.files import Problem
-from beambench_report.base.names import parameter_items
+from beambench_report.embree_comparison.pairings import mode_name
 from beambench_report.embree_comparison.results import Result
 
 STREAMS = "sah-bvh:builder=spatial,collapse=cost"
@@ -137,25 +137,20 @@ def _embree(cells: Cells, **columns: str) -> pd.DataFrame:
 
 
 def _modes(cells: Cells, kind: str) -> dict[str, str]:
-    """Returns Embree's fastest way by scene: its mode, its coherence flag and the list's order."""
-    found = {}
-    for scene in cells.scenes:
-        row = _fastest_embree(cells, kind=kind, scene=scene)
-        own = parameter_items(row["parameters"])
-        flag = {"true": ", coherent", "false": ", not coherent"}.get(own["coherent"], "")
-        order = ", sorted" if row["kind"] != row["ray_kind"] else ""
-        found[scene] = f"{own['mode']}{flag}{order}"
-    return found
+    """Returns Embree's fastest way by scene."""
+    return {
+        scene: mode_name(_fastest_embree(cells, kind=kind, scene=scene)) for scene in cells.scenes
+    }
 
 
 def _lengths(cells: Cells) -> dict[str, dict[int, Ratio]]:
     """Returns the time of single rays over that of streams, by scene and length of the list."""
     return {
         scene: {
-            int(row["rays"]): ratio_of("trace", cells.row(SINGLE, **view), row, cells.files)
+            int(cells.row(STREAMS, scene=scene, size=size)["rays"]): cells.ratio(
+                SINGLE, STREAMS, scene=scene, size=size
+            )
             for size in cells.sizes
-            for view in ({"scene": scene, "size": size},)
-            for row in (cells.row(STREAMS, **view),)
         }
         for scene in cells.scenes
     }
@@ -168,11 +163,8 @@ def _batches(cells: Cells) -> dict[str, dict[str, dict[int, Ratio]]]:
     return {
         scene: {
             name: {
-                int(kind.partition("=")[2] or _DEFAULT_BATCH): unpaired_ratio(
-                    *(
-                        median_of(cells.row(name, scene=scene, kind=one), "trace")
-                        for one in (least, kind)
-                    )
+                int(kind.partition("=")[2] or _DEFAULT_BATCH): unpaired_ratio_of(
+                    "trace", *(cells.row(name, scene=scene, kind=one) for one in (least, kind))
                 )
                 for kind in kinds
                 if kind != least
@@ -187,8 +179,8 @@ def _threads(one: Cells, two: Cells) -> dict[str, dict[str, Ratio]]:
     """Returns how many times as fast two threads are, by scene and kind of rays."""
     return {
         scene: {
-            kind: unpaired_ratio(
-                *(median_of(at.row(STREAMS, scene=scene, kind=kind), "trace") for at in (one, two))
+            kind: unpaired_ratio_of(
+                "trace", *(at.row(STREAMS, scene=scene, kind=kind) for at in (one, two))
             )
             for kind in dict.fromkeys(one.rows["kind"])
         }

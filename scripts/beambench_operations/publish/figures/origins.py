@@ -4,8 +4,11 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
+import pandas as pd
+
 from beambench_operations.publish.progress import RECORD
 from beambench_report.base.files import Problem, read_json
+from beambench_report.base.records import in_blocks
 
 
 @dataclass(frozen=True)
@@ -71,8 +74,7 @@ def made(folder: Path) -> str:
 
 def _is_in_blocks(table: Path) -> bool:
     """Were the runs of a results.csv measured in blocks?"""
-    with table.open(encoding="utf-8") as file:
-        return "blocks" in file.readline().split(",")
+    return in_blocks(pd.read_csv(table, usecols=lambda name: name == "blocks"))
 
 
 def _origin(manifest: Path, folder: Path) -> Origin:

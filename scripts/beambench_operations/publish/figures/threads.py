@@ -4,10 +4,10 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from beambench.analysis import Ratio, unpaired_ratio
+from beambench.analysis import Ratio
 from beambench_operations.publish.figures.cells import Cells
 from beambench_operations.publish.figures.formats import fixed, interval
-from beambench_report.base.cell_files import median_of
+from beambench_report.base.cell_files import unpaired_ratio_of
 
 _THREADS = 2
 
@@ -22,8 +22,8 @@ def figures(folder: Path) -> dict[str, Any]:
     one, two = Cells(folder / "1"), Cells(folder / str(_THREADS))
     gain = {
         name: {
-            scene: unpaired_ratio(
-                *(median_of(cells.row(name, scene=scene), "trace") for cells in (one, two))
+            scene: unpaired_ratio_of(
+                "trace", *(cells.row(name, scene=scene) for cells in (one, two))
             )
             for scene in one.scenes
         }
