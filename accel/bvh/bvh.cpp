@@ -28,15 +28,16 @@ void register_bvh(Registry& registry) {
 }
 
 std::vector<CounterInfo> stream_counters() {
-  return {{"confirmed_tests",
-           "primitives that passed the test in float by SIMD, which only rejects, and were "
-           "tested again by the canonical test in double"},
-          {"stream_lists", "visits of a node by a list of rays"},
-          {"stream_rays", "rays in these lists: divided by the lists, those of one"},
-          {"stream_chunks", "groups of up to 16 rays tested against a node or a leaf together"},
-          {"stream_packets", "lists of up to 16 rays that went on in registers"},
-          {"stream_singles", "rays of lists that went on alone below some node"},
-          {"stream_left", "rays that a stream left to be traced alone from the root"}};
+  return {
+      {"confirmed_tests",
+       "primitives that the test in float by SIMD did not decide (of single rays: did not "
+       "reject), and that were tested again by the canonical test in double"},
+      {"stream_lists", "visits of a node by a list of rays"},
+      {"stream_rays", "rays in these lists: divided by the lists, those of one"},
+      {"stream_chunks", "groups of up to 16 rays tested against a node or a leaf together"},
+      {"stream_packets", "lists of up to 16 rays that went on in registers"},
+      {"stream_singles", "rays of lists that went on alone below some node"},
+      {"stream_left", "rays that a stream does not take, which were traced alone from the root"}};
 }
 
 }  // namespace beambench::accel::bvh

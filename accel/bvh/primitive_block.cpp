@@ -32,8 +32,10 @@ void append_blocks(const scenes::Scene& scene, std::span<const PrimitivePart> pi
     for (const PrimitivePart& piece : pieces) {
       if (scene.primitives[piece.primitive].kind != kind) continue;
       if (block == nullptr || block->count == kBvhLanes) {
+        const std::uint32_t first = blocks.empty() ? 0 : blocks.back().first + blocks.back().count;
         block = &blocks.emplace_back();
         block->kind = kind;
+        block->first = first;
         block->leaf_extent = extent;
       }
       append(scene, piece, *block);

@@ -23,7 +23,8 @@ struct alignas(64) PrimitiveBlock {
   std::array<scenes::PrimitiveId, kBvhLanes> primitives;  ///< the polygons of triangles
   scenes::PrimitiveKind kind;
   std::uint32_t count;
-  float leaf_extent;  ///< at least the longest side of the box of any of its triangles
+  std::uint32_t first;  ///< the primitives in the blocks before it
+  float leaf_extent;    ///< at least the longest side of the box of any of its triangles
 
   glm::vec3 corner(std::size_t which, std::size_t lane) const {
     const std::size_t row = 3 * which;

@@ -1,5 +1,5 @@
-// The hits of a stream: guessed in float, decided by the canonical tests, for the instruction set
-// being compiled.
+// The hits of a stream: found in float where that is certain, decided by the canonical tests
+// elsewhere, for the instruction set being compiled.
 
 #if defined(ACCEL_BVH_STREAM_HITS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_BVH_STREAM_HITS_INL
@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -33,11 +34,10 @@ HWY_INLINE void prefetch_lines(const Object& object) {
   for (std::size_t at = 0; at < sizeof(Object); at += 64) hwy::Prefetch(bytes + at);
 }
 
-/// A likely hit of a triangle in float is a guess: it ends the ray, or shortens it to the guess,
-/// and in the end the canonical test runs once for the best guess of each ray, several rays at
-/// once. Possible hits that are not likely, and likely ones that may be as near as the best, are
-/// confirmed as well: they are doubts. A ray whose guess no canonical test confirms is left to be
-/// traced alone, so that results do not depend on guesses.
+/// A hit of a triangle that is certain in float (`TriangleLanes`) ends its ray, or shortens it. In
+/// the end t is computed as the canonical test does, once for each ray, several rays at once. Hits
+/// that are possible, but not certain, and certain ones that may be as near as the nearest, are
+/// doubts, which the canonical test decides.
 ///
 /// Rays are named by the places of their rows, which hold the t_max that remains.
 template <bool kAny, class Counting>
@@ -48,82 +48,124 @@ class StreamHits {
   StreamHits(const Stream& stream, StreamMemory& memory, Counting& counting)
       : stream_(stream),
         rows_(memory.rows.data()),
-        guesses_(memory.guesses.data()),
+        hits_(memory.hits.data()),
         doubts_(memory.doubts),
         counting_(counting) {
     const std::size_t count = stream.rays.size();
-    std::fill_n(guesses_, count, StreamGuess{});
     doubts_.clear();
     if constexpr (kAny) {
       std::fill_n(stream_.any, count, std::uint8_t{0});
     } else {
+      std::fill_n(hits_, count, StreamHit{});
       std::fill_n(stream_.t, count, kInfinity);
       std::fill_n(stream_.primitive, count, scenes::kNoPrimitive);
     }
   }
 
-  /// Fetches a ray's guess into the caches.
-  HWY_INLINE void prefetch(std::uint32_t place) const { hwy::Prefetch(&guesses_[ray_at(place)]); }
+  /// Ends a ray that certainly hits something.
+  HWY_INLINE void end(std::uint32_t place) requires kAny {
+    stream_.any[ray_at(place)] = 1;
+    row(place).t_max = kEnded;
+  }
 
-  /// Notes a likely hit before `t_high`. Of two that may be equally near, both are confirmed.
-  HWY_INLINE void presume(std::uint32_t place, const StreamGuess& guess, float t_high) {
-    StreamGuess& best = guesses_[ray_at(place)];
-    if (guess.t_low > row(place).t_max) return;
-    if (kAny || t_high < best.t_low) {
-      best = guess;
+  /// Keeps a certain hit before `t_high`. Of two that may be equally near, one becomes a doubt.
+  HWY_INLINE void keep(std::uint32_t place, const StreamHit& hit, float t_high) requires(!kAny) {
+    Ray& ray = row(place);
+    if (hit.t_low > ray.t_max) return;
+    StreamHit& nearest = hits_[ray_at(place)];
+    if (t_high < nearest.t_low) {
+      nearest = hit;
     } else {
-      doubt(place, guess.triangle);
+      doubt(place, hit.triangle);
     }
-    row(place).t_max = std::min(row(place).t_max, t_high);
+    ray.t_max = std::min(ray.t_max, t_high);
   }
 
   /// Notes a possible hit.
-  void doubt(std::uint32_t place, std::uint32_t triangle) {
+  HWY_NOINLINE void doubt(std::uint32_t place, std::uint32_t triangle) {
     doubts_.push_back({static_cast<std::uint32_t>(ray_at(place)), triangle});
-    if (doubts_.size() < kMostDoubts) return;
-    confirm_all(doubts_);
-    doubts_.clear();
+    if (doubts_.size() == kMostDoubts) decide_doubts();
   }
 
   /// Decides a sphere or a cone at once.
-  void confirm(std::uint32_t place, scenes::PrimitiveId id) {
+  void decide(std::uint32_t place, scenes::PrimitiveId id) {
     counting_.add("confirmed_tests");
     const std::size_t i = ray_at(place);
     const float t = intersect(CanonicalRay(stream_.rays[i]), stream_.scene, id);
-    if (is_hit(t)) keep(i, t, id);
+    if (is_hit(t)) write(i, t, id);
   }
 
-  /// Runs the canonical tests of all guesses and doubts.
-  HWY_NOINLINE void confirm_guesses() {
-    std::array<StreamPair, kMostDoubts> pairs;
-    std::size_t size = 0;
-    for (std::size_t i = 0; i < stream_.rays.size(); ++i) {
-      pairs[size] = {static_cast<std::uint32_t>(i), guesses_[i].triangle};
-      size += guesses_[i].triangle != kNoTriangle ? 1 : 0;
-      if (size < pairs.size()) continue;
-      confirm_all(pairs);
-      size = 0;
-    }
-    confirm_all(std::span(pairs).first(size));
-    confirm_all(doubts_);
-  }
-
-  /// Appends the rays whose guesses were wrong, and those that no stream can trace.
-  void append_undecided(std::vector<std::uint32_t>& left) const {
-    const std::span<const Ray> rays = stream_.rays;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      const bool was_cut = rows_[i].t_max < finite(rays[i].t_max);
-      const bool found = kAny ? stream_.any[i] != 0 : stream_.t[i] <= rows_[i].t_max;
-      // One branch, which is almost never taken.
-      if ((was_cut & !found) != 0) left.push_back(static_cast<std::uint32_t>(i));
+  /// Decides all doubts, and computes t of all certain hits.
+  HWY_NOINLINE void finish() {
+    decide_doubts();
+    if constexpr (!kAny) {
+      // The last ones may be written twice: there are as many rays as lanes at least.
+      const std::size_t last = stream_.rays.size() - kDoubleLanes;
+      for (std::size_t i = 0; i < last; i += kDoubleLanes) write_certain(i);
+      write_certain(last);
     }
   }
 
  private:
   static constexpr std::size_t kMostDoubts = 256;
+  /// Lanes of float, one for each lane of double.
+  using PairTag = RayTrianglePairs::Tag;
 
-  /// Keeps a confirmed hit if it precedes the best, and shortens its ray.
-  HWY_INLINE void keep(std::size_t i, float t, scenes::PrimitiveId id) {
+  HWY_NOINLINE void decide_doubts() {
+    counting_.add("confirmed_tests", doubts_.size());
+    for (std::size_t i = 0; i < doubts_.size(); i += kDoubleLanes) {
+      const std::size_t count = std::min(kDoubleLanes, doubts_.size() - i);
+      const auto pair = [&](std::size_t lane) { return doubts_[i + std::min(lane, count - 1)]; };
+      hn::Vec<PairTag> polygons;
+      const RayTrianglePairs pairs =
+          paired([&](std::size_t lane) { return pair(lane).ray; },
+                 [&](std::size_t lane) { return pair(lane).triangle; }, polygons);
+      alignas(64) std::array<double, kDoubleLanes> t;
+      intersect_triangles(pairs, t.data());
+      for (std::size_t lane = 0; lane < count; ++lane) {
+        const auto [ray, triangle] = pair(lane);
+        const auto& [origin, t_min, direction, t_max] = stream_.rays[ray];
+        const float accepted = accept(t[lane], t_min, finite(t_max));
+        if (is_hit(accepted)) write(ray, accepted, stream_.tree.triangles[triangle].polygon);
+      }
+    }
+    doubts_.clear();
+  }
+
+  /// Writes the certain hits of as many rays as there are lanes, from `first` on, where they
+  /// precede those that are written already.
+  HWY_INLINE void write_certain(std::size_t first) {
+    alignas(64) std::array<std::uint32_t, kDoubleLanes> numbers;
+    std::uint64_t hits = 0;
+    for (std::size_t lane = 0; lane < kDoubleLanes; ++lane) {
+      const std::uint32_t number = hits_[first + lane].triangle;
+      const bool is_hit = number != kNoTriangle;
+      numbers[lane] = is_hit ? number : 0;
+      hits |= std::uint64_t{is_hit} << lane;
+    }
+    if (hits == 0) return;
+    const PairTag floats;
+    const hn::RebindToUnsigned<PairTag> words;
+    hn::Vec<PairTag> polygons;
+    const RayTrianglePairs pairs =
+        paired([&](std::size_t lane) { return first + lane; },
+               [&](std::size_t lane) { return numbers[lane]; }, polygons);
+    // As `accept` rounds it.
+    const auto t = hn::Add(hn::DemoteTo(floats, distances_along_rays(pairs)), hn::Zero(floats));
+    const auto polygon = hn::BitCast(words, polygons);
+    const auto old_t = hn::LoadU(floats, stream_.t + first);
+    const auto old_polygon = hn::LoadU(words, stream_.primitive + first);
+    const auto is_lower = hn::RebindMask(floats, hn::Lt(polygon, old_polygon));
+    const auto precedes =
+        hn::And(hn::LoadMaskBits(floats, reinterpret_cast<const std::uint8_t*>(&hits)),
+                hn::Or(hn::Lt(t, old_t), hn::And(hn::Eq(t, old_t), is_lower)));
+    hn::StoreU(hn::IfThenElse(precedes, t, old_t), floats, stream_.t + first);
+    hn::StoreU(hn::IfThenElse(hn::RebindMask(words, precedes), polygon, old_polygon), words,
+               stream_.primitive + first);
+  }
+
+  /// Writes a hit if it precedes the best, and shortens its ray.
+  HWY_INLINE void write(std::size_t i, float t, scenes::PrimitiveId id) {
     if constexpr (kAny) {
       stream_.any[i] = 1;
       rows_[i].t_max = kEnded;
@@ -135,54 +177,33 @@ class StreamHits {
     }
   }
 
-  void confirm_all(std::span<const StreamPair> pairs) {
-    counting_.add("confirmed_tests", pairs.size());
-    while (!pairs.empty()) {
-      constexpr std::size_t kAhead = 4 * kDoubleLanes;
-      for (std::size_t i = kAhead; i < std::min(kAhead + kDoubleLanes, pairs.size()); ++i) {
-        prefetch_lines(stream_.bvh.blocks[pairs[i].triangle / kBvhLanes]);
-      }
-      const std::size_t count = std::min(kDoubleLanes, pairs.size());
-      confirm_some(pairs.first(count));
-      pairs = pairs.subspan(count);
-    }
-  }
-
-  /// As many pairs as there are lanes, or fewer.
-  HWY_INLINE void confirm_some(std::span<const StreamPair> some) {
-    RayTrianglePairs pairs;
-    std::array<scenes::PrimitiveId, kDoubleLanes> ids;
-    const auto put = [](RayTrianglePairs::Point& point, std::size_t lane, const glm::vec3& v) {
-      point.x[lane] = v.x;
-      point.y[lane] = v.y;
-      point.z[lane] = v.z;
+  /// Returns pairs of the rays and the triangles with the numbers `ray(lane)` and `triangle(lane)`,
+  /// and sets the triangles' polygons.
+  template <class RayNumber, class TriangleNumber>
+  HWY_INLINE RayTrianglePairs paired(const RayNumber& ray, const TriangleNumber& triangle,
+                                     hn::Vec<PairTag>& polygons) const {
+    const auto points = [](const auto& row, hn::Vec<PairTag>& fourth) -> RayTrianglePairs::Point {
+      Triple<PairTag> point;
+      load_transposed(PairTag(), row, point, fourth);
+      return {point.x, point.y, point.z};
     };
-    for (std::size_t lane = 0; lane < kDoubleLanes; ++lane) {
-      const auto [i, triangle] = some[std::min(lane, some.size() - 1)];
-      const Ray& ray = stream_.rays[i];
-      const PrimitiveBlock& block = stream_.bvh.blocks[triangle / kBvhLanes];
-      ids[lane] = block.primitives[triangle % kBvhLanes];
-      put(pairs.origin, lane, ray.origin);
-      put(pairs.direction, lane, ray.direction);
-      for (std::size_t which = 0; which < 3; ++which) {
-        put(pairs.corners[which], lane, block.corner(which, triangle % kBvhLanes));
-      }
-    }
-    alignas(64) std::array<double, kDoubleLanes> t;
-    intersect_triangles(pairs, t.data());
-    for (std::size_t lane = 0; lane < some.size(); ++lane) {
-      const std::size_t i = some[lane].ray;
-      const Ray& ray = stream_.rays[i];
-      const float accepted = accept(t[lane], ray.t_min, finite(ray.t_max));
-      if (is_hit(accepted)) keep(i, accepted, ids[lane]);
-    }
+    const auto ray_at = [&](std::size_t lane) -> const Ray& { return stream_.rays[ray(lane)]; };
+    const auto whole = [&](std::size_t lane) -> const WholeTriangle& {
+      return stream_.tree.triangles[triangle(lane)];
+    };
+    hn::Vec<PairTag> unused;
+    return {points([&](std::size_t lane) { return &ray_at(lane).origin.x; }, unused),
+            points([&](std::size_t lane) { return &ray_at(lane).direction.x; }, unused),
+            {points([&](std::size_t lane) { return &whole(lane).a.x; }, polygons),
+             points([&](std::size_t lane) { return &whole(lane).b.x; }, unused),
+             points([&](std::size_t lane) { return &whole(lane).c.x; }, unused)}};
   }
 
   Ray& row(std::uint32_t place) const { return row_at(rows_, place); }
 
   const Stream& stream_;
   Ray* rows_;
-  StreamGuess* guesses_;
+  StreamHit* hits_;
   std::vector<StreamPair>& doubts_;
   Counting& counting_;
 };

@@ -18,7 +18,7 @@ template <bool kAny, class Counting>
 void trace(const Stream& stream, std::vector<std::uint32_t>& left, Counting& counting) {
   StreamMemory& memory = StreamMemory::of_thread();
   memory.reserve(stream.rays.size());
-  StreamWalk<kAny, Counting>(stream, memory, counting).append_undecided(left);
+  StreamWalk<kAny, Counting>(stream, memory, left, counting);
 }
 
 template <class Counting>

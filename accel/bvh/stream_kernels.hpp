@@ -28,7 +28,7 @@ struct Stream {
   std::uint8_t* any = nullptr;
 };
 
-/// Both queries under one counting policy. They append to `left` the rays that they did not decide,
+/// Both queries under one counting policy. They append to `left` the rays that they do not trace,
 /// which must be traced alone. Must not be used for empty hierarchies.
 template <class Counting>
 struct StreamQueries {

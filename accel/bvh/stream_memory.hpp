@@ -1,5 +1,5 @@
 #pragma once
-// The memory of a stream: its rays, its lists and the hits to be confirmed.
+// The memory of a stream: its rays, its lists and their hits.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,11 +10,11 @@
 
 namespace beambench::accel::bvh {
 
-/// Stands for no triangle; others are numbered by block and lane.
+/// Stands for no triangle; others are numbered as `StreamTree::triangles`.
 inline constexpr std::uint32_t kNoTriangle = ~std::uint32_t{0};
 
-/// The triangle that a ray presumably hits.
-struct StreamGuess {
+/// The nearest triangle that a ray certainly hits.
+struct StreamHit {
   float t_low = kInfinity;  ///< the hit is not before it
   std::uint32_t triangle = kNoTriangle;
 };
@@ -36,14 +36,14 @@ struct StreamMemory {
 
   LargePageVector<Ray> rows;             ///< t_max: before which a hit would count
   LargePageVector<std::uint32_t> lists;  ///< of places of rows, in bytes
-  LargePageVector<StreamGuess> guesses;  ///< of each ray
-  std::vector<StreamPair> doubts;        ///< to be confirmed besides guesses
+  LargePageVector<StreamHit> hits;       ///< of each ray
+  std::vector<StreamPair> doubts;        ///< to be tested
 
   void reserve(std::size_t rays) {
     const std::size_t entries = kEntriesPerRay * (rays + 4 * kPacket);
     if (rows.size() < rays) {
       rows.resize(rays);
-      guesses.resize(rays);
+      hits.resize(rays);
     }
     if (lists.size() < entries) lists.resize(entries);
   }

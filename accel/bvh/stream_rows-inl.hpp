@@ -9,11 +9,13 @@
 #endif
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include <hwy/highway.h>
 
@@ -31,10 +33,11 @@ struct RowsExtent {
   glm::vec3 upper;
 };
 
-/// Copies rays for a stream: without zeros in directions, with finite ends. Rays that no stream can
-/// trace (stream_tests-inl.hpp) end before they begin.
+/// Copies rays for a stream: without zeros in directions, with finite ends. Those that no stream
+/// can trace (stream_tests-inl.hpp) end before they begin, and are appended to `left`.
 template <bool kWithBox>
-RowsExtent fill_rows(std::span<const Ray> rays, const StreamTree& tree, Ray* rows) {
+RowsExtent fill_rows(std::span<const Ray> rays, const StreamTree& tree, Ray* rows,
+                     std::vector<std::uint32_t>& left) {
   // Four floats at once: origin and t_min, direction and t_max.
   const auto load_quad = [](const float* from) {
     Quad quad;
@@ -64,6 +67,7 @@ RowsExtent fill_rows(std::span<const Ray> rays, const StreamTree& tree, Ray* row
     std::memcpy(&rows[i].direction.x, &direction, sizeof direction);
     if (!(farness <= farthest && length >= 0x1p-20F && length <= 0x1p20F)) {
       rows[i].t_max = -1.0F;
+      left.push_back(static_cast<std::uint32_t>(i));
       continue;
     }
     sum += from_center;
@@ -97,55 +101,60 @@ HWY_INLINE Ray& row_at(Ray* rows, std::uint32_t place) {
   return *reinterpret_cast<Ray*>(reinterpret_cast<char*>(rows) + place);
 }
 
-#if HWY_TARGET == HWY_SCALAR
-
-HWY_INLINE LaneRays<Tag> load_rays(const Ray* rows, const std::uint32_t* places) {
-  const Ray& ray = row_at(rows, places[0]);
-  const auto point = [](const glm::vec3& v) -> Triple<Tag> {
-    return {all(v.x), all(v.y), all(v.z)};
-  };
-  return {point(ray.origin), all(ray.t_min), point(ray.direction), all(ray.t_max)};
-}
-
-#else
-
-/// Loads a half of rays i, i + 4, i + 8 ...: origins and t_min (0), or directions and t_max (1).
-template <class D>
-HWY_INLINE hn::Vec<D> load_halves(D d, const Ray* rows, const std::uint32_t* places,
-                                  std::size_t half) {
+#if HWY_TARGET != HWY_SCALAR
+template <class D, class Row>
+HWY_INLINE hn::Vec<D> load_rows(D d, const Row& row, std::size_t i) {
   if constexpr (hn::MaxLanes(D()) == 4) {
-    return hn::LoadU(d, &row_at(rows, places[0]).origin.x + 4 * half);
+    return hn::LoadU(d, row(i));
   } else {
     const hn::Half<D> fewer;
-    return hn::Combine(d, load_halves(fewer, rows, places + hn::MaxLanes(fewer), half),
-                       load_halves(fewer, rows, places, half));
+    return hn::Combine(d, load_rows(fewer, row, i + hn::MaxLanes(fewer)), load_rows(fewer, row, i));
   }
 }
+#endif
 
-/// Loads as many rays as there are lanes, from places in bytes.
-HWY_INLINE LaneRays<Tag> load_rays(const Ray* rows, const std::uint32_t* places) {
-  const hn::Repartition<double, Tag> pairs;
-  const auto transposed = [&](std::size_t half, Triple<Tag>& point, Floats& fourth) {
-    const Floats a = load_halves(Tag(), rows, places, half);
-    const Floats b = load_halves(Tag(), rows, places + 1, half);
-    const Floats c = load_halves(Tag(), rows, places + 2, half);
-    const Floats d = load_halves(Tag(), rows, places + 3, half);
-    const auto xy_0 = hn::BitCast(pairs, hn::InterleaveLower(Tag(), a, b));
-    const auto xy_1 = hn::BitCast(pairs, hn::InterleaveLower(Tag(), c, d));
-    const auto zw_0 = hn::BitCast(pairs, hn::InterleaveUpper(Tag(), a, b));
-    const auto zw_1 = hn::BitCast(pairs, hn::InterleaveUpper(Tag(), c, d));
-    point.x = hn::BitCast(Tag(), hn::InterleaveLower(pairs, xy_0, xy_1));
-    point.y = hn::BitCast(Tag(), hn::InterleaveUpper(pairs, xy_0, xy_1));
-    point.z = hn::BitCast(Tag(), hn::InterleaveLower(pairs, zw_0, zw_1));
-    fourth = hn::BitCast(Tag(), hn::InterleaveUpper(pairs, zw_0, zw_1));
-  };
-  LaneRays<Tag> rays;
-  transposed(0, rays.origin, rays.t_min);
-  transposed(1, rays.direction, rays.t_max);
-  return rays;
+/// Loads rows of four floats at `row(0)`, `row(1)` ..., one for each lane, and transposes them.
+/// Four lanes or more: the rows i, i + 4, i + 8 ... are loaded into one register.
+template <class D, class Row>
+HWY_INLINE void load_transposed(D d, const Row& row, Triple<D>& point, hn::Vec<D>& fourth) {
+  if constexpr (hn::MaxLanes(D()) < 4) {
+    constexpr std::size_t kCount = hn::MaxLanes(D());
+    alignas(16) std::array<std::array<float, kCount>, 4> columns;
+    for (std::size_t lane = 0; lane < kCount; ++lane) {
+      for (std::size_t i = 0; i < 4; ++i) columns[i][lane] = row(lane)[i];
+    }
+    point = {hn::LoadU(d, columns[0].data()), hn::LoadU(d, columns[1].data()),
+             hn::LoadU(d, columns[2].data())};
+    fourth = hn::LoadU(d, columns[3].data());
+  }
+#if HWY_TARGET != HWY_SCALAR
+  else {
+    const hn::Repartition<double, D> pairs;
+    const auto a = load_rows(d, row, 0);
+    const auto b = load_rows(d, row, 1);
+    const auto c = load_rows(d, row, 2);
+    const auto e = load_rows(d, row, 3);
+    const auto xy_0 = hn::BitCast(pairs, hn::InterleaveLower(d, a, b));
+    const auto xy_1 = hn::BitCast(pairs, hn::InterleaveLower(d, c, e));
+    const auto zw_0 = hn::BitCast(pairs, hn::InterleaveUpper(d, a, b));
+    const auto zw_1 = hn::BitCast(pairs, hn::InterleaveUpper(d, c, e));
+    point.x = hn::BitCast(d, hn::InterleaveLower(pairs, xy_0, xy_1));
+    point.y = hn::BitCast(d, hn::InterleaveUpper(pairs, xy_0, xy_1));
+    point.z = hn::BitCast(d, hn::InterleaveLower(pairs, zw_0, zw_1));
+    fourth = hn::BitCast(d, hn::InterleaveUpper(pairs, zw_0, zw_1));
+  }
+#endif
 }
 
-#endif
+/// Loads as many rays as there are lanes.
+HWY_INLINE LaneRays<Tag> load_rays(const Ray* rows, const std::uint32_t* places) {
+  LaneRays<Tag> rays;
+  const auto origin = [&](std::size_t i) { return &row_at(rows, places[i]).origin.x; };
+  const auto direction = [&](std::size_t i) { return &row_at(rows, places[i]).direction.x; };
+  load_transposed(Tag(), origin, rays.origin, rays.t_min);
+  load_transposed(Tag(), direction, rays.direction, rays.t_max);
+  return rays;
+}
 
 }  // namespace beambench::accel::bvh::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -133,28 +133,35 @@ class SlabLanes {
 };
 
 /// **Triangles.** Let s be at least the longest side of the box of any triangle of the leaf, a, b,
-/// c the corners, e1 = b - a, e2 = c - a, n = e1 x e2 and |n| the sum of its components' sizes. The
+/// c the corners, e1 = b - a, e2 = c - a, n = e1 x e2, and M the larger of the sum of the sizes of
+/// n's components and an eighth of the square of the longest side of the triangle's own box. The
 /// canonical test accepts if u = -(d x (a - o)) . e2, v = (d x (a - o)) . e1 and w = d . n - u - v
-/// have one sign, and t = (n . (a - o)) / (d . n) is in the interval: its signs and t are those of
-/// exact arithmetic up to 2^-50 of the sizes below.
+/// have one sign, t = (n . (a - o)) / (d . n) is in the interval, and the point at t is near the
+/// triangle (`near_triangle`): its signs and t are those of exact arithmetic up to 2^-50 of the
+/// sizes below.
 /// - u and v are sums of six products of at most R |d| s in all 2 R s |d|, each of which is wrong
-/// by
-///   7 e: by 14 e R s |d|. d . n is wrong by 4 e |n| |d|, where |n| <= 6 s^2; w by the sum of these
+///   by 7 e: by 14 e R s |d|. d . n is wrong by 4 e M |d|, where M <= 6 s^2; w by the sum of these
 ///   and 8 e R s |d| for two roundings more: 36 e R s |d| + 24 e s^2 |d|.
 /// - The sign of d . n, by which u, v and w are turned, is uncertain if d . n is within its error.
 ///   All three of a hit are then within 2 x 24 e s^2 |d|, and their signs do not matter.
-///   So min(u, v, w) >= -e s |d| (40 R + 80 s) for every hit.
-/// - The numerator of t is wrong by 6 e |n| R. If |d . n| is more than 16 times its error m, then t
-///   is wrong by (6 e |n| R + |t| m) / |d . n| x 16 / 15, and some roundings.
-///   Otherwise it is not known.
-/// Lengths that may underflow are replaced by larger ones: |n| by 2^-60 (BlockNormals), s by 2^-40.
+///   So min(u, v, w) >= -m with m = e s |d| (40 R + 80 s) for every hit.
+/// - The numerator of t is wrong by 6 e M R. If |d . n| is more than 16 times its error, then t is
+///   wrong by (6 e R + 4 e |t| |d|) M / |d . n| x 16 / 15 and some roundings, at most 16 e |t|.
+///   Since M |d| >= |d . n|, these are at most (7 e R + 21 e |t| |d|) M / |d . n|.
+/// - Let |d . n| >= 2^-7 M |d| and min(u, v, w) >= 2 m as computed, so that they are at least m.
+///   Then the point is inside by 2^-20 R. In double, n is wrong by 2^-46 M, and t |d| by less than
+///   2^-43 M |d| / |d . n| <= 2^-36 of the distance to the point. The point is wrong by as much,
+///   and by 2^-52 of its coordinates: these are at most 2^13 times the distance if t |d| >= 2^-12
+///   (R + |center|). Both together are less than `kHitSlack`, so the canonical test accepts if t is
+///   in the interval.
+/// Lengths that may underflow are replaced by larger ones: M by 2^-60 (StreamBlock), s by 2^-40.
 template <class D>
 class TriangleLanes {
  public:
   struct Found {
     hn::Mask<D> possible;  ///< the ray may hit the triangle in [t_min, t_max]
-    hn::Mask<D> likely;    ///< presumably it does, not before `t_low` and not after `t_high`
-    hn::Vec<D> t_low;      ///< no hit comes before it
+    hn::Mask<D> certain;   ///< it does, not before `t_low` and not after `t_high`
+    hn::Vec<D> t_low;
     hn::Vec<D> t_high;
   };
 
@@ -165,16 +172,21 @@ class TriangleLanes {
     const float extent = leaf_extent < 0x1p-40F ? 0x1p-40F : leaf_extent;
     const auto reach = reach_of(rays.origin, tree);
     const auto length = size_of(rays.direction);
-    least_area_ = hn::Mul(hn::Mul(length, hn::Set(d, -kRounding * extent)),
-                          hn::MulAdd(reach, hn::Set(d, 40.0F), hn::Set(d, 80.0F * extent)));
-    slope_error_ = hn::Mul(length, hn::Set(d, 4.0F * kRounding));
-    height_error_ = hn::Mul(reach, hn::Set(d, 6.0F * kRounding));
+    const auto per_length = inverse_of(d, length);
+    const auto margin = hn::Mul(hn::Mul(length, hn::Set(d, kRounding * extent)),
+                                hn::MulAdd(reach, hn::Set(d, 40.0F), hn::Set(d, 80.0F * extent)));
+    least_area_ = hn::Neg(margin);
+    certain_area_ = hn::Add(margin, margin);
+    largest_ratio_ = hn::Mul(per_length, hn::Set(d, 127.0F));
+    certain_t_ = hn::Max(rays.t_min, hn::Mul(hn::Add(reach, hn::Set(d, tree.center_size)),
+                                             hn::Mul(per_length, hn::Set(d, 0x1.01p-12F))));
+    t_error_ = hn::Mul(length, hn::Set(d, 21.0F * kRounding));
+    start_error_ = hn::Mul(reach, hn::Set(d, 7.0F * kRounding));
   }
 
-  /// `normal_size`: |n|.
-  HWY_INLINE Found operator()(const Triple<D>& a, const Triple<D>& b, const Triple<D>& c,
-                              const Triple<D>& normal, hn::Vec<D> normal_size,
-                              hn::Vec<D> t_max) const {
+  /// `from_c`: a - c; `to_b`: b - a; `size`: M.
+  HWY_INLINE Found operator()(const Triple<D>& a, const Triple<D>& from_c, const Triple<D>& to_b,
+                              const Triple<D>& normal, hn::Vec<D> size, hn::Vec<D> t_max) const {
     const D d;
     const Triple<D>& along = rays_->direction;
     const Triple<D> to_a = difference(a, rays_->origin);
@@ -184,37 +196,34 @@ class TriangleLanes {
     const auto slope = dot_of(normal, along);
     const auto sign = hn::And(slope, hn::SignBit(d));
     const auto steepness = hn::Abs(slope);
-    const auto u = hn::Xor(dot_of(turned, difference(a, c)), sign);
-    const auto v = hn::Xor(dot_of(turned, difference(b, a)), sign);
+    const auto u = hn::Xor(dot_of(turned, from_c), sign);
+    const auto v = hn::Xor(dot_of(turned, to_b), sign);
     const auto inside = hn::Min(hn::Min(u, v), hn::Sub(steepness, hn::Add(u, v)));
 
     const auto height = hn::Xor(dot_of(normal, to_a), sign);
-    const auto error = hn::Mul(normal_size, slope_error_);
     const auto per_steepness = inverse_of(d, steepness);
+    const auto ratio = hn::Mul(size, per_steepness);
     const auto t = hn::Mul(height, per_steepness);
-    const auto size = hn::Abs(t);
-    const auto wrong_height = hn::MulAdd(size, error, hn::Mul(normal_size, height_error_));
-    const auto t_error =
-        hn::MulAdd(size, hn::Set(d, 0x1p-20F),
-                   hn::Mul(wrong_height, hn::Mul(per_steepness, hn::Set(d, 1.125F))));
-    const auto t_low = hn::Sub(t, t_error);
-    const auto t_high = hn::Add(t, t_error);
-    const auto sure = hn::Gt(steepness, hn::Mul(error, hn::Set(d, 16.0F)));
-    const auto in_time = hn::And(hn::Le(t_low, t_max), hn::Ge(t_high, rays_->t_min));
+    const auto error = hn::Mul(ratio, hn::MulAdd(hn::Abs(t), t_error_, start_error_));
     Found found;
-    found.possible = hn::And(hn::Ge(inside, least_area_), hn::Or(in_time, hn::Not(sure)));
-    found.likely = hn::And(hn::And(sure, hn::Ge(inside, hn::Zero(d))),
-                           hn::And(hn::Ge(t_low, rays_->t_min), hn::Lt(t_high, t_max)));
-    found.t_low = hn::IfThenElseZero(sure, t_low);
-    found.t_high = t_high;
+    found.t_low = hn::Sub(t, error);
+    found.t_high = hn::Add(t, error);
+    const auto steep = hn::Lt(ratio, largest_ratio_);
+    const auto in_time = hn::And(hn::Le(found.t_low, t_max), hn::Ge(found.t_high, rays_->t_min));
+    found.possible = hn::And(hn::Ge(inside, least_area_), hn::Or(in_time, hn::Not(steep)));
+    found.certain = hn::And(hn::And(steep, hn::Ge(inside, certain_area_)),
+                            hn::And(hn::Ge(found.t_low, certain_t_), hn::Lt(found.t_high, t_max)));
     return found;
   }
 
  private:
   const LaneRays<D>* rays_;
-  hn::Vec<D> least_area_;    ///< of u, v and w
-  hn::Vec<D> slope_error_;   ///< of d . n, relative to |n|
-  hn::Vec<D> height_error_;  ///< of n . (a - o), relative to |n|
+  hn::Vec<D> least_area_;  ///< of u, v and w
+  hn::Vec<D> certain_area_;
+  hn::Vec<D> largest_ratio_;  ///< of M and |d . n|
+  hn::Vec<D> certain_t_;      ///< the least t at which a hit is certain
+  hn::Vec<D> t_error_;        ///< of t, relative to |t| M / |d . n|
+  hn::Vec<D> start_error_;    ///< of t, relative to M / |d . n|
 };
 
 /// **Spheres.** As ProbeRay's test: the vector from the center to the nearest point of the line is

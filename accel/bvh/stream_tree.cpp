@@ -13,9 +13,9 @@
 namespace beambench::accel::bvh {
 namespace {
 
-/// Normals shorter than this count as of this length where errors are estimated, so that products
-/// of floats that underflow are among the errors.
-constexpr double kShortestNormal = 0x1p-60;
+/// The least size of a triangle where errors are estimated, so that products of floats that
+/// underflow are among the errors.
+constexpr double kLeastSize = 0x1p-60;
 
 /// The share of the tree's size by which boxes are widened.
 constexpr double kSlack = 0x1p-18;
@@ -42,20 +42,42 @@ StreamNode stream_node(const WideNode& from, const StreamTree& tree) {
   return node;
 }
 
-BlockNormals block_normals(const PrimitiveBlock& block) {
-  BlockNormals normals{};
-  if (block.kind != scenes::PrimitiveKind::kPolygon) return normals;
+StreamBlock stream_block(const PrimitiveBlock& block) {
+  StreamBlock to{};
+  to.kind = block.kind;
+  to.count = block.count;
+  to.first = block.first;
+  to.leaf_extent = block.leaf_extent;
+  if (block.kind != scenes::PrimitiveKind::kPolygon) return to;
   for (std::size_t lane = 0; lane < block.count; ++lane) {
+    const auto put = [lane](auto& row, const glm::dvec3& v) {
+      for (int axis = 0; axis < 3; ++axis) {
+        row[static_cast<std::size_t>(axis)][lane] = static_cast<float>(v[axis]);
+      }
+    };
     const glm::dvec3 a(block.corner(0, lane));
-    const glm::dvec3 normal =
-        glm::cross(glm::dvec3(block.corner(1, lane)) - a, glm::dvec3(block.corner(2, lane)) - a);
-    for (int axis = 0; axis < 3; ++axis) {
-      normals.rows[static_cast<std::size_t>(axis)][lane] = static_cast<float>(normal[axis]);
-    }
+    const glm::dvec3 b(block.corner(1, lane));
+    const glm::dvec3 c(block.corner(2, lane));
+    const glm::dvec3 normal = glm::cross(b - a, c - a);
+    const glm::dvec3 sides = glm::max(glm::max(a, b), c) - glm::min(glm::min(a, b), c);
+    const double side = std::max({sides.x, sides.y, sides.z});
     const double sum = std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z);
-    normals.rows[3][lane] = static_cast<float>(std::max(sum, kShortestNormal));
+    put(to.a, a);
+    put(to.from_c, a - c);
+    put(to.to_b, b - a);
+    put(to.normal, normal);
+    to.size[lane] = next_above(static_cast<float>(std::max({sum, side * side / 8.0, kLeastSize})));
   }
-  return normals;
+  return to;
+}
+
+void put_triangles(const PrimitiveBlock& block, LargePageVector<WholeTriangle>& triangles) {
+  if (block.kind != scenes::PrimitiveKind::kPolygon) return;
+  for (std::size_t lane = 0; lane < block.count; ++lane) {
+    triangles[block.first + lane] = {block.corner(0, lane), block.primitives[lane],
+                                     block.corner(1, lane), 0.0F,
+                                     block.corner(2, lane), 0.0F};
+  }
 }
 
 }  // namespace
@@ -78,18 +100,25 @@ StreamTree build_stream_tree(const WideBvh& bvh, bool parallel) {
   const glm::dvec3 reach =
       glm::max(glm::dvec3(bounds.upper) - center, center - glm::dvec3(bounds.lower));
   tree.half_size = next_above(static_cast<float>(std::max({reach.x, reach.y, reach.z})));
+  const glm::vec3 sizes = glm::abs(tree.center);
+  tree.center_size = std::max({sizes.x, sizes.y, sizes.z});
   tree.nodes.resize(bvh.nodes.size());
-  tree.normals.resize(bvh.blocks.size());
-  const auto fill = [&](auto& to, const auto& from, const auto& make) {
+  tree.blocks.resize(bvh.blocks.size());
+  tree.triangles.resize(bvh.blocks.back().first + bvh.blocks.back().count);
+  const auto for_all = [&](std::size_t count, const auto& fill) {
     const auto fill_range = [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) to[i] = make(from[i]);
+      for (std::size_t i = begin; i < end; ++i) fill(i);
     };
-    if (!parallel) return fill_range(0, to.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, to.size(), 1024),
+    if (!parallel) return fill_range(0, count);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1024),
                       [&](const auto& range) { fill_range(range.begin(), range.end()); });
   };
-  fill(tree.nodes, bvh.nodes, [&](const WideNode& node) { return stream_node(node, tree); });
-  fill(tree.normals, bvh.blocks, block_normals);
+  for_all(tree.nodes.size(),
+          [&](std::size_t i) { tree.nodes[i] = stream_node(bvh.nodes[i], tree); });
+  for_all(tree.blocks.size(), [&](std::size_t i) {
+    tree.blocks[i] = stream_block(bvh.blocks[i]);
+    put_triangles(bvh.blocks[i], tree.triangles);
+  });
   return tree;
 }
 

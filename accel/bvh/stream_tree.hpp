@@ -23,22 +23,44 @@ struct alignas(64) StreamNode {
 };
 static_assert(sizeof(StreamNode) == 256);
 
-/// The normals of a block's triangles (b - a) x (c - a), and the sums of the sizes of their
-/// components: as the canonical test computes them in double, rounded once.
-struct alignas(64) BlockNormals {
-  std::array<std::array<float, kBvhLanes>, 4> rows;  ///< x, y, z, sum
+/// A PrimitiveBlock as streams test it (stream_tests-inl.hpp). The numbers of triangles are those
+/// of the canonical test in double, rounded once. Of solids: only what is not in lanes.
+struct alignas(64) StreamBlock {
+  std::array<std::array<float, kBvhLanes>, 3> a;       ///< x, y, z
+  std::array<std::array<float, kBvhLanes>, 3> from_c;  ///< a - c
+  std::array<std::array<float, kBvhLanes>, 3> to_b;    ///< b - a
+  std::array<std::array<float, kBvhLanes>, 3> normal;  ///< (b - a) x (c - a)
+  std::array<float, kBvhLanes> size;                   ///< M
+  scenes::PrimitiveKind kind;
+  std::uint32_t count;
+  std::uint32_t first;  ///< number of its first triangle
+  float leaf_extent;
 };
-static_assert(sizeof(BlockNormals) == 128);
+static_assert(sizeof(StreamBlock) == 448);
 
-/// The nodes and the triangles' normals of a WideBvh, with its numbers.
+/// A triangle for the canonical test, in one or two cache lines. Other primitives have zeros.
+struct alignas(16) WholeTriangle {
+  glm::vec3 a;
+  scenes::PrimitiveId polygon;
+  glm::vec3 b;
+  float unused_b;
+  glm::vec3 c;
+  float unused_c;
+};
+static_assert(sizeof(WholeTriangle) == 48);
+
+/// The nodes and the triangles of a WideBvh, with its numbers.
 struct StreamTree {
-  glm::vec3 center{0.0F};  ///< of the scene
+  glm::vec3 center{0.0F};    ///< of the scene
+  float center_size = 0.0F;  ///< the largest component of the center
   float half_size = 0.0F;  ///< at least the distance of any place in a box from it, along each axis
   LargePageVector<StreamNode> nodes;
-  LargePageVector<BlockNormals> normals;
+  LargePageVector<StreamBlock> blocks;
+  LargePageVector<WholeTriangle> triangles;  ///< of all blocks
 
   std::size_t bytes() const {
-    return nodes.capacity() * sizeof(StreamNode) + normals.capacity() * sizeof(BlockNormals);
+    return nodes.capacity() * sizeof(StreamNode) + blocks.capacity() * sizeof(StreamBlock) +
+           triangles.capacity() * sizeof(WholeTriangle);
   }
 };
 

@@ -69,7 +69,9 @@ HWY_INLINE void for_each_bit(LaneBits bits, Visit visit) {
 template <bool kAny, class Counting>
 class StreamWalk {
  public:
-  StreamWalk(const Stream& stream, StreamMemory& memory, Counting& counting)
+  /// Traces the stream. Appends to `left` the rays that no stream can trace.
+  StreamWalk(const Stream& stream, StreamMemory& memory, std::vector<std::uint32_t>& left,
+             Counting& counting)
       : stream_(stream),
         tree_(stream.tree),
         rows_(memory.rows.data()),
@@ -78,13 +80,11 @@ class StreamWalk {
         hits_(stream, memory, counting) {
     std::uint32_t* const all = memory.lists.data();
     const std::size_t count = stream.rays.size();
-    extent_ = fill_rows<kAny>(stream.rays, tree_, rows_);
+    extent_ = fill_rows<kAny>(stream.rays, tree_, rows_, left);
     for (std::size_t i = 0; i < count; ++i) all[i] = place_of(i);
     visit(stream.bvh.root, all, count, all + stride_of(count));
-    hits_.confirm_guesses();
+    hits_.finish();
   }
-
-  void append_undecided(std::vector<std::uint32_t>& left) const { hits_.append_undecided(left); }
 
  private:
   using Hits = StreamHits<kAny, Counting>;
@@ -230,9 +230,6 @@ class StreamWalk {
     counting_.add("stream_chunks", (count + kPacket - 1) / kPacket);
     count_leaf(at, count);
     for (std::size_t i = 0; i < count; i += kLanes) {
-      for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        hits_.prefetch(list[i + lane]);  // of which about one changes
-      }
       LaneRays<Tag> rays = load_rays(rows_, list + i);
       const Mask present = hn::FirstN(Tag(), count - i);
       test_leaf(at, rays, hn::And(present, hn::Le(rays.t_min, rays.t_max)), list + i);
@@ -245,57 +242,64 @@ class StreamWalk {
                             const std::uint32_t* places) {
     for (std::uint32_t i = 0; i < at.block_count(); ++i) {
       const std::uint32_t index = at.first_block() + i;
-      const PrimitiveBlock& block = stream_.bvh.blocks[index];
+      const StreamBlock& block = tree_.blocks[index];
       if (block.kind == scenes::PrimitiveKind::kPolygon) {
-        test_triangles(index, rays, active, places);
+        test_triangles(block, rays, active, places);
       } else {
-        test_solids(block, rays, active, places);
+        test_solids(stream_.bvh.blocks[index], rays, active, places);
       }
     }
   }
 
-  HWY_INLINE void test_triangles(std::uint32_t index, LaneRays<Tag>& rays, Mask active,
+  HWY_INLINE void test_triangles(const StreamBlock& block, LaneRays<Tag>& rays, Mask active,
                                  const std::uint32_t* places) {
-    const PrimitiveBlock& block = stream_.bvh.blocks[index];
-    const BlockNormals& normals = tree_.normals[index];
-    const hn::RebindToUnsigned<Tag> words;
     const TriangleLanes<Tag> triangle(rays, tree_, block.leaf_extent);
-    Floats low = all(kInfinity);  // of the guess
-    auto guess = hn::Set(words, kNoTriangle);
+    const auto point = [](const auto& from, std::size_t lane) -> Triple<Tag> {
+      return {all(from[0][lane]), all(from[1][lane]), all(from[2][lane])};
+    };
+    const hn::RebindToUnsigned<Tag> words;
+    Mask ended = mask_of(0);
+    Floats low = all(kInfinity);
+    auto nearest = hn::Set(words, kNoTriangle);
     for (std::size_t lane = 0; lane < block.count; ++lane) {
-      const auto& rows = block.coordinates;
-      const auto point = [&](std::size_t row) -> Triple<Tag> {
-        return {all(rows[row][lane]), all(rows[row + 1][lane]), all(rows[row + 2][lane])};
-      };
-      const Triple<Tag> normal{all(normals.rows[0][lane]), all(normals.rows[1][lane]),
-                               all(normals.rows[2][lane])};
       const auto found =
-          triangle(point(0), point(3), point(6), normal, all(normals.rows[3][lane]), rays.t_max);
-      const auto number = static_cast<std::uint32_t>(index * kBvhLanes + lane);
+          triangle(point(block.a, lane), point(block.from_c, lane), point(block.to_b, lane),
+                   point(block.normal, lane), all(block.size[lane]), rays.t_max);
+      const std::uint32_t number = block.first + static_cast<std::uint32_t>(lane);
       const Mask possible = hn::And(found.possible, active);
-      const Mask better = hn::And(hn::And(found.likely, active), hn::Lt(found.t_high, low));
-      const Mask doubtful = hn::AndNot(better, possible);
+      Mask certain = hn::And(found.certain, active);
+      if constexpr (kAny) {
+        ended = hn::Or(ended, certain);
+      } else {
+        certain = hn::And(certain, hn::Lt(found.t_high, low));
+        rays.t_max = hn::IfThenElse(certain, found.t_high, rays.t_max);
+        low = hn::IfThenElse(certain, found.t_low, low);
+        nearest = hn::IfThenElse(hn::RebindMask(words, certain), hn::Set(words, number), nearest);
+      }
+      const Mask doubtful = hn::AndNot(certain, possible);
       if (HWY_UNLIKELY(!hn::AllFalse(Tag(), doubtful))) {
         for_each_bit(bits_of(doubtful), [&](std::size_t i) { hits_.doubt(places[i], number); });
       }
-      rays.t_max = hn::IfThenElse(better, kAny ? all(Hits::kEnded) : found.t_high, rays.t_max);
-      low = hn::IfThenElse(better, found.t_low, low);
-      guess = hn::IfThenElse(hn::RebindMask(words, better), hn::Set(words, number), guess);
     }
-    const LaneBits guessed = bits_of(hn::Lt(low, all(kInfinity)));
-    if (guessed == 0) return;
-    alignas(64) std::array<float, kLanes> t_low;
-    alignas(64) std::array<float, kLanes> t_high;
-    alignas(64) std::array<std::uint32_t, kLanes> numbers;
-    store(low, t_low.data());
-    store(rays.t_max, t_high.data());
-    hn::Store(guess, words, numbers.data());
-    for_each_bit(guessed, [&](std::size_t i) {
-      hits_.presume(places[i], {t_low[i], numbers[i]}, t_high[i]);
-    });
+    if constexpr (kAny) {
+      rays.t_max = hn::IfThenElse(ended, all(Hits::kEnded), rays.t_max);
+      for_each_bit(bits_of(ended), [&](std::size_t i) { hits_.end(places[i]); });
+    } else {
+      const LaneBits hit = bits_of(hn::Lt(low, all(kInfinity)));
+      if (hit == 0) return;
+      alignas(64) std::array<float, kLanes> t_low;
+      alignas(64) std::array<float, kLanes> t_high;
+      alignas(64) std::array<std::uint32_t, kLanes> numbers;
+      store(low, t_low.data());
+      store(rays.t_max, t_high.data());
+      hn::Store(nearest, words, numbers.data());
+      for_each_bit(hit, [&](std::size_t i) {
+        hits_.keep(places[i], {t_low[i], numbers[i]}, t_high[i]);
+      });
+    }
   }
 
-  /// Tests spheres and cones, and confirms hits at once: of a cone, all.
+  /// Tests spheres and cones, and decides possible hits at once: of a cone, all.
   HWY_INLINE void test_solids(const PrimitiveBlock& block, LaneRays<Tag>& rays, Mask active,
                               const std::uint32_t* places) {
     const bool are_spheres = block.kind == scenes::PrimitiveKind::kSphere;
@@ -310,7 +314,7 @@ class StreamWalk {
       }
       const LaneBits bits = bits_of(possible);
       if (bits == 0) continue;
-      for_each_bit(bits, [&](std::size_t i) { hits_.confirm(places[i], block.primitives[lane]); });
+      for_each_bit(bits, [&](std::size_t i) { hits_.decide(places[i], block.primitives[lane]); });
       rays.t_max = load_t_max(places);
     }
   }
@@ -412,6 +416,7 @@ class StreamWalk {
     };
     LaneRays<LaneTag> lanes{in_lanes(ray.origin), hn::Set(tag, ray.t_min), in_lanes(ray.direction),
                             hn::Set(tag, ray.t_max)};
+    if (at.is_leaf()) return test_leaf_alone(at, lanes, place);
     const SlabLanes<LaneTag> slabs(lanes, tree_);
     struct Waiting {
       std::uint32_t at;
@@ -469,47 +474,49 @@ class StreamWalk {
     count_leaf(at, 1);
     for (std::uint32_t i = 0; i < at.block_count(); ++i) {
       const std::uint32_t index = at.first_block() + i;
-      const PrimitiveBlock& block = stream_.bvh.blocks[index];
+      const StreamBlock& block = tree_.blocks[index];
       if (block.kind == scenes::PrimitiveKind::kPolygon) {
-        test_triangles_alone(index, lanes, place);
+        test_triangles_alone(block, lanes, place);
       } else {
-        test_solids_alone(block, lanes, place);
+        test_solids_alone(stream_.bvh.blocks[index], lanes, place);
       }
       if (kAny && row(place).t_max == Hits::kEnded) return;
     }
   }
 
-  HWY_INLINE void test_triangles_alone(std::uint32_t index, const LaneRays<LaneTag>& lanes,
+  HWY_INLINE void test_triangles_alone(const StreamBlock& block, const LaneRays<LaneTag>& lanes,
                                        std::uint32_t place) {
     const LaneTag tag;
-    const PrimitiveBlock& block = stream_.bvh.blocks[index];
-    const BlockNormals& normals = tree_.normals[index];
     const TriangleLanes<LaneTag> triangle(lanes, tree_, block.leaf_extent);
     alignas(64) std::array<float, kBvhLanes> t_low;
     alignas(64) std::array<float, kBvhLanes> t_high;
-    LaneBits likely = 0;
+    LaneBits certain = 0;
     LaneBits possible = test_lanes([&](std::size_t lane) {
-      const auto point = [&](const auto& rows, std::size_t row) -> Triple<LaneTag> {
-        return {hn::Load(tag, &rows[row][lane]), hn::Load(tag, &rows[row + 1][lane]),
-                hn::Load(tag, &rows[row + 2][lane])};
+      const auto point = [&](const auto& from) -> Triple<LaneTag> {
+        return {hn::Load(tag, &from[0][lane]), hn::Load(tag, &from[1][lane]),
+                hn::Load(tag, &from[2][lane])};
       };
-      const auto& rows = block.coordinates;
       const auto found =
-          triangle(point(rows, 0), point(rows, 3), point(rows, 6), point(normals.rows, 0),
-                   hn::Load(tag, &normals.rows[3][lane]), lanes.t_max);
+          triangle(point(block.a), point(block.from_c), point(block.to_b), point(block.normal),
+                   hn::Load(tag, &block.size[lane]), lanes.t_max);
       hn::Store(found.t_low, tag, &t_low[lane]);
       hn::Store(found.t_high, tag, &t_high[lane]);
-      likely |= lane_bits(found.likely) << lane;
+      certain |= lane_bits(found.certain) << lane;
       return found.possible;
     });
     possible &= (LaneBits{1} << block.count) - 1;
+    certain &= possible;
+    if constexpr (kAny) {
+      if (certain != 0) return hits_.end(place);
+    }
     for_each_bit(possible, [&](std::size_t lane) {
-      const auto number = static_cast<std::uint32_t>(index * kBvhLanes + lane);
-      if ((likely >> lane & 1U) != 0) {
-        hits_.presume(place, {t_low[lane], number}, kAny ? Hits::kEnded : t_high[lane]);
-      } else {
-        hits_.doubt(place, number);
+      const std::uint32_t number = block.first + static_cast<std::uint32_t>(lane);
+      if constexpr (!kAny) {
+        if ((certain >> lane & 1U) != 0) {
+          return hits_.keep(place, {t_low[lane], number}, t_high[lane]);
+        }
       }
+      hits_.doubt(place, number);
     });
   }
 
@@ -525,13 +532,12 @@ class StreamWalk {
       });
     }
     for_each_bit(possible & ((LaneBits{1} << block.count) - 1),
-                 [&](std::size_t lane) { hits_.confirm(place, block.primitives[lane]); });
+                 [&](std::size_t lane) { hits_.decide(place, block.primitives[lane]); });
   }
 
   HWY_INLINE void prefetch(ChildReference child) const {
     if (child.is_leaf()) {
-      prefetch_lines(stream_.bvh.blocks[child.first_block()]);
-      prefetch_lines(tree_.normals[child.first_block()]);
+      prefetch_lines(tree_.blocks[child.first_block()]);
     } else {
       prefetch_lines(tree_.nodes[child.node_index()]);
     }
@@ -545,7 +551,7 @@ class StreamWalk {
     counting_.add(Counter::kTraversalSteps, rays);
     counting_.add(Counter::kLeaves, rays);
     for (std::uint32_t i = 0; i < at.block_count(); ++i) {
-      const PrimitiveBlock& block = stream_.bvh.blocks[at.first_block() + i];
+      const StreamBlock& block = tree_.blocks[at.first_block() + i];
       counting_.add_tests(block.kind, rays * block.count);
     }
   }

@@ -24,11 +24,11 @@ using DoubleTag = hn::CappedTag<double, 8>;
 using Doubles = hn::Vec<DoubleTag>;
 inline constexpr std::size_t kDoubleLanes = hn::MaxLanes(DoubleTag());
 
-/// As many rays and triangles as there are lanes.
-struct alignas(64) RayTrianglePairs {
-  using Row = std::array<float, kDoubleLanes>;
+/// As many rays and triangles as there are lanes of double.
+struct RayTrianglePairs {
+  using Tag = hn::Rebind<float, DoubleTag>;
   struct Point {
-    Row x, y, z;
+    hn::Vec<Tag> x, y, z;
   };
   Point origin;
   Point direction;
@@ -77,21 +77,40 @@ HWY_INLINE hn::Mask<DoubleTag> near_triangles(const DoublePoint& point,
   return hn::Not(far);
 }
 
-/// Sets `t` to what intersect_triangle computes, not yet rounded and for any interval, or to NaN
-/// for a miss: `accept` decides about the interval.
+/// The numbers of the pairs in double.
+struct DoublePairs {
+  explicit HWY_INLINE DoublePairs(const RayTrianglePairs& pairs)
+      : origin(widened(pairs.origin)),
+        direction(widened(pairs.direction)),
+        corners{widened(pairs.corners[0]), widened(pairs.corners[1]), widened(pairs.corners[2])},
+        normal(cross(corners[1] - corners[0], corners[2] - corners[0])),
+        along(dot(normal, direction)),
+        t(hn::Div(dot(normal, corners[0] - origin), along)) {}
+
+  static HWY_INLINE DoublePoint widened(const RayTrianglePairs::Point& from) {
+    const DoubleTag d;
+    return {hn::PromoteTo(d, from.x), hn::PromoteTo(d, from.y), hn::PromoteTo(d, from.z)};
+  }
+
+  DoublePoint origin;
+  DoublePoint direction;
+  std::array<DoublePoint, 3> corners;
+  DoublePoint normal;
+  Doubles along;  ///< normal . direction
+  Doubles t;      ///< of the triangles' planes
+};
+
+/// Returns t as intersect_triangle computes it where it accepts, not yet rounded and for any
+/// interval.
+HWY_INLINE Doubles distances_along_rays(const RayTrianglePairs& pairs) {
+  return DoublePairs(pairs).t;
+}
+
+/// Sets `t` likewise, or to NaN for a miss: `accept` decides about the interval.
 HWY_INLINE void intersect_triangles(const RayTrianglePairs& pairs, double* t) {
   const DoubleTag d;
-  const auto widened = [&](const RayTrianglePairs::Point& from) -> DoublePoint {
-    const hn::Rebind<float, DoubleTag> floats;
-    const auto row = [&](const RayTrianglePairs::Row& values) {
-      return hn::PromoteTo(d, hn::LoadU(floats, values.data()));
-    };
-    return {row(from.x), row(from.y), row(from.z)};
-  };
-  const DoublePoint origin = widened(pairs.origin);
-  const DoublePoint direction = widened(pairs.direction);
-  const std::array<DoublePoint, 3> corners{widened(pairs.corners[0]), widened(pairs.corners[1]),
-                                           widened(pairs.corners[2])};
+  const DoublePairs in_double(pairs);
+  const auto& [origin, direction, corners, normal, along, found] = in_double;
 
   // The main axis (`longest_axis`), which is another one in each lane.
   const DoublePoint size{hn::Abs(direction.x), hn::Abs(direction.y), hn::Abs(direction.z)};
@@ -123,9 +142,6 @@ HWY_INLINE void intersect_triangles(const RayTrianglePairs& pairs, double* t) {
   const auto beyond = hn::And(hn::Lt(hn::Min(hn::Min(u, v), w), hn::Zero(d)),
                               hn::Gt(hn::Max(hn::Max(u, v), w), hn::Zero(d)));
 
-  const DoublePoint normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
-  const auto along = dot(normal, direction);
-  const auto found = hn::Div(dot(normal, from_origin[0]), along);
   const auto reach_squared =
       hn::Max(hn::Max(dot(from_origin[0], from_origin[0]), dot(from_origin[1], from_origin[1])),
               dot(from_origin[2], from_origin[2]));
