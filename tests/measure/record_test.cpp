@@ -71,40 +71,6 @@ TEST(Statistics, IntervalCoversTheMedianOfASkewedDistribution) {
   EXPECT_LT(covered, kTrials * 99 / 100);  // an interval of everything would say nothing
 }
 
-TEST(Statistics, FewerThanNineSamplesHaveNoIntervalOfARepeat) {
-  std::vector<double> samples{1, 2, 3, 4, 5, 6, 7, 8};
-  EXPECT_FALSE(repeat_interval(samples));
-  EXPECT_FALSE(repeat_interval({}));
-  samples.push_back(9);
-  ASSERT_TRUE(repeat_interval(samples));
-  EXPECT_EQ(repeat_interval(samples)->low, 1.0);
-  EXPECT_EQ(repeat_interval(samples)->high, 9.0);
-}
-
-TEST(Statistics, IntervalOfARepeatCoversTheNextMedian) {
-  std::mt19937_64 engine(2);
-  std::exponential_distribution<double> distribution(1.0);
-  constexpr int kTrials = 4000;
-  for (const std::size_t n : {9U, 10U, 21U, 60U}) {
-    int covered = 0;
-    int covered_by_the_narrower = 0;
-    for (int trial = 0; trial < kTrials; ++trial) {
-      std::vector<double> samples(n);
-      std::vector<double> again(n);
-      std::generate(samples.begin(), samples.end(), [&] { return distribution(engine); });
-      std::generate(again.begin(), again.end(), [&] { return distribution(engine); });
-      const auto within = [&](const Interval& interval) {
-        return interval.low <= median(again) && median(again) <= interval.high ? 1 : 0;
-      };
-      covered += within(*repeat_interval(samples));
-      covered_by_the_narrower += within(*median_interval(samples));
-    }
-    EXPECT_GT(covered, kTrials * 94 / 100) << n;
-    EXPECT_LT(covered, kTrials * 995 / 1000) << n;
-    EXPECT_LT(covered_by_the_narrower, kTrials * 94 / 100) << n;
-  }
-}
-
 TEST(Statistics, TheSpreadOfTheMinimumReachesToTheFifthOfFifteen) {
   std::vector<double> samples{16, 15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 1};
   EXPECT_EQ(repeat_spread_of_minimum(samples), 5.0)

@@ -20,36 +20,18 @@ double log_choose(double n, double k) {
   return std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0);
 }
 
-/// Returns the largest k up to n with log_probability(0) + ... + log_probability(k - 1) <= kTail,
-/// in probabilities.
-template <class LogProbability>
-std::size_t largest_tail(std::size_t n, LogProbability log_probability) {
-  double cumulative = 0.0;
-  std::size_t k = 0;
-  while (k < n) {
-    cumulative += std::exp(log_probability(static_cast<double>(k)));
-    if (cumulative > kTail) break;
-    ++k;
-  }
-  return k;
-}
-
 /// Returns how many of the smallest (and of the largest) of n samples lie outside the interval: the
 /// largest k with P(B(n, 1/2) < k) <= kTail.
 std::size_t samples_outside(std::size_t n) {
   const auto count = static_cast<double>(n);
-  return largest_tail(n, [&](double k) { return log_choose(count, k) - count * std::log(2.0); });
-}
-
-/// Returns the same for the interval of a repeat: the largest r with P(Y < X_r) <= kTail, where Y
-/// is the (lower) median of n further samples and X_r the r-th smallest of the first n.
-std::size_t samples_outside_repeat(std::size_t n) {
-  const auto count = static_cast<double>(n);
-  const auto middle = static_cast<double>((n + 1) / 2);
-  return largest_tail(n, [&](double below) {  // how many of the first samples are below Y
-    return log_choose(middle - 1.0 + below, below) +
-           log_choose(2.0 * count - middle - below, count - below) - log_choose(2.0 * count, count);
-  });
+  double cumulative = 0.0;
+  std::size_t k = 0;
+  while (k < n) {
+    cumulative += std::exp(log_choose(count, static_cast<double>(k)) - count * std::log(2.0));
+    if (cumulative > kTail) break;
+    ++k;
+  }
+  return k;
 }
 
 /// Returns the least k with P(smallest of n further samples > k-th smallest of n) <= kTail: the k
@@ -61,13 +43,6 @@ std::optional<std::size_t> rank_above_next_minimum(std::size_t n) {
     if (probability <= kTail) return k;
   }
   return std::nullopt;
-}
-
-std::optional<Interval> between_order_statistics(std::span<const double> samples,
-                                                 std::size_t outside) {
-  if (outside == 0) return std::nullopt;
-  const std::vector<double> values = sorted(samples);
-  return Interval{values[outside - 1], values[values.size() - outside]};
 }
 
 }  // namespace
@@ -92,11 +67,10 @@ double median_absolute_deviation(std::span<const double> samples) {
 }
 
 std::optional<Interval> median_interval(std::span<const double> samples) {
-  return between_order_statistics(samples, samples_outside(samples.size()));
-}
-
-std::optional<Interval> repeat_interval(std::span<const double> samples) {
-  return between_order_statistics(samples, samples_outside_repeat(samples.size()));
+  const std::size_t outside = samples_outside(samples.size());
+  if (outside == 0) return std::nullopt;
+  const std::vector<double> values = sorted(samples);
+  return Interval{values[outside - 1], values[values.size() - outside]};
 }
 
 std::optional<double> repeat_spread_of_minimum(std::span<const double> samples) {

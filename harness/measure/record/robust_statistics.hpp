@@ -27,13 +27,6 @@ double median_absolute_deviation(std::span<const double> samples);
 /// extremes cover less.
 std::optional<Interval> median_interval(std::span<const double> samples);
 
-/// Returns an interval that the median of as many further samples falls into with at least 95%,
-/// whatever the distribution: wider than median_interval, since both medians vary. Two order
-/// statistics, whose ranks follow from the negative hypergeometric distribution of how many of the
-/// first samples lie below an order statistic of the second (David and Nagaraja, Order Statistics,
-/// 3rd ed., section 7.3). None for fewer than nine samples, whose extremes cover less.
-std::optional<Interval> repeat_interval(std::span<const double> samples);
-
 /// Returns the maximum distance between the smallest of as many further samples and the smallest of
 /// these, with at least 95%: the distance to the k-th smallest, where k is the least rank with P(a
 /// further smallest > the k-th) <= 2.5%, five for six to twenty-four samples. That bound holds
