@@ -71,7 +71,6 @@ class StreamHits {
   /// Keeps a certain hit before `t_high`. Of two that may be equally near, one becomes a doubt.
   HWY_INLINE void keep(std::uint32_t place, const StreamHit& hit, float t_high) requires(!kAny) {
     Ray& ray = row(place);
-    if (hit.t_low > ray.t_max) return;
     StreamHit& nearest = hits_[ray_at(place)];
     if (t_high < nearest.t_low) {
       nearest = hit;

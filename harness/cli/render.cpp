@@ -17,6 +17,7 @@
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/text.hpp"
+#include "harness/rays/area_lights.hpp"
 #include "harness/rays/hit_check.hpp"
 #include "harness/rays/trace_results.hpp"
 #include "harness/render/diagnostics.hpp"
@@ -46,6 +47,8 @@ struct RenderRequest {
   std::string shading = "preview";
   std::string overlay;
   WhittedRequest whitted;
+  int light_points = 0;  ///< of each light; 0: lights are points
+  double light_size = rays::LightExtent{}.size;
   std::string exposure = "0";
 };
 
@@ -251,7 +254,13 @@ void render(const RenderRequest& request) {
   const accel::StructureChoice choice = chosen_structure(request);
   std::optional<render::OverlayChoice> overlay;
   if (!request.overlay.empty()) overlay = render::parse_overlay(request.overlay, choice.info());
-  const scenes::Scene scene = open_scene(request.scene);
+  scenes::Scene scene = open_scene(request.scene);
+  if (request.light_points > 0) {
+    if (shading != render::Shading::kWhitted) {
+      throw InputError("--soft-shadows is of light; give --shade whitted with it");
+    }
+    scene.lights = rays::area_lights(scene, {request.light_points, request.light_size});
+  }
   if (overlay) render::require_light(*overlay, scene);
   const rays::ImageOfRays image = choose_image(scene, request.image);
   const accel::PrimaryRays rays = image.rays();
@@ -301,6 +310,18 @@ void add_render_command(CLI::App& app, int&) {
                    "preview, normals, id, depth, or whitted: lights, shadows, mirrors and glass")
       ->capture_default_str();
   add_whitted_options(*command, request->whitted);
+  CLI::Option* soft =
+      command
+          ->add_option("--soft-shadows", request->light_points,
+                       "Lights are balls, each shown by so many of its points (with --shade "
+                       "whitted); 16 suits a draft, 64 and more a picture")
+          ->check(CLI::Range(1, rays::kMaxLightPoints));
+  command
+      ->add_option("--light-size", request->light_size,
+                   "The diameter of these balls, in diagonals of the scene's box")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1e6))
+      ->needs(soft);
   CLI::Option* exposure =
       command
           ->add_option("--exposure", request->exposure,
@@ -346,6 +367,7 @@ void add_render_command(CLI::App& app, int&) {
       "  beambench render balls --accel tile-beam -o pencils.png --overlay pencils:light=2\n"
       "  beambench render balls:n=3 --accel beam -o balls.png --shade whitted --samples 4\n"
       "  beambench render rings -o rings.png --shade whitted --exposure auto\n"
+      "  beambench render balls -o soft.png --shade whitted --soft-shadows 64\n"
       "  beambench render tetra --accel embree -o tetra.exr --resolution 640x480 --samples 4");
   command->callback([request] { render(*request); });
 }

@@ -31,6 +31,8 @@ double rays_per_sample(const CellGroup& group) {
   switch (group.rays.kind) {
     case rays::RayKind::kShadow:
       return lights;
+    case rays::RayKind::kArea:
+      return lights * static_cast<double>(rays::parameters_of(group.rays).integer("samples"));
     case rays::RayKind::kOcclusion:
       return static_cast<double>(rays::parameters_of(group.rays).integer("samples"));
     case rays::RayKind::kPath:

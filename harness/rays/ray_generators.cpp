@@ -153,9 +153,10 @@ std::vector<SurfacePoint> in_picture_order(const std::vector<SurfacePoint>& poin
   return ordered;
 }
 
-RayList shadow_rays(const scenes::Scene& scene, const std::vector<SurfacePoint>& points) {
+RayList shadow_rays(std::span<const scenes::Light> lights,
+                    const std::vector<SurfacePoint>& points) {
   RayList list;
-  for (const scenes::Light& light : scene.lights) {
+  for (const scenes::Light& light : lights) {
     const dvec3 position(light.position);
     const std::size_t first = list.rays.size();
     for (const SurfacePoint& at : points) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -46,7 +47,7 @@ std::vector<SurfacePoint> in_picture_order(const std::vector<SurfacePoint>& poin
 ///
 /// Returns the shadow rays, light by light, from each point that faces the light. The light is at t
 /// = 1, and the rays end slightly before it (`accel::t_before_light`). Each light is a pencil.
-RayList shadow_rays(const scenes::Scene& scene, const std::vector<SurfacePoint>& points);
+RayList shadow_rays(std::span<const scenes::Light> lights, const std::vector<SurfacePoint>& points);
 
 /// Returns rays in the mirror directions of the incoming rays, of unit length.
 RayList reflection_rays(const std::vector<SurfacePoint>& points);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "harness/rays/area_lights.hpp"
 #include "scenes/base/error.hpp"
 #include "scenes/base/printable.hpp"
 
@@ -35,6 +36,14 @@ std::vector<ParameterInfo> whitted_parameters() {
                             "following rays are handed over, together")};
 }
 
+std::vector<ParameterInfo> area_parameters() {
+  const LightExtent extent;
+  return {integer_parameter("samples", extent.points, 1, kMaxLightPoints, "points of each light"),
+          real_parameter("size", extent.size, 0.0, 1e6,
+                         "the diameter of lights, in diagonals of the scene's box"),
+          order_parameter()};
+}
+
 std::vector<ParameterInfo> occlusion_parameters() {
   return {integer_parameter("samples", 16, 1, 1024, "rays from each primary hit"),
           real_parameter("distance", 0.1, 1e-6, 1e6,
@@ -54,6 +63,10 @@ const std::vector<RayKindInfo>& all_kinds() {
        "from where primary rays hit to each light that the surface faces, light by light; any hit",
        Query::kAnyHit,
        {order_parameter()}},
+      {RayKind::kArea, "area",
+       "soft shadows: as 'shadow' rays, to several points of each light, which is a ball; point by "
+       "point; any hit",
+       Query::kAnyHit, area_parameters()},
       {RayKind::kReflection,
        "reflection",
        "mirrored at the surface where primary rays hit, as if all were mirrors",

@@ -15,6 +15,7 @@ namespace beambench::rays {
 enum class RayKind {
   kPrimary,     ///< from the camera through the pixels
   kShadow,      ///< from the hits of primary rays to the lights
+  kArea,        ///< the same to several points of each light, which has an extent
   kReflection,  ///< mirrored at the hits of primary rays
   kMirror,      ///< mirrored at the hits of primary rays with planar mirrors
   kDiffuse,     ///< scattered at the hits of primary rays

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "harness/rays/area_lights.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "harness/rays/ray_file.hpp"
 #include "harness/rays/ray_generators.hpp"
@@ -42,17 +43,30 @@ void require_list_size(std::size_t points, std::int64_t each, const RayChoice& c
       each, points, rays, choice.label, kMaxRays, parameter));
 }
 
+void require_lights(const scenes::Scene& scene) {
+  if (!scene.lights.empty()) return;
+  throw NoRaysError(fmt::format(
+      "scene '{}' has no lights, so it has no shadow rays; add an 'l' line to its file or ask for "
+      "rays of another kind",
+      scene.name));
+}
+
 RayList made_rays(const scenes::Scene& scene, const accel::PrimaryRays& primary,
                   const RayChoice& choice) {
   switch (choice.kind) {
     case RayKind::kShadow:
-      if (scene.lights.empty()) {
-        throw NoRaysError(fmt::format(
-            "scene '{}' has no lights, so it has no shadow rays; add an 'l' line to its file or "
-            "ask for rays of another kind",
-            scene.name));
-      }
-      return shadow_rays(scene, in_picture_order(surface_points(scene, primary), primary));
+      require_lights(scene);
+      return shadow_rays(scene.lights, in_picture_order(surface_points(scene, primary), primary));
+    case RayKind::kArea: {
+      require_lights(scene);
+      const Parameters parameters = parameters_of(choice);
+      const LightExtent extent{static_cast<int>(parameters.integer("samples")),
+                               parameters.real("size")};
+      const std::vector<scenes::Light> lights = area_lights(scene, extent);
+      const auto points = in_picture_order(surface_points(scene, primary), primary);
+      require_list_size(points.size(), static_cast<std::int64_t>(lights.size()), choice, "samples");
+      return shadow_rays(lights, points);
+    }
     case RayKind::kReflection:
       return reflection_rays(surface_points(scene, primary));
     case RayKind::kMirror: {

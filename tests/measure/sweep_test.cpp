@@ -434,25 +434,26 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_F(Sweep, TracesEveryKindOfRays) {
   json all = config({"exhaustive", "samet:max_level=4", "embree"});
-  all["rays"] = {"primary",      "shadow", "reflection", "diffuse:seed=3",
-                 "ao:samples=2", "path",   "random"};
+  all["rays"] = {"primary",        "shadow",       "area:samples=2", "reflection",
+                 "diffuse:seed=3", "ao:samples=2", "path",           "random"};
   EXPECT_EQ(run(all).failed, 0U);
   std::map<std::string, std::set<json>> hashes;
   for (const json& cell : all_cells()) {
     const json& row = cell["row"];
     const std::string kind = row["ray_kind"];
     hashes[kind].insert(row["rays_hash"]);
-    const bool any_hit = kind == "shadow" || kind == "ao:samples=2";
+    const bool of_lights = kind == "shadow" || kind == "area:samples=2";
+    const bool any_hit = of_lights || kind == "ao:samples=2";
     EXPECT_EQ(row["query"], any_hit ? "any" : "closest");
     EXPECT_EQ(row["hit_share"].is_null(), any_hit);
     EXPECT_EQ(row["occluded_share"].is_null(), !any_hit);
     const json share = any_hit ? row["occluded_share"] : row["hit_share"];
     EXPECT_EQ(share.get<double>(), row["hits"].get<double>() / row["rays"].get<double>());
-    const bool seeded = any_hit ? kind != "shadow" : kind == "random" || kind == "path";
+    const bool seeded = any_hit ? !of_lights : kind == "random" || kind == "path";
     EXPECT_EQ(row["seed"], kind == "diffuse:seed=3" ? 3 : seeded ? 1 : 0);
     EXPECT_LE(row["coherence"].get<double>(), 1.0);
   }
-  EXPECT_EQ(hashes.size(), 7U);
+  EXPECT_EQ(hashes.size(), 8U);
   for (const auto& [kind, of_kind] : hashes) EXPECT_EQ(of_kind.size(), 1U) << kind;
 }
 

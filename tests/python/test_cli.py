@@ -81,6 +81,7 @@ def test_list_as_json_says_all_of_each_parameter() -> None:
     assert [kind["name"] for kind in everything["rays"]] == [
         "primary",
         "shadow",
+        "area",
         "reflection",
         "mirror",
         "diffuse",
@@ -100,6 +101,7 @@ def test_list_as_json_says_all_of_each_parameter() -> None:
         ("diffuse", ["seed=", "--rays"], ["shadow rays", "samet"]),
         ("ao", ["samples=16", "distance=0.1", "diagonals"], ["bounces", "samet"]),
         ("path", ["bounces=4", "seed="], ["samples", "samet"]),
+        ("area", ["samples=16", "size=0.05", "diagonals"], ["bounces", "samet"]),
     ],
 )
 def test_list_prints_one_alone(name: str, words: list[str], others: list[str]) -> None:

@@ -19,6 +19,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "harness/rays/area_lights.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "harness/rays/ray_file.hpp"
 #include "harness/rays/ray_generators.hpp"
@@ -71,7 +72,8 @@ std::vector<std::string> texts_of(const TraceInput& input) {
 
 TEST(Order, SortedRaysAreTheSameRaysAndMoreCoherent) {
   const scenes::Scene scene = scenes::load_scene("balls:n=1");
-  for (const char* kind : {"shadow", "reflection", "diffuse", "ao", "path", "random"}) {
+  for (const char* kind :
+       {"shadow", "area:samples=3", "reflection", "diffuse", "ao", "path", "random"}) {
     const TraceInput list = input_over(scene, kind);
     const TraceInput sorted = input_over(scene, fmt::format("{}:order=sorted", kind));
     std::vector<std::string> all = texts_of(list), also = texts_of(sorted);
@@ -80,7 +82,9 @@ TEST(Order, SortedRaysAreTheSameRaysAndMoreCoherent) {
     EXPECT_EQ(all, also) << kind;
     EXPECT_NE(fingerprint(list), fingerprint(sorted)) << kind;
     EXPECT_TRUE(sorted.list()->pencils.empty()) << kind;
-    if (std::string_view(kind) == "shadow") continue;  // of few lights: coherent as they are
+    if (kind == std::string_view("shadow") || std::string_view(kind).starts_with("area")) {
+      continue;  // of few lights: coherent as they are
+    }
     EXPECT_GT(coherence(sorted), coherence(list)) << kind;
   }
 }
@@ -112,7 +116,7 @@ TEST(ShadowRays, LeadFromFacedSurfacesToTheLight) {
   const scenes::Scene scene = lonely_sphere();
   const auto points = points_of(scene);
   ASSERT_GT(points.size(), 100U);
-  const auto rays = shadow_rays(scene, points).rays;
+  const auto rays = shadow_rays(scene.lights, points).rays;
   ASSERT_EQ(rays.size(), points.size());  // no visible point faces the light behind
   for (std::size_t i = 0; i < rays.size(); ++i) {
     EXPECT_NEAR(glm::length(dvec3(rays[i].origin) - points[i].point), 0.0, 1e-3);
@@ -120,6 +124,41 @@ TEST(ShadowRays, LeadFromFacedSurfacesToTheLight) {
     EXPECT_NEAR(glm::length(end - dvec3(scene.lights[0].position)), 0.0, 1e-5);
     EXPECT_LT(rays[i].t_max, 1.0F);
     EXPECT_GT(rays[i].t_max, 0.9999F);
+  }
+}
+
+TEST(AreaLights, AreBallsAroundTheLights) {
+  const scenes::Scene scene = lonely_sphere();
+  const double diagonal = glm::length(dvec3(scene.bounds.upper - scene.bounds.lower));
+  for (const int count : {1, 2, 16, 500}) {
+    SCOPED_TRACE(count);
+    const std::vector<scenes::Light> points = area_lights(scene, {count, 0.1});
+    ASSERT_EQ(points.size(), scene.lights.size() * static_cast<std::size_t>(count));
+    for (std::size_t light = 0; light < scene.lights.size(); ++light) {
+      dvec3 mean(0.0);
+      double nearer = 0.0;  // than the sphere that halves the ball's volume
+      for (int i = 0; i < count; ++i) {
+        const auto& point = points[light * static_cast<std::size_t>(count) + std::size_t(i)];
+        const dvec3 from_center = dvec3(point.position) - dvec3(scene.lights[light].position);
+        EXPECT_LE(glm::length(from_center), 0.05 * diagonal * 1.0001);
+        mean += from_center / double(count);
+        nearer += glm::length(from_center) < 0.05 * diagonal * std::cbrt(0.5) ? 1.0 : 0.0;
+        EXPECT_NEAR(point.color.x, scene.lights[light].color.x / std::sqrt(count), 1e-6);
+      }
+      if (count >= 16) EXPECT_LT(glm::length(mean), 0.01 * diagonal);
+      if (count >= 16) EXPECT_NEAR(nearer / count, 0.5, 1.0 / std::sqrt(count));
+    }
+  }
+}
+
+// A ball without size is its light.
+TEST(AreaRays, OfPointsAreShadowRays) {
+  for (const char* name : {"balls:n=1", "habitacion"}) {
+    const scenes::Scene scene = scenes::load_scene(name);
+    const TraceInput area = input_over(scene, "area:samples=1,size=0");
+    const TraceInput shadow = input_over(scene, "shadow");
+    EXPECT_EQ(fingerprint(area), fingerprint(shadow)) << name;
+    EXPECT_EQ(area.list()->pencils.size(), shadow.list()->pencils.size()) << name;
   }
 }
 
@@ -165,7 +204,7 @@ TEST(MirrorRays, AreTheReflectionRaysOfPlanarMirrors) {
 TEST(PencilsOfLists, AreLightsAndVirtualEyes) {
   for (const char* name : {"habitacion", "teapot:n=4", "gears:n=2", "ajedrez", "closed-room",
                            "gato-bill", "misil", "casa-de-campo"}) {
-    for (const char* kind : {"shadow", "mirror"}) {
+    for (const char* kind : {"shadow", "area:samples=3", "mirror"}) {
       SCOPED_TRACE(fmt::format("{} {}", name, kind));
       const scenes::Scene scene = scenes::load_scene(name);
       const accel::PrimaryRays image(scene.cameras.front(), 160, 120, 1);
@@ -298,7 +337,7 @@ TEST(MakeInput, RefusesListsThatWouldFillTheMemory) {
 
 TEST(SecondaryRays, DoNotMeetTheSurfaceTheyLeave) {
   const scenes::Scene scene = lonely_sphere();
-  for (const char* kind : {"shadow", "reflection", "diffuse", "ao", "path"}) {
+  for (const char* kind : {"shadow", "area:size=0.5", "reflection", "diffuse", "ao", "path"}) {
     const verify::ReferenceHits reference(scene, input_over(scene, kind));
     EXPECT_EQ(reference.hit_count(), 0U) << kind;
   }
@@ -375,7 +414,8 @@ TEST(EveryKindOfRays, FindsExhaustiveAndEmbreeRight) {
   for (const std::string& mode : tests::embree_modes()) structures.push_back("embree:mode=" + mode);
   for (const char* name : {"tetra:n=3", "escena1:spheres=60", "balls:n=1", "teapot:n=2"}) {
     const scenes::Scene scene = scenes::load_scene(name);
-    for (const char* kind : {"shadow", "reflection", "mirror", "diffuse", "ao", "path", "random"}) {
+    for (const char* kind :
+         {"shadow", "area:samples=3", "reflection", "mirror", "diffuse", "ao", "path", "random"}) {
       if (kind == std::string_view("mirror") && scenes::planar_mirrors(scene).empty()) continue;
       const verify::ReferenceHits reference(scene, input_over(scene, kind));
       for (const std::string& structure : structures) {

@@ -155,6 +155,21 @@ TEST(PencilHits, OfRandomScenesAndAwkwardLightsAreRight) {
   EXPECT_GT(beams, 1500U);
 }
 
+/// Balls of light that touch surfaces, enclose objects and lie inside solids.
+TEST(PencilHits, OfAreaLightsAreRight) {
+  std::uint64_t beams = 0;
+  for (std::uint64_t seed = 200; seed < 224; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    scenes::Scene scene = random_scene(seed, 40);
+    scene.lights = awkward_lights(scene, random);
+    for (const char* rays : {"area:samples=5,size=0.02", "area:samples=3,size=1"}) {
+      beams += expect_right_over(scene, image_over(scene, 80, 60), rays);
+    }
+  }
+  EXPECT_GT(beams, 1500U);
+}
+
 /// Lights at every power of ten from 1e-6 to 1e6 scene sizes: from the scene's center, from a
 /// triangle on both of its sides, and from a sphere and a cone, inside and outside.
 std::vector<scenes::Light> lights_at_every_distance(const scenes::Scene& scene, Random& random) {
