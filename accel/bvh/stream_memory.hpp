@@ -39,8 +39,14 @@ struct StreamMemory {
   LargePageVector<StreamHit> hits;       ///< of each ray
   std::vector<StreamPair> doubts;        ///< to be tested
 
+  /// The entries of `lists` that a stream may use: not all that an earlier one needed, so that its
+  /// counters do not depend on it.
+  static constexpr std::size_t entries_for(std::size_t rays) {
+    return kEntriesPerRay * (rays + 4 * kPacket);
+  }
+
   void reserve(std::size_t rays) {
-    const std::size_t entries = kEntriesPerRay * (rays + 4 * kPacket);
+    const std::size_t entries = entries_for(rays);
     if (rows.size() < rays) {
       rows.resize(rays);
       hits.resize(rays);

@@ -75,7 +75,7 @@ class StreamWalk {
       : stream_(stream),
         tree_(stream.tree),
         rows_(memory.rows.data()),
-        lists_end_(memory.lists.data() + memory.lists.size()),
+        lists_end_(memory.lists.data() + StreamMemory::entries_for(stream.rays.size())),
         counting_(counting),
         hits_(stream, memory, counting) {
     std::uint32_t* const all = memory.lists.data();

@@ -31,7 +31,8 @@ std::vector<scenes::Light> area_lights(const scenes::Scene& scene, const LightEx
   points.reserve(scene.lights.size() * static_cast<std::size_t>(extent.points));
   for (const scenes::Light& light : scene.lights) {
     for (int i = 0; i < extent.points; ++i) {
-      const glm::dvec3 place = glm::dvec3(light.position) + radius * point_in_ball(i, extent.points);
+      const glm::dvec3 place =
+          glm::dvec3(light.position) + radius * point_in_ball(i, extent.points);
       points.push_back({glm::vec3(place), share * light.color});
     }
   }

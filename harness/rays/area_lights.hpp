@@ -9,8 +9,8 @@ namespace beambench::rays {
 
 /// A luminous ball about each point light.
 struct LightExtent {
-  int points = 16;      ///< of each light, at least 1
-  double size = 0.05;   ///< diameter of the ball, in diagonals of the scene's box
+  int points = 16;     ///< of each light, at least 1
+  double size = 0.05;  ///< diameter of the ball, in diagonals of the scene's box
 };
 inline constexpr int kMaxLightPoints = 1024;
 

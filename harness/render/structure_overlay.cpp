@@ -69,8 +69,8 @@ std::vector<LegendEntry> draw_beams(Image& picture, const accel::Accelerator& ac
 std::vector<LegendEntry> draw_pencil(Image& picture, const accel::Accelerator& accelerator,
                                      const scenes::Scene& scene, const accel::PrimaryRays& rays,
                                      const scenes::Light& light) {
-  const rays::RayList shadows =
-      rays::shadow_rays(scene.lights, rays::in_picture_order(rays::surface_points(scene, rays), rays));
+  const rays::RayList shadows = rays::shadow_rays(
+      scene.lights, rays::in_picture_order(rays::surface_points(scene, rays), rays));
   const auto pencil =
       std::ranges::find(shadows.pencils, glm::dvec3(light.position), &accel::Pencil::apex);
   if (pencil == shadows.pencils.end()) return overlay_pencil(picture, {{}, {}, rays.samples()});

@@ -132,7 +132,8 @@ struct TracedShadows {
 TracedShadows shadows_over(const scenes::Scene& scene, int width = 256, int height = 200) {
   const auto image = std::make_shared<const PrimaryRays>(scene.cameras.front(), width, height, 1);
   TracedShadows traced{
-      rays::shadow_rays(scene.lights, rays::in_picture_order(rays::surface_points(scene, *image), *image)),
+      rays::shadow_rays(scene.lights,
+                        rays::in_picture_order(rays::surface_points(scene, *image), *image)),
       {},
       {}};
   traced.list.image = image;

@@ -5,8 +5,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -279,6 +281,21 @@ TEST_P(Streams, LeaveFewHitsToTheCanonicalTest) {
   for (std::size_t i = 0; i < hits.size(); ++i) hit += hits.get(i) ? 1 : 0;
   EXPECT_LE(work.by_name().at("confirmed_tests"), hit / 5);
   EXPECT_EQ(work.by_name().at("stream_left"), 0U);
+}
+
+// Memory that an earlier stream needed is no room for another one.
+TEST(StreamCounters, DoNotDependOnEarlierStreams) {
+  const scenes::Scene scene = scenes::load_scene("closed-room:detail=4");
+  const SahBvh structure(scene, {});
+  const rays::TraceInput few = diffuse_rays(scene, 24);
+  std::vector<std::map<std::string, std::uint64_t, std::less<>>> works;
+  std::jthread([&] {  // with memory of its own
+    for (const rays::TraceInput& input : {few, diffuse_rays(scene, 128), few}) {
+      works.push_back(CountedHits(structure, input).work.by_name());
+    }
+  })
+      .join();
+  EXPECT_EQ(works[0], works[2]);
 }
 
 TEST(StreamCounters, ArePinned) {
