@@ -17,7 +17,7 @@
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/text.hpp"
-#include "harness/rays/area_lights.hpp"
+#include "harness/rays/lights.hpp"
 #include "harness/rays/hit_check.hpp"
 #include "harness/rays/trace_results.hpp"
 #include "harness/render/diagnostics.hpp"

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "harness/rays/area_lights.hpp"
+#include "harness/rays/lights.hpp"
 #include "scenes/base/error.hpp"
 #include "scenes/base/printable.hpp"
 

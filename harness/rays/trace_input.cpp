@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "harness/rays/area_lights.hpp"
 #include "harness/rays/fingerprint.hpp"
+#include "harness/rays/lights.hpp"
 #include "harness/rays/ray_file.hpp"
 #include "harness/rays/ray_generators.hpp"
 #include "harness/rays/ray_order.hpp"

@@ -5,6 +5,7 @@
 
 #include <glm/common.hpp>
 
+#include "harness/rays/lights.hpp"
 #include "harness/render/picture/color.hpp"
 #include "harness/render/shading.hpp"
 
@@ -12,18 +13,6 @@ namespace beambench::render {
 namespace {
 
 using glm::dvec3;
-
-std::vector<dvec3> colors_of_lights(const scenes::Scene& scene) {
-  std::vector<dvec3> colors;
-  colors.reserve(scene.lights.size());
-  const double share =
-      1.0 / std::sqrt(static_cast<double>(std::max<std::size_t>(scene.lights.size(), 1)));
-  for (const scenes::Light& light : scene.lights) {
-    const bool unsaid = light.color == glm::vec3(1.0F);
-    colors.push_back(unsaid ? dvec3(share) : dvec3(light.color));
-  }
-  return colors;
-}
 
 /// Returns the matte color for a display color.
 dvec3 matte(const scenes::Surface& surface, const dvec3& color) {
@@ -36,7 +25,7 @@ dvec3 matte(const scenes::Surface& surface, const dvec3& color) {
 ShadedScene::ShadedScene(const scenes::Scene& scene)
     : scene_(&scene),
       textures_(scene),
-      light_colors_(colors_of_lights(scene)),
+      light_colors_(rays::light_colors(scene)),
       normals_(scene),
       mirrors_(scene),
       background_(background_color(scene)) {

@@ -19,8 +19,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "harness/rays/area_lights.hpp"
 #include "harness/rays/fingerprint.hpp"
+#include "harness/rays/lights.hpp"
 #include "harness/rays/ray_file.hpp"
 #include "harness/rays/ray_generators.hpp"
 #include "harness/rays/trace_input.hpp"
@@ -146,7 +146,7 @@ TEST(AreaLights, AreBallsAroundTheLights) {
         EXPECT_LE(glm::length(from_center), 0.05 * diagonal * 1.0001);
         mean += from_center / static_cast<double>(count);
         nearer += glm::length(from_center) < 0.05 * diagonal * std::cbrt(0.5) ? 1.0 : 0.0;
-        EXPECT_NEAR(point.color.x, scene.lights[light].color.x / std::sqrt(count), 1e-6);
+        EXPECT_NEAR(point.color.x, light_colors(scene)[light].x / count, 1e-6);
       }
       if (count < 16) continue;
       EXPECT_LT(glm::length(mean), 0.01 * diagonal);

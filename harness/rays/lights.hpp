@@ -1,11 +1,17 @@
 #pragma once
-// Lights with an extent, as several point lights each.
+// The colors of lights, and lights with an extent.
 
 #include <vector>
+
+#include <glm/vec3.hpp>
 
 #include "scenes/scene.hpp"
 
 namespace beambench::rays {
+
+/// Returns the colors of a scene's lights as they are shaded. Lights that state none (white) share
+/// theirs, as in NFF: 1 / sqrt(number of lights) each.
+std::vector<glm::dvec3> light_colors(const scenes::Scene& scene);
 
 /// A luminous ball about each point light.
 struct LightExtent {
@@ -18,8 +24,7 @@ inline constexpr int kMaxLightPoints = 1024;
 /// for all lights and all places that they illuminate. They are spread evenly: directions by a
 /// Fibonacci lattice (Gonzalez, "Measurement of areas on a sphere using Fibonacci and latitude-
 /// longitude lattices", Mathematical Geosciences 42, 2010), distances by a Weyl sequence. Together
-/// they are as bright as the light, which the shader divides by the square root of the number of
-/// lights.
+/// they are as bright as the light.
 std::vector<scenes::Light> area_lights(const scenes::Scene& scene, const LightExtent& extent);
 
 }  // namespace beambench::rays

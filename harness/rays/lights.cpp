@@ -1,6 +1,8 @@
-#include "harness/rays/area_lights.hpp"
+#include "harness/rays/lights.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -8,6 +10,9 @@
 
 namespace beambench::rays {
 namespace {
+
+/// The color of a light that states none.
+constexpr glm::vec3 kUnsaid(1.0F);
 
 /// Returns point i of `count` in the ball of radius 1.
 glm::dvec3 point_in_ball(int i, int count) {
@@ -23,17 +28,29 @@ glm::dvec3 point_in_ball(int i, int count) {
 
 }  // namespace
 
+std::vector<glm::dvec3> light_colors(const scenes::Scene& scene) {
+  const double share =
+      1.0 / std::sqrt(static_cast<double>(std::max<std::size_t>(scene.lights.size(), 1)));
+  std::vector<glm::dvec3> colors;
+  colors.reserve(scene.lights.size());
+  for (const scenes::Light& light : scene.lights) {
+    colors.push_back(light.color == kUnsaid ? glm::dvec3(share) : glm::dvec3(light.color));
+  }
+  return colors;
+}
+
 std::vector<scenes::Light> area_lights(const scenes::Scene& scene, const LightExtent& extent) {
   const double diagonal = glm::length(glm::dvec3(scene.bounds.upper - scene.bounds.lower));
   const double radius = 0.5 * extent.size * diagonal;
-  const auto share = static_cast<float>(1.0 / std::sqrt(static_cast<double>(extent.points)));
+  const std::vector<glm::dvec3> colors = light_colors(scene);
   std::vector<scenes::Light> points;
   points.reserve(scene.lights.size() * static_cast<std::size_t>(extent.points));
-  for (const scenes::Light& light : scene.lights) {
+  for (std::size_t light = 0; light < scene.lights.size(); ++light) {
+    glm::vec3 color(colors[light] / static_cast<double>(extent.points));
+    if (color == kUnsaid) color.x = std::nextafter(color.x, 0.0F);  // said, and as good as white
     for (int i = 0; i < extent.points; ++i) {
-      const glm::dvec3 place =
-          glm::dvec3(light.position) + radius * point_in_ball(i, extent.points);
-      points.push_back({glm::vec3(place), share * light.color});
+      const glm::dvec3 offset = radius * point_in_ball(i, extent.points);
+      points.push_back({glm::vec3(glm::dvec3(scene.lights[light].position) + offset), color});
     }
   }
   return points;
