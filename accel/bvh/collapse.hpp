@@ -14,7 +14,7 @@ namespace beambench::accel::bvh {
 /// What a visit costs a stream of rays: of a node, and of a leaf, by the number of its primitives.
 struct CollapseCosts {
   float node = 1.0F;
-  float leaf = 0.8F;
+  float leaf = 0.4F;
   float primitive = 0.12F;
   std::uint32_t max_leaf = 8;
 };

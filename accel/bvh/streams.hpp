@@ -19,7 +19,7 @@ std::vector<CounterInfo> stream_counters();
 /// outlive it.
 struct Streams {
   /// The number of rays from which on a list is a stream.
-  static constexpr std::size_t kLeast = 64;
+  static constexpr std::size_t kLeast = 320;
 
   /// Returns the number of streams that a list is divided into. They are equal parts, whatever the
   /// number of threads, so that neither hits nor counters depend on it.
