@@ -24,7 +24,7 @@ using DoubleTag = hn::CappedTag<double, 8>;
 using Doubles = hn::Vec<DoubleTag>;
 inline constexpr std::size_t kDoubleLanes = hn::MaxLanes(DoubleTag());
 
-/// As many rays and triangles as there are lanes of double.
+/// Pairs of a ray and a triangle, as many as there are lanes of double.
 struct RayTrianglePairs {
   using Tag = hn::Rebind<float, DoubleTag>;
   struct Point {

@@ -245,6 +245,9 @@ accel::StructureChoice chosen_structure(const RenderRequest& request) {
 void render(const RenderRequest& request) {
   const render::Shading shading = render::parse_shading(request.shading);
   require_exposure(request);
+  if (request.light_points > 0 && shading != render::Shading::kWhitted) {
+    throw InputError("--soft-shadows is of light; give --shade whitted with it");
+  }
   whitted_options(request.whitted);
   render::image_format(request.file);
   require_writable(request.file);
@@ -256,9 +259,6 @@ void render(const RenderRequest& request) {
   if (!request.overlay.empty()) overlay = render::parse_overlay(request.overlay, choice.info());
   scenes::Scene scene = open_scene(request.scene);
   if (request.light_points > 0) {
-    if (shading != render::Shading::kWhitted) {
-      throw InputError("--soft-shadows is of light; give --shade whitted with it");
-    }
     scene.lights = rays::area_lights(scene, {request.light_points, request.light_size});
   }
   if (overlay) render::require_light(*overlay, scene);
