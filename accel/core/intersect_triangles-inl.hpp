@@ -37,12 +37,12 @@ struct RayTrianglePairs {
 
 struct DoublePoint {
   Doubles x, y, z;
-
-  friend HWY_INLINE DoublePoint operator-(const DoublePoint& a, const DoublePoint& b) {
-    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-  }
 };
 
+// Not a friend defined in the class: GCC compiles those without the instruction set.
+HWY_INLINE DoublePoint operator-(const DoublePoint& a, const DoublePoint& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
 HWY_INLINE Doubles dot(const DoublePoint& a, const DoublePoint& b) {
   return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
 }
