@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -31,9 +32,23 @@ struct Pencil {
   const PrimaryRays* view = nullptr;
 };
 
-/// Marks of a batch that later versions of the interface define, so that no structure has to be
-/// compiled again for them. Like pencils they are hints.
-struct BatchMarks;
+/// Pencils of one light with an extent, such as the samples of an area light: the pencils [first,
+/// first + count) of a batch, which follow one another in its list. All are `toward`, their apexes
+/// lie close together, and their rays begin at the same origins in the same order, at t = 0, and
+/// end at the apex or before it by at most `surface_lift`. So what no ray, or each ray, from an
+/// origin to the apexes meets needs to be found only once.
+struct PencilBundle {
+  std::size_t first;
+  std::size_t count;
+
+  friend bool operator==(const PencilBundle&, const PencilBundle&) = default;
+};
+
+/// Further marks of a batch. Like pencils they are hints. Later versions of the interface may add
+/// members at the end, so that no structure has to be compiled again for them.
+struct BatchMarks {
+  std::vector<PencilBundle> bundles;  ///< in the order of `first`; no pencil is in two
+};
 
 /// Rays, and the pencils among them: in the order of `first`, and no ray is in two. Pencils are a
 /// hint that changes no hit beyond what `Conformance` allows, and the rays are the same bits with
@@ -45,7 +60,7 @@ struct RayBatch {
   /// a HitBuffer of the image; empty where rays do not come from an image.
   std::span<const std::uint32_t> samples{};
   const PrimaryRays* image = nullptr;  ///< null where `samples` is empty
-  const BatchMarks* marks = nullptr;   ///< null in this version
+  const BatchMarks* marks = nullptr;   ///< null if there are none
 };
 
 }  // namespace beambench::accel

@@ -18,31 +18,20 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// Rays toward the apex: a hit ends a ray.
-struct AnyHitPolicy {
-  static constexpr bool kClosest = false;
-  /// The number of leaves per ray from which on single rays take less time, as measured.
-  static constexpr float kHandoverLeaves = 1.0F;
-};
-/// Rays away from the apex: a hit brings the ray's end nearer.
-struct ClosestHitPolicy {
-  static constexpr bool kClosest = true;
-  static constexpr float kHandoverLeaves = 3.0F;
-};
-
 /// Bounds on a side of the cube, by `Bound`.
 using SideBounds = std::array<float, 6>;
 enum Bound : std::size_t { kLowU, kHighU, kLowV, kHighV, kLowW, kHighW };
 
 /// Returns the lanes whose bounds overlap those of `within` (sign clear).
-template <bool kClosest>
-HWY_INLINE Floats apart(const SeenBounds& bounds, const PencilBounds& within) {
+template <class Policy>
+HWY_INLINE Floats apart(const SeenBounds& seen, const PencilBounds& within, float spread) {
+  const Floats behind = hn::Sub(seen.high_w, all(within.least_w));
+  const SeenBounds bounds = widened<Policy>(seen, hn::Mul(behind, all(spread)));
   const Floats aside =
       either(hn::Sub(bounds.high_u, all(within.low_u)), hn::Sub(all(within.high_u), bounds.low_u),
              hn::Sub(bounds.high_v, all(within.low_v)));
-  const Floats behind = hn::Sub(bounds.high_w, all(within.least_w));
   const Floats rest = hn::Sub(all(within.high_v), bounds.low_v);
-  if constexpr (kClosest) {
+  if constexpr (Policy::kClosest) {
     return either(aside, hn::Or(behind, rest), hn::Sub(all(within.most_origin_w), bounds.low_w));
   } else {
     return either(aside, behind, rest);
@@ -53,8 +42,8 @@ HWY_INLINE Floats apart(const SeenBounds& bounds, const PencilBounds& within) {
 template <class Policy>
 class PencilGroups {
  public:
-  /// Starts with the groups of the unit before the first test.
-  explicit PencilGroups(PencilUnit& unit) : unit_(&unit) {
+  /// Starts with the groups of the unit before the first test. `spread`: see HullPolicy.
+  PencilGroups(PencilUnit& unit, float spread) : unit_(&unit), spread_(spread) {
     for (std::size_t group = 0; group < PencilUnit::kGroups; ++group) {
       if (group < unit_->groups) {
         int rays = 0;
@@ -85,11 +74,14 @@ class PencilGroups {
   HWY_INLINE std::uint32_t groups_in(const SideBounds& bounds) const {
     std::uint32_t bits = 0;
     for (std::size_t lane = 0; lane < unit_->groups; lane += kLanes) {
-      Floats out = either(hn::Sub(load(&unit_->group_high_u[lane]), all(bounds[kLowU])),
-                          hn::Sub(all(bounds[kHighU]), load(&unit_->group_low_u[lane])),
-                          hn::Sub(load(&unit_->group_high_v[lane]), all(bounds[kLowV])));
-      out = either(out, hn::Sub(all(bounds[kHighV]), load(&unit_->group_low_v[lane])),
-                   hn::Sub(all(bounds[kHighW]), load(&unit_->group_w[lane])));
+      const Floats nearer = hn::Sub(all(bounds[kHighW]), load(&unit_->group_w[lane]));
+      const Floats more = widening(nearer);
+      Floats out =
+          either(hn::Sub(plus(load(&unit_->group_high_u[lane]), more), all(bounds[kLowU])),
+                 hn::Sub(plus(all(bounds[kHighU]), more), load(&unit_->group_low_u[lane])),
+                 hn::Sub(plus(load(&unit_->group_high_v[lane]), more), all(bounds[kLowV])));
+      out = either(out, hn::Sub(plus(all(bounds[kHighV]), more), load(&unit_->group_low_v[lane])),
+                   nearer);
       if constexpr (kClosest) {
         out = hn::Or(out, hn::Sub(load(&unit_->group_origin_w[lane]), all(bounds[kLowW])));
       }
@@ -102,14 +94,25 @@ class PencilGroups {
   HWY_INLINE LaneBits blocks_in(std::size_t group, const SideBounds& bounds) const {
     const LaneBits blocks = for_each_register([&](std::size_t lane) {
       const std::size_t at = group * 16 + lane;
-      Floats out = either(hn::Sub(load(&unit_->high_u[at]), all(bounds[kLowU])),
-                          hn::Add(load(&unit_->minus_low_u[at]), all(bounds[kHighU])),
-                          hn::Sub(load(&unit_->high_v[at]), all(bounds[kLowV])));
-      out = either(out, hn::Add(load(&unit_->minus_low_v[at]), all(bounds[kHighV])),
-                   hn::Add(load(&unit_->minus_w[at]), all(bounds[kHighW])));
+      const Floats nearer = hn::Add(load(&unit_->minus_w[at]), all(bounds[kHighW]));
+      const Floats more = widening(nearer);
+      Floats out = either(hn::Sub(plus(load(&unit_->high_u[at]), more), all(bounds[kLowU])),
+                          hn::Add(plus(load(&unit_->minus_low_u[at]), more), all(bounds[kHighU])),
+                          hn::Sub(plus(load(&unit_->high_v[at]), more), all(bounds[kLowV])));
+      out = either(out, hn::Add(plus(load(&unit_->minus_low_v[at]), more), all(bounds[kHighV])),
+                   nearer);
       return hn::Not(is_negative(out));
     });
     return blocks & unit_->group_blocks[group];
+  }
+
+  /// Returns how much wider (HullPolicy) shapes are whose largest w exceeds that of rays by
+  /// `nearer`; zero where all rays run to one point.
+  HWY_INLINE Floats widening(Floats nearer) const { return hn::Mul(nearer, all(spread_)); }
+  float spread() const { return spread_; }
+  /// Adds it.
+  static HWY_INLINE Floats plus(Floats value, Floats more) {
+    return Policy::kHull ? hn::Add(value, more) : value;
   }
 
   /// Records which rays of a block were hit. Returns the bit of its group if that affects bounds.
@@ -221,6 +224,7 @@ class PencilGroups {
   }
 
   PencilUnit* unit_;
+  float spread_;
   PencilBounds all_{};
   std::array<std::uint16_t, PencilUnit::kGroups> changed_blocks_{};  ///< closest hits
 };

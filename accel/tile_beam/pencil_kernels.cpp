@@ -19,35 +19,36 @@ namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 /// sizes, float rarely distinguishes origins of rays from the surfaces beside them. For any hits,
 /// it is still worthwhile to decide them one by one, but in a scene that is small relative to its
 /// coordinates, all places are rounded to the same ones.
-template <bool kToward>
+template <class Policy>
 float farthest(const scenes::Bounds& scene) {
   const float size = scene.largest_coordinate();
   const glm::vec3 extent = scene.extent();
-  const float more =
-      kToward ? std::min(8.0F * std::max({extent.x, extent.y, extent.z}), 16.0F * size) : 0.0F;
+  const float more = !Policy::kClosest
+                         ? std::min(8.0F * std::max({extent.x, extent.y, extent.z}), 16.0F * size)
+                         : 0.0F;
   return 4.0F * size + more;
 }
 
 /// Calls `walk(part, side)` for each side of the cube that the first rays pass, and `undecided(i)`
 /// for rays that pass none.
-template <bool kToward, class Walk, class Undecided>
+template <class Policy, class Walk, class Undecided>
 HWY_INLINE AnsweredRays for_each_side(const PencilRays& pencil, PencilUnit& unit, Walk walk,
                                       Undecided undecided) {
   list_blocks(pencil.rays, pencil.samples, unit);
   const std::size_t count = unit.first[unit.listed];
-  const PencilPart part{pencil.rays.first(count), pencil.apex,
-                        farthest<kToward>(pencil.hierarchy.bounds)};
+  const PencilPart part{pencil.rays.first(count), pencil.apex, pencil.radius,
+                        farthest<Policy>(pencil.hierarchy.bounds)};
   std::array<std::uint16_t, PencilUnit::kListed> decided{};
   LaneBits done = 0;
   LaneBits others = LaneBits{1} << unit.side.number;
   while ((others & ~done) != 0) {
     const CubeSide side{std::countr_zero(others & ~done)};
     done |= LaneBits{1} << side.number;
-    others |= PencilProjection<kToward>(part, side, unit)();
+    others |= PencilProjection<Policy>(part, side, unit)();
     for (std::size_t block = 0; block < unit.listed; ++block) {
       decided[block] = static_cast<std::uint16_t>(decided[block] | unit.lanes[block]);
     }
-    PencilGrouping(unit, !kToward)();
+    PencilGrouping(unit, Policy::kClosest)();
     if (unit.places == 0) continue;
     unit.side = side;
     walk(part, side);
@@ -74,7 +75,7 @@ template <class Counting>
 AnsweredRays any_hits(const PencilRays& pencil, PencilUnit& unit, std::span<std::uint8_t> hits,
                       Counting& counting) {
   std::ranges::fill(hits.first(std::min(hits.size(), PencilUnit::kRays)), std::uint8_t{0});
-  return for_each_side<true>(
+  return for_each_side<AnyHitPolicy>(
       pencil, unit,
       [&](const PencilPart& part, CubeSide side) {
         counting.add("beams");
@@ -92,12 +93,34 @@ AnsweredRays any_hits(const PencilRays& pencil, PencilUnit& unit, std::span<std:
 }
 
 template <class Counting>
+AnsweredRays bundle(const PencilRays& pencil, PencilUnit& unit, std::span<std::uint8_t> found,
+                    Counting& counting) {
+  return for_each_side<HullPolicy>(
+      pencil, unit,
+      [&](const PencilPart& part, CubeSide side) {
+        walk_part<HullPolicy>(pencil, part, side, unit, counting);
+        for (std::size_t place = 0; place < unit.places; ++place) {
+          const std::size_t block = unit.slot[place];
+          for (LaneBits left = unit.lanes[block]; left != 0; left &= left - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+            const bool is_lit = (unit.alive[place] >> lane & 1U) != 0;
+            const bool is_shadowed = (unit.shadowed[place] >> lane & 1U) != 0;
+            found[unit.ray_at(block * PencilUnit::kBlock + lane)] = is_lit        ? 0
+                                                                    : is_shadowed ? 1
+                                                                                  : kUndecided;
+          }
+        }
+      },
+      [&](std::size_t i) { found[i] = kUndecided; });
+}
+
+template <class Counting>
 AnsweredRays closest_hits(const PencilRays& pencil, PencilUnit& unit, const HitSpan& buffer,
                           std::size_t first, Counting& counting) {
   float* const t = buffer.t() + first;
   scenes::PrimitiveId* const primitive = buffer.primitive() + first;
   bool some_missed = false;
-  AnsweredRays answered = for_each_side<false>(
+  AnsweredRays answered = for_each_side<ClosestHitPolicy>(
       pencil, unit,
       [&](const PencilPart& part, CubeSide side) {
         counting.add("beams");
@@ -140,7 +163,7 @@ AnsweredRays closest_hits(const PencilRays& pencil, PencilUnit& unit, const HitS
 }
 
 void places_of(const PencilRays& pencil, PencilUnit& unit, std::span<BeamPlace> places) {
-  for_each_side<true>(
+  for_each_side<AnyHitPolicy>(
       pencil, unit,
       [&](const PencilPart& part, CubeSide side) {
         HandOverRecorder recorder(PencilUnit::kBlocks * PencilUnit::kBlock);
@@ -152,7 +175,7 @@ void places_of(const PencilRays& pencil, PencilUnit& unit, std::span<BeamPlace> 
 
 template <class Counting>
 constexpr PencilQueries<Counting> pencil_queries() {
-  return {any_hits<Counting>, closest_hits<Counting>};
+  return {any_hits<Counting>, closest_hits<Counting>, bundle<Counting>};
 }
 
 inline std::size_t count_part(const PencilRays& pencil, PencilUnit& unit) {

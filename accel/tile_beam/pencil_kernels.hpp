@@ -51,6 +51,7 @@ struct PencilRays {
   std::span<const Ray> rays;
   PencilSamples samples;
   glm::vec3 apex;
+  float radius = 0.0F;  ///< of the ball about the apex that holds those of a bundle
 };
 
 /// The result of a ray that is left to the query for single rays: its line is too long for float,
@@ -77,6 +78,10 @@ struct PencilQueries {
   /// kUndecidedT if undecided.
   AnsweredRays (*closest_hits)(const PencilRays&, PencilUnit& unit, const HitSpan& buffer,
                                std::size_t first, Counting&);
+  /// Takes the origins of rays toward the apexes of a bundle: writes 0 where no such ray hits
+  /// anything, 1 where each does, and kUndecided elsewhere.
+  AnsweredRays (*bundle)(const PencilRays&, PencilUnit& unit, std::span<std::uint8_t> found,
+                         Counting&);
 };
 
 struct PencilKernels : PencilQueries<NoCounting>, PencilQueries<WorkCounters> {

@@ -87,7 +87,8 @@ class PencilPairs {
             shapes_->at(SeenShapes::kLowU, lane), shapes_->at(SeenShapes::kHighU, lane),
             shapes_->at(SeenShapes::kLowV, lane), shapes_->at(SeenShapes::kHighV, lane),
             shapes_->at(SeenShapes::kLowW, lane), shapes_->at(SeenShapes::kHighW, lane)};
-        shapes |= bits_of(hn::Not(is_negative(apart<kClosest>(seen, within)))) << lane;
+        shapes |= bits_of(hn::Not(is_negative(apart<Policy>(seen, within, groups_->spread()))))
+                  << lane;
       }
       shapes &= shapes_->present;
       // Both lists grow without a branch: the one that is not chosen grows by nothing.
@@ -114,12 +115,17 @@ class PencilPairs {
   template <bool kTriangles, class Shape, class Block>
   HWY_INLINE Floats misses(Shape shape, Block block) const {
     const PencilUnit& unit = *unit_;
-    Floats out = either(hn::Sub(block(unit.high_u.data()), shape(SeenShapes::kLowU)),
-                        hn::Add(block(unit.minus_low_u.data()), shape(SeenShapes::kHighU)),
-                        hn::Sub(block(unit.high_v.data()), shape(SeenShapes::kLowV)));
     const Floats minus_w = block(unit.minus_w.data());
-    out = either(out, hn::Add(block(unit.minus_low_v.data()), shape(SeenShapes::kHighV)),
-                 hn::Add(minus_w, shape(SeenShapes::kHighW)));
+    const Floats nearer = hn::Add(minus_w, shape(SeenShapes::kHighW));
+    const Floats more = groups_->widening(nearer);
+    const auto plus = PencilGroups<Policy>::plus;
+    Floats out =
+        either(hn::Sub(plus(block(unit.high_u.data()), more), shape(SeenShapes::kLowU)),
+               hn::Add(plus(block(unit.minus_low_u.data()), more), shape(SeenShapes::kHighU)),
+               hn::Sub(plus(block(unit.high_v.data()), more), shape(SeenShapes::kLowV)));
+    out =
+        either(out, hn::Add(plus(block(unit.minus_low_v.data()), more), shape(SeenShapes::kHighV)),
+               nearer);
     if constexpr (kClosest) {
       out = hn::Or(out, hn::Sub(block(unit.origin_w_top.data()), shape(SeenShapes::kLowW)));
     }
@@ -129,22 +135,26 @@ class PencilPairs {
       const Floats half_u = block(unit.half_u.data());
       const Floats half_v = block(unit.half_v.data());
       // The largest value of a line over the block.
-      const auto largest = [&](std::size_t row, std::size_t magnitudes, Floats constant) {
+      const auto largest = [&](std::size_t row, std::size_t magnitudes, Floats constant,
+                               Floats along_u, Floats along_v) {
         return hn::MulAdd(
             shape(row), middle_u,
             hn::MulAdd(shape(row + 1), middle_v,
-                       hn::MulAdd(shape(magnitudes), half_u,
-                                  hn::MulAdd(shape(magnitudes + 1), half_v, constant))));
+                       hn::MulAdd(shape(magnitudes), along_u,
+                                  hn::MulAdd(shape(magnitudes + 1), along_v, constant))));
       };
+      const Floats wider_u = plus(half_u, more);
+      const Floats wider_v = plus(half_v, more);
       const auto edge = [&](std::size_t k) {
         return largest(SeenShapes::kEdge0 + 3 * k, SeenShapes::kMagnitudes + 2 * k,
-                       shape(SeenShapes::kEdge0 + 3 * k + 2));
+                       shape(SeenShapes::kEdge0 + 3 * k + 2), wider_u, wider_v);
       };
       out = either(out, edge(0), edge(1));
-      out = either(out, edge(2),
-                   largest(SeenShapes::kPlane, SeenShapes::kMagnitudes + 6,
-                           hn::MulAdd(shape(SeenShapes::kDistance), minus_w,
-                                      shape(SeenShapes::kPlane + 2))));
+      out = either(
+          out, edge(2),
+          largest(SeenShapes::kPlane, SeenShapes::kMagnitudes + 6,
+                  hn::MulAdd(shape(SeenShapes::kDistance), minus_w, shape(SeenShapes::kPlane + 2)),
+                  half_u, half_v));
     }
     return out;
   }

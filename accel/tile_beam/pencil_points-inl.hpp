@@ -23,6 +23,35 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
+/// Rays toward the apex: a hit ends a ray.
+struct AnyHitPolicy {
+  static constexpr bool kClosest = false;
+  static constexpr bool kHull = false;
+  /// The number of leaves per ray from which on single rays take less time, as measured.
+  static constexpr float kHandoverLeaves = 1.0F;
+};
+/// Rays away from the apex: a hit brings the ray's end nearer.
+struct ClosestHitPolicy {
+  static constexpr bool kClosest = true;
+  static constexpr bool kHull = false;
+  static constexpr float kHandoverLeaves = 3.0F;
+};
+/// Rays toward all apexes of a bundle at once: toward any point of a ball about the apex. A shape
+/// that may be hit by one of them opens the ray's origin, and ends the search for it.
+///
+/// Let x, y, z be the coordinates of a side of the cube about the ball's center, r its radius, P an
+/// origin, with z > 2 r, and a a point of the ball. On the line from P to a, the point at depth z
+/// has
+///     u = u_P + (a.x - u_P a.z) (w - w_P) / (1 - a.z w_P).
+/// As |u_P| <= 1, it is beside u_P by at most `spread` (w - w_P), where spread = sqrt(2) r / (1 - r
+/// w_P). So a shape is tested as any hits from the center are, but widened by that at its largest
+/// w. A shape nearer than z = 2 r may be met by all.
+struct HullPolicy {
+  static constexpr bool kClosest = false;
+  static constexpr bool kHull = true;
+  static constexpr float kHandoverLeaves = AnyHitPolicy::kHandoverLeaves;
+};
+
 inline constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 /// Returns the lanes whose sign bit is set.
@@ -83,14 +112,15 @@ inline void list_blocks(std::span<const Ray> rays, const PencilSamples& samples,
 struct PencilPart {
   std::span<const Ray> rays;
   glm::vec3 apex;
+  float radius;  ///< of the ball about the apex (HullPolicy), otherwise 0
   /// The maximum distance of a ray's beginning from the apex along the side's axis for float.
   float farthest;
 };
 
-/// Projects the rays of one side. `kToward`: the apex is at the rays' ends, and sees their points;
-/// otherwise it is at some distance behind their origins, and sees their directions. Returns the
-/// sides to which other rays belong, one bit each.
-template <bool kToward>
+/// Projects the rays of one side. Unless hits are closest, the apex is at the rays' ends, and sees
+/// their points; otherwise it is at some distance behind their origins, and sees their directions.
+/// Returns the sides to which other rays belong, one bit each.
+template <class Policy>
 class PencilProjection {
  public:
   PencilProjection(const PencilPart& part, CubeSide side, PencilUnit& unit)
@@ -113,10 +143,13 @@ class PencilProjection {
       }
     }
     unit_->end_depth = most_of(end_depth_);
+    unit_->least_depth = least_of(least_depth_);
     return others_;
   }
 
  private:
+  static constexpr bool kToward = !Policy::kClosest;
+
   HWY_INLINE void project(std::size_t block, const Ray* rays, LaneBits present) {
     const Floats infinity = all(kInfinity);
     const Floats minus_infinity = all(-kInfinity);
@@ -142,10 +175,13 @@ class PencilProjection {
       const Mask to_end =
           kToward ? hn::And(hn::Ge(ray.t_max, all(kMinEnd)), hn::Le(ray.t_max, all(1.0F)))
                   : hn::Eq(ray.t_max, infinity);
-      const Mask whole = hn::And(hn::Eq(ray.t_min, hn::Zero(Tag())), to_end);
+      // Of a bundle, only the origins are seen: its rays may be shorter.
+      const Mask whole =
+          Policy::kHull ? wanted : hn::And(hn::Eq(ray.t_min, hn::Zero(Tag())), to_end);
+      const float nearest = Policy::kHull ? std::max(2.0F * part_->radius, kNearest) : kNearest;
       const Mask in = hn::And(
           hn::And(through, whole),
-          hn::And(hn::Gt(hn::Min(depth, z), all(kNearest)), hn::Le(depth, all(part_->farthest))));
+          hn::And(hn::Gt(hn::Min(depth, z), all(nearest)), hn::Le(depth, all(part_->farthest))));
       const Floats inverse = hn::Div(all(1.0F), z);
       const Floats u =
           hn::IfThenElse(in, hn::Mul(coordinate(seen, side_.x_axis()), inverse), all(kNaN));
@@ -162,6 +198,9 @@ class PencilProjection {
         store(inverse, &unit_->w[at]);
         const Floats left = hn::Mul(hn::Sub(all(1.0F), ray.t_max), z);
         end_depth_ = hn::Max(end_depth_, hn::IfThenElseZero(in, left));
+        if constexpr (Policy::kHull) {
+          least_depth_ = hn::Min(least_depth_, hn::IfThenElse(in, z, infinity));
+        }
         least_w = hn::Min(least_w, hn::IfThenElse(in, inverse, infinity));
       } else {
         const Floats origin_w = hn::Div(all(1.0F), depth);
@@ -202,6 +241,7 @@ class PencilProjection {
   static constexpr float kMinEnd = 0.5F;
 
   Floats end_depth_ = hn::Zero(Tag());
+  Floats least_depth_ = all(kInfinity);
   const PencilPart* part_;
   CubeSide side_;
   PencilUnit* unit_;

@@ -22,8 +22,12 @@ struct ApexView {
   glm::vec3 apex;
   CubeSide side;
   float scene_size;  ///< the largest |coordinate|
-  /// Shapes closer to the apex are left to the canonical test, because some ray ends before them.
+  /// Shapes closer to the apex are left to the canonical test, because some ray ends before them;
+  /// of a bundle, they may be hit by all.
   float end;
+  float radius;  ///< of the ball about the apex (HullPolicy), otherwise 0, like the next
+  float spread;
+  bool ends_at_apex;  ///< of a bundle: no ray ends before a shape
 
   /// Returns the world's coordinates in the order of the side's.
   HWY_INLINE Points turned(Floats x, Floats y, Floats z) const {
@@ -45,11 +49,32 @@ struct SeenBounds {
   Floats low_u, high_u, low_v, high_v, low_w, high_w;
 };
 
+/// Widens a bundle's bounds on the side.
+template <class Policy>
+HWY_INLINE SeenBounds widened(const SeenBounds& bounds, Floats more) {
+  if constexpr (!Policy::kHull) return bounds;
+  return {hn::Sub(bounds.low_u, more),
+          hn::Add(bounds.high_u, more),
+          hn::Sub(bounds.low_v, more),
+          hn::Add(bounds.high_v, more),
+          bounds.low_w,
+          bounds.high_w};
+}
+
 /// The largest w, for parts at or beside the apex.
 inline constexpr float kAtApex = 1e30F;
 
+/// Returns bounds without limits in the other lanes.
+HWY_INLINE SeenBounds anywhere_unless(Mask bounded, const SeenBounds& bounds) {
+  const auto low = [&](Floats value) { return hn::IfThenElse(bounded, value, all(-kAtApex)); };
+  const auto high = [&](Floats value) { return hn::IfThenElse(bounded, value, all(kAtApex)); };
+  return {low(bounds.low_u),   high(bounds.high_u), low(bounds.low_v),
+          high(bounds.high_v), low(bounds.low_w),   high(bounds.high_w)};
+}
+
 /// Returns the bounds of boxes, which are exact, because boxes and sides have the same axes. Lanes
 /// of boxes behind the apex are not set in `seen`.
+template <class Policy>
 HWY_INLINE SeenBounds bounds_of(const TileBoxes& boxes, std::size_t lane, const ApexView& view,
                                 Mask& seen) {
   const auto plane = [&](std::size_t row, std::size_t axis) {
@@ -67,7 +92,11 @@ HWY_INLINE SeenBounds bounds_of(const TileBoxes& boxes, std::size_t lane, const 
   seen = hn::Gt(far_z, hn::Zero(Tag()));
   const auto low = [&](Floats end) { return hn::Min(hn::Mul(end, high_w), hn::Mul(end, low_w)); };
   const auto high = [&](Floats end) { return hn::Max(hn::Mul(end, high_w), hn::Mul(end, low_w)); };
-  return {low(plane(0, x)), high(plane(3, x)), low(plane(0, y)), high(plane(3, y)), low_w, high_w};
+  const SeenBounds bounds{
+      low(plane(0, x)), high(plane(3, x)), low(plane(0, y)), high(plane(3, y)), low_w, high_w};
+  if constexpr (!Policy::kHull) return bounds;
+  seen = hn::Gt(far_z, all(-1.001F * view.radius));
+  return anywhere_unless(hn::Gt(near_z, all(view.end)), bounds);
 }
 
 /// The roundings allowed for the beginning of a ray in float, in units of 2^-24 (see
@@ -213,12 +242,13 @@ class TriangleShapes {
                             hn::Min(w0, hn::Min(w1, w2)), hn::Max(w0, hn::Max(w1, w2))};
     const Floats sum = hn::Add(w0, hn::Add(w1, w2));
     const Mask before = hn::Eq(sum, sum);
+    const Floats nearer = hn::Sub(bounds.high_w, all(within.least_w));
+    const SeenBounds wider = widened<Policy>(bounds, hn::Mul(nearer, all(view_->spread)));
     const Floats outside = either(
-        either(hn::Sub(bounds.high_u, all(within.low_u)), hn::Sub(all(within.high_u), bounds.low_u),
-               hn::Sub(bounds.high_v, all(within.low_v))),
-        hn::Sub(all(within.high_v), bounds.low_v),
-        either(hn::Sub(bounds.high_w, all(within.least_w)),
-               hn::Sub(all(within.most_origin_w), bounds.low_w), hn::Zero(Tag())));
+        either(hn::Sub(wider.high_u, all(within.low_u)), hn::Sub(all(within.high_u), wider.low_u),
+               hn::Sub(wider.high_v, all(within.low_v))),
+        hn::Sub(all(within.high_v), wider.low_v),
+        either(nearer, hn::Sub(all(within.most_origin_w), bounds.low_w), hn::Zero(Tag())));
     const Mask present = hn::Or(hn::Not(before), hn::Not(is_negative(outside)));
     if (hn::AllFalse(Tag(), present)) return;
 
@@ -270,40 +300,55 @@ class TriangleShapes {
         hn::Add(hn::Sub(bounds.high_u, bounds.low_u), hn::Sub(bounds.high_v, bounds.low_v));
     const Mask sliver = hn::Not(hn::Gt(hn::Abs(area), hn::Mul(extent, all(kSliver))));
 
-    shapes_->set_bounds(lane, bounds);
+    const Mask at_end = hn::Gt(hn::Mul(bounds.high_w, all(view_->end)), all(1.0F));
+    shapes_->present |= bits_of(present) << lane;
+    const Mask inexact = hn::Or(hn::Or(hn::Not(before), at_end), sliver);
+    const Mask bounded = hn::AndNot(at_end, before);
+    shapes_->set_bounds(lane, Policy::kHull ? anywhere_unless(bounded, bounds) : bounds);
+    // Of a bundle, edges and planes that are uncertain exclude nothing: they are zeros. So is the
+    // plane of a triangle that may be seen from both sides.
+    const auto usable = [](Mask excluded, Floats value) {
+      return Policy::kHull ? hn::IfThenZeroElse(excluded, value) : value;
+    };
     const Floats turn = hn::And(area, all(-0.0F));
     Floats longest_edge = hn::Zero(Tag());
     for (std::size_t k = 0; k < 3; ++k) {
-      shapes_->set(SeenShapes::kEdge0 + 3 * k, lane, hn::Xor(edges[k].a, turn));
-      shapes_->set(SeenShapes::kEdge0 + 3 * k + 1, lane, hn::Xor(edges[k].b, turn));
+      const auto set = [&](std::size_t row, Floats value) {
+        shapes_->set(row, lane, usable(inexact, value));
+      };
+      set(SeenShapes::kEdge0 + 3 * k, hn::Xor(edges[k].a, turn));
+      set(SeenShapes::kEdge0 + 3 * k + 1, hn::Xor(edges[k].b, turn));
       const Floats size_a = hn::Abs(edges[k].a);
       const Floats size_b = hn::Abs(edges[k].b);
       const Floats length = hn::Add(size_a, size_b);
       longest_edge = hn::Max(longest_edge, length);
-      shapes_->set(SeenShapes::kEdge0 + 3 * k + 2, lane,
-                   hn::MulAdd(all(kOutward), length, hn::Xor(edges[k].c, turn)));
-      shapes_->set(SeenShapes::kMagnitudes + 2 * k, lane, size_a);
-      shapes_->set(SeenShapes::kMagnitudes + 2 * k + 1, lane, size_b);
+      set(SeenShapes::kEdge0 + 3 * k + 2,
+          hn::MulAdd(all(kOutward), length, hn::Xor(edges[k].c, turn)));
+      set(SeenShapes::kMagnitudes + 2 * k, size_a);
+      set(SeenShapes::kMagnitudes + 2 * k + 1, size_b);
     }
     if (!Policy::kClosest) {
       shapes_->set(SeenShapes::kEdgeMargin, lane, hn::Mul(all(kUncertain), longest_edge));
     }
+    const Floats reach_of_ball =
+        hn::MulAdd(all(1.001F * view_->radius), hn::Sqrt(dot(normal, normal)), slack_per_w);
+    const Mask around = hn::Or(needle, hn::Le(hn::Abs(distance), reach_of_ball));
     const Floats toward = hn::And(distance, all(-0.0F));
     const auto with = [](Floats value, Floats change) {
       return Policy::kClosest ? value : hn::Add(value, change);
     };
-    shapes_->set(SeenShapes::kPlane, lane, hn::Xor(normal.x, toward));
-    shapes_->set(SeenShapes::kPlane + 1, lane, hn::Xor(normal.y, toward));
-    shapes_->set(SeenShapes::kPlane + 2, lane, with(hn::Xor(normal.z, toward), slack));
-    shapes_->set(SeenShapes::kMagnitudes + 6, lane, size.x);
-    shapes_->set(SeenShapes::kMagnitudes + 7, lane, size.y);
-    shapes_->set(SeenShapes::kDistance, lane, with(hn::Abs(distance), hn::Neg(slack_per_w)));
+    const auto set = [&](std::size_t row, Floats value) {
+      shapes_->set(row, lane, usable(around, value));
+    };
+    set(SeenShapes::kPlane, hn::Xor(normal.x, toward));
+    set(SeenShapes::kPlane + 1, hn::Xor(normal.y, toward));
+    set(SeenShapes::kPlane + 2, with(hn::Xor(normal.z, toward), slack));
+    set(SeenShapes::kMagnitudes + 6, size.x);
+    set(SeenShapes::kMagnitudes + 7, size.y);
+    set(SeenShapes::kDistance, with(hn::Abs(distance), hn::Neg(slack_per_w)));
     shapes_->set(SeenShapes::kSlack, lane, with(slack, slack));
     shapes_->set(SeenShapes::kSlackPerW, lane, with(slack_per_w, slack_per_w));
-    shapes_->present |= bits_of(present) << lane;
-    const Mask at_end = hn::Gt(hn::Mul(bounds.high_w, all(view_->end)), all(1.0F));
-    shapes_->exact |= bits_of(hn::Or(hn::Or(hn::Not(before), at_end), hn::Or(needle, sliver)))
-                      << lane;
+    if (!Policy::kHull) shapes_->exact |= bits_of(hn::Or(inexact, needle)) << lane;
   }
 
   void set_up_exactly(std::size_t triangle) {
@@ -374,6 +419,7 @@ class TriangleShapes {
 };
 
 /// Sets up the spheres of a block.
+template <class Policy>
 HWY_INLINE void set_up_spheres(const SphereBlock& block, const ApexView& view, float slack,
                                SeenShapes& shapes) {
   shapes.present = shapes.exact = shapes.by_rays = shapes.around = 0;
@@ -386,7 +432,8 @@ HWY_INLINE void set_up_spheres(const SphereBlock& block, const ApexView& view, f
     const Floats far_z = hn::Add(center.z, wider);
     const Extent u = tangents(center.x, center.z, wider);
     const Extent v = tangents(center.y, center.z, wider);
-    const Mask before = hn::Gt(near_z, hn::Mul(wider, all(0x1p-10F)));
+    const Mask before = hn::Gt(
+        near_z, hn::Max(hn::Mul(wider, all(0x1p-10F)), all(Policy::kHull ? view.end : 0.0F)));
     const auto clip = [&](Floats value, float otherwise) {
       return hn::IfThenElse(before, value, all(otherwise));
     };
@@ -400,7 +447,8 @@ HWY_INLINE void set_up_spheres(const SphereBlock& block, const ApexView& view, f
     shapes.set(SeenShapes::kCenter + 1, lane, center.y);
     shapes.set(SeenShapes::kCenter + 2, lane, center.z);
     shapes.set(SeenShapes::kRadius, lane, radius);
-    shapes.present |= bits_of(hn::Gt(far_z, hn::Zero(Tag()))) << lane;
+    shapes.present |= bits_of(hn::Gt(far_z, all(-1.001F * view.radius))) << lane;
+    if constexpr (Policy::kHull) continue;
     const Floats squared = dot(center, center);
     const Floats radius_squared = hn::Mul(radius, radius);
     shapes.around |= bits_of(hn::Lt(squared, radius_squared)) << lane;
@@ -416,11 +464,12 @@ HWY_INLINE void set_up_spheres(const SphereBlock& block, const ApexView& view, f
 }
 
 /// Sets up the cones of a block: their boxes; rays decide.
+template <class Policy>
 HWY_INLINE void set_up_cones(const ConeBlock& block, const ApexView& view, SeenShapes& shapes) {
   shapes.present = shapes.exact = shapes.around = 0;
   for (std::size_t lane = 0; lane < block.count; lane += kLanes) {
     Mask seen;
-    shapes.set_bounds(lane, bounds_of(block.boxes, lane, view, seen));
+    shapes.set_bounds(lane, bounds_of<Policy>(block.boxes, lane, view, seen));
     shapes.present |= bits_of(seen) << lane;
   }
   shapes.present &= (LaneBits{1} << block.count) - 1;

@@ -7,6 +7,7 @@
 #define ACCEL_TILE_BEAM_PENCIL_SINGLE_RAYS_INL
 #endif
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -38,7 +39,7 @@ class PencilSingleRays {
         counting_(&counting) {}
 
   /// Traces the rays of some groups whose places are within bounds through a part of the hierarchy.
-  /// Returns the groups that changed.
+  /// Returns the groups that changed. Of a bundle, they are opened.
   std::uint32_t hand_over(TileChild from, const SideBounds& bounds, std::uint32_t groups) {
     count_ = 0;
     for (; groups != 0; groups &= groups - 1) {
@@ -47,7 +48,11 @@ class PencilSingleRays {
         list_within(bounds, group * 16 + static_cast<std::size_t>(std::countr_zero(blocks)));
       }
     }
-    trace_listed(from);
+    if constexpr (Policy::kHull) {
+      std::fill_n(is_hit_.begin(), count_, std::uint8_t{1});
+    } else {
+      trace_listed(from);
+    }
     std::uint32_t changed = 0;
     for (std::size_t i = 0; i < count_;) {
       const std::size_t place = listed_[i] / PencilUnit::kBlock;
@@ -90,8 +95,11 @@ class PencilSingleRays {
     const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
     LaneBits inside = for_each_register([&](std::size_t lane) {
       const std::size_t at = block + lane;
-      const auto within = [](Floats value, float low, float high) {
-        return hn::And(hn::Ge(value, all(low - kPlacePad)), hn::Le(value, all(high + kPlacePad)));
+      const Floats more = groups_->widening(hn::Sub(all(bounds[kHighW]), load(&unit_->w[at])));
+      const auto within = [&](Floats value, float low, float high) {
+        const auto plus = PencilGroups<Policy>::plus;
+        return hn::And(hn::Ge(plus(value, more), all(low - kPlacePad)),
+                       hn::Le(value, plus(all(high + kPlacePad), more)));
       };
       return hn::And(hn::And(within(load(&unit_->u[at]), bounds[kLowU], bounds[kHighU]),
                              within(load(&unit_->v[at]), bounds[kLowV], bounds[kHighV])),

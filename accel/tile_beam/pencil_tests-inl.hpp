@@ -30,14 +30,14 @@ class PencilTests {
  public:
   PencilTests(const scenes::Scene& scene, const PencilPart& part, PencilUnit& unit,
               PencilGroups<Policy>& groups, PencilSingleRays<Policy, Counting>& single_rays,
-              const SeenShapes& shapes, float scene_size)
+              const SeenShapes& shapes, const ApexView& view)
       : scene_(&scene),
         part_(&part),
         unit_(&unit),
         groups_(&groups),
         single_rays_(&single_rays),
         shapes_(&shapes),
-        scene_size_(scene_size) {}
+        view_(&view) {}
 
   HWY_INLINE std::uint32_t test_triangles(std::span<const std::uint32_t> pairs,
                                           const Meshlet& meshlet) {
@@ -46,7 +46,9 @@ class PencilTests {
     for (const std::uint32_t pair : pairs) {
       const std::size_t place = pair / SeenShapes::kMax;
       const std::size_t shape = pair % SeenShapes::kMax;
-      if ((special >> shape & 1U) != 0) [[unlikely]] {
+      if constexpr (Policy::kHull) {
+        changed |= note(place, triangle_of_bundle(place, shape));
+      } else if ((special >> shape & 1U) != 0) [[unlikely]] {
         changed |= test_specially(place, shape, meshlet);
       } else {
         LaneBits uncertain = 0;
@@ -69,6 +71,10 @@ class PencilTests {
     for (const std::uint32_t pair : pairs) {
       const std::size_t place = pair / SeenShapes::kMax;
       const std::size_t shape = pair % SeenShapes::kMax;
+      if constexpr (Policy::kHull) {
+        changed |= note(place, sphere_of_bundle(place, shape));
+        continue;
+      }
       const scenes::PrimitiveId id = block.primitives[shape];
       const scenes::Sphere& sphere = scene_->spheres[scene_->primitives[id].index];
       const auto t_of = [&](const Ray& ray) {
@@ -94,6 +100,10 @@ class PencilTests {
                                       const ConeBlock& block) {
     std::uint32_t changed = 0;
     for (const std::uint32_t pair : pairs) {
+      if constexpr (Policy::kHull) {
+        changed |= note(pair / SeenShapes::kMax, {unit_->alive[pair / SeenShapes::kMax], 0});
+        continue;
+      }
       const scenes::PrimitiveId id = block.primitives[pair % SeenShapes::kMax];
       const scenes::Cone& cone = scene_->cones[scene_->primitives[id].index];
       changed |= test_by_rays(pair / SeenShapes::kMax, id, [&](const Ray& ray) {
@@ -111,6 +121,106 @@ class PencilTests {
     LaneBits depth = 0;  ///< they begin too close to it: at its surface or at one of its sides
     LaneBits edge = 0;   ///< hits close to an edge, which was moved outward
   };
+
+  /// Origins of a bundle in a block.
+  struct OfBundle {
+    LaneBits open;      ///< the shape may be met on the way to an apex
+    LaneBits shadowed;  ///< it is, on the way to each
+  };
+
+  HWY_INLINE std::uint32_t note(std::size_t place, const OfBundle& found) {
+    const LaneBits shadowed = found.shadowed & unit_->alive[place];
+    unit_->shadowed[place] = static_cast<std::uint16_t>(unit_->shadowed[place] | shadowed);
+    return groups_->note(place, found.open | shadowed);
+  }
+
+  /// Edges are moved by what places and edges may be wrong, too; the plane is, by its slack.
+  HWY_INLINE OfBundle triangle_of_bundle(std::size_t place, std::size_t shape) const {
+    constexpr float kUncertain = 8.0F * 0x1p-24F;
+    const OneShape of{*shapes_, shape};
+    const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
+    OfBundle found{0, 0};
+    found.open = for_each_register([&](std::size_t lane) {
+      const Floats u = load(&unit_->u[block + lane]);
+      const Floats v = load(&unit_->v[block + lane]);
+      const Floats w = load(&unit_->w[block + lane]);
+      const Floats nearer = hn::Max(hn::Sub(of(SeenShapes::kHighW), w), hn::Zero(Tag()));
+      const Floats more = hn::MulAdd(nearer, all(1.001F * view_->spread), all(kUncertain));
+      const Edges edges = edges_of(of, u, v);
+      const auto wider = [&](std::size_t k) {
+        const Floats length =
+            hn::Add(of(SeenShapes::kMagnitudes + 2 * k), of(SeenShapes::kMagnitudes + 2 * k + 1));
+        return hn::Mul(length, more);
+      };
+      const std::array<Floats, 3> by{wider(0), wider(1), wider(2)};
+      const Floats beyond = beyond_plane(of, u, v, w);
+      const Floats missed = hn::Or(
+          either(hn::Add(edges[0], by[0]), hn::Add(edges[1], by[1]), hn::Add(edges[2], by[2])),
+          beyond);
+      if (view_->ends_at_apex) {
+        // Zeros exclude nothing, and decide nothing.
+        const auto inside = [&](std::size_t k) { return hn::Gt(edges[k], hn::Add(by[k], by[k])); };
+        const Mask all_inside = hn::And(hn::And(inside(0), inside(1)), inside(2));
+        const Mask behind = hn::Gt(beyond, slack_of(of, w));
+        found.shadowed |= bits_of(hn::And(all_inside, behind)) << lane;
+      }
+      return hn::Not(is_negative(missed));
+    });
+    return found;
+  }
+
+  /// Of a line from an origin to an apex, the point at the share s of the way lies beside that of
+  /// the line to the center by at most s times the ball's radius. A ray that begins outside of the
+  /// sphere and moves away from it misses it.
+  HWY_INLINE OfBundle sphere_of_bundle(std::size_t place, std::size_t shape) const {
+    const OneShape of{*shapes_, shape};
+    const Points center{of(SeenShapes::kCenter), of(SeenShapes::kCenter + 1),
+                        of(SeenShapes::kCenter + 2)};
+    const Floats radius = of(SeenShapes::kRadius);
+    const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
+    const Floats ball = all(1.001F * view_->radius);
+    const Floats high_w = of(SeenShapes::kHighW);
+    OfBundle found{0, 0};
+    found.open = for_each_register([&](std::size_t lane) {
+      const std::size_t at = block + lane;
+      const Points direction{load(&unit_->u[at]), load(&unit_->v[at]), all(1.0F)};
+      const Floats w = load(&unit_->w[at]);
+      const Floats origin = hn::Div(all(1.0F), w);
+      const Floats slack =
+          hn::MulAdd(all(0x1p-19F), hn::Add(origin, radius), all(0x1p-20F * view_->scene_size));
+      const auto from_center = [&](Floats s) -> Points {
+        return {hn::MulSub(direction.x, s, center.x), hn::MulSub(direction.y, s, center.y),
+                hn::Sub(s, center.z)};
+      };
+      const Points begin = from_center(origin);
+      const Floats far = hn::Sqrt(dot(begin, begin));
+      const Mask outside = hn::Gt(far, hn::Add(radius, slack));
+      const Floats length = hn::Mul(origin, hn::Sqrt(dot(direction, direction)));
+      // (center of the ball - origin) . (origin - center of the sphere)
+      const Floats away = hn::Neg(hn::Mul(origin, dot(direction, begin)));
+      const Mask leaves =
+          hn::And(hn::Gt(far, hn::MulAdd(radius, all(0x1p-22F), radius)),
+                  hn::Gt(away, hn::Mul(hn::MulAdd(all(0x1p-20F), length, ball), far)));
+      const Floats middle = hn::Div(dot(direction, center), dot(direction, direction));
+      const Floats nearest_at = hn::Max(hn::Min(middle, origin), hn::Zero(Tag()));
+      const Points nearest = from_center(nearest_at);
+      const Floats distance = hn::Sqrt(dot(nearest, nearest));
+      // The largest share of the way at which the sphere may be met.
+      const Floats near_z = hn::Div(all(1.0F), high_w);
+      const Floats last =
+          hn::Min(hn::Div(hn::Sub(origin, near_z), hn::Sub(origin, ball)), all(1.0F));
+      const Floats beside = hn::Mul(ball, hn::Max(last, hn::Zero(Tag())));
+      const Mask met = hn::Not(hn::Gt(distance, hn::Add(hn::Add(radius, slack), beside)));
+      if (view_->ends_at_apex) {
+        const Floats share = hn::Sub(all(1.0F), hn::Mul(nearest_at, w));
+        const Mask through = hn::Lt(hn::MulAdd(ball, share, hn::Add(distance, slack)), radius);
+        const Mask bounded = hn::Lt(high_w, all(kAtApex));
+        found.shadowed |= bits_of(hn::And(hn::And(through, outside), bounded)) << lane;
+      }
+      return hn::AndNot(leaves, met);
+    });
+    return found;
+  }
 
   /// Returns the rays of a block that hit a triangle, and which of these hits are `uncertain`.
   /// These are so few that `told_apart` determines the reason.
@@ -279,7 +389,7 @@ class PencilTests {
     const double size =
         std::abs(triangle.plane.x) + std::abs(triangle.plane.y) + std::abs(triangle.plane.z);
     const double slack_at_apex = 0x1p-24 * kSlackOfPlaces<Policy> * size;
-    const double slack_per_w = 0x1p-24 * kSlackOfOrigins<Policy> * size * scene_size_;
+    const double slack_per_w = 0x1p-24 * kSlackOfOrigins<Policy> * size * view_->scene_size;
     LaneBits hits = 0;
     alignas(64) std::array<float, PencilUnit::kBlock> found_w;
     for (std::size_t lane = 0; lane < PencilUnit::kBlock; lane += hn::Lanes(d)) {
@@ -348,8 +458,8 @@ class PencilTests {
     const Floats radius = of(SeenShapes::kRadius);
     const Floats square = hn::Mul(radius, radius);
     const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
-    const Floats least_slack =
-        hn::MulAdd(radius, all(0x1p-20F), all(0x1p-24F * kSlackOfOrigins<Policy> * scene_size_));
+    const Floats least_slack = hn::MulAdd(
+        radius, all(0x1p-20F), all(0x1p-24F * kSlackOfOrigins<Policy> * view_->scene_size));
     const auto only = [](bool condition) {
       return hn::Gt(all(condition ? 1.0F : 0.0F), hn::Zero(Tag()));
     };
@@ -412,7 +522,7 @@ class PencilTests {
   PencilGroups<Policy>* groups_;
   PencilSingleRays<Policy, Counting>* single_rays_;
   const SeenShapes* shapes_;
-  float scene_size_;  ///< the largest |coordinate|
+  const ApexView* view_;
 };
 
 }  // namespace beambench::accel::tile_beam::HWY_NAMESPACE

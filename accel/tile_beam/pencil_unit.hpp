@@ -71,11 +71,13 @@ struct PencilUnit {
   alignas(64) Array<std::uint16_t, kPlaces> alive;  ///< lanes that may still be hit
   alignas(64) Array<float, kPlaces> minus_low_u, high_u, minus_low_v, high_v, minus_w, origin_w_top;
   alignas(64) Array<float, kPlaces> middle_u, middle_v, half_u, half_v;
+  Array<std::uint16_t, kPlaces> shadowed;  ///< a bundle's origins from which all rays hit
   std::size_t places;
   CubeSide side;  ///< that saw the last rays
   /// The distance from the apex, along the side's axis, of the nearest end of a ray toward the
   /// apex.
   float end_depth;
+  float least_depth;  ///< of the origins, for a bundle
 
   /// The groups' bounds; those of a group without a live ray are empty.
   alignas(64) Array<float, kGroups> group_low_u, group_high_u, group_low_v, group_high_v, group_w,

@@ -34,14 +34,13 @@ class PencilWalk {
   PencilWalk(const TileHierarchy& hierarchy, const scenes::Scene& scene, const PencilPart& part,
              CubeSide side, PencilUnit& unit, Counting& counting)
       : hierarchy_(&hierarchy),
-        view_{part.apex, side, hierarchy.bounds.largest_coordinate(),
-              kClosest ? 0.0F : kDiagonal * unit.end_depth},
+        view_(view_of(hierarchy, part, side, unit)),
         unit_(&unit),
         counting_(&counting),
-        groups_(unit),
+        groups_(unit, view_.spread),
         single_rays_(hierarchy, scene, part, view_, unit, groups_, counting),
         pairs_(unit, groups_, shapes_),
-        tests_(scene, part, unit, groups_, single_rays_, shapes_, view_.scene_size) {}
+        tests_(scene, part, unit, groups_, single_rays_, shapes_, view_) {}
   PencilWalk(const PencilWalk&) = delete;
   PencilWalk& operator=(const PencilWalk&) = delete;
 
@@ -84,19 +83,41 @@ class PencilWalk {
     SideBounds bounds;
   };
 
+  static ApexView view_of(const TileHierarchy& hierarchy, const PencilPart& part, CubeSide side,
+                          const PencilUnit& unit) {
+    const float size = hierarchy.bounds.largest_coordinate();
+    if constexpr (!Policy::kHull) {
+      return {part.apex, side, size, kClosest ? 0.0F : kDiagonal * unit.end_depth,
+              0.0F,      0.0F, false};
+    }
+    constexpr float kRootOfTwo = 1.4143F;
+    // A hit at depth z >= 2 r is before its apex by at least r / (depth + r) of the way, and rays
+    // end before it by `surface_lift`, 2^-18 of the coordinates of apex and origin.
+    const glm::vec3 apex = glm::abs(part.apex);
+    const float coordinates = std::max({apex.x, apex.y, apex.z}) + 2.0F * part.farthest;
+    return {part.apex,
+            side,
+            size,
+            2.0F * part.radius,
+            part.radius,
+            kRootOfTwo * part.radius / (1.0F - part.radius / unit.least_depth),
+            part.radius > 0x1p-15F * coordinates};
+  }
+
   HWY_INLINE void push_children(const TileNode& node, std::uint32_t groups) {
     counting_->add(Counter::kBoxTests, node.count);
     alignas(64) std::array<std::array<float, kTileLanes>, 6> stored;
     LaneBits met = for_each_register([&](std::size_t lane) {
       Mask seen;
-      const SeenBounds bounds = bounds_of(node.boxes, lane, view_, seen);
+      const SeenBounds bounds = bounds_of<Policy>(node.boxes, lane, view_, seen);
       store(bounds.low_u, &stored[kLowU][lane]);
       store(bounds.high_u, &stored[kHighU][lane]);
       store(bounds.low_v, &stored[kLowV][lane]);
       store(bounds.high_v, &stored[kHighV][lane]);
       store(bounds.low_w, &stored[kLowW][lane]);
       store(bounds.high_w, &stored[kHighW][lane]);
-      return hn::AndNot(is_negative(apart<kClosest>(bounds, groups_.all_bounds())), seen);
+      return hn::AndNot(is_negative(apart<Policy>(bounds, groups_.all_bounds(), view_.spread)),
+                        seen);
     });
     met &= (LaneBits{1} << node.count) - 1;
     const std::size_t first = size_;
@@ -123,7 +144,7 @@ class PencilWalk {
     TileBoxes boxes{};
     boxes.set(0, hierarchy_->bounds);
     Mask seen;
-    const SeenBounds bounds = bounds_of(boxes, 0, view_, seen);
+    const SeenBounds bounds = bounds_of<Policy>(boxes, 0, view_, seen);
     return {hn::GetLane(bounds.low_u),  hn::GetLane(bounds.high_u), hn::GetLane(bounds.low_v),
             hn::GetLane(bounds.high_v), hn::GetLane(bounds.low_w),  hn::GetLane(bounds.high_w)};
   }
@@ -167,7 +188,7 @@ class PencilWalk {
       }
       case TileChild::Kind::kSpheres: {
         const SphereBlock& block = hierarchy_->spheres[entry.child.index()];
-        set_up_spheres(block, view_, 0x1p-20F * view_.scene_size, shapes_);
+        set_up_spheres<Policy>(block, view_, 0x1p-20F * view_.scene_size, shapes_);
         if (shapes_.present == 0) return;
         pairs_.template find<false>(entry.bounds, groups, block.count);
         count_tests(scenes::PrimitiveKind::kSphere);
@@ -175,7 +196,7 @@ class PencilWalk {
       }
       case TileChild::Kind::kCones: {
         const ConeBlock& block = hierarchy_->cones[entry.child.index()];
-        set_up_cones(block, view_, shapes_);
+        set_up_cones<Policy>(block, view_, shapes_);
         if (shapes_.present == 0) return;
         pairs_.template find<false>(entry.bounds, groups, block.count);
         count_tests(scenes::PrimitiveKind::kCone);

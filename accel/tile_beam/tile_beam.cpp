@@ -13,6 +13,7 @@
 
 #include "accel/core/registry.hpp"
 #include "accel/core/threads.hpp"
+#include "accel/tile_beam/pencil_bundle.hpp"
 #include "accel/tile_beam/pencil_places.hpp"
 #include "accel/tile_beam/tile_recorder.hpp"
 
@@ -110,12 +111,23 @@ BeamPlace::Way way_of(const TileImage& image, const HandOverRecorder& recorder, 
   return image.touched ? BeamPlace::Way::kInOrder : BeamPlace::Way::kBackground;
 }
 
-/// Consecutive rays of a batch: those of a pencil, or single ones.
+/// Consecutive rays of a batch: those of a pencil, or single ones. Or origins of a bundle.
 struct RayRange {
-  std::size_t first;
+  std::size_t first;  ///< of a bundle: in its first pencil
   std::size_t count;
-  const Pencil* pencil;  ///< or null
+  const Pencil* pencil;     ///< or null
+  std::size_t pencils = 1;  ///< of a bundle, from `pencil` on
 };
+
+/// Returns the number of pencils in the bundle that begins with a pencil, otherwise 1.
+std::size_t bundled_from(const RayBatch& batch, std::size_t pencil) {
+  if (batch.marks == nullptr) return 1;
+  const std::vector<PencilBundle>& bundles = batch.marks->bundles;
+  const auto at = std::ranges::lower_bound(bundles, pencil, {}, &PencilBundle::first);
+  if (at == bundles.end() || at->first != pencil) return 1;
+  if (at->count > batch.pencils.size() - pencil) return 1;
+  return is_bundle(batch.pencils.subspan(pencil, at->count)) ? at->count : 1;
+}
 
 /// Returns all rays of a batch in order: pencils whose direction is that of `toward`, and all other
 /// rays in parts of one stream each.
@@ -129,11 +141,14 @@ std::vector<RayRange> ranges_of(const RayBatch& batch, bool toward) {
       ranges.push_back({next + first, bvh::Streams::begin_of(part + 1, count) - first, nullptr});
     }
   };
-  for (const Pencil& pencil : batch.pencils) {
+  for (std::size_t i = 0; i < batch.pencils.size();) {
+    const Pencil& pencil = batch.pencils[i];
+    const std::size_t bundled = bundled_from(batch, i);
+    i += bundled;
     if (pencil.toward != toward || pencil.count < TileBeam::least_pencil(toward)) continue;
     single_until(pencil.first);
-    ranges.push_back({pencil.first, pencil.count, &pencil});
-    next = pencil.first + pencil.count;
+    ranges.push_back({pencil.first, pencil.count, &pencil, bundled});
+    next = pencil.first + bundled * pencil.count;
   }
   single_until(batch.rays.size());
   return ranges;
@@ -158,9 +173,10 @@ struct SeenBatch {
     const auto unit = std::make_unique_for_overwrite<PencilUnit>();
     for (RayRange left : ranges) {
       while (left.count > 0) {
-        const std::size_t count =
-            left.pencil == nullptr ? left.count : kernels.count_part(pencil_rays(left), *unit);
-        parts.push_back({left.first, count, left.pencil});
+        const std::size_t count = left.pencil == nullptr ? left.count
+                                  : left.pencils > 1 ? std::min(left.count, BundlePart::kOrigins)
+                                                     : kernels.count_part(pencil_rays(left), *unit);
+        parts.push_back({left.first, count, left.pencil, left.pencils});
         left.first += count;
         left.count -= count;
       }
@@ -172,7 +188,8 @@ struct SeenBatch {
 /// The state of one thread.
 template <class Counting>
 struct QueryState {
-  std::unique_ptr<PencilUnit> unit;  ///< made for the first pencil: most batches have none
+  std::unique_ptr<PencilUnit> unit;      ///< made for the first pencil: most batches have none
+  std::unique_ptr<BundleMemory> bundle;  ///< likewise
   Counting counting;
 };
 
@@ -219,6 +236,23 @@ struct AnyOfBatch {
     return seen.kernels.queries<Counting>().any_hits(
         rays, unit, hits.subspan(first, rays.rays.size()), counting);
   }
+  void bundle(const RayRange& range, BundleMemory& memory, Counting& counting) const {
+    const std::span<const Pencil> pencils(range.pencil, range.pencils);
+    const std::size_t skipped = range.first - pencils.front().first;
+    for (std::size_t done = 0; done < range.count; done += BundlePart::kOrigins) {
+      const BundlePart part{seen.hierarchy, seen.scene,
+                            seen.kernels,   seen.batch.rays,
+                            seen.samples,   pencils,
+                            skipped + done, std::min(range.count - done, BundlePart::kOrigins)};
+      trace_bundle(part, memory, hits, counting);
+      for (const Pencil& pencil : pencils) {
+        for (const std::uint32_t i : memory.open) {
+          const std::size_t ray = pencil.first + part.first + i;
+          if (is_undecided(ray)) single(ray, counting);
+        }
+      }
+    }
+  }
   bool is_undecided(std::size_t i) const { return hits[i] == kUndecided; }
   void stream(const bvh::Streams& streams, const RayRange& range, Counting& counting) const {
     streams.any_hits(seen.batch.rays.subspan(range.first, range.count),
@@ -257,6 +291,12 @@ void trace_parts(const SeenBatch& seen, const Query& query, bool parallel, Count
   };
   const std::optional<bvh::Streams> streams = query.structure.streams();
   const auto trace_range = [&](const RayRange& range, State& state) {
+    if constexpr (Query::kToward) {
+      if (range.pencils > 1) {
+        if (!state.bundle) state.bundle = std::make_unique<BundleMemory>();
+        return query.bundle(range, *state.bundle, state.counting);
+      }
+    }
     if (range.pencil != nullptr) return trace_pencil(range, state);
     if (streams && range.count >= bvh::Streams::kLeast) {
       return query.stream(*streams, range, state.counting);
@@ -358,10 +398,12 @@ std::vector<BeamPlace> TileBeam::places_in_image(const PrimaryRays& rays) const 
 std::vector<BeamPlace> TileBeam::places_in_batch(const RayBatch& batch) const {
   std::vector<BeamPlace> places(batch.rays.size());
   if (hierarchy_.empty()) return places;
-  const SeenBatch seen{hierarchy_, *scene_, *pencil_kernels_, batch};
+  RayBatch pencil_by_pencil = batch;
+  pencil_by_pencil.marks = nullptr;
+  const SeenBatch seen{hierarchy_, *scene_, *pencil_kernels_, pencil_by_pencil};
   const auto unit = std::make_unique_for_overwrite<PencilUnit>();
   std::uint32_t number = 0;
-  for (const RayRange& part : seen.parts_of(ranges_of(batch, true))) {
+  for (const RayRange& part : seen.parts_of(ranges_of(pencil_by_pencil, true))) {
     if (part.pencil == nullptr) continue;
     const std::span<BeamPlace> own = std::span(places).subspan(part.first, part.count);
     pencil_kernels_->places(seen.pencil_rays(part), *unit, own);
@@ -435,6 +477,12 @@ void register_tile_beam(Registry& registry) {
   counters.push_back({"beams",
                       "tiles of the image, and parts of pencils through a side of the cube, that "
                       "were traced"});
+  counters.push_back({"bundle_origins",
+                      "origins of rays toward several apexes, the points of one light, that were "
+                      "tested against all of them at once"});
+  counters.push_back({"open_origins",
+                      "those of them from which rays had to be traced, apex by apex, because they "
+                      "do not all have the same result"});
   registry.describe_counters("tile-beam", std::move(counters));
 }
 

@@ -20,8 +20,8 @@ namespace beambench::rays {
 /// of another scene is refused), `hash` (of the rays' bytes, XXH3; a damaged file is refused),
 /// `may_graze` (true: `RaySet::may_graze`) and `pencils` are optional; other members, such as those
 /// of `note`, are for people. `pencils` is a list of `{"first": 0, "count": 16, "apex": [x, y, z],
-/// "toward": true}`, in the order of `first`: see `accel::Pencil`. An image's samples and views are
-/// not saved. In Python:
+/// "toward": true}`, in the order of `first`: see `accel::Pencil`. An image's samples and views and
+/// bundles of pencils are not saved. In Python:
 ///
 ///     with open(path, "rb") as f:
 ///         f.readline(); header = json.loads(f.readline())

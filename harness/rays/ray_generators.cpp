@@ -153,19 +153,29 @@ std::vector<SurfacePoint> in_picture_order(const std::vector<SurfacePoint>& poin
   return ordered;
 }
 
-RayList shadow_rays(std::span<const scenes::Light> lights,
-                    const std::vector<SurfacePoint>& points) {
+RayList shadow_rays(std::span<const scenes::Light> lights, const std::vector<SurfacePoint>& points,
+                    std::size_t per_light) {
   RayList list;
-  for (const scenes::Light& light : lights) {
-    const dvec3 position(light.position);
-    const std::size_t first = list.rays.size();
+  std::vector<const SurfacePoint*> facing;
+  for (std::size_t first = 0; first < lights.size(); first += per_light) {
+    const auto light = lights.subspan(first, per_light);
+    facing.clear();
     for (const SurfacePoint& at : points) {
-      const dvec3 to_light = position - at.beside();
-      if (glm::dot(to_light, at.normal) <= 0.0) continue;
-      add_ray(at, to_light, list).t_max = accel::t_before_light(at.beside(), position);
+      const bool faces = std::ranges::any_of(light, [&](const scenes::Light& point) {
+        return glm::dot(dvec3(point.position) - at.beside(), at.normal) > 0.0;
+      });
+      if (faces) facing.push_back(&at);
     }
-    const std::size_t count = list.rays.size() - first;
-    if (count > 0) list.pencils.push_back({first, count, position, true});
+    if (facing.empty()) continue;
+    if (per_light > 1) list.marks.bundles.push_back({list.pencils.size(), per_light});
+    for (const scenes::Light& point : light) {
+      const dvec3 position(point.position);
+      list.pencils.push_back({list.rays.size(), facing.size(), position, true});
+      for (const SurfacePoint* at : facing) {
+        add_ray(*at, position - at->beside(), list).t_max =
+            accel::t_before_light(at->beside(), position);
+      }
+    }
   }
   return list;
 }

@@ -47,7 +47,10 @@ std::vector<SurfacePoint> in_picture_order(const std::vector<SurfacePoint>& poin
 ///
 /// Returns the shadow rays, light by light, from each point that faces the light. The light is at t
 /// = 1, and the rays end slightly before it (`accel::t_before_light`). Each light is a pencil.
-RayList shadow_rays(std::span<const scenes::Light> lights, const std::vector<SurfacePoint>& points);
+/// `per_light`: that many successive points are one light with an extent (`area_lights`), which
+/// gets rays to all of them from each surface point that faces any, and its pencils are a bundle.
+RayList shadow_rays(std::span<const scenes::Light> lights, const std::vector<SurfacePoint>& points,
+                    std::size_t per_light = 1);
 
 /// Returns rays in the mirror directions of the incoming rays, of unit length.
 RayList reflection_rays(const std::vector<SurfacePoint>& points);

@@ -22,8 +22,11 @@ struct RayList {
   std::shared_ptr<const accel::PrimaryRays> image{};  ///< that they come from
   std::vector<accel::Pencil> pencils{};
   std::vector<std::shared_ptr<const accel::PrimaryRays>> views{};  ///< of pencils that have a view
+  accel::BatchMarks marks{};
 
-  accel::RayBatch batch() const { return {rays, pencils, samples, image.get()}; }
+  accel::RayBatch batch() const {
+    return {rays, pencils, samples, image.get(), marks.bundles.empty() ? nullptr : &marks};
+  }
 };
 
 /// Rays, the query for them, and their origin.

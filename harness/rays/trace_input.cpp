@@ -65,7 +65,7 @@ RayList made_rays(const scenes::Scene& scene, const accel::PrimaryRays& primary,
       const std::vector<scenes::Light> lights = area_lights(scene, extent);
       const auto points = in_picture_order(surface_points(scene, primary), primary);
       require_list_size(points.size(), static_cast<std::int64_t>(lights.size()), choice, "samples");
-      return shadow_rays(lights, points);
+      return shadow_rays(lights, points, static_cast<std::size_t>(extent.points));
     }
     case RayKind::kReflection:
       return reflection_rays(surface_points(scene, primary));

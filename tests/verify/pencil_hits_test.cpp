@@ -361,9 +361,10 @@ TEST(PencilHits, OfTheCatalogueAreRight) {
     SCOPED_TRACE(name);
     const scenes::Scene scene = scenes::load_scene(name);
     beams += expect_right_over(scene, image_over(scene, 160, 120), "shadow");
+    beams += expect_right_over(scene, image_over(scene, 160, 120), "area:samples=4");
     beams += expect_right_over(scene, image_over(scene, 160, 120), "mirror");
   }
-  EXPECT_GT(beams, 100U);
+  EXPECT_GT(beams, 150U);
 }
 
 TEST(PencilHits, OfEveryInstructionSetAreRight) {
@@ -375,6 +376,7 @@ TEST(PencilHits, OfEveryInstructionSetAreRight) {
       SCOPED_TRACE(name);
       const scenes::Scene scene = scenes::load_scene(name);
       beams += expect_right_over(scene, image_over(scene, 80, 60), "shadow");
+      beams += expect_right_over(scene, image_over(scene, 80, 60), "area:samples=4");
       beams += expect_right_over(scene, image_over(scene, 80, 60), "mirror");
     }
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
@@ -384,9 +386,43 @@ TEST(PencilHits, OfEveryInstructionSetAreRight) {
       scene.lights = awkward_lights(scene, random);
       for (scenes::Surface& surface : scene.surfaces) surface.specular = 0.5F;
       beams += expect_right_over(scene, image_over(scene, 100, 75), "shadow");
+      beams += expect_right_over(scene, image_over(scene, 100, 75), "area:samples=3,size=0.02");
       beams += expect_right_over(scene, image_over(scene, 100, 75), "mirror");
     }
     EXPECT_GT(beams, 200U);
+  }
+}
+
+// Most origins see all of a light or nothing of it, and few are left to the pencils.
+TEST(PencilHits, OfBundlesAreMostlyFoundOnce) {
+  for (const auto& [name, most_open] :
+       {std::pair{"bumpy:triangles=20000", 0.5}, {"closed-room", 0.5}, {"balls:n=2", 0.5}}) {
+    SCOPED_TRACE(name);
+    const scenes::Scene scene = scenes::load_scene(name);
+    const rays::TraceInput input = rays::make_trace_input(
+        scene, image_over(scene, 160, 120), rays::parse_ray_choice("area:samples=6,size=0.02"));
+    const TileBeam structure(scene, {});
+    rays::TraceResults results = rays::make_results(input);
+    accel::WorkCounters counters;
+    rays::trace(structure, input, results, &counters);
+    EXPECT_EQ(counters.by_name()["bundle_origins"], input.size() / 6);
+    EXPECT_LT(static_cast<double>(counters.by_name()["open_origins"]),
+              most_open * static_cast<double>(input.size() / 6));
+  }
+}
+
+// A mark that does not fit the pencils is ignored.
+TEST(PencilHits, OfMarksThatDoNotFitAreRight) {
+  const scenes::Scene scene = scenes::load_scene("casa-de-campo");
+  const rays::TraceInput input = rays::make_trace_input(scene, image_over(scene, 64, 48),
+                                                        rays::parse_ray_choice("area:samples=3"));
+  const std::size_t pencils = input.list()->pencils.size();
+  ASSERT_GE(pencils, 6U);
+  for (const accel::PencilBundle& bundle :
+       {accel::PencilBundle{1, pencils}, {pencils, 2}, {pencils + 1, 1}, {0, 0}}) {
+    rays::RaySet marked = *input.list();
+    marked.marks.bundles = {bundle};
+    expect_right(verified(scene, rays::TraceInput(std::move(marked))));
   }
 }
 
@@ -446,6 +482,7 @@ TEST(PencilHits, DoNotDependOnTheThreads) {
   // The first has enough triangles for its hierarchy to be built by several tasks.
   for (const auto& [name, kind] : {std::pair{"bumpy:triangles=100000", "shadow"},
                                    {"teapot", "shadow"},
+                                   {"habitacion", "area:samples=5"},
                                    {"teapot", "mirror"},
                                    {"closed-room", "mirror"}}) {
     SCOPED_TRACE(name);
