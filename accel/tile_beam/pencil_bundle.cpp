@@ -9,55 +9,39 @@
 namespace beambench::accel::tile_beam {
 namespace {
 
-/// Finds what all pencils have in common, and lists the origins that are left.
-template <class Counting>
-void find_open(const BundlePart& part, BundleMemory& memory, Counting& counting) {
-  const ApexBall ball(part.pencils, part.hierarchy.bounds);
-  const std::size_t begin = part.pencils.front().first + part.first;
-  memory.found.resize(part.count);
-  for (std::size_t done = 0; done < part.count;) {
-    const PencilRays origins{part.hierarchy,
-                             part.scene,
-                             part.rays.subspan(begin + done, part.count - done),
-                             part.samples.from(begin + done),
-                             ball.center,
-                             ball.radius};
-    const std::span<std::uint8_t> found = std::span(memory.found).subspan(done);
-    done += part.kernels.queries<Counting>().bundle(origins, memory.unit, found, counting).count;
-  }
-  memory.open.clear();
-  memory.samples.clear();
-  for (std::size_t i = 0; i < part.count; ++i) {
-    if (memory.found[i] != kUndecided) continue;
-    memory.open.push_back(static_cast<std::uint32_t>(i));
-    if (!part.samples.of_rays.empty()) {
-      memory.samples.push_back(part.samples.of_rays[begin + i]);
-    }
-  }
-  counting.add("bundle_origins", part.count);
-  counting.add("open_origins", memory.open.size());
-}
-
-}  // namespace
-
-ApexBall::ApexBall(std::span<const Pencil> pencils, const scenes::Bounds& scene) {
+/// Returns origins of a bundle, with a ball that holds the apexes, up to what rounding changes of
+/// rays toward them.
+BundleRays bundle_rays(const BundlePart& part) {
+  const std::span<const Pencil> pencils = part.pencils;
   glm::dvec3 lower = pencils.front().apex;
   glm::dvec3 upper = lower;
   for (const Pencil& pencil : pencils) {
     lower = glm::min(lower, pencil.apex);
     upper = glm::max(upper, pencil.apex);
   }
-  center = glm::vec3(0.5 * (lower + upper));
+  BundleRays bundle{{part.hierarchy, part.scene, {}, {}, glm::vec3(0.5 * (lower + upper))},
+                    0.0F,
+                    {},
+                    pencils.size(),
+                    pencils.front().count};
   double farthest = 0.0;
-  for (const Pencil& pencil : pencils) {
-    farthest = std::max(farthest, glm::distance(glm::dvec3(center), pencil.apex));
+  for (std::size_t i = 0; i < BundleRays::kApexes; ++i) {
+    const Pencil& pencil = pencils[std::min(i, pencils.size() - 1)];
+    for (int axis = 0; axis < 3; ++axis) {
+      bundle.places[static_cast<std::size_t>(axis)][i] = static_cast<float>(pencil.apex[axis]);
+    }
+    farthest = std::max(farthest, glm::distance(pencil.apex, glm::dvec3(bundle.apex)));
   }
   // Directions are rounded: they pass beside the apex by up to 2^-23 of their length, and lengths
   // are a few sizes of the scene and of the apex's coordinates.
   const glm::dvec3 size = glm::max(glm::abs(lower), glm::abs(upper));
-  const double coordinates = std::max({size.x, size.y, size.z, double{scene.largest_coordinate()}});
-  radius = static_cast<float>(farthest * (1.0 + 0x1p-20) + 0x1p-18 * coordinates);
+  const double coordinates =
+      std::max({size.x, size.y, size.z, double{part.hierarchy.bounds.largest_coordinate()}});
+  bundle.radius = static_cast<float>(farthest * (1.0 + 0x1p-20) + 0x1p-18 * coordinates);
+  return bundle;
 }
+
+}  // namespace
 
 bool is_bundle(std::span<const Pencil> pencils) {
   if (pencils.size() < 2) return false;
@@ -70,32 +54,48 @@ bool is_bundle(std::span<const Pencil> pencils) {
   return true;
 }
 
+/// The radius of a ball up to which places that it widens are finite.
+constexpr float kLargestRadius = 0x1p20F;
+/// The origins of a part that show whether it is worthwhile.
+constexpr std::size_t kFirst = 512;
+
 template <class Counting>
-void trace_bundle(const BundlePart& part, BundleMemory& memory, std::span<std::uint8_t> hits,
-                  Counting& counting) {
-  find_open(part, memory, counting);
-  const std::size_t open = memory.open.size();
-  memory.rays.resize(open);
-  memory.open_found.resize(open);
-  PencilSamples samples = part.samples;
-  samples.of_rays = memory.samples;
-  for (const Pencil& pencil : part.pencils) {
-    const std::size_t begin = pencil.first + part.first;
-    const std::span<std::uint8_t> own = hits.subspan(begin, part.count);
-    std::ranges::copy(memory.found, own.begin());
-    for (std::size_t i = 0; i < open; ++i) memory.rays[i] = part.rays[begin + memory.open[i]];
-    for (std::size_t done = 0; done < open;) {
-      const PencilRays rays{part.hierarchy, part.scene, std::span(memory.rays).subspan(done),
-                            samples.from(done), glm::vec3(pencil.apex)};
-      const std::span<std::uint8_t> found = std::span(memory.open_found).subspan(done);
-      done += part.kernels.queries<Counting>().any_hits(rays, memory.unit, found, counting).count;
+bool find_hidden(const BundlePart& part, BundleMemory& memory, std::span<std::uint8_t> hits,
+                 Counting& counting) {
+  const std::size_t begin = part.pencils.front().first + part.first;
+  memory.found.resize(part.count);
+  BundleRays bundle = bundle_rays(part);
+  if (!(bundle.radius < kLargestRadius)) return false;
+  for (std::size_t done = 0; done < part.count;) {
+    const std::size_t left = done == 0 ? std::min(kFirst, part.count) : part.count - done;
+    bundle.rays = part.rays.subspan(begin + done, left);
+    bundle.samples = part.samples.from(begin + done);
+    const std::span<std::uint32_t> found = std::span(memory.found).subspan(done);
+    const std::size_t count =
+        part.kernels.queries<Counting>().bundle(bundle, memory.unit, found, counting).count;
+    if (done == 0 &&
+        std::ranges::count(found.first(count), kOpen) * 2 > std::ssize(found.first(count))) {
+      return false;
     }
-    for (std::size_t i = 0; i < open; ++i) own[memory.open[i]] = memory.open_found[i];
+    done += count;
   }
+  memory.open.clear();
+  for (std::size_t i = 0; i < part.count; ++i) {
+    if (memory.found[i] == kOpen) memory.open.push_back(static_cast<std::uint32_t>(i));
+  }
+  for (std::size_t apex = 0; apex < part.pencils.size(); ++apex) {
+    const std::span<std::uint8_t> own =
+        hits.subspan(part.pencils[apex].first + part.first, part.count);
+    for (std::size_t i = 0; i < part.count; ++i) {
+      own[i] = static_cast<std::uint8_t>(memory.found[i] >> apex & 1U);
+    }
+  }
+  counting.add("bundle_origins", part.count);
+  counting.add("open_origins", memory.open.size());
+  return true;
 }
 
-template void trace_bundle(const BundlePart&, BundleMemory&, std::span<std::uint8_t>, NoCounting&);
-template void trace_bundle(const BundlePart&, BundleMemory&, std::span<std::uint8_t>,
-                           WorkCounters&);
+template bool find_hidden(const BundlePart&, BundleMemory&, std::span<std::uint8_t>, NoCounting&);
+template bool find_hidden(const BundlePart&, BundleMemory&, std::span<std::uint8_t>, WorkCounters&);
 
 }  // namespace beambench::accel::tile_beam

@@ -1,6 +1,7 @@
 #pragma once
 // The pencils of one light with an extent: what is the same for all of them is found once.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -14,22 +15,15 @@
 
 namespace beambench::accel::tile_beam {
 
-/// A ball that holds the apexes of a bundle, up to what rounding changes of rays toward them.
-struct ApexBall {
-  glm::vec3 center;
-  float radius;
-
-  ApexBall(std::span<const Pencil> pencils, const scenes::Bounds& scene);
-};
-
 /// Returns whether pencils are a bundle as `PencilBundle` describes it, as far as that can be seen
 /// without looking at their rays.
 bool is_bundle(std::span<const Pencil> pencils);
 
-/// Some origins of a bundle: `count` of each pencil's rays, from its ray `first` on.
+/// Some origins of a bundle of at most BundleRays::kApexes pencils: `count` of each pencil's rays,
+/// from its ray `first` on.
 struct BundlePart {
   /// Origins that are traced at once.
-  static constexpr std::size_t kOrigins = 4 * PencilUnit::kRays;
+  static constexpr std::size_t kOrigins = 16 * PencilUnit::kRays;
 
   const TileHierarchy& hierarchy;
   const scenes::Scene& scene;
@@ -44,18 +38,40 @@ struct BundlePart {
 /// Memory for one thread.
 struct BundleMemory {
   PencilUnit unit;
-  std::vector<std::uint8_t> found;       ///< of each origin: 0, 1 or kUndecided
-  std::vector<std::uint32_t> open;       ///< the undecided origins
-  std::vector<std::uint32_t> samples;    ///< of these
-  std::vector<Ray> rays;                 ///< from these
-  std::vector<std::uint8_t> open_found;  ///< of their rays
+  std::vector<std::uint32_t> found;  ///< of each origin: the hidden apexes, or kOpen
+  std::vector<std::uint32_t> open;   ///< the open origins
+  std::vector<Ray> rays;             ///< of open origins, those of each one after the other
+  std::vector<std::uint8_t> hits;    ///< of these rays
 };
 
-/// Traces a part: first all origins against the ball of apexes, then, pencil by pencil, the rays
-/// from those that this left open. Writes 0, 1 or kUndecided for each ray of the batch that belongs
-/// to the part.
+/// Writes 0 or 1 for each ray of the batch that belongs to the part, except for those of the
+/// origins that it leaves open. Returns false without having written anything if these are most of
+/// the first ones: the light is in a lamp, and what is next to it may be in the way of all rays.
 template <class Counting>
-void trace_bundle(const BundlePart& part, BundleMemory& memory, std::span<std::uint8_t> hits,
-                  Counting& counting);
+bool find_hidden(const BundlePart& part, BundleMemory& memory, std::span<std::uint8_t> hits,
+                 Counting& counting);
+
+/// Calls `trace(rays, hits)` for lists of the rays of the open origins, and copies what it writes.
+template <class Trace>
+void trace_open(const BundlePart& part, BundleMemory& memory, std::span<std::uint8_t> hits,
+                const Trace& trace) {
+  constexpr std::size_t kAtOnce = 4096;
+  const std::size_t apexes = part.pencils.size();
+  for (std::size_t first = 0; first < memory.open.size(); first += kAtOnce) {
+    const auto open = std::span<const std::uint32_t>(memory.open).subspan(first);
+    const std::size_t count = std::min(kAtOnce, open.size());
+    memory.rays.resize(count * apexes);
+    memory.hits.resize(count * apexes);
+    const auto for_each = [&](const auto& visit) {
+      for (std::size_t apex = 0; apex < apexes; ++apex) {
+        const std::size_t begin = part.pencils[apex].first + part.first;
+        for (std::size_t i = 0; i < count; ++i) visit(begin + open[i], i * apexes + apex);
+      }
+    };
+    for_each([&](std::size_t ray, std::size_t place) { memory.rays[place] = part.rays[ray]; });
+    trace(std::span<const Ray>(memory.rays), std::span(memory.hits));
+    for_each([&](std::size_t ray, std::size_t place) { hits[ray] = memory.hits[place]; });
+  }
+}
 
 }  // namespace beambench::accel::tile_beam

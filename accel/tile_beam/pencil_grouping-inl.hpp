@@ -274,7 +274,6 @@ class PencilGrouping {
       }
       for (std::size_t i = 0; i < 16; ++i) {
         unit_->alive[first + i] = i < count ? unit_->lanes[unit_->slot[first + i]] : 0;
-        unit_->shadowed[first + i] = 0;
       }
       unit_->group_blocks[group] = static_cast<std::uint16_t>(present);
       unit_->groups_alive |= 1U << group;

@@ -31,13 +31,13 @@ float farthest(const scenes::Bounds& scene) {
 
 /// Calls `walk(part, side)` for each side of the cube that the first rays pass, and `undecided(i)`
 /// for rays that pass none.
-template <class Policy, class Walk, class Undecided>
-HWY_INLINE AnsweredRays for_each_side(const PencilRays& pencil, PencilUnit& unit, Walk walk,
+template <class Policy, class Rays, class Walk, class Undecided>
+HWY_INLINE AnsweredRays for_each_side(const Rays& pencil, PencilUnit& unit, Walk walk,
                                       Undecided undecided) {
   list_blocks(pencil.rays, pencil.samples, unit);
   const std::size_t count = unit.first[unit.listed];
-  const PencilPart part{pencil.rays.first(count), pencil.apex, pencil.radius,
-                        farthest<Policy>(pencil.hierarchy.bounds)};
+  PencilPart part{pencil.rays.first(count), pencil.apex, farthest<Policy>(pencil.hierarchy.bounds)};
+  if constexpr (Policy::kHull) part.bundle = &pencil;
   std::array<std::uint16_t, PencilUnit::kListed> decided{};
   LaneBits done = 0;
   LaneBits others = LaneBits{1} << unit.side.number;
@@ -93,25 +93,26 @@ AnsweredRays any_hits(const PencilRays& pencil, PencilUnit& unit, std::span<std:
 }
 
 template <class Counting>
-AnsweredRays bundle(const PencilRays& pencil, PencilUnit& unit, std::span<std::uint8_t> found,
+AnsweredRays bundle(const BundleRays& rays, PencilUnit& unit, std::span<std::uint32_t> found,
                     Counting& counting) {
   return for_each_side<HullPolicy>(
-      pencil, unit,
+      rays, unit,
       [&](const PencilPart& part, CubeSide side) {
-        walk_part<HullPolicy>(pencil, part, side, unit, counting);
+        std::fill_n(unit.hidden.begin(), unit.places * PencilUnit::kBlock, std::uint16_t{0});
+        std::fill_n(unit.tests.begin(), unit.places * PencilUnit::kBlock, std::uint8_t{0});
+        walk_part<HullPolicy>(rays, part, side, unit, counting);
         for (std::size_t place = 0; place < unit.places; ++place) {
-          const std::size_t block = unit.slot[place];
-          for (LaneBits left = unit.lanes[block]; left != 0; left &= left - 1) {
+          const std::size_t block = unit.slot[place] * PencilUnit::kBlock;
+          for (LaneBits left = unit.lanes[unit.slot[place]]; left != 0; left &= left - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-            const bool is_lit = (unit.alive[place] >> lane & 1U) != 0;
-            const bool is_shadowed = (unit.shadowed[place] >> lane & 1U) != 0;
-            found[unit.ray_at(block * PencilUnit::kBlock + lane)] = is_lit        ? 0
-                                                                    : is_shadowed ? 1
-                                                                                  : kUndecided;
+            const std::uint32_t hidden = unit.hidden[place * PencilUnit::kBlock + lane];
+            const bool is_alive = (unit.alive[place] >> lane & 1U) != 0;
+            found[unit.ray_at(block + lane)] =
+                is_alive || hidden == rays.all_apexes() ? hidden : kOpen;
           }
         }
       },
-      [&](std::size_t i) { found[i] = kUndecided; });
+      [&](std::size_t i) { found[i] = kOpen; });
 }
 
 template <class Counting>

@@ -1,6 +1,7 @@
 #pragma once
 // Traces parts of pencils through the hierarchy, compiled for several instruction sets.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -51,8 +52,27 @@ struct PencilRays {
   std::span<const Ray> rays;
   PencilSamples samples;
   glm::vec3 apex;
-  float radius = 0.0F;  ///< of the ball about the apex that holds those of a bundle
 };
+
+/// Origins of rays toward the apexes of a bundle. `PencilRays`: the rays toward the first one, but
+/// their apex is the center of a ball that holds all.
+struct BundleRays : PencilRays {
+  static constexpr std::size_t kApexes = 16;
+
+  float radius;  ///< of the ball
+  /// The apexes, x, y, z, and as many copies of the last as there is room for.
+  alignas(64) std::array<std::array<float, kApexes>, 3> places;
+  std::size_t apexes;
+  std::size_t stride;  ///< from a ray to the one from the same origin toward the next apex
+
+  std::uint32_t all_apexes() const { return (1U << apexes) - 1U; }
+  const Ray& ray(std::size_t origin, std::size_t apex) const {
+    return rays.data()[origin + apex * stride];
+  }
+};
+
+/// What is found for an origin: a bit for each apex that is hidden, or this.
+inline constexpr std::uint32_t kOpen = 0x80000000U;
 
 /// The result of a ray that is left to the query for single rays: its line is too long for float,
 /// or has no direction from the apex.
@@ -78,9 +98,9 @@ struct PencilQueries {
   /// kUndecidedT if undecided.
   AnsweredRays (*closest_hits)(const PencilRays&, PencilUnit& unit, const HitSpan& buffer,
                                std::size_t first, Counting&);
-  /// Takes the origins of rays toward the apexes of a bundle: writes 0 where no such ray hits
-  /// anything, 1 where each does, and kUndecided elsewhere.
-  AnsweredRays (*bundle)(const PencilRays&, PencilUnit& unit, std::span<std::uint8_t> found,
+  /// Writes which apexes are hidden from each origin of a bundle, or kOpen where its rays must be
+  /// traced apex by apex.
+  AnsweredRays (*bundle)(const BundleRays&, PencilUnit& unit, std::span<std::uint32_t> found,
                          Counting&);
 };
 

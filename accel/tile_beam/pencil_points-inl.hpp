@@ -112,9 +112,9 @@ inline void list_blocks(std::span<const Ray> rays, const PencilSamples& samples,
 struct PencilPart {
   std::span<const Ray> rays;
   glm::vec3 apex;
-  float radius;  ///< of the ball about the apex (HullPolicy), otherwise 0
   /// The maximum distance of a ray's beginning from the apex along the side's axis for float.
   float farthest;
+  const BundleRays* bundle = nullptr;  ///< HullPolicy
 };
 
 /// Projects the rays of one side. Unless hits are closest, the apex is at the rays' ends, and sees
@@ -178,7 +178,8 @@ class PencilProjection {
       // Of a bundle, only the origins are seen: its rays may be shorter.
       const Mask whole =
           Policy::kHull ? wanted : hn::And(hn::Eq(ray.t_min, hn::Zero(Tag())), to_end);
-      const float nearest = Policy::kHull ? std::max(2.0F * part_->radius, kNearest) : kNearest;
+      const float nearest =
+          Policy::kHull ? std::max(2.0F * part_->bundle->radius, kNearest) : kNearest;
       const Mask in = hn::And(
           hn::And(through, whole),
           hn::And(hn::Gt(hn::Min(depth, z), all(nearest)), hn::Le(depth, all(part_->farthest))));

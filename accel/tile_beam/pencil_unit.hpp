@@ -71,7 +71,9 @@ struct PencilUnit {
   alignas(64) Array<std::uint16_t, kPlaces> alive;  ///< lanes that may still be hit
   alignas(64) Array<float, kPlaces> minus_low_u, high_u, minus_low_v, high_v, minus_w, origin_w_top;
   alignas(64) Array<float, kPlaces> middle_u, middle_v, half_u, half_v;
-  Array<std::uint16_t, kPlaces> shadowed;  ///< a bundle's origins from which all rays hit
+  /// Of a bundle: which apexes are hidden from each ray's origin, a bit each, by place.
+  alignas(64) Array<std::uint16_t, kPlaces * kBlock> hidden;
+  Array<std::uint8_t, kPlaces * kBlock> tests;  ///< triangles tested for all apexes, likewise
   std::size_t places;
   CubeSide side;  ///< that saw the last rays
   /// The distance from the apex, along the side's axis, of the nearest end of a ray toward the

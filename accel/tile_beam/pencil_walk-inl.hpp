@@ -91,17 +91,18 @@ class PencilWalk {
               0.0F,      0.0F, false};
     }
     constexpr float kRootOfTwo = 1.4143F;
-    // A hit at depth z >= 2 r is before its apex by at least r / (depth + r) of the way, and rays
-    // end before it by `surface_lift`, 2^-18 of the coordinates of apex and origin.
+    const float radius = part.bundle->radius;
+    // A triangle that is found to hide an apex lies before it by at least an eighth of the radius,
+    // and rays end before it by `surface_lift`, 2^-18 of the coordinates of apex and origin.
     const glm::vec3 apex = glm::abs(part.apex);
     const float coordinates = std::max({apex.x, apex.y, apex.z}) + 2.0F * part.farthest;
     return {part.apex,
             side,
             size,
-            2.0F * part.radius,
-            part.radius,
-            kRootOfTwo * part.radius / (1.0F - part.radius / unit.least_depth),
-            part.radius > 0x1p-15F * coordinates};
+            2.0F * radius,
+            radius,
+            kRootOfTwo * radius / (1.0F - radius / unit.least_depth),
+            radius > 0x1p-13F * coordinates};
   }
 
   HWY_INLINE void push_children(const TileNode& node, std::uint32_t groups) {

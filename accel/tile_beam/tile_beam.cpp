@@ -167,6 +167,12 @@ struct SeenBatch {
             samples.from(range.first), glm::vec3(range.pencil->apex)};
   }
 
+  /// `first`: among the origins.
+  BundlePart bundle_part(std::span<const Pencil> pencils, std::size_t first,
+                         std::size_t count) const {
+    return {hierarchy, scene, kernels, batch.rays, samples, pencils, first, count};
+  }
+
   /// Returns ranges of rays, those of pencils divided into parts that are traced at once.
   std::vector<RayRange> parts_of(std::span<const RayRange> ranges) const {
     std::vector<RayRange> parts;
@@ -206,6 +212,7 @@ struct ClosestOfBatch {
                       Counting& counting) const {
     return seen.kernels.queries<Counting>().closest_hits(rays, unit, hits, first, counting);
   }
+  bool bundle(const BundlePart&, BundleMemory&, Counting&) const { return false; }  // of lights
   bool is_undecided(std::size_t i) const { return hits.t()[i] == kUndecidedT; }
   void stream(const bvh::Streams& streams, const RayRange& range, Counting& counting) const {
     streams.closest_hits(seen.batch.rays.subspan(range.first, range.count),
@@ -236,22 +243,23 @@ struct AnyOfBatch {
     return seen.kernels.queries<Counting>().any_hits(
         rays, unit, hits.subspan(first, rays.rays.size()), counting);
   }
-  void bundle(const RayRange& range, BundleMemory& memory, Counting& counting) const {
-    const std::span<const Pencil> pencils(range.pencil, range.pencils);
-    const std::size_t skipped = range.first - pencils.front().first;
-    for (std::size_t done = 0; done < range.count; done += BundlePart::kOrigins) {
-      const BundlePart part{seen.hierarchy, seen.scene,
-                            seen.kernels,   seen.batch.rays,
-                            seen.samples,   pencils,
-                            skipped + done, std::min(range.count - done, BundlePart::kOrigins)};
-      trace_bundle(part, memory, hits, counting);
-      for (const Pencil& pencil : pencils) {
-        for (const std::uint32_t i : memory.open) {
-          const std::size_t ray = pencil.first + part.first + i;
-          if (is_undecided(ray)) single(ray, counting);
-        }
+  /// Returns false if nothing was written, because the pencils of the part take less time.
+  bool bundle(const BundlePart& part, BundleMemory& memory, Counting& counting) const {
+    if (!find_hidden(part, memory, hits, counting)) return false;
+    const std::optional<bvh::Streams> streams = structure.streams();
+    trace_open(part, memory, hits, [&](std::span<const Ray> rays, std::span<std::uint8_t> found) {
+      const auto alone = [&](std::size_t i) {
+        found[i] = structure.find_any(rays[i], counting) ? 1 : 0;
+      };
+      if (streams) return streams->any_hits(rays, found, counting, alone);
+      if (!kernels.lists<Counting>().any_hits(seen.hierarchy, seen.scene, rays, found, counting)) {
+        return;
       }
-    }
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (!bvh::ProbeRay::can_probe(rays[i])) alone(i);
+      }
+    });
+    return true;
   }
   bool is_undecided(std::size_t i) const { return hits[i] == kUndecided; }
   void stream(const bvh::Streams& streams, const RayRange& range, Counting& counting) const {
@@ -289,14 +297,26 @@ void trace_parts(const SeenBatch& seen, const Query& query, bool parallel, Count
       left.count -= answered.count;
     }
   };
-  const std::optional<bvh::Streams> streams = query.structure.streams();
-  const auto trace_range = [&](const RayRange& range, State& state) {
-    if constexpr (Query::kToward) {
-      if (range.pencils > 1) {
-        if (!state.bundle) state.bundle = std::make_unique<BundleMemory>();
-        return query.bundle(range, *state.bundle, state.counting);
+  // In parts, because a part has a bit for each apex.
+  const auto trace_bundle = [&](const RayRange& range, State& state) {
+    if (!state.bundle) state.bundle = std::make_unique<BundleMemory>();
+    const std::size_t skipped = range.first - range.pencil->first;
+    for (std::size_t i = 0; i < range.pencils; i += BundleRays::kApexes) {
+      const std::span<const Pencil> pencils(range.pencil + i,
+                                            std::min(range.pencils - i, BundleRays::kApexes));
+      for (std::size_t done = 0; done < range.count; done += BundlePart::kOrigins) {
+        const BundlePart part = seen.bundle_part(
+            pencils, skipped + done, std::min(range.count - done, BundlePart::kOrigins));
+        if (query.bundle(part, *state.bundle, state.counting)) continue;
+        for (const Pencil& pencil : pencils) {
+          trace_pencil({pencil.first + part.first, part.count, &pencil}, state);
+        }
       }
     }
+  };
+  const std::optional<bvh::Streams> streams = query.structure.streams();
+  const auto trace_range = [&](const RayRange& range, State& state) {
+    if (range.pencils > 1) return trace_bundle(range, state);
     if (range.pencil != nullptr) return trace_pencil(range, state);
     if (streams && range.count >= bvh::Streams::kLeast) {
       return query.stream(*streams, range, state.counting);

@@ -396,7 +396,7 @@ TEST(PencilHits, OfEveryInstructionSetAreRight) {
 // Most origins see all of a light or nothing of it, and few are left to the pencils.
 TEST(PencilHits, OfBundlesAreMostlyFoundOnce) {
   for (const auto& [name, most_open] :
-       {std::pair{"bumpy:triangles=20000", 0.5}, {"closed-room", 0.5}, {"balls:n=2", 0.5}}) {
+       {std::pair{"bumpy:triangles=20000", 0.5}, {"casa-de-campo", 0.5}, {"balls:n=2", 0.5}}) {
     SCOPED_TRACE(name);
     const scenes::Scene scene = scenes::load_scene(name);
     const rays::TraceInput input = rays::make_trace_input(
