@@ -9,6 +9,11 @@
 namespace beambench::accel::tile_beam {
 namespace {
 
+/// The radius of a ball up to which places that it widens are finite.
+constexpr float kLargestRadius = 0x1p20F;
+/// The origins of a part that show whether it is worthwhile.
+constexpr std::size_t kFirst = 512;
+
 /// Returns origins of a bundle, with a ball that holds the apexes, up to what rounding changes of
 /// rays toward them.
 BundleRays bundle_rays(const BundlePart& part) {
@@ -53,11 +58,6 @@ bool is_bundle(std::span<const Pencil> pencils) {
   }
   return true;
 }
-
-/// The radius of a ball up to which places that it widens are finite.
-constexpr float kLargestRadius = 0x1p20F;
-/// The origins of a part that show whether it is worthwhile.
-constexpr std::size_t kFirst = 512;
 
 template <class Counting>
 bool find_hidden(const BundlePart& part, BundleMemory& memory, std::span<std::uint8_t> hits,

@@ -39,24 +39,22 @@ class Line:
 def figures(folder: Path) -> dict[str, Any]:
     """Returns the ratios to Embree by kind of rays, and what lengths, batches and threads do."""
     lists, pictures = Cells(folder / "lists"), Cells(folder / "pictures")
-    isa = _isa(lists)
-    own = {kind: _line(lists, STREAMS, target, kind=kind) for kind, target in _TARGETS[isa].items()}
+    isa = instruction_set(lists)
+    own = {kind: line(lists, STREAMS, target, kind=kind) for kind, target in _TARGETS[isa].items()}
     return {
         "isa": isa,
         "scenes": lists.scenes,
         "kinds": KINDS,
         "lists": own,
         "others": {
-            name: {kind: _line(lists, name, None, kind=kind).mean.ratio for kind in KINDS}
+            name: {kind: line(lists, name, None, kind=kind).mean.ratio for kind in KINDS}
             for name in (BINNED, TILE_BEAM, SINGLE)
         },
         "large": _large(Cells(folder / "large")),
-        "embree": {kind: _modes(lists, kind) for kind in KINDS},
+        "embree": {kind: modes(lists, kind) for kind in KINDS},
         "pictures": {
             size: {
-                name: _line(
-                    pictures, name, _PICTURES[isa] if name == TILE_BEAM else None, size=size
-                )
+                name: line(pictures, name, _PICTURES[isa] if name == TILE_BEAM else None, size=size)
                 for name in (TILE_BEAM, STREAMS)
             }
             for size in pictures.sizes
@@ -88,13 +86,13 @@ def _large(cells: Cells) -> dict[str, dict[str, Ratio]]:
     }
 
 
-def _isa(cells: Cells) -> str:
+def instruction_set(cells: Cells) -> str:
     """Returns the name of the aims that the machine's instruction set has."""
     names = set(cells.having(STREAMS)["structure_isa"])
     return "AVX-512" if all(name.startswith("AVX3") for name in names) else "AVX2"
 
 
-def _line(cells: Cells, contender: str, target: float | None, **columns: str) -> Line:
+def line(cells: Cells, contender: str, target: float | None, **columns: str) -> Line:
     scenes = {
         scene: _to_embree(cells, contender, scene=scene, **columns)
         for scene in cells.scenes
@@ -136,7 +134,7 @@ def _embree(cells: Cells, **columns: str) -> pd.DataFrame:
     return rows[rows["timed"]]
 
 
-def _modes(cells: Cells, kind: str) -> dict[str, str]:
+def modes(cells: Cells, kind: str) -> dict[str, str]:
     """Returns Embree's fastest way by scene."""
     return {
         scene: mode_name(_fastest_embree(cells, kind=kind, scene=scene)) for scene in cells.scenes
