@@ -9,6 +9,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "accel/bvh/stream_kernels.hpp"
 #include "accel/core/ray.hpp"
 #include "accel/core/ray_batch.hpp"
 #include "accel/tile_beam/pencil_kernels.hpp"
@@ -55,7 +56,7 @@ bool find_hidden(const BundlePart& part, BundleMemory& memory, std::span<std::ui
 template <class Trace>
 void trace_open(const BundlePart& part, BundleMemory& memory, std::span<std::uint8_t> hits,
                 const Trace& trace) {
-  constexpr std::size_t kAtOnce = 4096;
+  constexpr std::size_t kAtOnce = bvh::Stream::kMostRays / BundleRays::kApexes;
   const std::size_t apexes = part.pencils.size();
   for (std::size_t first = 0; first < memory.open.size(); first += kAtOnce) {
     const auto open = std::span<const std::uint32_t>(memory.open).subspan(first);

@@ -71,7 +71,8 @@ struct BundleRays : PencilRays {
   }
 };
 
-/// What is found for an origin: a bit for each apex that is hidden, or this.
+/// Means that the rays of an origin must be traced apex by apex. Otherwise what is found for an
+/// origin is a bit for each apex: whether it is hidden.
 inline constexpr std::uint32_t kOpen = 0x80000000U;
 
 /// The result of a ray that is left to the query for single rays: its line is too long for float,

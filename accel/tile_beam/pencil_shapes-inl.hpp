@@ -331,7 +331,7 @@ class TriangleShapes {
       shapes_->set(SeenShapes::kEdgeMargin, lane, hn::Mul(all(kUncertain), longest_edge));
     }
     const Floats reach_of_ball =
-        hn::MulAdd(all(1.001F * view_->radius), hn::Sqrt(dot(normal, normal)), slack_per_w);
+        hn::MulAdd(all(1.125F * view_->radius), hn::Sqrt(dot(normal, normal)), slack_per_w);
     const Mask around = hn::Or(needle, hn::Le(hn::Abs(distance), reach_of_ball));
     const Floats toward = hn::And(distance, all(-0.0F));
     const auto with = [](Floats value, Floats change) {

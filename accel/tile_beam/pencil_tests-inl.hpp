@@ -177,8 +177,8 @@ class PencilTests {
   /// The triangles that are tested for all apexes of an origin. For more, pencils take less time.
   static constexpr std::uint8_t kMostTests = 64;
 
-  /// Finds the apexes that a triangle hides from some origins of a block. Returns the origins from
-  /// which all are hidden, and those for which there were too many tests.
+  /// Finds the apexes that a triangle hides from some origins of a block. Returns the origins that
+  /// end here: all apexes are hidden, or there were too many tests.
   ///
   /// Let P be an origin, A, B and C the corners relative to it, n the normal and d the vector to an
   /// apex. The triangle hides the apex if P and the apex are on two sides of its plane, and d . (A

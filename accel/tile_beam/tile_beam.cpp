@@ -251,7 +251,9 @@ struct AnyOfBatch {
       const auto alone = [&](std::size_t i) {
         found[i] = structure.find_any(rays[i], counting) ? 1 : 0;
       };
-      if (streams) return streams->any_hits(rays, found, counting, alone);
+      if (streams && rays.size() >= bvh::Streams::kLeast) {
+        return streams->any_hits(rays, found, counting, alone);
+      }
       if (!kernels.lists<Counting>().any_hits(seen.hierarchy, seen.scene, rays, found, counting)) {
         return;
       }
