@@ -3,15 +3,15 @@
 from pathlib import Path
 from typing import Any
 
-from beambench_operations.publish.figures.beat_embree_everywhere import (
+from beambench_operations.publish.figures.cells import Cells
+from beambench_operations.publish.figures.comparison import with_target
+from beambench_operations.publish.figures.tuned_embree import (
     STREAMS,
     TILE_BEAM,
     instruction_set,
     line,
     modes,
 )
-from beambench_operations.publish.figures.cells import Cells
-from beambench_operations.publish.figures.comparison import with_target
 
 AREA = "area"
 OCCLUSION = "ao:samples=4"
