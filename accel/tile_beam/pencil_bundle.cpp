@@ -60,8 +60,8 @@ bool is_bundle(std::span<const Pencil> pencils) {
 }
 
 template <class Counting>
-bool find_hidden(const BundlePart& part, BundleMemory& memory, std::span<std::uint8_t> hits,
-                 Counting& counting) {
+bool find_hidden(const BundlePart& part, PencilUnit& unit, BundleMemory& memory,
+                 std::span<std::uint8_t> hits, Counting& counting) {
   const std::size_t begin = part.pencils.front().first + part.first;
   memory.found.resize(part.count);
   BundleRays bundle = bundle_rays(part);
@@ -72,7 +72,7 @@ bool find_hidden(const BundlePart& part, BundleMemory& memory, std::span<std::ui
     bundle.samples = part.samples.from(begin + done);
     const std::span<std::uint32_t> found = std::span(memory.found).subspan(done);
     const std::size_t count =
-        part.kernels.queries<Counting>().bundle(bundle, memory.unit, found, counting).count;
+        part.kernels.queries<Counting>().bundle(bundle, unit, found, counting).count;
     if (done == 0 &&
         std::ranges::count(found.first(count), kOpen) * 2 > std::ssize(found.first(count))) {
       return false;
@@ -95,7 +95,9 @@ bool find_hidden(const BundlePart& part, BundleMemory& memory, std::span<std::ui
   return true;
 }
 
-template bool find_hidden(const BundlePart&, BundleMemory&, std::span<std::uint8_t>, NoCounting&);
-template bool find_hidden(const BundlePart&, BundleMemory&, std::span<std::uint8_t>, WorkCounters&);
+template bool find_hidden(const BundlePart&, PencilUnit&, BundleMemory&, std::span<std::uint8_t>,
+                          NoCounting&);
+template bool find_hidden(const BundlePart&, PencilUnit&, BundleMemory&, std::span<std::uint8_t>,
+                          WorkCounters&);
 
 }  // namespace beambench::accel::tile_beam

@@ -38,7 +38,6 @@ struct BundlePart {
 
 /// Memory for one thread.
 struct BundleMemory {
-  PencilUnit unit;
   std::vector<std::uint32_t> found;  ///< of each origin: the hidden apexes, or kOpen
   std::vector<std::uint32_t> open;   ///< the open origins
   std::vector<Ray> rays;             ///< of open origins, those of each one after the other
@@ -49,8 +48,8 @@ struct BundleMemory {
 /// origins that it leaves open. Returns false without having written anything if these are most of
 /// the first ones: the light is in a lamp, and what is next to it may be in the way of all rays.
 template <class Counting>
-bool find_hidden(const BundlePart& part, BundleMemory& memory, std::span<std::uint8_t> hits,
-                 Counting& counting);
+bool find_hidden(const BundlePart& part, PencilUnit& unit, BundleMemory& memory,
+                 std::span<std::uint8_t> hits, Counting& counting);
 
 /// Calls `trace(rays, hits)` for lists of the rays of the open origins, and copies what it writes.
 template <class Trace>

@@ -109,11 +109,12 @@ class PencilGroups {
   /// Returns how much wider (HullPolicy) shapes are whose largest w exceeds that of rays by
   /// `nearer`; zero where all rays run to one point.
   HWY_INLINE Floats widening(Floats nearer) const { return hn::Mul(nearer, all(spread_)); }
-  float spread() const { return spread_; }
   /// Adds it.
   static HWY_INLINE Floats plus(Floats value, Floats more) {
     return Policy::kHull ? hn::Add(value, more) : value;
   }
+
+  float spread() const { return spread_; }
 
   /// Records which rays of a block were hit. Returns the bit of its group if that affects bounds.
   HWY_INLINE std::uint32_t note(std::size_t place, LaneBits hits) {

@@ -16,16 +16,12 @@
 #include "accel/tile_beam/pencil_groups-inl.hpp"
 #include "accel/tile_beam/pencil_shapes-inl.hpp"
 #include "accel/tile_beam/pencil_unit.hpp"
+#include "accel/tile_beam/shape_values-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// The numbers of one shape in all lanes, or of one shape per lane; likewise for blocks.
-struct OneShape {
-  const SeenShapes& shapes;
-  std::size_t shape;
-  HWY_INLINE Floats operator()(std::size_t row) const { return all(shapes.rows[row][shape]); }
-};
+/// The numbers of one shape per lane (as OneShape has those of one); likewise for blocks.
 struct SomeShapes {
   const SeenShapes& shapes;
   std::size_t lane;

@@ -13,7 +13,9 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
+#include "accel/tile_beam/bundle_tests-inl.hpp"
 #include "accel/tile_beam/pencil_groups-inl.hpp"
 #include "accel/tile_beam/pencil_pairs-inl.hpp"
 #include "accel/tile_beam/pencil_shapes-inl.hpp"
@@ -40,7 +42,7 @@ class PencilWalk {
         groups_(unit, view_.spread),
         single_rays_(hierarchy, scene, part, view_, unit, groups_, counting),
         pairs_(unit, groups_, shapes_),
-        tests_(scene, part, unit, groups_, single_rays_, shapes_, view_) {}
+        tests_(tests_of(scene, part)) {}
   PencilWalk(const PencilWalk&) = delete;
   PencilWalk& operator=(const PencilWalk&) = delete;
 
@@ -103,6 +105,15 @@ class PencilWalk {
             radius,
             kRootOfTwo * radius / (1.0F - radius / unit.least_depth),
             radius > 0x1p-13F * coordinates};
+  }
+
+  auto tests_of(const scenes::Scene& scene, const PencilPart& part) {
+    if constexpr (Policy::kHull) {
+      return BundleTests(part, *unit_, groups_, shapes_, view_);
+    } else {
+      return PencilTests<Policy, Counting>(scene, part, *unit_, groups_, single_rays_, shapes_,
+                                           view_.scene_size);
+    }
   }
 
   HWY_INLINE void push_children(const TileNode& node, std::uint32_t groups) {
@@ -224,7 +235,7 @@ class PencilWalk {
   SeenShapes shapes_;
   PencilSingleRays<Policy, Counting> single_rays_;
   PencilPairs<Policy> pairs_;
-  PencilTests<Policy, Counting> tests_;
+  std::conditional_t<Policy::kHull, BundleTests, PencilTests<Policy, Counting>> tests_;
   std::size_t size_ = 0;
   std::array<Entry, kMaxTileDepth*(kTileLanes - 1) + 1> stack_;
 };

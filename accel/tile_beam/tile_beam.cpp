@@ -194,10 +194,29 @@ struct SeenBatch {
 /// The state of one thread.
 template <class Counting>
 struct QueryState {
-  std::unique_ptr<PencilUnit> unit;      ///< made for the first pencil: most batches have none
-  std::unique_ptr<BundleMemory> bundle;  ///< likewise
+  std::unique_ptr<PencilUnit> unit;  ///< made for the first pencil: most batches have none
+  BundleMemory bundle;
   Counting counting;
+
+  PencilUnit& made_unit() {
+    if (!unit) unit = std::make_unique_for_overwrite<PencilUnit>();
+    return *unit;
+  }
 };
+
+/// Traces rays of no pencil: by `query.stream`, or where they are few by `query.list`, except those
+/// that ProbeRay cannot probe, which are single rays.
+template <class Query, class Counting>
+void trace_list(const Query& query, const std::optional<bvh::Streams>& streams,
+                const RayRange& range, Counting& counting) {
+  if (streams && range.count >= bvh::Streams::kLeast) {
+    return query.stream(*streams, range, counting);
+  }
+  if (!query.list(range, counting)) return;
+  for (std::size_t i = range.first; i < range.first + range.count; ++i) {
+    if (!bvh::ProbeRay::can_probe(query.seen.batch.rays[i])) query.single(i, counting);
+  }
+}
 
 /// The query for closest hits of a batch, part by part. Away from an apex, as mirrors send rays.
 template <class Counting>
@@ -212,7 +231,9 @@ struct ClosestOfBatch {
                       Counting& counting) const {
     return seen.kernels.queries<Counting>().closest_hits(rays, unit, hits, first, counting);
   }
-  bool bundle(const BundlePart&, BundleMemory&, Counting&) const { return false; }  // of lights
+  bool bundle(const BundlePart&, PencilUnit&, BundleMemory&, Counting&) const {
+    return false;  // bundles run toward lights
+  }
   bool is_undecided(std::size_t i) const { return hits.t()[i] == kUndecidedT; }
   void stream(const bvh::Streams& streams, const RayRange& range, Counting& counting) const {
     streams.closest_hits(seen.batch.rays.subspan(range.first, range.count),
@@ -244,22 +265,14 @@ struct AnyOfBatch {
         rays, unit, hits.subspan(first, rays.rays.size()), counting);
   }
   /// Returns false if nothing was written, because the pencils of the part take less time.
-  bool bundle(const BundlePart& part, BundleMemory& memory, Counting& counting) const {
-    if (!find_hidden(part, memory, hits, counting)) return false;
-    const std::optional<bvh::Streams> streams = structure.streams();
+  bool bundle(const BundlePart& part, PencilUnit& unit, BundleMemory& memory,
+              Counting& counting) const {
+    if (!find_hidden(part, unit, memory, hits, counting)) return false;
     trace_open(part, memory, hits, [&](std::span<const Ray> rays, std::span<std::uint8_t> found) {
-      const auto alone = [&](std::size_t i) {
-        found[i] = structure.find_any(rays[i], counting) ? 1 : 0;
-      };
-      if (streams && rays.size() >= bvh::Streams::kLeast) {
-        return streams->any_hits(rays, found, counting, alone);
-      }
-      if (!kernels.lists<Counting>().any_hits(seen.hierarchy, seen.scene, rays, found, counting)) {
-        return;
-      }
-      for (std::size_t i = 0; i < rays.size(); ++i) {
-        if (!bvh::ProbeRay::can_probe(rays[i])) alone(i);
-      }
+      const RayBatch list{rays};
+      const SeenBatch seen_list{seen.hierarchy, seen.scene, seen.kernels, list};
+      trace_list(AnyOfBatch{structure, kernels, seen_list, found}, structure.streams(),
+                 {0, rays.size(), nullptr}, counting);
     });
     return true;
   }
@@ -280,17 +293,16 @@ struct AnyOfBatch {
 };
 
 /// Traces a batch: its pencils by `query.pencil`, and what that leaves undecided as single rays;
-/// all other rays by `query.stream`, or where they are few by `query.list`, except those that
-/// ProbeRay cannot probe, which are single rays too. `parallel`: parts are distributed among all
+/// all other rays by `trace_list`. `parallel`: parts are distributed among all
 /// cores; hits and counts are the same.
 template <class Query, class Counting>
 void trace_parts(const SeenBatch& seen, const Query& query, bool parallel, Counting& counting) {
   using State = QueryState<Counting>;
   const auto trace_pencil = [&](RayRange left, State& state) {
-    if (!state.unit) state.unit = std::make_unique_for_overwrite<PencilUnit>();
+    PencilUnit& unit = state.made_unit();
     while (left.count > 0) {
       const AnsweredRays answered =
-          query.pencil(seen.pencil_rays(left), left.first, *state.unit, state.counting);
+          query.pencil(seen.pencil_rays(left), left.first, unit, state.counting);
       const std::size_t end = left.first + answered.count;
       for (std::size_t i = left.first; answered.some_undecided && i < end; ++i) {
         if (query.is_undecided(i)) query.single(i, state.counting);
@@ -301,7 +313,7 @@ void trace_parts(const SeenBatch& seen, const Query& query, bool parallel, Count
   };
   // In parts, because a part has a bit for each apex.
   const auto trace_bundle = [&](const RayRange& range, State& state) {
-    if (!state.bundle) state.bundle = std::make_unique<BundleMemory>();
+    PencilUnit& unit = state.made_unit();
     const std::size_t skipped = range.first - range.pencil->first;
     for (std::size_t i = 0; i < range.pencils; i += BundleRays::kApexes) {
       const std::span<const Pencil> pencils(range.pencil + i,
@@ -309,7 +321,7 @@ void trace_parts(const SeenBatch& seen, const Query& query, bool parallel, Count
       for (std::size_t done = 0; done < range.count; done += BundlePart::kOrigins) {
         const BundlePart part = seen.bundle_part(
             pencils, skipped + done, std::min(range.count - done, BundlePart::kOrigins));
-        if (query.bundle(part, *state.bundle, state.counting)) continue;
+        if (query.bundle(part, unit, state.bundle, state.counting)) continue;
         for (const Pencil& pencil : pencils) {
           trace_pencil({pencil.first + part.first, part.count, &pencil}, state);
         }
@@ -320,13 +332,7 @@ void trace_parts(const SeenBatch& seen, const Query& query, bool parallel, Count
   const auto trace_range = [&](const RayRange& range, State& state) {
     if (range.pencils > 1) return trace_bundle(range, state);
     if (range.pencil != nullptr) return trace_pencil(range, state);
-    if (streams && range.count >= bvh::Streams::kLeast) {
-      return query.stream(*streams, range, state.counting);
-    }
-    if (!query.list(range, state.counting)) return;
-    for (std::size_t i = range.first; i < range.first + range.count; ++i) {
-      if (!bvh::ProbeRay::can_probe(seen.batch.rays[i])) query.single(i, state.counting);
-    }
+    trace_list(query, streams, range, state.counting);
   };
   const std::vector<RayRange> ranges = ranges_of(seen.batch, Query::kToward);
   tbb::enumerable_thread_specific<State> states;
