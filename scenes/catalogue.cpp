@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
 #include <iterator>
+#include <span>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,6 +14,7 @@
 #include "scenes/base/error.hpp"
 #include "scenes/base/nearest_name.hpp"
 #include "scenes/base/printable.hpp"
+#include "scenes/perturbed.hpp"
 
 namespace beambench::scenes {
 
@@ -72,7 +76,34 @@ void require_primitives(const Scene& scene, const std::vector<std::string>& noti
       excerpt(name), did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
+/// Takes the parameter that all scenes of the catalogue have out of what was given, and returns its
+/// value: 0 leaves the scene as it is. Where the scene has a seed of its own that was not given,
+/// that is another one, too.
+std::uint64_t take_perturbation(Spec& spec, const SceneInfo& info) {
+  const ParameterInfo& perturb = perturb_parameter();
+  const auto given =
+      std::ranges::find(spec.parameters, perturb.name, [](const auto& pair) { return pair.first; });
+  if (given == spec.parameters.end()) return 0;
+  const Parameters own(info.name, std::span(&perturb, 1), std::span(&*given, 1));
+  const auto number = static_cast<std::uint64_t>(own.integer(perturb.name));
+  spec.parameters.erase(given);
+  const auto seed = std::ranges::find(info.parameters, "seed", &ParameterInfo::name);
+  const bool is_given =
+      std::ranges::any_of(spec.parameters, [](const auto& pair) { return pair.first == "seed"; });
+  if (number > 0 && seed != info.parameters.end() && !is_given) {
+    spec.parameters.emplace_back("seed", std::to_string(std::stoull(seed->default_value) + number));
+  }
+  return number;
+}
+
 }  // namespace
+
+const ParameterInfo& perturb_parameter() {
+  static const ParameterInfo info = integer_parameter(
+      "perturb", 0, 0, 1'000'000,
+      "of every scene here: another placement of its objects and another camera, by this seed");
+  return info;
+}
 
 void Catalogue::add(SceneInfo scene) {
   const auto place = std::ranges::upper_bound(scenes_, scene.name, {}, &SceneInfo::name);
@@ -114,14 +145,18 @@ Scene load_scene(std::string_view spec, std::vector<std::string>* warnings, Read
       std::ranges::transform(noticed, std::back_inserter(*warnings), message_line);
     return scene;
   }
-  const Spec parsed = parse_spec(spec);
+  Spec parsed = parse_spec(spec);
   const SceneInfo& info = find_scene(parsed.name);
+  const std::uint64_t seed = take_perturbation(parsed, info);
   const Parameters parameters(info.name, info.parameters, parsed.parameters);
   Scene scene = info.generate(parameters);
   parameters.require_given_were_read();
   if (!info.origin.empty()) scene.name = parameters.label();  // records and replays rely on it
   require_primitives(scene, {});
-  return scene;
+  if (seed == 0) return scene;
+  scene.name += fmt::format("{}{}={}", scene.name.find(':') == std::string::npos ? ':' : ',',
+                            perturb_parameter().name, seed);
+  return perturbed(scene, seed);
 }
 
 }  // namespace beambench::scenes

@@ -73,6 +73,10 @@ std::span<const SceneInfo> scene_catalogue();
 /// The formats that plug-ins read, in addition to the built-in ones (NFF and meshes).
 std::span<const SceneReader> scene_readers();
 
+/// Returns the parameter that every scene of the catalogue has besides its own: `perturb`, the seed
+/// of `perturbed` (perturbed.hpp); 0, the default, leaves the scene as it is.
+const ParameterInfo& perturb_parameter();
+
 /// Registers the scenes and readers of a plug-in, validated by the caller
 /// (harness/plugin/check_contents.hpp). Invalidates the spans of `scene_catalogue()` and
 /// `scene_readers()`, so call it before they are used.

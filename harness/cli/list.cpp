@@ -220,6 +220,7 @@ void print_text() {
                   "design. SIMD: the instruction set that it uses here with its defaults.",
                   2));
   fmt::print("\nScenes, as NAME:parameter=value,... (or the path of a mesh or of an NFF file):\n");
+  print_parameters({scenes::perturb_parameter()});
   for (const scenes::SceneInfo& info : scenes::scene_catalogue()) {
     print_entry(info, origin_text(info.origin));
   }
