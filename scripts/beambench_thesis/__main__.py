@@ -17,7 +17,7 @@ from beambench_report.base.files import write_text
 from beambench_thesis.chapter5.levels import levels_of_runs
 from beambench_thesis.chapter5.sampling import write_sampling
 from beambench_thesis.chapter6.command import add_cluster_command
-from beambench_thesis.claims.register import claims_as_markdown, judge_claims
+from beambench_thesis.claims.register import cells_as_markdown, claims_as_markdown, judge_claims
 from beambench_thesis.report.command import add_run_command
 
 
@@ -88,7 +88,9 @@ def _add_claims(commands: Commands) -> None:
 
 def _claims(options: Options) -> Result:
     found = judge_claims([*options.runs, *options.further], further=options.further)
-    text = claims_as_markdown(found, cells=options.cells)
+    text = claims_as_markdown(found)
+    if options.cells:
+        text += f"\n{cells_as_markdown(found)}"
     return [write_text(options.output, text)] if options.output else text
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from beambench_report.base.published import primitives_by_scene, rays
 from beambench_thesis.report.plan import Plan, PlannedCell, Sweep, keep_plan
+from beambench_thesis.report.write import MARKDOWN
 from synthetic_run import write_cell, write_manifest, write_run
 
 Row = dict[str, object]
@@ -118,3 +119,13 @@ def row_of(cell: PlannedCell) -> Row:
         **(beams if cell.structure == "beam" else dict.fromkeys(beams, "")),
         "verdict": "ok",
     }
+
+
+def pages_of(run: Path) -> str:
+    """Returns the report and its details as pages, joined."""
+    return "".join((run / f"{name}.html").read_text() for name in ("report", "details"))
+
+
+def texts_of(run: Path) -> str:
+    """Returns the report and its details as Markdown, joined."""
+    return "".join((run / name).read_text() for name in MARKDOWN)

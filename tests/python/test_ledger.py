@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Sequence
+from dataclasses import replace
 from math import exp, hypot, isnan, log, sqrt
 from pathlib import Path
 from random import Random
@@ -15,6 +17,7 @@ import pytest
 from beambench_report.base.fastest import with_fastest
 from beambench_report.base.files import Problem
 from beambench_report.base.published import COARSEST, FINEST
+from beambench_report.base.quantities import DASH
 from beambench_report.base.records import read_run
 from beambench_thesis.__main__ import main
 from beambench_thesis.chapter5.cost import fit_costs, r_squared
@@ -25,14 +28,18 @@ from beambench_thesis.claims.register import (
     Finding,
     JudgedClaim,
     SecondLook,
+    agreeing,
+    effect,
     judge,
     judge_claims,
     second_looks,
+    variants_that_agree,
 )
 from beambench_thesis.claims.verdict import (
     Check,
     Claim,
     Outcome,
+    Question,
     Verdict,
     aside,
     below,
@@ -68,7 +75,7 @@ def measured(value: float, half: float = 0.1) -> Measured:
 
 def judged(*checks: Check) -> JudgedClaim:
     finding = Finding(verdict_of(checks), list(checks))
-    return JudgedClaim(ALL_CLAIMS[0], finding, finding, None)
+    return JudgedClaim(ALL_CLAIMS[0], finding, finding)
 
 
 def test_a_second_look_names_the_cells_that_were_measured_again() -> None:
@@ -78,7 +85,7 @@ def test_a_second_look_names_the_cells_that_were_measured_again() -> None:
     after = [judged(Check("a", YES, "1 against 2", 2.0 * clock), Check("b", YES, "", 1.02))]
     after += [judged(same)]
     (found,) = second_looks(before, after)
-    assert found == SecondLook(ALL_CLAIMS[0].name, 1, 2, Verdict.UNDECIDED, Verdict.HOLDS)
+    assert found == SecondLook(ALL_CLAIMS[0].name, 1, 2, Verdict.UNDECIDED, Verdict.SUPPORTED)
 
 
 @pytest.mark.parametrize(
@@ -127,12 +134,15 @@ def test_a_figure_lies_between_bounds_with_all_of_its_interval(
 @pytest.mark.parametrize(
     ("outcomes", "verdict"),
     [
-        ([YES, YES], Verdict.HOLDS),
-        ([NO, NO], Verdict.FAILS),
-        ([YES, NO], Verdict.IN_PART),
+        ([YES, YES], Verdict.SUPPORTED),
+        ([NO, NO], Verdict.CONTRADICTED),
+        ([YES, NO], Verdict.MIXED),
         ([YES, UNDECIDED], Verdict.UNDECIDED),
         ([NO, UNDECIDED], Verdict.UNDECIDED),
-        ([YES, NO, UNDECIDED], Verdict.IN_PART),  # whatever the third turns out to be
+        ([YES, NO, UNDECIDED], Verdict.UNDECIDED),  # contradicted, if the third says no
+        ([YES, YES, NO, UNDECIDED], Verdict.MIXED),  # whatever the fourth turns out to be
+        ([YES, NO, NO], Verdict.CONTRADICTED),
+        ([YES, NO, NO, NO, UNDECIDED], Verdict.CONTRADICTED),
         ([YES, MISSING], Verdict.NOT_TESTED),
         ([], Verdict.NOT_TESTED),
     ],
@@ -144,7 +154,7 @@ def test_a_verdict_stands_whichever_way_undecided_cells_fall(
 
 
 def test_no_verdict_depends_on_what_stands_beside() -> None:
-    assert verdict_of([Check("a", YES), aside(Check("b", NO))]) is Verdict.HOLDS
+    assert verdict_of([Check("a", YES), aside(Check("b", NO))]) is Verdict.SUPPORTED
     assert verdict_of([aside(Check("b", NO))]) is Verdict.NOT_TESTED
 
 
@@ -208,7 +218,7 @@ def test_costs_that_make_the_times_are_found() -> None:
 # The thesis's own figures
 
 THESIS = {
-    "C19": Verdict.IN_PART,  # flamenco to ajedrez: neither the time grows nor the ratio
+    "C19": Verdict.MIXED,  # flamenco to ajedrez: neither the time grows nor the ratio
     # The evidence for these is in lost plots, or was not printed for every scene.
     **dict.fromkeys(("C07", "C08", "C11", "C12", "C16", "C20"), Verdict.NOT_TESTED),
     # The text states these without figures.
@@ -228,7 +238,7 @@ BESIDE = {
 @pytest.mark.parametrize("claim", SWEPT_CLAIMS, ids=lambda claim: claim.name)
 def test_the_thesis_supports_itself_but_for_what_is_said_here(claim: Claim) -> None:
     found = judge(claim, published_evidence())
-    assert found.verdict is THESIS.get(claim.name, Verdict.HOLDS)
+    assert found.verdict is THESIS.get(claim.name, Verdict.SUPPORTED)
     told = [check.outcome for check in found.checks if check.aside]
     assert told == ([BESIDE[claim.name]] if claim.name in BESIDE else [])
 
@@ -538,18 +548,37 @@ def test_several_runs_are_read_as_one(tmp_path: Path) -> None:
 # The page
 
 
-def test_every_claim_has_a_line_with_both_verdicts(
+def test_every_claim_has_a_line_under_its_question(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     write_run(tmp_path, [row_of("beam", BEAM), row_of("samet", "max_level=6,max_objects=0")])
     assert main(["claims", str(tmp_path)]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert len(lines) == 2 + len(ALL_CLAIMS)
-    assert lines[2].startswith("| C01 | 5.3.1, table 5.2 |")
-    assert "| not tested (formerly: not tested) |" in lines[11]
-    assert "rule amended: the thesis counts a beam when one is created by cutting" in lines[11]
-    assert "| holds | not tested | thesis: 24 of 24 cells (1.13 to 1.67 times) |" in lines[2]
-    assert "no: flamenco to ajedrez, seconds (2,692 against 2,578)" in lines[20]
+    assert [line[4:] for line in lines if line.startswith("###")] == [q.value for q in Question]
+    rows = [line for line in lines if re.search(r"\(C\d\d\) \|", line)]
+    assert len(rows) == len(ALL_CLAIMS)
+    (first,) = (row for row in rows if "(C01)" in row)
+    assert "| 5.3.1, table 5.2 | **not tested** | 1.39 times (1.13 to 1.67) |" in first
+    (untestable,) = (row for row in rows if "(C30)" in row)
+    assert "**not testable**" in untestable
+
+
+def test_the_effect_is_a_mean_of_ratios_or_a_median() -> None:
+    ratios = [Check("a", YES, ratio=2.0), Check("b", NO, ratio=0.5), aside(Check("c", NO, ratio=9))]
+    assert effect(judged(*ratios).ours) == "1.00 times (0.500 to 2.00)"
+    values = [Check(name, YES, value=value) for name, value in (("a", 0.1), ("b", 0.3), ("c", 0.2))]
+    assert effect(judged(*values).ours) == "0.200 (0.100 to 0.300)"
+    assert effect(judged(Check("a", MISSING)).ours) == ""
+
+
+def test_the_cells_and_the_variants_that_agree_are_counted() -> None:
+    one = judged(Check("a", YES), Check("b", NO), Check("c", UNDECIDED))
+    assert agreeing(one.ours) == "1 of 3 (1 undecided)"
+    findings = [judged(Check("a", outcome)).ours for outcome in (YES, YES, NO, UNDECIDED, MISSING)]
+    assert variants_that_agree(replace(one, variants=tuple(findings))) == (
+        "2 of 4 (1 contradicted, 1 undecided)"
+    )
+    assert variants_that_agree(one) == DASH
 
 
 def test_the_ledger_is_written_with_its_cells(

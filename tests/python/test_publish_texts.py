@@ -39,15 +39,15 @@ def test_every_text_states_what_its_rows_give() -> None:
 
 def test_two_runs_of_the_thesis_are_compared_by_the_claims_that_both_decide() -> None:
     first = {
-        "C01": Verdict.HOLDS,
-        "C02": Verdict.HOLDS,
-        "C03": Verdict.FAILS,
+        "C01": Verdict.SUPPORTED,
+        "C02": Verdict.SUPPORTED,
+        "C03": Verdict.CONTRADICTED,
         "C04": Verdict.UNDECIDED,
-        "C22": Verdict.IN_PART,
+        "C22": Verdict.MIXED,
     }
     second = {
-        "C01": Verdict.HOLDS,
-        "C02": Verdict.IN_PART,
+        "C01": Verdict.SUPPORTED,
+        "C02": Verdict.MIXED,
         "C03": Verdict.UNDECIDED,
         "C04": Verdict.UNDECIDED,
         "C22": Verdict.NOT_TESTED,

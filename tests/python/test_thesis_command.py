@@ -12,7 +12,7 @@ from beambench_thesis.__main__ import main
 from beambench_thesis.report import plan
 from beambench_thesis.report.plan import make_plan, quick, read_sweep
 from program import BINARY
-from synthetic_thesis import write_runs
+from synthetic_thesis import texts_of, write_runs
 
 # Replaces the program: records its arguments, and writes the files of a run.
 STAND_IN = """#!/usr/bin/env bash
@@ -149,7 +149,7 @@ def test_a_small_real_run_leaves_a_report(tmp_path: Path, monkeypatch: pytest.Mo
     monkeypatch.setattr(plan, "FOLDER", folder)
     run = tmp_path / "run"
     assert run_thesis("--table", "5.4", "-o", run, "--beambench", BINARY) == 0
-    text = (run / "report.md").read_text()
+    text = texts_of(run)
     assert "19 cells in 2 runs, all with correct hits." in text
     assert "### Table 5.4" in text
     assert (run / "figures" / "figure-5.12.svg").exists()

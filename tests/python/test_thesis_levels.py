@@ -17,7 +17,7 @@ from beambench_thesis.report.report import gather
 from beambench_thesis.report.write import write_report
 from svg_texts import missing_in
 from synthetic_run import without_times, write_manifest, write_run
-from synthetic_thesis import Row, row_of, write_runs
+from synthetic_thesis import Row, pages_of, row_of, texts_of, write_runs
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 SWEEP = REPOSITORY / "harness/measure/sweeps/levels.json"
@@ -229,7 +229,7 @@ def test_the_report_shows_choices_but_no_table_takes_their_rows(tmp_path: Path) 
     written = write_report(run, plan)
     assert written.cells == len(report.cells.cells)
     number = report.cells.cells[-1].number
-    page, text = ((run / f"report.{ending}").read_text() for ending in ("html", "md"))
+    page, text = pages_of(run), texts_of(run)
     assert f'<a href="#row-{number}"' in page
     assert f'<tr id="row-{number}">' in page
     assert "## The level chosen automatically" in text

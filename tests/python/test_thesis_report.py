@@ -11,6 +11,7 @@ import pytest
 
 from beambench_report.base.files import Problem
 from beambench_thesis.chapter5.best import best_table, choose
+from beambench_thesis.claims.register import ALL_CLAIMS
 from beambench_thesis.paper.cells import Cells, read_cells
 from beambench_thesis.paper.evidence import Measured, setting
 from beambench_thesis.paper.printed import parts_of, printed_parts
@@ -21,7 +22,7 @@ from beambench_thesis.report.write import write_report
 from browser import Browser, find_browser
 from svg_texts import missing_in
 from synthetic_run import without_times
-from synthetic_thesis import Row, write_runs
+from synthetic_thesis import Row, pages_of, texts_of, write_runs
 
 PLAN = make_plan([], [], False)
 
@@ -48,7 +49,7 @@ def report(everything: Path) -> Report:
 def page(everything: Path) -> str:
     """The text of the page of all runs."""
     assert write_report(everything, PLAN).wrong == 0
-    return (everything / "report.html").read_text()
+    return pages_of(everything)
 
 
 def cells_in(directory: Path, plan: Plan = PLAN) -> Cells:
@@ -129,10 +130,10 @@ def test_a_cell_that_was_wrong_has_no_time_but_its_verdict(tmp_path: Path) -> No
     entry = fill(parts_of("5.4")[0], cells_in(run, plan), nothing).lines[1].entries[1]
     assert (entry.missing, entry.shape) == ("no time: mismatch", None)
     assert written.wrong == 2
-    text = (run / "report.html").read_text()
+    text = pages_of(run)
     assert "2 of them wrong, and without times" in text
     assert "no time: mismatch" in text
-    assert "no time: mismatch" in (run / "report.md").read_text()
+    assert "no time: mismatch" in texts_of(run)
 
 
 def test_the_best_is_the_quickest_by_cycles_of_those_that_were_right(cells: Cells) -> None:
@@ -183,15 +184,15 @@ def test_a_best_level_at_the_end_of_the_sweep_is_told(tmp_path: Path) -> None:
     choice = choose(cells_in(run, plan).of("misil", "samet", "320x200"))
     assert (choice.parameters, choice.is_edge) == ("max_level=9", True)
     write_report(run, plan)
-    assert "at the end of what was tried" in (run / "report.md").read_text()
+    assert "at the end of what was tried" in texts_of(run)
 
 
 def test_the_page_holds_everything_and_every_number_leads_to_its_row(page: str) -> None:
-    links = set(re.findall(r'href="#([^"]+)"', page))
+    links = set(re.findall(r'href="(?:details.html)?#([^"]+)"', page))
     anchors = set(re.findall(r'id="([^"]+)"', page))
     assert links <= anchors
     assert sum(link.startswith("row-") for link in links) > 300
-    assert not re.search(r'(?:src|href)="(?!#|data:)', page)
+    assert not re.search(r'(?:src|href)="(?!#|data:|details.html|report.html)', page)
     for table in ("5.2", "5.3", "5.4", "5.5", "5.6", "5.7", "5.8"):
         assert f'id="table-{table}"' in page
     for figure in ("5.6", "5.7", "5.8", *(f"5.{n}" for n in range(10, 19))):
@@ -214,7 +215,7 @@ def test_a_row_of_the_list_names_file_line_and_cell(
         there = list(csv.DictReader(file))[int(row["line"]) - 2]
     assert (there["scene"], there["structure"], there["width"]) == ("escena2", "samet", "640")
     assert row["cell"].startswith("escena2/default/640x480/1/primary/samet:max_level=6,")
-    assert f"#{cell.number} |" in (everything / "report.md").read_text()
+    assert f"#{cell.number} |" in texts_of(everything)
 
 
 def test_captions_hold_the_thesiss_numbers(report: Report) -> None:
@@ -262,13 +263,13 @@ def test_a_part_of_the_runs_makes_a_report_that_says_what_is_missing(
 ) -> None:
     run = write_runs(tmp_path / "run", PLAN, only=lambda sweep: sweep.name == present)
     write_report(run, PLAN)
-    text = (run / "report.html").read_text()
+    text = pages_of(run)
     assert ("Nothing was measured yet." in text) == (present == "none")
     assert "Not everything that was planned is there" in text
     assert "not run" in text
     assert ('id="figure-5.12"' in text) == (present == "synthetic")
     assert 'id="figure-5.13"' not in text
-    assert "– not run" in (run / "report.md").read_text()  # noqa: RUF001
+    assert "– not run" in texts_of(run)  # noqa: RUF001
 
 
 def test_a_run_that_cannot_be_read_is_told_and_the_others_are_shown(tmp_path: Path) -> None:
@@ -276,7 +277,7 @@ def test_a_run_that_cannot_be_read_is_told_and_the_others_are_shown(tmp_path: Pa
     run = write_runs(tmp_path / "run", plan)
     (run / "best-synthetic" / "results.csv").write_text("nothing,of,this\n1,2,3\n")
     write_report(run, plan)
-    text = (run / "report.html").read_text()
+    text = pages_of(run)
     assert "best-synthetic/results.csv" in text
     assert "90 cells in 1 runs" in text
 
@@ -296,15 +297,27 @@ def test_a_plan_is_read_as_it_was_kept(everything: Path, tmp_path: Path) -> None
         read_plan(tmp_path)
 
 
+def test_the_report_is_short_and_names_no_claim_without_its_sentence(everything: Path) -> None:
+    text = (everything / "report.md").read_text()
+    assert len(text.split()) <= 5000
+    said = {claim.name: claim.says for claim in ALL_CLAIMS}
+    for line in text.splitlines():
+        for name in re.findall(r"\bC\d\d\b", line):
+            assert said[name] in line, line
+    first = text.splitlines()[:12]
+    assert [line for line in first if line.startswith("- **Do beams beat single rays")]
+
+
+@pytest.mark.parametrize("name", ["report", "details"])
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_a_browser_complains_of_nothing_and_fetches_nothing(
-    everything: Path, page: str, scheme: str, tmp_path: Path
+    everything: Path, page: str, scheme: str, name: str, tmp_path: Path
 ) -> None:
     assert page
     program = find_browser()
     if program is None:
         pytest.skip("no Chromium on this system; scripts/setup installs it where apt has it")
-    file = everything / "report.html"
+    file = everything / f"{name}.html"
     with Browser(program, tmp_path / "profile") as browser:
         browser.open(file, scheme=scheme)
         assert browser.complaints == []

@@ -20,7 +20,7 @@ from beambench_thesis.paper.section import section_as_markdown
 from beambench_thesis.report.plan import make_plan
 from beambench_thesis.report.write import write_report
 from svg_texts import missing_in
-from synthetic_thesis import write_runs
+from synthetic_thesis import pages_of, texts_of, write_runs
 
 Result = tuple[str, str, float, float, float]
 RESULTS: list[Result] = [
@@ -202,8 +202,8 @@ def test_the_report_has_the_section_where_there_are_comparisons(tmp_path: Path) 
     write_comparison(run / "sampling/delfines.json")
     (run / "sampling/maceta.json").write_text("cut o")  # affects its scene, not the report
     write_report(run, plan)
-    page = (run / "report.html").read_text()
+    page = pages_of(run)
     assert "sampling/maceta.json: is not what" in page
     assert '<section id="sampling">' in page
-    assert "## Samples chosen in object space" in (run / "report.md").read_text()
+    assert "## Samples chosen in object space" in texts_of(run)
     assert (run / "figures/sampling-delfines-640x480.png").exists()

@@ -3,7 +3,7 @@
 import shutil
 import tempfile
 from collections.abc import Callable, Sequence
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 
 from beambench_operations.campaign.record import Record
@@ -19,6 +19,7 @@ from beambench_report.run.winners import write_winners
 from beambench_thesis.chapter6.report import report as report_on_cluster
 from beambench_thesis.report.plan import read_plan
 from beambench_thesis.report.report import gather
+from beambench_thesis.report.write import MARKDOWN as THESIS_TEXTS
 from beambench_thesis.report.write import as_markdown as as_thesis
 
 WATERTIGHT = "embree mode=single robust=true coherent=auto"
@@ -33,8 +34,13 @@ def _comparison(names: Sequence[str], folder: Path) -> str:
     return as_comparison(pairings(runs), [drawn[stem] for stem in sorted(drawn)])
 
 
-def _thesis(folder: Path) -> str:
-    """Returns the report on the thesis; the pictures of octrees exist, so none are drawn."""
+def _thesis(name: str, folder: Path) -> str:
+    """Returns a text on the thesis; the pictures of octrees exist, so none are drawn."""
+    return _thesis_texts(folder)[name]
+
+
+@cache
+def _thesis_texts(folder: Path) -> dict[str, str]:
     return as_thesis(gather(folder, read_plan(folder), Path()))
 
 
@@ -58,7 +64,7 @@ _REPORTS: dict[str, Callable[[Path], str]] = {
     "pencils/report.md": partial(_comparison, PENCILS),
     "robustness/campaigns.md": lambda folder: as_campaigns(Record(folder).pieces()),
     "structures/winners.md": write_winners,
-    "thesis/report.md": _thesis,
+    **{f"thesis/{name}": partial(_thesis, name) for name in THESIS_TEXTS},
 }
 
 

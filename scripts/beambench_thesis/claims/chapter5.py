@@ -10,9 +10,7 @@ describes, Kay and Kajiya's queue, no handover.
 from dataclasses import replace
 from itertools import pairwise, product
 
-from beambench_report.base.published import COARSEST, FINEST, RESOLUTIONS
 from beambench_thesis.claims.comparisons import (
-    FINER,
     SAMETS,
     any_of,
     beats,
@@ -30,8 +28,8 @@ from beambench_thesis.claims.comparisons import (
     seconds_per_beam,
     slope,
 )
-from beambench_thesis.claims.verdict import Check, Claims, aside, below, between
-from beambench_thesis.paper.evidence import HIERARCHY, PAPER_HIERARCHY, Evidence, Measured, smallest
+from beambench_thesis.claims.verdict import Check, Claims, Question, aside, below, between
+from beambench_thesis.paper.evidence import HIERARCHY, Evidence, Measured, smallest
 
 CLAIMS = Claims()
 
@@ -52,6 +50,7 @@ ALL_SCENES = tuple(
     "C01",
     "5.3.1, table 5.2",
     "At level 6, more objects per leaf make the beams slower from 640x480.",
+    Question.OCTREE,
 )
 def more_objects_are_slower(e: Evidence) -> list[Check]:
     """Each step, 0 to 10 to 20 to 40 objects, takes longer at each resolution."""
@@ -61,7 +60,7 @@ def more_objects_are_slower(e: Evidence) -> list[Check]:
             e.time(scene, "beam", resolution, objects=fewer),
             e.time(scene, "beam", resolution, objects=more),
         )
-        for scene, resolution in product(_DIVISION, FINER)
+        for scene, resolution in product(_DIVISION, e.finer)
         for fewer, more in pairwise((0, 10, 20, 40))
     ]
 
@@ -70,6 +69,7 @@ def more_objects_are_slower(e: Evidence) -> list[Check]:
     "C02",
     "5.3.1, table 5.2",
     "More objects per leaf leave fewer occupied leaves and far fewer pixels in exit beams.",
+    Question.OCTREE,
 )
 def more_objects_leave_fewer_exits(e: Evidence) -> list[Check]:
     """Both numbers fall at each step; "far fewer" means at most a tenth with 40 objects."""
@@ -97,6 +97,7 @@ def more_objects_leave_fewer_exits(e: Evidence) -> list[Check]:
     "C03",
     "5.3.1, table 5.3",
     "A deeper octree helps up to level 6 and hurts at level 7, from 640x480.",
+    Question.OCTREE,
 )
 def level_six_is_best(e: Evidence) -> list[Check]:
     """Level 5 is quicker than 4, and 6 is quicker than 5 and than 7."""
@@ -106,7 +107,7 @@ def level_six_is_best(e: Evidence) -> list[Check]:
             e.time(scene, "beam", resolution, level=quicker),
             e.time(scene, "beam", resolution, level=slower),
         )
-        for scene, resolution in product(_DIVISION, FINER)
+        for scene, resolution in product(_DIVISION, e.finer)
         for quicker, slower in ((5, 4), (6, 5), (6, 7))
     ]
 
@@ -115,6 +116,7 @@ def level_six_is_best(e: Evidence) -> list[Check]:
     "C04",
     "5.3.1, figure 5.7",
     "The slope of time over rays falls with every level, level 7 included.",
+    Question.OCTREE,
 )
 def slopes_fall_with_the_level(e: Evidence) -> list[Check]:
     """Slopes are least squares over the five resolutions, in seconds for each 10,000 rays."""
@@ -132,6 +134,7 @@ def slopes_fall_with_the_level(e: Evidence) -> list[Check]:
     "C05",
     "5.3.1, table 5.3",
     "Pixels in exit beams grow with the level, and are more for delfines than for maceta.",
+    Question.OCTREE,
 )
 def exits_grow_with_the_level(e: Evidence) -> list[Check]:
     """Numbers rise at each step from level 4 to 7, and are larger for delfines at each level."""
@@ -160,11 +163,13 @@ def exits_grow_with_the_level(e: Evidence) -> list[Check]:
     "C06",
     "5.3.2, figure 5.8",
     "The beams' time is linear in the rays; relative growth is larger for escena1 than escena2.",
+    Question.GROWTH,
 )
 def time_is_linear(e: Evidence) -> list[Check]:
     """Linear means R2 of 0.99 or more. Growth is relative to the time at 320x200."""
+    scenes = ("escena1", "escena2")
     return [
-        *(is_linear(scene, line_of(e, scene)) for scene in ("escena1", "escena2")),
+        *(is_linear(scene, line_of(e, scene)) for scene in scenes if len(e.resolutions) > 2),
         *grows_more(e, ("escena1",), ("escena2",)),
     ]
 
@@ -173,40 +178,53 @@ def time_is_linear(e: Evidence) -> list[Check]:
     "C07",
     "5.3.2, figure 5.10",
     "Relative growth is larger for bola-espacial and caracol than for tetera and torre-eiffel.",
+    Question.GROWTH,
 )
 def crowded_scenes_grow_more(e: Evidence) -> list[Check]:
     """Returns each of the two grows more than each of the others, at each resolution."""
     return grows_more(e, _CROWDED, _SPACIOUS)
 
 
-@CLAIMS.claim("C08", "5.3.2, figure 5.11", "With 5 samples per pixel the gap of C07 widens.")
+@CLAIMS.claim(
+    "C08",
+    "5.3.2, figure 5.11",
+    "With 5 samples per pixel the gap between crowded and spacious scenes widens.",
+    Question.GROWTH,
+)
 def samples_widen_the_gap(e: Evidence) -> list[Check]:
-    """The difference of two growths is larger with 5 samples (base: 320x200 with 5) than with 1."""
+    """The difference of the two growths of C07 is larger with 5 samples (base: 320x200 with 5)
+    than with 1.
+    """
     return [
         below(
             f"{crowded} and {spacious}, {resolution}",
             difference(*(growth(e, scene, resolution, 1) for scene in (crowded, spacious))),
             difference(*(growth(e, scene, resolution, 5) for scene in (crowded, spacious))),
         )
-        for crowded, spacious, resolution in product(_CROWDED, _SPACIOUS, FINER)
+        for crowded, spacious, resolution in product(_CROWDED, _SPACIOUS, e.finer)
     ]
 
 
 # 5.3.3: where the time goes
 
 
-@CLAIMS.claim("C09", "5.3.3", "Time spent on non-terminal beams does not depend on the resolution.")
+@CLAIMS.claim(
+    "C09",
+    "5.3.3",
+    "Time spent on non-terminal beams does not depend on the resolution.",
+    Question.WORK,
+)
 def nonterminal_time_is_constant(e: Evidence) -> list[Check]:
     """The maximum is less than 1.5 times the minimum while rays grow twentyfold."""
     checks = []
     for scene, level in dict.fromkeys((scene, level) for scene, level, _ in e.beam_cells):
         seconds = {
             resolution: e.worked("seconds_nonterminal", scene, resolution, level=level)
-            for resolution in RESOLUTIONS
+            for resolution in e.resolutions
         }
         known = [figure for figure in seconds.values() if figure is not None and figure.low > 0]
         # An eye in an occupied leaf has no such beams, and they take no time.
-        if seconds[COARSEST] not in known or seconds[FINEST] not in known:
+        if seconds[e.coarsest] not in known or seconds[e.finest] not in known:
             continue
         largest = max(known, key=lambda figure: figure.value)
         ratio = largest / smallest(known)
@@ -215,30 +233,24 @@ def nonterminal_time_is_constant(e: Evidence) -> list[Check]:
     return checks
 
 
-_CUT_BEAMS = (
-    "the thesis counts a beam when one is created by cutting another (section 4.4.2: a beam wholly "
-    "inside the next leaf is only placed there), the former rule counted one for each leaf entered"
-)
-
-
 @CLAIMS.claim(
     "C10",
     "5.3.3",
     "maceta: 8,701 beams at level 6, 4,071 non-terminal; 37,718 and 17,751 at level 7. Their share "
     "of the time: 46% and 96% at 320x200, 60.8% at 1280x1024 and level 7.",
+    Question.WORK,
     is_figures=True,
-    former={"every": "beams", "inner": "beams_nonterminal"},
-    why=_CUT_BEAMS,
 )
-def beams_of_maceta(
-    e: Evidence, every: str = "beams_made", inner: str = "beams_divided"
-) -> list[Check]:
-    """Counts beams made by cutting, and those of them that were cut.
+def beams_of_maceta(e: Evidence) -> list[Check]:
+    """Counts beams made by cutting, and those of them that were cut: the thesis counts a beam when
+    one is created by cutting another (section 4.4.2; one wholly inside the next leaf is only placed
+    there).
 
     A stand-in's counts are to be within a factor of 2, shares within 10 points.
     """
+    every, inner = "beams_made", "beams_divided"
     counts = {(every, 6): 8701, (inner, 6): 4071, (every, 7): 37718, (inner, 7): 17751}
-    shares = {(6, COARSEST): 0.46, (7, COARSEST): 0.96, (7, FINEST): 0.608}
+    shares = {(6, "320x200"): 0.46, (7, "320x200"): 0.96, (7, "1280x1024"): 0.608}
     return [
         *(
             between(
@@ -257,6 +269,7 @@ def beams_of_maceta(
                 share + 0.1,
             )
             for (level, resolution), share in shares.items()
+            if resolution in e.resolutions
         ),
     ]
 
@@ -266,10 +279,9 @@ def beams_of_maceta(
     "5.3.3",
     "At 1280x1024 beams at occupied leaves take over 85% of the time in most scenes, 98% in "
     "bola-espacial, where 63% of all beams are of that kind.",
-    former={"every": "beams"},
-    why=_CUT_BEAMS,
+    Question.WORK,
 )
-def occupied_leaves_take_the_time(e: Evidence, every: str = "beams_made") -> list[Check]:
+def occupied_leaves_take_the_time(e: Evidence) -> list[Check]:
     """Most means more than half of the scenes; bola-espacial: 95% or more, and 63 +- 10%.
 
     All beams are those that cutting made.
@@ -277,9 +289,9 @@ def occupied_leaves_take_the_time(e: Evidence, every: str = "beams_made") -> lis
     beams = e.worked("share_of_beams_occupied", "bola-espacial")
     if beams is None:
         beams = ratio_of(
-            e.worked("beams_occupied", "bola-espacial"), e.worked(every, "bola-espacial")
+            e.worked("beams_occupied", "bola-espacial"), e.worked("beams_made", "bola-espacial")
         )
-    shares = {scene: e.share_of_time("occupied", scene, FINEST) for scene in ALL_SCENES}
+    shares = {scene: e.share_of_time("occupied", scene, e.finest) for scene in ALL_SCENES}
     growing = {scene: growing_share(e, scene) for scene in ALL_SCENES}
     return [
         most("scenes with over 85% at occupied leaves", shares, 0.85, len(ALL_SCENES)),
@@ -296,7 +308,9 @@ def occupied_leaves_take_the_time(e: Evidence, every: str = "beams_made") -> lis
     ]
 
 
-@CLAIMS.claim("C12", "5.3.3", "Two cost formulas, of counts for each task, explain the time.")
+@CLAIMS.claim(
+    "C12", "5.3.3", "Two cost formulas, of counts for each task, explain the time.", Question.WORK
+)
 def formulas_explain_the_time(e: Evidence) -> list[Check]:
     """Fits to ten cells or more have R2 of 0.9 or more and a median error below a quarter."""
     return [
@@ -324,32 +338,26 @@ def formulas_explain_the_time(e: Evidence) -> list[Check]:
     "C13",
     "5.4.1, tables 5.4, 5.5",
     "At 1280x1024 the beams beat Samet and Samet-Net on the same octree in all six scenes.",
+    Question.BEAMS_OR_RAYS,
 )
 def beams_win_at_high_resolution(e: Evidence) -> list[Check]:
     """Compares six scenes with two opponents each."""
     return [beats(e, scene, "beam", other) for scene, other in product(ON_OCTREES, SAMETS)]
 
 
-def _rays_before_beams(e: Evidence, scene: str, resolution: str = COARSEST) -> Check:
-    """Is the better of Samet and Samet-Net quicker than the beams?"""
+def _rays_before_beams(e: Evidence, scene: str, resolution: str = "") -> Check:
+    """Is the better of Samet and Samet-Net quicker than the beams? By default at the coarsest."""
+    resolution = resolution or e.coarsest
     return below(
         f"{scene} {resolution}", best_ray(e, scene, resolution), e.time(scene, "beam", resolution)
     )
-
-
-def _rays_win_wherever_named(e: Evidence) -> list[Check]:
-    """The better of Samet and Samet-Net beats the beams in each of the four scenes."""
-    named = ("escena1", "escena2", "gato-bill", "stetra")
-    return [_rays_before_beams(e, scene) for scene in named]
 
 
 @CLAIMS.claim(
     "C14",
     "5.4.1, tables 5.4, 5.5",
     "At 320x200 individual rays can win (escena1, escena2, gato-bill, stetra).",
-    former=_rays_win_wherever_named,
-    why="the text says that rays can win (es posible), the former rule had them win in each of the "
-    "four scenes where they do in the thesis",
+    Question.BEAMS_OR_RAYS,
 )
 def rays_can_win_at_low_resolution(e: Evidence) -> list[Check]:
     """Rays win in at least one scene of table 5.4 and in at least one of table 5.5."""
@@ -365,12 +373,14 @@ def rays_can_win_at_low_resolution(e: Evidence) -> list[Check]:
     ]
 
 
-@CLAIMS.claim("C15", "5.4.1", "Samet-Net beats Samet in every scene and resolution.")
+@CLAIMS.claim(
+    "C15", "5.4.1", "Samet-Net beats Samet in every scene and resolution.", Question.BEAMS_OR_RAYS
+)
 def links_pay(e: Evidence) -> list[Check]:
     """Compares six scenes at five resolutions each."""
     return [
         beats(e, scene, "samet-net", "samet", resolution)
-        for scene, resolution in product(ON_OCTREES, RESOLUTIONS)
+        for scene, resolution in product(ON_OCTREES, e.resolutions)
     ]
 
 
@@ -378,6 +388,7 @@ def links_pay(e: Evidence) -> list[Check]:
     "C16",
     "5.4.1, figure 5.14",
     "At high resolution the beams win when Samet and Samet-Net have their own best level.",
+    Question.BEAMS_OR_RAYS,
 )
 def beams_win_at_best_levels(e: Evidence) -> list[Check]:
     """Compares the best levels at 1280x1024; opponents need three levels or more."""
@@ -387,7 +398,7 @@ def beams_win_at_best_levels(e: Evidence) -> list[Check]:
         rays = list(e.times_by("level", scene, other).values())
         checks.append(
             below(
-                f"{scene} {FINEST}, beam before {other}",
+                f"{scene} {e.finest}, beam before {other}",
                 smallest(beams) if beams else None,
                 smallest(rays) if len(rays) >= 3 else None,
             )
@@ -397,27 +408,19 @@ def beams_win_at_best_levels(e: Evidence) -> list[Check]:
 
 # 5.4.2: other structures
 
-_INSERTION = (
-    "the hierarchy of section 4.3 descends to a terminal node before it weighs a new volume "
-    "(insert=terminal); the former rule tested Goldsmith and Salmon's own insertion, which weighs "
-    "at every level"
-)
-_FORMER_HIERARCHY = {"hierarchy": PAPER_HIERARCHY}
-
 
 @CLAIMS.claim(
     "C17",
     "5.4.2, table 5.6",
     "In escena1 the grid beats the hierarchy by far; in escena2 the hierarchy beats the grid.",
-    former=_FORMER_HIERARCHY,
-    why=_INSERTION,
+    Question.OTHER_STRUCTURES,
 )
-def distribution_decides(e: Evidence, hierarchy: str = HIERARCHY) -> list[Check]:
+def distribution_decides(e: Evidence) -> list[Check]:
     """Holds at every resolution; "by far" means twice as fast at 1280x1024."""
     return [
-        *(beats(e, "escena1", "voxel-grid", hierarchy, at) for at in RESOLUTIONS),
-        beats(e, "escena1", "voxel-grid", hierarchy, factor=2),
-        *(beats(e, "escena2", hierarchy, "voxel-grid", at) for at in RESOLUTIONS),
+        *(beats(e, "escena1", "voxel-grid", HIERARCHY, at) for at in e.resolutions),
+        beats(e, "escena1", "voxel-grid", HIERARCHY, factor=2),
+        *(beats(e, "escena2", HIERARCHY, "voxel-grid", at) for at in e.resolutions),
     ]
 
 
@@ -425,13 +428,12 @@ def distribution_decides(e: Evidence, hierarchy: str = HIERARCHY) -> list[Check]
     "C18",
     "5.4.2, tables 5.6, 5.7",
     "At 1280x1024 the beams beat grid and hierarchy in escena1, escena2, tetera, bola-espacial.",
-    former=_FORMER_HIERARCHY,
-    why=_INSERTION,
+    Question.OTHER_STRUCTURES,
 )
-def beams_win_against_other_structures(e: Evidence, hierarchy: str = HIERARCHY) -> list[Check]:
+def beams_win_against_other_structures(e: Evidence) -> list[Check]:
     """Compares four scenes with two opponents each."""
     scenes = ("escena1", "escena2", "tetera", "bola-espacial")
-    others = ("voxel-grid", hierarchy)
+    others = ("voxel-grid", HIERARCHY)
     return [beats(e, scene, "beam", other) for scene, other in product(scenes, others)]
 
 
@@ -439,12 +441,11 @@ def beams_win_against_other_structures(e: Evidence, hierarchy: str = HIERARCHY) 
     "C19",
     "5.4.2, tables 5.7, 5.8",
     "The hierarchy falls behind as objects grow.",
-    former=_FORMER_HIERARCHY,
-    why=_INSERTION,
+    Question.OTHER_STRUCTURES,
 )
-def hierarchy_falls_behind(e: Evidence, hierarchy: str = HIERARCHY) -> list[Check]:
+def hierarchy_falls_behind(e: Evidence) -> list[Check]:
     """Time and ratio grow from each scene to the next larger one (1,004 to 34,110 objects)."""
-    seconds = {scene: e.time(scene, hierarchy) for scene in _BY_COUNT}
+    seconds = {scene: e.time(scene, HIERARCHY) for scene in _BY_COUNT}
     ratios = {scene: ratio_of(seconds[scene], e.time(scene, "beam")) for scene in _BY_COUNT}
     return [
         below(f"{smaller} to {larger}, {what}", figures[smaller], figures[larger])
@@ -458,6 +459,7 @@ def hierarchy_falls_behind(e: Evidence, hierarchy: str = HIERARCHY) -> list[Chec
     "5.4.2, figures 5.17, 5.18",
     "The grid has a best resolution (13 cells per axis for flamenco, 15 for ajedrez); the beams "
     "beat the grid at its best.",
+    Question.OTHER_STRUCTURES,
 )
 def beams_win_against_the_best_grid(e: Evidence) -> list[Check]:
     """The best of five or more grids lies between both ends, within half of 13 or 15; 1280x1024."""
@@ -481,11 +483,10 @@ def beams_win_against_the_best_grid(e: Evidence) -> list[Check]:
     "C21",
     "5.4.2",
     "Hierarchies: bola-espacial 1,154 boxes, cost 372; tetera 731 and 130; escena1 cost 4.64.",
+    Question.OTHER_STRUCTURES,
     is_figures=True,
-    former=_FORMER_HIERARCHY,
-    why=_INSERTION,
 )
-def sizes_of_hierarchies(e: Evidence, hierarchy: str = HIERARCHY) -> list[Check]:
+def sizes_of_hierarchies(e: Evidence) -> list[Check]:
     """A stand-in's boxes are within a factor of 1.5, its cost within 2; costs are in order."""
     printed = (
         ("bola-espacial", "boxes", 1154, 1.5),
@@ -496,13 +497,13 @@ def sizes_of_hierarchies(e: Evidence, hierarchy: str = HIERARCHY) -> list[Check]
     )
 
     def size(what: str, scene: str) -> Measured | None:
-        return e.worked(what, scene, contender=hierarchy)
+        return e.worked(what, scene, contender=HIERARCHY)
 
     cost = {scene: size("cost", scene) for scene in ("escena1", "tetera", "bola-espacial")}
     quicker = below(
         "escena1, of least cost, is traced before tetera",
-        e.time("escena1", hierarchy),
-        e.time("tetera", hierarchy),
+        e.time("escena1", HIERARCHY),
+        e.time("tetera", HIERARCHY),
     )
     return [
         *(

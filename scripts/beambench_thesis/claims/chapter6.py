@@ -21,7 +21,16 @@ from beambench_thesis.chapter6.results import (
     read_simulations,
 )
 from beambench_thesis.claims.comparisons import ratio_of
-from beambench_thesis.claims.verdict import Check, Claims, Outcome, Rule, aside, below, between
+from beambench_thesis.claims.verdict import (
+    Check,
+    Claims,
+    Outcome,
+    Question,
+    Rule,
+    aside,
+    below,
+    between,
+)
 from beambench_thesis.paper.evidence import FIGURES, ClusterEvidence, Evidence, Measured, rows_with
 
 CLUSTER_CLAIMS = Claims()
@@ -45,6 +54,7 @@ def _on_each_network(rule: Callable[[Evidence, str], list[Check]]) -> Rule:
     "6.3, figure 6.3",
     "The efficiency rises up to about 11 processors for gato-bill (around 0.75) and about 7 for "
     "torre-eiffel (above 0.6), then falls.",
+    Question.PARALLEL,
     is_figures=True,
 )
 @_on_each_network
@@ -79,6 +89,7 @@ def efficiency_rises_and_falls(e: Evidence, network: str) -> list[Check]:
     "6.3, figure 6.4",
     "Dynamic balancing: consumers get different numbers of beams and finish at nearly the same "
     "time.",
+    Question.PARALLEL,
 )
 @_on_each_network
 def balanced_by_demand(e: Evidence, network: str) -> list[Check]:
@@ -100,6 +111,7 @@ def balanced_by_demand(e: Evidence, network: str) -> list[Check]:
     "C24",
     "6.3",
     "The producer becomes the bottleneck first in the scene that makes more beams (torre-eiffel).",
+    Question.PARALLEL,
 )
 @_on_each_network
 def producer_saturates_first(e: Evidence, network: str) -> list[Check]:

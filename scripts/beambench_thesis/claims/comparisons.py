@@ -7,7 +7,7 @@ from math import log
 
 import numpy as np
 
-from beambench_report.base.published import COARSEST, FINEST, RESOLUTIONS, rays
+from beambench_report.base.published import rays
 from beambench_thesis.chapter5.cost import MIN_CELLS, r_squared
 from beambench_thesis.claims.verdict import Check, Outcome, below, between
 from beambench_thesis.paper.evidence import LEVEL, Evidence, Measured, smallest, total
@@ -50,13 +50,13 @@ _DRAWS = 400
 _SEED = 1999
 
 SAMETS = ("samet", "samet-net")
-FINER = RESOLUTIONS[1:]
 
 
 def beats(
-    e: Evidence, scene: str, winner: str, other: str, resolution: str = FINEST, factor: float = 1
+    e: Evidence, scene: str, winner: str, other: str, resolution: str = "", factor: float = 1
 ) -> Check:
-    """Is one structure quicker than another, by `factor` or more?"""
+    """Is one structure quicker than another, by `factor` or more? By default at the finest."""
+    resolution = resolution or e.finest
     twice = f", by {factor:g}" if factor > 1 else ""
     return below(
         f"{scene} {resolution}, {winner} before {other}{twice}",
@@ -75,9 +75,9 @@ def best_ray(e: Evidence, scene: str, resolution: str) -> Measured | None:
 
 def line_of(e: Evidence, scene: str, level: int = LEVEL) -> Line | None:
     """Fits seconds over rays in tens of thousands, as in the thesis's figures."""
-    times = [e.time(scene, "beam", resolution, level=level) for resolution in RESOLUTIONS]
+    times = [e.time(scene, "beam", resolution, level=level) for resolution in e.resolutions]
     known = [time for time in times if time is not None]
-    return fit_line([rays(at) / 1e4 for at in RESOLUTIONS], known) if known == times else None
+    return fit_line([rays(at) / 1e4 for at in e.resolutions], known) if known == times else None
 
 
 def slope(line: Line | None) -> Measured | None:
@@ -98,14 +98,14 @@ def is_linear(scene: str, line: Line | None) -> Check:
 def growing_share(e: Evidence, scene: str) -> Measured | None:
     """Returns the share of the time at 1280x1024 that grows with the rays, by the fitted line."""
     line, whole = line_of(e, scene), e.time(scene, "beam")
-    return line.slope.times(rays(FINEST) / 1e4) / whole if line and whole else None
+    return line.slope.times(rays(e.finest) / 1e4) / whole if line and whole else None
 
 
 def growth(e: Evidence, scene: str, resolution: str, samples: int = 1) -> Measured | None:
     """Returns the beams' time over that at 320x200."""
     return ratio_of(
         e.time(scene, "beam", resolution, samples=samples),
-        e.time(scene, "beam", COARSEST, samples=samples),
+        e.time(scene, "beam", e.coarsest, samples=samples),
     )
 
 
@@ -113,11 +113,11 @@ def grows_more(e: Evidence, more: tuple[str, ...], less: tuple[str, ...]) -> lis
     """Does each scene of `more` grow more than each of `less`, at each resolution?"""
     return [
         below(
-            f"{slow} below {quick}, {resolution} over {COARSEST}",
+            f"{slow} below {quick}, {resolution} over {e.coarsest}",
             growth(e, slow, resolution),
             growth(e, quick, resolution),
         )
-        for quick, slow, resolution in product(more, less, FINER)
+        for quick, slow, resolution in product(more, less, e.finer)
     ]
 
 
@@ -155,7 +155,7 @@ def any_of(cell: str, checks: Sequence[Check]) -> Check:
 
 def seconds_per_beam(e: Evidence, level: int) -> Measured | None:
     """Returns the cost of a non-terminal beam of maceta at 320x200, counted as in the thesis."""
-    seconds = e.worked("seconds_nonterminal", "maceta", COARSEST, level=level)
+    seconds = e.worked("seconds_nonterminal", "maceta", e.coarsest, level=level)
     return ratio_of(seconds, e.worked("beams_divided", "maceta", level=level))
 
 

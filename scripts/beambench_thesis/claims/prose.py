@@ -8,10 +8,9 @@ from collections.abc import Iterable
 from dataclasses import replace
 from itertools import product
 
-from beambench_report.base.published import COARSEST, FINEST, RESOLUTIONS
 from beambench_thesis.claims.chapter5 import ALL_SCENES, ON_OCTREES
 from beambench_thesis.claims.comparisons import beats, difference, most, ratio_of
-from beambench_thesis.claims.verdict import Check, Claims, Outcome, below, between
+from beambench_thesis.claims.verdict import Check, Claims, Outcome, Question, below, between
 from beambench_thesis.paper.evidence import PICTURE, Evidence, Measured, largest, share, total
 
 PROSE_CLAIMS = Claims()
@@ -39,33 +38,36 @@ def _left_over(e: Evidence, cells: Iterable[tuple[str, str]], bound: float) -> l
     "C25",
     "5.4.2",
     "In bola-espacial nearly all rays hit an object in the occupied leaf where their beam ends.",
+    Question.WORK,
 )
 def rays_hit_where_their_beam_ends(e: Evidence) -> list[Check]:
     """Nearly all means 90% or more, at each resolution."""
-    return _left_over(e, product(("bola-espacial",), RESOLUTIONS), 0.1)
+    return _left_over(e, product(("bola-espacial",), e.resolutions), 0.1)
 
 
 @PROSE_CLAIMS.claim(
     "C26",
     "3.6.2",
     "The rays of a beam that hit nothing in its occupied leaf and have to be traced on are few.",
+    Question.WORK,
 )
 def few_rays_are_left_over(e: Evidence) -> list[Check]:
     """Few means less than half of the samples, in each scene at 1280x1024."""
-    return _left_over(e, product(ALL_SCENES, (FINEST,)), 0.5)
+    return _left_over(e, product(ALL_SCENES, (e.finest,)), 0.5)
 
 
 @PROSE_CLAIMS.claim(
     "C27",
     "6.2.1",
     "With a fitting octree, taking beams through it is no more than 10% of the whole time.",
+    Question.WORK,
 )
 def walking_takes_little(e: Evidence) -> list[Check]:
     """Holds in each scene at 1280x1024: the section is about high resolutions."""
     return [
         between(
-            f"{scene} {FINEST}, share of non-terminal beams",
-            e.share_of_time("nonterminal", scene, FINEST),
+            f"{scene} {e.finest}, share of non-terminal beams",
+            e.share_of_time("nonterminal", scene, e.finest),
             0,
             0.1,
         )
@@ -73,7 +75,9 @@ def walking_takes_little(e: Evidence) -> list[Check]:
     ]
 
 
-@PROSE_CLAIMS.claim("C28", "5.3.3", "Beams that leave the scene are never the critical task.")
+@PROSE_CLAIMS.claim(
+    "C28", "5.3.3", "Beams that leave the scene are never the critical task.", Question.WORK
+)
 def leaving_is_never_critical(e: Evidence) -> list[Check]:
     """Another task takes longer in each scene, at the lowest and at the highest resolution."""
 
@@ -87,7 +91,8 @@ def leaving_is_never_critical(e: Evidence) -> list[Check]:
         return below(f"{scene} {resolution}, leaving below the longest task", leaving, longest)
 
     return [
-        critical(scene, resolution) for scene, resolution in product(ALL_SCENES, (COARSEST, FINEST))
+        critical(scene, resolution)
+        for scene, resolution in product(ALL_SCENES, (e.coarsest, e.finest))
     ]
 
 
@@ -95,11 +100,9 @@ def leaving_is_never_critical(e: Evidence) -> list[Check]:
     "C29",
     "5.4.1",
     "What Samet-Net gains over Samet, and the beams over both, grows with the resolution.",
-    former={"needs_a_gain": False},
-    why="where Samet-Net gains nothing at 1280x1024, no gain has grown; the former rule left that "
-    "undecided",
+    Question.BEAMS_OR_RAYS,
 )
-def gains_grow_with_the_resolution(e: Evidence, needs_a_gain: bool = True) -> list[Check]:
+def gains_grow_with_the_resolution(e: Evidence) -> list[Check]:
     """Compares 320x200 with 1280x1024. The gain of Samet-Net is the seconds saved, since the reason
     given is that more rays use the links; it fails where it is not faster at 1280x1024. The gain of
     the beams is a ratio of times.
@@ -107,10 +110,10 @@ def gains_grow_with_the_resolution(e: Evidence, needs_a_gain: bool = True) -> li
 
     def saves_more(scene: str) -> Check:
         cell = f"{scene}, seconds that samet-net saves"
-        check = below(cell, saved(scene, COARSEST), saved(scene, FINEST))
+        check = below(cell, saved(scene, e.coarsest), saved(scene, e.finest))
         gain = beats(e, scene, "samet-net", "samet")
-        no_gain = needs_a_gain and gain.outcome is Outcome.NO
-        return replace(gain, cell=f"{cell}, by any at {FINEST}") if no_gain else check
+        no_gain = gain.outcome is Outcome.NO
+        return replace(gain, cell=f"{cell}, by any at {e.finest}") if no_gain else check
 
     def saved(scene: str, resolution: str) -> Measured | None:
         return difference(
@@ -125,8 +128,8 @@ def gains_grow_with_the_resolution(e: Evidence, needs_a_gain: bool = True) -> li
         *(
             below(
                 f"{scene}, {other} over beam",
-                ratio(scene, other, COARSEST),
-                ratio(scene, other, FINEST),
+                ratio(scene, other, e.coarsest),
+                ratio(scene, other, e.finest),
             )
             for scene, other in product(ON_OCTREES, ("samet", "samet-net"))
         ),
@@ -134,7 +137,12 @@ def gains_grow_with_the_resolution(e: Evidence, needs_a_gain: bool = True) -> li
 
 
 @PROSE_CLAIMS.claim(
-    "C30", "3.1", "Primary rays are generally more than secondary (reflected, refracted) ones."
+    "C30",
+    "3.1",
+    "Primary rays are generally more than secondary (reflected, refracted) ones.",
+    Question.WORK,
+    untestable="The thesis's materials are lost; those of the stand-ins are beambench's own, and "
+    "secondary rays follow from them.",
 )
 def secondary_rays_are_fewer(e: Evidence) -> list[Check]:
     """Generally means in more than half of the fifteen scenes, and in all of them together."""
@@ -156,7 +164,10 @@ def secondary_rays_are_fewer(e: Evidence) -> list[Check]:
 
 
 @PROSE_CLAIMS.claim(
-    "C31", "6.2.2", "The shadow cache succeeds more often where pixels are grouped in beams."
+    "C31",
+    "6.2.2",
+    "The shadow cache succeeds more often where pixels are grouped in beams.",
+    Question.PARALLEL,
 )
 def shadow_cache_gains_from_beams(e: Evidence) -> list[Check]:
     """The cache finds more hidden shadow rays, in each scene, if pixels are shaded beam by beam

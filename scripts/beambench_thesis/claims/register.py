@@ -1,19 +1,30 @@
 """Every claim judged by the thesis's own figures and by a run's, and the table of them."""
 
+from collections import Counter
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from math import isclose
 from pathlib import Path
+from statistics import geometric_mean, median
 
 import pandas as pd
 
 from beambench_report.base.files import Problem
-from beambench_report.base.quantities import markdown_table, number
+from beambench_report.base.quantities import DASH, markdown_table, number
 from beambench_thesis.chapter6.results import is_cluster_folder
 from beambench_thesis.claims.chapter5 import CLAIMS
 from beambench_thesis.claims.chapter6 import CLUSTER_CLAIMS, cluster_evidence
 from beambench_thesis.claims.prose import PROSE_CLAIMS
-from beambench_thesis.claims.verdict import Check, Claim, Outcome, Verdict, verdict_of
+from beambench_thesis.claims.verdict import (
+    Check,
+    Claim,
+    Outcome,
+    Question,
+    Verdict,
+    counted,
+    former_verdict,
+    verdict_of,
+)
 from beambench_thesis.paper.evidence import NO_CLUSTER, Evidence, published_evidence
 from beambench_thesis.paper.measured import census_work, is_census_folder, measured_evidence
 
@@ -25,6 +36,11 @@ class Finding:
     verdict: Verdict
     checks: list[Check]
 
+    @property
+    def formerly(self) -> str:
+        """The verdict on the same cells in the words of version 0.2."""
+        return former_verdict(self.checks)
+
 
 @dataclass(frozen=True)
 class JudgedClaim:
@@ -33,8 +49,8 @@ class JudgedClaim:
     claim: Claim
     thesis: Finding
     ours: Finding
-    formerly: Finding | None
-    """Ours by the rule that the claim had before, where it was amended."""
+    variants: tuple[Finding, ...] = ()
+    """Ours over perturbed scenes, one for each variant of all of them."""
 
 
 def judge(claim: Claim, evidence: Evidence) -> Finding:
@@ -43,9 +59,10 @@ def judge(claim: Claim, evidence: Evidence) -> Finding:
     return Finding(verdict_of(checks), checks)
 
 
-def judge_formerly(claim: Claim, evidence: Evidence) -> Finding | None:
-    """Applies the rule that the claim had before; None where it was not amended."""
-    return judge(replace(claim, rule=claim.amendment.former), evidence) if claim.amendment else None
+def judge_ours(claim: Claim, evidence: Evidence) -> Finding:
+    """Applies the claim's rule to measurements of stand-ins, which cannot test every claim."""
+    found = judge(claim, evidence)
+    return replace(found, verdict=Verdict.NOT_TESTABLE) if claim.untestable else found
 
 
 SWEPT_CLAIMS = (*CLAIMS, *PROSE_CLAIMS)
@@ -58,12 +75,13 @@ def judge_claims(
     runs: Sequence[Path],
     claims: Sequence[Claim] = ALL_CLAIMS,
     further: Collection[Path] = (),
+    variants: Sequence[Evidence] = (),
 ) -> list[JudgedClaim]:
     """Judges the claims by runs of sweeps, a folder of censuses and a simulated cluster.
 
-    Without them ours are not tested. `further` are those of the runs that were made after a look at
-    the verdicts by the others: an allowance is made for the second look (base/fastest.py).
-    Raises Problem where one cannot be read.
+    Without them ours are not tested. `variants` are of perturbed scenes. `further` are those of the
+    runs that were made after a look at the verdicts by the others: an allowance is made for the
+    second look (base/fastest.py). Raises Problem where one cannot be read.
     """
     clusters = [run for run in runs if is_cluster_folder(run)]
     censuses = [run for run in runs if is_census_folder(run)]
@@ -80,7 +98,10 @@ def judge_claims(
     published = published_evidence()
     return [
         JudgedClaim(
-            claim, judge(claim, published), judge(claim, measured), judge_formerly(claim, measured)
+            claim,
+            judge(claim, published),
+            judge_ours(claim, measured),
+            tuple(judge_ours(claim, one) for one in variants),
         )
         for claim in claims
     ]
@@ -118,58 +139,117 @@ def _is_other(first: Check, second: Check) -> bool:
     return not isclose(first.ratio, second.ratio, rel_tol=1e-6)
 
 
-_MAX_NAMED = 4
-
-
-def claims_as_markdown(claims: Sequence[JudgedClaim], *, cells: bool = False) -> str:
-    """Returns a row for each claim; with `cells`, also every cell that its verdicts rest on."""
-    rows = []
-    for one in claims:
-        parts = [
-            f"{whose}: {found}"
-            for whose, finding in (("thesis", one.thesis), ("ours", one.ours))
-            if (found := summary(finding))
-        ]
-        bound = " (it is these figures)" if one.claim.is_figures else ""
-        former = f" (formerly: {one.formerly.verdict.value})" if one.formerly else ""
-        verdicts = (f"{one.thesis.verdict.value}{bound}", f"{one.ours.verdict.value}{former}")
-        figures = "; ".join([*parts, *filter(None, [amendment(one)])])
-        rows.append((one.claim.name, one.claim.where, one.claim.says, *verdicts, figures))
-    heads = ("claim", "where", "what the thesis says", "by its own figures", "by ours", "figures")
-    lines = markdown_table(heads, rows)
-    for one in claims if cells else ():
-        lines += ["", *_cells(one)]
-    return "\n".join(lines) + "\n"
-
-
-def summary(finding: Finding) -> str:
-    """Returns the number of cells that say yes and names the others; empty if none was measured."""
-    by_outcome = {
-        outcome: [one for one in finding.checks if not one.aside and one.outcome is outcome]
-        for outcome in Outcome
-    }
-    count = sum(map(len, by_outcome.values()))
-    parts = []
-    if len(by_outcome[Outcome.MISSING]) < count:
-        yes = by_outcome.pop(Outcome.YES)
-        parts.append(f"{len(yes)} of {count} cells{_range_of(yes)}")
-        parts += [_named(one.value, checks) for one, checks in by_outcome.items() if checks]
-        parts += _unpaired([check for check in finding.checks if not check.aside])
-    parts += [
-        f"beside it: {check.cell}: {check.outcome.value} ({check.figures})"
-        for check in finding.checks
-        if check.aside and check.outcome is not Outcome.MISSING
+def by_question(claims: Sequence[JudgedClaim]) -> list[tuple[str, list[JudgedClaim]]]:
+    """Returns the claims by the questions that they answer; no question without a claim."""
+    asked = [
+        (question.value, [one for one in claims if one.claim.question is question])
+        for question in Question
     ]
-    return "; ".join(parts)
+    return [(question, found) for question, found in asked if found]
 
 
-def amendment(one: JudgedClaim) -> str:
-    """Returns why the rule was amended, and the verdict of the former one; else an empty string."""
-    if one.claim.amendment is None or one.formerly is None:
-        return ""
-    found = summary(one.formerly)
-    former = f"; ours by the former rule: {found}" if found else ""
-    return f"rule amended: {one.claim.amendment.why}{former}"
+def claims_as_markdown(claims: Sequence[JudgedClaim]) -> str:
+    """Returns a table of claims for each question."""
+    tables = [
+        "\n".join([f"### {question}", "", *markdown_table(_HEADS, map(row_of, asked))])
+        for question, asked in by_question(claims)
+    ]
+    return "\n\n".join(tables) + "\n"
+
+
+_HEADS = (
+    "what the thesis says",
+    "where",
+    "verdict",
+    "effect, thesis",
+    "effect, ours",
+    "cells that agree",
+    "variants that agree",
+    "formerly",
+)
+
+
+def row_of(one: JudgedClaim) -> tuple[str, ...]:
+    """Returns the cells of a claim's row in the table of claims."""
+    return (
+        f"{one.claim.says} ({one.claim.name})",
+        one.claim.where,
+        f"**{one.ours.verdict.value}**",
+        *effects(one),
+        agreeing(one.ours),
+        variants_that_agree(one),
+        one.ours.formerly,
+    )
+
+
+def effects(one: JudgedClaim) -> tuple[str, str]:
+    """Returns the thesis's effect and ours; of a claim that is a list of figures, ours over its."""
+    if not one.claim.is_figures:
+        return effect(one.thesis) or DASH, effect(one.ours) or DASH
+    printed = {check.cell: check.value for check in counted(one.thesis.checks) if check.value}
+    ratios = [
+        check.value / printed[check.cell]
+        for check in counted(one.ours.checks)
+        if check.value and check.cell in printed
+    ]
+    over = f"{number(geometric_mean(ratios))} times these{_range(ratios)}" if ratios else DASH
+    return "these figures", over
+
+
+def effect(finding: Finding) -> str:
+    """Returns the geometric mean of the ratios that a claim is about, and their range; of cells
+    that compare a figure with bounds, its median; empty if nothing was measured.
+    """
+    known = [check for check in counted(finding.checks) if check.outcome is not Outcome.MISSING]
+    ratios = [check.ratio for check in known if check.ratio is not None and check.ratio > 0]
+    values = [check.value for check in known if check.value is not None]
+    if len(ratios) >= max(1, len(values)):
+        return f"{number(geometric_mean(ratios))} times{_range(ratios)}"
+    if values:
+        return f"{number(median(values))}{_range(values)}"
+    return ""
+
+
+def _range(figures: Sequence[float]) -> str:
+    least, most = number(min(figures)), number(max(figures))
+    return "" if least == most else f" ({least} to {most})"
+
+
+def agreeing(finding: Finding) -> str:
+    """Returns `5 of 6`, with the undecided ones; a dash if nothing was measured."""
+    checks = counted(finding.checks)
+    known = [check for check in checks if check.outcome is not Outcome.MISSING]
+    if not known:
+        return DASH
+    yes = sum(check.outcome is Outcome.YES for check in checks)
+    undecided = sum(check.outcome is Outcome.UNDECIDED for check in checks)
+    missing = len(checks) - len(known)
+    rest = [f"{undecided} undecided"] * bool(undecided) + [f"{missing} missing"] * bool(missing)
+    return f"{yes} of {len(checks)}" + f" ({', '.join(rest)})" * bool(rest)
+
+
+def variants_that_agree(one: JudgedClaim) -> str:
+    """Returns `7 of 8`: the variants that support a claim, of those that decide it."""
+    tested = [
+        found.verdict
+        for found in one.variants
+        if found.verdict not in (Verdict.NOT_TESTED, Verdict.NOT_TESTABLE)
+    ]
+    if not tested:
+        return DASH
+    number_of = Counter(tested)
+    rest = [
+        f"{number_of[verdict]} {verdict.value}"
+        for verdict in (Verdict.MIXED, Verdict.CONTRADICTED, Verdict.UNDECIDED)
+        if number_of[verdict]
+    ]
+    agree = f"{number_of[Verdict.SUPPORTED]} of {len(tested)}"
+    return agree + f" ({', '.join(rest)})" * bool(rest)
+
+
+def cells_as_markdown(claims: Sequence[JudgedClaim]) -> str:
+    """Returns every cell that the verdicts rest on, claim by claim."""
+    return "\n".join(line for one in claims for line in (*_cells(one), "")).rstrip() + "\n"
 
 
 def cells_of(one: JudgedClaim) -> list[tuple[str, Check, Check]]:
@@ -182,40 +262,12 @@ def cells_of(one: JudgedClaim) -> list[tuple[str, Check, Check]]:
     ]
 
 
-def _range_of(checks: Sequence[Check]) -> str:
-    """Returns the ratios of cells that compare two figures: 1.13 to 2.06 times."""
-    ratios = [check.ratio for check in checks if check.ratio is not None]
-    if not ratios:
-        return "".join(f", {check.cell}: {check.figures}" for check in checks[:_MAX_NAMED])
-    least, most = number(min(ratios)), number(max(ratios))
-    return f" ({least} times)" if least == most else f" ({least} to {most} times)"
-
-
-def _unpaired(checks: Sequence[Check]) -> list[str]:
-    """Returns `not paired`, and which where some are: those decided by two intervals."""
-    compared = [check for check in checks if check.is_paired is not None]
-    apart = [check for check in compared if not check.is_paired]
-    if len(apart) == len(compared):
-        return ["not paired"] * bool(apart)
-    return [_named("not paired", [replace(one, figures="") for one in apart])] if apart else []
-
-
-def _named(what: str, checks: Sequence[Check]) -> str:
-    named = [f"{check.cell}{f' ({check.figures})' * bool(check.figures)}" for check in checks]
-    rest = len(named) - _MAX_NAMED
-    more = [f"{rest} more"] if rest > 0 else []
-    return f"{what}: " + ", ".join(named[:_MAX_NAMED] + more)
-
-
 def _cells(one: JudgedClaim) -> list[str]:
     rows = (
         (cell, thesis.outcome.value, thesis.figures, ours.outcome.value, ours.figures)
         for cell, thesis, ours in cells_of(one)
     )
-    lines = [f"### {one.claim.name}: {one.claim.says}", ""]
+    lines = [f"## {one.claim.name}: {one.claim.says}", "", f"{one.claim.where}.", ""]
+    lines += [one.claim.untestable, ""] * bool(one.claim.untestable)
     lines += markdown_table(("cell", "thesis", "figures", "ours", "figures"), rows)
-    if one.formerly is not None:
-        former = ((check.cell, check.outcome.value, check.figures) for check in one.formerly.checks)
-        lines += ["", "By the former rule, ours:", ""]
-        lines += markdown_table(("cell", "ours", "figures"), former)
     return lines

@@ -1,14 +1,25 @@
 """A claim of the thesis, the rule that tests it, and the verdict on all its cells."""
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
-from functools import partial
-from math import isnan
+from math import ceil, isnan
 
 from beambench.analysis import MARGIN, Ratio
 from beambench_report.base.quantities import number
 from beambench_thesis.paper.evidence import Evidence, Measured
+
+
+class Question(Enum):
+    """What a reader asks, by which the report groups the claims."""
+
+    BEAMS_OR_RAYS = "Do beams beat single rays through the same octree?"
+    OTHER_STRUCTURES = "Do they beat other structures?"
+    OCTREE = "How should the octree be divided?"
+    GROWTH = "How does the time grow with the rays?"
+    WORK = "Where does the time go?"
+    PARALLEL = "What of the parallel program?"
 
 
 class Outcome(Enum):
@@ -23,10 +34,11 @@ class Outcome(Enum):
 class Verdict(Enum):
     """The outcome of all cells together."""
 
-    HOLDS = "holds"
-    IN_PART = "holds in part"
-    FAILS = "fails"
+    SUPPORTED = "supported"
+    MIXED = "mixed"
+    CONTRADICTED = "contradicted"
     UNDECIDED = "undecided"
+    NOT_TESTABLE = "not testable"
     NOT_TESTED = "not tested"
 
 
@@ -39,6 +51,8 @@ class Check:
     figures: str = ""
     ratio: float | None = None
     """What should be the larger figure over what should be the smaller one, if two are compared."""
+    value: float | None = None
+    """The figure that should lie between two bounds, if there is one."""
     aside: bool = False
     """Worth knowing beside the claim, but not a part of it: no verdict depends on it."""
     is_paired: bool | None = None
@@ -60,6 +74,8 @@ def below(cell: str, smaller: Measured | None, larger: Measured | None, factor: 
         low, ratio, high = (factor * end for end in (paired.low, paired.value, paired.high))
         figures += f", {number(ratio)} times ({number(low)} to {number(high)})"
         outcome = _by_rank(paired, smaller.blocks.over(larger.blocks, 1 / factor))
+        if outcome is Outcome.UNDECIDED:
+            figures += f"; {_blocks_to_decide(paired)}"
     else:
         outcome = _by_difference(smaller.times(factor), larger, factor > 1)
     if outcome is None:
@@ -77,6 +93,18 @@ def _by_rank(up: Ratio, down: Ratio) -> Outcome | None:
     if slower.rank == "behind":
         return Outcome.YES if slower is up else Outcome.NO
     return None if slower.rank == "tied" else Outcome.UNDECIDED
+
+
+def _blocks_to_decide(paired: Ratio) -> str:
+    """Returns how many times as many blocks would decide, the spread being the same.
+
+    An interval shrinks by the root of the number of blocks, until it either no longer contains 1 or
+    lies within MARGIN of it, whichever is nearer.
+    """
+    half = (paired.high - paired.low) / 2
+    away = abs(paired.value - 1)
+    more = (half / max(away, MARGIN - away)) ** 2
+    return f"about {max(2, ceil(more))} times as many blocks would decide it"
 
 
 def _by_difference(bound: Measured, larger: Measured, may_meet: bool) -> Outcome | None:
@@ -109,9 +137,8 @@ def between(cell: str, figure: Measured | None, low: float, high: float, unit: s
         outcome = Outcome.NO
     else:
         outcome = Outcome.UNDECIDED
-    return Check(
-        cell, outcome, f"{number(figure.value)}{unit} (allowed {number(low)} to {number(high)})"
-    )
+    figures = f"{number(figure.value)}{unit} (allowed {number(low)} to {number(high)})"
+    return Check(cell, outcome, figures, value=figure.value)
 
 
 def aside(check: Check) -> Check:
@@ -119,32 +146,48 @@ def aside(check: Check) -> Check:
     return replace(check, aside=True)
 
 
+def counted(checks: Sequence[Check]) -> list[Check]:
+    """Returns the cells that count."""
+    return [check for check in checks if not check.aside]
+
+
 def verdict_of(checks: Sequence[Check]) -> Verdict:
     """Combines all cells into one verdict.
 
+    A claim is supported if every cell says yes, contradicted if most say no, and mixed otherwise.
     If a cell is missing, the claim is not tested. Undecided cells may be yes or no: the verdict
-    stands if it is the same in either case.
+    stands if it is the same in every case.
     """
-    outcomes = {check.outcome for check in checks if not check.aside}
-    if not outcomes or Outcome.MISSING in outcomes:
+    number = Counter(check.outcome for check in counted(checks))
+    if not number or number[Outcome.MISSING]:
         return Verdict.NOT_TESTED
+    cells, undecided = number.total(), number[Outcome.UNDECIDED]
+    possible = {_verdict_by(number[Outcome.NO] + more, cells) for more in range(undecided + 1)}
+    return possible.pop() if len(possible) == 1 else Verdict.UNDECIDED
+
+
+def _verdict_by(opposite: int, cells: int) -> Verdict:
+    if opposite == 0:
+        return Verdict.SUPPORTED
+    return Verdict.CONTRADICTED if 2 * opposite > cells else Verdict.MIXED
+
+
+def former_verdict(checks: Sequence[Check]) -> str:
+    """Returns the verdict in the words of version 0.2, which had no word for contradictions.
+
+    There any mixture of cells was "holds in part".
+    """
+    outcomes = {check.outcome for check in counted(checks)}
+    if not outcomes or Outcome.MISSING in outcomes:
+        return "not tested"
     if {Outcome.YES, Outcome.NO} <= outcomes:
-        return Verdict.IN_PART
+        return "holds in part"
     if Outcome.UNDECIDED in outcomes:
-        return Verdict.UNDECIDED
-    return Verdict.HOLDS if Outcome.YES in outcomes else Verdict.FAILS
+        return "undecided"
+    return "holds" if Outcome.YES in outcomes else "fails"
 
 
 Rule = Callable[[Evidence], list[Check]]
-
-
-@dataclass(frozen=True)
-class Amendment:
-    """The former rule of a claim; its verdict is printed with that of the present one."""
-
-    former: Rule
-    why: str
-    """Why the rule was amended, in one sentence."""
 
 
 @dataclass(frozen=True)
@@ -154,10 +197,12 @@ class Claim:
     name: str
     where: str
     says: str
+    question: Question
     rule: Rule
     is_figures: bool
     """The claim is a list of figures, which are bound to agree with themselves."""
-    amendment: Amendment | None = None
+    untestable: str = ""
+    """Why no stand-in can test it, in one sentence; its cells are shown nevertheless."""
 
 
 class Claims(list[Claim]):
@@ -168,21 +213,15 @@ class Claims(list[Claim]):
         name: str,
         where: str,
         says: str,
+        question: Question,
         *,
         is_figures: bool = False,
-        former: Rule | dict[str, str] | None = None,
-        why: str = "",
+        untestable: str = "",
     ) -> Callable[[Rule], Rule]:
-        """Decorates the rule of a claim.
-
-        `former` is the rule before the amendment, or arguments that turn the present rule into it;
-        `why` is the reason for the amendment.
-        """
+        """Decorates the rule of a claim."""
 
         def register(rule: Rule) -> Rule:
-            before = partial(rule, **former) if isinstance(former, dict) else former
-            amendment = Amendment(before, why) if before else None
-            self.append(Claim(name, where, says, rule, is_figures, amendment))
+            self.append(Claim(name, where, says, question, rule, is_figures, untestable))
             return rule
 
         return register

@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 
 from beambench.analysis import Median, Ratio, block_ratio, unpaired_ratio
-from beambench_report.base.published import FINEST, read_published
+from beambench_report.base.published import RESOLUTIONS, read_published
 
 
 @dataclass(frozen=True)
@@ -231,12 +231,28 @@ class Evidence:
     octrees: pd.DataFrame
     cluster: ClusterEvidence = NO_CLUSTER
     blocks: Mapping[Setting, Blocks] = field(default_factory=dict)
+    resolutions: tuple[str, ...] = RESOLUTIONS
+
+    @property
+    def coarsest(self) -> str:
+        """The lowest resolution: 320x200 wherever the thesis's are complete."""
+        return self.resolutions[0]
+
+    @property
+    def finest(self) -> str:
+        """The highest resolution: 1280x1024 wherever the thesis's are complete."""
+        return self.resolutions[-1]
+
+    @property
+    def finer(self) -> tuple[str, ...]:
+        """All resolutions but the lowest."""
+        return self.resolutions[1:]
 
     def time(
         self,
         scene: str,
         contender: str,
-        resolution: str = FINEST,
+        resolution: str = "",
         *,
         level: int = LEVEL,
         objects: int = OBJECTS,
@@ -244,17 +260,17 @@ class Evidence:
     ) -> Measured | None:
         """Returns the seconds of one cell; parameters that are not given are the thesis's."""
         at = {"level": level, "objects": objects, "samples": samples}
-        return self.at(setting(scene, contender, resolution, **at))
+        return self.at(setting(scene, contender, resolution or self.finest, **at))
 
     def at(self, setting: Setting) -> Measured | None:
         """Returns the seconds of one cell by its setting, in the order of SETTING."""
         return self._times.get(setting)
 
     def times_by(
-        self, setting: str, scene: str, contender: str, resolution: str = FINEST
+        self, setting: str, scene: str, contender: str, resolution: str = ""
     ) -> dict[int, Measured]:
         """Returns the seconds of one contender by one of its settings, `level` or `cells`."""
-        view = {"scene": scene, "contender": contender, "resolution": resolution}
+        view = {"scene": scene, "contender": contender, "resolution": resolution or self.finest}
         rows = rows_with(self.times, **view, objects=OBJECTS, samples=1).sort_values(setting)
         settings = zip(*(rows[name] for name in SETTING), strict=True)
         return {at[SETTING.index(setting)]: self._times[at] for at in settings}

@@ -20,7 +20,7 @@ from beambench_report.base.fastest import with_fastest
 from beambench_report.base.files import Problem, load_json
 from beambench_report.base.machine import require_one_machine
 from beambench_report.base.names import parameter_items
-from beambench_report.base.published import FINEST, primitives_by_scene
+from beambench_report.base.published import RESOLUTIONS, primitives_by_scene
 from beambench_report.base.records import Run, read_run, size_of
 from beambench_thesis.paper.evidence import (
     HIERARCHY,
@@ -68,7 +68,11 @@ _TASKS = ("nonterminal", "occupied", "leaving")
 _BEAM_COUNTS = ("beams", "beams_nonterminal", "beams_occupied", "beams_made", "beams_divided")
 
 
-def measured_evidence(directories: Sequence[Path], further: Collection[Path] = ()) -> Evidence:
+def measured_evidence(
+    directories: Sequence[Path],
+    further: Collection[Path] = (),
+    resolutions: tuple[str, ...] = RESOLUTIONS,
+) -> Evidence:
     """Returns the correct rows of one or more runs that have the thesis's scenes and contenders.
 
     If several runs measured a cell, the repetitions of all count; `further` are those of the runs
@@ -86,7 +90,7 @@ def measured_evidence(directories: Sequence[Path], further: Collection[Path] = (
         pd.concat(rows[f"total_{name}_median"] for rows in every) for name in ("mcycles", "ms")
     )
     clock = float((cycles / ms).median())
-    parts = [_evidence_of(rows, clock) for rows in every]
+    parts = [_evidence_of(rows, clock, resolutions[-1]) for rows in every]
     times, work, octrees = (
         pd.concat([getattr(part, name) for part in parts], ignore_index=True)
         for name in ("times", "work", "octrees")
@@ -99,6 +103,7 @@ def measured_evidence(directories: Sequence[Path], further: Collection[Path] = (
         work[once | ~is_time],
         octrees,
         blocks=_blocks(runs, further),
+        resolutions=resolutions,
     )
 
 
@@ -129,7 +134,7 @@ def _compared(rows: pd.DataFrame) -> pd.DataFrame:
     return rows[rows["camera"].eq(rows.groupby("scene")["camera"].transform("first"))]
 
 
-def _evidence_of(rows: pd.DataFrame, clock: float) -> Evidence:
+def _evidence_of(rows: pd.DataFrame, clock: float, finest: str) -> Evidence:
     times: list[dict[str, object]] = []
     work: list[dict[str, object]] = []
     octrees: list[dict[str, object]] = []
@@ -139,7 +144,11 @@ def _evidence_of(rows: pd.DataFrame, clock: float) -> Evidence:
             continue
         times.append({"table": ""} | setting | _at_clock(row, clock))
         work += _work(row, setting)
-        if setting["contender"] == "beam" and setting["samples"] == 1:
+        if (
+            setting["contender"] == "beam"
+            and setting["samples"] == 1
+            and setting["resolution"] == finest
+        ):
             octrees += _octree(row, setting)
     return Evidence(
         pd.DataFrame(times, columns=list(TIMES)),
@@ -294,7 +303,7 @@ def _entries(setting: dict[str, object], figures: dict[str, Measured]) -> list[d
 def _octree(row: dict[str, object], setting: dict[str, object]) -> list[dict[str, object]]:
     leaves = _number(row, "leaves") - _number(row, "empty_leaves")
     pixels = _number(row, f"samples_leaving{COUNTER_SUFFIX}") * _number(row, "rays")
-    if setting["resolution"] != FINEST or pd.isna(leaves) or pd.isna(pixels):
+    if pd.isna(leaves) or pd.isna(pixels):
         return []
     counts = {"occupied_leaves": round(leaves), "exit_pixels": round(pixels)}
     return [{name: setting[name] for name in ("scene", "level", "objects")} | counts]

@@ -6,7 +6,14 @@ from pathlib import Path
 
 from beambench_report.base.files import ROOT, Problem, say
 from beambench_thesis.chapter5.facts import gather_facts
-from beambench_thesis.report.plan import Plan, add_levels, keep_plan, make_plan, read_plan
+from beambench_thesis.report.plan import (
+    Plan,
+    add_levels,
+    add_variants,
+    keep_plan,
+    make_plan,
+    read_plan,
+)
 from beambench_thesis.report.runner import describe, run_sweeps
 from beambench_thesis.report.write import write_report
 
@@ -14,12 +21,14 @@ _QUICK = (
     "320x200 and 640x480 only, few repetitions; enough for the claims C12, C14, C21, C30 and C31 "
     "alone, the others need higher resolutions"
 )
+_MOST_VARIANTS = 99
 _EXAMPLES = """examples:
   scripts/thesis                            everything, within an hour
   scripts/thesis --quick                    the two lowest resolutions, within five minutes
   scripts/thesis --table 5.4 --table 5.6    what two tables need
   scripts/thesis --figure 5.11 -o samples   what a figure needs, in a folder of your choice
   scripts/thesis --levels                   and how well max_level=auto chooses the level
+  scripts/thesis --perturb                  and the claims over eight variants of every scene
   scripts/thesis --dry-run                  what would be run, and how long
   scripts/thesis --resume samples           resume a run that was cut off
 """
@@ -39,6 +48,16 @@ def add_run_command(commands: argparse._SubParsersAction, built: Path) -> None:
     add("--figure", action="append", default=[], metavar="5.8", help="only what this figure needs")
     add("--quick", action="store_true", help=_QUICK)
     add("--levels", action="store_true", help="also how well max_level=auto chooses: 8 min or more")
+    add(
+        "--perturb",
+        type=_variants,
+        nargs="?",
+        const=8,
+        default=0,
+        metavar="N",
+        help="also N variants of every scene (8 by default; up to 7 minutes each) at 320x200 and "
+        "640x480: other seeds, cameras and places of objects",
+    )
     add("--dry-run", action="store_true", help="list the sweeps, their cells and their time; stop")
     add("--report-only", action="store_true", help="measure nothing; write the report anew")
     add(
@@ -48,6 +67,12 @@ def add_run_command(commands: argparse._SubParsersAction, built: Path) -> None:
     add("--beambench", type=Path, default=built, metavar="PROGRAM", help="the built beambench")
 
 
+def _variants(text: str) -> int:
+    if not text.isdecimal() or not 1 <= int(text) <= _MOST_VARIANTS:
+        raise argparse.ArgumentTypeError(f"'{text}': give a number from 1 to {_MOST_VARIANTS}")
+    return int(text)
+
+
 def thesis(options: argparse.Namespace) -> int:
     """Runs the command; returns its exit code. Raises Problem for invalid arguments or input."""
     plan, directory = _request(options)
@@ -55,7 +80,7 @@ def thesis(options: argparse.Namespace) -> int:
         print(describe(plan, directory if options.resume else None), end="")
         return 0
     directory.mkdir(parents=True, exist_ok=True)
-    if not options.resume or options.levels:
+    if not options.resume or options.levels or options.perturb:
         keep_plan(plan, directory)
     code = 0
     if not options.report_only:
@@ -85,7 +110,13 @@ def _request(options: argparse.Namespace) -> tuple[Plan, Path]:
     if options.resume is None:
         if options.report_only:
             raise Problem("--report-only needs the folder of a run: give it with --resume DIR")
-        plan = make_plan(options.table, options.figure, options.quick, with_levels=options.levels)
+        plan = make_plan(
+            options.table,
+            options.figure,
+            options.quick,
+            with_levels=options.levels,
+            variants=options.perturb,
+        )
         time = datetime.now(UTC).strftime("%Y%m%dT%H%M%SZ")
         directory = options.output or ROOT / "results/runs" / f"{time}-thesis"
         if (directory / "thesis.json").exists() and not options.dry_run:
@@ -95,7 +126,9 @@ def _request(options: argparse.Namespace) -> tuple[Plan, Path]:
         return plan, directory
     if any((options.table, options.figure, options.quick, options.output)):
         raise Problem(
-            "--resume continues what was begun: give no other choice with it, but for --levels"
+            "--resume continues what was begun: give no other choice with it, but for --levels and "
+            "--perturb"
         )
     plan = read_plan(options.resume)
+    plan = add_variants(plan, options.perturb)
     return add_levels(plan) if options.levels else plan, options.resume

@@ -187,6 +187,52 @@ def quick(sweep: Sweep) -> Sweep | None:
     return replace(smaller, source=smaller.source | {"budget_seconds": round(budget, 1)})
 
 
+VARIANT_RESOLUTIONS = ("320x200", "640x480")
+"""At which perturbed scenes are measured: the claims are about changes with the resolution, too."""
+
+_VARIED = ("synthetic", "division", "octree", "others-small", "others-large", "quality", "samples")
+_UNCLAIMED = (  # no claim is about them
+    "sah-bvh",
+    "embree",
+    "goldsmith-salmon:order=given,queue=heap,insert=everywhere",
+)
+# Four blocks: an interval from fewer is too wide to decide anything.
+_VARIANT_REPETITIONS = {"minimum": 12, "maximum": 24, "second_traces": 0}
+_VARIANT_SECONDS_PER_CELL = 2.0
+
+
+def variant_sweeps(number: int) -> tuple[Sweep, ...]:
+    """Returns the sweeps of one variant of all scenes (`perturb=NUMBER`), at low resolutions."""
+    return tuple(_varied(read_sweep(name), number) for name in _VARIED)
+
+
+def _varied(sweep: Sweep, number: int) -> Sweep:
+    name = f"variant-{number}-{sweep.name}"
+    changes = {
+        "name": f"thesis-{name}",
+        "description": f"Variant {number} of the scenes: {sweep.description}",
+        "scenes": [
+            f"{scene}{',' if ':' in scene else ':'}perturb={number}"
+            for scene in sweep.source["scenes"]
+        ],
+        "structures": [
+            _with_exact_leaves(one) for one in sweep.source["structures"] if one not in _UNCLAIMED
+        ],
+        "resolutions": list(VARIANT_RESOLUTIONS),
+        "repetitions": _VARIANT_REPETITIONS,
+    }
+    varied = Sweep(name, sweep.source | changes)
+    budget = round(_VARIANT_SECONDS_PER_CELL * len(varied.cells()), 1)
+    return replace(varied, source=varied.source | {"budget_seconds": budget})
+
+
+def _with_exact_leaves(structure: str | dict[str, Any]) -> str | dict[str, Any]:
+    """Returns a contender without the leaf tests by SIMD that are measured beside the thesis's."""
+    if isinstance(structure, str) or "leaf" not in structure["parameters"]:
+        return structure
+    return structure | {"parameters": structure["parameters"] | {"leaf": "exact"}}
+
+
 _PLAN = "thesis.json"
 
 
@@ -198,6 +244,13 @@ class Plan:
     figures: tuple[str, ...]
     is_quick: bool
     sweeps: tuple[Sweep, ...]
+    variants: tuple[tuple[Sweep, ...], ...] = ()
+    """The sweeps of perturbed scenes, variant by variant."""
+
+    @property
+    def every_sweep(self) -> tuple[Sweep, ...]:
+        """All sweeps in the order in which they are run."""
+        return (*self.sweeps, *(sweep for variant in self.variants for sweep in variant))
 
     @property
     def is_everything(self) -> bool:
@@ -206,11 +259,16 @@ class Plan:
 
 
 def make_plan(
-    tables: Sequence[str], figures: Sequence[str], is_quick: bool, *, with_levels: bool = False
+    tables: Sequence[str],
+    figures: Sequence[str],
+    is_quick: bool,
+    *,
+    with_levels: bool = False,
+    variants: int = 0,
 ) -> Plan:
     """Returns the plan for some tables and figures, or for all. Raises Problem for an unknown one.
 
-    `with_levels` adds the sweep that tests max_level=auto.
+    `with_levels` adds the sweep that tests max_level=auto, `variants` so many of perturbed scenes.
     """
     known_tables, known_figures = [t.number for t in TABLES], [f.number for f in FIGURES]
     for kind, given, known in (("table", tables, known_tables), ("figure", figures, known_figures)):
@@ -230,6 +288,7 @@ def make_plan(
         is_quick,
         tuple(sweep for sweep in made if sweep is not None),
     )
+    plan = add_variants(plan, variants)
     return add_levels(plan) if with_levels else plan
 
 
@@ -242,15 +301,30 @@ def add_levels(plan: Plan) -> Plan:
     return replace(plan, sweeps=(*plan.sweeps, made)) if made else plan
 
 
+def add_variants(plan: Plan, number: int) -> Plan:
+    """Returns the plan with variants of the scenes up to that number."""
+    more = range(len(plan.variants) + 1, number + 1)
+    return replace(plan, variants=(*plan.variants, *map(variant_sweeps, more)))
+
+
 def keep_plan(plan: Plan, directory: Path) -> None:
     """Writes DIRECTORY/thesis.json, from which a run that was cut off is resumed."""
     document = {
         "tables": plan.tables,
         "figures": plan.figures,
         "quick": plan.is_quick,
-        "sweeps": [{"name": sweep.name, "sweep": sweep.source} for sweep in plan.sweeps],
+        "sweeps": _kept(plan.sweeps),
+        "variants": [_kept(variant) for variant in plan.variants],
     }
     write_text(directory / _PLAN, json.dumps(document, indent=2) + "\n")
+
+
+def _kept(sweeps: Sequence[Sweep]) -> list[dict[str, Any]]:
+    return [{"name": sweep.name, "sweep": sweep.source} for sweep in sweeps]
+
+
+def _restored(kept: Sequence[dict[str, Any]]) -> tuple[Sweep, ...]:
+    return tuple(Sweep(entry["name"], entry["sweep"]) for entry in kept)
 
 
 def read_plan(directory: Path) -> Plan:
@@ -258,13 +332,14 @@ def read_plan(directory: Path) -> Plan:
     path = directory / _PLAN
     try:
         source = load_json(path)
-        sweeps = tuple(Sweep(entry["name"], entry["sweep"]) for entry in source["sweeps"])
+        sweeps = _restored(source["sweeps"])
         shown = set(source["figures"]) | set(_figures_of({sweep.name for sweep in sweeps}))
         return Plan(
             tuple(source["tables"]),
             tuple(figure.number for figure in FIGURES if figure.number in shown),
             source["quick"],
             sweeps,
+            tuple(map(_restored, source.get("variants", ()))),
         )
     except FileNotFoundError:
         raise Problem(

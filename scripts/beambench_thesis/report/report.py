@@ -15,16 +15,23 @@ from beambench_thesis.chapter5.grid_beams import grid_beams_section
 from beambench_thesis.chapter5.levels import levels_section
 from beambench_thesis.chapter5.mirrors import mirrors_section, read_mirrors
 from beambench_thesis.chapter5.sampling import read_comparisons, sampling_section
-from beambench_thesis.claims.register import SWEPT_CLAIMS, JudgedClaim, judge_claims
-from beambench_thesis.claims.verdict import Verdict
+from beambench_thesis.chapter6.results import is_cluster_folder
+from beambench_thesis.claims.register import (
+    ALL_CLAIMS,
+    SWEPT_CLAIMS,
+    JudgedClaim,
+    judge_claims,
+)
+from beambench_thesis.claims.verdict import Outcome, Verdict, counted
 from beambench_thesis.paper.cells import Cell, Cells, read_cells
-from beambench_thesis.paper.measured import is_census_folder
+from beambench_thesis.paper.evidence import Evidence
+from beambench_thesis.paper.measured import is_census_folder, measured_evidence
 from beambench_thesis.paper.printed import parts_of
 from beambench_thesis.paper.section import Section
 from beambench_thesis.report.drawing import FigureData
 from beambench_thesis.report.figures import make_figures
 from beambench_thesis.report.pictures import PictureFigure, octree_figures
-from beambench_thesis.report.plan import LEVELS, TABLES, Plan, Sweep, Table
+from beambench_thesis.report.plan import LEVELS, TABLES, VARIANT_RESOLUTIONS, Plan, Sweep, Table
 from beambench_thesis.report.runner import state_of
 from beambench_thesis.report.tables import PartTable, WorkTable, fill, work_of_lines
 
@@ -32,6 +39,8 @@ SAMPLING = "sampling"
 """The folder of what `beambench sampling SCENE --json` printed."""
 MIRRORS = "mirrors"
 """The folder of what `beambench mirrors SCENE --json` printed."""
+CLUSTER = "cluster"
+"""The folder of the simulated cluster, beside that of the report."""
 GRID_BEAMS = "grid-beams"
 """The folder of the run of harness/measure/sweeps/grid-beams.json."""
 
@@ -93,6 +102,7 @@ def gather(directory: Path, plan: Plan, beambench: Path | None = None) -> Report
     if beambench is not None and cells.cells:
         pictures = tuple(octree_figures(plan.figures, directory, beambench))
     censuses = [folder] if is_census_folder(folder := directory / CENSUS) else []
+    clusters = [folder] if is_cluster_folder(folder := directory.parent / CLUSTER) else []
     return Report(
         directory,
         plan,
@@ -104,10 +114,26 @@ def gather(directory: Path, plan: Plan, beambench: Path | None = None) -> Report
         ),
         tuple(make_figures(plan.figures, cells)),
         pictures,
-        tuple(judge_claims([*cells.runs, *censuses], SWEPT_CLAIMS)),
+        tuple(
+            judge_claims(
+                [*cells.runs, *censuses, *clusters],
+                ALL_CLAIMS if clusters else SWEPT_CLAIMS,
+                variants=variants_of(directory, plan),
+            )
+        ),
         tuple(sections),
         tuple(_summary(directory, sweep, every) for sweep in sweeps),
     )
+
+
+def variants_of(directory: Path, plan: Plan) -> list[Evidence]:
+    """Returns the evidence from each variant of the scenes whose sweeps are all finished."""
+    found = []
+    for sweeps in plan.variants:
+        folders = [directory / sweep.name for sweep in sweeps]
+        if all(state_of(folder) == "finished" for folder in folders):
+            found.append(measured_evidence(folders, (), VARIANT_RESOLUTIONS))
+    return found
 
 
 def sections_of(directory: Path, cells: Cells) -> tuple[list[Section], list[str]]:
@@ -179,14 +205,27 @@ TABLE_WORDS = (
     "are not the thesis's."
 )
 CLAIM_WORDS = (
-    "Each claim is a rule that first judges the thesis's own figures, then ours. Holds in part: in "
-    "some cells; undecided: chance may explain the difference; not tested: a cell is not measured. "
-    "Ratios are of what should be larger over what should be smaller. Two times of the same blocks "
-    "are ranked by their paired ratio, as contenders are: they are equal where its 95% confidence "
-    f"interval ends within {MARGIN:.0%} of 1, and otherwise one is below the other where it does "
-    "not contain 1. What is not paired is compared by two 95% prediction intervals, with the same "
-    "margin; counts are exact. A time without an interval is not ranked."
+    "Each claim is a rule that judges cells of the thesis's tables. Supported: every cell agrees; "
+    "contradicted: most cells say the opposite; mixed: in between; undecided: it depends on cells "
+    "whose difference chance may explain; not testable: it rests on what is lost. The effect is "
+    "the geometric mean over the cells, with their range, of what should be larger over what "
+    "should be smaller, or the median of a figure. Variants are perturbed scenes: other seeds, "
+    "cameras and places of objects, judged at 320x200 and 640x480 alone, so that what the thesis "
+    "says of 1280x1024 is judged there at 640x480. Beams test the samples of a leaf as single rays "
+    "are tested (leaf=exact). Times of the same blocks are ranked by their paired ratio: equal "
+    f"where its 95% confidence interval ends within {MARGIN:.0%} of 1, else one is below the other "
+    "where the interval does not contain 1. Others are compared by their 95% prediction "
+    "intervals. Formerly: in the words of version 0.2, which called every mixture of cells 'holds "
+    "in part'."
 )
+STAND_IN_WORDS = (
+    "The files of the thesis's scenes are lost. Ours have the same names and numbers of "
+    "primitives and follow the thesis's descriptions. What the thesis prints of the lost objects "
+    "themselves, such as the number of maceta's beams and the sizes of hierarchies, is compared "
+    "and cannot be expected to agree. Scenes that were modeled after a claim cannot test it."
+)
+FIRST_FIGURES = ("5.7", "5.8", "5.12", "5.16")
+"""Those that show the thesis and ours side by side; the others are among the details."""
 BEST_WORDS = (
     "Each contender with those of its parameters that made it fastest, building included, in "
     "brackets its time over that of the first row and the interval of that ratio."
@@ -222,21 +261,24 @@ def notice(report: Report) -> str:
     return " ".join(sentences)
 
 
-_PLURALS = {Verdict.HOLDS: "hold", Verdict.IN_PART: "hold in part", Verdict.FAILS: "fail"}
-
-
 def verdict_counts(report: Report) -> str:
-    """Returns the number of claims that hold, by the thesis's own figures and by ours."""
-    parts = []
-    for whose, verdicts in (
-        ("By the thesis's own figures", [one.thesis.verdict for one in report.claims]),
-        ("by ours", [one.ours.verdict for one in report.claims]),
-    ):
-        counts = Counter(verdicts)
-        listed = (
-            f"{counts[v]} {v.value if counts[v] == 1 else _PLURALS.get(v, v.value)}"
-            for v in Verdict
-            if counts[v]
-        )
-        parts.append(f"{whose}: {', '.join(listed)}")
-    return f"{'; '.join(parts)}."
+    """Returns the number of claims by their verdicts."""
+    counts = Counter(one.ours.verdict for one in report.claims)
+    listed = ", ".join(f"{counts[v]} {v.value}" for v in Verdict if counts[v])
+    return f"Of {len(report.claims)} claims: {listed}."
+
+
+_MOST_NAMED = 2
+
+
+def undecided(report: Report) -> list[str]:
+    """Returns a sentence for each undecided claim: which cells, and what would decide them."""
+    sentences = []
+    for one in report.claims:
+        if one.ours.verdict is not Verdict.UNDECIDED:
+            continue
+        cells = [check for check in counted(one.ours.checks) if check.outcome is Outcome.UNDECIDED]
+        named = [f"{check.cell} ({check.figures})" for check in cells[:_MOST_NAMED]]
+        more = [f"{len(cells) - _MOST_NAMED} more"] if len(cells) > _MOST_NAMED else []
+        sentences.append(f"{one.claim.says} ({one.claim.name}): {'; '.join([*named, *more])}")
+    return sentences

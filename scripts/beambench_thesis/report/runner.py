@@ -34,8 +34,8 @@ class Outcome:
 def run_sweeps(plan: Plan, directory: Path, beambench: Path) -> Outcome:
     """Runs sweeps that are not finished. If one cannot be run, the others still are."""
     not_right, not_made = [], []
-    for number, sweep in enumerate(plan.sweeps, 1):
-        where = f"run {number} of {len(plan.sweeps)}: {sweep.name}"
+    for number, sweep in enumerate(plan.every_sweep, 1):
+        where = f"run {number} of {len(plan.every_sweep)}: {sweep.name}"
         state = state_of(directory / sweep.name)
         if state == "finished":
             say(f"== {where}: finished before")
@@ -67,7 +67,7 @@ def state_of(folder: Path) -> str:
 def describe(plan: Plan, directory: Path | None = None) -> str:
     """Returns a line for each sweep: its cells, its time budget, and its state."""
     lines, cells, seconds = [], 0, 0.0
-    for sweep in plan.sweeps:
+    for sweep in plan.every_sweep:
         count, state = len(sweep.cells()), "waiting"
         if directory is not None:
             state = state_of(directory / sweep.name)
@@ -78,11 +78,11 @@ def describe(plan: Plan, directory: Path | None = None) -> str:
             progress = f"{done} done"
             left *= max(0.0, 1 - done / count)
         lines.append(
-            f"{sweep.name:<18} {count:>4} cells {duration_in_words(left):>12}  {progress}".rstrip()
+            f"{sweep.name:<24} {count:>4} cells {duration_in_words(left):>12}  {progress}".rstrip()
         )
         cells += count
         seconds += left
-    lines.append(f"{'in all':<18} {cells:>4} cells {duration_in_words(seconds):>12}")
+    lines.append(f"{'in all':<24} {cells:>4} cells {duration_in_words(seconds):>12}")
     return "\n".join(lines) + "\n"
 
 

@@ -14,21 +14,34 @@ from beambench_report.base.formulas import guarded
 from beambench_report.base.published import RESOLUTIONS
 from beambench_report.base.quantities import DASH
 from beambench_report.run.html import data_uri, environment
-from beambench_thesis.claims.register import amendment, cells_of, claims_as_markdown, summary
+from beambench_thesis.claims.register import (
+    agreeing,
+    by_question,
+    cells_as_markdown,
+    cells_of,
+    claims_as_markdown,
+    effects,
+    variants_that_agree,
+)
+from beambench_thesis.claims.verdict import Verdict
 from beambench_thesis.paper.cells import Cells
 from beambench_thesis.paper.markdown import markdown_environment
 from beambench_thesis.paper.printed import interval, milliseconds, origin, thesis_seconds
 from beambench_thesis.paper.section import section_as_markdown
+from beambench_thesis.report.answers import answers
 from beambench_thesis.report.drawing import draw
 from beambench_thesis.report.plan import Plan
 from beambench_thesis.report.report import (
     BEST_WORDS,
     CLAIM_WORDS,
+    FIRST_FIGURES,
+    STAND_IN_WORDS,
     TABLE_WORDS,
     Report,
     gather,
     headline,
     notice,
+    undecided,
     verdict_counts,
 )
 
@@ -48,7 +61,7 @@ _TEMPLATES = Path(__file__).with_name("templates")
 
 
 def write_report(directory: Path, plan: Plan, beambench: Path | None = None) -> Written:
-    """Writes DIRECTORY/report.html and report.md, the figures, and the list of rows."""
+    """Writes the report and its details as pages and as Markdown, the figures, and the rows."""
     report = gather(directory, plan, beambench)
     folder = directory / "figures"
     folder.mkdir(exist_ok=True)
@@ -57,12 +70,10 @@ def write_report(directory: Path, plan: Plan, beambench: Path | None = None) -> 
             write_plot(draw(data), folder)
         for figure in (one for section in report.sections for one in section.figures):
             write_plot(figure.draw(), folder)
-    paths = (
-        write_text(directory / "report.html", as_page(report)),
-        write_text(directory / "report.md", as_markdown(report)),
-        _write_rows(report.cells, directory / "rows.csv"),
-    )
-    return Written(paths, len(report.cells.cells), len(report.cells.wrong), notice(report))
+    texts = {**as_pages(report), **as_markdown(report)}
+    paths = [write_text(directory / name, text) for name, text in texts.items()]
+    paths.append(_write_rows(report.cells, directory / "rows.csv"))
+    return Written(tuple(paths), len(report.cells.cells), len(report.cells.wrong), notice(report))
 
 
 def _write_rows(cells: Cells, path: Path) -> Path:
@@ -79,15 +90,17 @@ def _write_rows(cells: Cells, path: Path) -> Path:
     return write_whole(path, write)
 
 
-def as_markdown(report: Report) -> str:
-    """Returns the whole report."""
-    return _rendered(
-        markdown_environment(_TEMPLATES),
-        "thesis.md.j2",
-        report,
-        claims=claims_as_markdown(report.claims),
-        cells_of_claims=claims_as_markdown(report.claims, cells=True).split("\n\n", 1)[-1],
-    )
+MARKDOWN = ("report.md", "tables.md", "details.md", "cells.md")
+
+
+def as_markdown(report: Report) -> dict[str, str]:
+    """Returns the texts by the names of MARKDOWN."""
+    made = markdown_environment(_TEMPLATES)
+    claims = claims_as_markdown(report.claims)
+    cells = "# Every cell of the claims\n\nBelongs to the [report](report.md).\n\n"
+    return {
+        name: _rendered(made, f"{name}.j2", report, claims=claims) for name in MARKDOWN[:-1]
+    } | {MARKDOWN[-1]: cells + cells_as_markdown(report.claims)}
 
 
 def _rendered(made: Environment, template: str, report: Report, **values: object) -> str:
@@ -97,8 +110,9 @@ def _rendered(made: Environment, template: str, report: Report, **values: object
         "interval": interval,
         "origin": origin,
         "color": structure_color,
-        "summary": summary,
-        "amendment": amendment,
+        "effects": effects,
+        "agreeing": agreeing,
+        "variants_that_agree": variants_that_agree,
         "section_as_markdown": section_as_markdown,
         "slug": lambda text: text.replace(" ", "-"),
     }
@@ -107,6 +121,12 @@ def _rendered(made: Environment, template: str, report: Report, **values: object
         headline=headline(report),
         notice=notice(report),
         verdict_counts=verdict_counts(report),
+        answers=answers(report.claims),
+        contradicted=[one for one in report.claims if one.ours.verdict is Verdict.CONTRADICTED],
+        undecided=undecided(report),
+        by_question=by_question(report.claims),
+        first_figures=FIRST_FIGURES,
+        stand_in_words=STAND_IN_WORDS,
         dash=DASH,
         table_sizes=RESOLUTIONS,
         table_words=TABLE_WORDS,
@@ -120,25 +140,26 @@ def _rendered(made: Environment, template: str, report: Report, **values: object
     )
 
 
-def as_page(report: Report) -> str:
-    """Returns the text of the page."""
+def as_pages(report: Report) -> dict[str, str]:
+    """Returns the report and its details as pages, by their names."""
     folder = report.directory / "figures"
     manifests = [run.manifest for run in report.runs]
     facts = (pair for manifest in manifests for group in manifest.facts for pair in group.pairs)
-    return _rendered(
-        environment(_TEMPLATES),
-        "thesis.html.j2",
-        report,
-        images={
+    values = {
+        "images": {
             data.number: data_uri(folder / f"figure-{data.number}.svg") for data in report.figures
         },
-        plots={
+        "plots": {
             figure.stem: data_uri(folder / f"{figure.stem}.svg")
             for section in report.sections
             for figure in section.figures
         },
-        pictures=[(data_uri(one.path) if one.path else "", one) for one in report.pictures],
-        machine=next((manifest.machine for manifest in manifests if manifest.machine), ""),
-        uncontrolled=list(dict.fromkeys(text for one in manifests for text in one.uncontrolled)),
-        commits=list(dict.fromkeys(value[:12] for name, value in facts if name == "commit")),
-    )
+        "pictures": [(data_uri(one.path) if one.path else "", one) for one in report.pictures],
+        "machine": next((manifest.machine for manifest in manifests if manifest.machine), ""),
+        "uncontrolled": list(dict.fromkeys(text for one in manifests for text in one.uncontrolled)),
+        "commits": list(dict.fromkeys(value[:12] for name, value in facts if name == "commit")),
+    }
+    return {
+        name: _rendered(environment(_TEMPLATES), f"{name}.j2", report, **values)
+        for name in ("report.html", "details.html")
+    }

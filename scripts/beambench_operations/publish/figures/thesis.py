@@ -19,18 +19,20 @@ from beambench_thesis.claims.register import (
     SWEPT_CLAIMS,
     JudgedClaim,
     SecondLook,
+    agreeing,
+    effects,
     judge_claims,
     second_looks,
-    summary,
 )
 from beambench_thesis.claims.verdict import Outcome, Verdict
 from beambench_thesis.paper.measured import error_between_runs
+from beambench_thesis.report.answers import answers
 from beambench_thesis.report.plan import read_plan
 from beambench_thesis.report.report import Report, gather
 
 _THESIS, _NINE = "5", "9"
 _GOOD_PERCENT = 10
-_TESTED = (Verdict.HOLDS, Verdict.IN_PART, Verdict.FAILS, Verdict.UNDECIDED)
+_TESTED = (Verdict.SUPPORTED, Verdict.MIXED, Verdict.CONTRADICTED, Verdict.UNDECIDED)
 
 
 def figures(folder: Path) -> dict[str, Any]:
@@ -41,7 +43,7 @@ def figures(folder: Path) -> dict[str, Any]:
     report = gather(folder, read_plan(folder), None)
     second = _second(folder)
     more = more_runs(folder)
-    swept: Sequence[JudgedClaim] = report.claims
+    swept: Sequence[JudgedClaim] = [one for one in report.claims if one.claim in SWEPT_CLAIMS]
     runs = [*report.cells.runs, *(second.cells.runs if second else ()), folder / CENSUS]
     if second is not None:
         swept = judge_claims(runs, SWEPT_CLAIMS)
@@ -51,7 +53,7 @@ def figures(folder: Path) -> dict[str, Any]:
         looks = second_looks(before, swept)
     cluster = folder.parent / "cluster"
     claims = [*swept, *(judge_claims([cluster], CLUSTER_CLAIMS) if cluster.is_dir() else ())]
-    tested = [one for one in claims if one.ours.verdict is not Verdict.NOT_TESTED]
+    tested = [one for one in claims if one.ours.verdict in _TESTED]
     paired = [check.is_paired for one in tested for check in one.ours.checks]
     mirrors, unread = read_mirrors(sorted((folder / "mirrors").glob("*.json")))
     return {
@@ -59,6 +61,8 @@ def figures(folder: Path) -> dict[str, Any]:
         "wrong": len(report.cells.wrong),
         "claims": {one.claim.name: _claim(one) for one in tested},
         "tested": len(tested),
+        "untestable": [_claim(one) for one in claims if one.ours.verdict is Verdict.NOT_TESTABLE],
+        "answers": answers(claims),
         "verdicts": {
             verdict.value: [one.claim.name for one in tested if one.ours.verdict is verdict]
             for verdict in _TESTED
@@ -167,16 +171,19 @@ def _claim(one: JudgedClaim) -> dict[str, Any]:
     yes = [check for check in counted if check.outcome is Outcome.YES]
     ratios = [check.ratio for check in yes if check.ratio is not None]
     open_cells = [check for check in counted if check.outcome is Outcome.UNDECIDED]
+    printed, measured = effects(one)
     return {
+        "name": one.claim.name,
         "says": one.claim.says,
+        "why": one.claim.untestable,
         "verdict": one.ours.verdict.value,
-        "by_the_thesis": one.thesis.verdict.value,
-        "formerly": one.formerly.verdict.value if one.formerly else "",
+        "formerly": one.ours.formerly,
+        "effect": {"thesis": printed, "ours": measured},
+        "agreeing": agreeing(one.ours),
         "yes": len(yes),
         "cells": len(counted),
         "least": min(ratios, default=None),
         "most": max(ratios, default=None),
-        "summary": summary(one.ours),
         "undecided": [f"{check.cell}: {check.figures}" for check in open_cells],
     }
 

@@ -1,0 +1,80 @@
+"""What the report says before anything else: a sentence with one figure for each main question."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from beambench_report.base.quantities import number
+from beambench_thesis.claims.register import JudgedClaim, agreeing, effect
+from beambench_thesis.claims.verdict import Check, Outcome, Question, Verdict
+
+_NOT_MEASURED = "Not measured here."
+
+
+@dataclass(frozen=True)
+class Answer:
+    """A question and the sentence that answers it."""
+
+    question: str
+    text: str
+
+
+def answers(claims: Sequence[JudgedClaim]) -> tuple[Answer, ...]:
+    """Returns the answers to three questions: beams or rays, other structures, the cluster."""
+    by_name = {one.claim.name: one for one in claims}
+    return (
+        Answer(
+            Question.BEAMS_OR_RAYS.value,
+            _beams_against(by_name["C13"], "Samet's and Samet-Net's single rays"),
+        ),
+        Answer(
+            Question.OTHER_STRUCTURES.value,
+            _beams_against(by_name["C18"], "the voxel grid and the hierarchy"),
+        ),
+        Answer(Question.PARALLEL.value, _efficiency(by_name.get("C22"))),
+    )
+
+
+_WORDS = {
+    Verdict.SUPPORTED: "Yes",
+    Verdict.MIXED: "Not everywhere",
+    Verdict.CONTRADICTED: "Mostly not",
+    Verdict.UNDECIDED: "Undecided",
+}
+
+
+def _beams_against(one: JudgedClaim, others: str) -> str:
+    """Returns the sentence for a claim about times at 1280x1024."""
+    if one.ours.verdict not in _WORDS:
+        return _NOT_MEASURED
+    return (
+        f"{_WORDS[one.ours.verdict]}: at 1280x1024 {others} take {effect(one.ours)} as long as the "
+        f"beams, building included, and longer in {agreeing(one.ours)} comparisons; in the thesis "
+        f"{effect(one.thesis)}."
+    )
+
+
+def _efficiency(one: JudgedClaim | None) -> str:
+    """Returns the sentence on the efficiency of the parallel program over gato-bill."""
+    checks = {check.cell: check for check in one.ours.checks} if one else {}
+    found = [
+        (cell, check, _with(checks, cell))
+        for cell, check in checks.items()
+        if cell.startswith("gato-bill") and cell.endswith("best efficiency")
+    ]
+    known = [(cell, check, at) for cell, check, at in found if check.value and at and at.value]
+    if one is None or not known:
+        return f"{_NOT_MEASURED} It is simulated by `python -m beambench_thesis cluster`."
+    parts = [
+        f"{number(check.value or 0)} with {at.value:.0f} processors ({cell.split(', ')[1]})"
+        for cell, check, at in known
+    ]
+    fits = all(check.outcome is Outcome.YES for _, check, _ in known)
+    return (
+        f"Its efficiency over gato-bill, simulated, is best at {', '.join(parts)}; in the thesis "
+        f"0.75 with 11. {'That fits' if fits else 'That differs'}; of all that the thesis says of "
+        f"the efficiency {agreeing(one.ours)} cells agree."
+    )
+
+
+def _with(checks: dict[str, Check], cell: str) -> Check | None:
+    return checks.get(cell.removesuffix(" efficiency") + " with")
