@@ -12,7 +12,7 @@ from beambench_thesis.claims.chapter5 import CLAIMS, ON_OCTREES
 from beambench_thesis.claims.prose import PROSE_CLAIMS
 from beambench_thesis.claims.register import SWEPT_CLAIMS, judge, judge_ours
 from beambench_thesis.claims.verdict import Claim, Outcome, Verdict
-from beambench_thesis.paper.evidence import HIERARCHY, NOTHING, PICTURE
+from beambench_thesis.paper.evidence import HIERARCHY, NOTHING, PICTURE, PLAIN_HIERARCHY
 from synthetic_evidence import RAYS, SCENES, Row, holding, without
 
 Only = Callable[[Row], bool]
@@ -129,6 +129,10 @@ def reversed_sizes(row: Row) -> Row:
     return set_to(row, 1e3 / float(str(row["value"]))) if size else row
 
 
+def few_exits(row: Row) -> Row:
+    return row | {"exit_pixels": 1000} if "exit_pixels" in row else row
+
+
 def scene(*names: str) -> Only:
     return lambda row: row["scene"] in names
 
@@ -183,6 +187,19 @@ SPOILED = {
     "C29": Spoiling(gains_that_shrink, scene("stetra")),
     "C30": Spoiling(work("secondary_rays", 100), scene("bola-espacial")),
     "C31": Spoiling(work("shadow_cached_beams", 0.1), scene("stetra")),
+    "C32": Spoiling(few_exits, scene("stetra")),
+    "C33": Spoiling(counted_backwards, scene("misil")),
+    "C34": Spoiling(
+        lambda row: times("samet", 0.1)(row) if row.get("samples") == 5 else row, scene("tetera")
+    ),
+    "C35": Spoiling(
+        lambda row: times("beam", 100)(row) if row.get("level") == 5 else row, scene("gato-bill")
+    ),
+    "C36": Spoiling(times(PLAIN_HIERARCHY, 0.1), scene("tetera")),
+    "C37": Spoiling(
+        lambda row: times("voxel-grid", 0.01)(row) if row.get("resolution") == "320x200" else row,
+        scene("ajedrez"),
+    ),
 }
 
 
@@ -200,7 +217,7 @@ def test_there_is_a_rule_for_each_claim_of_chapter_five() -> None:
 
 
 def test_there_is_a_rule_for_each_claim_of_the_text_alone() -> None:
-    assert [claim.name for claim in PROSE_CLAIMS] == [f"C{number}" for number in range(25, 32)]
+    assert [claim.name for claim in PROSE_CLAIMS] == [f"C{number}" for number in range(25, 38)]
 
 
 @every_claim

@@ -10,6 +10,8 @@ network.
 from collections.abc import Callable
 from dataclasses import asdict
 from functools import wraps
+from itertools import product
+from math import inf
 from pathlib import Path
 
 import pandas as pd
@@ -131,6 +133,43 @@ def producer_saturates_first(e: Evidence, network: str) -> list[Check]:
     ]
 
 
+@CLUSTER_CLAIMS.claim(
+    "C38",
+    "6.1, 7.2.5",
+    "Beams on demand serve machines of unequal speed and with other load, too.",
+    Question.PARALLEL,
+)
+def serves_unequal_machines(e: Evidence) -> list[Check]:
+    """At least 0.9 of the speed that these consumers have is used, compared with equal ones, on
+    each network where they were simulated.
+    """
+
+    def used(scene: str, kind: str, network: str) -> Measured | None:
+        return ratio_of(
+            e.cluster.figure(f"slowdown_{kind}", scene, network),
+            e.cluster.figure(f"capacity_{kind}", scene, network),
+        )
+
+    checks = [
+        between(
+            f"{scene}, {network}, {words}, part of their speed",
+            used(scene, kind, network),
+            0.9,
+            inf,
+        )
+        for network in e.cluster.networks
+        if any(used(scene, kind, network) for scene in _BOTH for kind in UNEQUAL_MACHINES)
+        for scene, (kind, (words, _)) in product(_BOTH, UNEQUAL_MACHINES.items())
+    ]
+    return checks or [Check("14 unequal consumers", Outcome.MISSING)]
+
+
+UNEQUAL_MACHINES = {
+    "slow": ("every other one half as fast", 0.75),
+    "used": ("five used by others half of the time", 11.5 / 14),
+}
+"""Kinds of 14 consumers: their name in simulations.csv, and their speed over that of equal ones."""
+
 STATIONS = 15
 _ALIKE = 0.01  # a maximum this flat has no one place
 _SATURATED = 0.9
@@ -146,7 +185,15 @@ def cluster_evidence(folder: Path) -> ClusterEvidence:
     thesis = rows_with(simulations, options=THESIS_OPTIONS, machines=EQUAL_MACHINES, era="1999")
     rows: list[dict[str, object]] = []
     for (scene, network), group in thesis.groupby(["scene", "network"], sort=False):
-        figures = _efficiencies(group) | _balance(group, processes) | _bottleneck(group)
+        unequal = rows_with(
+            simulations, scene=scene, network=network, options=THESIS_OPTIONS, era="1999"
+        )
+        figures = (
+            _efficiencies(group)
+            | _balance(group, processes)
+            | _bottleneck(group)
+            | _slowdowns(group, unequal)
+        )
         rows += [
             {"scene": scene, "network": network, "quantity": quantity} | asdict(figure)
             for quantity, figure in figures.items()
@@ -192,4 +239,16 @@ def _bottleneck(group: pd.DataFrame) -> dict[str, Measured]:
         figures["consumers_that_saturate"] = Measured.exact(saturated.min())
     elif most >= _MANY:
         figures["consumers_that_saturate"] = Measured.exact(most + 1)  # or more, or never
+    return figures
+
+
+def _slowdowns(group: pd.DataFrame, unequal: pd.DataFrame) -> dict[str, Measured]:
+    """Returns what unequal machines lose; nothing where they were not simulated."""
+    equal = rows_with(group, consumers=STATIONS - 1)["seconds"]
+    figures = {}
+    for kind, (machines, capacity) in UNEQUAL_MACHINES.items():
+        seconds = rows_with(unequal, machines=machines, consumers=STATIONS - 1)["seconds"]
+        if not seconds.empty and not equal.empty:
+            figures[f"slowdown_{kind}"] = Measured.exact(equal.iloc[0] / seconds.iloc[0])
+            figures[f"capacity_{kind}"] = Measured.exact(capacity)
     return figures

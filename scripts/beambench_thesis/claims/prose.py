@@ -6,14 +6,29 @@ each rule. Octrees have level 6, as wherever the thesis does not vary it.
 
 from collections.abc import Iterable
 from dataclasses import replace
-from itertools import product
+from itertools import combinations, product
+from math import inf
 
+from beambench_report.base.published import rays
 from beambench_thesis.claims.chapter5 import ALL_SCENES, ON_OCTREES
-from beambench_thesis.claims.comparisons import beats, difference, most, ratio_of
+from beambench_thesis.claims.comparisons import SAMETS, beats, difference, most, ratio_of
 from beambench_thesis.claims.verdict import Check, Claims, Outcome, Question, below, between
-from beambench_thesis.paper.evidence import PICTURE, Evidence, Measured, largest, share, total
+from beambench_thesis.paper.evidence import (
+    HIERARCHY,
+    PICTURE,
+    PLAIN_HIERARCHY,
+    Evidence,
+    Measured,
+    largest,
+    share,
+    smallest,
+    total,
+)
 
 PROSE_CLAIMS = Claims()
+
+_SAMPLED = ("bola-espacial", "caracol", "tetera", "torre-eiffel")
+_BESIDE_HIERARCHIES = ("escena1", "escena2", "tetera", "bola-espacial")
 
 
 def _left_over(e: Evidence, cells: Iterable[tuple[str, str]], bound: float) -> list[Check]:
@@ -184,3 +199,150 @@ def shadow_cache_gains_from_beams(e: Evidence) -> list[Check]:
         )
         checks.append(below(f"{scene}, cached part of hidden shadow rays, rows to beams", *known))
     return checks or [Check("scenes with hidden shadow rays", Outcome.MISSING)]
+
+
+def _gain(e: Evidence, scene: str, resolution: str = "", samples: int = 1) -> Measured | None:
+    """Returns Samet's time over the beams'."""
+    resolution = resolution or e.finest
+    return ratio_of(
+        e.time(scene, "samet", resolution, samples=samples),
+        e.time(scene, "beam", resolution, samples=samples),
+    )
+
+
+def _leaving(e: Evidence, scene: str) -> Measured | None:
+    """Returns the part of the pixels that belong to exit beams at the highest resolution."""
+    pixels = e.count("exit_pixels", scene)
+    return pixels.times(1 / rays(e.finest)) if pixels is not None else None
+
+
+@PROSE_CLAIMS.claim(
+    "C32",
+    "7.2.3",
+    "What beams gain comes basically from those that leave the scene without meeting an occupied "
+    "leaf.",
+    Question.BEAMS_OR_RAYS,
+)
+def gains_come_from_exit_beams(e: Evidence) -> list[Check]:
+    """Basically means at least half: of the time that beams save over Samet's rays, in each of the
+    six scenes, the pixels of exit beams, traced as Samet's rays of mean cost, account for so much.
+    """
+
+    def share_of_gain(scene: str) -> Measured | None:
+        rays_take, beams_take = e.time(scene, "samet"), e.time(scene, "beam")
+        leaving = _leaving(e, scene)
+        if rays_take is None or beams_take is None or leaving is None:
+            return None
+        saved = rays_take - beams_take
+        part = rays_take.times(leaving.value)
+        return part / saved if saved.low > 0 else Measured(0.0, 0.0, inf)
+
+    return [
+        between(f"{scene}, exit beams' part of what is saved", share_of_gain(scene), 0.5, inf)
+        for scene in ON_OCTREES
+    ]
+
+
+@PROSE_CLAIMS.claim(
+    "C33",
+    "7.2.3",
+    "What beams gain grows with the free space of the scene, through which many beams pass without "
+    "meeting an occupied leaf.",
+    Question.BEAMS_OR_RAYS,
+)
+def gains_grow_with_free_space(e: Evidence) -> list[Check]:
+    """Of each two of the six scenes, the one with more pixels in exit beams gains more over Samet's
+    rays.
+    """
+    shares = {scene: _leaving(e, scene) for scene in ON_OCTREES}
+    known = {scene: share.value for scene, share in shares.items() if share is not None}
+    if len(known) < len(shares):
+        return [Check("pixels of exit beams in six scenes", Outcome.MISSING)]
+    ordered = sorted(known, key=lambda scene: known[scene])
+    return [
+        below(
+            f"{less} ({known[less]:.0%} in exit beams) below {more} ({known[more]:.0%})",
+            _gain(e, less),
+            _gain(e, more),
+        )
+        for less, more in combinations(ordered, 2)
+    ]
+
+
+@PROSE_CLAIMS.claim(
+    "C34",
+    "7.2.4",
+    "What beams gain over single rays grows with the samples per pixel.",
+    Question.BEAMS_OR_RAYS,
+)
+def gains_grow_with_the_samples(e: Evidence) -> list[Check]:
+    """Compares 5 samples with 1 at 640x480, over Samet's rays, in figure 5.11's four scenes."""
+    at = "640x480"
+    return [
+        below(
+            f"{scene} {at}, samet over beam, 1 to 5 samples",
+            _gain(e, scene, at, 1),
+            _gain(e, scene, at, 5),
+        )
+        for scene in _SAMPLED
+    ]
+
+
+@PROSE_CLAIMS.claim(
+    "C35",
+    "7.2.4",
+    "Beams are hurt less than single rays by an octree of an unsuitable level.",
+    Question.OCTREE,
+)
+def beams_mind_the_level_less(e: Evidence) -> list[Check]:
+    """From the best to the worst of levels 5 to 7 at 1280x1024, times grow less for the beams."""
+
+    def spread(scene: str, contender: str) -> Measured | None:
+        by_level = e.times_by("level", scene, contender)
+        times = [by_level[level] for level in (5, 6, 7) if level in by_level]
+        if len(times) < 3:
+            return None
+        return max(times, key=lambda time: time.value) / smallest(times)
+
+    return [
+        below(
+            f"{scene}, worst over best level, beam below {other}",
+            spread(scene, "beam"),
+            spread(scene, other),
+        )
+        for scene, other in product(("casa-de-campo", "gato-bill"), SAMETS)
+    ]
+
+
+@PROSE_CLAIMS.claim(
+    "C36",
+    "4.3, graphics 4.1, 4.2",
+    "For closest hits Kay and Kajiya's priority queue suits a hierarchy better than the plain "
+    "order of children.",
+    Question.OTHER_STRUCTURES,
+)
+def the_queue_pays(e: Evidence) -> list[Check]:
+    """The queue is quicker in each of the four scenes of tables 5.6 and 5.7, at each resolution."""
+    return [
+        beats(e, scene, HIERARCHY, PLAIN_HIERARCHY, resolution)
+        for scene, resolution in product(_BESIDE_HIERARCHIES, e.resolutions)
+    ]
+
+
+@PROSE_CLAIMS.claim(
+    "C37",
+    "5.4.2, table 5.8",
+    "Filling the grid's voxels takes most of its time where objects are many, since each asks all "
+    "objects.",
+    Question.OTHER_STRUCTURES,
+)
+def filling_dominates(e: Evidence) -> list[Check]:
+    """Filled lazily, the grid takes more than half as long at 320x200 as at 1280x1024."""
+    return [
+        below(
+            f"{scene}, half of {e.finest} below {e.coarsest}",
+            half.times(0.5) if (half := e.time(scene, "voxel-grid")) else None,
+            e.time(scene, "voxel-grid", e.coarsest),
+        )
+        for scene in ("ajedrez", "flamenco", "habitacion")
+    ]

@@ -153,6 +153,9 @@ class ClusterEvidence:
     first_end, last_end: when they finished their last beam, in seconds.
     producer_busy: the part of the time during which the producer worked, with 14 consumers.
     consumers_that_saturate: the fewest with which that is 90%.
+    slowdown, capacity: with 14 consumers of which every other one is half as fast, or five are used
+        by others half of the time (quantities end in `_slow` and `_used`): the time with equal ones
+        over that time, and the part of their speed that these have.
     """
 
     figures: pd.DataFrame
@@ -186,6 +189,8 @@ OCTREES = ("scene", "level", "objects", "occupied_leaves", "exit_pixels")
 # own insertion weighs at every level.
 HIERARCHY = "goldsmith-salmon"
 PAPER_HIERARCHY = "goldsmith-salmon, insert=everywhere"
+# Traversed as graphic 4.2 does, in the order of the children, instead of Kay and Kajiya's (4.1).
+PLAIN_HIERARCHY = "goldsmith-salmon, queue=stack"
 
 # Whole pictures, whose rays a census counts by kind.
 PICTURE = "picture"

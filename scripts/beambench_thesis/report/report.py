@@ -95,7 +95,7 @@ def gather(directory: Path, plan: Plan, beambench: Path | None = None) -> Report
     """Reads the runs; parts that were not measured are left out and listed."""
     sweeps = [*plan.sweeps, *_extra_sweeps(directory, plan)]
     every = read_cells(directory, (sweep.name for sweep in sweeps))
-    # Tables, figures and claims have one sweep for each of their cells, and none of them is LEVELS.
+    # None of the cells of tables, figures and claims is of LEVELS.
     cells = every.without(LEVELS)
     sections, unread = sections_of(directory, every)
     pictures = ()
