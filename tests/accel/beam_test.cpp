@@ -190,8 +190,8 @@ TEST(Beam, CountsTheBeamsOfMaceta) {
   };
   const scenes::Scene scene = scenes::load_scene("maceta");
   const PrimaryRays rays(scene.cameras.front(), 16, 16, 1);
-  for (const Counts& expected : {Counts{6, 38'947, 30'619, 15'012, 6'684, 23'935},
-                                 Counts{7, 406'956, 347'007, 111'054, 51'105, 295'902}}) {
+  for (const Counts& expected : {Counts{6, 118'818, 96'586, 40'646, 18'414, 78'172},
+                                 Counts{7, 737'004, 631'341, 196'561, 90'898, 540'443}}) {
     SCOPED_TRACE(expected.level);
     const auto beams = counters_of(scene, options_with(expected.level), rays);
     EXPECT_EQ(beams.at("beams"), expected.entered);

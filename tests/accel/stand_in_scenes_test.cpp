@@ -224,33 +224,6 @@ TEST(Habitacion, IsClosed) {
   }
 }
 
-// Section 5.4.2: when a beam reaches an occupied leaf, nearly all of its rays hit there. Section
-// 5.3.3: 63% of the beams are at occupied leaves.
-TEST(BolaEspacial, LetsMostRaysHitWhereTheirBeamEnds) {
-  const scenes::Scene scene = scenes::load_scene("bola-espacial");
-  const PrimaryRays rays(scene.cameras.front(), 1280, 1024, 1);
-  const auto samples = static_cast<double>(rays.count());
-  for (const auto& [level, min_share] : {std::pair(5, 0.79), std::pair(6, 0.70)}) {
-    SCOPED_TRACE(level);
-    const auto structure =
-        registry().choose({"beam", {{"max_level", std::to_string(level)}}}).build(scene);
-    HitBuffer buffer(1280, 1024, 1);
-    WorkCounters work;
-    structure->closest_hits(rays, buffer, {&work});
-    const auto counters = work.by_name();
-    const auto count = [&](const char* name) { return static_cast<double>(counters.at(name)); };
-    // Hardly any ray leaves the root without an occupied leaf on its path.
-    EXPECT_LT(count("samples_leaving"), 0.01 * samples);
-    EXPECT_GT(count("samples_in_leaves"), 0.9 * samples);
-    const double first = 1.0 - count("rays_after_leaf") / count("samples_in_leaves");
-    EXPECT_GT(first, min_share);
-    EXPECT_LT(first, min_share + 0.04) << "better: pin the new share";
-    const double occupied = count("beams_occupied") / count("beams_made");
-    EXPECT_GT(occupied, 0.5);
-    EXPECT_LT(occupied, 0.85);
-  }
-}
-
 TEST(Caracol, IsTheShellWithoutItsTip) {
   const scenes::Scene whole = scenes::load_scene("shells:n=5");
   const scenes::Scene cut = scenes::load_scene("caracol");
