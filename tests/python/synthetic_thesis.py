@@ -41,7 +41,7 @@ def write_runs(
     """Writes a finished run for each sweep of a plan, and the plan; returns DIRECTORY."""
     directory.mkdir(exist_ok=True)
     keep_plan(plan, directory)
-    for sweep in plan.sweeps:
+    for sweep in plan.every_sweep:
         if only(sweep):
             folder = directory / sweep.name
             folder.mkdir(parents=True)
@@ -89,7 +89,7 @@ def row_of(cell: PlannedCell) -> Row:
         "threads": 1,
         "scene": "escena1:seed=1999,spheres=430" if cell.scene == "escena1" else cell.scene,
         "camera": "default",
-        "primitives": primitives_by_scene()[cell.scene],
+        "primitives": primitives_by_scene()[cell.scene.split(":")[0]],
         "structure": cell.structure,
         "parameters": ",".join(f"{name}={value}" for name, value in given.items()),
         "width": int(width),

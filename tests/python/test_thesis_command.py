@@ -48,7 +48,7 @@ def test_a_dry_run_lists_sweeps_cells_and_time(capsys: pytest.CaptureFixture[str
     assert run_thesis("--dry-run") == 0
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) == 16
-    assert lines[0].split() == ["synthetic", "90", "cells", "3", "min", "20", "s"]
+    assert lines[0].split() == ["synthetic", "100", "cells", "3", "min", "20", "s"]
     assert lines[-1].startswith("in all")
     assert run_thesis("--dry-run", "--table", "5.4", "--quick") == 0
     assert len(capsys.readouterr().out.splitlines()) == 3
@@ -84,7 +84,7 @@ def test_each_sweep_is_run_once_and_a_finished_one_never_again(
     assert calls(stand_in) == [
         f"run {run}/sweeps/{name}.json -o {run}/{name}" for name in ("synthetic", "best-synthetic")
     ]
-    assert "== run 1 of 2: synthetic: 90 cells" in capsys.readouterr().err
+    assert "== run 1 of 2: synthetic: 100 cells" in capsys.readouterr().err
     # A run interrupted in the middle continues; the finished one is left alone.
     (run / "best-synthetic" / "manifest.json").write_text('{"finished_utc": null}')
     assert run_thesis("--resume", run, "--dry-run") == 0

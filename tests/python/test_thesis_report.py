@@ -279,7 +279,7 @@ def test_a_run_that_cannot_be_read_is_told_and_the_others_are_shown(tmp_path: Pa
     write_report(run, plan)
     text = pages_of(run)
     assert "best-synthetic/results.csv" in text
-    assert "90 cells in 1 runs" in text
+    assert "100 cells in 1 runs" in text
 
 
 def test_a_plan_of_before_a_figure_was_drawn_shows_it_too(tmp_path: Path) -> None:

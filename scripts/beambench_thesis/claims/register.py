@@ -51,6 +51,8 @@ class JudgedClaim:
     ours: Finding
     variants: tuple[Finding, ...] = ()
     """Ours over perturbed scenes, one for each variant of all of them."""
+    deeper: Finding | None = None
+    """Ours by the other reading of the thesis's levels."""
 
 
 def judge(claim: Claim, evidence: Evidence) -> Finding:
@@ -76,12 +78,14 @@ def judge_claims(
     claims: Sequence[Claim] = ALL_CLAIMS,
     further: Collection[Path] = (),
     variants: Sequence[Evidence] = (),
+    deeper: Evidence | None = None,
 ) -> list[JudgedClaim]:
     """Judges the claims by runs of sweeps, a folder of censuses and a simulated cluster.
 
-    Without them ours are not tested. `variants` are of perturbed scenes. `further` are those of the
-    runs that were made after a look at the verdicts by the others: an allowance is made for the
-    second look (base/fastest.py). Raises Problem where one cannot be read.
+    Without them ours are not tested. `variants` are of perturbed scenes, `deeper` of octrees by the
+    other reading of the thesis's levels. `further` are those of the runs that were made after a
+    look at the verdicts by the others: an allowance is made for the second look (base/fastest.py).
+    Raises Problem where one cannot be read.
     """
     clusters = [run for run in runs if is_cluster_folder(run)]
     censuses = [run for run in runs if is_census_folder(run)]
@@ -102,6 +106,7 @@ def judge_claims(
             judge(claim, published),
             judge_ours(claim, measured),
             tuple(judge_ours(claim, one) for one in variants),
+            judge_ours(claim, deeper) if deeper else None,
         )
         for claim in claims
     ]
@@ -165,6 +170,7 @@ _HEADS = (
     "effect, ours",
     "cells that agree",
     "variants that agree",
+    "levels read otherwise",
     "formerly",
 )
 
@@ -178,6 +184,7 @@ def row_of(one: JudgedClaim) -> tuple[str, ...]:
         *effects(one),
         agreeing(one.ours),
         variants_that_agree(one),
+        read_otherwise(one),
         one.ours.formerly,
     )
 
@@ -245,6 +252,13 @@ def variants_that_agree(one: JudgedClaim) -> str:
     ]
     agree = f"{number_of[Verdict.SUPPORTED]} of {len(tested)}"
     return agree + f" ({', '.join(rest)})" * bool(rest)
+
+
+def read_otherwise(one: JudgedClaim) -> str:
+    """Returns the verdict by the other reading of the thesis's levels, if it was measured."""
+    if one.deeper is None or one.deeper.verdict in (Verdict.NOT_TESTED, Verdict.NOT_TESTABLE):
+        return DASH
+    return one.deeper.verdict.value
 
 
 def cells_as_markdown(claims: Sequence[JudgedClaim]) -> str:

@@ -345,6 +345,21 @@ class Evidence:
         }
 
 
+def one_level_less(e: Evidence) -> Evidence:
+    """Returns the evidence with the levels of all octrees counted from one less."""
+
+    def shifted(rows: pd.DataFrame) -> pd.DataFrame:
+        return rows.assign(level=rows["level"] - (rows["level"] > 0))
+
+    at = SETTING.index("level")
+    blocks = {
+        (*key[:at], max(int(key[at]) - 1, 0), *key[at + 1 :]): own for key, own in e.blocks.items()
+    }
+    return replace(
+        e, times=shifted(e.times), work=shifted(e.work), octrees=shifted(e.octrees), blocks=blocks
+    )
+
+
 NOTHING = Evidence(
     pd.DataFrame(columns=list(TIMES)),
     pd.DataFrame(columns=list(WORK)),

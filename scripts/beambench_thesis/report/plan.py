@@ -1,6 +1,7 @@
 """The sweeps for the tables and figures that a user requests."""
 
 import json
+import re
 from collections.abc import Iterator, Sequence, Set
 from dataclasses import dataclass, replace
 from itertools import product
@@ -206,22 +207,40 @@ def variant_sweeps(number: int) -> tuple[Sweep, ...]:
     return tuple(_varied(read_sweep(name), number) for name in _VARIED)
 
 
+def deeper_sweeps() -> tuple[Sweep, ...]:
+    """Returns the sweeps by the other reading of the thesis's levels, at low resolutions.
+
+    In section 5.4 a level-5 octree has 2^5 cells along an axis, where elsewhere it has 2^4
+    (claims.md): each level is one deeper than `max_level` counts it.
+    """
+    return tuple(_deeper(read_sweep(name)) for name in _VARIED)
+
+
+def _deeper(sweep: Sweep) -> Sweep:
+    one_deeper = [_one_level_deeper(one) for one in _claimed(sweep)]
+    return _at_low_resolutions(sweep, f"deeper-{sweep.name}", structures=one_deeper)
+
+
 def _varied(sweep: Sweep, number: int) -> Sweep:
-    name = f"variant-{number}-{sweep.name}"
+    scenes = [
+        f"{scene}{',' if ':' in scene else ':'}perturb={number}" for scene in sweep.source["scenes"]
+    ]
+    return _at_low_resolutions(sweep, f"variant-{number}-{sweep.name}", scenes=scenes)
+
+
+def _claimed(sweep: Sweep) -> list[str | dict[str, Any]]:
+    """Returns the contenders that claims are about."""
+    return [_with_exact_leaves(one) for one in sweep.source["structures"] if one not in _UNCLAIMED]
+
+
+def _at_low_resolutions(sweep: Sweep, name: str, **more: object) -> Sweep:
     changes = {
         "name": f"thesis-{name}",
-        "description": f"Variant {number} of the scenes: {sweep.description}",
-        "scenes": [
-            f"{scene}{',' if ':' in scene else ':'}perturb={number}"
-            for scene in sweep.source["scenes"]
-        ],
-        "structures": [
-            _with_exact_leaves(one) for one in sweep.source["structures"] if one not in _UNCLAIMED
-        ],
+        "structures": _claimed(sweep),
         "resolutions": list(VARIANT_RESOLUTIONS),
         "repetitions": _VARIANT_REPETITIONS,
     }
-    varied = Sweep(name, sweep.source | changes)
+    varied = Sweep(name, sweep.source | changes | more)
     budget = round(_VARIANT_SECONDS_PER_CELL * len(varied.cells()), 1)
     return replace(varied, source=varied.source | {"budget_seconds": budget})
 
@@ -231,6 +250,17 @@ def _with_exact_leaves(structure: str | dict[str, Any]) -> str | dict[str, Any]:
     if isinstance(structure, str) or "leaf" not in structure["parameters"]:
         return structure
     return structure | {"parameters": structure["parameters"] | {"leaf": "exact"}}
+
+
+def _one_level_deeper(structure: str | dict[str, Any]) -> str | dict[str, Any]:
+    """Returns the contender with each of its levels increased by one."""
+    if isinstance(structure, str):
+        return re.sub(r"(?<=max_level=)\d+", lambda level: str(int(level[0]) + 1), structure)
+    levels = structure["parameters"].get("max_level")
+    if levels is None:
+        return structure
+    deeper = [level + 1 for level in levels] if isinstance(levels, list) else levels + 1
+    return structure | {"parameters": structure["parameters"] | {"max_level": deeper}}
 
 
 _PLAN = "thesis.json"
@@ -246,11 +276,14 @@ class Plan:
     sweeps: tuple[Sweep, ...]
     variants: tuple[tuple[Sweep, ...], ...] = ()
     """The sweeps of perturbed scenes, variant by variant."""
+    deeper: tuple[Sweep, ...] = ()
+    """Those by the other reading of the thesis's levels."""
 
     @property
     def every_sweep(self) -> tuple[Sweep, ...]:
         """All sweeps in the order in which they are run."""
-        return (*self.sweeps, *(sweep for variant in self.variants for sweep in variant))
+        varied = (sweep for variant in self.variants for sweep in variant)
+        return (*self.sweeps, *self.deeper, *varied)
 
     @property
     def is_everything(self) -> bool:
@@ -302,9 +335,12 @@ def add_levels(plan: Plan) -> Plan:
 
 
 def add_variants(plan: Plan, number: int) -> Plan:
-    """Returns the plan with variants of the scenes up to that number."""
+    """Returns the plan with variants of the scenes up to that number, and the deeper octrees."""
+    if not number:
+        return plan
     more = range(len(plan.variants) + 1, number + 1)
-    return replace(plan, variants=(*plan.variants, *map(variant_sweeps, more)))
+    variants = (*plan.variants, *map(variant_sweeps, more))
+    return replace(plan, variants=variants, deeper=plan.deeper or deeper_sweeps())
 
 
 def keep_plan(plan: Plan, directory: Path) -> None:
@@ -315,6 +351,7 @@ def keep_plan(plan: Plan, directory: Path) -> None:
         "quick": plan.is_quick,
         "sweeps": _kept(plan.sweeps),
         "variants": [_kept(variant) for variant in plan.variants],
+        "deeper": _kept(plan.deeper),
     }
     write_text(directory / _PLAN, json.dumps(document, indent=2) + "\n")
 
@@ -340,6 +377,7 @@ def read_plan(directory: Path) -> Plan:
             source["quick"],
             sweeps,
             tuple(map(_restored, source.get("variants", ()))),
+            _restored(source.get("deeper", ())),
         )
     except FileNotFoundError:
         raise Problem(

@@ -21,6 +21,7 @@ from beambench_thesis.claims.register import (
     cells_of,
     claims_as_markdown,
     effects,
+    read_otherwise,
     variants_that_agree,
 )
 from beambench_thesis.claims.verdict import Verdict
@@ -113,6 +114,7 @@ def _rendered(made: Environment, template: str, report: Report, **values: object
         "effects": effects,
         "agreeing": agreeing,
         "variants_that_agree": variants_that_agree,
+        "read_otherwise": read_otherwise,
         "section_as_markdown": section_as_markdown,
         "slug": lambda text: text.replace(" ", "-"),
     }
