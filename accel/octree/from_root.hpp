@@ -3,6 +3,8 @@
 // Atkinson's descent into the children in order.
 
 #include "accel/octree/box_cursor.hpp"
+#include "accel/octree/hashed_octree.hpp"
+#include "accel/octree/iterative_search.hpp"
 #include "accel/octree/octree_cursor.hpp"
 #include "accel/octree/octree_tracer.hpp"
 #include "accel/octree/on_demand_octree.hpp"
@@ -11,17 +13,22 @@
 
 namespace beambench::accel::octree {
 
-/// Each for octrees with central planes, with arbitrary planes, and divided on demand with planes
-/// of either kind.
+/// Each for octrees with central planes, with arbitrary planes, and, with planes of either kind,
+/// divided on demand, and with nodes found by their names.
 ///
 /// Glassner's traversal (IEEE CG&A 4(10), 1984).
 using Glassner = OctreeTracer<RootSearch<OctreeCursor>>;
 using GlassnerAnyPlanes = OctreeTracer<RootSearch<BoxCursor>>;
 using GlassnerOnDemand = OctreeTracer<RootSearch<OnDemandCursor>>;
+using GlassnerHashed = OctreeTracer<RootSearch<HashedCursor>>;
+using GlassnerIterative = OctreeTracer<IterativeSearch<OctreeCursor>>;
+using GlassnerIterativeOnDemand = OctreeTracer<IterativeSearch<OnDemandCursor>>;
+using GlassnerIterativeHashed = OctreeTracer<IterativeSearch<HashedCursor>>;
 
 /// Gargantini and Atkinson's traversal (Computer Graphics Forum 12(4), 1993).
 using Gargantini = OctreeTracer<ParametricSearch<OctreeCursor>>;
 using GargantiniAnyPlanes = OctreeTracer<ParametricSearch<BoxCursor>>;
 using GargantiniOnDemand = OctreeTracer<ParametricSearch<OnDemandCursor>>;
+using GargantiniHashed = OctreeTracer<ParametricSearch<HashedCursor>>;
 
 }  // namespace beambench::accel::octree

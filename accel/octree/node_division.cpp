@@ -24,7 +24,7 @@ constexpr int kCostCells = 1 << 16;
 }  // namespace
 
 CellGrid octree_grid(const scenes::Scene& scene, const OctreeOptions& options) {
-  const double tolerance = overlap_tolerance(scene);
+  const double tolerance = std::max(overlap_tolerance(scene), options.least_tolerance);
   glm::dvec3 size(0.0);
   if (!scene.bounds.empty()) size = glm::dvec3(scene.bounds.upper) - glm::dvec3(scene.bounds.lower);
   if (options.root == OctreeOptions::Root::kCube) {
@@ -41,7 +41,7 @@ CellGrid octree_grid(const scenes::Scene& scene, const OctreeOptions& options) {
 NodeDivision::NodeDivision(const scenes::Scene& scene, const OctreeOptions& options)
     : scene_(&scene),
       options_(&options),
-      tolerance_(overlap_tolerance(scene)),
+      tolerance_(std::max(overlap_tolerance(scene), options.least_tolerance)),
       grid_(octree_grid(scene, options)) {
   const auto count = static_cast<scenes::PrimitiveId>(scene.primitives.size());
   ranges_.reserve(count);

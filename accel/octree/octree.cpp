@@ -4,6 +4,7 @@
 #include "accel/octree/box_cursor.hpp"
 #include "accel/octree/for_each_node.hpp"
 #include "accel/octree/octree_cursor.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::accel::octree {
 
@@ -55,9 +56,10 @@ std::vector<ParameterInfo> OctreeOptions::top_down_parameters() {
       "where a node is divided: in its middle, or along each axis where the cost of MacDonald and "
       "Booth is the least of 10 positions between the spatial and the object median"));
   all.push_back(choice_parameter(
-      "build", "complete", {"complete", "on-demand"},
-      "when nodes are divided: all before the first ray, or those below built_level when the first "
-      "ray enters them, which changes no hit and no counter"));
+      "build", "complete", {"complete", "on-demand", "hashed"},
+      "when nodes are divided, and how they are found: all before the first ray; those below "
+      "built_level when the first ray enters them; or all before, found by their names in a hash "
+      "table instead of links, as in a linear octree; which changes no hit and no counter"));
   all.push_back(integer_parameter("built_level", defaults.built_level, 1, kDeepestLevel,
                                   "with build=on-demand, levels divided before the first ray"));
   return all;
@@ -66,8 +68,31 @@ std::vector<ParameterInfo> OctreeOptions::top_down_parameters() {
 OctreeOptions OctreeOptions::from_top_down(const Parameters& parameters) {
   OctreeOptions options = from(parameters);
   options.planes = parameters.choice("planes") == "cost" ? Planes::kCost : Planes::kMedian;
-  options.build = parameters.choice("build") == "complete" ? Build::kComplete : Build::kOnDemand;
+  const std::string& build = parameters.choice("build");
+  options.build = build == "complete"    ? Build::kComplete
+                  : build == "on-demand" ? Build::kOnDemand
+                                         : Build::kHashed;
   options.built_level = static_cast<int>(parameters.integer("built_level"));
+  return options;
+}
+
+std::vector<ParameterInfo> OctreeOptions::root_search_parameters() {
+  std::vector<ParameterInfo> all = top_down_parameters();
+  all.push_back(choice_parameter(
+      "exits", "explicit", {"explicit", "iterative"},
+      "how the exit of a leaf is found: from its planes, or by steps over the octree's finest "
+      "cells; with planes=median only"));
+  return all;
+}
+
+OctreeOptions OctreeOptions::from_root_search(const Parameters& parameters) {
+  OctreeOptions options = from_top_down(parameters);
+  options.exits = parameters.choice("exits") == "iterative" ? Exits::kIterative : Exits::kExplicit;
+  if (options.exits == Exits::kIterative && options.planes == Planes::kCost) {
+    throw InputError(
+        "exits=iterative steps over the octree's finest cells, of which planes=cost has 65,536 "
+        "along each axis; give planes=median with it, or choose exits=explicit");
+  }
   return options;
 }
 

@@ -22,8 +22,10 @@ struct OctreeOptions {
   enum class Root { kCube, kBox };          ///< a cube around the scene (thesis), or its own box
   enum class Assign { kSurface, kBounds };  ///< criterion for a reference: surface, or box
 
-  enum class Planes { kMedian, kCost };       ///< halved nodes, or planes at the least cost
-  enum class Build { kComplete, kOnDemand };  ///< before the first ray, or on demand
+  enum class Planes { kMedian, kCost };  ///< halved nodes, or planes at the least cost
+  /// Before the first ray, with links to children; on demand; before, with names of nodes.
+  enum class Build { kComplete, kOnDemand, kHashed };
+  enum class Exits { kExplicit, kIterative };  ///< of leaves: how they are found
 
   /// The value of `max_level` that lets `choose_octree` find the level.
   static constexpr int kAutomatic = 0;
@@ -32,11 +34,14 @@ struct OctreeOptions {
   std::uint32_t max_objects = 0;  ///< a leaf with more is split if its level allows
   Root root = Root::kCube;
   Assign assign = Assign::kSurface;
+  /// At least so much are overlaps widened, in scene units: for a part of a larger scene.
+  double least_tolerance = 0.0;
   double pad = 1e-6;  ///< root's margin on each side, relative to its size
   std::uint64_t max_references = 50'000'000;
 
   /// Only traversals from the root support arbitrary planes; all others refuse `kCost`.
   Planes planes = Planes::kMedian;
+  Exits exits = Exits::kExplicit;
   Build build = Build::kComplete;  ///< `OnDemandOctree` divides on demand, `Octree` never
   int built_level = 4;             ///< the level divided before the first ray, with `kOnDemand`
 
@@ -49,6 +54,10 @@ struct OctreeOptions {
   /// root down, and reading their values.
   static std::vector<ParameterInfo> top_down_parameters();
   static OctreeOptions from_top_down(const Parameters& parameters);
+
+  /// These parameters and `exits`, of the structure that searches from the root, and reading them.
+  static std::vector<ParameterInfo> root_search_parameters();
+  static OctreeOptions from_root_search(const Parameters& parameters);
 };
 
 /// Returns the finest cells of an octree with these options over a scene: its root, divided evenly

@@ -23,8 +23,8 @@ namespace beambench::accel::octree {
 /// four), and the interval in each. A node is visited once per ray; there is no search for a leaf's
 /// neighbor.
 ///
-/// They use a linear octree, which stores the codes of occupied leaves; this class uses the same
-/// octree as all other structures.
+/// They use a linear octree, which stores the codes of occupied leaves: `HashedOctree` is nearest
+/// to it.
 template <class CursorType>
 class ParametricSearch {
  public:

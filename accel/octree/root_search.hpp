@@ -14,7 +14,8 @@ namespace beambench::accel::octree {
 ///
 /// Glassner moves a point slightly beyond the leaf and locates it. Here no point is moved: the
 /// search uses the planes that the ray has crossed at the leaf's exit, so that no thin leaf is
-/// skipped. He finds nodes by a hash of their names; the nodes on the path are the same.
+/// skipped. He finds nodes by a hash of their names, as `HashedOctree` does; the nodes on the path
+/// are the same.
 template <class CursorType>
 class RootSearch {
  public:

@@ -39,14 +39,26 @@ TEST(TopDownOctree, LeavesTheirOrderAndTheTestsAreThoseOfSamet) {
     const octree::Samet samet(scene, some_octree_options(seed));
     const octree::Glassner glassner(scene, some_octree_options(seed));
     const octree::Gargantini gargantini(scene, some_octree_options(seed));
+    const octree::GlassnerHashed glassner_hashed(scene, some_octree_options(seed));
+    const octree::GargantiniHashed gargantini_hashed(scene, some_octree_options(seed));
+    const octree::GlassnerIterative iterative(scene, some_octree_options(seed));
+    const octree::GlassnerIterativeOnDemand iterative_on_demand(scene, some_octree_options(seed));
+    const octree::GlassnerIterativeHashed iterative_hashed(scene, some_octree_options(seed));
     const exhaustive::Exhaustive exhaustive(scene);
     Random random(seed);
     for (int i = 0; i < 100; ++i) {
       const Ray ray = tests::random_ray(scene, random);
       const auto expected = samet.path(ray);
       const auto hit = exhaustive.closest_hit(ray, nullptr);
+      // Its leaves have other numbers.
+      ASSERT_EQ(iterative_on_demand.path(ray).size(), expected.size());
+      ASSERT_EQ(iterative_on_demand.closest_hit(ray, nullptr), hit);
       for (const Accelerator* structure : {static_cast<const Accelerator*>(&glassner),
-                                           static_cast<const Accelerator*>(&gargantini)}) {
+                                           static_cast<const Accelerator*>(&gargantini),
+                                           static_cast<const Accelerator*>(&glassner_hashed),
+                                           static_cast<const Accelerator*>(&gargantini_hashed),
+                                           static_cast<const Accelerator*>(&iterative),
+                                           static_cast<const Accelerator*>(&iterative_hashed)}) {
         const auto actual = structure->inspector()->path(ray);
         ASSERT_EQ(actual.size(), expected.size());
         for (std::size_t step = 0; step < actual.size(); ++step) {

@@ -33,6 +33,7 @@ STRUCTURES = [
     "beam",
     "grid-beam",
     "tile-beam",
+    "ray-classification",
     "z-buffer",
     "embree",
     "null",

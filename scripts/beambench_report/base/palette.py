@@ -46,6 +46,7 @@ _STRUCTURES = (
     Tint("beam", "#d55e00", "#ec6f14"),
     Tint("grid-beam", "#a63c00", "#ff9a5c"),
     Tint("tile-beam", "#8a7f00", "#f0e442"),
+    Tint("ray-classification", "#5e4fa2", "#a99be8"),
     Tint("z-buffer", "#6b4a2b", "#c9a27a"),
 )
 # Of plug-ins, so that none is taken for a structure of the project.
@@ -56,6 +57,8 @@ _SPARE = (
     Tint("plug-in-4", "#1b5e20", "#7cc47f"),
     Tint("plug-in-5", "#c2278f", "#ff7ad1"),
 )
+SCENE_COLORS = tuple(tint.light for tint in _SPARE)
+"""For plots whose lines are scenes: no structure of the project has them."""
 TINTS = (*_PAGE, *_STRUCTURES, *_SPARE)
 
 

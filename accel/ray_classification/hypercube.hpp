@@ -1,0 +1,98 @@
+#pragma once
+// Rays as points of five dimensions, and sets of rays as boxes of them.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include <glm/vec3.hpp>
+
+#include "accel/core/overlap.hpp"
+#include "accel/core/ray.hpp"
+#include "scenes/bounds.hpp"
+
+namespace beambench::accel::ray_classification {
+
+/// One of six directions, the positive and the negative one of each axis. Seen from it, `along` is
+/// the axis on which a direction is longest, with the sign that makes rays proceed to larger
+/// numbers.
+struct Face {
+  std::size_t along;
+  std::array<std::size_t, 2> aside;
+  double sign;
+
+  static Face of(std::size_t number) {
+    const std::size_t axis = number / 2;
+    return {axis, {(axis + 1) % 3, (axis + 2) % 3}, number % 2 == 0 ? 1.0 : -1.0};
+  }
+};
+inline constexpr std::size_t kFaces = 6;
+
+/// The five coordinates of a ray seen from a face: its place along and aside, and its slopes, the
+/// components of its direction aside over that along.
+inline constexpr std::size_t kDimensions = 5;
+using Point = std::array<double, kDimensions>;
+
+struct Interval {
+  double low;
+  double high;
+
+  double size() const { return high - low; }
+};
+
+/// A set of rays of one face: its origins fill a box, its slopes two intervals.
+using Hypercube = std::array<Interval, kDimensions>;
+
+/// A box of the scene, seen from a face.
+struct SeenBox {
+  SeenBox(const Face& face, const Box& box) {
+    const double near = face.sign * box.lower[static_cast<int>(face.along)];
+    const double far = face.sign * box.upper[static_cast<int>(face.along)];
+    along = {std::min(near, far), std::max(near, far)};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto axis = static_cast<int>(face.aside[i]);
+      aside[i] = {box.lower[axis], box.upper[axis]};
+    }
+  }
+
+  Interval along;
+  std::array<Interval, 2> aside;
+};
+
+/// Keeps the part of an interval of s in which offset + slope * s <= 0.
+inline void keep_below(double offset, double slope, Interval& s) {
+  if (slope > 0.0) {
+    s.high = std::min(s.high, -offset / slope);
+  } else if (slope < 0.0) {
+    s.low = std::max(s.low, -offset / slope);
+  } else if (offset > 0.0) {
+    s.high = -1.0;
+  }
+}
+
+/// Returns whether a ray of the set may meet the box: whether at some distance s along, the places
+/// that the set's rays have there overlap it (Arvo and Kirk 1987, section 4, where a linear program
+/// or bounding cones decide). Never false if a ray meets it; true, too, where it takes one origin
+/// along and another aside.
+inline bool may_meet(const Hypercube& rays, const SeenBox& box) {
+  Interval s{std::max(0.0, box.along.low - rays[0].high), box.along.high - rays[0].low};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Interval& place = rays[1 + i];
+    const Interval& slope = rays[3 + i];
+    keep_below(place.low - box.aside[i].high, slope.low, s);
+    keep_below(box.aside[i].low - place.high, -slope.high, s);
+  }
+  return s.low <= s.high;
+}
+
+/// Returns the dimension in which the set is largest, relative to `whole`; the slopes first.
+inline std::size_t widest_dimension(const Hypercube& rays, const Hypercube& whole) {
+  constexpr std::array<std::size_t, kDimensions> kOrder{3, 4, 1, 2, 0};
+  return *std::max_element(kOrder.begin(), kOrder.end(), [&](std::size_t a, std::size_t b) {
+    return rays[a].size() * whole[b].size() < rays[b].size() * whole[a].size();
+  });
+}
+
+}  // namespace beambench::accel::ray_classification
