@@ -73,21 +73,12 @@ def _add_claims(commands: Commands) -> None:
         metavar="RUN",
         help="folder of a run, of the simulated cluster, or of censuses (scan.json, beams.json)",
     )
-    claims(
-        "--further",
-        type=Path,
-        nargs="+",
-        default=[],
-        metavar="RUN",
-        help="runs of some cells again, made after a look at the verdicts: their cells get wider "
-        "intervals, so that both looks together have 95%%",
-    )
     claims("--cells", action="store_true", help="list every cell, too")
     claims(*("-o", "--output"), type=Path, metavar="FILE.md", help="if not given, it is printed")
 
 
 def _claims(options: Options) -> Result:
-    found = judge_claims([*options.runs, *options.further], further=options.further)
+    found = judge_claims(options.runs)
     text = claims_as_markdown(found)
     if options.cells:
         text += f"\n{cells_as_markdown(found)}"

@@ -1,4 +1,4 @@
-"""Claims are ranked as contenders are: by paired ratios, a margin, and an allowance for looks."""
+"""Claims are ranked as contenders are: by paired ratios and a margin."""
 
 from __future__ import annotations
 
@@ -7,30 +7,19 @@ from math import nan
 from pathlib import Path
 from random import Random
 
-import pandas as pd
 import pytest
 
 from beambench.analysis import MARGIN
-from beambench_operations.publish.plan import Sweep as Step
-from beambench_operations.publish.plan import read_plan
 from beambench_report.base.published import COARSEST, FINEST
-from beambench_thesis.claims.register import SWEPT_CLAIMS, judge
 from beambench_thesis.claims.verdict import Outcome, below
 from beambench_thesis.paper.evidence import (
     NO_BLOCKS,
-    NOTHING,
-    SETTING,
-    TIMES,
     Blocks,
-    Evidence,
     Measured,
-    Setting,
     smallest,
 )
-from beambench_thesis.paper.measured import measured_evidence, setting_of
-from beambench_thesis.report.plan import Sweep, make_plan
+from beambench_thesis.paper.measured import measured_evidence
 from synthetic_run import synthetic_rows, write_repeated_cell, write_run
-from synthetic_thesis import row_of
 
 YES, NO, UNDECIDED, MISSING = Outcome
 
@@ -38,13 +27,13 @@ YES, NO, UNDECIDED, MISSING = Outcome
 COMMON = [Random(5).uniform(1, 1.5) for _ in range(8)]
 
 
-def timed(factor: float, noise: float = 0.002, looks: int = 1, first: int = 0) -> Measured:
+def timed(factor: float, noise: float = 0.002, first: int = 0) -> Measured:
     """Returns a time of eight blocks, whose own interval is as wide as their common noise."""
     own = {
         first + block: common * factor * (1 + noise * (-1) ** block)
         for block, common in enumerate(COMMON)
     }
-    return Measured(1.25 * factor, factor, 1.5 * factor, Blocks(own, looks))
+    return Measured(1.25 * factor, factor, 1.5 * factor, Blocks(own))
 
 
 @pytest.mark.parametrize(
@@ -106,17 +95,8 @@ def test_a_time_without_an_interval_is_not_ranked() -> None:
     for smaller, larger in ((without, Measured(9, 8.9, 9.1)), (Measured.exact(9), without)):
         found = below("cell", smaller, larger)
         assert found.outcome is UNDECIDED
-        assert found.figures.endswith("not ranked: no interval")
+        assert found.figures.endswith("too few repetitions to rank")
     assert below("cell", smallest([without, Measured(9, 8, 10)]), timed(99)).outcome is UNDECIDED
-
-
-def test_two_looks_need_more_than_one() -> None:
-    """The ratio is 1.04; its interval begins above 1 with 95%, and below with 97.5%."""
-    once, twice = (
-        below("cell", timed(1), timed(1.04, noise, looks)).outcome
-        for noise, looks in ((-0.038, 1), (-0.038, 2))
-    )
-    assert (once, twice) == (YES, UNDECIDED)
 
 
 def test_the_better_of_two_is_compared_as_the_fastest_of_a_view_is() -> None:
@@ -173,59 +153,10 @@ def test_the_contenders_of_a_view_of_one_run_are_paired(tmp_path: Path) -> None:
     assert below("cell", quick, coarse).is_paired is False
 
 
-def test_pairs_of_several_runs_count_together_with_an_allowance_for_looks(tmp_path: Path) -> None:
-    first, second = (write_in_blocks(tmp_path / name, 3) for name in "ab")
-    quick, slow = (
-        measured_evidence([first, second], [second]).time("escena1", one, FINEST) for one in FACTORS
-    )
+def test_pairs_of_several_runs_count_together(tmp_path: Path) -> None:
+    both = [write_in_blocks(tmp_path / name, 3) for name in "ab"]
+    quick, slow = (measured_evidence(both).time("escena1", one, FINEST) for one in FACTORS)
     assert quick is not None
     assert slow is not None
-    assert (len(quick.blocks.ms), quick.blocks.looks) == (6, 2)
+    assert len(quick.blocks.ms) == 6
     assert quick.blocks.ms.keys() == slow.blocks.ms.keys()
-
-
-# Extra repetitions
-
-
-class _Asked(dict):
-    """Times that remember which of them were asked for."""
-
-    def __init__(self, times: dict) -> None:
-        super().__init__(times)
-        self.settings: set[Setting] = set()
-
-    def get(self, setting: Setting, default: object = None) -> object:
-        if setting in self:
-            self.settings.add(setting)
-        return super().get(setting, default)
-
-    def __getitem__(self, setting: Setting) -> object:
-        return self.get(setting)
-
-
-def settings_of(sweeps: list[Sweep]) -> set[Setting]:
-    """Returns the settings of the thesis that some sweeps measure."""
-    known = (setting_of(row_of(cell)) for sweep in sweeps for cell in sweep.cells())
-    return {tuple(at[name] for name in SETTING) for at in known if at}
-
-
-def test_extra_repetitions_go_to_all_cells_of_a_close_claim() -> None:
-    (more,) = (folder for folder in read_plan().folders if folder.name == "thesis-more")
-    steps = [step for step in more.steps if isinstance(step, Step)]
-    repeated = settings_of([Sweep(step.into, step.config()) for step in steps])
-    planned = settings_of(list(make_plan((), (), is_quick=False).sweeps))
-    times = [dict(zip(SETTING, at, strict=True)) | {"seconds": 1.0} for at in planned]
-    evidence = Evidence(_table(times), NOTHING.work, NOTHING.octrees)
-    asked = vars(evidence)["_times"] = _Asked(evidence._times)
-    close = re.findall(r"C\d\d", more.title)
-    assert close
-    for claim in SWEPT_CLAIMS:
-        if claim.name in close:
-            judge(claim, evidence)
-    # C12 is about the work of all beams on octrees that divide leaves with any object.
-    beams = {at for at in planned if at[1] == "beam" and at[3] == 0 and at[-1] == 1}
-    assert asked.settings | beams <= repeated
-
-
-def _table(rows: list[dict[str, object]]) -> pd.DataFrame:
-    return pd.DataFrame([{"table": "", "low": 1.0, "high": 1.0} | row for row in rows])[list(TIMES)]

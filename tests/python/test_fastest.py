@@ -54,16 +54,6 @@ def test_of_too_few_repetitions_the_fastest_counts_and_has_no_error(count: int) 
     assert isnan(found.error)
 
 
-def test_a_second_look_has_a_wider_interval() -> None:
-    """Each look has 97.5%: of ten repetitions the six fastest count."""
-    file = repeated(*[(100.0 + turn, 3.0) for turn in range(10)])
-    once, twice = fastest_of([file]), fastest_of([file], looks=2)
-    assert once is not None
-    assert twice is not None
-    assert once.error == pytest.approx(4 / 102)
-    assert twice.error == pytest.approx(5 / 102.5)
-
-
 def test_repetitions_without_a_clock_rate_do_not_count() -> None:
     assert fastest_of([CellFile("", (), dict.fromkeys(range(9), 100.0))]) is None
 

@@ -27,12 +27,11 @@ from beambench_thesis.claims.register import (
     SWEPT_CLAIMS,
     Finding,
     JudgedClaim,
-    SecondLook,
     agreeing,
+    dissent,
     effect,
     judge,
     judge_claims,
-    second_looks,
     variants_that_agree,
 )
 from beambench_thesis.claims.verdict import (
@@ -76,16 +75,6 @@ def measured(value: float, half: float = 0.1) -> Measured:
 def judged(*checks: Check) -> JudgedClaim:
     finding = Finding(verdict_of(checks), list(checks))
     return JudgedClaim(ALL_CLAIMS[0], finding, finding)
-
-
-def test_a_second_look_names_the_cells_that_were_measured_again() -> None:
-    clock = 1 + 1e-12  # the rate of all runs together changes seconds, not their ratios
-    same, close = Check("a", YES, "1 against 2", 2.0), Check("b", UNDECIDED, "1 against 1", 1.01)
-    before = [judged(same, close), judged(same)]
-    after = [judged(Check("a", YES, "1 against 2", 2.0 * clock), Check("b", YES, "", 1.02))]
-    after += [judged(same)]
-    (found,) = second_looks(before, after)
-    assert found == SecondLook(ALL_CLAIMS[0].name, 1, 2, Verdict.UNDECIDED, Verdict.SUPPORTED)
 
 
 @pytest.mark.parametrize(
@@ -568,10 +557,20 @@ def test_every_claim_has_a_line_under_its_question(
 
 def test_the_effect_is_a_mean_of_ratios_or_a_median() -> None:
     ratios = [Check("a", YES, ratio=2.0), Check("b", NO, ratio=0.5), aside(Check("c", NO, ratio=9))]
-    assert effect(judged(*ratios).ours) == "1.00 times (0.500 to 2.00)"
+    claim = ALL_CLAIMS[0]
+    assert effect(claim, judged(*ratios).ours) == "1.00 times (0.500 to 2.00)"
+    of_pixels = replace(claim, quantity="of the pixels")
     values = [Check(name, YES, value=value) for name, value in (("a", 0.1), ("b", 0.3), ("c", 0.2))]
-    assert effect(judged(*values).ours) == "0.200 (0.100 to 0.300)"
-    assert effect(judged(Check("a", MISSING)).ours) == ""
+    assert effect(of_pixels, judged(*values).ours) == "0.200 of the pixels (0.100 to 0.300)"
+    assert effect(claim, judged(Check("a", MISSING)).ours) == ""
+    assert effect(replace(claim, quantity=None), judged(*ratios).ours) == ""
+
+
+def test_what_speaks_against_a_claim_is_named() -> None:
+    against = [Check(name, NO, f"{name} is small") for name in "abc"]
+    found = dissent(judged(Check("z", YES), *against).ours)
+    assert found == "a: a is small; b: b is small; 1 more"
+    assert dissent(judged(Check("z", YES)).ours) == ""
 
 
 def test_the_cells_and_the_variants_that_agree_are_counted() -> None:

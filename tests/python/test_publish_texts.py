@@ -17,13 +17,13 @@ from beambench_operations.publish.documents import (
     module_of,
     write_documents,
 )
-from beambench_operations.publish.figures.thesis import compared, more_runs, times_found_again
+from beambench_operations.publish.figures.thesis import compared, times_found_again
 from beambench_operations.publish.figures.threads import is_implausible
 from beambench_operations.publish.layout import laid_out
 from beambench_report.base.files import Problem
 from beambench_report.base.records import read_run
 from beambench_thesis.claims.verdict import Verdict
-from synthetic_run import synthetic_rows, write_manifest, write_repeated_cell, write_run
+from synthetic_run import synthetic_rows, write_repeated_cell, write_run
 
 
 @pytest.fixture
@@ -89,22 +89,6 @@ def test_times_are_found_again_where_a_second_run_lies_in_their_intervals(tmp_pa
     assert (found["cells"], found["within"]) == (29, 28)
     assert found["half"]["fastest"] == pytest.approx(0.04)
     assert found["most"] == {"fastest": pytest.approx(0.04), "median": pytest.approx(0.04 * 2.04)}
-
-
-def test_more_repetitions_count_if_they_are_of_the_same_commit_and_machine(tmp_path: Path) -> None:
-    def write(name: str, commit: str = "abc1234def") -> None:
-        folder = tmp_path / name
-        folder.mkdir(parents=True)
-        write_run(folder, synthetic_rows())
-        machine = {"id": "0123456789abcdef", "cpu": "A Made-Up Processor"}
-        write_manifest(folder, program={"commit": commit}, machine=machine)
-
-    write("thesis/synthetic")
-    assert more_runs(tmp_path / "thesis") == []
-    write("thesis-more/octree")
-    assert more_runs(tmp_path / "thesis") == [tmp_path / "thesis-more/octree"]
-    write("thesis-more/samples", commit="another")
-    assert more_runs(tmp_path / "thesis") == []
 
 
 @pytest.mark.parametrize(

@@ -150,7 +150,7 @@ def test_a_small_real_run_leaves_a_report(tmp_path: Path, monkeypatch: pytest.Mo
     run = tmp_path / "run"
     assert run_thesis("--table", "5.4", "-o", run, "--beambench", BINARY) == 0
     text = texts_of(run)
-    assert "19 cells in 2 runs, all with correct hits." in text
+    assert "19 measurements in 2 runs, all with correct hits." in text
     assert "### Table 5.4" in text
     assert (run / "figures" / "figure-5.12.svg").exists()
     assert (run / "synthetic" / "results.csv").exists()

@@ -200,7 +200,7 @@ def test_the_page_holds_everything_and_every_number_leads_to_its_row(page: str) 
     for claim in (*range(1, 22), *range(25, 32)):
         assert f'id="claim-C{claim:02}"' in page
     planned = sum(len(sweep.cells()) for sweep in PLAN.sweeps)
-    assert f"{planned:,} cells in 15 runs, all with correct hits." in page
+    assert f"{planned:,} measurements in 15 runs, all with correct hits." in page
 
 
 def test_a_row_of_the_list_names_file_line_and_cell(
@@ -228,9 +228,9 @@ def test_captions_hold_the_thesiss_numbers(report: Report) -> None:
 
 def test_captions_state_that_few_repetitions_have_no_bars(report: Report) -> None:
     captions = [figure.caption for figure in report.figures]
-    with_bars = [caption for caption in captions if "ars are intervals" in caption]
+    with_bars = [caption for caption in captions if "ars are 95% intervals" in caption]
     assert len(with_bars) > 10
-    assert all("for which some cells have too few repetitions" in caption for caption in with_bars)
+    assert all("points without bars were repeated too seldom" in caption for caption in with_bars)
 
 
 def test_every_axis_and_color_of_a_figure_is_named(everything: Path, page: str) -> None:
@@ -279,7 +279,7 @@ def test_a_run_that_cannot_be_read_is_told_and_the_others_are_shown(tmp_path: Pa
     write_report(run, plan)
     text = pages_of(run)
     assert "best-synthetic/results.csv" in text
-    assert "100 cells in 1 runs" in text
+    assert "100 measurements in 1 runs" in text
 
 
 def test_a_plan_of_before_a_figure_was_drawn_shows_it_too(tmp_path: Path) -> None:
@@ -305,6 +305,8 @@ def test_the_report_is_short_and_names_no_claim_without_its_sentence(everything:
         for name in re.findall(r"\bC\d\d\b", line):
             assert said[name] in line, line
     first = text.splitlines()[:12]
+    assert "formerly" in text
+    assert "variants that agree" not in text  # none was measured
     assert [line for line in first if line.startswith("- **Do beams beat single rays")]
 
 

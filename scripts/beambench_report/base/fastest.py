@@ -10,10 +10,9 @@ disturbed machine the least cycles lay several times as far from those of the fi
 the fastest repetitions.
 """
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import comb, nan
-from pathlib import Path
 from statistics import median
 
 import pandas as pd
@@ -40,12 +39,10 @@ class Fastest:
 _UNKNOWN = Fastest(nan, nan, nan, nan)
 
 
-def fastest_of(files: Sequence[CellFile], looks: int = 1) -> Fastest | None:
+def fastest_of(files: Sequence[CellFile]) -> Fastest | None:
     """Returns the fastest repetitions of one cell over the files of several runs.
 
-    None if no clock rate is known. Where a cell was repeated again after a look at its figures,
-    there were two `looks`, and the error has a level of 97.5%, so that 95% hold for both together
-    (Bonferroni). The error is the range of the fastest repetitions' cycles or of
+    None if no clock rate is known. The error is the range of the fastest repetitions' cycles or of
     their wall times, whichever is less: a clock that was read wrong widens only the former, one
     that changed only the latter.
     """
@@ -57,39 +54,35 @@ def fastest_of(files: Sequence[CellFile], looks: int = 1) -> Fastest | None:
     )
     if not repetitions:
         return None
-    count = _rank(len(repetitions), 0.025 / looks)
+    count = _rank(len(repetitions))
     ms, cycles, trace = zip(*repetitions[: count or 1], strict=True)
     middle = median(cycles)
     error = min((max(cycles) - min(cycles)) / middle, (ms[-1] - ms[0]) / ms[0]) if count else nan
     return Fastest(median(ms), median(trace), middle, error)
 
 
-def _rank(count: int, level: float) -> int | None:
+def _rank(count: int) -> int | None:
     """Returns the number of repetitions that count: the least rank that all of as many further ones
-    exceed with a probability of at most `level`.
+    exceed with a probability of at most 2.5%.
 
-    At 2.5%: None for fewer than four, five for six to twenty-four (repeat_spread_of_minimum of the
+    None for fewer than four, five for six to twenty-four (repeat_spread_of_minimum of the
     harness).
     """
     exceeded = ((rank, comb(2 * count - rank, count)) for rank in range(1, count + 1))
-    return next((rank for rank, ways in exceeded if ways <= level * comb(2 * count, count)), None)
+    return next((rank for rank, ways in exceeded if ways <= 0.025 * comb(2 * count, count)), None)
 
 
-def with_fastest(runs: Sequence[Run], further: Collection[Path] = ()) -> list[pd.DataFrame]:
+def with_fastest(runs: Sequence[Run]) -> list[pd.DataFrame]:
     """Returns the rows of each run with `fastest_ms` and so on: the fields of Fastest.
 
     They are NaN where the repetitions of a row are not known. Of a cell that several runs measured,
-    all repetitions count, in each of its rows. `further` are the folders of those runs that were
-    made after a look at the others.
+    all repetitions count, in each of its rows.
     """
     files: dict[Identity, list[CellFile]] = {}
-    twice: set[Identity] = set()
     for run in runs:
         for cell, file in read_cell_files(run.directory).items():
             files.setdefault(cell, []).append(file)
-            if run.directory in further:
-                twice.add(cell)
-    figures = {cell: fastest_of(own, 2 if cell in twice else 1) for cell, own in files.items()}
+    figures = {cell: fastest_of(own) for cell, own in files.items()}
     tables = []
     for run in runs:
         found = [figures.get(identity(row)) or _UNKNOWN for row in run.rows.to_dict("records")]

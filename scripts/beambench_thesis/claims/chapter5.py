@@ -70,6 +70,7 @@ def more_objects_are_slower(e: Evidence) -> list[Check]:
     "5.3.1, table 5.2",
     "More objects per leaf leave fewer occupied leaves and far fewer pixels in exit beams.",
     Question.OCTREE,
+    quantity="times as many",
 )
 def more_objects_leave_fewer_exits(e: Evidence) -> list[Check]:
     """Both numbers fall at each step; "far fewer" means at most a tenth with 40 objects."""
@@ -135,6 +136,7 @@ def slopes_fall_with_the_level(e: Evidence) -> list[Check]:
     "5.3.1, table 5.3",
     "Pixels in exit beams grow with the level, and are more for delfines than for maceta.",
     Question.OCTREE,
+    quantity="times as many",
 )
 def exits_grow_with_the_level(e: Evidence) -> list[Check]:
     """Numbers rise at each step from level 4 to 7, and are larger for delfines at each level."""
@@ -164,6 +166,7 @@ def exits_grow_with_the_level(e: Evidence) -> list[Check]:
     "5.3.2, figure 5.8",
     "The beams' time is linear in the rays; relative growth is larger for escena1 than escena2.",
     Question.GROWTH,
+    quantity="times the growth",
 )
 def time_is_linear(e: Evidence) -> list[Check]:
     """Linear means R2 of 0.99 or more. Growth is relative to the time at 320x200."""
@@ -179,6 +182,7 @@ def time_is_linear(e: Evidence) -> list[Check]:
     "5.3.2, figure 5.10",
     "Relative growth is larger for bola-espacial and caracol than for tetera and torre-eiffel.",
     Question.GROWTH,
+    quantity="times the growth",
 )
 def crowded_scenes_grow_more(e: Evidence) -> list[Check]:
     """Returns each of the two grows more than each of the others, at each resolution."""
@@ -190,6 +194,7 @@ def crowded_scenes_grow_more(e: Evidence) -> list[Check]:
     "5.3.2, figure 5.11",
     "With 5 samples per pixel the gap between crowded and spacious scenes widens.",
     Question.GROWTH,
+    quantity="times the gap",
 )
 def samples_widen_the_gap(e: Evidence) -> list[Check]:
     """The difference of the two growths of C07 is larger with 5 samples (base: 320x200 with 5)
@@ -213,6 +218,7 @@ def samples_widen_the_gap(e: Evidence) -> list[Check]:
     "5.3.3",
     "Time spent on non-terminal beams does not depend on the resolution.",
     Question.WORK,
+    quantity="times the least",
 )
 def nonterminal_time_is_constant(e: Evidence) -> list[Check]:
     """The maximum is less than 1.5 times the minimum while rays grow twentyfold."""
@@ -280,6 +286,7 @@ def beams_of_maceta(e: Evidence) -> list[Check]:
     "At 1280x1024 beams at occupied leaves take over 85% of the time in most scenes, 98% in "
     "bola-espacial, where 63% of all beams are of that kind.",
     Question.WORK,
+    quantity=None,
 )
 def occupied_leaves_take_the_time(e: Evidence) -> list[Check]:
     """Most means more than half of the scenes; bola-espacial: 95% or more, and 63 +- 10%.
@@ -309,7 +316,11 @@ def occupied_leaves_take_the_time(e: Evidence) -> list[Check]:
 
 
 @CLAIMS.claim(
-    "C12", "5.3.3", "Two cost formulas, of counts for each task, explain the time.", Question.WORK
+    "C12",
+    "5.3.3",
+    "Two cost formulas, of counts for each task, explain the time.",
+    Question.WORK,
+    quantity=None,
 )
 def formulas_explain_the_time(e: Evidence) -> list[Check]:
     """Fits to ten cells or more have R2 of 0.9 or more and a median error below a quarter."""
@@ -358,6 +369,7 @@ def _rays_before_beams(e: Evidence, scene: str, resolution: str = "") -> Check:
     "5.4.1, tables 5.4, 5.5",
     "At 320x200 individual rays can win (escena1, escena2, gato-bill, stetra).",
     Question.BEAMS_OR_RAYS,
+    quantity=None,
 )
 def rays_can_win_at_low_resolution(e: Evidence) -> list[Check]:
     """Rays win in at least one scene of table 5.4 and in at least one of table 5.5."""
@@ -460,6 +472,7 @@ def hierarchy_falls_behind(e: Evidence) -> list[Check]:
     "The grid has a best resolution (13 cells per axis for flamenco, 15 for ajedrez); the beams "
     "beat the grid at its best.",
     Question.OTHER_STRUCTURES,
+    quantity=None,
 )
 def beams_win_against_the_best_grid(e: Evidence) -> list[Check]:
     """The best of five or more grids lies between both ends, within half of 13 or 15; 1280x1024."""

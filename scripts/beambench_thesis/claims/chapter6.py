@@ -92,6 +92,7 @@ def efficiency_rises_and_falls(e: Evidence, network: str) -> list[Check]:
     "Dynamic balancing: consumers get different numbers of beams and finish at nearly the same "
     "time.",
     Question.PARALLEL,
+    quantity=None,
 )
 @_on_each_network
 def balanced_by_demand(e: Evidence, network: str) -> list[Check]:
@@ -114,6 +115,7 @@ def balanced_by_demand(e: Evidence, network: str) -> list[Check]:
     "6.3",
     "The producer becomes the bottleneck first in the scene that makes more beams (torre-eiffel).",
     Question.PARALLEL,
+    quantity=None,
 )
 @_on_each_network
 def producer_saturates_first(e: Evidence, network: str) -> list[Check]:
@@ -138,6 +140,7 @@ def producer_saturates_first(e: Evidence, network: str) -> list[Check]:
     "6.1, 7.2.5",
     "Beams on demand serve machines of unequal speed and with other load, too.",
     Question.PARALLEL,
+    quantity="of their speed",
 )
 def serves_unequal_machines(e: Evidence) -> list[Check]:
     """At least 0.9 of the speed that these consumers have is used, compared with equal ones, on

@@ -54,6 +54,7 @@ def _left_over(e: Evidence, cells: Iterable[tuple[str, str]], bound: float) -> l
     "5.4.2",
     "In bola-espacial nearly all rays hit an object in the occupied leaf where their beam ends.",
     Question.WORK,
+    quantity="of these samples",
 )
 def rays_hit_where_their_beam_ends(e: Evidence) -> list[Check]:
     """Nearly all means 90% or more, at each resolution."""
@@ -65,6 +66,7 @@ def rays_hit_where_their_beam_ends(e: Evidence) -> list[Check]:
     "3.6.2",
     "The rays of a beam that hit nothing in its occupied leaf and have to be traced on are few.",
     Question.WORK,
+    quantity="of these samples",
 )
 def few_rays_are_left_over(e: Evidence) -> list[Check]:
     """Few means less than half of the samples, in each scene at 1280x1024."""
@@ -76,6 +78,7 @@ def few_rays_are_left_over(e: Evidence) -> list[Check]:
     "6.2.1",
     "With a fitting octree, taking beams through it is no more than 10% of the whole time.",
     Question.WORK,
+    quantity="of the time",
 )
 def walking_takes_little(e: Evidence) -> list[Check]:
     """Holds in each scene at 1280x1024: the section is about high resolutions."""
@@ -91,7 +94,11 @@ def walking_takes_little(e: Evidence) -> list[Check]:
 
 
 @PROSE_CLAIMS.claim(
-    "C28", "5.3.3", "Beams that leave the scene are never the critical task.", Question.WORK
+    "C28",
+    "5.3.3",
+    "Beams that leave the scene are never the critical task.",
+    Question.WORK,
+    quantity="times as long",
 )
 def leaving_is_never_critical(e: Evidence) -> list[Check]:
     """Another task takes longer in each scene, at the lowest and at the highest resolution."""
@@ -116,6 +123,7 @@ def leaving_is_never_critical(e: Evidence) -> list[Check]:
     "5.4.1",
     "What Samet-Net gains over Samet, and the beams over both, grows with the resolution.",
     Question.BEAMS_OR_RAYS,
+    quantity=None,
 )
 def gains_grow_with_the_resolution(e: Evidence) -> list[Check]:
     """Compares 320x200 with 1280x1024. The gain of Samet-Net is the seconds saved, since the reason
@@ -156,6 +164,7 @@ def gains_grow_with_the_resolution(e: Evidence) -> list[Check]:
     "3.1",
     "Primary rays are generally more than secondary (reflected, refracted) ones.",
     Question.WORK,
+    quantity="times as many",
     untestable="The thesis's materials are lost; those of the stand-ins are beambench's own, and "
     "secondary rays follow from them.",
 )
@@ -183,6 +192,7 @@ def secondary_rays_are_fewer(e: Evidence) -> list[Check]:
     "6.2.2",
     "The shadow cache succeeds more often where pixels are grouped in beams.",
     Question.PARALLEL,
+    quantity="times as often",
 )
 def shadow_cache_gains_from_beams(e: Evidence) -> list[Check]:
     """The cache finds more hidden shadow rays, in each scene, if pixels are shaded beam by beam
@@ -222,6 +232,7 @@ def _leaving(e: Evidence, scene: str) -> Measured | None:
     "What beams gain comes basically from those that leave the scene without meeting an occupied "
     "leaf.",
     Question.BEAMS_OR_RAYS,
+    quantity="of what is saved",
 )
 def gains_come_from_exit_beams(e: Evidence) -> list[Check]:
     """Basically means at least half: of the time that beams save over Samet's rays, in each of the
@@ -249,6 +260,7 @@ def gains_come_from_exit_beams(e: Evidence) -> list[Check]:
     "What beams gain grows with the free space of the scene, through which many beams pass without "
     "meeting an occupied leaf.",
     Question.BEAMS_OR_RAYS,
+    quantity="times the gain",
 )
 def gains_grow_with_free_space(e: Evidence) -> list[Check]:
     """Of each two of the six scenes, the one with more pixels in exit beams gains more over Samet's
@@ -274,6 +286,7 @@ def gains_grow_with_free_space(e: Evidence) -> list[Check]:
     "7.2.4",
     "What beams gain over single rays grows with the samples per pixel.",
     Question.BEAMS_OR_RAYS,
+    quantity="times the gain",
 )
 def gains_grow_with_the_samples(e: Evidence) -> list[Check]:
     """Compares 5 samples with 1 at 640x480, over Samet's rays, in figure 5.11's four scenes."""
@@ -293,6 +306,7 @@ def gains_grow_with_the_samples(e: Evidence) -> list[Check]:
     "7.2.4",
     "Beams are hurt less than single rays by an octree of an unsuitable level.",
     Question.OCTREE,
+    quantity="times the loss",
 )
 def beams_mind_the_level_less(e: Evidence) -> list[Check]:
     """From the best to the worst of levels 5 to 7 at 1280x1024, times grow less for the beams."""

@@ -1,9 +1,8 @@
 """Every claim judged by the thesis's own figures and by a run's, and the table of them."""
 
 from collections import Counter
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import isclose
 from pathlib import Path
 from statistics import geometric_mean, median
 
@@ -76,23 +75,20 @@ ALL_CLAIMS = (*CLAIMS, *CLUSTER_CLAIMS, *PROSE_CLAIMS)
 def judge_claims(
     runs: Sequence[Path],
     claims: Sequence[Claim] = ALL_CLAIMS,
-    further: Collection[Path] = (),
     variants: Sequence[Evidence] = (),
     deeper: Evidence | None = None,
 ) -> list[JudgedClaim]:
     """Judges the claims by runs of sweeps, a folder of censuses and a simulated cluster.
 
     Without them ours are not tested. `variants` are of perturbed scenes, `deeper` of octrees by the
-    other reading of the thesis's levels. `further` are those of the runs that were made after a
-    look at the verdicts by the others: an allowance is made for the second look (base/fastest.py).
-    Raises Problem where one cannot be read.
+    other reading of the thesis's levels. Raises Problem where one cannot be read.
     """
     clusters = [run for run in runs if is_cluster_folder(run)]
     censuses = [run for run in runs if is_census_folder(run)]
     for kind, folders in (("simulated cluster", clusters), ("folder of censuses", censuses)):
         if len(folders) > 1:
             raise Problem(f"{folders[1]}: there is another {kind}, {folders[0]}; name one")
-    swept = measured_evidence([run for run in runs if run not in (*clusters, *censuses)], further)
+    swept = measured_evidence([run for run in runs if run not in (*clusters, *censuses)])
     counted = [swept.work, *(census_work(folder) for folder in censuses)]
     measured = replace(
         swept,
@@ -112,38 +108,6 @@ def judge_claims(
     ]
 
 
-@dataclass(frozen=True)
-class SecondLook:
-    """A claim of which some cells were measured again after its first verdict."""
-
-    claim: str
-    again: int
-    """The number of its cells that were."""
-    cells: int
-    before: Verdict
-    after: Verdict
-
-
-def second_looks(before: Sequence[JudgedClaim], after: Sequence[JudgedClaim]) -> list[SecondLook]:
-    """Compares the verdicts without and with further runs; cells with other figures have both."""
-    found = []
-    for first, second in zip(before, after, strict=True):
-        known = {check.cell: check for check in first.ours.checks}
-        own = second.ours.checks
-        again = sum(check.cell in known and _is_other(known[check.cell], check) for check in own)
-        if again:
-            verdicts = (first.ours.verdict, second.ours.verdict)
-            found.append(SecondLook(second.claim.name, again, len(own), *verdicts))
-    return found
-
-
-def _is_other(first: Check, second: Check) -> bool:
-    """Do the figures differ by more than a common clock rate, which ratios do not depend on?"""
-    if first.ratio is None or second.ratio is None:
-        return first.outcome is not second.outcome
-    return not isclose(first.ratio, second.ratio, rel_tol=1e-6)
-
-
 def by_question(claims: Sequence[JudgedClaim]) -> list[tuple[str, list[JudgedClaim]]]:
     """Returns the claims by the questions that they answer; no question without a claim."""
     asked = [
@@ -155,44 +119,54 @@ def by_question(claims: Sequence[JudgedClaim]) -> list[tuple[str, list[JudgedCla
 
 def claims_as_markdown(claims: Sequence[JudgedClaim]) -> str:
     """Returns a table of claims for each question."""
+    heads = heads_of(claims)
     tables = [
-        "\n".join([f"### {question}", "", *markdown_table(_HEADS, map(row_of, asked))])
+        "\n".join(
+            [f"### {question}", "", *markdown_table(heads, (row_of(one, heads) for one in asked))]
+        )
         for question, asked in by_question(claims)
     ]
     return "\n\n".join(tables) + "\n"
 
 
-_HEADS = (
-    "what the thesis says",
-    "where",
-    "verdict",
-    "effect, thesis",
-    "effect, ours",
-    "cells that agree",
-    "variants that agree",
-    "levels read otherwise",
-    "formerly",
-)
-
-
-def row_of(one: JudgedClaim) -> tuple[str, ...]:
-    """Returns the cells of a claim's row in the table of claims."""
+def heads_of(claims: Sequence[JudgedClaim]) -> tuple[str, ...]:
+    """Returns the heads of the table of claims; what was measured for no claim has no column."""
+    varied = any(one.variants for one in claims)
+    deeper = any(one.deeper for one in claims)
     return (
-        f"{one.claim.says} ({one.claim.name})",
-        one.claim.where,
-        f"**{one.ours.verdict.value}**",
-        *effects(one),
-        agreeing(one.ours),
-        variants_that_agree(one),
-        read_otherwise(one),
-        one.ours.formerly,
+        "what the thesis says",
+        "where",
+        "verdict",
+        "effect, thesis",
+        "effect, ours",
+        "comparisons that agree",
+        *["variants that agree"] * varied,
+        *["levels read otherwise"] * deeper,
+        "formerly",
     )
+
+
+def row_of(one: JudgedClaim, heads: Sequence[str]) -> tuple[str, ...]:
+    """Returns the fields of a claim's row below these heads."""
+    thesis, ours = effects(one)
+    fields = {
+        "what the thesis says": f"{one.claim.says} ({one.claim.name})",
+        "where": one.claim.where,
+        "verdict": f"**{one.ours.verdict.value}**",
+        "effect, thesis": thesis,
+        "effect, ours": ours,
+        "comparisons that agree": agreeing(one.ours),
+        "variants that agree": variants_that_agree(one),
+        "levels read otherwise": read_otherwise(one),
+        "formerly": one.ours.formerly,
+    }
+    return tuple(fields[head] for head in heads)
 
 
 def effects(one: JudgedClaim) -> tuple[str, str]:
     """Returns the thesis's effect and ours; of a claim that is a list of figures, ours over its."""
     if not one.claim.is_figures:
-        return effect(one.thesis) or DASH, effect(one.ours) or DASH
+        return effect(one.claim, one.thesis) or DASH, effect(one.claim, one.ours) or DASH
     printed = {check.cell: check.value for check in counted(one.thesis.checks) if check.value}
     ratios = [
         check.value / printed[check.cell]
@@ -203,18 +177,18 @@ def effects(one: JudgedClaim) -> tuple[str, str]:
     return "these figures", over
 
 
-def effect(finding: Finding) -> str:
-    """Returns the geometric mean of the ratios that a claim is about, and their range; of cells
-    that compare a figure with bounds, its median; empty if nothing was measured.
+def effect(claim: Claim, finding: Finding) -> str:
+    """Returns the geometric mean of the ratios that a claim is about, or the median of its figures,
+    with the least and the greatest; empty if nothing was measured, or nothing of one kind.
     """
     known = [check for check in counted(finding.checks) if check.outcome is not Outcome.MISSING]
     ratios = [check.ratio for check in known if check.ratio is not None and check.ratio > 0]
     values = [check.value for check in known if check.value is not None]
-    if len(ratios) >= max(1, len(values)):
-        return f"{number(geometric_mean(ratios))} times{_range(ratios)}"
-    if values:
-        return f"{number(median(values))}{_range(values)}"
-    return ""
+    if claim.quantity is None or not (ratios or values):
+        return ""
+    of_ratios = len(ratios) >= len(values)
+    middle = geometric_mean(ratios) if of_ratios else median(values)
+    return f"{number(middle)} {claim.quantity}{_range(ratios if of_ratios else values)}"
 
 
 def _range(figures: Sequence[float]) -> str:
@@ -233,6 +207,17 @@ def agreeing(finding: Finding) -> str:
     missing = len(checks) - len(known)
     rest = [f"{undecided} undecided"] * bool(undecided) + [f"{missing} missing"] * bool(missing)
     return f"{yes} of {len(checks)}" + f" ({', '.join(rest)})" * bool(rest)
+
+
+_MOST_DISSENTERS = 2
+
+
+def dissent(finding: Finding) -> str:
+    """Returns the first comparisons that say the opposite, with their figures."""
+    opposite = [check for check in counted(finding.checks) if check.outcome is Outcome.NO]
+    named = [f"{check.cell}: {check.figures}" for check in opposite[:_MOST_DISSENTERS]]
+    rest = len(opposite) - len(named)
+    return "; ".join([*named, *[f"{rest} more"] * (rest > 0)])
 
 
 def variants_that_agree(one: JudgedClaim) -> str:
@@ -276,12 +261,22 @@ def cells_of(one: JudgedClaim) -> list[tuple[str, Check, Check]]:
     ]
 
 
+def rule_in_words(one: JudgedClaim) -> str:
+    """Returns how the claim's rule judges, with its limits."""
+    return " ".join((one.claim.rule.__doc__ or "").split())
+
+
 def _cells(one: JudgedClaim) -> list[str]:
     rows = (
         (cell, thesis.outcome.value, thesis.figures, ours.outcome.value, ours.figures)
         for cell, thesis, ours in cells_of(one)
     )
-    lines = [f"## {one.claim.name}: {one.claim.says}", "", f"{one.claim.where}.", ""]
+    lines = [
+        f"## {one.claim.name}: {one.claim.says}",
+        "",
+        f"{one.claim.where}. {rule_in_words(one)}",
+        "",
+    ]
     lines += [one.claim.untestable, ""] * bool(one.claim.untestable)
     lines += markdown_table(("cell", "thesis", "figures", "ours", "figures"), rows)
     return lines

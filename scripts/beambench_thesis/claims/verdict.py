@@ -82,7 +82,7 @@ def below(cell: str, smaller: Measured | None, larger: Measured | None, factor: 
         outcome = Outcome.NO if factor == 1 else Outcome.UNDECIDED
         figures += f", equal within {MARGIN:.0%}" * (factor == 1)
     elif any(isnan(one.low) for one in (smaller, larger)) and not paired:
-        figures += ", not ranked: no interval"
+        figures += ", too few repetitions to rank"
     is_exact = any(one.low == one.high for one in (smaller, larger))
     return Check(cell, outcome, figures, ratio, is_paired=None if is_exact else bool(paired))
 
@@ -201,6 +201,8 @@ class Claim:
     rule: Rule
     is_figures: bool
     """The claim is a list of figures, which are bound to agree with themselves."""
+    quantity: str | None = "times"
+    """The unit of its effect; None where its comparisons have no common one."""
     untestable: str = ""
     """Why no stand-in can test it, in one sentence; its cells are shown nevertheless."""
 
@@ -216,12 +218,13 @@ class Claims(list[Claim]):
         question: Question,
         *,
         is_figures: bool = False,
+        quantity: str | None = "times",
         untestable: str = "",
     ) -> Callable[[Rule], Rule]:
         """Decorates the rule of a claim."""
 
         def register(rule: Rule) -> Rule:
-            self.append(Claim(name, where, says, question, rule, is_figures, untestable))
+            self.append(Claim(name, where, says, question, rule, is_figures, quantity, untestable))
             return rule
 
         return register

@@ -19,11 +19,10 @@ class Blocks:
     """The time of a cell in each block, building included.
 
     A block is a process that measured the contenders of one view; over all views and runs each has
-    a number of its own. Where more were measured after a look, there were two `looks`.
+    a number of its own.
     """
 
     ms: Mapping[int, float]
-    looks: int = 1
 
     def over(self, other: Blocks, factor: float = 1) -> Ratio | None:
         """Returns the paired ratio to another time times a factor, with its confidence interval.
@@ -31,7 +30,7 @@ class Blocks:
         None where they have fewer than two blocks in common.
         """
         under = {block: factor * ms for block, ms in other.ms.items()}
-        ratio = block_ratio(self.ms, under, max(self.looks, other.looks))
+        ratio = block_ratio(self.ms, under)
         return ratio if ratio and ratio.interval else None
 
 

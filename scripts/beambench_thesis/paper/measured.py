@@ -5,7 +5,7 @@ with pixels shaded one after the other along the rows, and `beams.json`, beam by
 shadow cache for the picture (`--shadows cache --order scan` and `--order beams`).
 """
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict
 from math import hypot, isnan, nan, sqrt
 from pathlib import Path
@@ -47,8 +47,8 @@ _THESIS = {
     # Its beams test the samples of a leaf as rays are tested; SIMD is another idea (leaf=simd).
     "beam": _OCTREE
     | {"handover": "0", "continue": "rays", "share_corners": "false", "leaf": "exact"},
-    "samet": _OCTREE,
-    "samet-net": _OCTREE,
+    "samet": _OCTREE | {"outside": "0"},
+    "samet-net": _OCTREE | {"outside": "0"},
     "voxel-grid": {"fill": "lazy", "mailboxes": "false"},
     HIERARCHY: {"order": "given"},
 }
@@ -78,13 +78,11 @@ _BEAM_COUNTS = ("beams", "beams_nonterminal", "beams_occupied", "beams_made", "b
 
 def measured_evidence(
     directories: Sequence[Path],
-    further: Collection[Path] = (),
     resolutions: tuple[str, ...] = RESOLUTIONS,
 ) -> Evidence:
     """Returns the correct rows of one or more runs that have the thesis's scenes and contenders.
 
-    If several runs measured a cell, the repetitions of all count; `further` are those of the runs
-    that were made after a look at the others. Raises Problem where a run cannot
+    If several runs measured a cell, the repetitions of all count. Raises Problem where a run cannot
     be read, or has rows of several machines.
     """
     runs = [read_run(directory) for directory in directories]
@@ -92,7 +90,7 @@ def measured_evidence(
         return NOTHING
     for run in runs:
         require_one_machine(run.rows, run.directory)
-    every = [_compared(rows) for rows in with_fastest(runs, further)]
+    every = [_compared(rows) for rows in with_fastest(runs)]
     # One clock for all runs: what they differ by in cycles, they differ by in these seconds.
     cycles, ms = (
         pd.concat(rows[f"total_{name}_median"] for rows in every) for name in ("mcycles", "ms")
@@ -110,12 +108,12 @@ def measured_evidence(
         times.drop_duplicates(list(SETTING)),
         work[once | ~is_time],
         octrees,
-        blocks=_blocks(runs, further),
+        blocks=_blocks(runs),
         resolutions=resolutions,
     )
 
 
-def _blocks(runs: Sequence[Run], further: Collection[Path]) -> dict[Setting, Blocks]:
+def _blocks(runs: Sequence[Run]) -> dict[Setting, Blocks]:
     """Returns the times of each cell by the blocks of all runs."""
     numbers: dict[tuple, int] = {}
     found: dict[Setting, Blocks] = {}
@@ -131,8 +129,7 @@ def _blocks(runs: Sequence[Run], further: Collection[Path]) -> dict[Setting, Blo
                 for block, ms in totals.get(name_of(row), {}).items()
             }
             before = found.get(key := tuple(at[name] for name in SETTING), NO_BLOCKS)
-            looks = 2 if run.directory in further else before.looks
-            found[key] = Blocks({**before.ms, **own}, looks)
+            found[key] = Blocks({**before.ms, **own})
     return found
 
 

@@ -26,6 +26,8 @@ class Points:
     at: Sequence[tuple[float, Measured]]
     is_joined: bool = True
     """Is a line drawn through the points?"""
+    color: str = ""
+    """If not given, the structure's."""
 
 
 @dataclass(frozen=True)
@@ -114,7 +116,7 @@ def _draw_side(axis: Axes, side: Side) -> None:
             [figure.value for figure in figures],
             yerr=[below, above] if any(below) or any(above) else None,
             label=line.label,
-            color=look.color,
+            color=line.color or look.color,
             marker=look.marker,
             linestyle=look.dashes if line.is_joined else "none",
             markersize=4.5,

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 
+from beambench_report.base.palette import SCENE_COLORS
 from beambench_report.base.published import COARSEST, FINEST, RESOLUTIONS, rays
 from beambench_report.base.quantities import number
 from beambench_thesis.paper.cells import Cell, Cells
@@ -21,7 +22,7 @@ from beambench_thesis.report.drawing import FigureData, Panel, Points, Side
 ACROSS = "rays / 10,000"
 TICKS = tuple(round(rays(resolution) / 1e4, 2) for resolution in RESOLUTIONS)
 
-_BARS = "bars are intervals, for which some cells have too few repetitions"
+_BARS = "bars are 95% intervals; points without bars were repeated too seldom"
 
 _RESOLUTION = SETTING.index("resolution")
 
@@ -251,8 +252,8 @@ def _of_table(
         title,
         tuple(_table_panel(part, cells) for part in parts),
         ACROSS,
-        f"{_caption_of(parts)} Each part is drawn as a multiple of its first row's time at "
-        f"320x200, the thesis's left and ours right; build included; {_BARS}"
+        f"{_caption_of(parts)} Times are divided by the first curve's at 320x200, the "
+        f"thesis's left and ours right; building included; {_BARS}"
         f"{'; the vertical axis is logarithmic' if is_log else ''}.",
         TICKS,
         is_log,
@@ -375,8 +376,10 @@ def _percent(figure: Measured, base: Measured, *, is_base: bool) -> Measured:
 
 def _lines(lines: dict) -> tuple[Points, ...]:
     return tuple(
-        Points(scene_title(scene), "beam", variant, points)
-        for variant, (scene, points) in enumerate(lines.items())
+        Points(scene_title(scene), "beam", variant, points, color=color)
+        for variant, ((scene, points), color) in enumerate(
+            zip(lines.items(), SCENE_COLORS, strict=False)
+        )
         if points
     )
 

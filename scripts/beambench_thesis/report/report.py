@@ -26,7 +26,7 @@ from beambench_thesis.claims.register import (
 from beambench_thesis.claims.verdict import Outcome, Verdict, counted
 from beambench_thesis.paper.cells import Cell, Cells, read_cells
 from beambench_thesis.paper.evidence import Evidence, one_level_less
-from beambench_thesis.paper.measured import is_census_folder, measured_evidence
+from beambench_thesis.paper.measured import SPREAD_OF_PARTS, is_census_folder, measured_evidence
 from beambench_thesis.paper.printed import parts_of
 from beambench_thesis.paper.section import Section
 from beambench_thesis.report.drawing import FigureData
@@ -215,28 +215,46 @@ TABLE_WORDS = (
     "Kay and Kajiya's queue, no handover. Rows marked (of today) or (Goldsmith and Salmon 1987) "
     "are not the thesis's."
 )
-CLAIM_WORDS = (
-    "Each claim is a rule that judges cells of the thesis's tables. Supported: every cell agrees; "
-    "contradicted: most cells say the opposite; mixed: in between; undecided: it depends on cells "
-    "whose difference chance may explain; not testable: it rests on what is lost. The effect is "
-    "the geometric mean over the cells, with their range, of what should be larger over what "
-    "should be smaller, or the median of a figure. Variants are perturbed scenes: other seeds, "
-    "cameras and places of objects, judged at 320x200 and 640x480 alone, so that what the thesis "
-    "says of 1280x1024 is judged there at 640x480. Levels read otherwise: each octree one level "
-    "deeper, as one line of section 5.4 counts, at these resolutions, too. Beams test the samples "
-    "of a leaf as single rays are tested (leaf=exact). Times of the same blocks are ranked by "
-    f"their paired ratio: equal where its 95% confidence interval ends within {MARGIN:.0%} of 1, else "
-    "one is below the other where the interval does not contain 1. Others are compared by their "
-    "95% prediction intervals. Formerly: in the words of version 0.2, which called every mixture "
-    "of cells 'holds in part'."
+
+
+def claim_words(claims: Sequence[JudgedClaim]) -> str:
+    """Returns how claims are judged, and what the columns of their table mean."""
+    varied = _VARIED_WORDS if any(one.variants for one in claims) else ""
+    return f"{_CLAIM_WORDS}{varied}{_RANKING_WORDS}"
+
+
+_CLAIM_WORDS = (
+    "Each claim is a rule that makes comparisons, for each scene and resolution that the claim is "
+    "about. Supported: every comparison agrees; contradicted: most say the opposite; mixed: in "
+    "between; undecided: it depends on differences that chance may explain, or that were measured "
+    "too seldom; not testable: it rests on something of which the thesis says nothing. The effect "
+    "is the geometric mean over the comparisons of what should be larger over what should be "
+    "smaller, or the median of a figure; in brackets the least and the greatest of them, which are "
+    "no intervals. "
+)
+_VARIED_WORDS = (
+    "Variants are perturbed scenes: other seeds, cameras and places of objects, judged at 320x200 "
+    "and 640x480 alone, so that what the thesis says of 1280x1024 is judged there at 640x480. "
+    "Levels read otherwise: one line of section 5.4 seems to count levels from one less, so each "
+    "octree is one level deeper, at these resolutions, too. "
+)
+_RANKING_WORDS = (
+    "Beams test the samples of a leaf one by one, as single rays are tested, without SIMD. Times "
+    "of the same blocks are ranked by their paired ratio: equal where its 95% confidence interval "
+    f"ends within {MARGIN:.0%} of 1, else one is below the other where the interval does not "
+    "contain 1. Others are compared by their 95% prediction intervals. Those of single tasks' "
+    f"times are assumed, from two repeated runs: {SPREAD_OF_PARTS:.0%} either way. Formerly: the "
+    "verdict in the words of version 0.2, which called every mixture of comparisons 'holds in "
+    "part'."
 )
 STAND_IN_WORDS = (
     "The files of the thesis's scenes are lost. Ours have the same names and numbers of "
     "primitives and follow the thesis's descriptions. What the thesis prints of the lost objects "
     "themselves, such as the number of maceta's beams and the sizes of hierarchies, is compared "
-    "and cannot be expected to agree. The thesis's test of a cube and a polygon (section 3.3) is "
-    "exact and gives an octree the references of ours (tests/accel/thesis_overlap_test.cpp). "
-    "Scenes that were modeled after a claim cannot test it."
+    "and need not agree. The thesis's test of a cube and a polygon (section 3.3) is exact and puts "
+    "the same objects into each leaf as ours (tests/accel/thesis_overlap_test.cpp). Until commit "
+    "7811fb1 bola-espacial, delfines and maceta had been modeled after figures and sentences that "
+    "they then tested; they now follow the thesis's descriptions alone."
 )
 FIRST_FIGURES = ("5.7", "5.8", "5.12", "5.16")
 """Those that show the thesis and ours side by side; the others are among the details."""
@@ -252,7 +270,7 @@ def headline(report: Report) -> str:
     if not cells:
         return "Nothing was measured yet."
     right = f"{wrong} of them wrong, and without times" if wrong else "all with correct hits"
-    return f"{cells:,} cells in {len(report.cells.runs)} runs, {right}."
+    return f"{cells:,} measurements in {len(report.cells.runs)} runs, {right}."
 
 
 def notice(report: Report) -> str:

@@ -20,9 +20,10 @@ from beambench_thesis.claims.register import (
     cells_as_markdown,
     cells_of,
     claims_as_markdown,
-    effects,
-    read_otherwise,
-    variants_that_agree,
+    dissent,
+    heads_of,
+    row_of,
+    rule_in_words,
 )
 from beambench_thesis.claims.verdict import Verdict
 from beambench_thesis.paper.cells import Cells
@@ -34,11 +35,11 @@ from beambench_thesis.report.drawing import draw
 from beambench_thesis.report.plan import Plan
 from beambench_thesis.report.report import (
     BEST_WORDS,
-    CLAIM_WORDS,
     FIRST_FIGURES,
     STAND_IN_WORDS,
     TABLE_WORDS,
     Report,
+    claim_words,
     gather,
     headline,
     notice,
@@ -98,7 +99,7 @@ def as_markdown(report: Report) -> dict[str, str]:
     """Returns the texts by the names of MARKDOWN."""
     made = markdown_environment(_TEMPLATES)
     claims = claims_as_markdown(report.claims)
-    cells = "# Every cell of the claims\n\nBelongs to the [report](report.md).\n\n"
+    cells = "# Every comparison of the claims\n\nBelongs to the [report](report.md).\n\n"
     return {
         name: _rendered(made, f"{name}.j2", report, claims=claims) for name in MARKDOWN[:-1]
     } | {MARKDOWN[-1]: cells + cells_as_markdown(report.claims)}
@@ -111,10 +112,8 @@ def _rendered(made: Environment, template: str, report: Report, **values: object
         "interval": interval,
         "origin": origin,
         "color": structure_color,
-        "effects": effects,
         "agreeing": agreeing,
-        "variants_that_agree": variants_that_agree,
-        "read_otherwise": read_otherwise,
+        "dissent": dissent,
         "section_as_markdown": section_as_markdown,
         "slug": lambda text: text.replace(" ", "-"),
     }
@@ -133,7 +132,12 @@ def _rendered(made: Environment, template: str, report: Report, **values: object
         table_sizes=RESOLUTIONS,
         table_words=TABLE_WORDS,
         best_words=BEST_WORDS,
-        claim_words=CLAIM_WORDS,
+        claim_words=claim_words(report.claims),
+        heads=heads_of(report.claims),
+        row_of=row_of,
+        rule_in_words=rule_in_words,
+        zip=zip,
+        **_origin(report),
         ratio_interval=partial(interval, factor=1, unit=""),
         cells_of=cells_of,
         states={"finished": "finished", "begun": "cut off", "waiting": "not run"},
@@ -142,11 +146,20 @@ def _rendered(made: Environment, template: str, report: Report, **values: object
     )
 
 
+def _origin(report: Report) -> dict[str, object]:
+    """Returns the machine and the commits of the runs, for their names in the templates."""
+    manifests = [run.manifest for run in report.runs]
+    facts = (pair for manifest in manifests for group in manifest.facts for pair in group.pairs)
+    return {
+        "machine": next((manifest.machine for manifest in manifests if manifest.machine), ""),
+        "commits": list(dict.fromkeys(value[:12] for name, value in facts if name == "commit")),
+    }
+
+
 def as_pages(report: Report) -> dict[str, str]:
     """Returns the report and its details as pages, by their names."""
     folder = report.directory / "figures"
     manifests = [run.manifest for run in report.runs]
-    facts = (pair for manifest in manifests for group in manifest.facts for pair in group.pairs)
     values = {
         "images": {
             data.number: data_uri(folder / f"figure-{data.number}.svg") for data in report.figures
@@ -157,9 +170,7 @@ def as_pages(report: Report) -> dict[str, str]:
             for figure in section.figures
         },
         "pictures": [(data_uri(one.path) if one.path else "", one) for one in report.pictures],
-        "machine": next((manifest.machine for manifest in manifests if manifest.machine), ""),
         "uncontrolled": list(dict.fromkeys(text for one in manifests for text in one.uncontrolled)),
-        "commits": list(dict.fromkeys(value[:12] for name, value in facts if name == "commit")),
     }
     return {
         name: _rendered(environment(_TEMPLATES), f"{name}.j2", report, **values)

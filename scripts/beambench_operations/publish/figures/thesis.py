@@ -18,11 +18,9 @@ from beambench_thesis.claims.chapter6 import CLUSTER_CLAIMS
 from beambench_thesis.claims.register import (
     SWEPT_CLAIMS,
     JudgedClaim,
-    SecondLook,
     agreeing,
     effects,
     judge_claims,
-    second_looks,
 )
 from beambench_thesis.claims.verdict import Outcome, Verdict
 from beambench_thesis.paper.measured import error_between_runs
@@ -38,19 +36,14 @@ _TESTED = (Verdict.SUPPORTED, Verdict.MIXED, Verdict.CONTRADICTED, Verdict.UNDEC
 def figures(folder: Path) -> dict[str, Any]:
     """Claims by verdict, each with its cells and the range of its ratios; planar mirrors.
 
-    Where there are further runs of the same commit and machine, the repetitions of all count.
+    Where there is a second run of the same commit and machine, the repetitions of both count.
     """
     report = gather(folder, read_plan(folder), None)
     second = _second(folder)
-    more = more_runs(folder)
     swept: Sequence[JudgedClaim] = [one for one in report.claims if one.claim in SWEPT_CLAIMS]
     runs = [*report.cells.runs, *(second.cells.runs if second else ()), folder / CENSUS]
     if second is not None:
         swept = judge_claims(runs, SWEPT_CLAIMS)
-    looks: list[SecondLook] = []
-    if more:
-        before, swept = swept, judge_claims([*runs, *more], SWEPT_CLAIMS, more)
-        looks = second_looks(before, swept)
     cluster = folder.parent / "cluster"
     claims = [*swept, *(judge_claims([cluster], CLUSTER_CLAIMS) if cluster.is_dir() else ())]
     tested = [one for one in claims if one.ours.verdict in _TESTED]
@@ -70,8 +63,6 @@ def figures(folder: Path) -> dict[str, Any]:
         "alone": Counter(one.ours.verdict.value for one in report.claims),
         "margin": MARGIN,
         "again": _again(report, second) if second else None,
-        "more": len(more),
-        "looks": looks,
         "compared": len(paired) - paired.count(None),
         "paired": paired.count(True),
         "mirrors": mirrors,
@@ -85,16 +76,6 @@ def _second(folder: Path) -> Report | None:
     """A second run of the same kind."""
     again = folder.with_name(f"{folder.name}-again")
     return gather(again, read_plan(again)) if _is_of_one_kind(again, folder) else None
-
-
-def more_runs(folder: Path) -> list[Path]:
-    """Runs of single cells, with more repetitions, by the commit and machine of FOLDER's.
-
-    They are made by `scripts/publish --only thesis-more`.
-    """
-    more = folder.with_name(f"{folder.name}-more")
-    found = sorted(path.parent for path in more.glob("*/results.csv"))
-    return found if _is_of_one_kind(more, folder) else []
 
 
 def _is_of_one_kind(other: Path, folder: Path) -> bool:
