@@ -1243,7 +1243,7 @@ def test_a_full_disk_is_reported() -> None:
 
 
 def test_trace_with_beams_prints_those_of_the_sample() -> None:
-    command = ["trace", "delfines", "--accel", "beam:max_level=5", "--pixel", "30,30"]
+    command = ["trace", "delfines", "--accel", "beam:max_level=5", "--pixel", "44,30"]
     command += ["--resolution", "64x64"]
     way = json.loads(beambench(*command, "--json").stdout)
     kinds = [beam["kind"] for beam in way["beams"]]

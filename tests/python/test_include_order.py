@@ -30,6 +30,7 @@ MODULES = {
     "accel/beam": "accel::beam",
     "accel/grid_beam": "accel::grid_beam",
     "accel/tile_beam": "accel::tile_beam",
+    "accel/ray_classification": "accel::ray_classification",
     "accel/z_buffer": "accel::z_buffer",
     "accel/embree": "accel::embree",
     "accel/null": "accel::null",

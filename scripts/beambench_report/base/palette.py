@@ -46,7 +46,7 @@ _STRUCTURES = (
     Tint("beam", "#d55e00", "#ec6f14"),
     Tint("grid-beam", "#a63c00", "#ff9a5c"),
     Tint("tile-beam", "#8a7f00", "#f0e442"),
-    Tint("ray-classification", "#5e4fa2", "#a99be8"),
+    Tint("ray-classification", "#7a00cc", "#c77dff"),
     Tint("z-buffer", "#6b4a2b", "#c9a27a"),
 )
 # Of plug-ins, so that none is taken for a structure of the project.

@@ -144,7 +144,7 @@ def _at_low_resolutions(directory: Path, sweeps: Sequence[Sweep]) -> Evidence | 
     folders = [directory / sweep.name for sweep in sweeps]
     if not folders or any(state_of(folder) != "finished" for folder in folders):
         return None
-    return measured_evidence(folders, (), VARIANT_RESOLUTIONS)
+    return measured_evidence(folders, VARIANT_RESOLUTIONS)
 
 
 def sections_of(directory: Path, cells: Cells) -> tuple[list[Section], list[str]]:
