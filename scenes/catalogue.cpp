@@ -81,15 +81,16 @@ void require_primitives(const Scene& scene, const std::vector<std::string>& noti
 /// that is another one, too.
 std::uint64_t take_perturbation(Spec& spec, const SceneInfo& info) {
   const ParameterInfo& perturb = perturb_parameter();
-  const auto given =
-      std::ranges::find(spec.parameters, perturb.name, [](const auto& pair) { return pair.first; });
+  const auto find_given = [&](std::string_view name) {
+    return std::ranges::find(spec.parameters, name, [](const auto& pair) { return pair.first; });
+  };
+  const auto given = find_given(perturb.name);
   if (given == spec.parameters.end()) return 0;
   const Parameters own(info.name, std::span(&perturb, 1), std::span(&*given, 1));
   const auto number = static_cast<std::uint64_t>(own.integer(perturb.name));
   spec.parameters.erase(given);
   const auto seed = std::ranges::find(info.parameters, "seed", &ParameterInfo::name);
-  const bool is_given =
-      std::ranges::any_of(spec.parameters, [](const auto& pair) { return pair.first == "seed"; });
+  const bool is_given = find_given("seed") != spec.parameters.end();
   if (number > 0 && seed != info.parameters.end() && !is_given) {
     spec.parameters.emplace_back("seed", std::to_string(std::stoull(seed->default_value) + number));
   }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numbers>
 #include <numeric>
 #include <span>
 #include <tuple>
@@ -14,8 +13,8 @@
 #include <glm/vec4.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "scenes/base/portable_math.hpp"
 #include "scenes/base/random.hpp"
+#include "scenes/base/rotation.hpp"
 #include "scenes/scene_builder.hpp"
 
 namespace beambench::scenes {
@@ -68,20 +67,8 @@ dmat4 moved_by(const dvec3& offset) {
   return result;
 }
 
-/// Turns about an axis by a sine and a cosine that are the same on every machine.
-dmat4 turned(int axis, double degrees) {
-  const double angle = degrees * std::numbers::pi / 180.0;
-  const int next = (axis + 1) % 3;
-  const int last = (axis + 2) % 3;
-  dmat4 result(1.0);
-  result[next][next] = result[last][last] = portable_cos(angle);
-  result[next][last] = portable_sin(angle);
-  result[last][next] = -portable_sin(angle);
-  return result;
-}
-
 dmat4 turned_about(const dvec3& center, int axis, double degrees) {
-  return moved_by(center) * turned(axis, degrees) * moved_by(-center);
+  return moved_by(center) * rotation(axis, degrees) * moved_by(-center);
 }
 
 /// Returns a transform for each object, by the number of its first primitive.
@@ -111,7 +98,7 @@ Camera varied(Camera camera, const Bounds& bounds, Random& random) {
   const glm::vec3& eye = camera.from;
   const bool is_inside = glm::all(glm::greaterThanEqual(eye, bounds.lower)) &&
                          glm::all(glm::lessThanEqual(eye, bounds.upper));
-  const dmat4 turn = turned(vertical_axis(camera), degrees);
+  const dmat4 turn = rotation(vertical_axis(camera), degrees);
   const dvec3 from_at = dvec3(turn * glm::dvec4(dvec3(camera.from) - dvec3(camera.at), 0.0));
   if (is_inside) {
     camera.at = glm::vec3(dvec3(camera.from) - from_at);

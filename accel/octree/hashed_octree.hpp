@@ -22,7 +22,8 @@ namespace beambench::accel::octree {
 /// of the numbers of the children on the way from the root, as octal digits after a 1 (Gargantini,
 /// "An effective way to represent quadtrees", CACM 25(12), 1982), and a hash table leads from names
 /// to nodes, as in Glassner ("Space subdivision for fast ray tracing", IEEE CG&A 4(10), 1984). Here
-/// the table has interior nodes, too, so that a search knows where to stop.
+/// the table has interior nodes, too, so that a search ends at a leaf. The nodes are those of
+/// `Octree`: their links remain, unused, and count in the bytes.
 class HashedOctree {
  public:
   static constexpr std::uint64_t kRootName = 1;

@@ -23,7 +23,7 @@ struct OctreeOptions {
   enum class Assign { kSurface, kBounds };  ///< criterion for a reference: surface, or box
 
   enum class Planes { kMedian, kCost };  ///< halved nodes, or planes at the least cost
-  /// Before the first ray, with links to children; on demand; before, with names of nodes.
+  /// Nodes are divided before the first ray or on demand; kHashed: before, and found by names.
   enum class Build { kComplete, kOnDemand, kHashed };
   enum class Exits { kExplicit, kIterative };  ///< of leaves: how they are found
 

@@ -3,15 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <optional>
 
 #include <glm/vec3.hpp>
 
 #include "accel/core/overlap.hpp"
-#include "accel/core/ray.hpp"
-#include "scenes/bounds.hpp"
 
 namespace beambench::accel::ray_classification {
 

@@ -23,11 +23,10 @@ std::vector<double> common_ratios(const std::map<int, double>& over,
 
 }  // namespace
 
-std::optional<TimeRatio> block_ratio(const TimesByBlock& over, const TimesByBlock& under,
-                                     int looks) {
+std::optional<TimeRatio> block_ratio(const TimesByBlock& over, const TimesByBlock& under) {
   const std::vector<double> ratios = common_ratios(over, under);
   if (ratios.empty()) return std::nullopt;
-  const measure::Estimate mean = measure::estimate(ratios, looks);
+  const measure::Estimate mean = measure::estimate(ratios);
   return TimeRatio{mean.value, mean.confidence, true, mean.prediction, mean.error};
 }
 

@@ -43,10 +43,9 @@ using TimesByRound = std::map<int, double>;
 /// Times by blocks: the value of each (`measure::trace_by_block`).
 using TimesByBlock = std::map<int, double>;
 
-/// Returns the geometric mean of the ratios of the blocks that both have, with the intervals of so
-/// many looks (`measure::estimate`); nothing where they have no block in common.
-std::optional<TimeRatio> block_ratio(const TimesByBlock& over, const TimesByBlock& under,
-                                     int looks = 1);
+/// Returns the geometric mean of the ratios of the blocks that both have, with its
+/// intervals (`measure::estimate`); nothing where they have no block in common.
+std::optional<TimeRatio> block_ratio(const TimesByBlock& over, const TimesByBlock& under);
 
 /// Returns the median ratio of the rounds that both have; nothing where they have no round in
 /// common.

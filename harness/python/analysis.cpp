@@ -112,11 +112,10 @@ void bind_analysis(nb::module_& module) {
       nb::arg("over"), nb::arg("under"), "Returns the median ratio of the common rounds.");
   module.def(
       "block_ratio",
-      [](const analysis::TimesByBlock& over, const analysis::TimesByBlock& under, int looks) {
-        return known_fields_of(analysis::block_ratio(over, under, looks));
+      [](const analysis::TimesByBlock& over, const analysis::TimesByBlock& under) {
+        return known_fields_of(analysis::block_ratio(over, under));
       },
-      nb::arg("over"), nb::arg("under"), nb::arg("looks"),
-      "Returns the mean ratio of the common blocks.");
+      nb::arg("over"), nb::arg("under"), "Returns the mean ratio of the common blocks.");
   module.def(
       "is_undisturbed",
       [](double trace_ms, double trace_cpu_ms) {

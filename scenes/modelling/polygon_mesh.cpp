@@ -89,19 +89,6 @@ glm::dvec3 area_normal(const PolygonMesh& mesh, const PolygonMesh::Corners& corn
   return sum;
 }
 
-glm::dmat4 rotation(int axis, double degrees) {
-  const double cosine = portable_cos(glm::radians(degrees));
-  const double sine = portable_sin(glm::radians(degrees));
-  const int next = (axis + 1) % 3;
-  const int last = (axis + 2) % 3;
-  glm::dmat4 matrix(1.0);
-  matrix[next][next] = cosine;
-  matrix[next][last] = sine;
-  matrix[last][next] = -sine;
-  matrix[last][last] = cosine;
-  return matrix;
-}
-
 PolygonMesh welded(const PolygonMesh& mesh) {
   double largest = 0.0;
   for (const glm::dvec3& vertex : mesh.vertices) {

@@ -24,6 +24,8 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
+#include "scenes/base/rotation.hpp"
+
 namespace beambench::scenes::modelling {
 
 /// Polygons over shared vertices. A polygon lists its corners counter-clockwise seen from outside;
@@ -49,9 +51,7 @@ PolygonMesh turned_inside_out(PolygonMesh mesh);
 /// Newell's normal of a polygon, its length being twice the polygon's area.
 glm::dvec3 area_normal(const PolygonMesh& mesh, const PolygonMesh::Corners& corners);
 
-/// A rotation counter-clockwise about the x (0), y (1) or z (2) axis, seen from its positive end.
-/// Use this rather than glm::rotate, whose sine comes from the library.
-glm::dmat4 rotation(int axis, double degrees);
+using beambench::rotation;
 
 /// Merges vertices that are nearer to each other than 1e-9 of the mesh's largest coordinate into
 /// the first of them, so that edges are shared. Corners that coincide with the one before are

@@ -28,10 +28,10 @@ from beambench_thesis.claims.register import (
     Finding,
     JudgedClaim,
     agreeing,
-    dissent,
     effect,
     judge,
     judge_claims,
+    named,
     variants_that_agree,
 )
 from beambench_thesis.claims.verdict import (
@@ -568,9 +568,9 @@ def test_the_effect_is_a_mean_of_ratios_or_a_median() -> None:
 
 def test_what_speaks_against_a_claim_is_named() -> None:
     against = [Check(name, NO, f"{name} is small") for name in "abc"]
-    found = dissent(judged(Check("z", YES), *against).ours)
+    found = named(judged(Check("z", YES), *against).ours, NO)
     assert found == "a: a is small; b: b is small; 1 more"
-    assert dissent(judged(Check("z", YES)).ours) == ""
+    assert named(judged(Check("z", YES)).ours, NO) == ""
 
 
 def test_the_cells_and_the_variants_that_agree_are_counted() -> None:

@@ -22,7 +22,7 @@ from beambench_thesis.paper.evidence import (
     setting,
 )
 from beambench_thesis.report.plan import (
-    VARIANT_RESOLUTIONS,
+    LOW_RESOLUTIONS,
     add_variants,
     keep_plan,
     make_plan,
@@ -40,7 +40,7 @@ def test_a_variant_measures_what_claims_are_about_at_two_resolutions() -> None:
     for sweep in plan.variants[1]:
         for cell in sweep.cells():
             assert cell.scene.endswith(":perturb=2")
-            assert cell.resolution in VARIANT_RESOLUTIONS
+            assert cell.resolution in LOW_RESOLUTIONS
             assert cell.structure not in ("sah-bvh", "embree")
             assert dict(cell.parameters).get("leaf", "exact") == "exact"
 

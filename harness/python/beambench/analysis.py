@@ -92,15 +92,12 @@ def paired_ratio(over: Mapping[int, float], under: Mapping[int, float]) -> Ratio
     return Ratio(*found) if found else None
 
 
-def block_ratio(
-    over: Mapping[int, float], under: Mapping[int, float], looks: int = 1
-) -> Ratio | None:
+def block_ratio(over: Mapping[int, float], under: Mapping[int, float]) -> Ratio | None:
     """Returns the geometric mean of the ratios of the blocks that both have.
 
-    Its intervals are those of Student's t: 95% for all `looks` at these times together, where more
-    blocks were measured after a look (Bonferroni). None where they share no block.
+    Its intervals are those of Student's t. None where they share no block.
     """
-    found = _beambench.block_ratio(dict(over), dict(under), looks)
+    found = _beambench.block_ratio(dict(over), dict(under))
     return Ratio(*found) if found else None
 
 

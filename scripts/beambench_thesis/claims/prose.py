@@ -213,7 +213,6 @@ def shadow_cache_gains_from_beams(e: Evidence) -> list[Check]:
 
 def _gain(e: Evidence, scene: str, resolution: str = "", samples: int = 1) -> Measured | None:
     """Returns Samet's time over the beams'."""
-    resolution = resolution or e.finest
     return ratio_of(
         e.time(scene, "samet", resolution, samples=samples),
         e.time(scene, "beam", resolution, samples=samples),
@@ -346,8 +345,8 @@ def the_queue_pays(e: Evidence) -> list[Check]:
 @PROSE_CLAIMS.claim(
     "C37",
     "5.4.2, table 5.8",
-    "Filling the grid's voxels takes most of its time where objects are many, since each asks all "
-    "objects.",
+    "Filling the grid's voxels takes most of its time where objects are many, since all objects "
+    "are tested against each voxel.",
     Question.OTHER_STRUCTURES,
 )
 def filling_dominates(e: Evidence) -> list[Check]:

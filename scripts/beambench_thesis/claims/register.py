@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from enum import Enum
 from pathlib import Path
 from statistics import geometric_mean, median
 
@@ -66,6 +67,9 @@ def judge_ours(claim: Claim, evidence: Evidence) -> Finding:
     return replace(found, verdict=Verdict.NOT_TESTABLE) if claim.untestable else found
 
 
+TESTED = (Verdict.SUPPORTED, Verdict.MIXED, Verdict.CONTRADICTED, Verdict.UNDECIDED)
+"""The verdicts on claims of which every comparison was measured."""
+
 SWEPT_CLAIMS = (*CLAIMS, *PROSE_CLAIMS)
 """Those that runs of sweeps and a census decide."""
 
@@ -89,10 +93,10 @@ def judge_claims(
         if len(folders) > 1:
             raise Problem(f"{folders[1]}: there is another {kind}, {folders[0]}; name one")
     swept = measured_evidence([run for run in runs if run not in (*clusters, *censuses)])
-    counted = [swept.work, *(census_work(folder) for folder in censuses)]
+    works = [swept.work, *(census_work(folder) for folder in censuses)]
     measured = replace(
         swept,
-        work=pd.concat(counted, ignore_index=True) if censuses else swept.work,
+        work=pd.concat(works, ignore_index=True) if censuses else swept.work,
         cluster=cluster_evidence(clusters[0]) if clusters else NO_CLUSTER,
     )
     published = published_evidence()
@@ -198,52 +202,39 @@ def _range(figures: Sequence[float]) -> str:
 
 def agreeing(finding: Finding) -> str:
     """Returns `5 of 6`, with the undecided ones; a dash if nothing was measured."""
-    checks = counted(finding.checks)
-    known = [check for check in checks if check.outcome is not Outcome.MISSING]
-    if not known:
+    number_of = Counter(check.outcome for check in counted(finding.checks))
+    if number_of[Outcome.MISSING] == number_of.total():
         return DASH
-    yes = sum(check.outcome is Outcome.YES for check in checks)
-    undecided = sum(check.outcome is Outcome.UNDECIDED for check in checks)
-    missing = len(checks) - len(known)
-    rest = [f"{undecided} undecided"] * bool(undecided) + [f"{missing} missing"] * bool(missing)
-    return f"{yes} of {len(checks)}" + f" ({', '.join(rest)})" * bool(rest)
-
-
-_MOST_DISSENTERS = 2
-
-
-def dissent(finding: Finding) -> str:
-    """Returns the first comparisons that say the opposite, with their figures."""
-    opposite = [check for check in counted(finding.checks) if check.outcome is Outcome.NO]
-    named = [f"{check.cell}: {check.figures}" for check in opposite[:_MOST_DISSENTERS]]
-    rest = len(opposite) - len(named)
-    return "; ".join([*named, *[f"{rest} more"] * (rest > 0)])
+    return _share(number_of, Outcome.YES, (Outcome.UNDECIDED, Outcome.MISSING))
 
 
 def variants_that_agree(one: JudgedClaim) -> str:
-    """Returns `7 of 8`: the variants that support a claim, of those that decide it."""
-    tested = [
-        found.verdict
-        for found in one.variants
-        if found.verdict not in (Verdict.NOT_TESTED, Verdict.NOT_TESTABLE)
-    ]
-    if not tested:
+    """Returns `7 of 8`: the variants that support a claim, of those that test it."""
+    number_of = Counter(found.verdict for found in one.variants if found.verdict in TESTED)
+    if not number_of:
         return DASH
-    number_of = Counter(tested)
-    rest = [
-        f"{number_of[verdict]} {verdict.value}"
-        for verdict in (Verdict.MIXED, Verdict.CONTRADICTED, Verdict.UNDECIDED)
-        if number_of[verdict]
-    ]
-    agree = f"{number_of[Verdict.SUPPORTED]} of {len(tested)}"
-    return agree + f" ({', '.join(rest)})" * bool(rest)
+    return _share(number_of, Verdict.SUPPORTED, TESTED[1:])
+
+
+def _share(number_of: Counter, agree: Enum, others: Sequence[Enum]) -> str:
+    rest = ", ".join(f"{number_of[one]} {one.value}" for one in others if number_of[one])
+    return f"{number_of[agree]} of {number_of.total()}" + f" ({rest})" * bool(rest)
+
+
+_MOST_NAMED = 2
+
+
+def named(finding: Finding, outcome: Outcome) -> str:
+    """Returns the first comparisons with that outcome, with their figures, and how many more."""
+    found = [check for check in counted(finding.checks) if check.outcome is outcome]
+    first = [f"{check.cell}: {check.figures}" for check in found[:_MOST_NAMED]]
+    rest = len(found) - len(first)
+    return "; ".join([*first, *[f"{rest} more"] * (rest > 0)])
 
 
 def read_otherwise(one: JudgedClaim) -> str:
     """Returns the verdict by the other reading of the thesis's levels, if it was measured."""
-    if one.deeper is None or one.deeper.verdict in (Verdict.NOT_TESTED, Verdict.NOT_TESTABLE):
-        return DASH
-    return one.deeper.verdict.value
+    return one.deeper.verdict.value if one.deeper and one.deeper.verdict in TESTED else DASH
 
 
 def cells_as_markdown(claims: Sequence[JudgedClaim]) -> str:

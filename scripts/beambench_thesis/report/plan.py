@@ -94,7 +94,10 @@ FOLDER = ROOT / "harness/measure/sweeps/thesis"
 LEVELS = "levels"
 """The sweep that tests max_level=auto; its file lies in the folder above FOLDER."""
 
-_QUICK_RESOLUTIONS = ("320x200", "640x480")
+LOW_RESOLUTIONS = ("320x200", "640x480")
+"""At which quick runs and variants of the scenes are measured: the least from which claims follow
+that are about changes with the resolution."""
+
 _QUICK_REPETITIONS = {"minimum": 1, "maximum": 3}
 _QUICK_SECONDS_PER_CELL = 0.25
 
@@ -174,7 +177,7 @@ def read_sweep(name: str, folder: Path = FOLDER) -> Sweep:
 
 def quick(sweep: Sweep) -> Sweep | None:
     """Returns the sweep at its low resolutions, with a short budget; None if it has none."""
-    resolutions = [size for size in sweep.source["resolutions"] if size in _QUICK_RESOLUTIONS]
+    resolutions = [size for size in sweep.source["resolutions"] if size in LOW_RESOLUTIONS]
     if not resolutions:
         return None
     changes = {
@@ -183,13 +186,15 @@ def quick(sweep: Sweep) -> Sweep | None:
         "repetitions": _QUICK_REPETITIONS,
         "warm_up_seconds": 0.2,
     }
-    smaller = replace(sweep, source=sweep.source | changes)
-    budget = max(1.0, _QUICK_SECONDS_PER_CELL * len(smaller.cells()))
-    return replace(smaller, source=smaller.source | {"budget_seconds": round(budget, 1)})
+    return _changed(sweep, sweep.name, changes, _QUICK_SECONDS_PER_CELL)
 
 
-VARIANT_RESOLUTIONS = ("320x200", "640x480")
-"""At which perturbed scenes are measured: the claims are about changes with the resolution, too."""
+def _changed(sweep: Sweep, name: str, changes: dict[str, Any], seconds_per_cell: float) -> Sweep:
+    """Returns the sweep with changes, and with the budget that its cells then have."""
+    made = Sweep(name, sweep.source | changes)
+    budget = round(max(1.0, seconds_per_cell * len(made.cells())), 1)
+    return replace(made, source=made.source | {"budget_seconds": budget})
+
 
 _VARIED = ("synthetic", "division", "octree", "others-small", "others-large", "quality", "samples")
 _UNCLAIMED = (  # no claim is about them
@@ -237,12 +242,10 @@ def _at_low_resolutions(sweep: Sweep, name: str, **more: object) -> Sweep:
     changes = {
         "name": f"thesis-{name}",
         "structures": _claimed(sweep),
-        "resolutions": list(VARIANT_RESOLUTIONS),
+        "resolutions": list(LOW_RESOLUTIONS),
         "repetitions": _VARIANT_REPETITIONS,
     }
-    varied = Sweep(name, sweep.source | changes | more)
-    budget = round(_VARIANT_SECONDS_PER_CELL * len(varied.cells()), 1)
-    return replace(varied, source=varied.source | {"budget_seconds": budget})
+    return _changed(sweep, name, changes | more, _VARIANT_SECONDS_PER_CELL)
 
 
 def _with_exact_leaves(structure: str | dict[str, Any]) -> str | dict[str, Any]:

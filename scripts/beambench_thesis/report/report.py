@@ -22,8 +22,9 @@ from beambench_thesis.claims.register import (
     SWEPT_CLAIMS,
     JudgedClaim,
     judge_claims,
+    named,
 )
-from beambench_thesis.claims.verdict import Outcome, Verdict, counted
+from beambench_thesis.claims.verdict import Outcome, Verdict
 from beambench_thesis.paper.cells import Cell, Cells, read_cells
 from beambench_thesis.paper.evidence import Evidence, one_level_less
 from beambench_thesis.paper.measured import SPREAD_OF_PARTS, is_census_folder, measured_evidence
@@ -32,7 +33,7 @@ from beambench_thesis.paper.section import Section
 from beambench_thesis.report.drawing import FigureData
 from beambench_thesis.report.figures import make_figures
 from beambench_thesis.report.pictures import PictureFigure, octree_figures
-from beambench_thesis.report.plan import LEVELS, TABLES, VARIANT_RESOLUTIONS, Plan, Sweep, Table
+from beambench_thesis.report.plan import LEVELS, LOW_RESOLUTIONS, TABLES, Plan, Sweep, Table
 from beambench_thesis.report.runner import state_of
 from beambench_thesis.report.tables import PartTable, WorkTable, fill, work_of_lines
 
@@ -144,7 +145,7 @@ def _at_low_resolutions(directory: Path, sweeps: Sequence[Sweep]) -> Evidence | 
     folders = [directory / sweep.name for sweep in sweeps]
     if not folders or any(state_of(folder) != "finished" for folder in folders):
         return None
-    return measured_evidence(folders, VARIANT_RESOLUTIONS)
+    return measured_evidence(folders, LOW_RESOLUTIONS)
 
 
 def sections_of(directory: Path, cells: Cells) -> tuple[list[Section], list[str]]:
@@ -229,8 +230,8 @@ _CLAIM_WORDS = (
     "between; undecided: it depends on differences that chance may explain, or that were measured "
     "too seldom; not testable: it rests on something of which the thesis says nothing. The effect "
     "is the geometric mean over the comparisons of what should be larger over what should be "
-    "smaller, or the median of a figure; in brackets the least and the greatest of them, which are "
-    "no intervals. "
+    "smaller, or the median of a figure; in brackets the least and the greatest of them, not an "
+    "interval. "
 )
 _VARIED_WORDS = (
     "Variants are perturbed scenes: other seeds, cameras and places of objects, judged at 320x200 "
@@ -300,17 +301,10 @@ def verdict_counts(report: Report) -> str:
     return f"Of {len(report.claims)} claims: {listed}."
 
 
-_MOST_NAMED = 2
-
-
 def undecided(report: Report) -> list[str]:
     """Returns a sentence for each undecided claim: which cells, and what would decide them."""
-    sentences = []
-    for one in report.claims:
-        if one.ours.verdict is not Verdict.UNDECIDED:
-            continue
-        cells = [check for check in counted(one.ours.checks) if check.outcome is Outcome.UNDECIDED]
-        named = [f"{check.cell} ({check.figures})" for check in cells[:_MOST_NAMED]]
-        more = [f"{len(cells) - _MOST_NAMED} more"] if len(cells) > _MOST_NAMED else []
-        sentences.append(f"{one.claim.says} ({one.claim.name}): {'; '.join([*named, *more])}")
-    return sentences
+    return [
+        f"{one.claim.says} ({one.claim.name}): {named(one.ours, Outcome.UNDECIDED)}"
+        for one in report.claims
+        if one.ours.verdict is Verdict.UNDECIDED
+    ]

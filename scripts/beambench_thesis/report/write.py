@@ -1,4 +1,4 @@
-"""Writes the report as Markdown and as one HTML page."""
+"""Writes the report and its details as Markdown and as HTML pages."""
 
 import csv
 from collections import Counter
@@ -20,12 +20,12 @@ from beambench_thesis.claims.register import (
     cells_as_markdown,
     cells_of,
     claims_as_markdown,
-    dissent,
     heads_of,
+    named,
     row_of,
     rule_in_words,
 )
-from beambench_thesis.claims.verdict import Verdict
+from beambench_thesis.claims.verdict import Outcome, Verdict
 from beambench_thesis.paper.cells import Cells
 from beambench_thesis.paper.markdown import markdown_environment
 from beambench_thesis.paper.printed import interval, milliseconds, origin, thesis_seconds
@@ -113,7 +113,7 @@ def _rendered(made: Environment, template: str, report: Report, **values: object
         "origin": origin,
         "color": structure_color,
         "agreeing": agreeing,
-        "dissent": dissent,
+        "named": named,
         "section_as_markdown": section_as_markdown,
         "slug": lambda text: text.replace(" ", "-"),
     }
@@ -137,6 +137,7 @@ def _rendered(made: Environment, template: str, report: Report, **values: object
         row_of=row_of,
         rule_in_words=rule_in_words,
         zip=zip,
+        opposite=Outcome.NO,
         **_origin(report),
         ratio_interval=partial(interval, factor=1, unit=""),
         cells_of=cells_of,

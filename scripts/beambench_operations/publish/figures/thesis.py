@@ -14,23 +14,21 @@ from beambench_report.base.fastest import with_fastest
 from beambench_report.base.records import Run, read_run
 from beambench_thesis.chapter5.facts import CENSUS
 from beambench_thesis.chapter5.mirrors import read_mirrors
-from beambench_thesis.claims.chapter6 import CLUSTER_CLAIMS
 from beambench_thesis.claims.register import (
-    SWEPT_CLAIMS,
+    TESTED,
     JudgedClaim,
     agreeing,
     effects,
     judge_claims,
 )
-from beambench_thesis.claims.verdict import Outcome, Verdict
+from beambench_thesis.claims.verdict import Outcome, Verdict, counted
 from beambench_thesis.paper.measured import error_between_runs
 from beambench_thesis.report.answers import answers
 from beambench_thesis.report.plan import read_plan
-from beambench_thesis.report.report import Report, gather
+from beambench_thesis.report.report import CLUSTER, Report, gather
 
 _THESIS, _NINE = "5", "9"
 _GOOD_PERCENT = 10
-_TESTED = (Verdict.SUPPORTED, Verdict.MIXED, Verdict.CONTRADICTED, Verdict.UNDECIDED)
 
 
 def figures(folder: Path) -> dict[str, Any]:
@@ -40,13 +38,12 @@ def figures(folder: Path) -> dict[str, Any]:
     """
     report = gather(folder, read_plan(folder), None)
     second = _second(folder)
-    swept: Sequence[JudgedClaim] = [one for one in report.claims if one.claim in SWEPT_CLAIMS]
-    runs = [*report.cells.runs, *(second.cells.runs if second else ()), folder / CENSUS]
+    claims: Sequence[JudgedClaim] = report.claims
     if second is not None:
-        swept = judge_claims(runs, SWEPT_CLAIMS)
-    cluster = folder.parent / "cluster"
-    claims = [*swept, *(judge_claims([cluster], CLUSTER_CLAIMS) if cluster.is_dir() else ())]
-    tested = [one for one in claims if one.ours.verdict in _TESTED]
+        cluster = folder.parent / CLUSTER
+        others = [path for path in (folder / CENSUS, cluster) if path.is_dir()]
+        claims = judge_claims([*report.cells.runs, *second.cells.runs, *others])
+    tested = [one for one in claims if one.ours.verdict in TESTED]
     paired = [check.is_paired for one in tested for check in one.ours.checks]
     mirrors, unread = read_mirrors(sorted((folder / "mirrors").glob("*.json")))
     return {
@@ -58,7 +55,7 @@ def figures(folder: Path) -> dict[str, Any]:
         "answers": answers(claims),
         "verdicts": {
             verdict.value: [one.claim.name for one in tested if one.ours.verdict is verdict]
-            for verdict in _TESTED
+            for verdict in TESTED
         },
         "alone": Counter(one.ours.verdict.value for one in report.claims),
         "margin": MARGIN,
@@ -110,7 +107,7 @@ def _again(first: Report, second: Report) -> dict[str, Any]:
 
 def compared(first: dict[str, Verdict], second: dict[str, Verdict]) -> dict[str, Any]:
     """The claims that two runs test: undecided in one or both, decided alike, decided otherwise."""
-    both = [name for name in first if second.get(name, Verdict.NOT_TESTED) in _TESTED]
+    both = [name for name in first if second.get(name, Verdict.NOT_TESTED) in TESTED]
     decided = [n for n in both if Verdict.UNDECIDED not in (first[n], second[n])]
     return {
         "tested": len(both),
@@ -148,23 +145,17 @@ def times_found_again(runs: Sequence[tuple[Run, Run]]) -> dict[str, Any]:
 
 
 def _claim(one: JudgedClaim) -> dict[str, Any]:
-    counted = [check for check in one.ours.checks if not check.aside]
-    yes = [check for check in counted if check.outcome is Outcome.YES]
-    ratios = [check.ratio for check in yes if check.ratio is not None]
-    open_cells = [check for check in counted if check.outcome is Outcome.UNDECIDED]
+    checks = counted(one.ours.checks)
+    open_cells = [check for check in checks if check.outcome is Outcome.UNDECIDED]
     printed, measured = effects(one)
     return {
         "name": one.claim.name,
         "says": one.claim.says,
         "why": one.claim.untestable,
-        "verdict": one.ours.verdict.value,
         "formerly": one.ours.formerly,
         "effect": {"thesis": printed, "ours": measured},
         "agreeing": agreeing(one.ours),
-        "yes": len(yes),
-        "cells": len(counted),
-        "least": min(ratios, default=None),
-        "most": max(ratios, default=None),
+        "cells": len(checks),
         "undecided": [f"{check.cell}: {check.figures}" for check in open_cells],
     }
 

@@ -1,0 +1,22 @@
+#include "scenes/base/rotation.hpp"
+
+#include <glm/trigonometric.hpp>
+
+#include "scenes/base/portable_math.hpp"
+
+namespace beambench {
+
+glm::dmat4 rotation(int axis, double degrees) {
+  const double cosine = portable_cos(glm::radians(degrees));
+  const double sine = portable_sin(glm::radians(degrees));
+  const int next = (axis + 1) % 3;
+  const int last = (axis + 2) % 3;
+  glm::dmat4 matrix(1.0);
+  matrix[next][next] = cosine;
+  matrix[next][last] = sine;
+  matrix[last][next] = -sine;
+  matrix[last][last] = cosine;
+  return matrix;
+}
+
+}  // namespace beambench
