@@ -16,6 +16,8 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
+from program import BINARY
+
 PACKAGE_LISTS = [
     "packages.txt",
     "packages-cluster.txt",
@@ -208,6 +210,19 @@ def test_the_lists_of_packages_name_each_once(repository: Path) -> None:
     packages = [line.split("#")[0].strip() for line in lines]
     packages = [package for package in packages if package]
     assert len(packages) == len(set(packages)) > 10
+
+
+def test_every_long_test_that_ci_leaves_out_exists(repository: Path) -> None:
+    listed = re.search(r"^long=\(\n(.*?)^\)", (repository / ".ci/run").read_text(), re.M | re.S)
+    assert listed is not None
+    patterns = re.findall(r"'([^']+)'", listed.group(1))
+    assert patterns
+    program = BINARY.with_name("test_accel")
+    for pattern in patterns:
+        result = call(
+            program, "--gtest_list_tests", f"--gtest_filter={pattern}", directory=repository
+        )
+        assert "\n  " in result.stdout, pattern
 
 
 def test_an_interrupted_run_is_resumed_and_leaves_records_pictures_plots_and_a_page(
