@@ -28,6 +28,14 @@ void add_flat(SceneBuilder& builder, const PolygonMesh& mesh) {
   for (const auto& corners : mesh.polygons) builder.add_polygon(renumbered(corners, index));
 }
 
+void add_painted(SceneBuilder& builder, const PolygonMesh& mesh, const Paint& paint) {
+  const std::vector<std::uint32_t> index = add_vertices(builder, mesh);
+  for (std::size_t i = 0; i < mesh.size(); ++i) {
+    builder.set_surface(paint(i));
+    builder.add_polygon(renumbered(mesh.polygons[i], index));
+  }
+}
+
 void add_smooth(SceneBuilder& builder, const PolygonMesh& mesh, const SmoothOptions& options) {
   const std::vector<std::uint32_t> index = add_vertices(builder, mesh);
   std::vector<glm::dvec3> areas;

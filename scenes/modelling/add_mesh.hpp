@@ -12,10 +12,16 @@ namespace beambench::scenes::modelling {
 /// Adds all polygons, over shared vertices, with the builder's current surface.
 void add_flat(SceneBuilder& builder, const PolygonMesh& mesh);
 
+/// Returns the surface of a polygon, given by its number in the mesh.
+using Paint = std::function<Surface(std::size_t polygon)>;
+
+/// Adds all polygons, over shared vertices, each with its own surface.
+void add_painted(SceneBuilder& builder, const PolygonMesh& mesh, const Paint& paint);
+
 /// Options for smoothing and coloring polygons.
 struct SmoothOptions {
-  double crease = 50.0;                                 ///< degrees; sharper edges stay sharp
-  std::function<Surface(std::size_t polygon)> paint{};  ///< if given: the surface of each polygon
+  double crease = 50.0;  ///< degrees; sharper edges stay sharp
+  Paint paint{};         ///< if given: the surface of each polygon
 };
 
 /// Adds smooth polygons: a corner's normal is the mean, weighted by area, of the polygons at that

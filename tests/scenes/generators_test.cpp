@@ -47,7 +47,10 @@ INSTANTIATE_TEST_SUITE_P(
                     Expected{"bumpy:triangles=12", 0, 12},
                     Expected{"bumpy:triangles=200000", 0, 199692},
                     Expected{"closed-room", 0, 32272}, Expected{"closed-room:detail=1", 0, 576},
-                    Expected{"closed-room:detail=9", 0, 40928}, Expected{"soup", 0, 20000},
+                    Expected{"closed-room:detail=9", 0, 40928}, Expected{"aquarium", 0, 22600},
+                    Expected{"aquarium:detail=1", 0, 2860}, Expected{"aquarium:detail=5", 0, 10924},
+                    Expected{"prism", 0, 26807}, Expected{"prism:detail=1", 0, 1019},
+                    Expected{"prism:detail=5", 0, 11723}, Expected{"soup", 0, 20000},
                     Expected{"soup:triangles=1", 0, 1}, Expected{"tessellated-balls", 0, 96320},
                     Expected{"tessellated-balls:slices=6,spheres=5", 0, 5 * 24}),
     [](const auto& info) {
@@ -60,6 +63,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Catalogue, SceneHashesArePinned) {
   const std::map<std::string, std::uint64_t> hashes = {
       {"ajedrez", 0x141e951750a1546e},
+      {"aquarium", 0x1b17ff70f13f02fb},
       {"balls", 0x4ec0de13a661c1e3},
       {"bola-espacial", 0xde697676114a3c08},
       {"bumpy", 0xdb2bb96ee4060375},
@@ -79,6 +83,7 @@ TEST(Catalogue, SceneHashesArePinned) {
       {"maceta", 0x2ac9d3cc17a6712c},
       {"misil", 0x032cb75abdd2f8ea},
       {"mount", 0x161ae288891688a3},
+      {"prism", 0xd8a24188c5fd1687},
       {"rings", 0x0f27dc72e21f1bb8},
       {"shells", 0x091e2056d8ef061a},
       {"sombrero", 0xc6d55dae08c426c5},

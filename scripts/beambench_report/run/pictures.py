@@ -107,7 +107,10 @@ DEFAULT_GROUPS = (
             "balls tetra shells teapot gears mount rings tree jacks lattice sombrero".split(),
         ),
     ),
-    Group("Others", ("finishes", "closed-room", "tessellated-balls", "bumpy", "soup")),
+    Group(
+        "Others",
+        ("finishes", "closed-room", "prism", "aquarium", "tessellated-balls", "bumpy", "soup"),
+    ),
 )
 
 
