@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -34,15 +35,14 @@ dvec3 unit_normal(const Scene& scene, const Polygon& polygon) {
   return glm::normalize(normal);
 }
 
-bool reflects(const Scene& scene, const Primitive& primitive) {
+bool is_flat(const Scene& scene, const Primitive& primitive) {
   return primitive.kind == PrimitiveKind::kPolygon &&
-         scene.polygons[primitive.index].first_normal == Polygon::kFlat &&
-         scene.surfaces[primitive.surface].specular > 0.0F;
+         scene.polygons[primitive.index].first_normal == Polygon::kFlat;
 }
 
 /// Returns whether corners and triangles lie in the mirror's plane; rays are reflected by the
 /// triangles' own normals.
-bool lies_in(const Scene& scene, const Polygon& polygon, const PlanarMirror& mirror) {
+bool lies_in(const Scene& scene, const Polygon& polygon, const PlanarSurface& mirror) {
   constexpr double kTolerance = 0x1p-22;
   const double distance = kTolerance * double{scene.bounds.largest_coordinate()};
   const auto triangles =
@@ -64,7 +64,7 @@ using PlaneCell = std::array<std::int64_t, 4>;
 /// Only planes in the same cell are compared, so that a million small mirrors take little time. If
 /// two halves of a plane fall into neighboring cells, they are two mirrors that show the same
 /// image.
-PlaneCell cell_of(const Scene& scene, const PlanarMirror& mirror) {
+PlaneCell cell_of(const Scene& scene, const PlanarSurface& mirror) {
   constexpr double kNormals = 0x1p8;
   constexpr double kDistances = 0x1p10;
   dvec3 normal = mirror.normal;
@@ -80,20 +80,24 @@ PlaneCell cell_of(const Scene& scene, const PlanarMirror& mirror) {
           std::llround(kNormals * normal.z), std::llround(kDistances * distance)};
 }
 
-}  // namespace
-
-std::vector<PlanarMirror> planar_mirrors(const Scene& scene) {
-  std::vector<PlanarMirror> mirrors;
-  std::map<PlaneCell, std::vector<std::size_t>> in_cell;  // indices of mirrors
+/// Combines the flat polygons that have a place in a group: `group_of(surface)`, if that is not
+/// nothing.
+template <class GroupOf>
+std::vector<PlanarSurface> planar_surfaces(const Scene& scene, GroupOf group_of) {
+  using Group = std::pair<std::uint32_t, PlaneCell>;
+  std::vector<PlanarSurface> mirrors;
+  std::map<Group, std::vector<std::size_t>> in_cell;  // indices of mirrors
   for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
-    if (!reflects(scene, scene.primitives[id])) continue;
+    if (!is_flat(scene, scene.primitives[id])) continue;
+    const std::optional<std::uint32_t> group = group_of(scene.primitives[id].surface);
+    if (!group) continue;
     const Polygon& polygon = scene.polygons[scene.primitives[id].index];
-    PlanarMirror own{corner_of(scene, polygon, 0),
-                     unit_normal(scene, polygon),
-                     {id},
-                     primitive_bounds(scene, id)};
+    PlanarSurface own{corner_of(scene, polygon, 0),
+                      unit_normal(scene, polygon),
+                      {id},
+                      primitive_bounds(scene, id)};
     if (!lies_in(scene, polygon, own)) continue;  // it is bent
-    std::vector<std::size_t>& near = in_cell[cell_of(scene, own)];
+    std::vector<std::size_t>& near = in_cell[{*group, cell_of(scene, own)}];
     const auto same = std::ranges::find_if(
         near, [&](std::size_t i) { return lies_in(scene, polygon, mirrors[i]); });
     if (same != near.end()) {
@@ -105,6 +109,20 @@ std::vector<PlanarMirror> planar_mirrors(const Scene& scene) {
     }
   }
   return mirrors;
+}
+
+}  // namespace
+
+std::vector<PlanarSurface> planar_mirrors(const Scene& scene) {
+  return planar_surfaces(scene, [&](std::uint32_t surface) {
+    return scene.surfaces[surface].specular > 0.0F ? std::optional(0U) : std::nullopt;
+  });
+}
+
+std::vector<PlanarSurface> planar_glass(const Scene& scene) {
+  return planar_surfaces(scene, [&](std::uint32_t surface) {
+    return scene.surfaces[surface].transmittance > 0.0F ? std::optional(surface) : std::nullopt;
+  });
 }
 
 }  // namespace beambench::scenes

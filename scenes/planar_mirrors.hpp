@@ -1,5 +1,5 @@
 #pragma once
-// The planar mirrors of a scene.
+// The planar mirrors of a scene, and its planar glass.
 
 #include <vector>
 
@@ -10,8 +10,8 @@
 
 namespace beambench::scenes {
 
-/// Coplanar flat-shaded polygons whose surfaces reflect.
-struct PlanarMirror {
+/// Coplanar flat-shaded polygons, such as those of a mirror.
+struct PlanarSurface {
   glm::dvec3 point;   ///< of the plane
   glm::dvec3 normal;  ///< of the plane, unit length
   std::vector<PrimitiveId> polygons;
@@ -23,6 +23,10 @@ struct PlanarMirror {
 /// the rounding of floats (2^-22 for their normals, and for their distances relative to the scene's
 /// largest coordinate), so that all rays from one point are reflected as if they came from its
 /// image behind the mirror. A polygon whose corners are not coplanar is not a mirror.
-std::vector<PlanarMirror> planar_mirrors(const Scene& scene);
+std::vector<PlanarSurface> planar_mirrors(const Scene& scene);
+
+/// Returns the planes of a scene that refract, likewise: each combines all coplanar flat-shaded
+/// polygons that have one transparent surface.
+std::vector<PlanarSurface> planar_glass(const Scene& scene);
 
 }  // namespace beambench::scenes

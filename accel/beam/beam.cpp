@@ -11,7 +11,7 @@ constexpr double kOverlap = 0x1p-43;
 void keep_near(std::span<const BeamCut> cuts, Beam& beam) {
   for (const BeamCut& each : cuts) {
     for (const glm::dvec2& corner : beam.outline) {
-      if (each.line.at(corner) < -kSliver) continue;
+      if (each.line.at(corner) < -kSliver - each.line.band) continue;
       beam.cuts.push_back(each);
       break;
     }

@@ -23,9 +23,12 @@ std::vector<CounterInfo> beam_counters() {
       {"samples_in_leaves", "samples that were tested in a leaf with a beam"},
       {"rays_after_leaf", "samples that found no hit in their beam's leaf and continued as rays"},
       {"rays_by_handover",
-       "samples that became rays because their beam had fewer than 'handover', or few of a "
-       "mirror's"},
+       "samples that became rays because their beam had fewer than 'handover', or few of what a "
+       "plane reflects or refracts"},
       {"rays_by_crowding", "samples that became rays because their beam had too many cuts"},
+      {"rays_beside_beams",
+       "reflected and refracted rays that were in no beam, because they deviate too much from "
+       "their neighbors"},
   };
 }
 

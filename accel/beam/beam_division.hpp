@@ -22,8 +22,7 @@ inline void count_parts(std::uint64_t parts, BeamQueue& queue) {
 }
 
 /// Calls `visit(part, above)` for the parts of a beam that cross a face, as all its rays do, below
-/// and above a plane of another axis. Both are empty if all of the beam lies within the margin of
-/// nearby rays.
+/// and above a plane of another axis.
 template <class Visit>
 void halve(const EyeView& view, const Crossing& face, int axis, std::int32_t index,
            const Beam& beam, BeamQueue& queue, Visit visit) {
@@ -33,14 +32,14 @@ void halve(const EyeView& view, const Crossing& face, int axis, std::int32_t ind
   const LineRange range = range_over(beam.outline, line);
   // Rays that cross the middle plane first are on its far side when they cross the face.
   const bool far_is_above = middle.side > 0;
-  if (view.all_before(range)) {
+  if (EyeView::all_before(line, range)) {
     visit(beam, far_is_above);
-  } else if (view.all_behind(range)) {
+  } else if (EyeView::all_behind(range)) {
     visit(beam, !far_is_above);
   } else {
     queue.clips += 2;
     const std::array<BeamCut, 2> sides{BeamCut{middle, face, line},
-                                       BeamCut{face, middle, view.other_side(line)}};
+                                       BeamCut{face, middle, EyeView::other_side(line)}};
     visit(part_of(beam, {&sides[0], 1}), far_is_above);
     visit(part_of(beam, {&sides[1], 1}), !far_is_above);
   }
@@ -92,10 +91,10 @@ class Exits {
   const Crossing& face(std::size_t i) const { return faces_[i]; }
 
   /// Returns the cuts around the part of the beam that leaves through face i.
-  FixedVector<BeamCut, 5> cuts(const EyeView& view, std::size_t i) const {
+  FixedVector<BeamCut, 5> cuts(std::size_t i) const {
     FixedVector<BeamCut, 5> cuts;
     for (std::size_t j = 0; j < faces_.size(); ++j) {
-      if (j < i) cuts.push_back({faces_[i], faces_[j], view.other_side(lines_[j][i])});
+      if (j < i) cuts.push_back({faces_[i], faces_[j], EyeView::other_side(lines_[j][i])});
       if (j > i) cuts.push_back({faces_[i], faces_[j], lines_[i][j]});
     }
     return cuts;
@@ -110,8 +109,8 @@ class Exits {
     for (std::size_t i = 0; i < faces_.size();) {
       lines[i] = view.line_before(faces_[i], face);
       const LineRange range = range_over(beam.outline, lines[i]);
-      if (view.all_before(range)) return;
-      if (view.all_behind(range)) {
+      if (EyeView::all_before(lines[i], range)) return;
+      if (EyeView::all_behind(range)) {
         take_away(i);
       } else {
         ++i;

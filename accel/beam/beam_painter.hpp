@@ -151,7 +151,8 @@ class BeamPainter {
   template <class Visit>
   void for_each_sample(const Beam& beam, Visit visit) const {
     for (const SampleLattice& lattice : watch_->chosen(lattices_)) {
-      scan_.for_each_run(beam, lattice, [&](int y, int first, int last) {
+      const auto ray_at = [&](int x, int y) { return sight_->ray_of(scan_, lattice, x, y); };
+      scan_.for_each_run(beam, lattice, ray_at, [&](int y, int first, int last) {
         for (int x = first; x <= last; ++x) {
           if (finished_.empty() || !is_finished(lattice, x, y)) visit(lattice, x, y);
         }

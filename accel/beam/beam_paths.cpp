@@ -140,7 +140,7 @@ void continue_beam(const octree::Octree& octree, const EyeView& view, const Beam
   const std::uint64_t before = queue.appended;
   const Exits exits(view, beam);
   for (std::size_t i = 0; i < exits.count(); ++i) {
-    const auto cuts = exits.cuts(view, i);
+    const auto cuts = exits.cuts(i);
     queue.clips += cuts.size();
     const Beam part = part_of(beam, {cuts.begin(), cuts.size()});
     if (part.outline.empty()) continue;

@@ -23,11 +23,18 @@ class SampleScan {
 
   /// Calls `visit(y, first_x, last_x)` for runs of samples, such that each sample of the beam is in
   /// one run, and no other sample is in any. Scanline filling (thesis, section 3.6.1), with the
-  /// beam's cuts for edges. If a sample's direction, rounded to float, may lie on either side of a
-  /// cut, `crosses_before` decides, as in every other beam. The thesis treats some pixels twice;
-  /// here each sample belongs to one beam.
-  template <class Visit>
-  void for_each_run(const Beam& beam, const SampleLattice& lattice, Visit visit) const {
+  /// beam's cuts for edges. If a sample's ray, `ray_at(x, y)`, may lie on either side of a cut,
+  /// `crosses_before` decides, as in every other beam. The thesis treats some pixels twice; here
+  /// each sample belongs to one beam.
+  template <class RayAt, class Visit>
+  void for_each_run(const Beam& beam, const SampleLattice& lattice, RayAt ray_at,
+                    Visit visit) const {
+    const auto belongs = [&](int x, int y) {
+      const CellRay cell_ray(view_->grid(), ray_at(x, y));
+      return std::all_of(beam.cuts.begin(), beam.cuts.end(), [&](const BeamCut& each) {
+        return crosses_before(cell_ray, each.first, each.second);
+      });
+    };
     double top = beam.outline[0].y;
     double bottom = top;
     for (const glm::dvec2& corner : beam.outline) {
@@ -49,16 +56,16 @@ class SampleScan {
       const int sure_last = std::min(last, row.sure_last);
       if (sure_first > sure_last) {
         for (int x = first; x <= last; ++x) {
-          if (belongs(beam, lattice, x, y)) visit(y, x, x);
+          if (belongs(x, y)) visit(y, x, x);
         }
         continue;
       }
       for (; first < sure_first; ++first) {
-        if (belongs(beam, lattice, first, y)) visit(y, first, first);
+        if (belongs(first, y)) visit(y, first, first);
       }
       visit(y, sure_first, sure_last);
       for (int x = sure_last + 1; x <= last; ++x) {
-        if (belongs(beam, lattice, x, y)) visit(y, x, x);
+        if (belongs(x, y)) visit(y, x, x);
       }
     }
   }
@@ -84,7 +91,7 @@ class SampleScan {
         const double x = each.line.x / scan.rays_->width();
         const double y = each.line.y / scan.rays_->height();
         const double constant = each.line.constant + x * lattice.offset.x + y * lattice.offset.y;
-        edges_.push_back({x, y, constant, 1.0 / x});
+        edges_.push_back({x, y, constant, 1.0 / x, each.line.band});
       }
       margin_ = scan.view_->rounding();
     }
@@ -99,11 +106,11 @@ class SampleScan {
         const double value = edge.y * y + edge.constant;  // at x = 0
         if (std::abs(edge.x) * width < margin_) {         // parallel to the row: the same for all
           if (value > 2.0 * margin_) last = -1.0;
-          if (value > -2.0 * margin_) sure_last = -1.0;
+          if (value > -2.0 * margin_ - edge.band) sure_last = -1.0;
           continue;
         }
         const double may = (margin_ - value) * edge.inverse_x;
-        const double sure = (-margin_ - value) * edge.inverse_x;
+        const double sure = (-margin_ - edge.band - value) * edge.inverse_x;
         if (edge.x > 0.0) {
           last = std::min(last, may + kColumnSlack);
           sure_last = std::min(sure_last, sure - kColumnSlack);
@@ -127,17 +134,11 @@ class SampleScan {
       double y;
       double constant;
       double inverse_x;
+      double band;
     };
     FixedVector<Edge, 56> edges_;
     double margin_;
   };
-
-  bool belongs(const Beam& beam, const SampleLattice& lattice, int x, int y) const {
-    const CellRay cell_ray(view_->grid(), ray(lattice, x, y));
-    return std::all_of(beam.cuts.begin(), beam.cuts.end(), [&](const BeamCut& each) {
-      return crosses_before(cell_ray, each.first, each.second);
-    });
-  }
 
   static int first_at_or_after(double y) { return static_cast<int>(std::max(0.0, std::ceil(y))); }
   static int last_at_or_before(double y, int height) {

@@ -12,10 +12,6 @@ namespace {
 
 using glm::dvec3;
 
-/// The minimum number of rays; fewer are traced singly. In parts of 64x64 pixels at 640x480, 128 to
-/// 255 rays take 0.92 (ajedrez) to 1.5 times as long singly as in beams, 64 to 127 rays 0.58 to 1.4
-/// times.
-constexpr std::size_t kFewest = 128;
 /// A beam with fewer samples becomes single rays. An image's own beams never do by the thesis's
 /// rule, but a part of a mirror is covered by few samples: 500 were found in 8,000 beams. The
 /// fastest value of 0, 4, 8, 16, 32 and 64 over ajedrez, closed-room and habitacion.
@@ -39,7 +35,7 @@ ImagePolygon cover(const std::vector<glm::dvec2>& corners) {
     const glm::dvec2 axis(std::cos(angle), std::sin(angle));
     double farthest = -1e30;
     for (const glm::dvec2& corner : corners) farthest = std::max(farthest, glm::dot(corner, axis));
-    part = clip(part, {axis.x, axis.y, -farthest}, 1e-9);
+    part = clip(part, {axis.x, axis.y, -farthest, 0.0}, 1e-9);
   }
   return part;
 }
@@ -51,49 +47,25 @@ double highest(const dvec3& direction, const dvec3& lower, const dvec3& upper) {
 
 }  // namespace
 
-bool BehindMirror::suits(const RayBatch& batch, const Pencil& pencil) {
-  return !pencil.toward && pencil.view != nullptr && !batch.samples.empty() &&
-         pencil.count >= kFewest;
-}
-
-BehindMirror::BehindMirror(const RayBatch& batch, const Pencil& pencil, const scenes::Scene& scene,
-                           const octree::Octree& octree)
+BehindPlane::BehindPlane(std::span<const Ray> rays, std::span<const std::uint32_t> samples,
+                         const DriftingView& view, double limit, const scenes::Scene& scene,
+                         const octree::Octree& octree)
     : scene_(&scene),
       octree_(&octree),
-      view_(pencil.view),
-      rays_(batch.rays.subspan(pencil.first, pencil.count)),
-      samples_(batch.samples.subspan(pencil.first, pencil.count)),
-      places_(pencil.count, kNone) {
-  nearby_.eye = pencil.apex;
+      view_(&view.image),
+      rays_(rays),
+      samples_(samples),
+      places_(rays.size(), kNone) {
   choose_part();
-  take_rays();
+  take_rays(view, limit);
   find_plane();
 }
 
-BehindMirror::Place BehindMirror::place_of(std::size_t ray) const {
-  const auto samples = static_cast<std::uint32_t>(view_->samples());
-  const auto width = static_cast<std::uint32_t>(view_->width());
-  const std::uint32_t pixel = samples_[ray] / samples;
-  return {{pixel % width, pixel / width}, samples_[ray] % samples};
-}
-
-/// The direction is scaled to view depth 1, like that of the sample.
-BehindMirror::Course BehindMirror::course_of(const Ray& ray, const Place& place) const {
-  const dvec3 from = dvec3(ray.origin) - nearby_.eye;
-  const dvec3 direction(ray.direction);
-  const double start = glm::dot(view_->forward(), from);
-  const double speed = glm::dot(view_->forward(), direction);
-  const dvec3 scaled = direction / speed;
-  const glm::dvec2 at = glm::dvec2(place.pixel) + view_->offsets()[place.sample];
-  const dvec3 wanted = view_->top_left() + view_->right() * at.x + view_->down() * at.y;
-  return {start, speed, glm::length(from - start * scaled), glm::length(scaled - wanted)};
-}
-
-void BehindMirror::choose_part() {
+void BehindPlane::choose_part() {
   glm::ivec2 first(view_->width(), view_->height());
   glm::ivec2 last(-1);
-  for (std::size_t i = 0; i < rays_.size(); ++i) {
-    const glm::ivec2 pixel = place_of(i).pixel;
+  for (const std::uint32_t sample : samples_) {
+    const glm::ivec2 pixel = place_in(*view_, sample).pixel;
     first = glm::min(first, pixel);
     last = glm::max(last, pixel);
   }
@@ -105,39 +77,38 @@ void BehindMirror::choose_part() {
   ray_at_.assign(area * static_cast<std::size_t>(view_->samples()), kNone);
 }
 
-/// The margin is derived for two planes a before b on the line through the eye and a sample's
-/// place, at distances from the eye that together are s, their edge `margin` from the line at view
-/// depth 1. The ray's line passes the eye at e and its direction is off by d. If the order on it
-/// were different and the later of the two crossings in front of its origin, at view depth z or
-/// beyond, the distances and speeds would satisfy s * margin <= (s + 2e) * e / z + s * d. So margin
-/// > d + 2e / z excludes it if s >= 2e; and planes nearer to the eye are crossed before z, or not
-/// at all, by the samples that `begin_beams` leaves: there e + 4e < z * (margin - d).
-void BehindMirror::take_rays() {
+void BehindPlane::take_rays(const DriftingView& view, double limit) {
+  nearby_.eye = view.eye;
+  nearby_.center = view.center;
+  nearby_.drift = view.drift;
   if (ray_at_.empty()) return;
-  const double worst = 0.25 * std::min(glm::length(view_->right()), glm::length(view_->down()));
+  const double worst = limit * view.pixel();
   const auto rows = static_cast<std::size_t>(size_.y);
   std::vector<glm::ivec2> ends(rows, glm::ivec2(size_.x, -1));
-  double nearest = std::numeric_limits<double>::infinity();
-  double turned = 0.0;
+  nearby_.nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < rays_.size(); ++i) {
-    const Place place = place_of(i);
-    const Course course = course_of(rays_[i], place);
-    if (!(course.speed > 0.0 && course.start > 0.0)) continue;
-    if (!(course.turned + 5.0 * course.beside / course.start < worst)) continue;
+    const SamplePlace place = place_in(*view_, samples_[i]);
+    const Course course = view.course_of(rays_[i], place);
+    if (!(course.deviation < worst)) continue;
     const glm::ivec2 at = place.pixel - corner_;
     const std::size_t index = index_of(at.x, at.y, place.sample);
     if (ray_at_[index] != kNone) continue;
     ray_at_[index] = static_cast<std::uint32_t>(i);
     places_[i] = static_cast<std::uint32_t>(index);
-    nearest = std::min(nearest, course.start);
-    turned = std::max(turned, course.turned);
-    nearby_.beside_eye = std::max(nearby_.beside_eye, course.beside);
+    nearby_.nearest = std::min(nearby_.nearest, course.start);
+    nearby_.deviation = std::max(nearby_.deviation, course.deviation);
+    nearby_.deviation_from_eye = std::max(nearby_.deviation_from_eye, course.deviation_from_eye);
+    nearby_.beside_eye = std::max(nearby_.beside_eye, course.beside_eye);
+    nearby_.drifted = std::max(nearby_.drifted, course.drifted);
+    nearby_.radius = std::max(nearby_.radius, course.from_center);
     glm::ivec2& end = ends[static_cast<std::size_t>(at.y)];
     end = {std::min(end.x, at.x), std::max(end.y, at.x)};
   }
   // Samples are found to a rounding, and to a small part of a pixel (`SampleScan`).
-  nearby_.margin = turned + 5.0 * nearby_.beside_eye / nearest + 4.0 * direction_rounding(*view_) +
-                   1e-5 * (glm::length(view_->right()) + glm::length(view_->down()));
+  const double loss = 4.0 * direction_rounding(*view_) +
+                      1e-5 * (glm::length(view_->right()) + glm::length(view_->down()));
+  nearby_.deviation += loss;
+  nearby_.deviation_from_eye += loss;
   std::vector<glm::dvec2> corners;
   const glm::dvec2 pixels(view_->width(), view_->height());
   for (int y = 0; y < size_.y; ++y) {
@@ -154,7 +125,7 @@ void BehindMirror::take_rays() {
 
 /// Takes the plane through three origins that are far apart and below all others; if not all rays
 /// rise from that plane, the plane across the view.
-void BehindMirror::find_plane() {
+void BehindPlane::find_plane() {
   const auto farthest = [&](auto distance) {
     dvec3 best(0.0);
     double most = -1.0;
@@ -184,14 +155,14 @@ void BehindMirror::find_plane() {
   limit_ -= 16.0 * overlap_tolerance(*scene_);
 }
 
-std::vector<std::uint8_t> BehindMirror::finished() const {
+std::vector<std::uint8_t> BehindPlane::finished() const {
   std::vector<std::uint8_t> finished(ray_at_.size());
   std::ranges::transform(ray_at_, finished.begin(),
                          [](std::uint32_t ray) { return ray == kNone ? 1 : 0; });
   return finished;
 }
 
-std::vector<SampleLattice> BehindMirror::lattices(const PrimaryRays& rays, bool) const {
+std::vector<SampleLattice> BehindPlane::lattices(const PrimaryRays& rays, bool) const {
   std::vector<SampleLattice> lattices;
   for (int sample = 0; sample < rays.samples(); ++sample) {
     const glm::dvec2 offset = rays.offsets()[static_cast<std::size_t>(sample)];
@@ -200,18 +171,17 @@ std::vector<SampleLattice> BehindMirror::lattices(const PrimaryRays& rays, bool)
   return lattices;
 }
 
-std::int64_t BehindMirror::handover(const BeamRules& rules) {
+std::int64_t BehindPlane::handover(const BeamRules& rules) {
   return std::max(rules.handover, kSmallBeam);
 }
 
-SampleRay BehindMirror::ray(const SampleScan&, const SampleLattice& lattice, int x, int y) const {
-  const Ray& ray =
-      rays_[ray_at_[index_of(x, y, static_cast<std::size_t>(lattice.places.front().sample))]];
+SampleRay BehindPlane::ray(const SampleScan&, const SampleLattice& lattice, int x, int y) const {
+  const Ray& ray = rays_[ray_at_[index_of(x, y, lattice)]];
   return {ray, static_cast<float>(glm::dot(view_->forward(), dvec3(ray.origin) - nearby_.eye)),
           static_cast<float>(glm::dot(view_->forward(), dvec3(ray.direction)))};
 }
 
-bool BehindMirror::has(const octree::OctreeCursor& node) const {
+bool BehindPlane::has(const octree::OctreeCursor& node) const {
   if (node.node().count == 0) return true;
   const Box box = octree_->grid().box(node.corner(), node.size());
   if (highest(normal_, box.lower, box.upper) < limit_) return true;
@@ -229,7 +199,7 @@ bool BehindMirror::has(const octree::OctreeCursor& node) const {
   return true;
 }
 
-bool BehindMirror::is_behind(scenes::PrimitiveId id) const {
+bool BehindPlane::is_behind(scenes::PrimitiveId id) const {
   const scenes::Primitive& primitive = scene_->primitives[id];
   if (primitive.kind != scenes::PrimitiveKind::kPolygon) {
     const scenes::Bounds bounds = scenes::primitive_bounds(*scene_, id);

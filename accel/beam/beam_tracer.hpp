@@ -34,8 +34,8 @@ class BeamTracer : public octree::Samet {
   const BeamOptions& options() const { return options_; }
 
   /// Traces an image in beams, which are shared among the context's threads: two have no sample in
-  /// common, unless one descends from the other. In a batch, traces reflections in planar mirrors
-  /// in beams from their virtual eyes (`BehindMirror`), and all other rays one by one.
+  /// common, unless one descends from the other. In a batch, traces what planes reflect and refract
+  /// in beams (`BehindPlane`), and all other rays one by one.
   void closest_hits(const RaySource& rays, const HitSpan& hits,
                     const QueryContext& context) const override;
 
@@ -57,6 +57,9 @@ class BeamTracer : public octree::Samet {
     return std::move(watch).take();
   }
 
+  /// Returns 1 for each ray of a batch that `closest_hits` traces alone, in no beam.
+  std::vector<std::uint8_t> traced_alone(const RayBatch& batch) const;
+
   /// Traces an image and reports to a policy (see NoBeamWatch).
   template <class Watch>
   void trace_watched(const PrimaryRays& rays, const HitSpan& buffer, Watch& watch) const;
@@ -64,9 +67,6 @@ class BeamTracer : public octree::Samet {
  private:
   void trace_image(const PrimaryRays& rays, const HitSpan& hits, const QueryContext& context) const;
   void trace_batch(const RayBatch& batch, const HitSpan& hits, WorkCounters* counters) const;
-  template <class Counting>
-  void trace_mirror(const RayBatch& batch, const Pencil& pencil, const HitSpan& buffer,
-                    Counting& counting) const;
 
   const scenes::Scene* scene_;
   BeamOptions options_;

@@ -24,7 +24,7 @@ EyeView::EyeView(const CellGrid& grid, const PrimaryRays& rays) : grid_(&grid) {
   const glm::dvec3& top_left = rays.top_left();
   for (int axis = 0; axis < 3; ++axis) {
     eye_[static_cast<std::size_t>(axis)] = rays.eye()[axis];
-    direction_[static_cast<std::size_t>(axis)] = {right[axis], down[axis], top_left[axis]};
+    direction_[static_cast<std::size_t>(axis)] = {right[axis], down[axis], top_left[axis], 0.0};
   }
   rounding_ = direction_rounding(rays);
   border_ = 2.0 * rounding_ / glm::dvec2(glm::length(right), glm::length(down));
@@ -33,8 +33,36 @@ EyeView::EyeView(const CellGrid& grid, const PrimaryRays& rays) : grid_(&grid) {
 EyeView::EyeView(const CellGrid& grid, const PrimaryRays& rays, const NearbyRays& nearby)
     : EyeView(grid, rays) {
   eye_ = {nearby.eye.x, nearby.eye.y, nearby.eye.z};
-  beside_eye_ = nearby.beside_eye;
-  margin_ = nearby.margin;
+  nearby_ = nearby;
+}
+
+/// Let the planes lie at distances A and B in front of the eye, and let e(p) be the drift at a
+/// place p, D(p) the direction there at view depth 1, and d the deviation. A ray that crosses `a`
+/// first, and `b` at a view depth z behind its origin, is there at z D + e beyond A and at B, each
+/// up to z d. From this follows (A - e_a) D_b - (B - e_b) D_a <= (A - e_a + B - e_b) d, unless the
+/// eye is beside one of the planes, where `begin_beams` leaves only rays that cross it before their
+/// origins: their order does not matter. The left side is a conic on the image. The line leaves out
+/// its square part, which is at most the drift times the radius of the places.
+ImageLine EyeView::moved_outward(ImageLine line, const Crossing& a, const Crossing& b,
+                                 double size) const {
+  const auto at_center = [&](const Crossing& crossing) {
+    const ImageLine& direction = direction_[static_cast<std::size_t>(crossing.axis)];
+    return crossing.side * direction.at(nearby_->center);
+  };
+  const double of_a = at_center(b) * a.side / size;
+  const double of_b = at_center(a) * b.side / size;
+  const auto drift = [&](std::size_t way) {
+    return of_b * nearby_->drift[way][b.axis] - of_a * nearby_->drift[way][a.axis];
+  };
+  const double x = drift(0);
+  const double y = drift(1);
+  line.x += x;
+  line.y += y;
+  const double margin =
+      nearby_->deviation + nearby_->drifted * (2.0 * nearby_->deviation + nearby_->radius) / size;
+  line.constant -= x * nearby_->center.x + y * nearby_->center.y + margin;
+  line.band = 2.0 * margin;
+  return line;
 }
 
 ImagePolygon EyeView::screen() const {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include <glm/vec3.hpp>
 
@@ -48,16 +49,25 @@ inline constexpr double kSliver = 0x1p-39;
 /// Returns how far rounding a ray's direction to float may move it, in units of view depth 1.
 double direction_rounding(const PrimaryRays& rays);
 
-/// Rays that are nearly those of an image, as reflected rays nearly come from a virtual eye: their
-/// numbers are rounded at another origin, so their lines pass slightly beside the eye.
+/// Rays that are nearly those of an image. The lines of rays that a planar mirror reflects pass its
+/// virtual eye, up to the rounding of their numbers. Those of rays that a plane refracts have no
+/// common point; but their courses change steadily from place to place (Shinya, Takahashi and
+/// Naito, "Principles and applications of pencil tracing", SIGGRAPH 1987), so the line of a sample
+/// passes near eye + drift * (its place - center).
+///
+/// A point of a ray at view depth z, seen from there, deviates from the place of its sample by an
+/// angle; lengths are those at view depth 1.
 struct NearbyRays {
   glm::dvec3 eye;
-  double beside_eye;  ///< maximum distance at which the lines pass the eye
-  /// A ray crosses two planes in the same order as the line through the eye and its sample's place
-  /// if that line passes the planes' common edge at a distance of at least `margin`, in units of
-  /// view depth 1. This holds for crossings behind the ray's origin. The margin exceeds the
-  /// deviation of the direction from the eye to any point of the ray from that line.
-  double margin;
+  glm::dvec2 center{0.0};  ///< a place on the image
+  /// The change of the eye for a step across the image and down, perpendicular to the view.
+  std::array<glm::dvec3, 2> drift{};
+  double deviation = 0.0;           ///< its maximum, seen from the drifting eye
+  double deviation_from_eye = 0.0;  ///< its maximum, seen from `eye`
+  double beside_eye = 0.0;          ///< the maximum distance at which the lines pass `eye`
+  double drifted = 0.0;             ///< the part of it that `drift` explains
+  double radius = 0.0;   ///< the maximum distance of a place from `center`, at view depth 1
+  double nearest = 0.0;  ///< the minimum view depth at which a ray begins
 };
 
 /// The planes of a grid as seen from the camera.
@@ -76,11 +86,11 @@ class EyeView {
   double rounding() const { return rounding_; }
   /// The maximum deviation of the direction from the eye to any point of a ray from its sample's
   /// place.
-  double deviation() const { return std::max(rounding_, margin_); }
+  double deviation() const { return nearby_ ? nearby_->deviation_from_eye : rounding_; }
   /// Returns whether lines may pass the eye on the other side of a plane. If so, its crossing at
   /// the eye is uncertain.
   bool eye_is_beside(const Crossing& crossing) const {
-    return std::abs(distance(crossing)) < 4.0 * beside_eye_;
+    return nearby_ && std::abs(distance(crossing)) < 1.25 * nearby_->beside_eye;
   }
   /// Returns the whole image as a polygon, extended on all sides by the possible rounding of a
   /// border sample.
@@ -98,9 +108,12 @@ class EyeView {
   }
 
   /// The line on the image between the rays that cross `a` first (negative) and those that cross
-  /// `b` first: the image of the edge that the two planes share, as a plane through it and the eye,
-  /// moved inward by the margin of nearby rays. If a ray crosses neither, the sign is meaningless.
-  /// Neither distance is negative.
+  /// `b` first: the image of the edge that the two planes share, as a plane through it and the eye.
+  /// If a ray crosses neither, the sign is meaningless. Neither distance is negative.
+  ///
+  /// For nearby rays the line is moved outward, so that its negative side covers all rays that
+  /// cross `a` first and `b` behind their origins. The band is twice as wide, so that all rays
+  /// beyond it cross `a` first.
   ImageLine line_before(const Crossing& a, const Crossing& b) const {
     const double distance_a = distance(a);
     const double distance_b = distance(b);
@@ -110,32 +123,37 @@ class EyeView {
     // t_a < t_b with t = distance / (side * direction), multiplied out.
     const ImageLine to_b = along(b, distance_a / size);
     const ImageLine to_a = along(a, distance_b / size);
-    return {to_b.x - to_a.x, to_b.y - to_a.y, to_b.constant - to_a.constant + margin_};
+    const ImageLine line{to_b.x - to_a.x, to_b.y - to_a.y, to_b.constant - to_a.constant, 0.0};
+    return nearby_ ? moved_outward(line, a, b, size) : line;
   }
   /// `line_before(b, a)` from `line_before(a, b)`.
-  ImageLine other_side(const ImageLine& line) const {
-    return {-line.x, -line.y, 2.0 * margin_ - line.constant};
+  static ImageLine other_side(const ImageLine& line) {
+    return {-line.x, -line.y, -line.constant - line.band, line.band};
   }
-  /// Returns whether all rays of a polygon, given the range of `line_before(a, b)` over it, cross
-  /// `a` first, up to a sliver.
-  static bool all_before(const LineRange& range) { return range.high <= kSliver; }
+  /// Returns whether all rays of a polygon, given the range of the line `line_before(a, b)` over
+  /// it, cross `a` first, up to a sliver.
+  static bool all_before(const ImageLine& line, const LineRange& range) {
+    return range.high <= kSliver - line.band;
+  }
   /// Returns whether they all cross `b` first.
-  bool all_behind(const LineRange& range) const { return range.low >= 2.0 * margin_ - kSliver; }
-  /// Returns a line that is negative for the rays in the direction of the crossing, by more than
-  /// the margin.
+  static bool all_behind(const LineRange& range) { return range.low >= -kSliver; }
+  /// Returns a line that is negative for the nearby rays in the direction of the crossing that, if
+  /// the eye is beside its plane, cross it before their origins.
   ImageLine line_toward(const Crossing& crossing) const {
     ImageLine line = along(crossing, -1.0);
-    line.constant += margin_;
+    line.constant += nearby_->deviation + 2.5 * nearby_->beside_eye / nearby_->nearest;
     return line;
   }
 
  private:
+  /// Returns the line for nearby rays.
+  ImageLine moved_outward(ImageLine line, const Crossing& a, const Crossing& b, double size) const;
   /// Returns `factor` times the speed of rays in the direction of a crossing.
   ImageLine along(const Crossing& crossing, double factor) const {
     const ImageLine& direction = direction_[static_cast<std::size_t>(crossing.axis)];
     const double signed_factor = crossing.side * factor;
     return {signed_factor * direction.x, signed_factor * direction.y,
-            signed_factor * direction.constant};
+            signed_factor * direction.constant, 0.0};
   }
 
   const CellGrid* grid_;
@@ -143,8 +161,7 @@ class EyeView {
   /// Each component of the direction through a point of the image, at view depth 1.
   std::array<ImageLine, 3> direction_;
   double rounding_ = 0.0;
-  double beside_eye_ = 0.0;
-  double margin_ = 0.0;
+  std::optional<NearbyRays> nearby_;  ///< nothing for the rays of the image themselves
   glm::dvec2 border_{0.0};
 };
 

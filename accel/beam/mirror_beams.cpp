@@ -11,7 +11,7 @@ namespace beambench::accel::beam {
 
 using glm::dvec3;
 
-std::optional<MirrorView> view_in(const scenes::PlanarMirror& mirror, const PrimaryRays& rays,
+std::optional<MirrorView> view_in(const scenes::PlanarSurface& mirror, const PrimaryRays& rays,
                                   const HitBuffer& hits) {
   const dvec3 eye(rays.eye());
   const double side = glm::dot(eye - mirror.point, mirror.normal) > 0.0 ? 1.0 : -1.0;

@@ -27,7 +27,7 @@ struct MirrorView {
 };
 
 /// Returns the rays that a mirror reflects, from the hits of an image. Nothing if no ray hits it.
-std::optional<MirrorView> view_in(const scenes::PlanarMirror& mirror, const PrimaryRays& rays,
+std::optional<MirrorView> view_in(const scenes::PlanarSurface& mirror, const PrimaryRays& rays,
                                   const HitBuffer& hits);
 
 }  // namespace beambench::accel::beam

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
 
 namespace beambench::accel::beam {
 namespace {
@@ -112,8 +114,12 @@ SphereImage PrimitiveImages::image_of_sphere(const scenes::Sphere& sphere) const
   if (!(depth > 0.1 * distance) || !(radius < 0.9 * distance)) return kAnywhereRound;
 
   const glm::dvec3 middle = center / depth;  // view depth 1, as all directions
-  const glm::dvec2 place(glm::dot(middle - top_left_, right_) / glm::dot(right_, right_),
-                         glm::dot(middle - top_left_, down_) / glm::dot(down_, down_));
+  // The steps to the right and down need not be perpendicular.
+  const glm::dmat2 steps(glm::dot(right_, right_), glm::dot(right_, down_), glm::dot(right_, down_),
+                         glm::dot(down_, down_));
+  const glm::dvec3 offset = middle - top_left_;
+  const glm::dvec2 place =
+      glm::inverse(steps) * glm::dvec2(glm::dot(offset, right_), glm::dot(offset, down_));
   // A sample's place relative to the center's is rounded in float, its direction as well: enlarge
   // the sphere by both.
   const double slip = deviation_ + 0x1p-22 * ((std::abs(place.x) + size_.x) * glm::length(right_) +

@@ -77,7 +77,8 @@ class SampleWatch : public NoBeamWatch {
  private:
   std::uint64_t samples_of(const Beam& beam, const SampleLattice& lattice) const {
     std::uint64_t samples = 0;
-    scan_.for_each_run(beam, lattice, [&](int, int first, int last) {
+    const auto ray_at = [&](int x, int y) { return scan_.ray(lattice, x, y); };
+    scan_.for_each_run(beam, lattice, ray_at, [&](int, int first, int last) {
       samples += static_cast<std::uint64_t>(last - first + 1);
     });
     return samples;

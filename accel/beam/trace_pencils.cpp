@@ -1,50 +1,208 @@
-// Lists of rays: reflections in planar mirrors are traced in beams, the others one by one.
+// Lists of rays: what planes reflect and refract is traced in beams, all other rays one by one.
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <optional>
+#include <span>
 #include <type_traits>
+#include <vector>
 
 #include "accel/beam/beam_tracer.hpp"
+#include "accel/beam/drifting_view.hpp"
 
 namespace beambench::accel::beam {
+namespace {
 
-void BeamTracer::trace_batch(const RayBatch& batch, const HitSpan& buffer,
-                             WorkCounters* counters) const {
-  with_counting(counters, [&](auto& counting) {
-    const auto singly = [&](std::size_t begin, std::size_t end) {
-      for (; begin < end; ++begin) buffer.set(begin, find_closest(batch.rays[begin], counting));
-    };
+/// Reflected rays deviate from those of a virtual eye by roundings. In pixels.
+constexpr double kMostOfMirrors = 0.25;
+/// Refracted rays are divided into parts of the image until they deviate from a view of their part
+/// by less than this angle, half a pixel, as far as there are enough rays. Over aquarium and prism,
+/// 0.25 to 1 takes equally long.
+constexpr double kDivided = 0.5;
+/// Those that deviate by more are left out.
+constexpr double kMostOfGlass = 2.0;
+/// The number of rays to which a view is fitted.
+constexpr std::size_t kFitted = 128;
+
+using Indices = std::span<std::uint32_t>;  // of rays in a batch
+
+/// Traces the rays of a batch.
+template <class Counting>
+class BatchRun {
+ public:
+  BatchRun(const BeamTracer& tracer, const RayBatch& batch, const HitSpan& hits, Counting& counting,
+           std::span<std::uint8_t> alone)
+      : tracer_(&tracer), batch_(&batch), hits_(hits), counting_(&counting), alone_(alone) {}
+
+  void operator()() {
     std::size_t next = 0;
-    for (const Pencil& pencil : batch.pencils) {
-      if (!BehindMirror::suits(batch, pencil)) continue;
-      singly(next, pencil.first);
-      trace_mirror(batch, pencil, buffer, counting);
+    const auto until = [&](std::size_t end) {
+      for (; next < end; ++next) trace_alone(next);
+    };
+    const auto refracted =
+        batch_->marks != nullptr ? std::span(batch_->marks->refracted) : std::span<RefractedRays>();
+    auto glass = refracted.begin();
+    const auto trace_glass = [&](std::size_t end) {
+      for (; glass != refracted.end() && glass->first < end; ++glass) {
+        until(glass->first);
+        next = glass->first + glass->count;
+        trace_refracted(*glass);
+      }
+    };
+    for (const Pencil& pencil : batch_->pencils) {
+      trace_glass(pencil.first);
+      if (pencil.toward || pencil.view == nullptr || !suits(pencil.count)) continue;
+      until(pencil.first);
       next = pencil.first + pencil.count;
+      trace_reflected(pencil);
     }
-    singly(next, batch.rays.size());
-  });
+    trace_glass(batch_->rays.size());
+    until(batch_->rays.size());
+  }
+
+ private:
+  bool suits(std::size_t rays) const {
+    return rays >= BehindPlane::kFewest && !batch_->samples.empty();
+  }
+
+  void trace_alone(std::size_t index) {
+    hits_.set(index, tracer_->find_closest(batch_->rays[index], *counting_));
+    if (!alone_.empty()) alone_[index] = 1;
+  }
+
+  void trace_reflected(const Pencil& pencil) {
+    const DriftingView view{*pencil.view, pencil.apex};
+    trace_behind({batch_->rays.subspan(pencil.first, pencil.count),
+                  batch_->samples.subspan(pencil.first, pencil.count), view, kMostOfMirrors,
+                  tracer_->scene(), tracer_->octree()},
+                 [&](std::size_t i) { return pencil.first + i; });
+  }
+
+  void trace_refracted(const RefractedRays& marked) {
+    std::vector<std::uint32_t> indices(marked.count);
+    std::iota(indices.begin(), indices.end(), static_cast<std::uint32_t>(marked.first));
+    trace_part(indices);
+  }
+
+  /// Traces a part of the image, or divides it where one view does not fit all of its rays.
+  void trace_part(Indices part) {
+    if (!suits(part.size())) return trace_each(part);
+    const std::optional<DriftingView> view = view_of(part);
+    if (part.size() >= 2 * BehindPlane::kFewest && !(view && fits(*view, part))) {
+      const std::size_t half = divide(part);
+      if (half == 0) return trace_each(part);
+      trace_part(part.first(half));
+      return trace_part(part.subspan(half));
+    }
+    if (!view) return trace_each(part);
+    std::vector<Ray> rays;
+    std::vector<std::uint32_t> samples;
+    gather(part, 1, rays, samples);
+    trace_behind({rays, samples, *view, kMostOfGlass, tracer_->scene(), tracer_->octree()},
+                 [&](std::size_t i) { return part[i]; });
+  }
+
+  void trace_each(Indices part) {
+    for (const std::uint32_t index : part) trace_alone(index);
+  }
+
+  void gather(Indices part, std::size_t step, std::vector<Ray>& rays,
+              std::vector<std::uint32_t>& samples) const {
+    for (std::size_t i = 0; i < part.size(); i += step) {
+      rays.push_back(batch_->rays[part[i]]);
+      samples.push_back(batch_->samples[part[i]]);
+    }
+  }
+
+  std::optional<DriftingView> view_of(Indices part) const {
+    std::vector<Ray> rays;
+    std::vector<std::uint32_t> samples;
+    gather(part, part.size() / kFitted + 1, rays, samples);
+    return fitted_view(rays, samples, *batch_->image);
+  }
+
+  /// Returns whether the rays of the part, as far as some of them show, deviate little.
+  bool fits(const DriftingView& view, Indices part) const {
+    double deviation = 0.0;
+    for (std::size_t i = 0; i < part.size(); i += part.size() / kFitted + 1) {
+      const Course course =
+          view.course_of(batch_->rays[part[i]], place_in(view.image, batch_->samples[part[i]]));
+      deviation = std::max(deviation,
+                           course.deviation + course.drifted * course.from_center / course.start);
+    }
+    return deviation < kDivided * view.pixel();
+  }
+
+  /// Divides a part at the middle of its longer side; returns how many rays are in the first half.
+  std::size_t divide(Indices part) const {
+    const auto pixel_of = [&](std::uint32_t index) {
+      return place_in(*batch_->image, batch_->samples[index]).pixel;
+    };
+    glm::ivec2 first = pixel_of(part.front());
+    glm::ivec2 last = first;
+    for (const std::uint32_t index : part) {
+      first = glm::min(first, pixel_of(index));
+      last = glm::max(last, pixel_of(index));
+    }
+    const int axis = last.y - first.y > last.x - first.x ? 1 : 0;
+    const int middle = (first[axis] + last[axis]) / 2;
+    const auto half = std::stable_partition(part.begin(), part.end(), [&](std::uint32_t index) {
+      return pixel_of(index)[axis] <= middle;
+    });
+    return first[axis] == last[axis] ? 0 : static_cast<std::size_t>(half - part.begin());
+  }
+
+  /// Traces the rays behind a plane in beams, and those that are in none alone. `index_of(i)` is
+  /// the index in the batch of the i-th ray.
+  template <class IndexOf>
+  void trace_behind(const BehindPlane& plane, IndexOf index_of) {
+    HitBuffer seen = plane.buffer();
+    std::vector<std::uint8_t> finished = plane.finished();
+    const auto trace = [&](auto watch) {
+      BeamRun<decltype(watch), BehindPlane>(tracer_->scene(), *tracer_, tracer_->options(),
+                                            plane.image(), plane, seen, finished, watch)();
+    };
+    if constexpr (std::is_same_v<Counting, WorkCounters>) {
+      trace(CountingBeamWatch(*counting_));
+    } else {
+      trace(NoBeamWatch());
+    }
+    std::size_t i = 0;
+    std::uint64_t alone = 0;
+    for (const std::uint32_t place : plane.places()) {
+      const std::size_t index = index_of(i++);
+      if (place != BehindPlane::kNone && finished[place] != 0) {
+        hits_.set(index, seen.get(place));
+      } else {
+        trace_alone(index);
+        ++alone;
+      }
+    }
+    counting_->add("rays_beside_beams", alone);
+  }
+
+  const BeamTracer* tracer_;
+  const RayBatch* batch_;
+  HitSpan hits_;
+  Counting* counting_;
+  std::span<std::uint8_t> alone_;
+};
+
+}  // namespace
+
+void BeamTracer::trace_batch(const RayBatch& batch, const HitSpan& hits,
+                             WorkCounters* counters) const {
+  with_counting(counters, [&](auto& counting) { BatchRun(*this, batch, hits, counting, {})(); });
 }
 
-template <class Counting>
-void BeamTracer::trace_mirror(const RayBatch& batch, const Pencil& pencil, const HitSpan& buffer,
-                              Counting& counting) const {
-  const BehindMirror mirror(batch, pencil, *scene_, octree());
-  HitBuffer seen = mirror.buffer();
-  std::vector<std::uint8_t> finished = mirror.finished();
-  const auto trace = [&](auto watch) {
-    BeamRun<decltype(watch), BehindMirror>(*scene_, *this, options_, *pencil.view, mirror, seen,
-                                           finished, watch)();
-  };
-  if constexpr (std::is_same_v<Counting, WorkCounters>) {
-    trace(CountingBeamWatch(counting));
-  } else {
-    trace(NoBeamWatch());
-  }
-  std::size_t index = pencil.first;
-  for (const std::uint32_t place : mirror.places()) {
-    const bool in_beam = place != BehindMirror::kNone && finished[place] != 0;
-    buffer.set(index, in_beam ? seen.get(place) : find_closest(batch.rays[index], counting));
-    ++index;
-  }
+std::vector<std::uint8_t> BeamTracer::traced_alone(const RayBatch& batch) const {
+  std::vector<std::uint8_t> alone(batch.rays.size());
+  HitBuffer hits(static_cast<int>(batch.rays.size()), 1, 1);
+  NoCounting none;
+  BatchRun(*this, batch, HitSpan(hits), none, alone)();
+  return alone;
 }
 
 }  // namespace beambench::accel::beam

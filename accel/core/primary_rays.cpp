@@ -64,6 +64,21 @@ PrimaryRays PrimaryRays::mirrored(const glm::dvec3& point, const glm::dvec3& nor
   return rays;
 }
 
+PrimaryRays PrimaryRays::with_directions(const glm::dvec3& top_left, const glm::dvec3& across,
+                                         const glm::dvec3& all_down) const {
+  PrimaryRays rays = *this;
+  const glm::dvec3 middle = top_left + 0.5 * (across + all_down);
+  rays.forward_ = glm::normalize(glm::cross(across, all_down));
+  if (glm::dot(rays.forward_, middle) < 0.0) rays.forward_ = -rays.forward_;
+  const double depth = glm::dot(rays.forward_, middle);
+  rays.top_left_ = top_left / depth;
+  rays.across_ = across / depth;
+  rays.all_down_ = all_down / depth;
+  rays.right_ = rays.across_ / static_cast<double>(width_);
+  rays.down_ = rays.all_down_ / static_cast<double>(height_);
+  return rays;
+}
+
 PrimaryRays PrimaryRays::at_corners() const {
   PrimaryRays rays = *this;
   rays.offsets_ = {glm::dvec2(0.0)};

@@ -38,6 +38,11 @@ class PrimaryRays {
   /// the mirror. The eye is rounded to float.
   PrimaryRays mirrored(const glm::dvec3& point, const glm::dvec3& normal) const;
 
+  /// Returns rays of the same samples in other directions, which are given up to a common factor:
+  /// that of the image's top left corner, and the vectors from there across the image and down.
+  PrimaryRays with_directions(const glm::dvec3& top_left, const glm::dvec3& across,
+                              const glm::dvec3& all_down) const;
+
   /// Returns the rays through the corners of these pixels, one each, as an image that is one larger
   /// in width and height.
   PrimaryRays at_corners() const;

@@ -44,10 +44,21 @@ struct PencilBundle {
   friend bool operator==(const PencilBundle&, const PencilBundle&) = default;
 };
 
+/// Rays of a batch, [first, first + count), that came from one point and were refracted, at least
+/// once, and reflected by the same planes. They have no common point, but neighboring samples have
+/// neighboring rays. No ray is also in a pencil.
+struct RefractedRays {
+  std::size_t first;
+  std::size_t count;
+
+  friend bool operator==(const RefractedRays&, const RefractedRays&) = default;
+};
+
 /// Further marks of a batch. Like pencils they are hints. Later versions of the interface may add
 /// members at the end, so that no structure has to be compiled again for them.
 struct BatchMarks {
-  std::vector<PencilBundle> bundles;  ///< in the order of `first`; no pencil is in two
+  std::vector<PencilBundle> bundles;     ///< in the order of `first`; no pencil is in two
+  std::vector<RefractedRays> refracted;  ///< in the order of `first`; no ray is in two
 };
 
 /// Rays, and the pencils among them: in the order of `first`, and no ray is in two. Pencils are a

@@ -169,7 +169,7 @@ void GridCells::advance(const EyeView& view, const Beam& beam, BeamQueue& queue)
   const std::uint64_t before = queue.appended;
   const beam::Exits exits(view, beam);
   for (std::size_t i = 0; i < exits.count(); ++i) {
-    const auto cuts = exits.cuts(view, i);
+    const auto cuts = exits.cuts(i);
     queue.clips += cuts.size();
     const Beam part = part_of(beam, {cuts.begin(), cuts.size()});
     if (part.outline.empty()) continue;

@@ -195,7 +195,7 @@ RayList mirror_rays(const std::vector<SurfacePoint>& points, const MirrorTable& 
   };
   std::vector<Reflected> reflected;
   for (const SurfacePoint& at : points) {
-    const std::uint32_t mirror = mirrors.mirror_of(at.primitive);
+    const std::uint32_t mirror = mirrors.plane_of(at.primitive);
     if (mirror != MirrorTable::kNone) reflected.push_back({mirror, &at});
   }
   std::ranges::stable_sort(reflected, {}, &Reflected::mirror);
@@ -205,7 +205,7 @@ RayList mirror_rays(const std::vector<SurfacePoint>& points, const MirrorTable& 
   for (auto first = reflected.begin(); first != reflected.end();) {
     const auto last =
         std::ranges::upper_bound(first, reflected.end(), first->mirror, {}, &Reflected::mirror);
-    if (auto behind = eye.behind(mirrors.mirrors()[first->mirror])) {
+    if (auto behind = eye.behind(mirrors.planes()[first->mirror])) {
       list.views.push_back(std::make_shared<const accel::PrimaryRays>(std::move(behind->view)));
       list.pencils.push_back({list.rays.size(), static_cast<std::size_t>(last - first),
                               behind->place, false, list.views.back().get()});

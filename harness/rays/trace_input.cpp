@@ -71,7 +71,7 @@ RayList made_rays(const scenes::Scene& scene, const accel::PrimaryRays& primary,
       return reflection_rays(surface_points(scene, primary));
     case RayKind::kMirror: {
       const MirrorTable mirrors(scene);
-      if (mirrors.mirrors().empty()) {
+      if (mirrors.planes().empty()) {
         throw NoRaysError(fmt::format(
             "scene '{}' has no planar mirrors, so it has no mirror rays; give flat polygons of its "
             "file a specular factor or ask for 'reflection' rays, for which all surfaces are "

@@ -8,15 +8,16 @@
 
 namespace beambench::rays {
 
-MirrorTable::MirrorTable(const scenes::Scene& scene) : mirrors_(scenes::planar_mirrors(scene)) {
-  if (mirrors_.empty()) return;
-  mirror_of_.assign(scene.primitives.size(), kNone);
-  for (std::uint32_t i = 0; i < mirrors_.size(); ++i) {
-    for (const scenes::PrimitiveId id : mirrors_[i].polygons) mirror_of_[id] = i;
+PlaneTable::PlaneTable(const scenes::Scene& scene, std::vector<scenes::PlanarSurface> planes)
+    : planes_(std::move(planes)) {
+  if (planes_.empty()) return;
+  plane_of_.assign(scene.primitives.size(), kNone);
+  for (std::uint32_t i = 0; i < planes_.size(); ++i) {
+    for (const scenes::PrimitiveId id : planes_[i].polygons) plane_of_[id] = i;
   }
 }
 
-std::optional<VirtualEye> VirtualEye::behind(const scenes::PlanarMirror& mirror) const {
+std::optional<VirtualEye> VirtualEye::behind(const scenes::PlanarSurface& mirror) const {
   const double lift = accel::mirror_lift(mirror.bounds);
   const glm::dvec3 from_mirror = place - mirror.point;
   const double distance = glm::dot(from_mirror, mirror.normal);

@@ -16,29 +16,37 @@
 
 namespace beambench::rays {
 
-/// A scene's planar mirrors by primitive.
-class MirrorTable {
+/// Planar surfaces of a scene by primitive.
+class PlaneTable {
  public:
-  explicit MirrorTable(const scenes::Scene& scene);
+  PlaneTable(const scenes::Scene& scene, std::vector<scenes::PlanarSurface> planes);
 
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  /// Returns the mirror of a primitive; kNone if it is not part of a planar mirror.
-  std::uint32_t mirror_of(scenes::PrimitiveId primitive) const {
-    return mirrors_.empty() ? kNone : mirror_of_[primitive];
+  /// Returns the index of the surface that a primitive is part of; kNone if there is none.
+  std::uint32_t plane_of(scenes::PrimitiveId primitive) const {
+    return planes_.empty() ? kNone : plane_of_[primitive];
   }
-  const std::vector<scenes::PlanarMirror>& mirrors() const { return mirrors_; }
+  const std::vector<scenes::PlanarSurface>& planes() const { return planes_; }
+
+ private:
+  std::vector<scenes::PlanarSurface> planes_;
+  std::vector<std::uint32_t> plane_of_;  ///< by primitive; empty without planes
+};
+
+/// A scene's planar mirrors by primitive.
+class MirrorTable : public PlaneTable {
+ public:
+  explicit MirrorTable(const scenes::Scene& scene)
+      : PlaneTable(scene, scenes::planar_mirrors(scene)) {}
+
   /// Returns the distance at which rays begin beside a primitive that a ray from `origin` met at
   /// `point`: the same for all points of a planar mirror.
   double lift_at(scenes::PrimitiveId primitive, const glm::dvec3& origin,
                  const glm::dvec3& point) const {
-    const std::uint32_t mirror = mirror_of(primitive);
+    const std::uint32_t mirror = plane_of(primitive);
     return mirror == kNone ? accel::surface_lift(origin, point)
-                           : accel::mirror_lift(mirrors_[mirror].bounds);
+                           : accel::mirror_lift(planes()[mirror].bounds);
   }
-
- private:
-  std::vector<scenes::PlanarMirror> mirrors_;
-  std::vector<std::uint32_t> mirror_of_;  ///< by primitive; empty without mirrors
 };
 
 /// The eye of an image, or its mirror image.
@@ -48,7 +56,7 @@ struct VirtualEye {
   /// Returns the eye of the rays that a mirror reflects. They begin slightly beside it, so their
   /// lines pass through the eye's image, moved by the same distance (`accel::mirror_lift`). Nothing
   /// for a mirror seen edge-on, where rounding decides on which side a ray meets it.
-  std::optional<VirtualEye> behind(const scenes::PlanarMirror& mirror) const;
+  std::optional<VirtualEye> behind(const scenes::PlanarSurface& mirror) const;
 
   glm::dvec3 place;
   /// The image seen from there, up to rounding: its eye is a float, and is not moved.

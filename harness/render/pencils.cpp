@@ -2,19 +2,18 @@
 
 #include <algorithm>
 #include <numeric>
-#include <optional>
+#include <utility>
 
 namespace beambench::render {
 
-MirrorPencils::MirrorPencils(const rays::MirrorTable& mirrors,
-                             std::span<const rays::VirtualEye> eyes)
-    : mirrors_(&mirrors), before_(eyes) {
-  if (mirrors.mirrors().empty() || eyes.empty()) return;
+PlaneGroups::PlaneGroups(Turn turn, const rays::PlaneTable& planes, std::span<const Eye> eyes)
+    : turn_(turn), planes_(&planes), before_(eyes) {
+  if (planes.planes().empty() || eyes.empty()) return;
   groups_.push_back({kNoKey});
   slots_.resize(64);
 }
 
-std::uint32_t MirrorPencils::group_with(std::uint64_t key) {
+std::uint32_t PlaneGroups::group_with(std::uint64_t key) {
   if (key == kNoKey) return 0;
   std::uint32_t& slot = slot_of(key);
   if (slot != 0) return slot;
@@ -29,7 +28,7 @@ std::uint32_t MirrorPencils::group_with(std::uint64_t key) {
 }
 
 /// Returns the slot of the group with a key, whether or not it is listed yet.
-std::uint32_t& MirrorPencils::slot_of(std::uint64_t key) {
+std::uint32_t& PlaneGroups::slot_of(std::uint64_t key) {
   std::size_t slot = (key * 0x9E3779B97F4A7C15U) >> 32U;  // Fibonacci hashing
   do {
     slot = (slot + 1) & (slots_.size() - 1);
@@ -38,29 +37,38 @@ std::uint32_t& MirrorPencils::slot_of(std::uint64_t key) {
 }
 
 /// Gives each group with enough rays an eye, and all groups their places.
-void MirrorPencils::mark_pencils() {
+void PlaneGroups::mark_groups() {
   for (const Run& run : runs_) groups_[run.group].count += run.count;
   std::size_t first = 0;
   for (std::size_t i = 1; i < groups_.size(); ++i) {
     Group& group = groups_[i];
-    if (group.count < kMinPencil) continue;
-    const rays::VirtualEye& before = before_[group.key & kNoEye];
-    auto behind = before.behind(mirrors_->mirrors()[group.key >> 16U]);
-    if (!behind) continue;
+    const Eye& before = before_[group.key & kNoEye];
+    const bool is_pencil = before && turn_ == Turn::kReflected;
+    if (group.count < (is_pencil ? kMinPencil : kMinRefracted)) continue;
+    Eye behind;
+    if (is_pencil) {
+      behind = before->behind(planes_->planes()[group.key >> 16U]);
+      if (!behind) continue;
+      pencils_.push_back({first, group.count, behind->place, false});
+    } else {
+      marks_.refracted.push_back({first, group.count});
+    }
     group.eye = static_cast<EyeIndex>(eyes_.size());
     group.next = first;
-    pencils_.push_back({first, group.count, behind->place, false});
-    eyes_.push_back(*std::move(behind));
+    eyes_.push_back(std::move(behind));
     first += group.count;
   }
-  for (std::size_t i = 0; i < pencils_.size(); ++i) pencils_[i].view = &eyes_[i].view;
+  auto pencil = pencils_.begin();
+  for (const Eye& eye : eyes_) {
+    if (eye) (pencil++)->view = &eye->view;
+  }
   groups_.front().next = first;
 }
 
-accel::RayBatch MirrorPencils::arranged(const accel::RayBatch& added) {
+accel::RayBatch PlaneGroups::arranged(const accel::RayBatch& added) {
   if (runs_.empty()) return added;
-  mark_pencils();
-  if (pencils_.empty()) return added;
+  mark_groups();
+  if (eyes_.empty()) return added;
   const std::size_t count = added.rays.size();
   places_.resize(count);
   eye_of_.resize(count);
@@ -77,7 +85,7 @@ accel::RayBatch MirrorPencils::arranged(const accel::RayBatch& added) {
       samples_[place] = added.samples[i];
     }
   }
-  return {rays_, pencils_, samples_, added.image};
+  return {rays_, pencils_, samples_, added.image, &marks_};
 }
 
 }  // namespace beambench::render

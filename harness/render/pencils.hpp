@@ -1,10 +1,10 @@
 #pragma once
-// The pencils of a picture's batches.
+// The pencils and refracted rays of a picture's batches.
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "accel/core/ray.hpp"
@@ -15,26 +15,36 @@ namespace beambench::render {
 
 /// The minimum number of rays of a pencil; fewer are not marked.
 inline constexpr std::size_t kMinPencil = 16;
+/// Likewise for refracted rays, which are divided further.
+inline constexpr std::size_t kMinRefracted = 64;
 
-/// The index of the virtual eye through which a ray comes; kNoEye for a ray that was refracted or
-/// reflected by a curved mirror, and for one in a small group.
+/// The virtual eye of rays that came from the camera through planes only; nothing if a plane
+/// refracted them, so that they have no common point.
+using Eye = std::optional<rays::VirtualEye>;
+
+/// The index of the eye through which a ray comes; kNoEye for a ray that a curved surface reflected
+/// or refracted, and for one in a small group.
 using EyeIndex = std::uint16_t;
 inline constexpr EyeIndex kNoEye = static_cast<EyeIndex>(~EyeIndex{0});
 
-/// Groups the mirror rays of a part of a wave by their virtual eyes: each eye with enough rays is a
-/// pencil; the other rays follow. Rays of an eye, and those without, stay in order.
-class MirrorPencils {
+/// What happened to rays at a plane.
+enum class Turn { kReflected, kRefracted };
+
+/// Groups the rays that a part of a wave sends from planes, by the eyes before and the planes. Each
+/// group with enough rays is marked, as a pencil or as refracted rays; the other rays follow. Rays
+/// of a group, and those without, stay in order.
+class PlaneGroups {
  public:
   /// Groups rays through `eyes`, the camera's or those of the wave. All arguments must outlive this
   /// object.
-  MirrorPencils(const rays::MirrorTable& mirrors, std::span<const rays::VirtualEye> eyes);
+  PlaneGroups(Turn turn, const rays::PlaneTable& planes, std::span<const Eye> eyes);
 
-  /// Adds the next ray, which comes from `eye` and is reflected by a primitive.
+  /// Adds the next ray, which comes from `eye` and is turned by a primitive.
   void add(EyeIndex eye, scenes::PrimitiveId primitive) {
     if (groups_.empty()) return;
-    const std::uint32_t mirror = mirrors_->mirror_of(primitive);
-    const bool is_known = eye != kNoEye && mirror != rays::MirrorTable::kNone;
-    const std::uint64_t key = is_known ? key_of(eye, mirror) : kNoKey;
+    const std::uint32_t plane = planes_->plane_of(primitive);
+    const bool is_known = eye != kNoEye && plane != rays::PlaneTable::kNone;
+    const std::uint64_t key = is_known ? key_of(eye, plane) : kNoKey;
     if (runs_.empty() || key != groups_[runs_.back().group].key) {
       runs_.push_back({group_with(key), 0});
     }
@@ -42,19 +52,19 @@ class MirrorPencils {
   }
 
   /// Once all rays have been added, takes their batch in the order of `add` and returns the batch
-  /// in the order of the pencils, which it marks.
+  /// in the order of the groups, which it marks.
   accel::RayBatch arranged(const accel::RayBatch& added);
   /// Returns the place there of the i-th added ray.
-  std::size_t place_of(std::size_t i) const { return pencils_.empty() ? i : places_[i]; }
-  /// Returns the index in `take_eyes` of the ray's eye.
-  EyeIndex eye_of(std::size_t i) const { return pencils_.empty() ? kNoEye : eye_of_[i]; }
-  /// Returns one eye for each pencil, and the ownership of the pencils' views.
-  std::vector<rays::VirtualEye> take_eyes() && { return std::move(eyes_); }
+  std::size_t place_of(std::size_t i) const { return eyes_.empty() ? i : places_[i]; }
+  /// Returns the index in `eyes` of the ray's eye.
+  EyeIndex eye_of(std::size_t i) const { return eyes_.empty() ? kNoEye : eye_of_[i]; }
+  /// Returns one eye for each marked group. They own the pencils' views.
+  const std::vector<Eye>& eyes() const { return eyes_; }
 
  private:
-  /// Rays through one virtual eye.
+  /// Rays through one eye.
   struct Group {
-    std::uint64_t key;  ///< the eye before the mirror, and the mirror
+    std::uint64_t key;  ///< the eye before the plane, and the plane
     std::size_t count = 0;
     EyeIndex eye = kNoEye;
     std::size_t next = 0;  ///< the place of its next ray
@@ -65,21 +75,23 @@ class MirrorPencils {
     std::uint32_t count;
   };
   static constexpr std::uint64_t kNoKey = ~std::uint64_t{0};
-  static std::uint64_t key_of(EyeIndex eye, std::uint32_t mirror) {
-    return (std::uint64_t{mirror} << 16U) | eye;
+  static std::uint64_t key_of(EyeIndex eye, std::uint32_t plane) {
+    return (std::uint64_t{plane} << 16U) | eye;
   }
   std::uint32_t group_with(std::uint64_t key);
   std::uint32_t& slot_of(std::uint64_t key);
-  void mark_pencils();
+  void mark_groups();
 
-  const rays::MirrorTable* mirrors_;
-  std::span<const rays::VirtualEye> before_;
-  std::vector<Group> groups_;  ///< the first: rays without a virtual eye; empty without mirrors
+  Turn turn_;
+  const rays::PlaneTable* planes_;
+  std::span<const Eye> before_;
+  std::vector<Group> groups_;         ///< the first: rays without an eye; empty without planes
   std::vector<std::uint32_t> slots_;  ///< a hash table of groups; 0 in free slots
   std::vector<Run> runs_;
-  std::vector<rays::VirtualEye> eyes_;
+  std::vector<Eye> eyes_;
   std::vector<accel::Pencil> pencils_;
-  std::vector<std::uint32_t> places_;  ///< of each added ray; empty without pencils, like the next
+  accel::BatchMarks marks_;
+  std::vector<std::uint32_t> places_;  ///< of each added ray; empty without marks, like the next
   std::vector<EyeIndex> eye_of_;       ///< of each ray added
   std::vector<accel::Ray> rays_;
   std::vector<std::uint32_t> samples_;

@@ -28,6 +28,7 @@ ShadedScene::ShadedScene(const scenes::Scene& scene)
       light_colors_(rays::light_colors(scene)),
       normals_(scene),
       mirrors_(scene),
+      glass_(scene, scenes::planar_glass(scene)),
       background_(background_color(scene)) {
   for (const scenes::Surface& surface : scene.surfaces) {
     auto& known = matte_.emplace_back();

@@ -25,6 +25,7 @@ class ShadedScene {
   const glm::dvec3& background() const { return background_; }
   const rays::NormalTable& normals() const { return normals_; }
   const rays::MirrorTable& mirrors() const { return mirrors_; }
+  const rays::PlaneTable& glass() const { return glass_; }
   /// Returns a surface's color times its diffuse factor at a point of the scene, in linear light.
   glm::dvec3 matte_at(std::uint32_t surface, const glm::dvec3& point) const;
 
@@ -34,6 +35,7 @@ class ShadedScene {
   std::vector<glm::dvec3> light_colors_;
   rays::NormalTable normals_;
   rays::MirrorTable mirrors_;
+  rays::PlaneTable glass_;
   std::vector<std::optional<glm::dvec3>> matte_;  ///< by surface; nothing if it has a texture
   glm::dvec3 background_;
 };

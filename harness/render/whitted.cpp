@@ -20,7 +20,8 @@ using glm::dvec3;
 
 constexpr double kAmbient = 0.06;  // of white light, from everywhere
 
-static_assert(rays::kMaxPictureBatch / kMinPencil < kNoEye, "each pencil of a part has an index");
+static_assert(rays::kMaxPictureBatch / kMinPencil + rays::kMaxPictureBatch / kMinRefracted < kNoEye,
+              "each group of a part has an index");
 
 /// Returns a mirror direction on the outer side of the surface, which a smooth polygon's shading
 /// normal may miss.
@@ -82,7 +83,7 @@ struct Whitted::Part {
   std::span<const std::uint32_t> samples;
   std::span<const std::optional<accel::Hit>> hits;
   std::span<const Path> paths;
-  std::span<const rays::VirtualEye> eyes;  ///< of the whole wave
+  std::span<const Eye> eyes;  ///< of the whole wave
   const accel::PrimaryRays* image;
 
   std::size_t size() const { return rays.size(); }
@@ -123,7 +124,7 @@ struct Whitted::Spawned {
   std::vector<std::optional<accel::Hit>> hits;
   std::vector<Path> paths;
   std::vector<Origin> origins;
-  std::vector<rays::VirtualEye> eyes;
+  std::vector<Eye> eyes;
 };
 
 Whitted::Whitted(std::shared_ptr<const ShadedScene> scene, const RayStructures& structures,
@@ -145,7 +146,7 @@ void Whitted::trace_light(const CameraRays& camera, std::span<dvec3> colors,
   progress.census.eye += camera.rays.size();
   for (const auto& hit : camera.hits) progress.census.eye_hits += hit ? 1U : 0U;
   const std::vector<Path> paths(camera.rays.size(), {1.0, 0, false});
-  const rays::VirtualEye eye(*camera.image);
+  const Eye eye(*camera.image);
   trace_wave({camera.rays, camera.samples, camera.hits, paths, {&eye, 1}, camera.image}, 1, colors,
              progress);
 }
@@ -266,7 +267,8 @@ Whitted::Spawned Whitted::spawned(const Found& found, const Part& part, Progress
   std::vector<accel::Ray> mirror_rays, glass_rays;
   std::vector<std::uint32_t> mirror_samples, glass_samples;
   std::vector<bool> is_glass;  // of each ray of the wave
-  MirrorPencils pencils(shaded_->mirrors(), part.eyes);
+  PlaneGroups mirror_groups(Turn::kReflected, shaded_->mirrors(), part.eyes);
+  PlaneGroups glass_groups(Turn::kRefracted, shaded_->glass(), part.eyes);
   mirror_rays.reserve(found.size());
   mirror_samples.reserve(found.size());
   next.paths.reserve(found.size());
@@ -288,7 +290,7 @@ Whitted::Spawned Whitted::spawned(const Found& found, const Part& part, Progress
         mirror_rays, places.beside[place],
         mirrored_outward(places.incoming[place], places.shading[place], places.geometric[place]));
     mirror_samples.push_back(found.sample[place]);
-    pencils.add(found.path[place].eye, found.primitive[place]);
+    mirror_groups.add(found.path[place].eye, found.primitive[place]);
     is_glass.push_back(false);
   };
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -312,28 +314,33 @@ Whitted::Spawned Whitted::spawned(const Found& found, const Part& part, Progress
     if (!spawn(i, glass, entering)) continue;
     add_ray(glass_rays, places.point[i] - places.lift[i] * places.geometric[i], *direction);
     glass_samples.push_back(found.sample[i]);
+    glass_groups.add(found.path[i].eye, found.primitive[i]);
     is_glass.push_back(true);
   }
   const accel::HitBuffer mirror_hits = traced(
-      *structures_.reflected, pencils.arranged({mirror_rays, {}, mirror_samples, part.image}),
+      *structures_.reflected, mirror_groups.arranged({mirror_rays, {}, mirror_samples, part.image}),
       progress.census.reflected);
-  const accel::HitBuffer glass_hits =
-      traced(*structures_.refracted, {glass_rays, {}, glass_samples, part.image},
-             progress.census.refracted);
+  const accel::HitBuffer glass_hits = traced(
+      *structures_.refracted, glass_groups.arranged({glass_rays, {}, glass_samples, part.image}),
+      progress.census.refracted);
+  next.eyes = mirror_groups.eyes();
+  const auto before_glass = static_cast<EyeIndex>(next.eyes.size());
+  next.eyes.insert(next.eyes.end(), glass_groups.eyes().begin(), glass_groups.eyes().end());
   next.hits.reserve(is_glass.size());
   std::size_t mirrors = 0, glasses = 0;
   for (std::size_t i = 0; i < is_glass.size(); ++i) {
     if (is_glass[i]) {
-      next.hits.push_back(glass_hits.get(glasses++));
+      const EyeIndex eye = glass_groups.eye_of(glasses);
+      if (eye != kNoEye) next.paths[i].eye = static_cast<EyeIndex>(before_glass + eye);
+      next.hits.push_back(glass_hits.get(glass_groups.place_of(glasses++)));
     } else {
-      next.paths[i].eye = pencils.eye_of(mirrors);
-      next.hits.push_back(mirror_hits.get(pencils.place_of(mirrors++)));
+      next.paths[i].eye = mirror_groups.eye_of(mirrors);
+      next.hits.push_back(mirror_hits.get(mirror_groups.place_of(mirrors++)));
     }
     progress.census.secondary_hits += next.hits.back() ? 1U : 0U;
   }
   next.rays = merged(std::move(mirror_rays), glass_rays, is_glass);
   next.samples = merged(std::move(mirror_samples), glass_samples, is_glass);
-  next.eyes = std::move(pencils).take_eyes();
   return next;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
-// Reflections in planar mirrors, by beams and by individual reflected rays.
+// What planar mirrors and planar glass show, by beams and by individual rays.
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -9,7 +10,8 @@
 
 namespace beambench::thesis {
 
-/// The view in one mirror, or the sum of several. Times are medians, in milliseconds.
+/// The view in one mirror, or through one plane of glass, or the sum of several. Times are medians,
+/// in milliseconds.
 struct MirrorResult {
   std::size_t polygons = 0;
   std::size_t samples = 0;
@@ -21,14 +23,30 @@ struct MirrorResult {
   MirrorResult& operator+=(const MirrorResult& other);
 };
 
+/// The upper ends of the classes of angles of incidence, in degrees.
+inline constexpr std::array<int, 6> kIncidence{15, 30, 45, 60, 75, 90};
+
+/// The refracted rays that a plane of glass sends on, by the angle at which camera rays meet it.
+struct GlassResult : MirrorResult {
+  struct Class {
+    std::size_t samples = 0;
+    std::size_t alone = 0;  ///< traced in no beam
+  };
+  std::array<Class, kIncidence.size()> by_angle{};
+
+  GlassResult& operator+=(const GlassResult& other);
+};
+
 struct MirrorComparison {
   std::size_t mirrors;             ///< planar mirrors of the scene
-  std::vector<MirrorResult> seen;  ///< those visible in the image
+  std::size_t glass;               ///< its planes of glass
+  std::vector<MirrorResult> seen;  ///< the mirrors visible in the image
+  std::vector<GlassResult> seen_through;
 };
 
 /// Traces the reflections in each mirror in beams from the mirror's virtual eye (Heckbert and
-/// Hanrahan 1984) and ray by ray through the same octree, each `repetitions` times. `hits` are
-/// those of `rays`.
+/// Hanrahan 1984) and ray by ray through the same octree, each `repetitions` times; then likewise
+/// the rays that enter each plane of glass. `hits` are those of `rays`.
 MirrorComparison compare_mirrors(const accel::beam::BeamTracer& tracer, const scenes::Scene& scene,
                                  const accel::PrimaryRays& rays, const accel::HitBuffer& hits,
                                  int repetitions);

@@ -677,6 +677,18 @@ def test_mirrors_are_shown_by_beams_and_by_rays() -> None:
     assert json.loads(output_of("mirrors", "tetra:n=1", "--json"))["seen"] == []
 
 
+def test_planar_glass_is_shown_by_beams_and_by_rays() -> None:
+    arguments = ("mirrors", "aquarium:detail=1", "--resolution", "96x72", "--repetitions", "1")
+    assert "6 planes of glass" in output_of(*arguments)
+    seen = json.loads(output_of(*arguments, "--json"))
+    assert seen["planar_glass"] == 6
+    (front,) = seen["seen_through"]
+    assert front["different"] == 0
+    assert 0 < front["samples"] == sum(each["samples"] for each in front["by_angle"])
+    steep = [each for each in front["by_angle"] if each["degrees_below"] <= 30]
+    assert sum(each["alone"] for each in steep) <= 0.2 * sum(each["samples"] for each in steep)
+
+
 def test_the_rules_of_spd_fix_the_rays() -> None:
     (tetra,) = json.loads(output_of("census", "tetra:n=2", "--rules", "spd", "--json"))["scenes"]
     assert tetra["eye_rays"] == 513 * 513

@@ -198,7 +198,7 @@ TEST(MirrorRays, AreTheReflectionRaysOfPlanarMirrors) {
   const RayList list = mirror_rays(points, mirrors, image);
   const std::size_t all = points.size();
   std::erase_if(points, [&](const SurfacePoint& at) {
-    return mirrors.mirror_of(at.primitive) == MirrorTable::kNone;
+    return mirrors.plane_of(at.primitive) == MirrorTable::kNone;
   });
   EXPECT_LT(points.size(), all);
   EXPECT_EQ(fingerprint(by_sample(list)), fingerprint(reflection_rays(points).rays));

@@ -156,6 +156,41 @@ TEST(Pencils, AreOfAnyDepth) {
   EXPECT_GT(static_cast<double>(pencils.toward), 0.9 * static_cast<double>(picture.census.shadow));
 }
 
+// Rays that planar glass refracts are marked, and no others, also behind several planes of glass.
+TEST(RefractedRays, AreThoseBehindPlanarGlass) {
+  class Counted : public Unmarked {
+   public:
+    using Unmarked::Unmarked;
+    void closest_hits(const accel::RaySource& rays, const accel::HitSpan& hits,
+                      const accel::QueryContext& context) const override {
+      if (rays.batch() != nullptr && rays.batch()->marks != nullptr) {
+        std::size_t end = 0;
+        for (const accel::RefractedRays& each : rays.batch()->marks->refracted) {
+          EXPECT_GE(each.first, end);
+          EXPECT_GE(each.count, kMinRefracted);
+          end = each.first + each.count;
+          marked += each.count;
+        }
+        EXPECT_LE(end, rays.batch()->rays.size());
+      }
+      Unmarked::closest_hits(rays, hits, context);
+    }
+    mutable std::size_t marked = 0;
+  };
+  for (const auto& [name, least] :
+       {std::pair("aquarium:detail=1", 0.9), {"prism:detail=1", 0.9}, {"balls:n=2", 0.0}}) {
+    SCOPED_TRACE(name);
+    const scenes::Scene scene = scenes::load_scene(name);
+    const accel::PrimaryRays image(scene.cameras.front(), 160, 120, 1);
+    const auto structure = built(scene, "sah-bvh");
+    const Counted counted(*structure);
+    const RecordedPicture picture = recorded(scene, counted, image);
+    const auto refracted = static_cast<double>(picture.census.refracted);
+    EXPECT_GE(static_cast<double>(counted.marked), least * refracted);
+    EXPECT_EQ(counted.marked == 0, least == 0.0);
+  }
+}
+
 TEST(Pencils, AreNotOfCurvedMirrors) {
   const scenes::Scene scene = scenes::load_scene("balls:n=2");
   const accel::PrimaryRays image(scene.cameras.front(), 120, 90, 1);
@@ -167,7 +202,7 @@ TEST(Pencils, AreNotOfCurvedMirrors) {
 
 // Rounding decides which side of such a mirror is seen.
 TEST(Pencils, AreNotOfMirrorsSeenFromTheirEdge) {
-  const scenes::PlanarMirror mirror{
+  const scenes::PlanarSurface mirror{
       {0.0, 0.0, 1.0}, {0.0, 0.0, 1.0}, {0}, {{-4.0F, -4.0F, 1.0F}, {4.0F, 4.0F, 1.0F}}};
   const double lift = accel::mirror_lift(mirror.bounds);
   const auto behind = [&](float height) {
@@ -186,7 +221,9 @@ TEST(Pencils, AreNotOfMirrorsSeenFromTheirEdge) {
 TEST(Pencils, ChangeNothingThatAPictureDependsOn) {
   std::vector<scenes::Scene> all;
   all.push_back(mirror_room());
-  all.push_back(scenes::load_scene("teapot:n=3"));
+  for (const char* name : {"teapot:n=3", "aquarium:detail=2", "prism:detail=2", "gears:n=1"}) {
+    all.push_back(scenes::load_scene(name));
+  }
   for (std::uint64_t seed = 1; seed <= 4; ++seed) all.push_back(scene_of_all_surfaces(seed));
   for (const scenes::Scene& scene : all) {
     SCOPED_TRACE(scene.name);

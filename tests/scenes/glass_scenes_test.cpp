@@ -101,7 +101,7 @@ TEST_P(GlassScenes, HaveClosedBodiesThatFaceOutward) {
 TEST_P(GlassScenes, ReflectAtEachFaceAsAPlane) {
   const Scene scene = load_scene(GetParam());
   std::size_t polygons = 0;
-  for (const PlanarMirror& mirror : planar_mirrors(scene)) polygons += mirror.polygons.size();
+  for (const PlanarSurface& mirror : planar_mirrors(scene)) polygons += mirror.polygons.size();
   EXPECT_EQ(polygons, glass_faces(scene).size());
   for (const Primitive& primitive : scene.primitives) {
     EXPECT_EQ(scene.polygons[primitive.index].first_normal, Polygon::kFlat);

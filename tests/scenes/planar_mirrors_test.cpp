@@ -62,6 +62,24 @@ TEST(PlanarMirrors, ExcludeBentAndSmoothPolygons) {
   EXPECT_TRUE(planar_mirrors(load_scene("escena1")).empty());    // spheres
 }
 
+TEST(PlanarGlass, IsOfOneTransparentSurface) {
+  SceneBuilder builder("glass");
+  const auto square = [&](double x) {
+    add_square(builder, {x, 0.0, 1.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0});
+  };
+  builder.set_surface({.transmittance = 0.8F, .refraction_index = 1.5F});
+  square(0.0);
+  square(2.0);
+  builder.set_surface({.transmittance = 0.8F, .refraction_index = 1.3F});
+  square(4.0);
+  builder.set_surface(mirror());
+  square(6.0);
+  const auto glass = planar_glass(std::move(builder).build());
+  ASSERT_EQ(glass.size(), 2U);
+  EXPECT_EQ(glass[0].polygons, (std::vector<PrimitiveId>{0, 1}));
+  EXPECT_EQ(glass[1].polygons, (std::vector<PrimitiveId>{2}));
+}
+
 // However a plane is tilted, rounding the corners of large polygons does not bend it.
 TEST(PlanarMirrors, OfTiltedPlanesAreWhole) {
   for (int turn = 1; turn < 40; ++turn) {
@@ -73,7 +91,7 @@ TEST(PlanarMirrors, OfTiltedPlanesAreWhole) {
     for (int i = 0; i < 2; ++i) add_square(builder, 1.5 * i * u - 0.7 * i * v, u, v);
     const auto mirrors = planar_mirrors(std::move(builder).build());
     std::size_t polygons = 0;
-    for (const PlanarMirror& each : mirrors) polygons += each.polygons.size();
+    for (const PlanarSurface& each : mirrors) polygons += each.polygons.size();
     EXPECT_EQ(polygons, 2U) << turn;
     EXPECT_LE(mirrors.size(), 2U) << turn;  // two if it lies between cells of planes
   }

@@ -1,4 +1,4 @@
-// beambench mirrors: traces reflections in planar mirrors by beams and by individual reflected
+// beambench mirrors: traces what planar mirrors and planar glass show by beams and by individual
 // rays.
 
 #include "harness/thesis/mirrors.hpp"
@@ -34,23 +34,51 @@ double ratio(const thesis::MirrorResult& result) { return result.rays_ms / resul
 
 void print_text(const scenes::Scene& scene, const MirrorsRequest& request,
                 const thesis::MirrorComparison& found) {
-  fmt::print("{}: {}, {} seen at {}, {}\n\n", scene.name,
+  fmt::print("{}: {}, {} seen, and {}, {} seen, at {}, {}\n\n", scene.name,
              base::counted(found.mirrors, "planar mirror"), found.seen.size(),
+             base::counted(found.glass, "plane") + " of glass", found.seen_through.size(),
              request.image.resolution, request.structure);
-  TextTable table({"mirror", "polygons", "samples", "that hit", "rays", "beams", "rays/beams"});
+  TextTable table({"", "polygons", "samples", "that hit", "rays", "beams", "rays/beams"});
   const auto add = [&](std::string name, const thesis::MirrorResult& result) {
     table.add({std::move(name), fmt::format("{}", result.polygons),
                fmt::format("{}", result.samples), format_share(result.hits, result.samples),
                fmt::format("{:.4g} ms", result.rays_ms), fmt::format("{:.4g} ms", result.beams_ms),
                fmt::format("{:.2f}", ratio(result))});
   };
-  thesis::MirrorResult all;
+  thesis::MirrorResult mirrors;
   for (const thesis::MirrorResult& result : found.seen) {
-    add(fmt::format("{}", &result - found.seen.data() + 1), result);
-    all += result;
+    add(fmt::format("mirror {}", &result - found.seen.data() + 1), result);
+    mirrors += result;
   }
-  if (found.seen.size() > 1) add("all", all);
+  if (found.seen.size() > 1) add("all mirrors", mirrors);
+  thesis::GlassResult glass;
+  for (const thesis::GlassResult& result : found.seen_through) {
+    add(fmt::format("glass {}", &result - found.seen_through.data() + 1), result);
+    glass += result;
+  }
+  if (found.seen_through.size() > 1) add("all glass", glass);
   fmt::print("{}", table.text());
+  if (found.seen_through.empty()) return;
+
+  fmt::print("\nRefracted rays by the angle at which the camera's rays meet the glass:\n");
+  TextTable angles({"angle", "samples", "traced alone, in no beam"});
+  int from = 0;
+  for (std::size_t i = 0; i < glass.by_angle.size(); ++i) {
+    const auto& [samples, alone] = glass.by_angle[i];
+    const int to = thesis::kIncidence[i];
+    if (samples > 0) {
+      angles.add({fmt::format("{} to {} degrees", from, to), fmt::format("{}", samples),
+                  format_share(alone, samples)});
+    }
+    from = to;
+  }
+  fmt::print("{}", angles.text());
+}
+
+nlohmann::ordered_json json_of(const thesis::MirrorResult& result) {
+  return {{"polygons", result.polygons}, {"samples", result.samples},
+          {"hits", result.hits},         {"different", result.different},
+          {"rays_ms", result.rays_ms},   {"beams_ms", result.beams_ms}};
 }
 
 void print_json(const scenes::Scene& scene, const MirrorsRequest& request,
@@ -61,14 +89,17 @@ void print_json(const scenes::Scene& scene, const MirrorsRequest& request,
                              {"samples", request.image.samples},
                              {"repetitions", request.repetitions},
                              {"planar_mirrors", found.mirrors},
-                             {"seen", nlohmann::ordered_json::array()}};
-  for (const thesis::MirrorResult& result : found.seen) {
-    out["seen"].push_back({{"polygons", result.polygons},
-                           {"samples", result.samples},
-                           {"hits", result.hits},
-                           {"different", result.different},
-                           {"rays_ms", result.rays_ms},
-                           {"beams_ms", result.beams_ms}});
+                             {"seen", nlohmann::ordered_json::array()},
+                             {"planar_glass", found.glass},
+                             {"seen_through", nlohmann::ordered_json::array()}};
+  for (const thesis::MirrorResult& result : found.seen) out["seen"].push_back(json_of(result));
+  for (const thesis::GlassResult& result : found.seen_through) {
+    nlohmann::ordered_json& glass = out["seen_through"].emplace_back(json_of(result));
+    for (std::size_t i = 0; i < result.by_angle.size(); ++i) {
+      glass["by_angle"].push_back({{"degrees_below", thesis::kIncidence[i]},
+                                   {"samples", result.by_angle[i].samples},
+                                   {"alone", result.by_angle[i].alone}});
+    }
   }
   fmt::print("{}\n", json_text(out));
 }
@@ -86,14 +117,16 @@ bool show_mirrors(const MirrorsRequest& request) {
   rays::HitCheck(scene, choice).require(hits, rays);
   const auto found = thesis::compare_mirrors(tracer, scene, rays, hits, request.repetitions);
   request.json ? print_json(scene, request, found) : print_text(scene, request, found);
-  return std::ranges::all_of(found.seen, [](const auto& each) { return each.different == 0; });
+  const auto is_same = [](const thesis::MirrorResult& each) { return each.different == 0; };
+  return std::ranges::all_of(found.seen, is_same) &&
+         std::ranges::all_of(found.seen_through, is_same);
 }
 
 }  // namespace
 
 void add_mirrors_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
-      app.add_subcommand("mirrors", "Compare beams and single rays for planar mirrors");
+      app.add_subcommand("mirrors", "Compare beams and single rays at planar mirrors and glass");
   const auto request = std::make_shared<MirrorsRequest>();
   add_scene_option(*command, request->scene);
   command->add_option("--accel", request->structure, "beam, with parameters where wanted")
@@ -106,10 +139,14 @@ void add_mirrors_command(CLI::App& app, int& exit_code) {
   command->footer(
       "A planar mirror shows what a virtual eye behind it sees (Heckbert and Hanrahan 1984). The\n"
       "reflected rays are traced in beams, the thesis's first line of future work, and one by one\n"
-      "through the same octree. Coplanar flat polygons that reflect are one mirror.\n"
+      "through the same octree. Coplanar flat polygons that reflect are one mirror. Likewise the\n"
+      "rays that planar glass refracts; they have no common point, and those in no beam are "
+      "traced\n"
+      "alone.\n"
       "Exits with 1 if beams and rays find different hits.\n"
       "Examples:\n"
       "  beambench mirrors teapot\n"
+      "  beambench mirrors aquarium\n"
       "  beambench mirrors habitacion --accel beam:max_level=7,handover=48 --resolution 320x200\n"
       "  beambench mirrors teapot:n=3 --accel beam:max_level=6 --json");
   command->callback([request, &exit_code] {

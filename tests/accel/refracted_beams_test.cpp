@@ -1,0 +1,235 @@
+// Beams of rays that planes refract find what single rays find.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <optional>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "accel/beam/beam_tracer.hpp"
+#include "accel/beam/drifting_view.hpp"
+#include "accel/core/primary_rays.hpp"
+#include "harness/render/shading.hpp"
+#include "scenes/base/random.hpp"
+#include "scenes/catalogue.hpp"
+#include "tests/random_scene.hpp"
+
+namespace beambench::accel {
+namespace {
+
+using glm::dvec3;
+
+struct Plane {
+  dvec3 point;
+  dvec3 normal;
+};
+
+/// Rays of an image, after what planes have done to them.
+struct Rays {
+  std::vector<Ray> rays;
+  std::vector<std::uint32_t> samples;
+};
+
+Rays rays_of(const PrimaryRays& image) {
+  Rays all;
+  image.for_each(0, image.height(), [&](std::size_t index, const Ray& ray) {
+    all.rays.push_back(ray);
+    all.samples.push_back(static_cast<std::uint32_t>(index));
+  });
+  return all;
+}
+
+/// Returns the rays that cross a plane, refracted or, where `ratio` is 0, reflected.
+Rays behind(const Plane& plane, double ratio, const Rays& from) {
+  Rays next;
+  for (std::size_t i = 0; i < from.rays.size(); ++i) {
+    const dvec3 origin(from.rays[i].origin);
+    const dvec3 direction = glm::normalize(dvec3(from.rays[i].direction));
+    const double speed = glm::dot(direction, plane.normal);
+    const double t = glm::dot(plane.point - origin, plane.normal) / speed;
+    if (!(t > 1e-3 && t < 1e3)) continue;
+    const dvec3 normal = speed < 0.0 ? plane.normal : -plane.normal;
+    const auto turned = ratio == 0.0 ? std::optional(mirrored(direction, normal))
+                                     : render::refracted(direction, normal, ratio);
+    if (!turned) continue;
+    Ray& ray = next.rays.emplace_back();
+    ray.origin = glm::vec3(origin + t * direction + 1e-5 * *turned);
+    ray.direction = glm::vec3(*turned);
+    next.samples.push_back(from.samples[i]);
+  }
+  return next;
+}
+
+HitBuffer hits_of(const Accelerator& structure, const RayBatch& batch,
+                  WorkCounters* counters = nullptr) {
+  HitBuffer hits(static_cast<int>(batch.rays.size()), 1, 1);
+  structure.closest_hits(batch, hits, {counters});
+  return hits;
+}
+
+BatchMarks all_refracted(const Rays& rays) { return {{}, {{0, rays.rays.size()}}}; }
+
+TEST(RefractedBeams, FindWhatSingleRaysFindInRandomScenes) {
+  std::size_t rays = 0, hits = 0, in_beams = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const scenes::Scene scene = tests::random_scene(seed, 40);
+    beam::BeamOptions options;
+    options.octree.max_level = static_cast<int>(2 + seed % 5);
+    options.continue_with_rays = seed % 2 == 0;
+    options.handover = seed % 3 == 0 ? 20 : 0;
+    options.leaf = std::array{beam::LeafTest::kSimd, beam::LeafTest::kScalar,
+                              beam::LeafTest::kExact}[seed / 6 % 3];
+    const beam::BeamTracer tracer(scene, options);
+    const octree::Samet samet(scene, options.octree);
+    scenes::Camera camera = scene.cameras.front();
+    camera.angle = std::array{15.0F, 45.0F, 90.0F}[random.below(3)];
+    const PrimaryRays image(camera, 120, 90, seed % 5 == 0 ? 4 : 1);
+    // Three planes between the camera and the middle, tilted, of which one may reflect.
+    Rays now = rays_of(image);
+    for (int depth = 1; depth <= 3; ++depth) {
+      const dvec3 normal = glm::normalize(dvec3(image.forward()) +
+                                          random.uniform(0.0, 1.5) * verify::point_in_cube(random));
+      const Plane plane{glm::mix(dvec3(camera.from), dvec3(camera.at), 0.2 * depth), normal};
+      const double ratio = std::array{1.0 / 1.5, 1.0 / 1.33, 1.5, 0.0, 1.1}[random.below(5)];
+      now = behind(plane, ratio, now);
+      if (now.rays.empty()) break;
+      const BatchMarks marks = all_refracted(now);
+      const RayBatch batch{now.rays, {}, now.samples, &image, &marks};
+      const HitBuffer expected = hits_of(samet, {now.rays});
+      ASSERT_EQ(hits_of(tracer, batch), expected) << depth;
+      WorkCounters counters;
+      ASSERT_EQ(hits_of(tracer, batch, &counters), expected) << depth;
+      rays += now.rays.size();
+      const auto alone = tracer.traced_alone(batch);
+      in_beams += static_cast<std::size_t>(std::ranges::count(alone, 0));
+      for (std::size_t i = 0; i < expected.size(); ++i) hits += expected.get(i) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(rays, 500'000U);
+  EXPECT_GT(hits, 100'000U);
+  EXPECT_GT(in_beams, rays / 3);
+}
+
+/// The floor of a scene seen through a plane at some angle.
+struct ThroughGlass {
+  ThroughGlass(const scenes::Scene& scene, double degrees, int width)
+      : image(scene.cameras.front(), width, width, 1) {
+    const scenes::Camera& camera = scene.cameras.front();
+    const double angle = degrees * 3.14159265358979323846 / 180.0;
+    const dvec3 side = glm::normalize(image.across());
+    seen = behind({glm::mix(dvec3(camera.from), dvec3(camera.at), 0.3),
+                   std::cos(angle) * image.forward() + std::sin(angle) * side},
+                  1.0 / 1.5, rays_of(image));
+    marks = all_refracted(seen);
+  }
+
+  RayBatch batch() const { return {seen.rays, {}, seen.samples, &image, &marks}; }
+
+  PrimaryRays image;
+  Rays seen;
+  BatchMarks marks;
+};
+
+// Seen from inside a room, no ray misses the scene.
+TEST(RefractedBeams, LeaveFewRaysAlone) {
+  const scenes::Scene scene = scenes::load_scene("closed-room:detail=2");
+  const beam::BeamTracer tracer(scene, {});
+  for (const auto& [degrees, most] : {std::pair(0.0, 0.01), {20.0, 0.02}, {40.0, 0.1}}) {
+    const ThroughGlass glass(scene, degrees, 320);
+    const auto alone = tracer.traced_alone(glass.batch());
+    const auto count = static_cast<double>(std::accumulate(alone.begin(), alone.end(), 0));
+    EXPECT_LE(count, most * static_cast<double>(alone.size())) << degrees;
+    EXPECT_EQ(hits_of(tracer, glass.batch()), hits_of(tracer, {glass.seen.rays})) << degrees;
+  }
+}
+
+TEST(RefractedBeams, RaysThatAreNotLikeTheirNeighborsAreTracedAlone) {
+  const scenes::Scene scene = scenes::load_scene("teapot:n=3");
+  ThroughGlass glass(scene, 10.0, 100);
+  Random random(1);
+  for (std::size_t i = 0; i < glass.seen.rays.size(); ++i) {
+    Ray& ray = glass.seen.rays[i];
+    switch (random.below(40)) {
+      case 0:
+        glass.seen.samples[i] = glass.seen.samples[random.below(glass.seen.samples.size())];
+        break;
+      case 1:
+        ray.direction = -ray.direction;
+        break;
+      case 2:
+        ray.direction += glm::vec3(0.1F, -0.2F, 0.1F);
+        break;
+      case 3:
+        ray.origin += 0.3F * ray.direction;
+        break;
+      case 4:
+        ray.t_max = 3.0F;
+        break;
+      case 5:
+        ray.t_min = 2.0F;
+        break;
+      default:
+        ray.direction *= static_cast<float>(random.uniform(0.1, 10.0));
+    }
+  }
+  const beam::BeamTracer tracer(scene, {});
+  EXPECT_EQ(hits_of(tracer, glass.batch()), hits_of(tracer, {glass.seen.rays}));
+}
+
+/// Returns the maximum deviation of the rays of a part of an image, in pixels, from the view that
+/// is fitted to them.
+double deviation_of(const ThroughGlass& glass, int first, int size) {
+  Rays part;
+  for (std::size_t i = 0; i < glass.seen.rays.size(); ++i) {
+    const glm::ivec2 at = beam::place_in(glass.image, glass.seen.samples[i]).pixel - first;
+    if (std::min(at.x, at.y) < 0 || std::max(at.x, at.y) >= size) continue;
+    part.rays.push_back(glass.seen.rays[i]);
+    part.samples.push_back(glass.seen.samples[i]);
+  }
+  const auto view = beam::fitted_view(part.rays, part.samples, glass.image);
+  if (!view) return 1e9;
+  double most = 0.0;
+  for (std::size_t i = 0; i < part.rays.size(); ++i) {
+    const beam::SamplePlace place = beam::place_in(glass.image, part.samples[i]);
+    most = std::max(most, view->course_of(part.rays[i], place).deviation / view->pixel());
+  }
+  return most;
+}
+
+// The view is right to the first order: in a part half as large, rays deviate a quarter as much.
+TEST(DriftingViews, FitRefractedRaysToTheFirstOrder) {
+  const scenes::Scene scene = scenes::load_scene("tetra:n=2");
+  const ThroughGlass glass(scene, 30.0, 512);
+  const double whole = deviation_of(glass, 128, 128);
+  const double half = deviation_of(glass, 160, 64);
+  EXPECT_LT(half, whole / 3.0);
+  EXPECT_LT(deviation_of(glass, 176, 32), half / 3.0);
+  EXPECT_LT(half, 2.5);
+}
+
+TEST(DriftingViews, OfAnImageAreTheImage) {
+  const scenes::Scene scene = scenes::load_scene("tetra:n=2");
+  const PrimaryRays image(scene.cameras.front(), 40, 30, 1);
+  Rays rays = rays_of(image);
+  for (Ray& ray : rays.rays) ray.origin += 2.0F * ray.direction;
+  const auto view = beam::fitted_view(rays.rays, rays.samples, image);
+  ASSERT_TRUE(view);
+  EXPECT_LT(glm::length(view->eye - dvec3(image.eye())), 1e-3);
+  EXPECT_LT(glm::length(view->image.forward() - image.forward()), 1e-5);
+  EXPECT_LT(glm::length(view->image.right() - image.right()), 1e-7);
+  EXPECT_LT(glm::length(view->drift[0]) + glm::length(view->drift[1]), 1e-3);
+  // A row has no second direction.
+  rays.rays.resize(40);
+  rays.samples.resize(40);
+  EXPECT_FALSE(beam::fitted_view(rays.rays, rays.samples, image));
+}
+
+}  // namespace
+}  // namespace beambench::accel
