@@ -1,0 +1,140 @@
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "accel/core/accelerator.hpp"
+#include "accel/core/registry.hpp"
+#include "accel/polygon_beam/beam_tree.hpp"
+
+namespace beambench::accel::polygon_beam {
+namespace {
+
+constexpr const char* kName = "polygon-beam";
+
+/// The beam tracer of Heckbert and Hanrahan ("Beam tracing polygonal objects", SIGGRAPH 1984): an
+/// image is one beam, which polygons cut from front to back. It traces images of polygons, and
+/// nothing else: the coherence of a list of rays is not known.
+class PolygonBeam : public Accelerator, public Inspector {
+ public:
+  PolygonBeam(const scenes::Scene& scene, const TreeOptions& options)
+      : scene_(&scene), tree_(scene, options) {}
+
+  /// Beams hide each other, so one thread traces all of them.
+  void closest_hits(const RaySource& rays, const HitSpan& hits,
+                    const QueryContext& context) const override {
+    const PrimaryRays& image = image_of(rays);
+    with_counting(context.counters, [&]<class Counting>(Counting& counting) {
+      count(BeamTree<Counting>(*scene_, tree_, image, hits, counting, nullptr).trace(), counting);
+    });
+  }
+  void any_hits(const RaySource& rays, std::span<std::uint8_t> hits,
+                const QueryContext& context) const override {
+    const PrimaryRays& image = image_of(rays);
+    HitBuffer closest(image.width(), image.height(), image.samples());
+    closest_hits(rays, closest, context);
+    for (std::size_t i = 0; i < closest.size(); ++i) hits[i] = closest.get(i) ? 1 : 0;
+  }
+
+  Statistics statistics() const override {
+    Statistics statistics;
+    statistics.nodes = tree_.nodes().size();
+    for (const TreeNode& node : tree_.nodes()) {
+      if (!node.is_leaf) continue;
+      ++statistics.leaves;
+      statistics.empty_leaves += node.count == 0 ? 1 : 0;
+    }
+    statistics.references = tree_.fragments().size();
+    statistics.depth = tree_.depth();
+    statistics.bytes = sizeof(*this) + tree_.bytes();
+    statistics.image_rays = ImageRays::kOwn;
+    return statistics;
+  }
+
+  const Inspector* inspector() const override { return this; }
+  /// Returns the beams that polygons ended, in this order, with the samples that these hide; then
+  /// those that nothing ended. Samples on edges are in several beams.
+  std::optional<std::vector<BeamOutline>> beams(const PrimaryRays& image) const override {
+    std::vector<BeamOutline> outlines;
+    HitBuffer hits(image.width(), image.height(), image.samples());
+    NoCounting counting;
+    BeamTree<NoCounting>(*scene_, tree_, image, hits, counting, &outlines).trace();
+    return outlines;
+  }
+
+ private:
+  static const PrimaryRays& image_of(const RaySource& rays) {
+    if (const PrimaryRays* image = rays.image()) return *image;
+    throw UnsupportedError(
+        "'polygon-beam' traces images only: neither single rays nor lists of rays");
+  }
+
+  template <class Counting>
+  static void count(const BeamSums& sums, Counting& counting) {
+    counting.add("beams", sums.ended + sums.left);
+    counting.add("beams_ended", sums.ended);
+    counting.add("beams_leaving", sums.left);
+    counting.add("beams_made", sums.made);
+    counting.add("beams_dropped", sums.dropped);
+    counting.add("beam_clips", sums.clips);
+    counting.add("polygons_met", sums.met);
+    counting.add("samples_in_beams", sums.confirmed);
+    counting.add("samples_on_edges", sums.undecided);
+  }
+
+  const scenes::Scene* scene_;
+  PolygonTree tree_;
+};
+
+std::vector<ParameterInfo> parameters() {
+  const TreeOptions defaults;
+  return {
+      integer_parameter("max_polygons", static_cast<std::int64_t>(defaults.max_polygons), 1,
+                        1'000'000,
+                        "a cell with more triangles is divided, apart from those in its faces"),
+      integer_parameter("max_depth", static_cast<std::int64_t>(defaults.max_depth), 0, 48,
+                        "how often cells are divided at most"),
+      integer_parameter("max_references", static_cast<std::int64_t>(defaults.max_references), 1,
+                        2'000'000'000,
+                        "refuse to build a tree with more fragments of triangles (16 bytes each, "
+                        "and 24 for each corner where a plane cut them)")};
+}
+
+TreeOptions options_from(const Parameters& parameters) {
+  TreeOptions options;
+  options.max_polygons = static_cast<std::size_t>(parameters.integer("max_polygons"));
+  options.max_depth = static_cast<std::size_t>(parameters.integer("max_depth"));
+  options.max_references = static_cast<std::uint64_t>(parameters.integer("max_references"));
+  return options;
+}
+
+}  // namespace
+
+void register_polygon_beam(Registry& registry) {
+  registry.add({kName,
+                "beam tracing of polygons as one beam per image, which polygons cut from front to "
+                "back in the order of a BSP tree (Heckbert and Hanrahan 1984); images only",
+                Conformance::kBitExact,
+                parameters(),
+                [](const scenes::Scene& scene, const Parameters& parameters, const Workload&) {
+                  return std::make_unique<PolygonBeam>(scene, options_from(parameters));
+                },
+                {.single_rays = false, .batches = false, .spheres = false, .cones = false}});
+  registry.describe_counters(
+      kName,
+      {{"beams", "beams that a polygon ended, and beams that met no other polygon"},
+       {"beams_ended", "of these: ended by a polygon that hides all behind it"},
+       {"beams_leaving", "of these: ended by none; they have the background, and samples on edges"},
+       {"beams_made",
+        "the beam of the whole image, and each remaining part of a beam that was cut"},
+       {"beams_dropped", "remaining parts of beams that have no samples"},
+       {"beam_clips", "cuts of a polygon by a line"},
+       {"polygons_met", "triangles met by a beam in a leaf, so that its samples are tested"},
+       {"samples_in_beams", "samples in beams that a polygon ended"},
+       {"samples_on_edges", "samples that hit something and are in beams that nothing ended"}});
+}
+
+}  // namespace beambench::accel::polygon_beam
