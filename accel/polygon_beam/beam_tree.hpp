@@ -110,7 +110,7 @@ class BeamTree {
   /// Takes the beams that a node may hide through it, near side first; puts back what is left.
   void visit(std::size_t index, Beams& beams) {
     const TreeNode& node = tree_->nodes()[index];
-    if (node.box.lower.x > node.box.upper.x) return;
+    if (beams.empty() || node.box.lower.x > node.box.upper.x) return;
     const PixelBox box = sight_.box_of(node.box);
     if (box.empty()) return;
     Beams inside;

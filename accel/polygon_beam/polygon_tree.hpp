@@ -16,9 +16,9 @@
 namespace beambench::accel::polygon_beam {
 
 struct TreeOptions {
-  std::size_t max_polygons = 8;              ///< in a leaf that is not divided
-  std::size_t max_depth = 32;                ///< how often cells are divided at most
-  std::uint64_t max_references = 5'000'000;  ///< fragments of all leaves
+  std::size_t max_polygons = 8;               ///< in a leaf that is not divided
+  std::size_t max_depth = 32;                 ///< how often cells are divided at most
+  std::uint64_t max_references = 10'000'000;  ///< fragments of all leaves
 };
 
 /// The points where dot(normal, point) = offset. The normal has unit length.

@@ -35,6 +35,7 @@ STRUCTURES = [
     "tile-beam",
     "ray-classification",
     "z-buffer",
+    "polygon-beam",
     "embree",
     "null",
 ]

@@ -32,6 +32,7 @@ MODULES = {
     "accel/tile_beam": "accel::tile_beam",
     "accel/ray_classification": "accel::ray_classification",
     "accel/z_buffer": "accel::z_buffer",
+    "accel/polygon_beam": "accel::polygon_beam",
     "accel/embree": "accel::embree",
     "accel/null": "accel::null",
     "harness/base": "base",
