@@ -43,13 +43,13 @@ struct BeamSums {
 /// hit is kept, and the lowest id of equal ones. A beam ends only where its samples surely hit a
 /// polygon within the leaf's cell (`SeenFragment::surely`). No other hit can be as near:
 ///
-/// - Consider a plane that the leaf is divided from the others by, with the eye on the leaf's side
-///   or not, and d, the distance from the plane into the side that is visited first. d is linear
-///   along the ray, and not negative at the eye. If the leaf is on the first side, the hit has d >=
-///   -5/8 of the slab. Hits that this side does not refer to have d < -7/8, so they come later, and
-///   by more than the rounding of t (`Sight::may_end`).
-/// - If the leaf is on the second side, the beam has passed the first: the sample was tested
-///   against all that it may hit there.
+/// - Take any plane above the leaf in the tree, and let d be the distance from it, positive on the
+///   side of the eye, which is visited first. Along a ray, d is linear, and not negative at the
+///   eye. If the leaf is on this side, the hit has d >= -5/8 of the slab. Hits to which this side
+///   does not refer have d < -7/8: they come later, by more than the rounding of t
+///   (`Sight::may_end`).
+/// - If the leaf is on the other side, the beam has passed the first one, where the sample was
+///   tested against everything that it may hit there.
 ///
 /// A sample on an edge is in no part that ends: it stays in the beams beside it, and is tested
 /// until these end or leave. Beams without samples are dropped.

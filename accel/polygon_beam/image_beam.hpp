@@ -27,7 +27,6 @@ inline constexpr double kBorder = 1e-6;
 /// A beam from the eye: the pyramid through a convex polygon of the image, in pixels.
 struct ImageBeam {
   explicit ImageBeam(const ImagePolygon& polygon) : outline(polygon) {
-    low = high = outline[0];
     for (const glm::dvec2& corner : outline) {
       low = glm::min(low, corner);
       high = glm::max(high, corner);
@@ -41,8 +40,8 @@ struct ImageBeam {
   }
 
   ImagePolygon outline;
-  glm::dvec2 low;
-  glm::dvec2 high;
+  glm::dvec2 low{std::numeric_limits<double>::infinity()};
+  glm::dvec2 high{-std::numeric_limits<double>::infinity()};
 };
 
 /// Finds the samples of an image in polygons, row by row.

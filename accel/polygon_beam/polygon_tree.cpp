@@ -48,7 +48,7 @@ struct Range {
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
 };
-Range range_of(std::span<const glm::dvec3> corners, const Plane& plane) {
+Range distances(std::span<const glm::dvec3> corners, const Plane& plane) {
   Range range;
   for (const glm::dvec3& corner : corners) {
     const double distance = plane.distance(corner);
@@ -86,12 +86,15 @@ class TreeBuilder {
   static constexpr std::size_t kLargest = 4;
   static constexpr std::size_t kOthers = 4;
 
-  /// Passes the corners of a part to `use`, without copying them.
-  template <class Use>
-  auto with_outer(const Part& part, const Use& use) const {
-    if (!part.is_whole) return use(std::span<const glm::dvec3>(part.outer));
-    const PolygonTree::Triangle whole = tree_->triangle(part.triangle);
-    return use(std::span<const glm::dvec3>(whole));
+  /// Returns the corners of a part: its own, or those of the triangle, for which `whole` has space.
+  std::span<const glm::dvec3> outer_of(const Part& part, PolygonTree::Triangle& whole) const {
+    if (!part.is_whole) return part.outer;
+    whole = tree_->triangle(part.triangle);
+    return whole;
+  }
+  Range distances_of(const Part& part, const Plane& plane) const {
+    PolygonTree::Triangle whole;
+    return distances(outer_of(part, whole), plane);
   }
 
   void build(std::size_t index, std::vector<Part> parts, std::size_t depth) {
@@ -99,12 +102,11 @@ class TreeBuilder {
     Box box{glm::dvec3(std::numeric_limits<double>::infinity()),
             glm::dvec3(-std::numeric_limits<double>::infinity())};
     for (const Part& part : parts) {
-      with_outer(part, [&](std::span<const glm::dvec3> corners) {
-        for (const glm::dvec3& corner : corners) {
-          box.lower = glm::min(box.lower, corner);
-          box.upper = glm::max(box.upper, corner);
-        }
-      });
+      PolygonTree::Triangle whole;
+      for (const glm::dvec3& corner : outer_of(part, whole)) {
+        box.lower = glm::min(box.lower, corner);
+        box.upper = glm::max(box.upper, corner);
+      }
     }
     tree_->nodes_[index].box = box;
     const auto plane = depth <= options_.max_depth ? choose(parts) : std::nullopt;
@@ -157,26 +159,26 @@ class TreeBuilder {
   /// Returns what a child refers to of a part: nothing if it does not come within the slab.
   std::optional<Part> beside(const Part& part, const Plane& plane, double sign) const {
     const double slab = tree_->slab_;
-    return with_outer(part, [&](std::span<const glm::dvec3> corners) -> std::optional<Part> {
-      const Range range = range_of(corners, plane);
-      const double low = sign > 0.0 ? range.low : -range.high;
-      const double high = sign > 0.0 ? range.high : -range.low;
-      if (high < -slab) return std::nullopt;
-      Part kept;
-      if (low >= -0.5 * slab) {
-        kept = part;
-      } else {
-        kept.triangle = part.triangle;
-        kept.is_whole = false;
-        kept.outer = clipped(corners, plane, sign, slab);
-        if (kept.outer.empty()) return std::nullopt;
-        kept.inner = clipped(part.is_whole ? corners : std::span<const glm::dvec3>(part.inner),
-                             plane, sign, 0.5 * slab);
-      }
-      // Only its edge is on this side, or all of it lies in the plane.
-      kept.in_face = part.in_face || high <= slab;
-      return kept;
-    });
+    PolygonTree::Triangle whole;
+    const std::span<const glm::dvec3> corners = outer_of(part, whole);
+    const Range between = distances(corners, plane);
+    const double low = sign > 0.0 ? between.low : -between.high;
+    const double high = sign > 0.0 ? between.high : -between.low;
+    if (high < -slab) return std::nullopt;
+    Part kept;
+    if (low >= -0.5 * slab) {
+      kept = part;
+    } else {
+      kept.triangle = part.triangle;
+      kept.is_whole = false;
+      kept.outer = clipped(corners, plane, sign, slab);
+      if (kept.outer.empty()) return std::nullopt;
+      kept.inner = clipped(part.is_whole ? corners : std::span<const glm::dvec3>(part.inner), plane,
+                           sign, 0.5 * slab);
+    }
+    // Only its edge is on this side, or all of it lies in the plane.
+    kept.in_face = part.in_face || high <= slab;
+    return kept;
   }
 
   /// Returns the plane to divide a cell by; nothing where it should be a leaf.
@@ -207,9 +209,8 @@ class TreeBuilder {
       Plane across;
       across.normal[axis] = 1.0;
       std::ranges::transform(parts, extents.begin(), [&](const Part* part) {
-        const Range range = with_outer(
-            *part, [&](std::span<const glm::dvec3> corners) { return range_of(corners, across); });
-        return std::pair(range.low, range.high);
+        const Range between = distances_of(*part, across);
+        return std::pair(between.low, between.high);
       });
       const auto middle = extents.begin() + static_cast<std::ptrdiff_t>(extents.size() / 2);
       std::ranges::nth_element(extents, middle, {}, &std::pair<double, double>::first);
@@ -221,10 +222,8 @@ class TreeBuilder {
     std::vector<std::pair<double, const Part*>> areas;
     areas.reserve(parts.size());
     for (const Part* part : parts) {
-      const double area = with_outer(*part, [](std::span<const glm::dvec3> corners) {
-        return glm::length(twice_area(corners));
-      });
-      areas.emplace_back(area, part);
+      PolygonTree::Triangle whole;
+      areas.emplace_back(glm::length(twice_area(outer_of(*part, whole))), part);
     }
     for (std::size_t i = 0; i < kOthers; ++i) {
       add_plane_of(*areas[i * areas.size() / kOthers].second, planes);
@@ -250,10 +249,9 @@ class TreeBuilder {
     std::size_t front = 0;
     std::size_t back = 0;
     for (const Part* part : parts) {
-      const Range range = with_outer(
-          *part, [&](std::span<const glm::dvec3> corners) { return range_of(corners, plane); });
-      front += range.high > tree_->slab_ ? 1 : 0;
-      back += range.low < -tree_->slab_ ? 1 : 0;
+      const Range between = distances_of(*part, plane);
+      front += between.high > tree_->slab_ ? 1 : 0;
+      back += between.low < -tree_->slab_ ? 1 : 0;
     }
     return static_cast<double>(front + back + std::max(front, back));
   }

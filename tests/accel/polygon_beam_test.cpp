@@ -106,13 +106,13 @@ TEST(PolygonBeam, SeesTheNearestOfLayersHoweverCloseTheyAre) {
     }
     const scenes::Scene scene = std::move(builder).build();
     scenes::Camera camera;
-    const double distance = std::array{0.01, 2.0, 3.0, 200.0}[random.below(4)];
+    const double distance = std::array{0.01, 2.0, 3.0, 200.0, 5000.0}[random.below(5)];
     camera.from = glm::vec3(tilted({random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5),
                                     random.below(2) == 0 ? distance : -distance},
                                    axis));
     camera.at = glm::vec3(tilted({random.uniform(-0.5, 0.5), 0.0, 0.0}, axis));
     camera.up = glm::vec3(tilted({0.0, 1.0, 0.0}, axis));
-    camera.angle = distance > 100.0 ? 1.0F : 60.0F;
+    camera.angle = distance > 100.0 ? static_cast<float>(200.0 / distance) : 60.0F;
     expect_hits_of_exhaustive(scene, PrimaryRays(camera, 48, 36, 1));
   }
 }

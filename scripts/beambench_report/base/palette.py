@@ -48,6 +48,7 @@ _STRUCTURES = (
     Tint("tile-beam", "#8a7f00", "#f0e442"),
     Tint("ray-classification", "#7a00cc", "#c77dff"),
     Tint("z-buffer", "#6b4a2b", "#c9a27a"),
+    Tint("polygon-beam", "#c2185b", "#ff4fa3"),
 )
 # Of plug-ins, so that none is taken for a structure of the project.
 _SPARE = (
