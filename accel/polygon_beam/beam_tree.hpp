@@ -138,8 +138,11 @@ class BeamTree {
     for (const Fragment& fragment : tree_->fragments(tree_->nodes()[leaf])) {
       const SeenFragment seen = sight_.see(fragment);
       if (seen.box.empty()) continue;
-      for (const std::uint32_t beam : beams) test(fragment.triangle, seen, pool_[beam]);
-      if (seen.ends_beams()) seen_.push_back(seen);
+      bool has_samples = false;
+      for (const std::uint32_t beam : beams) {
+        has_samples = test(fragment.triangle, seen, pool_[beam]) || has_samples;
+      }
+      if (has_samples && seen.ends_beams()) seen_.push_back(seen);
     }
     Beams next;
     for (const SeenFragment& seen : seen_) {
@@ -159,16 +162,18 @@ class BeamTree {
     return !polygon.empty();
   }
 
-  void test(std::uint32_t triangle, const SeenFragment& seen, const ImageBeam& beam) {
-    if (!beam.overlaps(seen.box)) return;
+  /// Tests the samples of a beam that may hit a fragment. Returns whether there are any.
+  bool test(std::uint32_t triangle, const SeenFragment& seen, const ImageBeam& beam) {
+    if (!beam.overlaps(seen.box)) return false;
     ImagePolygon part = beam.outline;
     for (ImageLine line : seen.may) {
       // Samples of the beam may lie outside of its polygon by the border; so may those here.
       line.constant -= kBorder * (std::abs(line.x) + std::abs(line.y));
-      if (!narrow(part, line)) return;
+      if (!narrow(part, line)) return false;
     }
-    ++sums_.met;
+    bool has_samples = false;
     rows_.find_run(part, seen.box, [&](int y, int sample, int first, int last) {
+      has_samples = true;
       const glm::dvec2& offset = rays_->offsets()[static_cast<std::size_t>(sample)];
       for (int x = first; x <= last; ++x) {
         const std::size_t index = hits_.index(x, y, sample);
@@ -180,6 +185,8 @@ class BeamTree {
       }
       return false;
     });
+    sums_.met += has_samples ? 1 : 0;
+    return has_samples;
   }
 
   void confirm(std::uint32_t triangle, const Ray& ray, std::size_t index) {

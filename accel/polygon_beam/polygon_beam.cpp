@@ -132,7 +132,7 @@ void register_polygon_beam(Registry& registry) {
         "the beam of the whole image, and each remaining part of a beam that was cut"},
        {"beams_dropped", "remaining parts of beams that have no samples"},
        {"beam_clips", "cuts of a polygon by a line"},
-       {"polygons_met", "triangles met by a beam in a leaf, so that its samples are tested"},
+       {"polygons_met", "triangles that samples of a beam may hit, for each beam and leaf"},
        {"samples_in_beams", "samples in beams that a polygon ended"},
        {"samples_on_edges", "samples that hit something and are in beams that nothing ended"}});
 }
