@@ -142,7 +142,7 @@ class BeamTree {
       for (const std::uint32_t beam : beams) {
         has_samples = test(fragment.triangle, seen, pool_[beam]) || has_samples;
       }
-      if (has_samples && seen.ends_beams()) seen_.push_back(seen);
+      if (has_samples && !seen.surely.empty()) seen_.push_back(seen);
     }
     Beams next;
     for (const SeenFragment& seen : seen_) {
@@ -242,21 +242,17 @@ class BeamTree {
   void end(std::size_t leaf, const ImagePolygon& part) {
     ++sums_.ended;
     if (!kCounts && outlines_ == nullptr) return;
-    std::vector<std::size_t> samples = samples_of(part);
+    const std::vector<std::size_t> samples = samples_of(part);
     sums_.confirmed += samples.size();
-    add_outline(BeamKind::kOccupied, part, leaf, std::move(samples));
+    if (outlines_ == nullptr) return;
+    outlines_->push_back({BeamKind::kOccupied, {part.begin(), part.end()}, leaf, samples});
   }
   void leave(const ImagePolygon& part) {
     ++sums_.left;
     if (!kCounts && outlines_ == nullptr) return;
     for (const std::size_t sample : samples_of(part)) sums_.undecided += hits_.get(sample) ? 1 : 0;
-    add_outline(BeamKind::kLeaving, part, 0, {});
-  }
-  void add_outline(BeamKind kind, const ImagePolygon& part, std::size_t leaf,
-                   std::vector<std::size_t> samples) {
     if (outlines_ == nullptr) return;
-    std::ranges::sort(samples);
-    outlines_->push_back({kind, {part.begin(), part.end()}, leaf, std::move(samples)});
+    outlines_->push_back({BeamKind::kLeaving, {part.begin(), part.end()}});
   }
   std::vector<std::size_t> samples_of(const ImagePolygon& part) const {
     std::vector<std::size_t> samples;
@@ -264,6 +260,7 @@ class BeamTree {
       for (int x = first; x <= last; ++x) samples.push_back(hits_.index(x, y, sample));
       return false;
     });
+    std::ranges::sort(samples);
     return samples;
   }
 

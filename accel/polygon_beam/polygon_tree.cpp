@@ -204,19 +204,17 @@ class TreeBuilder {
   std::vector<Plane> candidates(std::span<const Part* const> parts) const {
     std::vector<Plane> planes;
     // Across each axis, where half of the polygons begin, and where half of them end.
-    std::vector<std::pair<double, double>> extents(parts.size());
+    std::vector<Range> extents(parts.size());
+    const auto middle = extents.begin() + static_cast<std::ptrdiff_t>(extents.size() / 2);
     for (int axis = 0; axis < 3; ++axis) {
       Plane across;
       across.normal[axis] = 1.0;
-      std::ranges::transform(parts, extents.begin(), [&](const Part* part) {
-        const Range between = distances_of(*part, across);
-        return std::pair(between.low, between.high);
-      });
-      const auto middle = extents.begin() + static_cast<std::ptrdiff_t>(extents.size() / 2);
-      std::ranges::nth_element(extents, middle, {}, &std::pair<double, double>::first);
-      planes.push_back({across.normal, middle->first});
-      std::ranges::nth_element(extents, middle, {}, &std::pair<double, double>::second);
-      planes.push_back({across.normal, middle->second});
+      std::ranges::transform(parts, extents.begin(),
+                             [&](const Part* part) { return distances_of(*part, across); });
+      std::ranges::nth_element(extents, middle, {}, &Range::low);
+      planes.push_back({across.normal, middle->low});
+      std::ranges::nth_element(extents, middle, {}, &Range::high);
+      planes.push_back({across.normal, middle->high});
     }
 
     std::vector<std::pair<double, const Part*>> areas;

@@ -35,8 +35,6 @@ struct SeenFragment {
   /// A sample inside of all of these surely hits it. Empty: no sample surely does.
   beam::FixedVector<beam::ImageLine, kMostSides> surely;
   beam::ImageLine inverse_t;  ///< at least 1 / view depth of its plane
-
-  bool ends_beams() const { return !surely.empty(); }
 };
 
 /// Sees the fragments of a tree from the eye of an image.

@@ -41,7 +41,7 @@ TEST(Contract, EverySourceGetsTheSameHits) {
 }
 
 TEST(Contract, UnsupportedRaysAreRefused) {
-  const scenes::Scene scene = scenes::load_scene("balls:n=1");
+  const scenes::Scene scene = scenes::load_scene("tetra:n=1");
   const std::vector<Ray> rays(2);
   std::vector<std::uint8_t> any(rays.size());
   for (const StructureInfo& info : registry().structures()) {

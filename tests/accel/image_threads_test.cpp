@@ -41,6 +41,7 @@ std::map<std::string, std::uint64_t, std::less<>> counts(const WorkCounters& cou
 void expect_same_on_threads(const StructureChoice& choice, const scenes::Scene& scene,
                             const PrimaryRays& rays) {
   SCOPED_TRACE(choice.label() + " over " + scene.name);
+  if (!choice.info().support.includes(scene)) return;
   const auto structure = choice.build(scene);
   HitBuffer expected(rays.width(), rays.height(), rays.samples());
   WorkCounters expected_counters;
