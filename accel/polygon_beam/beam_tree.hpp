@@ -211,7 +211,7 @@ class BeamTree {
       const ImagePolygon whole = hidden;
       if (!narrow(hidden, line)) return next.push_back(beam);
       if (beam::range_over(whole, line).high <= 0.0) continue;
-      outside.push_back(beam::clip(whole, {-line.x, -line.y, -line.constant}, 0.0));
+      outside.push_back(beam::clip(whole, {-line.x, -line.y, -line.constant, 0.0}, 0.0));
     }
     // Without samples, nothing ends here: cutting the beam would only make more of them.
     if (!rows_.any_in(hidden)) return next.push_back(beam);

@@ -93,7 +93,7 @@ class Sight {
     const double longest = screen_->longest();
     if (!(facing.height > 0x1p-20 * facing.reach) || !(facing.length > 0x1p-20 * facing.size)) {
       // Seen edge-on, or a needle whose plane is uncertain: only its box limits the samples.
-      seen.inverse_t = {0.0, 0.0, std::numeric_limits<double>::infinity()};
+      seen.inverse_t = {0.0, 0.0, std::numeric_limits<double>::infinity(), 0.0};
       return seen;
     }
     const double slack = screen_->rounding() * facing.length + 0x1p-46 * facing.size * longest;
@@ -135,7 +135,7 @@ class Sight {
   /// Returns dot(normal, direction) + slack as a function of the place in pixels.
   beam::ImageLine line_of(const glm::dvec3& normal, double slack) const {
     const z_buffer::PixelLine line = screen_->product(normal, slack);
-    return {line.x, line.y, line.constant};
+    return {line.x, line.y, line.constant, 0.0};
   }
 
   /// The plane through the eye and two corners. `loss` bounds the error of its product with a

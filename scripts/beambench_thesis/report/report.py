@@ -257,6 +257,42 @@ STAND_IN_WORDS = (
     "7811fb1 bola-espacial, delfines and maceta had been modeled after figures and sentences that "
     "they then tested; they now follow the thesis's descriptions alone."
 )
+OTHER_SYSTEMS = (
+    (
+        "Cones (Amanatides 1984, Kirk 1987)",
+        "are rays that widen and find how much of a cone objects cover, so that one ray gives a "
+        "smooth edge or a penumbra; their result is an estimate of coverage, and no hit that could "
+        "be verified.",
+    ),
+    (
+        "Paraxial pencils (Shinya, Takahashi and Naito 1987)",
+        "follow the rays near an axial ray by a matrix, and take the picture from this "
+        "approximation; beams through glass use their linear view of neighboring rays here, with "
+        "the hits of the rays themselves.",
+    ),
+    (
+        "Coherent rays in cylinders (Speer and others 1986)",
+        "go where their neighbors went as long as they stay in a cylinder that nothing else "
+        "enters; section 2.2.1.2 already says that they cost more than single rays.",
+    ),
+    (
+        "Ray coherence (Ohta and Maekawa 1987)",
+        "lists for each object what rays from it meet in each direction; the lists grow with the "
+        "square of the objects, and ray classification, which is measured, keeps such lists for "
+        "the rays that occur.",
+    ),
+    (
+        "Octrees above bounding volumes (Scherson and Caspary 1987)",
+        "end an octree early and put hierarchies of volumes into its leaves; both halves are "
+        "measured, and the thesis does not say where one should give way to the other.",
+    ),
+    (
+        "Hierarchies from octrees (Glassner 1988)",
+        "take the nodes of an octree over space and time for volumes that do not overlap; their "
+        "purpose is scenes that move, and the thesis's scenes do not.",
+    ),
+)
+"""What chapter 2 surveys and nobody measures here: a name, and the rest of a sentence."""
 FIRST_FIGURES = ("5.7", "5.8", "5.12", "5.16")
 """Those that show the thesis and ours side by side; the others are among the details."""
 BEST_WORDS = (

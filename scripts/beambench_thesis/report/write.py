@@ -36,6 +36,7 @@ from beambench_thesis.report.plan import Plan
 from beambench_thesis.report.report import (
     BEST_WORDS,
     FIRST_FIGURES,
+    OTHER_SYSTEMS,
     STAND_IN_WORDS,
     TABLE_WORDS,
     Report,
@@ -128,6 +129,7 @@ def _rendered(made: Environment, template: str, report: Report, **values: object
         by_question=by_question(report.claims),
         first_figures=FIRST_FIGURES,
         stand_in_words=STAND_IN_WORDS,
+        other_systems=OTHER_SYSTEMS,
         dash=DASH,
         table_sizes=RESOLUTIONS,
         table_words=TABLE_WORDS,
