@@ -27,8 +27,9 @@ std::vector<CounterInfo> beam_counters() {
        "plane reflects or refracts"},
       {"rays_by_crowding", "samples that became rays because their beam had too many cuts"},
       {"rays_beside_beams",
-       "reflected and refracted rays that were in no beam, because they deviate too much from "
-       "their neighbors"},
+       "rays that a plane reflected or refracted and that were in no beam, because they deviate "
+       "too "
+       "much from their neighbors, or are too few"},
   };
 }
 

@@ -108,6 +108,7 @@ void BehindPlane::take_rays(const DriftingView& view, double limit) {
   const double loss = 4.0 * direction_rounding(*view_) +
                       1e-5 * (glm::length(view_->right()) + glm::length(view_->down()));
   nearby_.deviation += loss;
+  nearby_.beside_eye = std::max(nearby_.beside_eye, nearby_.drifted);
   nearby_.deviation_from_eye += loss;
   std::vector<glm::dvec2> corners;
   const glm::dvec2 pixels(view_->width(), view_->height());

@@ -21,7 +21,7 @@ namespace beambench::accel::beam {
 /// empty leaves the beams continue, divided by the faces and the leaves behind them; at an occupied
 /// leaf the samples of a beam become rays; samples that leave the root are background without a
 /// ray. Samet's traversal of the same octree traces individually the rays that pass an occupied
-/// leaf, and all rays that do not belong to an image (seen directly or in a planar mirror).
+/// leaf, and all rays that do not come from an image through planes alone.
 class BeamTracer : public octree::Samet {
  public:
   BeamTracer(const scenes::Scene& scene, const BeamOptions& options)

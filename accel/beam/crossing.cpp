@@ -36,13 +36,18 @@ EyeView::EyeView(const CellGrid& grid, const PrimaryRays& rays, const NearbyRays
   nearby_ = nearby;
 }
 
-/// Let the planes lie at distances A and B in front of the eye, and let e(p) be the drift at a
-/// place p, D(p) the direction there at view depth 1, and d the deviation. A ray that crosses `a`
-/// first, and `b` at a view depth z behind its origin, is there at z D + e beyond A and at B, each
-/// up to z d. From this follows (A - e_a) D_b - (B - e_b) D_a <= (A - e_a + B - e_b) d, unless the
-/// eye is beside one of the planes, where `begin_beams` leaves only rays that cross it before their
-/// origins: their order does not matter. The left side is a conic on the image. The line leaves out
-/// its square part, which is at most the drift times the radius of the places.
+/// Returns the line moved by the drift, and by the deviation. Proof: let the planes lie at
+/// distances A and B in front of the eye, and let e(p) be the drift at a place p, D(p) the
+/// direction there at view depth 1, and d the deviation. A ray that crosses `a` first, and `b` at a
+/// view depth z behind its origin, is there at z D + e beyond A and at B, each up to z d. If e_a <=
+/// A and e_b <= B, from this follows (A - e_a) D_b - (B - e_b) D_a <= (A - e_a + B - e_b) d. The
+/// left side is a conic on the image. The line leaves out its square part, which is at most the
+/// drift times the radius of the places.
+///
+/// If the eye is beside a plane, the drift may exceed its distance. There `begin_beams` leaves only
+/// rays that cross it before their origins, if at all, and divides them by their direction. For a
+/// ray that moves away from the plane, only the line without drift is right, so the band covers
+/// both.
 ImageLine EyeView::moved_outward(ImageLine line, const Crossing& a, const Crossing& b,
                                  double size) const {
   const auto at_center = [&](const Crossing& crossing) {
@@ -58,8 +63,13 @@ ImageLine EyeView::moved_outward(ImageLine line, const Crossing& a, const Crossi
   const double y = drift(1);
   line.x += x;
   line.y += y;
-  const double margin =
+  double margin =
       nearby_->deviation + nearby_->drifted * (2.0 * nearby_->deviation + nearby_->radius) / size;
+  if (eye_is_beside(a) || eye_is_beside(b)) {
+    const glm::dvec3 direction(direction_[0].at(nearby_->center), direction_[1].at(nearby_->center),
+                               direction_[2].at(nearby_->center));
+    margin += 2.0 * nearby_->drifted * (glm::length(direction) + nearby_->radius) / size;
+  }
   line.constant -= x * nearby_->center.x + y * nearby_->center.y + margin;
   line.band = 2.0 * margin;
   return line;

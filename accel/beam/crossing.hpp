@@ -55,8 +55,8 @@ double direction_rounding(const PrimaryRays& rays);
 /// Naito, "Principles and applications of pencil tracing", SIGGRAPH 1987), so the line of a sample
 /// passes near eye + drift * (its place - center).
 ///
-/// A point of a ray at view depth z, seen from there, deviates from the place of its sample by an
-/// angle; lengths are those at view depth 1.
+/// A point of a ray deviates from the place of its sample by an angle, which is stated as a length
+/// at view depth 1. Other lengths are those of the scene.
 struct NearbyRays {
   glm::dvec3 eye;
   glm::dvec2 center{0.0};  ///< a place on the image
@@ -64,10 +64,10 @@ struct NearbyRays {
   std::array<glm::dvec3, 2> drift{};
   double deviation = 0.0;           ///< its maximum, seen from the drifting eye
   double deviation_from_eye = 0.0;  ///< its maximum, seen from `eye`
-  double beside_eye = 0.0;          ///< the maximum distance at which the lines pass `eye`
-  double drifted = 0.0;             ///< the part of it that `drift` explains
-  double radius = 0.0;   ///< the maximum distance of a place from `center`, at view depth 1
-  double nearest = 0.0;  ///< the minimum view depth at which a ray begins
+  double beside_eye = 0.0;  ///< the maximum distance at which the lines pass `eye`; not < drifted
+  double drifted = 0.0;     ///< the maximum distance of the drifting eye from `eye`
+  double radius = 0.0;      ///< the maximum distance of a place from `center`, at view depth 1
+  double nearest = 0.0;     ///< the minimum view depth at which a ray begins
 };
 
 /// The planes of a grid as seen from the camera.
@@ -90,7 +90,7 @@ class EyeView {
   /// Returns whether lines may pass the eye on the other side of a plane. If so, its crossing at
   /// the eye is uncertain.
   bool eye_is_beside(const Crossing& crossing) const {
-    return nearby_ && std::abs(distance(crossing)) < 1.25 * nearby_->beside_eye;
+    return nearby_ && std::abs(distance(crossing)) <= 1.25 * nearby_->beside_eye;
   }
   /// Returns the whole image as a polygon, extended on all sides by the possible rounding of a
   /// border sample.
@@ -119,7 +119,8 @@ class EyeView {
     const double distance_b = distance(b);
     const double size = distance_a + distance_b;
     // At t = 0, with the eye in both planes, the lower axis is first.
-    if (size == 0.0) return a.axis < b.axis ? along(a, -1.0) : along(b, 1.0);
+    if (!(size >= std::numeric_limits<double>::min()))
+      return a.axis < b.axis ? along(a, -1.0) : along(b, 1.0);
     // t_a < t_b with t = distance / (side * direction), multiplied out.
     const ImageLine to_b = along(b, distance_a / size);
     const ImageLine to_a = along(a, distance_b / size);

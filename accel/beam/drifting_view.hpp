@@ -29,7 +29,8 @@ inline SamplePlace place_in(const PrimaryRays& image, std::uint32_t sample) {
   return {{pixel % width, pixel / width}, sample % samples};
 }
 
-/// How a ray runs beside the line that belongs to its sample. Lengths are those at view depth 1.
+/// How a ray runs beside the line that belongs to its sample. Angles, and the distance from the
+/// center, are lengths at view depth 1; other lengths are those of the scene.
 struct Course {
   double start;               ///< view depth of its origin
   double deviation;           ///< angle at the drifting eye, from the origin on
@@ -59,8 +60,8 @@ struct DriftingView {
 };
 
 /// Returns the view that is closest, by least squares, to rays whose samples are those of an image.
-/// Nothing where they do not lie in a plane's part of an image, such as on a line. Needs a few
-/// rays: some hundred of a thousand give nearly the same view.
+/// Nothing if all samples lie near one line, or if rays run in all directions. Every tenth of many
+/// rays gives nearly the same view as all of them.
 std::optional<DriftingView> fitted_view(std::span<const Ray> rays,
                                         std::span<const std::uint32_t> samples,
                                         const PrimaryRays& image);

@@ -47,7 +47,7 @@ std::unique_ptr<BeamTracer> build_beam_tracer(const StructureChoice& choice,
 void register_beam(Registry& registry) {
   registry.add(
       {kName,
-       "the beam tracer of the thesis: primary rays, and what planar mirrors show, in beams "
+       "the beam tracer of the thesis: primary rays, and what planes reflect and refract, in beams "
        "through "
        "samet's octree, individual rays where a beam meets objects",
        Conformance::kBitExact, BeamOptions::parameters(),

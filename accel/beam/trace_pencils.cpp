@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -11,6 +12,7 @@
 
 #include "accel/beam/beam_tracer.hpp"
 #include "accel/beam/drifting_view.hpp"
+#include "accel/core/cell_ray.hpp"
 
 namespace beambench::accel::beam {
 namespace {
@@ -21,10 +23,12 @@ constexpr double kMostOfMirrors = 0.25;
 /// by less than this angle, half a pixel, as far as there are enough rays. Over aquarium and prism,
 /// 0.25 to 1 takes equally long.
 constexpr double kDivided = 0.5;
-/// Those that deviate by more are left out.
+/// Refracted rays that deviate by more pixels from the view of their part are left out.
 constexpr double kMostOfGlass = 2.0;
-/// The number of rays to which a view is fitted.
+/// The maximum number of rays to which a view is fitted.
 constexpr std::size_t kFitted = 128;
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 using Indices = std::span<std::uint32_t>;  // of rays in a batch
 
@@ -41,8 +45,9 @@ class BatchRun {
     const auto until = [&](std::size_t end) {
       for (; next < end; ++next) trace_alone(next);
     };
-    const auto refracted =
-        batch_->marks != nullptr ? std::span(batch_->marks->refracted) : std::span<RefractedRays>();
+    const auto refracted = batch_->marks != nullptr && batch_->image != nullptr
+                               ? std::span(batch_->marks->refracted)
+                               : std::span<const RefractedRays>();
     auto glass = refracted.begin();
     const auto trace_glass = [&](std::size_t end) {
       for (; glass != refracted.end() && glass->first < end; ++glass) {
@@ -105,7 +110,17 @@ class BatchRun {
   }
 
   void trace_each(Indices part) {
-    for (const std::uint32_t index : part) trace_alone(index);
+    for (const std::uint32_t index : part) trace_beside(index);
+  }
+
+  /// Traces a marked ray that is in no beam; one that misses the octree needs no tracing.
+  void trace_beside(std::size_t index) {
+    const Ray& ray = batch_->rays[index];
+    if (CellRay(tracer_->octree().grid(), ray).enter(ray.t_min) == kNever) {
+      return hits_.set(index, std::nullopt);
+    }
+    trace_alone(index);
+    counting_->add("rays_beside_beams");
   }
 
   void gather(Indices part, std::size_t step, std::vector<Ray>& rays,
@@ -119,20 +134,26 @@ class BatchRun {
   std::optional<DriftingView> view_of(Indices part) const {
     std::vector<Ray> rays;
     std::vector<std::uint32_t> samples;
-    gather(part, part.size() / kFitted + 1, rays, samples);
+    gather(part, step_of(part), rays, samples);
     return fitted_view(rays, samples, *batch_->image);
   }
 
-  /// Returns whether the rays of the part, as far as some of them show, deviate little.
+  /// Returns an odd step through a part, so that it does not stay in one column of the image.
+  static std::size_t step_of(Indices part) { return (part.size() / kFitted) | 1U; }
+
+  /// Returns whether the rays of the part deviate little, as far as some of them show.
   bool fits(const DriftingView& view, Indices part) const {
-    double deviation = 0.0;
-    for (std::size_t i = 0; i < part.size(); i += part.size() / kFitted + 1) {
+    const double most = kDivided * view.pixel();
+    const std::size_t step = step_of(part);
+    for (std::size_t i = step / 2; i < part.size(); i += step) {
       const Course course =
           view.course_of(batch_->rays[part[i]], place_in(view.image, batch_->samples[part[i]]));
-      deviation = std::max(deviation,
-                           course.deviation + course.drifted * course.from_center / course.start);
+      // The second term is what a line leaves out of the conic that it stands for.
+      const double deviation =
+          course.deviation + course.drifted * course.from_center / course.start;
+      if (!(deviation < most)) return false;
     }
-    return deviation < kDivided * view.pixel();
+    return true;
   }
 
   /// Divides a part at the middle of its longer side; returns how many rays are in the first half.
@@ -170,17 +191,14 @@ class BatchRun {
       trace(NoBeamWatch());
     }
     std::size_t i = 0;
-    std::uint64_t alone = 0;
     for (const std::uint32_t place : plane.places()) {
       const std::size_t index = index_of(i++);
       if (place != BehindPlane::kNone && finished[place] != 0) {
         hits_.set(index, seen.get(place));
       } else {
-        trace_alone(index);
-        ++alone;
+        trace_beside(index);
       }
     }
-    counting_->add("rays_beside_beams", alone);
   }
 
   const BeamTracer* tracer_;

@@ -44,9 +44,9 @@ struct PencilBundle {
   friend bool operator==(const PencilBundle&, const PencilBundle&) = default;
 };
 
-/// Rays of a batch, [first, first + count), that came from one point and were refracted, at least
-/// once, and reflected by the same planes. They have no common point, but neighboring samples have
-/// neighboring rays. No ray is also in a pencil.
+/// Rays of a batch, [first, first + count), that came from the eye of its image through the same
+/// planes, of which at least one refracted them. They have no common point, but neighboring samples
+/// have neighboring rays. No ray is also in a pencil.
 struct RefractedRays {
   std::size_t first;
   std::size_t count;

@@ -25,7 +25,8 @@ struct RayList {
   accel::BatchMarks marks{};
 
   accel::RayBatch batch() const {
-    return {rays, pencils, samples, image.get(), marks.bundles.empty() ? nullptr : &marks};
+    const bool is_marked = !marks.bundles.empty() || !marks.refracted.empty();
+    return {rays, pencils, samples, image.get(), is_marked ? &marks : nullptr};
   }
 };
 

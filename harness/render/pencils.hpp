@@ -38,6 +38,9 @@ class PlaneGroups {
   /// Groups rays through `eyes`, the camera's or those of the wave. All arguments must outlive this
   /// object.
   PlaneGroups(Turn turn, const rays::PlaneTable& planes, std::span<const Eye> eyes);
+  PlaneGroups(const PlaneGroups&) = delete;  // batches refer to it
+  PlaneGroups& operator=(const PlaneGroups&) = delete;
+  ~PlaneGroups() = default;
 
   /// Adds the next ray, which comes from `eye` and is turned by a primitive.
   void add(EyeIndex eye, scenes::PrimitiveId primitive) {

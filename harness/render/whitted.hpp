@@ -50,8 +50,9 @@ struct CameraRays {
 /// for the idea on other hardware): the camera rays of a part of the picture, all shadow rays of
 /// each light from where they hit, all mirror rays, all refracted rays, and so on with these, so
 /// that a structure receives batches. The shadow rays of a light are a pencil, and so are mirror
-/// rays that come through one virtual eye: from the camera via any number of planar mirrors only. A
-/// sample's light is summed in the order of recursive ray tracing, whatever the parts and batches.
+/// rays that come through one virtual eye: from the camera via any number of planar mirrors only.
+/// Rays from the camera via planes of which one refracted them are marked as such. A sample's light
+/// is summed in the order of recursive ray tracing, whatever the parts and batches.
 class Whitted {
  public:
   /// Scene and structure must outlive this object. `check` names the structure in its errors.

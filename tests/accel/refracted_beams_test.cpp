@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <vector>
@@ -13,10 +14,12 @@
 
 #include "accel/beam/beam_tracer.hpp"
 #include "accel/beam/drifting_view.hpp"
+#include "accel/core/cell_ray.hpp"
 #include "accel/core/primary_rays.hpp"
 #include "harness/render/shading.hpp"
 #include "scenes/base/random.hpp"
 #include "scenes/catalogue.hpp"
+#include "scenes/scene_builder.hpp"
 #include "tests/random_scene.hpp"
 
 namespace beambench::accel {
@@ -91,7 +94,7 @@ TEST(RefractedBeams, FindWhatSingleRaysFindInRandomScenes) {
     scenes::Camera camera = scene.cameras.front();
     camera.angle = std::array{15.0F, 45.0F, 90.0F}[random.below(3)];
     const PrimaryRays image(camera, 120, 90, seed % 5 == 0 ? 4 : 1);
-    // Three planes between the camera and the middle, tilted, of which one may reflect.
+    // Three planes between the camera and the middle, tilted, each of which may reflect.
     Rays now = rays_of(image);
     for (int depth = 1; depth <= 3; ++depth) {
       const dvec3 normal = glm::normalize(dvec3(image.forward()) +
@@ -117,7 +120,7 @@ TEST(RefractedBeams, FindWhatSingleRaysFindInRandomScenes) {
   EXPECT_GT(in_beams, rays / 3);
 }
 
-/// The floor of a scene seen through a plane at some angle.
+/// A scene seen through a plane at some angle.
 struct ThroughGlass {
   ThroughGlass(const scenes::Scene& scene, double degrees, int width)
       : image(scene.cameras.front(), width, width, 1) {
@@ -181,6 +184,126 @@ TEST(RefractedBeams, RaysThatAreNotLikeTheirNeighborsAreTracedAlone) {
   }
   const beam::BeamTracer tracer(scene, {});
   EXPECT_EQ(hits_of(tracer, glass.batch()), hits_of(tracer, {glass.seen.rays}));
+  EXPECT_GT(std::ranges::count(tracer.traced_alone(glass.batch()), 0), 100);
+}
+
+// A plane of cells passes next to the eye of the view, which drifts from one side of it to the
+// other: samples on both sides of the image's middle go where their rays go.
+TEST(RefractedBeams, CrossPlanesNextToTheEye) {
+  for (int turn = 0; turn < 60; ++turn) {
+    SCOPED_TRACE(turn);
+    Random random(static_cast<std::uint64_t>(turn));
+    scenes::Camera camera;
+    camera.from = {0.0F, 0.0F, 0.0F};
+    camera.at = {1.0F, 0.0F, 0.0F};
+    camera.up = {0.0F, 0.0F, 1.0F};
+    camera.angle = 2.4F;
+    const PrimaryRays image(camera, 32, 32, 1);
+    const double angle = random.uniform(0.3, 1.0);
+    const Rays seen = behind({{1.0, 0.0, 0.0}, {std::cos(angle), 0.0, std::sin(angle)}},
+                             turn % 2 == 0 ? 1.0 / 1.5 : 1.0 / 1.33, rays_of(image));
+    // A wall below the middle plane y = `middle`; above it, only a far object.
+    const double middle = random.uniform(-0.002, 0.002);
+    const double half = 4.0;
+    scenes::SceneBuilder builder("wall");
+    const auto square = [&](double x, double y_low, double y_high) {
+      const dvec3 corners[] = {
+          {x, y_low, -half}, {x, y_high, -half}, {x, y_high, half}, {x, y_low, half}};
+      builder.add_polygon(corners);
+    };
+    const double face = -0.689 + random.uniform(0.01, 0.3);
+    square(6.0, middle - half, middle - 0.02);
+    square(face, middle - half, middle - half + 0.01);
+    square(face + 2.0 * half, middle + half - 0.01, middle + half);
+    const scenes::Scene scene = std::move(builder).build();
+    for (const int level : {2, 3, 5}) {
+      beam::BeamOptions options;
+      options.octree.max_level = level;
+      const beam::BeamTracer tracer(scene, options);
+      const BatchMarks marks = all_refracted(seen);
+      EXPECT_EQ(hits_of(tracer, {seen.rays, {}, seen.samples, &image, &marks}),
+                hits_of(tracer, {seen.rays}));
+    }
+  }
+}
+
+// What the beams rest on: beyond the band of a line, rays cross the planes in its order, unless
+// they cross both before their origins.
+TEST(RefractedBeams, CrossPlanesInTheOrderOfTheLines) {
+  std::size_t sure = 0, beside = 0;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    scenes::Camera camera;
+    camera.at = glm::vec3(verify::point_in_cube(random));
+    camera.from = camera.at + 3.0F * glm::normalize(glm::vec3(verify::point_in_cube(random)) +
+                                                    glm::vec3(0.01F));
+    camera.up = {0.01F, 0.3F, 0.95F};
+    camera.angle = static_cast<float>(random.uniform(1.0, 20.0));
+    const PrimaryRays image(camera, 24, 24, 1);
+    const Plane plane{glm::mix(dvec3(camera.from), dvec3(camera.at), 0.3),
+                      glm::normalize(dvec3(image.forward()) + verify::point_in_cube(random))};
+    const Rays seen = behind(plane, 1.0 / 1.5, rays_of(image));
+    const auto view = beam::fitted_view(seen.rays, seen.samples, image);
+    if (!view) continue;
+    beam::NearbyRays nearby{.eye = view->eye, .center = view->center, .drift = view->drift};
+    nearby.nearest = 1e9;
+    for (std::size_t i = 0; i < seen.rays.size(); ++i) {
+      const beam::Course course =
+          view->course_of(seen.rays[i], beam::place_in(image, seen.samples[i]));
+      nearby.deviation = std::max(nearby.deviation, course.deviation + 1e-6);
+      nearby.beside_eye = std::max({nearby.beside_eye, course.beside_eye, course.drifted});
+      nearby.drifted = std::max(nearby.drifted, course.drifted);
+      nearby.radius = std::max(nearby.radius, course.from_center);
+      nearby.nearest = std::min(nearby.nearest, course.start);
+    }
+    if (nearby.deviation > 0.1) continue;
+    // Planes of cells of which some are next to the eye.
+    CellGrid grid;
+    grid.cells = glm::ivec3(8);
+    grid.cell = dvec3(random.uniform(0.2, 1.0));
+    grid.lower = view->eye - grid.cell * 3.0 +
+                 random.uniform(0.0, 3.0) * nearby.beside_eye * verify::point_in_cube(random);
+    const beam::EyeView eye(grid, view->image, nearby);
+    for (int a_axis = 0; a_axis < 3; ++a_axis) {
+      for (int b_axis = 0; b_axis < 3; ++b_axis) {
+        if (a_axis == b_axis) continue;
+        for (int pair = 0; pair < 64; ++pair) {
+          const beam::Crossing a = eye.crossing_of(a_axis, pair % 8);
+          const beam::Crossing b = eye.crossing_of(b_axis, pair / 8);
+          const beam::ImageLine line = eye.line_before(a, b);
+          for (std::size_t i = 0; i < seen.rays.size(); i += 7) {
+            const auto place = beam::place_in(image, seen.samples[i]);
+            const glm::dvec2 at = (glm::dvec2(place.pixel) + 0.5) / 24.0;
+            // `begin_beams` leaves such rays out.
+            const auto is_left = [&](const beam::Crossing& crossing) {
+              beam::Crossing other = crossing;
+              other.side = static_cast<std::int16_t>(-crossing.side);
+              return !eye.eye_is_beside(crossing) || eye.line_toward(crossing).at(at) < 0.0 ||
+                     eye.line_toward(other).at(at) < 0.0;
+            };
+            if (!is_left(a) || !is_left(b)) continue;
+            const CellRay ray(grid, seen.rays[i]);
+            const auto t_of = [&](const beam::Crossing& crossing) {
+              return ray.step(crossing.axis) == crossing.side
+                         ? ray.plane_t(crossing.axis, crossing.index)
+                         : std::numeric_limits<double>::infinity();
+            };
+            if (t_of(a) <= 0.0 && t_of(b) <= 0.0) continue;
+            if (std::isinf(t_of(a)) && std::isinf(t_of(b))) continue;
+            const double value = line.at(at);
+            if (value >= -line.band && value <= 0.0) continue;
+            EXPECT_EQ(beam::crosses_before(ray, a, b), value < 0.0);
+            ++sure;
+            beside += eye.eye_is_beside(a) ? 1 : 0;
+          }
+        }
+      }
+    }
+    if (::testing::Test::HasFailure()) return;
+  }
+  EXPECT_GT(sure, 1'000'000U);
+  EXPECT_GT(beside, 10'000U);
 }
 
 /// Returns the maximum deviation of the rays of a part of an image, in pixels, from the view that

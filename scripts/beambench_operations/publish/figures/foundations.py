@@ -46,7 +46,7 @@ def _table(cells: Cells, contenders: dict[str, str], kind: str) -> dict[str, Any
         own = {
             name: cells.ratio(contender, BEAM, scene=scene, kind=kind)
             for name, contender in contenders.items()
-            if _is_timed(cells, contender, scene=scene, kind=kind)
+            if _are_timed(cells, (contender, BEAM), scene=scene, kind=kind)
         }
         if own:
             rows[scene] = own
@@ -58,9 +58,9 @@ def _table(cells: Cells, contenders: dict[str, str], kind: str) -> dict[str, Any
     return {"contenders": list(contenders), "rows": rows, "means": means, "size": size}
 
 
-def _is_timed(cells: Cells, contender: str, **columns: str) -> bool:
-    """Returns whether a contender has times there: not where the scene has no rays of the kind."""
-    return bool(cells.having(contender, **columns)["timed"].any())
+def _are_timed(cells: Cells, contenders: tuple[str, ...], **columns: str) -> bool:
+    """Returns whether all have times there: not where the scene has no rays of the kind."""
+    return all(cells.having(one, **columns)["timed"].any() for one in contenders)
 
 
 def _glass(file: Path) -> dict[str, Any]:
