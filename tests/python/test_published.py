@@ -101,8 +101,8 @@ def test_the_findings_are_one_page(published: Path) -> None:
     assert len((published / "README.md").read_text("utf-8").splitlines()) <= 200
 
 
-MOST_BYTES = 20_000_000
-"""Of all that is published: it is in every clone."""
+MOST_BYTES = 21_000_000
+"""Of all that is published, a second run of the thesis included: it is in every clone."""
 
 
 def test_what_is_published_is_small(published: Path) -> None:

@@ -8,9 +8,17 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
+from beambench_report.base.files import Problem
 from beambench_report.base.published import COARSEST
 from beambench_thesis.__main__ import main
-from beambench_thesis.claims.register import variants_that_agree
+from beambench_thesis.claims.register import (
+    SWEPT_CLAIMS,
+    TESTED,
+    Finding,
+    judge_claims,
+    variants_that_agree,
+)
+from beambench_thesis.claims.variants_file import with_variants, write_variants
 from beambench_thesis.claims.verdict import Verdict
 from beambench_thesis.paper.evidence import (
     NOTHING,
@@ -126,3 +134,14 @@ def test_the_report_names_the_variants(tmp_path: Path) -> None:
     fields = dict(zip(head.split(" | "), line.split(" | "), strict=True))
     assert fields["variants that agree"] == "1 of 1"
     assert fields["levels read otherwise"] == "supported"
+
+
+def test_a_table_of_verdicts_stands_for_runs_that_are_not_kept(tmp_path: Path) -> None:
+    claims = judge_claims([], SWEPT_CLAIMS[:3])
+    first, second, third = (Finding(one, []) for one in Verdict if one in TESTED[:3])
+    judged = [replace(claims[0], variants=(first, second), deeper=third), *claims[1:]]
+    path = write_variants(judged, tmp_path / "variants.csv")
+    assert with_variants(claims, path) == judged
+    path.write_text("claim,variant,verdict\nC01,1,holds in part\n")
+    with pytest.raises(Problem, match=r"variants.csv: 'holds in part' is not a valid Verdict"):
+        with_variants(claims, path)

@@ -24,6 +24,8 @@ from beambench_thesis.claims.register import (
     judge_claims,
     named,
 )
+from beambench_thesis.claims.variants_file import NAME as VARIANTS_FILE
+from beambench_thesis.claims.variants_file import with_variants
 from beambench_thesis.claims.verdict import Outcome, Verdict
 from beambench_thesis.paper.cells import Cell, Cells, read_cells
 from beambench_thesis.paper.evidence import Evidence, one_level_less
@@ -116,17 +118,24 @@ def gather(directory: Path, plan: Plan, beambench: Path | None = None) -> Report
         ),
         tuple(make_figures(plan.figures, cells)),
         pictures,
-        tuple(
-            judge_claims(
-                [*cells.runs, *censuses, *clusters],
-                ALL_CLAIMS if clusters else SWEPT_CLAIMS,
-                variants=variants_of(directory, plan),
-                deeper=deeper_of(directory, plan),
-            )
-        ),
+        tuple(_judged(directory, plan, [*cells.runs, *censuses, *clusters], bool(clusters))),
         tuple(sections),
         tuple(_summary(directory, sweep, every) for sweep in sweeps),
     )
+
+
+def _judged(
+    directory: Path, plan: Plan, runs: Sequence[Path], with_clusters: bool
+) -> list[JudgedClaim]:
+    """Judges the claims by the runs, and by those of variants or the table that stands for them."""
+    claims = judge_claims(
+        runs,
+        ALL_CLAIMS if with_clusters else SWEPT_CLAIMS,
+        variants=variants_of(directory, plan),
+        deeper=deeper_of(directory, plan),
+    )
+    kept = directory / VARIANTS_FILE
+    return with_variants(claims, kept) if not plan.variants and kept.is_file() else claims
 
 
 def variants_of(directory: Path, plan: Plan) -> list[Evidence]:

@@ -25,6 +25,8 @@ from beambench_thesis.claims.register import (
     row_of,
     rule_in_words,
 )
+from beambench_thesis.claims.variants_file import NAME as VARIANTS_FILE
+from beambench_thesis.claims.variants_file import write_variants
 from beambench_thesis.claims.verdict import Outcome, Verdict
 from beambench_thesis.paper.cells import Cells
 from beambench_thesis.paper.markdown import markdown_environment
@@ -76,6 +78,8 @@ def write_report(directory: Path, plan: Plan, beambench: Path | None = None) -> 
     texts = {**as_pages(report), **as_markdown(report)}
     paths = [write_text(directory / name, text) for name, text in texts.items()]
     paths.append(_write_rows(report.cells, directory / "rows.csv"))
+    if plan.variants:
+        paths.append(write_variants(report.claims, directory / VARIANTS_FILE))
     return Written(tuple(paths), len(report.cells.cells), len(report.cells.wrong), notice(report))
 
 

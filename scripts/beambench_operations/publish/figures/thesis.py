@@ -20,7 +20,11 @@ from beambench_thesis.claims.register import (
     agreeing,
     effects,
     judge_claims,
+    read_otherwise,
+    variants_that_agree,
 )
+from beambench_thesis.claims.variants_file import NAME as VARIANTS_FILE
+from beambench_thesis.claims.variants_file import with_variants
 from beambench_thesis.claims.verdict import Outcome, Verdict, counted
 from beambench_thesis.paper.measured import error_between_runs
 from beambench_thesis.report.answers import answers
@@ -43,6 +47,7 @@ def figures(folder: Path) -> dict[str, Any]:
         cluster = folder.parent / CLUSTER
         others = [path for path in (folder / CENSUS, cluster) if path.is_dir()]
         claims = judge_claims([*report.cells.runs, *second.cells.runs, *others])
+    claims = with_variants(claims, folder / VARIANTS_FILE)
     tested = [one for one in claims if one.ours.verdict in TESTED]
     paired = [check.is_paired for one in tested for check in one.ours.checks]
     mirrors, unread = read_mirrors(sorted((folder / "mirrors").glob("*.json")))
@@ -50,6 +55,7 @@ def figures(folder: Path) -> dict[str, Any]:
         "cells": len(report.cells.cells),
         "wrong": len(report.cells.wrong),
         "claims": {one.claim.name: _claim(one) for one in tested},
+        "variants": max(len(one.variants) for one in claims),
         "tested": len(tested),
         "untestable": [_claim(one) for one in claims if one.ours.verdict is Verdict.NOT_TESTABLE],
         "answers": answers(claims),
@@ -155,6 +161,8 @@ def _claim(one: JudgedClaim) -> dict[str, Any]:
         "formerly": one.ours.formerly,
         "effect": {"thesis": printed, "ours": measured},
         "agreeing": agreeing(one.ours),
+        "variants": variants_that_agree(one),
+        "read_otherwise": read_otherwise(one),
         "cells": len(checks),
         "undecided": [f"{check.cell}: {check.figures}" for check in open_cells],
     }
