@@ -28,8 +28,7 @@ std::vector<CounterInfo> beam_counters() {
       {"rays_by_crowding", "samples that became rays because their beam had too many cuts"},
       {"rays_beside_beams",
        "rays that a plane reflected or refracted and that were in no beam, because they deviate "
-       "too "
-       "much from their neighbors, or are too few"},
+       "too much from their neighbors, or are too few"},
   };
 }
 

@@ -56,8 +56,8 @@ struct ImageLine {
   double x;
   double y;
   double constant;
-  /// Where the value is in [-band, 0], a sample may be on either side, because its ray runs beside
-  /// the line through the eye (`NearbyRays`).
+  /// The width of the values, [-band, 0], at which a sample may be on either side, because its ray
+  /// runs beside the line through the eye (`NearbyRays`).
   double band;
 
   double at(const glm::dvec2& point) const { return x * point.x + y * point.y + constant; }

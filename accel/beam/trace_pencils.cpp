@@ -1,9 +1,9 @@
 // Lists of rays: what planes reflect and refract is traced in beams, all other rays one by one.
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -27,8 +27,6 @@ constexpr double kDivided = 0.5;
 constexpr double kMostOfGlass = 2.0;
 /// The maximum number of rays to which a view is fitted.
 constexpr std::size_t kFitted = 128;
-
-constexpr double kNever = std::numeric_limits<double>::infinity();
 
 using Indices = std::span<std::uint32_t>;  // of rays in a batch
 
@@ -116,7 +114,7 @@ class BatchRun {
   /// Traces a marked ray that is in no beam; one that misses the octree needs no tracing.
   void trace_beside(std::size_t index) {
     const Ray& ray = batch_->rays[index];
-    if (CellRay(tracer_->octree().grid(), ray).enter(ray.t_min) == kNever) {
+    if (std::isinf(CellRay(tracer_->octree().grid(), ray).enter(ray.t_min))) {
       return hits_.set(index, std::nullopt);
     }
     trace_alone(index);

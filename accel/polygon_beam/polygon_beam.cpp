@@ -1,12 +1,10 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
-#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "accel/core/accelerator.hpp"
+#include "accel/core/image_accelerator.hpp"
 #include "accel/core/registry.hpp"
 #include "accel/polygon_beam/beam_tree.hpp"
 
@@ -18,10 +16,10 @@ constexpr const char* kName = "polygon-beam";
 /// The beam tracer of Heckbert and Hanrahan ("Beam tracing polygonal objects", SIGGRAPH 1984): an
 /// image is one beam, which polygons cut from front to back. It traces images of polygons, and
 /// nothing else: the coherence of a list of rays is not known.
-class PolygonBeam : public Accelerator, public Inspector {
+class PolygonBeam : public ImageAccelerator, public Inspector {
  public:
   PolygonBeam(const scenes::Scene& scene, const TreeOptions& options)
-      : scene_(&scene), tree_(scene, options) {}
+      : ImageAccelerator(kName), scene_(&scene), tree_(scene, options) {}
 
   /// Beams hide each other, so one thread traces all of them.
   void closest_hits(const RaySource& rays, const HitSpan& hits,
@@ -30,13 +28,6 @@ class PolygonBeam : public Accelerator, public Inspector {
     with_counting(context.counters, [&]<class Counting>(Counting& counting) {
       count(BeamTree<Counting>(*scene_, tree_, image, hits, counting, nullptr).trace(), counting);
     });
-  }
-  void any_hits(const RaySource& rays, std::span<std::uint8_t> hits,
-                const QueryContext& context) const override {
-    const PrimaryRays& image = image_of(rays);
-    HitBuffer closest(image.width(), image.height(), image.samples());
-    closest_hits(rays, closest, context);
-    for (std::size_t i = 0; i < closest.size(); ++i) hits[i] = closest.get(i) ? 1 : 0;
   }
 
   Statistics statistics() const override {
@@ -66,12 +57,6 @@ class PolygonBeam : public Accelerator, public Inspector {
   }
 
  private:
-  static const PrimaryRays& image_of(const RaySource& rays) {
-    if (const PrimaryRays* image = rays.image()) return *image;
-    throw UnsupportedError(
-        "'polygon-beam' traces images only: neither single rays nor lists of rays");
-  }
-
   template <class Counting>
   static void count(const BeamSums& sums, Counting& counting) {
     counting.add("beams", sums.ended + sums.left);

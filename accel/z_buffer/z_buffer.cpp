@@ -6,11 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <span>
 
 #include <glm/geometric.hpp>
 
-#include "accel/core/accelerator.hpp"
+#include "accel/core/image_accelerator.hpp"
 #include "accel/core/intersect.hpp"
 #include "accel/core/registry.hpp"
 #include "accel/core/threads.hpp"
@@ -19,6 +18,8 @@
 
 namespace beambench::accel::z_buffer {
 namespace {
+
+constexpr const char* kName = "z-buffer";
 
 /// Less than 1 by more than float loses in t, and double in the depth of a `TriangleOnScreen`.
 constexpr double kNearly = 1.0 - 0x1p-20;
@@ -202,9 +203,9 @@ class Rasterizer {
 ///
 /// Edge functions and depths only reject. What they pass goes to the canonical test of the sample's
 /// ray, so that hits are those of `exhaustive`.
-class ZBuffer : public Accelerator {
+class ZBuffer : public ImageAccelerator {
  public:
-  explicit ZBuffer(const scenes::Scene& scene) : scene_(&scene) {}
+  explicit ZBuffer(const scenes::Scene& scene) : ImageAccelerator(kName), scene_(&scene) {}
 
   void closest_hits(const RaySource& rays, const HitSpan& hits,
                     const QueryContext& context) const override {
@@ -215,13 +216,6 @@ class ZBuffer : public Accelerator {
     for_rows(context, bands, [&](int begin, int end, auto& counting) {
       Rasterizer(*scene_, image, hits, first_row(begin), first_row(end), counting)();
     });
-  }
-  void any_hits(const RaySource& rays, std::span<std::uint8_t> hits,
-                const QueryContext& context) const override {
-    const PrimaryRays& image = image_of(rays);
-    HitBuffer closest(image.width(), image.height(), image.samples());
-    closest_hits(rays, closest, context);
-    for (std::size_t i = 0; i < closest.size(); ++i) hits[i] = closest.get(i) ? 1 : 0;
   }
   /// Samples that nothing covers do not become rays.
   Statistics statistics() const override {
@@ -236,18 +230,13 @@ class ZBuffer : public Accelerator {
   }
 
  private:
-  static const PrimaryRays& image_of(const RaySource& rays) {
-    if (const PrimaryRays* image = rays.image()) return *image;
-    throw UnsupportedError("'z-buffer' traces images only: neither single rays nor lists of rays");
-  }
-
   const scenes::Scene* scene_;
 };
 
 }  // namespace
 
 void register_z_buffer(Registry& registry) {
-  registry.add({"z-buffer",
+  registry.add({kName,
                 "a rasterizer without a hierarchy: edge functions (Pineda 1988) over each "
                 "primitive's box on the screen, and a z-buffer (Catmull 1974); images only",
                 Conformance::kBitExact,

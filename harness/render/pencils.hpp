@@ -27,7 +27,7 @@ using Eye = std::optional<rays::VirtualEye>;
 using EyeIndex = std::uint16_t;
 inline constexpr EyeIndex kNoEye = static_cast<EyeIndex>(~EyeIndex{0});
 
-/// What happened to rays at a plane.
+/// The way in which a plane turns rays.
 enum class Turn { kReflected, kRefracted };
 
 /// Groups the rays that a part of a wave sends from planes, by the eyes before and the planes. Each

@@ -20,6 +20,7 @@
 #include "scenes/base/random.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/planar_mirrors.hpp"
+#include "tests/disturbed_rays.hpp"
 #include "tests/random_scene.hpp"
 
 namespace beambench::accel {
@@ -221,31 +222,7 @@ TEST(MirrorBeams, OtherRaysOfABatchAreTracedSingly) {
 TEST(MirrorBeams, RaysThatAreNotThoseOfTheirSamplesAreTracedSingly) {
   Floor floor("teapot:n=2");
   Random random(1);
-  for (std::size_t i = 0; i < floor.seen.rays.size(); ++i) {
-    Ray& ray = floor.seen.rays[i];
-    switch (random.below(12)) {
-      case 0:  // of another sample, which may have a ray
-        floor.seen.samples[i] = floor.seen.samples[random.below(floor.seen.samples.size())];
-        break;
-      case 1:
-        ray.direction = -ray.direction;
-        break;
-      case 2:
-        ray.direction += glm::vec3(0.1F, -0.2F, 0.1F);
-        break;
-      case 3:  // also in front of the mirror
-        ray.origin += 0.3F * ray.direction;
-        break;
-      case 4:
-        ray.t_max = 3.0F;
-        break;
-      case 5:
-        ray.t_min = 2.0F;
-        break;
-      default:
-        ray.direction *= static_cast<float>(random.uniform(0.1, 10.0));
-    }
-  }
+  tests::disturb(floor.seen.rays, floor.seen.samples, 12, random);
   const beam::BeamTracer tracer(floor.scene, {});
   const Pencil pencil = floor.seen.pencil();
   EXPECT_EQ(hits_of(tracer, {floor.seen.rays, {&pencil, 1}, floor.seen.samples}),

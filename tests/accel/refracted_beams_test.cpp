@@ -20,6 +20,7 @@
 #include "scenes/base/random.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/scene_builder.hpp"
+#include "tests/disturbed_rays.hpp"
 #include "tests/number_from.hpp"
 #include "tests/random_scene.hpp"
 
@@ -159,31 +160,7 @@ TEST(RefractedBeams, RaysThatAreNotLikeTheirNeighborsAreTracedAlone) {
   const scenes::Scene scene = scenes::load_scene("teapot:n=3");
   ThroughGlass glass(scene, 10.0, 100);
   Random random(1);
-  for (std::size_t i = 0; i < glass.seen.rays.size(); ++i) {
-    Ray& ray = glass.seen.rays[i];
-    switch (random.below(40)) {
-      case 0:
-        glass.seen.samples[i] = glass.seen.samples[random.below(glass.seen.samples.size())];
-        break;
-      case 1:
-        ray.direction = -ray.direction;
-        break;
-      case 2:
-        ray.direction += glm::vec3(0.1F, -0.2F, 0.1F);
-        break;
-      case 3:
-        ray.origin += 0.3F * ray.direction;
-        break;
-      case 4:
-        ray.t_max = 3.0F;
-        break;
-      case 5:
-        ray.t_min = 2.0F;
-        break;
-      default:
-        ray.direction *= static_cast<float>(random.uniform(0.1, 10.0));
-    }
-  }
+  tests::disturb(glass.seen.rays, glass.seen.samples, 40, random);
   const beam::BeamTracer tracer(scene, {});
   EXPECT_EQ(hits_of(tracer, glass.batch()), hits_of(tracer, {glass.seen.rays}));
   EXPECT_GT(std::ranges::count(tracer.traced_alone(glass.batch()), 0), 100);

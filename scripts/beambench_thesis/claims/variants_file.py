@@ -35,7 +35,12 @@ def write_variants(claims: Sequence[JudgedClaim], path: Path) -> Path:
 
 
 def with_variants(claims: Sequence[JudgedClaim], path: Path) -> list[JudgedClaim]:
-    """Returns the claims with the verdicts of such a table. Raises Problem where one is unknown."""
+    """Returns the claims with the verdicts of such a table, if there is one.
+
+    Raises Problem where a verdict is unknown.
+    """
+    if not path.is_file():
+        return list(claims)
     variants: dict[str, list[Finding]] = {}
     deeper: dict[str, Finding] = {}
     with path.open(newline="", encoding="utf-8") as file:

@@ -134,8 +134,7 @@ def _judged(
         variants=variants_of(directory, plan),
         deeper=deeper_of(directory, plan),
     )
-    kept = directory / VARIANTS_FILE
-    return with_variants(claims, kept) if not plan.variants and kept.is_file() else claims
+    return claims if plan.variants else with_variants(claims, directory / VARIANTS_FILE)
 
 
 def variants_of(directory: Path, plan: Plan) -> list[Evidence]:

@@ -47,7 +47,7 @@ def figures(folder: Path) -> dict[str, Any]:
         cluster = folder.parent / CLUSTER
         others = [path for path in (folder / CENSUS, cluster) if path.is_dir()]
         claims = judge_claims([*report.cells.runs, *second.cells.runs, *others])
-    claims = with_variants(claims, folder / VARIANTS_FILE)
+        claims = with_variants(claims, folder / VARIANTS_FILE)
     tested = [one for one in claims if one.ours.verdict in TESTED]
     paired = [check.is_paired for one in tested for check in one.ours.checks]
     mirrors, unread = read_mirrors(sorted((folder / "mirrors").glob("*.json")))
