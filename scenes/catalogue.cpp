@@ -137,6 +137,11 @@ const SceneInfo& find_scene(const std::string& name) {
 bool is_scene_file(std::string_view spec) { return find_format(spec) != nullptr; }
 
 Scene load_scene(std::string_view spec, std::vector<std::string>* warnings, ReadOptions options) {
+  return load_animation(spec, warnings, options).scene;
+}
+
+Animation load_animation(std::string_view spec, std::vector<std::string>* warnings,
+                         ReadOptions options) {
   if (const SceneFormat* format = find_format(spec)) {
     std::vector<std::string> noticed;
     Scene scene = format->read(spec, options, noticed);
@@ -144,20 +149,26 @@ Scene load_scene(std::string_view spec, std::vector<std::string>* warnings, Read
     require_primitives(scene, noticed);
     if (warnings != nullptr)
       std::ranges::transform(noticed, std::back_inserter(*warnings), message_line);
-    return scene;
+    return {std::move(scene)};
   }
   Spec parsed = parse_spec(spec);
   const SceneInfo& info = find_scene(parsed.name);
   const std::uint64_t seed = take_perturbation(parsed, info);
   const Parameters parameters(info.name, info.parameters, parsed.parameters);
-  Scene scene = info.generate(parameters);
+  Animation animation =
+      info.animate ? info.animate(parameters) : Animation{info.generate(parameters)};
   parameters.require_given_were_read();
+  Scene& scene = animation.scene;
   if (!info.origin.empty()) scene.name = parameters.label();  // records and replays rely on it
   require_primitives(scene, {});
-  if (seed == 0) return scene;
+  if (seed == 0) return animation;
+  if (animation.pose) {
+    throw InputError(fmt::format("the scene '{}' moves: '{}' is for scenes that do not", info.name,
+                                 perturb_parameter().name));
+  }
   scene.name += fmt::format("{}{}={}", scene.name.find(':') == std::string::npos ? ':' : ',',
                             perturb_parameter().name, seed);
-  return perturbed(scene, seed);
+  return {perturbed(scene, seed)};
 }
 
 }  // namespace beambench::scenes

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scenes/animation.hpp"
 #include "scenes/base/parameters.hpp"
 #include "scenes/scene.hpp"
 
@@ -21,6 +22,8 @@ struct SceneInfo {
   std::function<Scene(const Parameters&)> generate;
   std::string size_parameter{};  ///< the integer that scales the scene; may be empty
   std::string origin{};          ///< the file of the plug-in that defines it; empty: built in
+  /// Makes the scene and its frames; null where it does not move. The scene is that of `generate`.
+  std::function<Animation(const Parameters&)> animate{};
 };
 
 /// Options for reading a file.
@@ -99,5 +102,9 @@ bool is_scene_file(std::string_view spec);
 /// the options apply to files.
 Scene load_scene(std::string_view spec, std::vector<std::string>* warnings = nullptr,
                  ReadOptions options = {});
+
+/// Loads a scene like `load_scene`, with its frames.
+Animation load_animation(std::string_view spec, std::vector<std::string>* warnings = nullptr,
+                         ReadOptions options = {});
 
 }  // namespace beambench::scenes
