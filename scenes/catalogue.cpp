@@ -45,7 +45,7 @@ SceneFormat format_of(const SceneReader& reader) {
                                std::vector<std::string>& warnings) {
             Scene scene = read(std::filesystem::path(spec), warnings);
             if (options.strict && !warnings.empty()) throw InputError(warnings.front());
-            return scene;
+            return Animation{std::move(scene)};
           }};
 }
 
@@ -106,7 +106,16 @@ const ParameterInfo& perturb_parameter() {
   return info;
 }
 
+ParameterInfo frames_parameter() {
+  return integer_parameter("frames", 20, 2, 10'000, "number of frames");
+}
+
 void Catalogue::add(SceneInfo scene) {
+  if (!scene.generate && scene.animate) {
+    scene.generate = [animate = scene.animate](const Parameters& parameters) {
+      return animate(parameters).scene;
+    };
+  }
   const auto place = std::ranges::upper_bound(scenes_, scene.name, {}, &SceneInfo::name);
   scenes_.insert(place, std::move(scene));
 }
@@ -144,12 +153,12 @@ Animation load_animation(std::string_view spec, std::vector<std::string>* warnin
                          ReadOptions options) {
   if (const SceneFormat* format = find_format(spec)) {
     std::vector<std::string> noticed;
-    Scene scene = format->read(spec, options, noticed);
-    scene.name = name_of_path(spec);
-    require_primitives(scene, noticed);
+    Animation animation = format->read(spec, options, noticed);
+    animation.scene.name = name_of_path(spec);
+    require_primitives(animation.scene, noticed);
     if (warnings != nullptr)
       std::ranges::transform(noticed, std::back_inserter(*warnings), message_line);
-    return {std::move(scene)};
+    return animation;
   }
   Spec parsed = parse_spec(spec);
   const SceneInfo& info = find_scene(parsed.name);
@@ -162,13 +171,9 @@ Animation load_animation(std::string_view spec, std::vector<std::string>* warnin
   if (!info.origin.empty()) scene.name = parameters.label();  // records and replays rely on it
   require_primitives(scene, {});
   if (seed == 0) return animation;
-  if (animation.pose) {
-    throw InputError(fmt::format("the scene '{}' moves: '{}' is for scenes that do not", info.name,
-                                 perturb_parameter().name));
-  }
   scene.name += fmt::format("{}{}={}", scene.name.find(':') == std::string::npos ? ':' : ',',
                             perturb_parameter().name, seed);
-  return {perturbed(scene, seed)};
+  return {perturbed(scene, seed)};  // its objects are told by where they are, so it stays still
 }
 
 }  // namespace beambench::scenes

@@ -19,12 +19,17 @@ struct SceneInfo {
   std::string name;
   std::string summary;  ///< one sentence
   std::vector<ParameterInfo> parameters;
-  std::function<Scene(const Parameters&)> generate;
+  /// May be null where `animate` is given: `Catalogue::add` then makes it, as that scene.
+  std::function<Scene(const Parameters&)> generate{};
   std::string size_parameter{};  ///< the integer that scales the scene; may be empty
   std::string origin{};          ///< the file of the plug-in that defines it; empty: built in
-  /// Makes the scene and its frames; null where it does not move. The scene is that of `generate`.
+  /// Makes the scene and its frames, as many as `frames_parameter` says, which is among its
+  /// parameters; null where it does not move.
   std::function<Animation(const Parameters&)> animate{};
 };
+
+/// Returns the parameter `frames` of a scene that moves.
+ParameterInfo frames_parameter();
 
 /// Options for reading a file.
 struct ReadOptions {
@@ -35,10 +40,10 @@ struct ReadOptions {
 struct SceneFormat {
   /// Returns whether the format reads what the user typed, judging by the text alone.
   std::function<bool(std::string_view spec)> reads;
-  /// Reads the file and appends what was skipped or repaired to `warnings`. Throws InputError with
-  /// file and line when the file is malformed.
-  std::function<Scene(std::string_view spec, ReadOptions options,
-                      std::vector<std::string>& warnings)>
+  /// Reads the file, with its frames, and appends what was skipped or repaired to `warnings`.
+  /// Throws InputError with file and line when the file is malformed.
+  std::function<Animation(std::string_view spec, ReadOptions options,
+                          std::vector<std::string>& warnings)>
       read;
 };
 
@@ -77,7 +82,8 @@ std::span<const SceneInfo> scene_catalogue();
 std::span<const SceneReader> scene_readers();
 
 /// Returns the parameter that every scene of the catalogue has besides its own: `perturb`, the seed
-/// of `perturbed` (perturbed.hpp); 0, the default, leaves the scene as it is.
+/// of `perturbed` (perturbed.hpp); 0, the default, leaves the scene as it is. With another one, a
+/// scene does not move.
 const ParameterInfo& perturb_parameter();
 
 /// Registers the scenes and readers of a plug-in, validated by the caller

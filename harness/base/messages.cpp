@@ -69,11 +69,21 @@ int report_failure(std::string_view program, const std::exception& error) {
       kInternalError);
 }
 
-scenes::Scene open_scene(std::string_view spec, scenes::ReadOptions options) {
+scenes::Animation open_animation(std::string_view spec, scenes::ReadOptions options) {
   std::vector<std::string> warnings;
-  scenes::Scene scene = scenes::load_scene(spec, &warnings, options);
+  scenes::Animation animation = scenes::load_animation(spec, &warnings, options);
   for (const std::string& warning : warnings) report_error("beambench", warning, 0);
-  return scene;
+  return animation;
+}
+
+scenes::Scene open_scene(std::string_view spec, scenes::ReadOptions options) {
+  return open_animation(spec, options).scene;
+}
+
+scenes::Scene open_scene(std::string_view spec, std::uint32_t frame, scenes::ReadOptions options) {
+  scenes::Animation animation = open_animation(spec, options);
+  if (frame > 0) scenes::show_frame(animation, frame);
+  return std::move(animation.scene);
 }
 
 }  // namespace beambench::base

@@ -2,6 +2,7 @@
 // Messages to the user, and exit codes.
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <span>
@@ -9,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scenes/animation.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/scene.hpp"
 
@@ -50,5 +52,10 @@ int report_failure(std::string_view program, const std::exception& error);
 /// Loads a scene. The warnings of its reader are printed on stderr or, if the options are strict,
 /// thrown. Throws as `scenes::load_scene`.
 scenes::Scene open_scene(std::string_view spec, scenes::ReadOptions options = {});
+/// Loads a scene as it is in a frame. Throws as `scenes::show_frame`, too.
+scenes::Scene open_scene(std::string_view spec, std::uint32_t frame,
+                         scenes::ReadOptions options = {});
+/// Loads a scene with its frames.
+scenes::Animation open_animation(std::string_view spec, scenes::ReadOptions options = {});
 
 }  // namespace beambench::base

@@ -1,5 +1,6 @@
 // beambench export: writes a scene as an NFF file, or its triangles as OBJ.
 
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <ostream>
@@ -22,6 +23,7 @@ namespace {
 struct ExportRequest {
   std::string scene;
   std::string file;
+  std::uint32_t frame = 0;
   scenes::ReadOptions options;
 };
 
@@ -34,7 +36,7 @@ void export_scene(const ExportRequest& request) {
                     request.file));
   }
   require_writable(request.file);
-  const scenes::Scene scene = open_scene(request.scene, request.options);
+  const scenes::Scene scene = open_scene(request.scene, request.frame, request.options);
   write_file(request.file, [&](std::ostream& file) {
     obj ? scenes::mesh::write_obj(scene, file) : scenes::nff::write_nff(scene, file);
   });
@@ -49,6 +51,7 @@ void add_export_command(CLI::App& app, int&) {
   const auto request = std::make_shared<ExportRequest>();
   add_scene_option(*command, request->scene);
   command->add_option("-o", request->file, "File to write, .nff or .obj")->required();
+  add_frame_option(*command, request->frame);
   command->add_flag("--strict", request->options.strict,
                     "Reject a file with unknown words, ignored fields, degenerate primitives or "
                     "polygons to repair");
@@ -63,6 +66,7 @@ void add_export_command(CLI::App& app, int&) {
       "Examples:\n"
       "  beambench export balls:n=3 -o balls.nff\n"
       "  beambench export tetra:n=5 -o tetra.obj\n"
+      "  beambench export falling-spheres --frame 9 -o falling_9.nff\n"
       "  beambench scene balls.nff");
   command->callback([request] { export_scene(*request); });
 }

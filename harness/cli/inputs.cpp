@@ -57,6 +57,12 @@ void add_scene_option(CLI::App& command, std::string& scene) {
   command.add_option("SCENE", scene, kSceneHelp)->required();
 }
 
+CLI::Option* add_frame_option(CLI::App& command, std::uint32_t& frame) {
+  return command.add_option("--frame", frame, "Frame of a scene that moves, from 0")
+      ->type_name("K")
+      ->capture_default_str();
+}
+
 void add_camera_option(CLI::App& command, ViewRequest& request) {
   command.add_option("--camera", request.camera, "By name (default: the scene's first)");
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Common options of commands: scenes, cameras, images, structures, light; and renamed options.
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,6 +17,7 @@
 
 namespace beambench::cli {
 
+using base::open_animation;
 using base::open_scene;
 
 /// Describes SCENE in the help of every command.
@@ -23,6 +25,8 @@ inline constexpr const char* kSceneHelp =
     "Catalogue name, mesh:NAME, or path of an NFF or mesh file";
 /// Adds SCENE as one required argument.
 void add_scene_option(CLI::App& command, std::string& scene);
+/// Adds --frame.
+CLI::Option* add_frame_option(CLI::App& command, std::uint32_t& frame);
 
 /// The requested camera: one of the scene's, or a view given by options.
 struct ViewRequest {

@@ -1,6 +1,7 @@
 // beambench list: structures, scenes, kinds of rays, plug-ins.
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -106,6 +107,18 @@ std::string origin_text(const std::string& origin) {
   return origin.empty() ? "" : fmt::format("  (of {})", origin);
 }
 
+/// Returns the number of frames of a scene with its defaults; 1 where it does not move.
+std::uint32_t frames_of(const scenes::SceneInfo& info) {
+  if (!info.animate) return 1;
+  const Parameters defaults(info.name, info.parameters, {});
+  return static_cast<std::uint32_t>(defaults.integer(scenes::frames_parameter().name));
+}
+
+std::string note_on(const scenes::SceneInfo& info) {
+  const std::uint32_t frames = frames_of(info);
+  return (frames > 1 ? fmt::format("  [moves: {} frames]", frames) : "") + origin_text(info.origin);
+}
+
 void print_plugins() {
   if (plugin::loaded_plugins().empty()) return;
   if (!scenes::scene_readers().empty()) fmt::print("\nFurther formats of scene files, by path:\n");
@@ -203,7 +216,7 @@ void print_named(const std::string& spec) {
   }
   if (scene != nullptr) {
     fmt::print("Scene, as {}:parameter=value,...\n", name);
-    print_entry(*scene, origin_text(scene->origin));
+    print_entry(*scene, note_on(*scene));
   }
   if (rays != nullptr) {
     fmt::print("Kind of rays, for --rays {}:parameter=value,...\n", name);
@@ -222,7 +235,7 @@ void print_text() {
   fmt::print("\nScenes, as NAME:parameter=value,... (or the path of a mesh or of an NFF file):\n");
   print_parameters({scenes::perturb_parameter()});
   for (const scenes::SceneInfo& info : scenes::scene_catalogue()) {
-    print_entry(info, origin_text(info.origin));
+    print_entry(info, note_on(info));
   }
   print_meshes();
   print_plugins();
@@ -276,6 +289,7 @@ void print_json() {
     all["scenes"].push_back({{"name", info.name},
                              {"summary", info.summary},
                              {"origin", origin_json(info.origin)},
+                             {"frames", frames_of(info)},
                              {"parameters", parameters_json(info.parameters)}});
   }
   all["readers"] = Json::array();

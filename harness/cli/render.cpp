@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,6 +29,7 @@
 #include "harness/render/shading.hpp"
 #include "harness/render/structure_overlay.hpp"
 #include "harness/render/whitted_picture.hpp"
+#include "scenes/animation.hpp"
 #include "scenes/base/error.hpp"
 #include "scenes/base/files.hpp"
 #include "scenes/base/printable.hpp"
@@ -50,7 +53,40 @@ struct RenderRequest {
   int light_points = 0;  ///< of each light; 0: lights are points
   double light_size = rays::LightExtent{}.size;
   std::string exposure = "0";
+  std::uint32_t frame = 0;
+  std::string frames;  ///< A-B; empty: one picture, of `frame`
 };
+
+/// The frames of a request, from the first to the last.
+struct FrameRange {
+  std::uint32_t first;
+  std::uint32_t last;
+};
+
+/// Parses A-B. Throws InputError unless these are frames of the animation.
+FrameRange parse_frames(std::string_view text, const scenes::Animation& animation) {
+  FrameRange range{};
+  const char* const stop = text.data() + text.size();
+  const auto [dash, error] = std::from_chars(text.data(), stop, range.first);
+  if (error == std::errc() && dash != stop && *dash == '-') {
+    const auto [end, fault] = std::from_chars(dash + 1, stop, range.last);
+    const bool valid = fault == std::errc() && end == stop && range.first <= range.last;
+    if (valid && range.last < animation.frames) return range;
+  }
+  throw InputError(fmt::format(
+      "--frames '{}' is not A-B, from frame A to frame B; {}", text,
+      animation.frames > 1
+          ? fmt::format("{} has the frames 0-{}", animation.scene.name, animation.frames - 1)
+          : fmt::format("{} does not move", animation.scene.name)));
+}
+
+/// Returns `dir/out_0007.png` for `dir/out.png` and frame 7.
+std::string numbered_file(const std::string& file, std::uint32_t frame) {
+  std::filesystem::path path(file);
+  const std::string name =
+      fmt::format("{}_{:04}{}", path.stem().string(), frame, path.extension().string());
+  return path.replace_filename(name).string();
+}
 
 /// The value of --exposure that lets the picture choose instead of a number of stops.
 constexpr std::string_view kAuto = "auto";
@@ -242,31 +278,18 @@ accel::StructureChoice chosen_structure(const RenderRequest& request) {
   return choose_one("--accel", kPlainStructure);
 }
 
-void render(const RenderRequest& request) {
+/// Draws the picture of a request over a scene, which is as in the request's frame; returns a line
+/// about it.
+std::string draw(const RenderRequest& request, const accel::StructureChoice& choice,
+                 std::optional<render::OverlayChoice> overlay, const scenes::Scene& scene,
+                 base::Progress& progress) {
   const render::Shading shading = render::parse_shading(request.shading);
-  require_exposure(request);
-  if (request.light_points > 0 && shading != render::Shading::kWhitted) {
-    throw InputError("--soft-shadows is of light; give --shade whitted with it");
-  }
-  whitted_options(request.whitted);
-  render::image_format(request.file);
-  require_writable(request.file);
-  if (!request.difference.empty() && request.difference != render::kOracleName) {
-    choose_one("--difference", request.difference);
-  }
-  const accel::StructureChoice choice = chosen_structure(request);
-  std::optional<render::OverlayChoice> overlay;
-  if (!request.overlay.empty()) overlay = render::parse_overlay(request.overlay, choice.info());
-  scenes::Scene scene = open_scene(request.scene);
-  if (request.light_points > 0) {
-    scene.lights = rays::area_lights(scene, {request.light_points, request.light_size});
-  }
-  if (overlay) render::require_light(*overlay, scene);
   const rays::ImageOfRays image = choose_image(scene, request.image);
   const accel::PrimaryRays rays = image.rays();
 
-  base::Progress progress(1);
-  progress.start(fmt::format("{} over {}", choice.info().name, scene.name));
+  const std::string name =
+      request.frames.empty() ? scene.name : fmt::format("{}, frame {}", scene.name, request.frame);
+  progress.start(fmt::format("{} over {}", choice.info().name, name));
   const auto accelerator = choice.build(scene, {image.camera, rays.count(), request.whitted.threads,
                                                 shading == render::Shading::kWhitted});
   rays::TraceResults results = rays::make_results(rays);
@@ -289,8 +312,52 @@ void render(const RenderRequest& request) {
       found = compare(request, choice, scene, rays, results);
     }
   }
-  progress.say(fmt::format("{}: {} by {}, {}x{}, {}", printable(request.file), scene.name,
-                           choice.short_label(), rays.width(), rays.height(), found));
+  return fmt::format("{}: {} by {}, {}x{}, {}", printable(request.file), scene.name,
+                     choice.short_label(), rays.width(), rays.height(), found);
+}
+
+void render(const RenderRequest& request) {
+  const render::Shading shading = render::parse_shading(request.shading);
+  require_exposure(request);
+  if (request.light_points > 0 && shading != render::Shading::kWhitted) {
+    throw InputError("--soft-shadows is of light; give --shade whitted with it");
+  }
+  whitted_options(request.whitted);
+  render::image_format(request.file);
+  if (request.frames.empty()) require_writable(request.file);
+  if (!request.difference.empty() && request.difference != render::kOracleName) {
+    choose_one("--difference", request.difference);
+  }
+  const accel::StructureChoice choice = chosen_structure(request);
+  std::optional<render::OverlayChoice> overlay;
+  if (!request.overlay.empty()) overlay = render::parse_overlay(request.overlay, choice.info());
+  scenes::Animation animation = open_animation(request.scene);
+  if (request.light_points > 0) {  // of frame 0: lights do not grow with the scene's box
+    animation.scene.lights =
+        rays::area_lights(animation.scene, {request.light_points, request.light_size});
+  }
+  if (overlay) render::require_light(*overlay, animation.scene);
+  if (request.frames.empty()) {
+    if (request.frame > 0) scenes::show_frame(animation, request.frame);
+    base::Progress progress(1);
+    progress.say(draw(request, choice, overlay, animation.scene, progress));
+    return;
+  }
+  const auto [first, last] = parse_frames(request.frames, animation);
+  for (std::uint32_t frame = first; frame <= last; ++frame) {
+    require_writable(numbered_file(request.file, frame));
+  }
+  base::Progress progress(last - first + 1);
+  for (std::uint32_t frame = first; frame <= last; ++frame) {
+    scenes::show_frame(animation, frame);
+    RenderRequest single = request;
+    single.frame = frame;
+    single.file = numbered_file(request.file, frame);
+    progress.finish(draw(single, choice, overlay, animation.scene, progress));
+  }
+  progress.say(fmt::format("{} to {}: {}", printable(numbered_file(request.file, first)),
+                           printable(numbered_file(request.file, last)),
+                           base::counted(last - first + 1, "picture")));
 }
 
 }  // namespace
@@ -304,6 +371,14 @@ void add_render_command(CLI::App& app, int&) {
                                   "picture: {})",
                                   kPlainStructure));
   command->add_option("-o", request->file, "Picture to write, .png or .exr")->required();
+  CLI::Option* frame = add_frame_option(*command, request->frame);
+  command
+      ->add_option(
+          "--frames", request->frames,
+          "Several pictures of a scene that moves, of the frames A to B; -o out.png writes "
+          "out_0000.png and so on")
+      ->type_name("A-B")
+      ->excludes(frame);
   add_image_options(*command, request->image);
   command
       ->add_option("--shade", request->shading,
@@ -367,6 +442,7 @@ void add_render_command(CLI::App& app, int&) {
       "  beambench render balls --accel tile-beam -o pencils.png --overlay pencils:light=2\n"
       "  beambench render balls:n=3 --accel beam -o balls.png --shade whitted --samples 4\n"
       "  beambench render rings -o rings.png --shade whitted --exposure auto\n"
+      "  beambench render waving-sheet --frames 0-19 -o sheet.png\n"
       "  beambench render balls -o soft.png --shade whitted --soft-shadows 64\n"
       "  beambench render tetra --accel embree -o tetra.exr --resolution 640x480 --samples 4");
   command->callback([request] { render(*request); });

@@ -1,10 +1,12 @@
 // beambench scene: prints the contents of a scene, or how it grows with its size.
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -47,7 +49,15 @@ std::vector<std::string_view> finishes_of(const scenes::Scene& scene) {
   return words;
 }
 
-void print_text(const scenes::Scene& scene) {
+/// A scene that moves, at one of its frames.
+struct Shown {
+  scenes::Scene scene;
+  std::uint32_t frame;
+  std::uint32_t frames;
+};
+
+void print_text(const Shown& shown) {
+  const scenes::Scene& scene = shown.scene;
   const auto line = [](std::string_view name, const std::string& value) {
     fmt::print("  {:<12}  {}\n", name, value);
   };
@@ -57,6 +67,9 @@ void print_text(const scenes::Scene& scene) {
                                  scene.polygons.size(), smooth_polygons(scene)));
   line("triangles",
        fmt::format("{} over {} vertices", scene.triangles.size(), scene.vertices.size()));
+  if (shown.frames > 1) {
+    line("frames", fmt::format("{}; this is frame {}", shown.frames, shown.frame));
+  }
   line("bounds", scene.bounds.empty() ? "none"
                                       : fmt::format("{} to {}", to_text(scene.bounds.lower),
                                                     to_text(scene.bounds.upper)));
@@ -81,7 +94,8 @@ Json camera_json(const scenes::Camera& camera) {
           {"width", camera.width},    {"height", camera.height}};
 }
 
-void print_json(const scenes::Scene& scene) {
+void print_json(const Shown& shown) {
+  const scenes::Scene& scene = shown.scene;
   Json out{{"name", scene.name},
            {"primitives", scene.primitives.size()},
            {"spheres", scene.spheres.size()},
@@ -90,6 +104,8 @@ void print_json(const scenes::Scene& scene) {
            {"smooth_polygons", smooth_polygons(scene)},
            {"triangles", scene.triangles.size()},
            {"vertices", scene.vertices.size()},
+           {"frames", shown.frames},
+           {"frame", shown.frame},
            {"bounds", nullptr},
            {"cameras", Json::array()},
            {"lights", Json::array()},
@@ -148,6 +164,7 @@ struct SceneRequest {
   bool csv = false;
   bool growth = false;
   std::size_t growth_limit = 1000000;
+  std::uint32_t frame = 0;
   scenes::ReadOptions options;
 };
 
@@ -159,8 +176,10 @@ void show(const SceneRequest& request) {
     request.csv ? print_csv(growth) : request.json ? print_json(growth) : print_text(growth);
     return;
   }
-  const scenes::Scene scene = open_scene(request.scene, request.options);
-  request.json ? print_json(scene) : print_text(scene);
+  scenes::Animation animation = open_animation(request.scene, request.options);
+  if (request.frame > 0) scenes::show_frame(animation, request.frame);
+  const Shown shown{std::move(animation.scene), request.frame, animation.frames};
+  request.json ? print_json(shown) : print_text(shown);
 }
 
 }  // namespace
@@ -174,9 +193,11 @@ void add_scene_command(CLI::App& app, int&) {
   command->add_flag("--strict", request->options.strict,
                     "Reject a file with unknown words, ignored fields, degenerate primitives or "
                     "polygons to repair");
+  CLI::Option* frame = add_frame_option(*command, request->frame);
   CLI::Option* growth = command->add_flag(
       "--growth", request->growth,
       "Generate it in growing sizes; print primitives, bytes and seconds of each");
+  growth->excludes(frame);
   command->add_option("--growth-limit", request->growth_limit, "Maximum number of primitives")
       ->check(CLI::Range(std::size_t{1}, measure::kMaxGrowth))
       ->capture_default_str()
@@ -189,6 +210,7 @@ void add_scene_command(CLI::App& app, int&) {
       "Examples:\n"
       "  beambench scene escena1\n"
       "  beambench scene balls:n=3 --json\n"
+      "  beambench scene waving-sheet --frame 7\n"
       "  beambench scene tetra --growth --growth-limit 10000000 --csv > tetra.csv");
   command->callback([request] { show(*request); });
 }

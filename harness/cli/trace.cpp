@@ -1,6 +1,7 @@
 // beambench trace: prints the traversal path of one ray, step by step.
 
 #include <charconv>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -25,6 +26,7 @@ struct TraceRequest {
   std::string pixel;
   std::string rays = "primary";
   std::optional<std::size_t> ray;
+  std::uint32_t frame = 0;
   ImageRequest image;
   int sample = 0;
   bool alone = false;
@@ -88,7 +90,7 @@ int trace(const TraceRequest& request) {
   if (!request.pixel.empty()) parse_pixel(request.pixel);
   const rays::RayChoice kind = rays::parse_ray_choice(request.rays);
   const accel::StructureChoice choice = choose_one("--accel", request.structure);
-  const scenes::Scene scene = open_scene(request.scene);
+  const scenes::Scene scene = open_scene(request.scene, request.frame);
   const rays::ImageOfRays image = choose_image(scene, request.image);
   const rays::TraceInput input = rays::make_trace_input(scene, image, kind);
   const std::size_t index = input.image() != nullptr ? index_in_image(request, *input.image())
@@ -109,6 +111,7 @@ void add_trace_command(CLI::App& app, int& exit_code) {
       app.add_subcommand("trace", "Print the traversal path of one ray, step by step");
   const auto request = std::make_shared<TraceRequest>();
   add_scene_option(*command, request->scene);
+  add_frame_option(*command, request->frame);
   command->add_option("--accel", request->structure, "Structure: NAME:parameter=value,...")
       ->required();
   command->add_option("--pixel", request->pixel,

@@ -1,6 +1,7 @@
 // beambench verify: compares the hits of structures, or of any program, with an exact oracle.
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -41,6 +42,7 @@ struct VerifyRequest {
   std::string structures = "all";
   std::string resolution = "320x200";
   ViewRequest view;
+  std::uint32_t frame = 0;
   int samples = 1;
   std::string rays = "primary";
   int threads = 1;
@@ -148,8 +150,9 @@ VerifyHitsRequest hits_request(const VerifyRequest& request, bool structure_give
 /// Opens all scenes before any work is done, so that a wrong name fails early.
 std::vector<scenes::Scene> open_scenes(const VerifyRequest& request) {
   std::vector<scenes::Scene> scenes;
-  for (const std::string& spec : request.scenes) scenes.push_back(open_scene(spec));
+  for (const std::string& spec : request.scenes) scenes.push_back(open_scene(spec, request.frame));
   if (!scenes.empty()) return scenes;
+  if (request.frame > 0) throw InputError("--frame is of scenes that move; name them");
   for (const scenes::SceneInfo& info : scenes::scene_catalogue())
     scenes.push_back(open_scene(info.name));
   return scenes;
@@ -178,8 +181,12 @@ std::vector<verify::VerifiedCell> verify_kind(
     return render::verify_picture(scene, image, kind, contenders.choices, progress);
   }
   try {
-    const verify::VerifiedView view{scene, image, rays::make_trace_input(scene, image, kind),
-                                    request.threads, plugin::program_call()};
+    const verify::VerifiedView view{scene,
+                                    image,
+                                    rays::make_trace_input(scene, image, kind),
+                                    request.threads,
+                                    plugin::program_call(),
+                                    request.frame};
     verify::DrawDifferences draw;
     if (!request.pictures.empty())
       draw = [&](const verify::ReferenceHits& reference, std::span<const verify::DiffClass> classes,
@@ -271,6 +278,7 @@ void add_verify_command(CLI::App& app, int& exit_code) {
       command->add_option("--samples", request->samples, "Rays per pixel: 1, 4, 5, 9, 16, ...")
           ->capture_default_str();
   add_view_options(*command, request->view);
+  CLI::Option* frame = add_frame_option(*command, request->frame);
   CLI::Option* threads =
       command
           ->add_option("--threads", request->threads,
@@ -294,8 +302,8 @@ void add_verify_command(CLI::App& app, int& exit_code) {
                    "Reduce an error to the fewest primitives and one ray, and write them to this "
                    "folder")
       ->type_name("DIR");
-  for (CLI::Option* option : {accel, samples, threads}) hits->excludes(option);
-  for (CLI::Option* option : {accel, samples, threads, hits}) run->excludes(option);
+  for (CLI::Option* option : {accel, samples, threads, frame}) hits->excludes(option);
+  for (CLI::Option* option : {accel, samples, threads, frame, hits}) run->excludes(option);
   command->add_option("--json", request->json, "Also write the results to this file");
   command
       ->add_option("--pictures", request->pictures,
@@ -319,6 +327,7 @@ void add_verify_command(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  beambench verify tetera\n"
       "  beambench verify escena1 tetra:n=4 --accel all\n"
+      "  beambench verify waving-sheet --frame 7\n"
       "  beambench verify balls:n=3 --rays shadow,reflection,diffuse,random\n"
       "  beambench verify finishes --accel all --rays whitted\n"
       "  beambench rays tetera -o tetera.rays\n"

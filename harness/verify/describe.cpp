@@ -61,12 +61,14 @@ std::string answer_text(const scenes::Scene& scene, const Mismatch& mismatch) {
 
 ReplayCommand::ReplayCommand(std::string_view program, const scenes::Scene& scene,
                              const rays::ImageOfRays& image,
-                             const accel::StructureChoice& structure, const rays::TraceInput& input)
+                             const accel::StructureChoice& structure, const rays::TraceInput& input,
+                             std::uint32_t frame)
     : input_(input),
       subject_(fmt::format("{} trace {} --accel {}", program,
                            shell_quoted(path_of_name(scene.name)),
                            shell_quoted(structure.short_label()))),
       image_(fmt::format("--resolution {}", rays::to_string(image.resolution))) {
+  if (frame > 0) subject_ += fmt::format(" --frame {}", frame);
   if (image.samples > 1) image_ += fmt::format(" --samples {}", image.samples);
   image_ += view_options(scene, image.camera);
 }

@@ -2,6 +2,7 @@
 // Formats a mismatch as text, and the command that traces its ray again.
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -20,10 +21,10 @@ namespace beambench::verify {
 class ReplayCommand {
  public:
   /// `program` is the command for the program with its plug-ins (`plugin::program_call`); `image`
-  /// is the image from which the rays come, primary or not.
+  /// is the image from which the rays come, primary or not; `frame` is that of a scene that moves.
   ReplayCommand(std::string_view program, const scenes::Scene& scene,
                 const rays::ImageOfRays& image, const accel::StructureChoice& structure,
-                const rays::TraceInput& input);
+                const rays::TraceInput& input, std::uint32_t frame = 0);
 
   std::string of(std::size_t index) const;
 

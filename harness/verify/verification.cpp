@@ -134,7 +134,8 @@ std::vector<VerifiedCell> verify_scene(const VerifiedView& view,
         choice.build(view.scene, rays::workload_of(view.image, view.input, view.threads));
     rays::TraceResults results = rays::make_results(view.input);
     rays::trace_with_progress(*accelerator, view.input, results, view.threads, progress);
-    const ReplayCommand replay(view.program, view.scene, view.image, choice, view.input);
+    const ReplayCommand replay(view.program, view.scene, view.image, choice, view.input,
+                               view.frame);
     cell.rays_hash = hash;
     std::vector<DiffClass> classes(view.input.size());
     cell.report = verify_results(reference, results, choice.info().conformance, classes);

@@ -45,8 +45,9 @@ struct VerifiedView {
   const scenes::Scene& scene;
   rays::ImageOfRays image;
   rays::TraceInput input;
-  int threads = 1;      ///< number of threads that trace the image
-  std::string program;  ///< the command for this program, for replaying a ray
+  int threads = 1;          ///< number of threads that trace the image
+  std::string program;      ///< the command for this program, for replaying a ray
+  std::uint32_t frame = 0;  ///< of a scene that moves
 };
 
 /// Verifies one structure and fills the rest of its cell; may throw InputError.

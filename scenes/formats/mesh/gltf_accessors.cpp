@@ -76,26 +76,48 @@ bool is_index_type(int component) {
          component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
 }
 
-/// Returns three integers; normalized ones range from -1 (signed) or 0 to 1.
+/// Returns an integer; a normalized one ranges from -1 (signed) or 0 to 1.
 template <typename T>
-glm::dvec3 integers_at(const unsigned char* bytes, bool normalized) {
-  glm::dvec3 place(0.0);
-  for (int axis = 0; axis < 3; ++axis) {
-    place[axis] = number_at<T>(bytes + static_cast<std::size_t>(axis) * sizeof(T));
-    if (normalized) place[axis] = std::max(place[axis] / std::numeric_limits<T>::max(), -1.0);
+double integer_at(const unsigned char* bytes, std::size_t index, bool normalized) {
+  const double number = number_at<T>(bytes + index * sizeof(T));
+  return normalized ? std::max(number / std::numeric_limits<T>::max(), -1.0) : number;
+}
+
+/// Returns one of the numbers of an element.
+double component_at(const unsigned char* bytes, std::size_t index,
+                    const tinygltf::Accessor& accessor) {
+  switch (accessor.componentType) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return integer_at<std::int8_t>(bytes, index, accessor.normalized);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return integer_at<std::uint8_t>(bytes, index, accessor.normalized);
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return integer_at<std::int16_t>(bytes, index, accessor.normalized);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return integer_at<std::uint16_t>(bytes, index, accessor.normalized);
+    default:
+      return number_at<float>(bytes + index * sizeof(float));
   }
-  return place;
+}
+
+/// Returns whether `component_at` reads the type.
+bool is_number_type(int component) {
+  return component == TINYGLTF_COMPONENT_TYPE_FLOAT || component == TINYGLTF_COMPONENT_TYPE_BYTE ||
+         component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+         component == TINYGLTF_COMPONENT_TYPE_SHORT ||
+         component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
 }
 
 }  // namespace
 
-GltfElements::GltfElements(const tinygltf::Model& model, int accessor)
-    : accessor_(&element_of(model.accessors, accessor, "accessor", "a primitive")) {
+GltfElements::GltfElements(const tinygltf::Model& model, int accessor, std::string_view of)
+    : accessor_(&element_of(model.accessors, accessor, "accessor", of)) {
   const int components =
       tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor_->type));
   const std::size_t size =
       component_size(accessor_->componentType) * static_cast<std::size_t>(std::max(components, 0));
-  const std::string user = name_of(accessor);
+  const std::string user =
+      of == kPrimitive ? name_of(accessor) : fmt::format("{} of {}", name_of(accessor), of);
   if (size == 0 || size > kZeros.size()) {
     refuse_gltf(fmt::format("{} has numbers of an unknown type", user));
   }
@@ -158,13 +180,8 @@ const unsigned char* GltfElements::at(std::size_t index) const {
 
 GltfPositions::GltfPositions(const tinygltf::Model& model, int accessor)
     : elements_(model, accessor) {
-  const int component = elements_.accessor().componentType;
-  const bool known = component == TINYGLTF_COMPONENT_TYPE_FLOAT ||
-                     component == TINYGLTF_COMPONENT_TYPE_BYTE ||
-                     component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
-                     component == TINYGLTF_COMPONENT_TYPE_SHORT ||
-                     component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
-  if (!known || elements_.accessor().type != TINYGLTF_TYPE_VEC3) {
+  if (!is_number_type(elements_.accessor().componentType) ||
+      elements_.accessor().type != TINYGLTF_TYPE_VEC3) {
     refuse_gltf(fmt::format("{} has positions, but they are not three floats, bytes or shorts each",
                             name_of(accessor)));
   }
@@ -172,20 +189,23 @@ GltfPositions::GltfPositions(const tinygltf::Model& model, int accessor)
 
 glm::dvec3 GltfPositions::at(std::size_t index) const {
   const unsigned char* bytes = elements_.at(index);
-  const bool normalized = elements_.accessor().normalized;
-  switch (elements_.accessor().componentType) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-      return integers_at<std::int8_t>(bytes, normalized);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return integers_at<std::uint8_t>(bytes, normalized);
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-      return integers_at<std::int16_t>(bytes, normalized);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return integers_at<std::uint16_t>(bytes, normalized);
-    default:
-      return {number_at<float>(bytes), number_at<float>(bytes + sizeof(float)),
-              number_at<float>(bytes + 2 * sizeof(float))};
+  return {component_at(bytes, 0, elements_.accessor()),
+          component_at(bytes, 1, elements_.accessor()),
+          component_at(bytes, 2, elements_.accessor())};
+}
+
+GltfNumbers::GltfNumbers(const tinygltf::Model& model, int accessor, int type,
+                         std::string_view user)
+    : elements_(model, accessor, user) {
+  if (is_number_type(elements_.accessor().componentType) && elements_.accessor().type == type) {
+    return;
   }
+  refuse_gltf(
+      fmt::format("{} of {} is not of the type that it must have", name_of(accessor), user));
+}
+
+double GltfNumbers::at(std::size_t index, std::size_t number) const {
+  return component_at(elements_.at(index), number, elements_.accessor());
 }
 
 GltfIndices::GltfIndices(const tinygltf::Model& model, int accessor) : elements_(model, accessor) {

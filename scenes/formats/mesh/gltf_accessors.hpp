@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -11,14 +12,17 @@
 
 namespace beambench::scenes::mesh {
 
+/// What usually refers to an accessor, for messages.
+inline constexpr std::string_view kPrimitive = "a primitive";
+
 /// The elements of an accessor, read in place from the buffers, including sparse ones. Must not
 /// outlive the model.
 class GltfElements {
  public:
-  /// Throws InputError with the accessor's name if it does not exist, is not wholly within its
-  /// buffer, or does not define its elements. Allocates memory only for sparse elements, which are
-  /// in the file.
-  GltfElements(const tinygltf::Model& model, int accessor);
+  /// Throws InputError with the accessor's name and that of what uses it if it does not exist, is
+  /// not wholly within its buffer, or does not define its elements. Allocates memory only for
+  /// sparse elements, which are in the file.
+  GltfElements(const tinygltf::Model& model, int accessor, std::string_view user = kPrimitive);
 
   std::size_t size() const { return count_; }
   const tinygltf::Accessor& accessor() const { return *accessor_; }
@@ -35,6 +39,21 @@ class GltfElements {
   std::vector<std::uint32_t> sparse_;  ///< indices, ascending
   const unsigned char* sparse_first_ = nullptr;
   std::size_t sparse_stride_ = 0;
+};
+
+/// Vectors, matrices or single numbers, as float or as integers, normalized or not.
+class GltfNumbers {
+ public:
+  /// Throws InputError naming the accessor and its user unless it has elements of the type, such as
+  /// TINYGLTF_TYPE_VEC4 (no small matrices, whose columns have gaps).
+  GltfNumbers(const tinygltf::Model& model, int accessor, int type, std::string_view user);
+
+  std::size_t size() const { return elements_.size(); }
+  /// Returns one of an element's numbers.
+  double at(std::size_t index, std::size_t number) const;
+
+ private:
+  GltfElements elements_;
 };
 
 /// Positions, as float, or (KHR_mesh_quantization) as integers, normalized or not.

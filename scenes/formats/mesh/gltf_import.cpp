@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -24,18 +25,20 @@
 #include "scenes/formats/mesh/gltf_accessors.hpp"
 #include "scenes/formats/mesh/gltf_file.hpp"
 #include "scenes/formats/mesh/gltf_materials.hpp"
+#include "scenes/formats/mesh/gltf_motion.hpp"
 #include "scenes/formats/mesh/gltf_nodes.hpp"
 #include "scenes/formats/mesh/gltf_views.hpp"
 #include "scenes/formats/mesh/importers.hpp"
 #include "scenes/formats/mesh/mesh.hpp"
 #include "scenes/formats/mesh/mesh_cleaning.hpp"
 #include "scenes/formats/mesh/mesh_companions.hpp"
+#include "scenes/formats/mesh/mesh_motion.hpp"
 
 namespace beambench::scenes::mesh {
 namespace {
 
 /// Incremented whenever this file, or what it calls, reads a mesh differently.
-constexpr int kOwnVersion = 1;
+constexpr int kOwnVersion = 2;
 
 /// A short file may place a mesh many times. If it would have more triangles than this, or more
 /// vertices of the primitives that have them, it is refused before any are made: as a scene, it
@@ -56,7 +59,7 @@ struct PlacedPrimitive {
 struct Notes {
   std::size_t points_and_lines = 0;
   std::size_t masked_triangles = 0;
-  std::size_t moved_nodes = 0;       ///< by skins or morph targets
+  std::size_t morphed_nodes = 0;     ///< by morph targets
   std::size_t instancing_nodes = 0;  ///< by EXT_mesh_gpu_instancing
 };
 
@@ -120,16 +123,25 @@ void add_bounded(std::size_t& sum, std::size_t more, std::string_view what) {
 /// Collects the meshes of the nodes as triangles in the scene's coordinates.
 class GltfCollector {
  public:
-  explicit GltfCollector(const tinygltf::Model& model) : model_(&model) {}
+  GltfCollector(const tinygltf::Model& model, GltfMotion& motion)
+      : model_(&model), motion_(&motion) {}
 
   /// Throws InputError if there would be too many triangles; reads no positions.
   void add(const PlacedNode& node) {
     if (node.node->mesh < 0) return;
-    if (node.node->skin >= 0 || !node.node->weights.empty()) ++notes_.moved_nodes;
     if (node.node->extensions.contains("EXT_mesh_gpu_instancing")) ++notes_.instancing_nodes;
     Instance& instance = instances_.emplace_back();
-    instance.to_world = &node.to_world;
+    instance.node = &node;
     const tinygltf::Mesh& mesh = element_of(model_->meshes, node.node->mesh, "mesh", "a node");
+    const bool is_morphed = std::ranges::any_of(
+        mesh.primitives,
+        [](const tinygltf::Primitive& primitive) { return !primitive.targets.empty(); });
+    if (is_morphed) ++notes_.morphed_nodes;
+    if (node.node->skin >= 0) {
+      instance.matrix = motion_->matrices_of_skin(node.node->skin);
+    } else if (motion_->moves(node)) {
+      instance.matrix = motion_->matrix_of(node);
+    }
     std::set<int> counted;
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
       const std::string name = fmt::format("primitive {} of mesh {}", i, node.node->mesh);
@@ -151,36 +163,96 @@ class GltfCollector {
   ImportedMesh collect() && {
     collector_.reserve(std::min(vertices_, 3 * triangles_), triangles_);
     for (const Instance& instance : instances_) {
-      std::map<int, SharedVertices> shared;  // primitives of a mesh may have the same positions
-      for (const PlacedPrimitive& placed : instance.primitives) {
-        auto found = shared.find(placed.positions);
-        if (found == shared.end()) {
-          found =
-              shared.emplace(placed.positions, vertices_of(placed.positions, *instance.to_world))
-                  .first;
-        }
+      // Primitives of a mesh may have the same positions, but with a skin not the same weights.
+      std::map<std::pair<int, std::size_t>, SharedVertices> shared;
+      for (std::size_t i = 0; i < instance.primitives.size(); ++i) {
+        const PlacedPrimitive& placed = instance.primitives[i];
+        const std::pair key(placed.positions, has_skin(instance) ? i : 0);
+        auto found = shared.find(key);
+        if (found == shared.end()) found = shared.emplace(key, vertices_of(placed, instance)).first;
         add_triangles(placed, found->second);
+      }
+      if (motion_->frames() == 1 || !instance.matrix) continue;
+      for (const auto& [key, vertices] : shared) {
+        const PlacedPrimitive& first = instance.primitives[key.second];
+        record(instance, {first.primitive, key.first, 0, 0}, vertices);
       }
     }
     ImportedMesh result = collected_mesh(std::move(collector_), notes_.points_and_lines);
     warn(result.warnings);
+    if (!moving_.influences.empty()) {
+      moving_.frames = motion_->frames();
+      moving_.vertices.resize(result.mesh.vertices.size());
+      moving_.matrices = motion_->all_matrices();
+      result.motion = std::move(moving_);
+    } else if (!model_->animations.empty()) {
+      result.warnings.emplace_back("its animation moves no triangles");
+    }
     return result;
   }
 
  private:
   struct Instance {
-    const glm::dmat4* to_world = nullptr;
-    std::vector<PlacedPrimitive> primitives;
+    const PlacedNode* node = nullptr;
+    std::optional<std::uint32_t>
+        matrix{};  ///< of the node or its skin's first joint; else it stays
+    std::vector<PlacedPrimitive> primitives{};
   };
 
-  SharedVertices vertices_of(int accessor, const glm::dmat4& to_world) const {
-    const GltfPositions positions(*model_, accessor);
+  static bool has_skin(const Instance& instance) { return instance.node->node->skin >= 0; }
+
+  /// Calls visit(vertex, rest, influences) for the vertices of a moved instance for which `wanted`.
+  template <typename Wanted, typename Visit>
+  void for_each_moved(const Instance& instance, const PlacedPrimitive& placed, Wanted wanted,
+                      Visit visit) const {
+    const GltfPositions positions(*model_, placed.positions);
+    std::optional<GltfWeights> weights;
+    std::size_t joints = 0;
+    if (has_skin(instance)) {
+      weights.emplace(*model_, *placed.primitive, positions.size());
+      joints = model_->skins[static_cast<std::size_t>(instance.node->node->skin)].joints.size();
+    }
+    std::vector<Influence> influences{{*instance.matrix, 1.0}};
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      if (!wanted(i)) continue;
+      if (weights) {
+        influences.clear();
+        weights->append(i, *instance.matrix, joints, influences);
+      }
+      visit(i, positions.at(i), influences);
+    }
+  }
+
+  SharedVertices vertices_of(const PlacedPrimitive& placed, const Instance& instance) const {
     std::vector<glm::vec3> places;
+    if (instance.matrix) {
+      for_each_moved(
+          instance, placed, [](std::size_t) { return true; },
+          [&](std::size_t, const glm::dvec3& rest, const std::vector<Influence>& influences) {
+            places.push_back(moved(rest, influences, motion_->matrices()));
+          });
+      return SharedVertices(std::move(places), motion_->frames() == 1);
+    }
+    const GltfPositions positions(*model_, placed.positions);
     places.reserve(positions.size());
     for (std::size_t i = 0; i < positions.size(); ++i) {
-      places.emplace_back(glm::dvec3(to_world * glm::dvec4(positions.at(i), 1.0)));
+      places.emplace_back(glm::dvec3(instance.node->to_world * glm::dvec4(positions.at(i), 1.0)));
     }
     return SharedVertices(std::move(places));
+  }
+
+  /// Records how the collected vertices of an instance move.
+  void record(const Instance& instance, const PlacedPrimitive& placed,
+              const SharedVertices& vertices) {
+    for_each_moved(
+        instance, placed, [&](std::size_t i) { return vertices.collected(i).has_value(); },
+        [&](std::size_t i, const glm::dvec3& rest, const std::vector<Influence>& influences) {
+          const std::uint32_t vertex = *vertices.collected(i);
+          if (vertex >= moving_.vertices.size()) moving_.vertices.resize(vertex + std::size_t{1});
+          moving_.vertices[vertex] = {rest, static_cast<std::uint32_t>(moving_.influences.size()),
+                                      static_cast<std::uint32_t>(influences.size())};
+          moving_.influences.insert(moving_.influences.end(), influences.begin(), influences.end());
+        });
   }
 
   void add_triangles(const PlacedPrimitive& placed, SharedVertices& vertices) {
@@ -210,10 +282,9 @@ class GltfCollector {
           fmt::format("{} triangles have alpha-masked materials; they are traced as opaque",
                       notes_.masked_triangles));
     }
-    if (notes_.moved_nodes > 0) {
+    if (notes_.morphed_nodes > 0) {
       warnings.push_back(
-          fmt::format("{} nodes have skins or morph targets; their meshes are as they are without",
-                      notes_.moved_nodes));
+          fmt::format("{} nodes have morph targets, which were left out", notes_.morphed_nodes));
     }
     if (notes_.instancing_nodes > 0) {
       warnings.push_back(
@@ -223,6 +294,8 @@ class GltfCollector {
   }
 
   const tinygltf::Model* model_;
+  GltfMotion* motion_;
+  MeshMotion moving_;
   std::vector<Instance> instances_;
   std::size_t triangles_ = 0;
   std::size_t vertices_ = 0;
@@ -237,11 +310,14 @@ Bounds bounds_of(const TriangleMesh& mesh) {
 }
 
 ImportedMesh import_scene(std::string_view bytes, MeshCompanions& companions) {
-  const tinygltf::Model model = read_gltf(bytes, companions);
-  const std::vector<PlacedNode> nodes = placed_nodes(model);
-  GltfCollector collector(model);
+  tinygltf::Model model = read_gltf(bytes, companions);
+  std::vector<std::string> notes;
+  GltfMotion motion(model, notes);
+  const std::span<const PlacedNode> nodes = motion.nodes();
+  GltfCollector collector(model, motion);
   for (const PlacedNode& node : nodes) collector.add(node);
   ImportedMesh result = std::move(collector).collect();
+  result.warnings.insert(result.warnings.end(), notes.begin(), notes.end());
   const Bounds bounds = bounds_of(result.mesh);
   result.cameras = gltf_cameras(model, nodes, bounds, result.warnings);
   result.lights = gltf_lights(model, nodes, bounds, result.warnings);

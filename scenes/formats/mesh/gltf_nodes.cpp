@@ -68,7 +68,8 @@ std::vector<int> root_nodes(const tinygltf::Model& model) {
 /// A node still to be placed.
 struct Pending {
   int node;
-  glm::dmat4 parent;
+  int parent;
+  glm::dmat4 parent_to_world;
 };
 
 }  // namespace
@@ -77,11 +78,11 @@ std::vector<PlacedNode> placed_nodes(const tinygltf::Model& model) {
   std::vector<PlacedNode> placed;
   std::vector<bool> reached(model.nodes.size(), false);
   std::vector<Pending> pending;
-  const auto add = [&](const std::vector<int>& nodes, const glm::dmat4& parent) {
+  const auto add = [&](const std::vector<int>& nodes, int parent, const glm::dmat4& to_world) {
     for (auto node = nodes.rbegin(); node != nodes.rend(); ++node)
-      pending.push_back({*node, parent});
+      pending.push_back({*node, parent, to_world});
   };
-  add(root_nodes(model), glm::dmat4(1.0));
+  add(root_nodes(model), -1, glm::dmat4(1.0));
   while (!pending.empty()) {  // no recursion: a file may nest its nodes arbitrarily deep
     const Pending next = pending.back();
     pending.pop_back();
@@ -91,9 +92,9 @@ std::vector<PlacedNode> placed_nodes(const tinygltf::Model& model) {
           fmt::format("node {} is in its scene twice, so the nodes do not form a tree", next.node));
     }
     reached[static_cast<std::size_t>(next.node)] = true;
-    const glm::dmat4 to_world = next.parent * local_matrix(node, next.node);
-    placed.push_back({&node, to_world});
-    add(node.children, to_world);
+    const glm::dmat4 to_world = next.parent_to_world * local_matrix(node, next.node);
+    placed.push_back({&node, to_world, next.node, next.parent});
+    add(node.children, next.node, to_world);
   }
   return placed;
 }

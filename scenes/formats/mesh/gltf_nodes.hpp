@@ -12,6 +12,8 @@ namespace beambench::scenes::mesh {
 struct PlacedNode {
   const tinygltf::Node* node;
   glm::dmat4 to_world;
+  int number;  ///< in the file
+  int parent;  ///< its number; -1 for a root
 };
 
 /// Returns all nodes of the file's default scene (its first if it names none, all nodes if it has

@@ -117,6 +117,10 @@ void encode(const ImportedMesh& imported, const ByteSink& sink) {
   writer.put_list(imported.mesh.vertices);
   writer.put_list(imported.mesh.triangles);
   writer.put_list(imported.mesh.parts);
+  writer.put(imported.motion.frames);
+  writer.put_list(imported.motion.vertices);
+  writer.put_list(imported.motion.influences);
+  writer.put_list(imported.motion.matrices);
 }
 
 std::string encode(const ImportedMesh& imported) {
@@ -142,6 +146,13 @@ ImportedMesh decode(const ByteSource& source, std::uint64_t at_most) {
   imported.mesh.vertices = reader.take_list<glm::vec3>();
   imported.mesh.triangles = reader.take_list<std::array<std::uint32_t, 3>>();
   imported.mesh.parts = reader.take_list<MeshPart>();
+  imported.motion.frames = reader.take<std::uint32_t>();
+  imported.motion.vertices = reader.take_list<MovingVertex>();
+  imported.motion.influences = reader.take_list<Influence>();
+  imported.motion.matrices = reader.take_list<glm::dmat4>();
+  if (!is_consistent(imported.motion, imported.mesh.vertices.size())) {
+    throw std::out_of_range("the motion is not one of the mesh");
+  }
   return imported;
 }
 

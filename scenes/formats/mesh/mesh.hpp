@@ -12,6 +12,7 @@
 #include <glm/vec3.hpp>
 
 #include "scenes/camera.hpp"
+#include "scenes/formats/mesh/mesh_motion.hpp"
 #include "scenes/scene.hpp"
 #include "scenes/surface.hpp"
 
@@ -43,6 +44,7 @@ struct MeshCompanion {
 /// was left out (without the file's name).
 struct ImportedMesh {
   TriangleMesh mesh;
+  MeshMotion motion;
   std::vector<Camera> cameras;  ///< each accepted by a scene builder, with unique names
   std::vector<Light> lights;
   std::vector<std::string> warnings;
@@ -62,9 +64,9 @@ void encode(const ImportedMesh& imported, const ByteSink& sink);
 /// Encodes to one text.
 std::string encode(const ImportedMesh& imported);
 
-/// Throws std::out_of_range if the bytes end early or a list claims more than `at_most` bytes, and
-/// std::bad_alloc if memory runs out. Bytes that `encode` did not make may give any mesh; a scene
-/// builder refuses an invalid one.
+/// Throws std::out_of_range if the bytes end early or a list claims more than `at_most` bytes, or
+/// the motion is not one of the mesh, and std::bad_alloc if memory runs out. Bytes that `encode`
+/// did not make may give any mesh; a scene builder refuses an invalid one.
 ImportedMesh decode(const ByteSource& source, std::uint64_t at_most);
 /// Decodes from one text.
 ImportedMesh decode(std::string_view bytes);

@@ -29,7 +29,8 @@ std::optional<std::filesystem::path> place(const char* variable) {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kMagic = "beambench mesh 2";  // incremented with the layout
+constexpr std::string_view kMagic = "beambench mesh 3";  // incremented with the layout
+constexpr std::string_view kAnyMagic = kMagic.substr(0, kMagic.size() - 1);
 
 /// The start of a file: its kind, and what must follow.
 struct Header {
@@ -79,13 +80,17 @@ void read_fully(InputStream& file, char* into, std::size_t count) {
   if (file.read({into, count}) < count) throw std::out_of_range("the file ends too early");
 }
 
+/// The file was written by another version.
+struct OtherLayout {};
+
 /// Reads the mesh in a file after verifying that the file is as it was written.
 ImportedMesh read_mesh(const fs::path& path) {
   InputStream file(path);
   Header header{};
   read_fully(file, reinterpret_cast<char*>(&header), sizeof(header));
-  if (std::string_view(header.magic, sizeof(header.magic)) != kMagic ||
-      file.remaining() != header.size) {
+  const std::string_view magic(header.magic, sizeof(header.magic));
+  if (magic != kMagic && magic.starts_with(kAnyMagic)) throw OtherLayout();
+  if (magic != kMagic || file.remaining() != header.size) {
     throw std::out_of_range("its header is wrong");
   }
   RunningHash hash;
@@ -140,6 +145,8 @@ CachedMesh find_cached_mesh(const fs::path& folder, const std::string& key,
     CachedMesh cached{CachedMesh::State::kFound, read_mesh(path)};
     if (!are_unchanged(cached.mesh.companions, mesh_folder)) return {};
     return cached;
+  } catch (const OtherLayout&) {
+    return {};
   } catch (const InputError&) {
   } catch (const std::out_of_range&) {
   } catch (const std::bad_alloc&) {

@@ -35,8 +35,12 @@ std::size_t hash_of(const glm::vec3& position) { return XXH3_64bits(&position, s
 
 }  // namespace
 
-SharedVertices::SharedVertices(std::vector<glm::vec3> places)
-    : places_(std::move(places)), collected_(places_.size(), kFree) {}
+SharedVertices::SharedVertices(std::vector<glm::vec3> places, bool merges)
+    : places_(std::move(places)), collected_(places_.size(), kFree), merges_(merges) {}
+
+std::optional<std::uint32_t> SharedVertices::collected(std::size_t index) const {
+  return collected_[index] == kFree ? std::nullopt : std::optional(collected_[index]);
+}
 
 void MeshCollector::reserve(std::size_t vertices, std::size_t triangles) {
   mesh_.vertices.reserve(vertices);
@@ -69,7 +73,7 @@ void MeshCollector::add(SharedVertices& vertices, const std::array<std::uint32_t
   std::array<std::uint32_t, 3> collected{};
   for (std::size_t i = 0; i < 3; ++i) {
     std::uint32_t& known = vertices.collected_[corners[i]];
-    if (known == kFree) known = vertex(places[i]);
+    if (known == kFree) known = vertices.merges_ ? vertex(places[i]) : push_vertex(places[i]);
     collected[i] = known;
   }
   push_triangle(collected);
@@ -110,18 +114,23 @@ std::uint32_t MeshCollector::vertex(const glm::vec3& position) {
   for (; slots_[slot] != kFree; slot = (slot + 1) & mask) {
     if (mesh_.vertices[slots_[slot]] == position) return slots_[slot];
   }
-  slots_[slot] = static_cast<std::uint32_t>(mesh_.vertices.size());
+  return slots_[slot] = push_vertex(position);
+}
+
+std::uint32_t MeshCollector::push_vertex(const glm::vec3& position) {
   mesh_.vertices.push_back(position);
-  return slots_[slot];
+  return static_cast<std::uint32_t>(mesh_.vertices.size() - 1);
 }
 
 void MeshCollector::grow(std::size_t slots) {
-  slots_.assign(slots, kFree);
+  const std::vector<std::uint32_t> before =
+      std::exchange(slots_, std::vector<std::uint32_t>(slots, kFree));
   const std::size_t mask = slots_.size() - 1;
-  for (std::size_t i = 0; i < mesh_.vertices.size(); ++i) {
+  for (const std::uint32_t i : before) {  // not all vertices: some are not to be found
+    if (i == kFree) continue;
     std::size_t slot = hash_of(mesh_.vertices[i]) & mask;
     while (slots_[slot] != kFree) slot = (slot + 1) & mask;
-    slots_[slot] = static_cast<std::uint32_t>(i);
+    slots_[slot] = i;
   }
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,15 +18,20 @@ namespace beambench::scenes::mesh {
 /// mesh each became, so that equal places are looked up once per vertex, not once per corner.
 class SharedVertices {
  public:
-  explicit SharedVertices(std::vector<glm::vec3> places);
+  /// With `merges` false, its vertices are not merged with others at the same place, which may
+  /// leave it when the mesh moves.
+  explicit SharedVertices(std::vector<glm::vec3> places, bool merges = true);
 
   const std::vector<glm::vec3>& places() const { return places_; }
+  /// Returns the vertex of the collected mesh; nothing if no triangle uses it.
+  std::optional<std::uint32_t> collected(std::size_t index) const;
 
  private:
   friend class MeshCollector;
 
   std::vector<glm::vec3> places_;
   std::vector<std::uint32_t> collected_;
+  bool merges_;
 };
 
 /// Collects triangles from a file: vertices at the same place are merged, unused ones are dropped,
@@ -52,6 +58,7 @@ class MeshCollector {
 
  private:
   std::uint32_t vertex(const glm::vec3& position);
+  std::uint32_t push_vertex(const glm::vec3& position);
   std::size_t number() const { return mesh_.triangles.size() + degenerate_; }
   void grow(std::size_t slots);
   void leave_out();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -80,6 +81,18 @@ ImportedMesh cached_import(const fs::path& path, const std::string& ending,
   return imported;
 }
 
+/// Adds the frames of a mesh to its scene, whose vertices are those of the mesh.
+Animation with_frames(Scene scene, MeshMotion motion) {
+  if (!motion.moves()) return {std::move(scene)};
+  const std::uint32_t frames = motion.frames;
+  auto pose = [motion = std::move(motion), vertices = scene.vertices](std::uint32_t frame) {
+    Pose moved;
+    moved.vertices = vertices_in(motion, frame, vertices);
+    return moved;
+  };
+  return {std::move(scene), frames, std::move(pose)};
+}
+
 }  // namespace
 
 void add_view(SceneBuilder& builder, std::span<const glm::vec3> points,
@@ -110,10 +123,10 @@ Scene mesh_scene(const TriangleMesh& mesh, const std::string& name, const Orient
   return std::move(builder).build();
 }
 
-Scene load_mesh(const MeshRequest& request, std::vector<std::string>* warnings) {
+Animation load_mesh(const MeshRequest& request, std::vector<std::string>* warnings) {
   const std::string file = request.path.string();
   std::vector<std::string> notes;
-  const ImportedMesh imported = cached_import(request.path, mesh_ending(file), notes);
+  ImportedMesh imported = cached_import(request.path, mesh_ending(file), notes);
   if (request.strict && !imported.warnings.empty()) {
     throw InputError(fmt::format("{}: {}; correct the file, or read it without --strict", file,
                                  imported.warnings.front()));
@@ -122,8 +135,9 @@ Scene load_mesh(const MeshRequest& request, std::vector<std::string>* warnings) 
   if (warnings != nullptr) {
     for (const std::string& note : notes) warnings->push_back(fmt::format("{}: {}", file, note));
   }
-  return mesh_scene(imported.mesh, request.name, request.orientation,
-                    combined(request.view, {imported.cameras, imported.lights}));
+  Scene scene = mesh_scene(imported.mesh, request.name, request.orientation,
+                           combined(request.view, {imported.cameras, imported.lights}));
+  return with_frames(std::move(scene), std::move(imported.motion));
 }
 
 void register_mesh(Catalogue& catalogue) {
@@ -144,8 +158,9 @@ void register_mesh(Catalogue& catalogue) {
                         }});
   // Otherwise its bytes would be reported as a strange NFF file.
   catalogue.add_format(
-      {is_foreign_model,
-       [](std::string_view spec, ReadOptions, Warnings&) -> Scene { refuse_foreign_model(spec); }});
+      {is_foreign_model, [](std::string_view spec, ReadOptions, Warnings&) -> Animation {
+         refuse_foreign_model(spec);
+       }});
 }
 
 }  // namespace beambench::scenes::mesh

@@ -8,6 +8,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "scenes/animation.hpp"
 #include "scenes/formats/mesh/given_view.hpp"
 #include "scenes/formats/mesh/mesh.hpp"
 #include "scenes/formats/mesh/mesh_file.hpp"
@@ -35,10 +36,10 @@ struct MeshRequest {
   GivenView view = {};
 };
 
-/// Loads a mesh file, either from the cache (`meshes` in `cache_folder()`) or from the file, in
-/// which case it is added to the cache. Warnings are appended to `warnings` if given, as `file:
-/// message`. Throws InputError with the file's name if it cannot be read, is malformed or has no
-/// triangles.
-Scene load_mesh(const MeshRequest& request, std::vector<std::string>* warnings = nullptr);
+/// Loads a mesh file with its frames, either from the cache (`meshes` in `cache_folder()`) or from
+/// the file, in which case it is added to the cache. Warnings are appended to `warnings` if given,
+/// as `file: message`. Throws InputError with the file's name if it cannot be read, is malformed or
+/// has no triangles.
+Animation load_mesh(const MeshRequest& request, std::vector<std::string>* warnings = nullptr);
 
 }  // namespace beambench::scenes::mesh

@@ -437,7 +437,7 @@ void register_nff(Catalogue& catalogue) {
        [](std::string_view spec, ReadOptions options, std::vector<std::string>& warnings) {
          NffResult result = read_nff(spec, options);
          warnings = std::move(result.warnings);
-         return std::move(result.scene);
+         return Animation{std::move(result.scene)};
        }});
 }
 

@@ -1,3 +1,5 @@
+#include "scenes/generators/other/bumpy.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -84,7 +86,7 @@ std::uint32_t cells_per_edge(std::int64_t triangles) {
 
 /// The two sides of the cube across one axis, two triangles per cell, counter-clockwise from
 /// outside.
-void add_sides(SceneBuilder& builder, const CubeGrid& grid, std::uint32_t k, std::size_t axis) {
+void add_sides(BumpyMesh& mesh, const CubeGrid& grid, std::uint32_t k, std::size_t axis) {
   const std::size_t u = (axis + 1) % 3;
   const std::size_t v = (axis + 2) % 3;
   const auto corner = [&](std::uint32_t i, std::uint32_t j, std::uint32_t level) {
@@ -95,7 +97,7 @@ void add_sides(SceneBuilder& builder, const CubeGrid& grid, std::uint32_t k, std
     return grid.point(at);
   };
   const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, bool flip) {
-    builder.add_polygon(std::array<std::uint32_t, 3>{a, flip ? c : b, flip ? b : c});
+    mesh.triangles.push_back({a, flip ? c : b, flip ? b : c});
   };
   for (const std::uint32_t level : {0U, k}) {
     for (std::uint32_t j = 0; j < k; ++j) {
@@ -120,18 +122,26 @@ Scene generate(const Parameters& parameters) {
   builder.add_light({5.0, 1.0, 4.0});
   builder.add_light({1.0, 6.0, 2.0});
 
-  const std::uint32_t k = cells_per_edge(parameters.integer("triangles"));
-  const CubeGrid grid(k);
-  grid.for_each_point([&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-    builder.add_vertex(bumpy_point(glm::dvec3(x, y, z) * (2.0 / k) - 1.0));
-  });
+  const BumpyMesh mesh = bumpy_mesh(parameters.integer("triangles"));
+  for (const glm::dvec3& vertex : mesh.vertices) builder.add_vertex(vertex);
   builder.set_surface(
       {.color = {0.85F, 0.55F, 0.35F}, .diffuse = 0.8F, .specular = 0.2F, .shine = 30.0F});
-  for (std::size_t axis = 0; axis < 3; ++axis) add_sides(builder, grid, k, axis);
+  for (const auto& corners : mesh.triangles) builder.add_polygon(corners);
   return std::move(builder).build();
 }
 
 }  // namespace
+
+BumpyMesh bumpy_mesh(std::int64_t triangles) {
+  const std::uint32_t k = cells_per_edge(triangles);
+  const CubeGrid grid(k);
+  BumpyMesh mesh;
+  grid.for_each_point([&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+    mesh.vertices.push_back(bumpy_point(glm::dvec3(x, y, z) * (2.0 / k) - 1.0));
+  });
+  for (std::size_t axis = 0; axis < 3; ++axis) add_sides(mesh, grid, k, axis);
+  return mesh;
+}
 
 void register_bumpy(Catalogue& catalogue) {
   catalogue.add({"bumpy",

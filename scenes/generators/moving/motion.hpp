@@ -1,0 +1,55 @@
+#pragma once
+// What the scenes that move share.
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include "scenes/animation.hpp"
+#include "scenes/base/parameters.hpp"
+#include "scenes/scene.hpp"
+#include "scenes/scene_builder.hpp"
+
+namespace beambench::scenes::generators {
+
+/// Returns the places in a frame of the vertices that move: those of frame 0 are the scene's own.
+using VertexPlaces = std::function<std::vector<glm::dvec3>(std::uint32_t frame)>;
+
+/// A scene whose first vertices move. The others stay, and so do spheres, cones and normals.
+Animation with_moving_vertices(Scene scene, std::uint32_t frames, VertexPlaces places);
+
+/// Rigid parts, the vertices of each following those of the one before.
+struct RigidParts {
+  std::vector<glm::dvec3> vertices;  ///< at rest
+  std::vector<std::size_t> ends{};   ///< of each part's vertices
+  /// Returns the matrix that moves a part from rest to its place in a frame.
+  std::function<glm::dmat4(std::size_t part, std::uint32_t frame)> place{};
+
+  std::vector<glm::dvec3> placed(std::uint32_t frame) const;
+};
+
+/// The matrix of a translation.
+glm::dmat4 moved_by(const glm::dvec3& offset);
+
+/// Returns the value of `frames_parameter`.
+std::uint32_t frames_of(const Parameters& parameters);
+
+/// The k for which 2 k^2 is nearest to a number of triangles, at least 1.
+std::uint32_t cells_for(std::int64_t triangles);
+
+/// Adds a camera with a landscape picture.
+void add_wide_camera(SceneBuilder& builder, const std::string& name, const glm::dvec3& from,
+                     const glm::dvec3& at, float angle);
+
+/// Adds a square floor about the z axis.
+void add_floor(SceneBuilder& builder, double half, double height);
+
+/// Adds the lights and the background of these scenes, for a scene of this size about the origin.
+void light_motion(SceneBuilder& builder, double size);
+
+}  // namespace beambench::scenes::generators
