@@ -1,8 +1,11 @@
 #include "scenes/animation.hpp"
 
+#include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <string_view>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -104,6 +107,16 @@ void set_pose(Scene& scene, const Pose& pose, std::uint32_t frame) {
   }
 }
 
+FrameName divide_frame(std::string_view name) {
+  const std::size_t at = name.rfind('@');
+  if (at == std::string_view::npos) return {name, std::nullopt};
+  std::uint32_t frame = 0;
+  const char* const end = name.data() + name.size();
+  const auto [stop, error] = std::from_chars(name.data() + at + 1, end, frame);
+  if (error != std::errc() || stop != end) return {name, std::nullopt};
+  return {name.substr(0, at), frame};
+}
+
 void show_frame(Animation& animation, std::uint32_t frame) {
   if (frame >= animation.frames) {
     refuse(animation.scene, frame,
@@ -111,7 +124,11 @@ void show_frame(Animation& animation, std::uint32_t frame) {
                ? "the scene does not move; it has frame 0 only"
                : fmt::format("the animation has frames 0 to {}", animation.frames - 1));
   }
-  if (animation.pose) set_pose(animation.scene, animation.pose(frame), frame);
+  if (!animation.pose) return;
+  Scene& scene = animation.scene;
+  if (!scene.first_frame) scene.first_frame = std::make_shared<const Scene>(scene);
+  set_pose(scene, animation.pose(frame), frame);
+  scene.frame = frame;
 }
 
 }  // namespace beambench::scenes

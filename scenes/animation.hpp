@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -38,6 +40,14 @@ struct Animation {
   /// scene does not move.
   std::function<Pose(std::uint32_t frame)> pose{};
 };
+
+/// The name of a scene and the frame at its end, of what a user types and of `Scene::name`:
+/// `waving-sheet:n=64@7`.
+struct FrameName {
+  std::string_view scene;
+  std::optional<std::uint32_t> frame;  ///< nothing where none is named
+};
+FrameName divide_frame(std::string_view name);
 
 /// Moves the animation's scene to a frame. Throws InputError where there is no such frame, or like
 /// `set_pose`.

@@ -143,14 +143,19 @@ const SceneInfo& find_scene(const std::string& name) {
   return *info;
 }
 
-bool is_scene_file(std::string_view spec) { return find_format(spec) != nullptr; }
+bool is_scene_file(std::string_view spec) {
+  return find_format(divide_frame(spec).scene) != nullptr;
+}
 
 Scene load_scene(std::string_view spec, std::vector<std::string>* warnings, ReadOptions options) {
   return load_animation(spec, warnings, options).scene;
 }
 
-Animation load_animation(std::string_view spec, std::vector<std::string>* warnings,
-                         ReadOptions options) {
+namespace {
+
+/// Loads the scene in its frame 0.
+Animation load_first_frame(std::string_view spec, std::vector<std::string>* warnings,
+                           ReadOptions options) {
   if (const SceneFormat* format = find_format(spec)) {
     std::vector<std::string> noticed;
     Animation animation = format->read(spec, options, noticed);
@@ -174,6 +179,20 @@ Animation load_animation(std::string_view spec, std::vector<std::string>* warnin
   scene.name += fmt::format("{}{}={}", scene.name.find(':') == std::string::npos ? ':' : ',',
                             perturb_parameter().name, seed);
   return {perturbed(scene, seed)};  // its objects are told by where they are, so it stays still
+}
+
+}  // namespace
+
+Animation load_animation(std::string_view spec, std::vector<std::string>* warnings,
+                         ReadOptions options) {
+  const FrameName name = divide_frame(spec);
+  if (!name.frame || std::filesystem::exists(spec)) {
+    return load_first_frame(spec, warnings, options);
+  }
+  Animation animation = load_first_frame(name.scene, warnings, options);
+  show_frame(animation, *name.frame);
+  animation.scene.name += fmt::format("@{}", *name.frame);
+  return animation;
 }
 
 }  // namespace beambench::scenes

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,6 +43,10 @@ struct Scene {
   std::vector<glm::vec3> normals;      ///< corner normals of smooth polygons
 
   Bounds bounds;  ///< of all primitives; empty for an empty scene
+
+  std::uint32_t frame = 0;  ///< of a scene that moves (animation.hpp)
+  /// The same scene as it was in frame 0; null where this is that frame.
+  std::shared_ptr<const Scene> first_frame{};
 };
 
 /// Returns the tight bounds of one primitive, rounded outward to float (a sphere's c + r may not be

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include "accel/bvh/refit.hpp"
 #include "accel/core/expected_visits.hpp"
 #include "accel/core/padded_bounds.hpp"
+#include "accel/core/registry.hpp"
 #include "scenes/base/random.hpp"
 
 namespace beambench::accel::bvh {
@@ -53,7 +55,8 @@ std::vector<ParameterInfo> GoldsmithSalmonOptions::parameters() {
       choice_parameter("insert", "everywhere", {"everywhere", "terminal"},
                        "where on its path down an object may be placed: wherever it costs least "
                        "(Goldsmith and Salmon 1987), or only beside the terminal node at the "
-                       "end (thesis, section 4.3)")};
+                       "end (thesis, section 4.3)"),
+      update_parameter()};
 }
 
 GoldsmithSalmonOptions GoldsmithSalmonOptions::from(const Parameters& parameters) {
@@ -69,6 +72,12 @@ GoldsmithSalmonOptions GoldsmithSalmonOptions::from(const Parameters& parameters
 
 GoldsmithSalmon::GoldsmithSalmon(const scenes::Scene& scene, const GoldsmithSalmonOptions& options)
     : scene_(&scene), queue_(options.queue), hierarchy_(build(scene, options)) {}
+
+bool GoldsmithSalmon::update(const scenes::Scene& scene) {
+  scene_ = &scene;
+  refit(hierarchy_, scene);
+  return true;
+}
 
 Statistics GoldsmithSalmon::statistics() const {
   Statistics statistics;  // no leaves: volumes at every level have objects

@@ -106,6 +106,7 @@ class GoldsmithSalmon : public TraversalAccelerator<GoldsmithSalmon> {
 
   const InsertionHierarchy& hierarchy() const { return hierarchy_; }
   Statistics statistics() const override;
+  bool update(const scenes::Scene& scene) override;
 
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {

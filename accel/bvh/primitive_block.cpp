@@ -6,17 +6,13 @@ namespace {
 void append(const scenes::Scene& scene, const PrimitivePart& piece, PrimitiveBlock& block) {
   const std::size_t lane = block.count++;
   block.primitives[lane] = piece.primitive;
-  const auto put = [&](std::size_t first_row, const glm::vec3& point) {
-    for (int axis = 0; axis < 3; ++axis) {
-      block.coordinates[first_row + static_cast<std::size_t>(axis)][lane] = point[axis];
-    }
-  };
+  block.parts[lane] = piece.index;
   if (block.kind == scenes::PrimitiveKind::kPolygon) {
     for (std::size_t i = 0; i < 3; ++i) {
-      put(3 * i, scene.vertices[scene.triangles[piece.index].vertex[i]]);
+      block.put(3 * i, lane, scene.vertices[scene.triangles[piece.index].vertex[i]]);
     }
   } else if (block.kind == scenes::PrimitiveKind::kSphere) {
-    put(0, scene.spheres[piece.index].center);
+    block.put(0, lane, scene.spheres[piece.index].center);
     block.coordinates[3][lane] = scene.spheres[piece.index].radius;
   }
 }

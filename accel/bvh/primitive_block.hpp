@@ -21,6 +21,7 @@ struct alignas(64) PrimitiveBlock {
   /// of the center, and the radius. Cones: nothing.
   std::array<std::array<float, kBvhLanes>, 9> coordinates;
   std::array<scenes::PrimitiveId, kBvhLanes> primitives;  ///< the polygons of triangles
+  std::array<std::uint32_t, kBvhLanes> parts;             ///< as `PrimitivePart::index`
   scenes::PrimitiveKind kind;
   std::uint32_t count;
   std::uint32_t first;  ///< the primitives in the blocks before it
@@ -29,6 +30,11 @@ struct alignas(64) PrimitiveBlock {
   glm::vec3 corner(std::size_t which, std::size_t lane) const {
     const std::size_t row = 3 * which;
     return {coordinates[row][lane], coordinates[row + 1][lane], coordinates[row + 2][lane]};
+  }
+  void put(std::size_t first_row, std::size_t lane, const glm::vec3& point) {
+    for (int axis = 0; axis < 3; ++axis) {
+      coordinates[first_row + static_cast<std::size_t>(axis)][lane] = point[axis];
+    }
   }
 };
 

@@ -2,10 +2,12 @@
 
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <hwy/targets.h>
 
+#include "accel/bvh/refit.hpp"
 #include "accel/core/threads.hpp"
 
 namespace beambench::accel::bvh {
@@ -38,6 +40,7 @@ std::vector<ParameterInfo> SahBvh::parameters() {
                          "build on all cores; the hierarchy is the same"),
           choice_parameter("lists", "streams", {"streams", "single"},
                            "streams: the rays of a list go down together; single: one by one"),
+          update_parameter(),
           isa_parameter()};
 }
 
@@ -55,9 +58,17 @@ SahBvh::SahBvh(const scenes::Scene& scene, const SahBvhOptions& options, std::in
     : scene_(&scene),
       bvh_(build_wide_bvh(scene, options)),
       streams_(options.streams),
+      parallel_(options.splits.parallel),
       kernels_(&sah_kernels_for(targets)),
       stream_kernels_(&stream_kernels_for(targets)) {
-  if (streams_) stream_tree_ = build_stream_tree(bvh_, options.splits.parallel);
+  if (streams_) stream_tree_ = build_stream_tree(bvh_, parallel_);
+}
+
+bool SahBvh::update(const scenes::Scene& scene) {
+  scene_ = &scene;
+  refit(bvh_, scene, parallel_);
+  if (streams_) stream_tree_ = build_stream_tree(bvh_, parallel_, std::move(stream_tree_));
+  return true;
 }
 
 void SahBvh::closest_hits(const RaySource& rays, const HitSpan& hits,

@@ -38,6 +38,7 @@ class SahBvh : public TraversalAccelerator<SahBvh> {
                     const QueryContext& context) const override;
   void any_hits(const RaySource& rays, std::span<std::uint8_t> hits,
                 const QueryContext& context) const override;
+  bool update(const scenes::Scene& scene) override;
 
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
@@ -63,6 +64,7 @@ class SahBvh : public TraversalAccelerator<SahBvh> {
   const scenes::Scene* scene_;
   WideBvh bvh_;
   bool streams_;
+  bool parallel_;
   StreamTree stream_tree_;
   const SahKernels* kernels_;
   const StreamKernels* stream_kernels_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -82,9 +83,9 @@ void put_triangles(const PrimitiveBlock& block, LargePageVector<WholeTriangle>& 
 
 }  // namespace
 
-StreamTree build_stream_tree(const WideBvh& bvh, bool parallel) {
-  StreamTree tree;
-  if (bvh.empty()) return tree;
+StreamTree build_stream_tree(const WideBvh& bvh, bool parallel, StreamTree memory) {
+  StreamTree tree = std::move(memory);
+  if (bvh.empty()) return {};
   // The root's box: that of the scene's bounds is less by the padding.
   scenes::Bounds bounds = bvh.scene_bounds;
   if (!bvh.root.is_leaf()) {

@@ -64,7 +64,7 @@ struct StreamTree {
   }
 };
 
-/// `parallel`: on all cores; the result is the same.
-StreamTree build_stream_tree(const WideBvh& bvh, bool parallel);
+/// `parallel`: on all cores; the result is the same. `memory`: a tree whose arrays are used again.
+StreamTree build_stream_tree(const WideBvh& bvh, bool parallel, StreamTree memory = {});
 
 }  // namespace beambench::accel::bvh

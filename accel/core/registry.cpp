@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "accel/core/build_memory.hpp"
+#include "accel/core/moved_structure.hpp"
 #include "scenes/base/error.hpp"
 #include "scenes/base/nearest_name.hpp"
 #include "scenes/base/printable.hpp"
@@ -25,13 +26,34 @@ std::unique_ptr<Accelerator> StructureChoice::build(const scenes::Scene& scene,
                                        info_->name, scene.name));
   }
   require_build_memory(*this, scene, workload);
-  auto accelerator = info_->build(scene, parameters_, workload);
+  std::unique_ptr<Accelerator> accelerator;
+  if (updates()) {
+    auto moved = std::make_unique<MovedStructure>(*this, scene, copy_first_frame(scene), workload);
+    moved->place();
+    moved->update();
+    accelerator = std::move(moved);
+  } else {
+    accelerator = info_->build(scene, parameters_, workload);
+  }
   parameters_.require_given_were_read();
   return accelerator;
 }
 
 std::unique_ptr<Accelerator> StructureChoice::build(const scenes::Scene& scene) const {
   return build(scene, usual_workload(scene));
+}
+
+bool StructureChoice::updates() const {
+  const ParameterInfo update = update_parameter();
+  return std::ranges::find(info_->parameters, update.name, &ParameterInfo::name) !=
+             info_->parameters.end() &&
+         parameters_.flag(update.name);
+}
+
+ParameterInfo update_parameter() {
+  return flag_parameter("update", false,
+                        "over a scene that moves: built over its first frame and updated to the "
+                        "present one, in place of being built anew");
 }
 
 std::span<const CounterInfo> common_counters() {

@@ -67,9 +67,13 @@ class StructureChoice {
   /// The name and the parameters that are not at their defaults.
   std::string short_label() const { return parameters_.short_label(); }
 
-  /// Builds the structure. Throws UnsupportedError over primitives that it does not support;
-  /// InputError also when it is expected to take more memory than is available
-  /// (`require_build_memory`); std::logic_error when it ignores a parameter it was given.
+  /// Returns whether it is built over a scene's first frame, and updated (`update_parameter`).
+  bool updates() const;
+
+  /// Builds the structure; one that `updates()` is a MovedStructure. Throws UnsupportedError over
+  /// primitives that it does not support; InputError also when it is expected to take more memory
+  /// than is available (`require_build_memory`); std::logic_error when it ignores a parameter it
+  /// was given.
   std::unique_ptr<Accelerator> build(const scenes::Scene& scene, const Workload& workload) const;
   /// Builds it for the usual workload.
   std::unique_ptr<Accelerator> build(const scenes::Scene& scene) const;
@@ -78,6 +82,11 @@ class StructureChoice {
   const StructureInfo* info_;
   Parameters parameters_;
 };
+
+/// Returns the parameter of a structure that can be updated (`Accelerator::update`), a flag: over a
+/// scene that has moved it is then built over the first frame and updated to the present one, in
+/// place of being built anew.
+ParameterInfo update_parameter();
 
 /// The meaning of a counter; printed by `beambench list --counters`.
 struct CounterInfo {

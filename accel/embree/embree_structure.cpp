@@ -27,8 +27,9 @@ class EmbreeStructure : public Accelerator {
  public:
   EmbreeStructure(const scenes::Scene& scene, RTCBuildQuality quality, bool robust,
                   const TraceMode& mode, Coherence coherence, const std::string& isa,
-                  ConeGeometry cones, int threads)
-      : scene_(scene, quality, robust, isa, cones, threads),
+                  ConeGeometry cones, int threads, bool moves)
+      : scene_(scene, quality, robust, isa, cones, threads, moves),
+        moves_(moves),
         trace_image_(image_tracers(targets_of(isa)).*mode.image),
         list_(list_tracers(targets_of(isa)).*mode.list),
         coherence_(coherence),
@@ -58,6 +59,12 @@ class EmbreeStructure : public Accelerator {
     rays.for_each([&](std::size_t index, const Ray& ray) {
       hits[index] = scene_.any_hit(query, ray) ? 1 : 0;
     });
+  }
+
+  /// Only where the scene was announced as one that moves.
+  bool update(const scenes::Scene& scene) override {
+    if (moves_) scene_.update(scene);
+    return moves_;
   }
 
   Statistics statistics() const override {
@@ -94,6 +101,7 @@ class EmbreeStructure : public Accelerator {
   }
 
   NativeScene scene_;
+  bool moves_;
   ImageTracers::Trace trace_image_;
   ListMode list_;
   Coherence coherence_;
@@ -148,7 +156,7 @@ void register_embree(Registry& registry) {
                          "flags neighboring rays as coherent for Embree, which packets then do not "
                          "give up; auto: those of images and of any-hit queries, but not the "
                          "closest hits of lists"),
-        cones_parameter(), isa_parameter()},
+        cones_parameter(), update_parameter(), isa_parameter()},
        [](const scenes::Scene& scene, const Parameters& parameters, const Workload& workload) {
          const std::string& isa = parameters.choice("isa");
          require_isa(isa);
@@ -158,7 +166,7 @@ void register_embree(Registry& registry) {
              isa,
              parameters.choice("cones") == "curves" ? ConeGeometry::kCurves
                                                     : ConeGeometry::kCallbacks,
-             workload.threads);
+             workload.threads, parameters.flag(update_parameter().name));
        }});
 }
 

@@ -45,14 +45,17 @@ float make_unit(RTCRay& ray) {
 }  // namespace
 
 NativeScene::NativeScene(const scenes::Scene& scene, RTCBuildQuality quality, bool robust,
-                         const std::string& isa, ConeGeometry cones, int threads)
+                         const std::string& isa, ConeGeometry cones, int threads, bool moves)
     : device_(device_config(isa, thread_count(threads)).c_str()),
       user_(scene, cones),
       scene_(rtcNewScene(device_.get())) {
   // Embree uses the largest thread count of all its living devices; this limits it to one.
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   rtcSetSceneBuildQuality(scene_.get(), quality);
-  rtcSetSceneFlags(scene_.get(), robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+  int flags = robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE;
+  if (moves) flags |= RTC_SCENE_FLAG_DYNAMIC;
+  rtcSetSceneFlags(scene_.get(), static_cast<RTCSceneFlags>(flags));
+  if (moves) quality = RTC_BUILD_QUALITY_REFIT;  // of the geometries; the scene keeps its own
 
   owners_.ids.reserve(scene.triangles.size() + scene.spheres.size() + scene.cones.size());
   for (const scenes::Triangle& triangle : scene.triangles)
@@ -120,12 +123,16 @@ GeometryHandle NativeScene::make_spheres(const scenes::Scene& scene) {
   auto* const points =
       new_buffer<glm::vec4>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, sphere_count());
   device_.check("building over " + scene.name);
+  copy_spheres(scene, points);
+  return geometry;
+}
+
+void NativeScene::copy_spheres(const scenes::Scene& scene, glm::vec4* points) const {
   for (std::size_t i = 0; i < sphere_count(); ++i) {
     const scenes::PrimitiveId id = owners_.ids[owners_.first[kSpheres] + i];
     const scenes::Sphere& sphere = scene.spheres[scene.primitives[id].index];
     points[i] = glm::vec4(sphere.center, sphere.radius);
   }
-  return geometry;
 }
 
 GeometryHandle NativeScene::make_curves(const scenes::Scene& scene) {
@@ -135,14 +142,51 @@ GeometryHandle NativeScene::make_curves(const scenes::Scene& scene) {
   auto* const first_ends =
       new_buffer<unsigned>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, curve_count());
   device_.check("building over " + scene.name);
+  copy_curves(scene, ends);
+  for (std::size_t i = 0; i < curve_count(); ++i) first_ends[i] = static_cast<unsigned>(2 * i);
+  return geometry;
+}
+
+void NativeScene::copy_curves(const scenes::Scene& scene, glm::vec4* ends) const {
   for (std::size_t i = 0; i < curve_count(); ++i) {
     const scenes::PrimitiveId id = owners_.ids[owners_.first[kCurves] + i];
     const scenes::Cone& cone = scene.cones[scene.primitives[id].index];
     ends[2 * i] = glm::vec4(cone.base, cone.base_radius);
     ends[2 * i + 1] = glm::vec4(cone.apex, cone.apex_radius);
-    first_ends[i] = static_cast<unsigned>(2 * i);
   }
-  return geometry;
+}
+
+void NativeScene::update(const scenes::Scene& scene) {
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  const auto renew = [&](GeometryId id, const auto& copy) {
+    const RTCGeometry geometry = rtcGetGeometry(scene_.get(), id);
+    copy(geometry);
+    rtcCommitGeometry(geometry);
+  };
+  const auto renew_vertices = [&](GeometryId id, const auto& copy) {
+    renew(id, [&](RTCGeometry geometry) {
+      copy(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0));
+      rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
+    });
+  };
+  if (!scene.triangles.empty()) {
+    renew_vertices(kTriangles, [&](void* vertices) {
+      std::memcpy(vertices, scene.vertices.data(), scene.vertices.size() * sizeof(glm::vec3));
+    });
+  }
+  if (sphere_count() > 0) {
+    renew_vertices(kSpheres,
+                   [&](void* points) { copy_spheres(scene, static_cast<glm::vec4*>(points)); });
+  }
+  if (curve_count() > 0) {
+    renew_vertices(kCurves, [&](void* ends) { copy_curves(scene, static_cast<glm::vec4*>(ends)); });
+  }
+  if (user_count() > 0) {
+    user_.measure(scene);
+    renew(kUser, [](RTCGeometry) {});
+  }
+  rtcCommitScene(scene_.get());
+  device_.check("updating over " + scene.name);
 }
 
 std::string NativeScene::geometry_types() const {

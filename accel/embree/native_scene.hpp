@@ -35,8 +35,13 @@ class NativeScene {
  public:
   /// `isa` is a value of `isa_parameter`; `cones` selects the cones that Embree's curves test.
   /// During the scene's lifetime, TBB has at most `threads` threads (`thread_count`).
+  /// `moves`: for scenes whose coordinates change (`update`).
   NativeScene(const scenes::Scene& scene, RTCBuildQuality quality, bool robust,
-              const std::string& isa, ConeGeometry cones, int threads = 1);
+              const std::string& isa, ConeGeometry cones, int threads = 1, bool moves = false);
+
+  /// Copies the coordinates of the scene, which has the same primitives, and has Embree refit its
+  /// hierarchies.
+  void update(const scenes::Scene& scene);
 
   RTCScene get() const { return scene_.get(); }
   /// Returns the hit of one ray, which must pass `require_valid`; the same hit as in Embree's
@@ -69,6 +74,8 @@ class NativeScene {
   GeometryHandle make_triangles(const scenes::Scene& scene);
   GeometryHandle make_spheres(const scenes::Scene& scene);
   GeometryHandle make_curves(const scenes::Scene& scene);
+  void copy_spheres(const scenes::Scene& scene, glm::vec4* points) const;
+  void copy_curves(const scenes::Scene& scene, glm::vec4* ends) const;
 
   Device device_;
   UserGeometry user_;

@@ -45,14 +45,17 @@ bool is_user_primitive(const scenes::Scene& scene, const scenes::Primitive& prim
   return false;
 }
 
-UserGeometry::UserGeometry(const scenes::Scene& scene, ConeGeometry cones)
-    : scene_(scene),
-      pad_(static_cast<float>(4.0 * 0x1p-23 *
-                              (scene.bounds.largest_coordinate() +
-                               kCameraDistance * glm::length(glm::dvec3(scene.bounds.extent()))))) {
+UserGeometry::UserGeometry(const scenes::Scene& scene, ConeGeometry cones) : scene_(scene) {
+  measure(scene);
   for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
     if (is_user_primitive(scene, scene.primitives[id], cones)) ids_.push_back(id);
   }
+}
+
+void UserGeometry::measure(const scenes::Scene& scene) {
+  pad_ = static_cast<float>(4.0 * 0x1p-23 *
+                            (scene.bounds.largest_coordinate() +
+                             kCameraDistance * glm::length(glm::dvec3(scene.bounds.extent()))));
 }
 
 GeometryHandle UserGeometry::make(RTCDevice device) {

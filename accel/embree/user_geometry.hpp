@@ -26,6 +26,8 @@ class UserGeometry {
   const std::vector<scenes::PrimitiveId>& ids() const { return ids_; }
   /// Makes a geometry over the primitives, not yet committed; they must outlive it.
   GeometryHandle make(RTCDevice device);
+  /// Takes the padding of boxes from the scene's present bounds.
+  void measure(const scenes::Scene& scene);
 
  private:
   static void on_bounds(const RTCBoundsFunctionArguments* arguments);

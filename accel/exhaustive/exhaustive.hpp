@@ -12,6 +12,11 @@ class Exhaustive : public TraversalAccelerator<Exhaustive> {
   explicit Exhaustive(const scenes::Scene& scene) : scene_(&scene) {}
 
   Statistics statistics() const override { return {}; }
+  /// Nothing was built, so there is nothing to adapt.
+  bool update(const scenes::Scene& scene) override {
+    scene_ = &scene;
+    return true;
+  }
 
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {

@@ -24,30 +24,44 @@ bool same_bits(const glm::vec3& point, const Meshlet& meshlet, std::size_t verte
   return true;
 }
 
+/// A meshlet to which triangles are added, and where the scene moves its vertices.
+struct OpenMeshlet {
+  Meshlet& meshlet;
+  MeshletVertices* numbers;  ///< null where the scene does not move
+
+  bool has(std::size_t corner, std::uint32_t vertex, const glm::vec3& place) const {
+    return numbers != nullptr ? (*numbers)[corner] == vertex : same_bits(place, meshlet, corner);
+  }
+};
+
 /// Returns the number of a corner in a meshlet, adding it if it is new; kMaxVertices if the meshlet
 /// is full.
-std::size_t vertex_of(Meshlet& meshlet, const glm::vec3& point) {
+std::size_t corner_of(const OpenMeshlet& open, const scenes::Scene& scene, std::uint32_t vertex) {
+  Meshlet& meshlet = open.meshlet;
+  const glm::vec3& place = scene.vertices[vertex];
   for (std::size_t i = meshlet.vertex_count; i-- > 0;) {
-    if (same_bits(point, meshlet, i)) return i;
+    if (open.has(i, vertex, place)) return i;
   }
   if (meshlet.vertex_count == Meshlet::kMaxVertices) return Meshlet::kMaxVertices;
   for (int axis = 0; axis < 3; ++axis) {
-    meshlet.vertices[static_cast<std::size_t>(axis)][meshlet.vertex_count] = point[axis];
+    meshlet.vertices[static_cast<std::size_t>(axis)][meshlet.vertex_count] = place[axis];
   }
+  if (open.numbers != nullptr) (*open.numbers)[meshlet.vertex_count] = vertex;
   return meshlet.vertex_count++;
 }
 
 /// Adds a triangle with its corners; false, without adding anything, if it does not fit.
-bool append(Meshlet& meshlet, const scenes::Scene& scene, const scenes::Triangle& triangle) {
+bool append(const OpenMeshlet& open, const scenes::Scene& scene, const scenes::Triangle& triangle) {
+  Meshlet& meshlet = open.meshlet;
   if (meshlet.triangle_count == Meshlet::kMaxTriangles) return false;
   const std::uint32_t vertices_before = meshlet.vertex_count;
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t vertex = vertex_of(meshlet, scene.vertices[triangle.vertex[i]]);
-    if (vertex == Meshlet::kMaxVertices) {
+    const std::size_t corner = corner_of(open, scene, triangle.vertex[i]);
+    if (corner == Meshlet::kMaxVertices) {
       meshlet.vertex_count = vertices_before;
       return false;
     }
-    meshlet.corners[i][meshlet.triangle_count] = static_cast<std::uint8_t>(vertex);
+    meshlet.corners[i][meshlet.triangle_count] = static_cast<std::uint8_t>(corner);
   }
   meshlet.primitives[meshlet.triangle_count++] = triangle.primitive;
   return true;
@@ -153,9 +167,12 @@ class LeafPacker {
     const scenes::Scene& scene = parts_->scene;
     auto& meshlets = made_.blocks.meshlets;
     Meshlet& meshlet = meshlets.emplace_back();
+    auto& vertices = made_.blocks.meshlet_vertices;
+    const OpenMeshlet open{meshlet, parts_->moves ? &vertices.emplace_back() : nullptr};
     for (const std::uint32_t item : items) {
-      if (append(meshlet, scene, scene.triangles[parts_->parts[item].index])) continue;
+      if (append(open, scene, scene.triangles[parts_->parts[item].index])) continue;
       meshlets.pop_back();
+      if (parts_->moves) vertices.pop_back();
       return false;
     }
     const glm::vec3 sides = box.extent();
@@ -226,6 +243,9 @@ class Joining {
   PackedLeaves operator()() {
     PackedLeaves whole;
     whole.blocks.meshlets.resize(end_.meshlets);
+    if (!(*parts_)[0].made().blocks.meshlet_vertices.empty()) {
+      whole.blocks.meshlet_vertices.resize(end_.meshlets);
+    }
     whole.blocks.spheres.resize(end_.spheres);
     whole.blocks.cones.resize(end_.cones);
     whole.packed.resize(end_.packed);
@@ -257,6 +277,8 @@ class Joining {
     const auto to = [](auto& all, std::size_t first) { return all.data() + first; };
     std::copy(part.blocks.meshlets.begin(), part.blocks.meshlets.end(),
               to(whole.blocks.meshlets, begin.meshlets));
+    std::copy(part.blocks.meshlet_vertices.begin(), part.blocks.meshlet_vertices.end(),
+              to(whole.blocks.meshlet_vertices, begin.meshlets));
     std::copy(part.blocks.spheres.begin(), part.blocks.spheres.end(),
               to(whole.blocks.spheres, begin.spheres));
     std::copy(part.blocks.cones.begin(), part.blocks.cones.end(),

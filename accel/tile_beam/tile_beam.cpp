@@ -16,6 +16,8 @@
 #include "accel/tile_beam/pencil_bundle.hpp"
 #include "accel/tile_beam/pencil_places.hpp"
 #include "accel/tile_beam/tile_recorder.hpp"
+#include "accel/tile_beam/tile_refit.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::accel::tile_beam {
 
@@ -458,6 +460,7 @@ std::vector<ParameterInfo> TileBeam::parameters() {
                        "of rays that are of no pencil: streams: they go down together; single: one "
                        "by one; auto: streams, unless only images are traced, which need no "
                        "hierarchy for them"),
+      update_parameter(),
       isa_parameter()};
 }
 
@@ -467,9 +470,20 @@ TileHierarchyOptions TileBeam::options_from(const Parameters& parameters,
   options.max_leaf = static_cast<std::uint32_t>(parameters.integer("max_leaf"));
   options.parallel = parameters.flag("parallel");
   options.backface_culling = parameters.flag("backface_culling");
+  options.moves = parameters.flag(update_parameter().name);
+  if (options.moves && options.backface_culling) {
+    throw InputError("tile-beam: with update=true solids may open: set backface_culling=false");
+  }
   const std::string& lists = parameters.choice("lists");
   options.streams = lists == "streams" || (lists == "auto" && workload.has_lists);
   return options;
+}
+
+bool TileBeam::update(const scenes::Scene& scene) {
+  if (!moves_) return false;
+  scene_ = &scene;
+  refit(hierarchy_, scene, parallel_);
+  return true;
 }
 
 const char* TileBeam::instruction_set() const { return hwy::TargetName(kernels_->target); }

@@ -39,7 +39,8 @@ class TileBeam : public TraversalAccelerator<TileBeam> {
         kernels_(&tile_kernels_for(targets)),
         pencil_kernels_(&pencil_kernels_for(targets)),
         stream_kernels_(&bvh::stream_kernels_for(targets)),
-        parallel_(options.parallel) {}
+        parallel_(options.parallel),
+        moves_(options.moves) {}
 
   /// The minimum number of rays of a pencil; smaller ones are traced singly, because the fixed cost
   /// of a part exceeds the gain. Rays toward an apex come from everything in the picture; those
@@ -57,6 +58,8 @@ class TileBeam : public TraversalAccelerator<TileBeam> {
   void any_hits(const RaySource& rays, std::span<std::uint8_t> hits,
                 const QueryContext& context) const override;
   std::vector<BeamPlace> places(const RaySource& rays) const override;
+  /// Only where the scene was announced as one that moves.
+  bool update(const scenes::Scene& scene) override;
 
   /// Returns the way of lists of rays; nothing where they are traced ray by ray.
   std::optional<bvh::Streams> streams() const {
@@ -93,6 +96,7 @@ class TileBeam : public TraversalAccelerator<TileBeam> {
   const PencilKernels* pencil_kernels_;
   const bvh::StreamKernels* stream_kernels_;
   bool parallel_;
+  bool moves_;
 };
 
 }  // namespace beambench::accel::tile_beam

@@ -76,9 +76,9 @@ class Builder {
     binary_ = bvh::build_bvh(boxes, binary);
     wide_.cost = bvh::sah_cost(binary_, binary);
     wide_.visits = ExpectedVisits(scene.bounds);
-    if (options.streams) add_streams(scene, parts, boxes, options.parallel);
+    if (options.streams) add_streams(scene, parts, boxes, options);
     if (options.backface_culling) wide_.solids = find_solids(scene);
-    pack({scene, wide_.solids, parts, boxes}, options.parallel);
+    pack({scene, wide_.solids, parts, boxes, options.moves}, options.parallel);
     wide_.solids.of_triangle = {};  // from here on, the meshlets have this information
     wide_.nodes.reserve(binary_.nodes.size() / 8 + 1);
     const Made root = convert(0, 1);
@@ -98,10 +98,10 @@ class Builder {
   };
 
   void add_streams(const scenes::Scene& scene, const std::vector<bvh::PrimitivePart>& parts,
-                   const std::vector<scenes::Bounds>& boxes, bool parallel) {
-    wide_.stream_bvh = bvh::widen_for_streams(scene, parts, boxes, binary_, parallel);
-    wide_.stream_tree = bvh::build_stream_tree(wide_.stream_bvh, parallel);
-    wide_.stream_bvh.nodes = {};
+                   const std::vector<scenes::Bounds>& boxes, const TileHierarchyOptions& options) {
+    wide_.stream_bvh = bvh::widen_for_streams(scene, parts, boxes, binary_, options.parallel);
+    wide_.stream_tree = bvh::build_stream_tree(wide_.stream_bvh, options.parallel);
+    if (!options.moves) wide_.stream_bvh.nodes = {};
   }
 
   Made leaf_of(const PackedLeaf& packed) const {

@@ -110,9 +110,13 @@ struct alignas(64) ConeBlock {
   std::uint32_t count;
 };
 
+/// The scene's vertices at the corners of a meshlet.
+using MeshletVertices = std::array<std::uint32_t, Meshlet::kMaxVertices>;
+
 /// The contents of leaves.
 struct TileBlocks {
   LargePageVector<Meshlet> meshlets;
+  LargePageVector<MeshletVertices> meshlet_vertices;  ///< if the scene moves; else empty
   LargePageVector<SphereBlock> spheres;
   LargePageVector<ConeBlock> cones;
 
@@ -140,8 +144,9 @@ struct TileHierarchy : TileBlocks {
   std::uint64_t references = 0;
   ExpectedVisits visits;
   double cost = 0.0;  ///< the cost of the underlying binary hierarchy: see sah_cost
-  /// The same binary hierarchy as streams go down it, with leaves of a few parts; without nodes of
-  /// its own, which are those of `stream_tree`. Empty if lists are traced ray by ray.
+  /// The same binary hierarchy as streams go down it, with leaves of a few parts. Without nodes of
+  /// its own, which are those of `stream_tree`, unless the scene moves. Empty if lists are traced
+  /// ray by ray.
   bvh::WideBvh stream_bvh;
   bvh::StreamTree stream_tree;
 
@@ -150,11 +155,13 @@ struct TileHierarchy : TileBlocks {
   /// Returns the bytes of nodes and leaves. Reserved memory behind them was never touched.
   std::size_t bytes() const {
     return nodes.size() * sizeof(TileNode) + meshlets.size() * sizeof(Meshlet) +
+           meshlet_vertices.size() * sizeof(MeshletVertices) +
            spheres.size() * sizeof(SphereBlock) + cones.size() * sizeof(ConeBlock);
   }
   /// Returns the bytes that are there for streams alone.
   std::size_t stream_bytes() const {
-    return stream_bvh.blocks.capacity() * sizeof(bvh::PrimitiveBlock) + stream_tree.bytes();
+    return stream_bvh.nodes.capacity() * sizeof(bvh::WideNode) +
+           stream_bvh.blocks.capacity() * sizeof(bvh::PrimitiveBlock) + stream_tree.bytes();
   }
 };
 
@@ -167,6 +174,7 @@ struct TileHierarchyOptions {
   bool parallel = false;          ///< build, and trace images, on all cores
   bool backface_culling = false;  ///< leave out the invisible backs of solids in images
   bool streams = true;            ///< lists of rays go down together (accel/bvh/streams.hpp)
+  bool moves = false;  ///< the scene's coordinates will change (tile_refit.hpp); no culling then
 };
 
 /// Throws InputError if the scene needs more than TileChild::kIndices leaves of a kind.

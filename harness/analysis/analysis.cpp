@@ -131,6 +131,33 @@ Json to_json(const Standings& view) {
   return json;
 }
 
+Json to_json(const FrameCost& cost) {
+  return {{"ready_ms", cost.ready_ms},
+          {"trace_ms", cost.trace_ms},
+          {"sah_cost", cost.sah_cost ? Json(*cost.sah_cost) : Json()}};
+}
+
+Json to_json(const std::vector<FrameSeries>& all) {
+  Json list = Json::array();
+  for (const FrameSeries& series : all) {
+    Json frames = Json::array();
+    for (const FrameComparison& one : series.frames) {
+      frames.push_back({{"frame", one.frame},
+                        {"updated", to_json(one.updated)},
+                        {"built", to_json(one.built)},
+                        {"total_ratio", to_json(one.total)},
+                        {"trace_ratio", to_json(one.trace)}});
+    }
+    const RebuildInterval interval = rebuild_interval(series);
+    list.push_back({{"contender", series.contender},
+                    {"subject", series.subject},
+                    {"frames", frames},
+                    {"rebuild_after", interval.is_all ? Json() : Json(interval.frames)},
+                    {"mean_ms", interval.mean_ms}});
+  }
+  return list;
+}
+
 Json to_json(const std::vector<MeanStanding>& means) {
   Json list = Json::array();
   for (const MeanStanding& mean : means) {
@@ -241,6 +268,7 @@ Analysis analyze(const measure::Run& run) {
   analysis.means = overall(analysis.views);
   analysis.overheads = largest_overheads(run);
   analysis.block_totals = block_totals(run);
+  analysis.frame_series = frame_series(run);
   return analysis;
 }
 
@@ -282,7 +310,8 @@ Json to_json(const Analysis& analysis) {
           {"views", views},
           {"means", means},
           {"harness_overheads", overheads},
-          {"block_totals", totals}};
+          {"block_totals", totals},
+          {"frame_series", to_json(analysis.frame_series)}};
 }
 
 }  // namespace beambench::analysis

@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "harness/analysis/frames.hpp"
 #include "harness/analysis/standings.hpp"
 #include "harness/analysis/steadiness.hpp"
 #include "harness/measure/record/run_log.hpp"
@@ -43,6 +44,7 @@ struct Analysis {
   std::vector<OverallStandings> means;
   std::vector<Overhead> overheads;  ///< the largest first
   std::vector<BlockTotals> block_totals;
+  std::vector<FrameSeries> frame_series;  ///< of scenes that move
 };
 
 /// Draws the conclusions from a run, which may have been cut off. Depends on nothing else.

@@ -18,6 +18,7 @@
 #include "harness/measure/record/block_statistics.hpp"
 #include "harness/measure/record/robust_statistics.hpp"
 #include "harness/rays/fingerprint.hpp"
+#include "scenes/animation.hpp"
 #include "scenes/base/json_text.hpp"
 
 namespace beambench::analysis {
@@ -53,6 +54,7 @@ void add_run(Row& row, const RunFacts& run, const CellRecord& cell) {
 
 void add_identity(Row& row, const CellRecord& cell, bool outpaced) {
   row["scene"] = cell.id.scene;
+  row["frame"] = or_null(scenes::divide_frame(cell.id.scene).frame);
   row["camera"] = cell.id.camera;
   row["scene_hash"] = rays::hex_digits(cell.rays.scene_hash);
   row["rays_hash"] = rays::hex_digits(cell.rays.rays_hash);
@@ -109,6 +111,16 @@ void add_wall_time(Row& row, const std::string& phase, const std::vector<double>
   row[phase + "_ms_mad"] = statistic(median_absolute_deviation, samples);
 }
 
+/// Adds the time of updates from the first frame; null for structures that were built.
+void add_update(Row& row, bool known, const CellRecord& cell) {
+  std::vector<double> updates;
+  for (const Repetition& one : cell.repetitions) {
+    if (known && one.update_ms) updates.push_back(*one.update_ms);
+  }
+  row["update_ms_median"] = statistic(median, updates);
+  row["update_ms_min"] = statistic(minimum, updates);
+}
+
 /// Returns null where nothing is left: for `null`, and for a plug-in that does not state that it
 /// makes no rays one by one.
 Json net_of_harness(const CellRecord& cell) {
@@ -155,6 +167,7 @@ void add_times(Row& row, const CellRecord& cell) {
   add_blocks(row, cell);
   row["stop_reason"] = cell.stop_reason ? Json(to_string(*cell.stop_reason)) : Json();
   add_wall_time(row, "build", samples(&Repetition::build_ms));
+  add_update(row, known, cell);
   add_wall_time(row, "trace", samples(&Repetition::trace_ms));
   add_trace(row, cell);
   const std::vector<double> warm = known ? second_traces(cell) : std::vector<double>();

@@ -47,7 +47,7 @@ std::optional<Estimate> median_of(const CellRecord& cell, Figure figure,
 }
 
 double build_ms_of(const CellRecord& cell) {
-  if (has_blocks(cell)) return measure::minimum(measure::collect(cell, &Repetition::build_ms));
+  if (has_blocks(cell)) return measure::minimum(measure::collect(cell, &Repetition::ready_ms));
   const auto build = median_of(cell, &Repetition::build_ms, "build_ms");
   return build ? build->value : 0.0;
 }

@@ -37,7 +37,7 @@ struct Standing {
   std::string structure;  ///< the bare name
   std::string variant;    ///< of a tuned contender: `embree:mode=stream,robust=false`; else empty
   std::string isa;        ///< the instruction set of its SIMD code; empty: it has none
-  double build_ms;        ///< the fastest; in records without blocks the median
+  double build_ms;        ///< or of its update: the fastest; in records without blocks the median
   double ns_per_ray;  ///< of the first trace after a build; in records without blocks the median
   TimeRatio ratio;    ///< its trace time over that of the fastest
 

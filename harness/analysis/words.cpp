@@ -195,8 +195,27 @@ std::string describe(std::span<const Overhead> overheads) {
       fmt::join(parts, ", "));
 }
 
+std::string describe(std::span<const FrameSeries> all) {
+  std::string text;
+  for (const FrameSeries& series : all) {
+    const FrameComparison& last = series.frames.back();
+    const RebuildInterval interval = rebuild_interval(series);
+    text += fmt::format(
+        "{} in {}: in frame {} an update and its trace take {:.3g} ms, a build and its trace "
+        "{:.3g} ms; the trace alone takes {:.3g} times as long as that of a new structure; {}\n",
+        series.contender, series.subject, last.frame, last.updated.total_ms(),
+        last.built.total_ms(), last.trace.value,
+        interval.is_all ? std::string("updates are worth it in all frames measured")
+        : interval.frames == 1
+            ? std::string("building anew in each frame costs least")
+            : fmt::format("one build for every {} frames costs least", interval.frames));
+  }
+  return text;
+}
+
 std::string summary(const Analysis& analysis) {
-  return describe(analysis.views) + "\n" + describe_verdicts(analysis);
+  return describe(analysis.views) + describe(analysis.frame_series) + "\n" +
+         describe_verdicts(analysis);
 }
 
 }  // namespace beambench::analysis

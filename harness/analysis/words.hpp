@@ -27,6 +27,10 @@ std::string describe_verdicts(const Analysis& analysis);
 /// (tetra.../samet), ...`, and where the times without it are. `overheads` is not empty.
 std::string describe(std::span<const Overhead> overheads);
 
+/// Returns a line for each structure over the frames of a scene that moves: what an update saves,
+/// and how often it should be built anew.
+std::string describe(std::span<const FrameSeries> series);
+
 /// Returns the text of summary.txt: who is fastest, and the verdicts.
 std::string summary(const Analysis& analysis);
 

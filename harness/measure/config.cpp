@@ -59,8 +59,9 @@ double listed_structures(const JsonNode& root) {
 /// found when they are read.
 void require_affordable(const JsonNode& root, double structures) {
   const nlohmann::json& json = root.value();
-  const double views =
-      sum_of(json, "scenes", [](const auto& entry) { return length_of(entry, "cameras"); });
+  const double views = sum_of(json, "scenes", [](const auto& entry) {
+    return length_of(entry, "cameras") * length_of(entry, "frames");
+  });
   const double resolutions = length_of(json, "resolutions");
   const double samples = length_of(json, "samples");
   const double rays = length_of(json, "rays");
@@ -156,13 +157,21 @@ void require_tuned_once(const JsonNode& root, const std::vector<SweptStructure>&
   }
 }
 
-SceneEntry read_scene(const JsonNode& node) {
-  if (node.value().is_string()) return {node.text(), {}, node.place()};
+/// Returns the scene of an entry: in each of its frames, where it names some.
+std::vector<SceneEntry> read_scene(const JsonNode& node) {
+  if (node.value().is_string()) return {{node.text(), {}, node.place()}};
   SceneEntry entry{node.find("scene")->text(), {}, node.place()};
   if (const auto cameras = node.find("cameras")) {
     for (const JsonNode& camera : cameras->elements()) entry.cameras.push_back(camera.text());
   }
-  return entry;
+  const auto frames = node.find("frames");
+  if (!frames) return {entry};
+  std::vector<SceneEntry> entries;
+  for (const JsonNode& frame : frames->elements()) {
+    entries.push_back(entry);
+    entries.back().spec += fmt::format("@{}", frame.value().get<std::uint32_t>());
+  }
+  return entries;
 }
 
 int read_samples(const JsonNode& node) {
@@ -290,7 +299,7 @@ SweepConfig parse_sweep(nlohmann::json source, const std::string& name,
   config.name = root.find("name")->text();
   if (const auto description = root.find("description")) config.description = description->text();
   for (const JsonNode& node : root.find("scenes")->elements()) {
-    config.scenes.push_back(read_scene(node));
+    std::ranges::move(read_scene(node), std::back_inserter(config.scenes));
   }
   for (const JsonNode& node : root.find("structures")->elements()) {
     std::ranges::move(read_structure_entry(node, structures),

@@ -4,10 +4,12 @@
 #include <exception>
 #include <memory>
 #include <new>
+#include <utility>
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include "accel/core/moved_structure.hpp"
 #include "harness/measure/measurement.hpp"
 #include "harness/measure/record/machine.hpp"
 
@@ -117,24 +119,38 @@ Repetition Contender::time_once(const Instruments& instruments,
       for ([[maybe_unused]] auto iteration : state) {
         PhaseTime build{};
         PhaseTime trace{};
-        const HardwareCounts build_counts = instruments.counters.count([&] {
-          // Not StructureChoice::build, whose checks were made when the work was counted.
-          build = time_phase([&] {
-            const accel::StructureChoice& choice = cell_->structure;
+        // Not StructureChoice::build, whose checks were made when the work was counted.
+        const accel::StructureChoice& choice = cell_->structure;
+        const auto time_build = [&](const auto& make) {
+          repetition.build_counts = instruments.counters.count([&] { build = time_phase(make); });
+        };
+        if (choice.updates()) {
+          auto moving = accel::copy_first_frame(task_->scene());
+          std::unique_ptr<accel::MovedStructure> moved;
+          time_build([&] {
+            moved = std::make_unique<accel::MovedStructure>(choice, task_->scene(),
+                                                            std::move(moving), task_->workload());
+          });
+          moved->place();
+          const PhaseTime update = time_phase([&] { moved->update(); });
+          repetition.update_ms = update.wall_ms;
+          repetition.update_cpu_ms = update.cpu_ms;
+          structure = std::move(moved);
+        } else {
+          time_build([&] {
             structure = choice.info().build(task_->scene(), choice.parameters(), task_->workload());
           });
-        });
+        }
         HardwareCounts trace_counts = instruments.counters.count([&] {
           trace = time_phase([&] { task_->trace(*structure); }, cpu_clock(instruments.threads));
         });
         if (instruments.threads > 1) trace_counts = {};  // they are of the calling thread alone
-        state.SetIterationTime(1e-3 * (build.wall_ms + trace.wall_ms));
         repetition.build_ms = build.wall_ms;
         repetition.trace_ms = trace.wall_ms;
         repetition.build_cpu_ms = build.cpu_ms;
         repetition.trace_cpu_ms = trace.cpu_ms;
-        repetition.build_counts = build_counts;
         repetition.trace_counts = trace_counts;
+        state.SetIterationTime(1e-3 * repetition.total_ms());
       }
     } catch (...) {
       // The library is not designed for exceptions to pass through it.

@@ -7,6 +7,7 @@
 
 #include "accel/core/registry.hpp"
 #include "harness/base/messages.hpp"
+#include "scenes/animation.hpp"
 #include "scenes/base/error.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/scene.hpp"
@@ -208,7 +209,9 @@ std::vector<SceneFacts> scene_facts(const Plan& plan) {
 }
 
 std::string shown_scene(const std::string& scene) {
-  return shortened(scenes::scene_catalogue(), scene);
+  const scenes::FrameName name = scenes::divide_frame(scene);
+  const std::string shown = shortened(scenes::scene_catalogue(), std::string(name.scene));
+  return name.frame ? fmt::format("{}@{}", shown, *name.frame) : shown;
 }
 
 std::string shown_structure(const CellId& id) {

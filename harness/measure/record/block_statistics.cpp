@@ -72,7 +72,7 @@ std::map<int, double> trace_by_block(const CellRecord& cell, TraceClock clock) {
 
 std::map<int, double> total_by_block(const CellRecord& cell, TraceClock clock) {
   if (clock == TraceClock::kWall) return least_by_block(cell, &Repetition::total_ms);
-  return least(cell, [](const Repetition& one) { return one.build_cpu_ms + one.trace_cpu_ms; });
+  return least(cell, [](const Repetition& one) { return one.ready_cpu_ms() + one.trace_cpu_ms; });
 }
 
 bool is_disturbed(const CellRecord& cell) {

@@ -215,6 +215,8 @@ Json repetition_json(const Repetition& repetition) {
   if (repetition.block >= 0) json["block"] = repetition.block;
   write_members(repetition, json);
   add(json, "warm_trace_ms", repetition.warm_trace_ms);
+  add(json, "update_ms", repetition.update_ms);
+  add(json, "update_cpu_ms", repetition.update_cpu_ms);
   add_counts(json, "build", repetition.build_counts);
   add_counts(json, "trace", repetition.trace_counts);
   return json;
@@ -225,6 +227,8 @@ Repetition read_repetition(const Json& event) {
   read_members(event, repetition);
   repetition.block = event.value("block", -1);
   repetition.warm_trace_ms = optional<double>(event, "warm_trace_ms");
+  repetition.update_ms = optional<double>(event, "update_ms");
+  repetition.update_cpu_ms = optional<double>(event, "update_cpu_ms");
   read_counts(event, "build", repetition.build_counts);
   read_counts(event, "trace", repetition.trace_counts);
   return repetition;

@@ -76,6 +76,8 @@ struct Repetition {
   HardwareCounts trace_counts{};
   /// A second trace of the same structure, which may have kept data from the first.
   std::optional<double> warm_trace_ms{};
+  /// Of a structure that was built over the scene's first frame: of its update to this one.
+  std::optional<double> update_ms{}, update_cpu_ms{};
   /// The rate of the core's clock, measured just before and after.
   double clock_ghz = 1.0;
   /// The process in which it was made, with all contenders of its view; -1 in records of one
@@ -91,7 +93,10 @@ struct Repetition {
     return trace_ms - trace_cpu_ms <= std::max(kMaxPart * trace_ms, kMaxReading);
   }
 
-  double total_ms() const { return build_ms + trace_ms; }
+  /// Returns the time until it could be traced: of its build, or of its update.
+  double ready_ms() const { return update_ms.value_or(build_ms); }
+  double ready_cpu_ms() const { return update_cpu_ms.value_or(build_cpu_ms); }
+  double total_ms() const { return ready_ms() + trace_ms; }
   /// Returns millions of clock cycles: a time that does not depend on the clock's rate.
   double total_mcycles() const { return total_ms() * clock_ghz; }
 };
