@@ -51,11 +51,12 @@ NativeScene::NativeScene(const scenes::Scene& scene, RTCBuildQuality quality, bo
       scene_(rtcNewScene(device_.get())) {
   // Embree uses the largest thread count of all its living devices; this limits it to one.
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-  rtcSetSceneBuildQuality(scene_.get(), quality);
+  // Only scenes of low quality have a hierarchy for each geometry, which Embree then refits.
+  rtcSetSceneBuildQuality(scene_.get(), moves ? RTC_BUILD_QUALITY_LOW : quality);
   int flags = robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE;
   if (moves) flags |= RTC_SCENE_FLAG_DYNAMIC;
   rtcSetSceneFlags(scene_.get(), static_cast<RTCSceneFlags>(flags));
-  if (moves) quality = RTC_BUILD_QUALITY_REFIT;  // of the geometries; the scene keeps its own
+  if (moves) quality = RTC_BUILD_QUALITY_REFIT;  // of the geometries
 
   owners_.ids.reserve(scene.triangles.size() + scene.spheres.size() + scene.cones.size());
   for (const scenes::Triangle& triangle : scene.triangles)
