@@ -3,6 +3,7 @@
 #include <string>
 
 #include "scenes/formats/mesh/mesh_import.hpp"
+#include "scenes/formats/mesh/mesh_motion.hpp"
 #include "tests/fuzz/imported_mesh.hpp"
 #include "tests/fuzz/scratch_folder.hpp"
 #include "tests/fuzz/target.hpp"
@@ -16,6 +17,13 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto imported = fuzz::accepted([&] {
     return scenes::mesh::import_mesh(bytes, ending, folder.path() / ("input." + ending));
   });
-  if (imported) fuzz::check_imported(*imported);
+  if (!imported) return 0;
+  fuzz::check_imported(*imported);
+  const scenes::mesh::MeshMotion& motion = imported->motion;
+  if (motion.moves()) {
+    const auto& vertices = imported->mesh.vertices;
+    fuzz::require(vertices_in(motion, 0, vertices) == vertices, "frame 0 is not the mesh");
+    vertices_in(motion, motion.frames - 1, vertices);
+  }
   return 0;
 }

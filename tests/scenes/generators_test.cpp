@@ -38,21 +38,24 @@ TEST_P(Counts, AreTheDefinitions) {
 
 INSTANTIATE_TEST_SUITE_P(
     Catalogue, Counts,
-    testing::Values(Expected{"balls:n=0", 1, 1}, Expected{"balls:n=2", 91, 1},
-                    Expected{"balls", 7381, 1}, Expected{"tetra:n=1", 0, 4},
-                    Expected{"tetra:n=3", 0, 64}, Expected{"tetra", 0, 4096},
-                    Expected{"stetra", 0, 256}, Expected{"escena1", 430, 0},
-                    Expected{"escena1:spheres=1", 1, 0}, Expected{"escena2", 91, 1},
-                    Expected{"finishes", 12, 120}, Expected{"bumpy", 0, 15552},
-                    Expected{"bumpy:triangles=12", 0, 12},
-                    Expected{"bumpy:triangles=200000", 0, 199692},
-                    Expected{"closed-room", 0, 32272}, Expected{"closed-room:detail=1", 0, 576},
-                    Expected{"closed-room:detail=9", 0, 40928}, Expected{"aquarium", 0, 22600},
-                    Expected{"aquarium:detail=1", 0, 2860}, Expected{"aquarium:detail=5", 0, 10924},
-                    Expected{"prism", 0, 26807}, Expected{"prism:detail=1", 0, 1019},
-                    Expected{"prism:detail=5", 0, 11723}, Expected{"soup", 0, 20000},
-                    Expected{"soup:triangles=1", 0, 1}, Expected{"tessellated-balls", 0, 96320},
-                    Expected{"tessellated-balls:slices=6,spheres=5", 0, 5 * 24}),
+    testing::Values(
+        Expected{"balls:n=0", 1, 1}, Expected{"balls:n=2", 91, 1}, Expected{"balls", 7381, 1},
+        Expected{"tetra:n=1", 0, 4}, Expected{"tetra:n=3", 0, 64}, Expected{"tetra", 0, 4096},
+        Expected{"stetra", 0, 256}, Expected{"escena1", 430, 0},
+        Expected{"escena1:spheres=1", 1, 0}, Expected{"escena2", 91, 1},
+        Expected{"finishes", 12, 120}, Expected{"bumpy", 0, 15552},
+        Expected{"bumpy:triangles=12", 0, 12}, Expected{"bumpy:triangles=200000", 0, 199692},
+        Expected{"closed-room", 0, 32272}, Expected{"closed-room:detail=1", 0, 576},
+        Expected{"closed-room:detail=9", 0, 40928}, Expected{"aquarium", 0, 22600},
+        Expected{"aquarium:detail=1", 0, 2860}, Expected{"aquarium:detail=5", 0, 10924},
+        Expected{"prism", 0, 26807}, Expected{"prism:detail=1", 0, 1019},
+        Expected{"prism:detail=5", 0, 11723}, Expected{"soup", 0, 20000},
+        Expected{"exploding-mesh", 0, 23936}, Expected{"falling-spheres", 430, 1},
+        Expected{"turning-solids", 0, 14941}, Expected{"twisting-body", 0, 20593},
+        Expected{"waving-sheet", 0, 20000}, Expected{"waving-sheet:triangles=1000000", 0, 999698},
+        Expected{"falling-spheres:spheres=7", 7, 1}, Expected{"soup:triangles=1", 0, 1},
+        Expected{"tessellated-balls", 0, 96320},
+        Expected{"tessellated-balls:slices=6,spheres=5", 0, 5 * 24}),
     [](const auto& info) {
       std::string name = info.param.spec;
       std::replace_if(
@@ -73,6 +76,8 @@ TEST(Catalogue, SceneHashesArePinned) {
       {"delfines", 0x09365fe510804189},
       {"escena1", 0xd11e781ffd1bb313},
       {"escena2", 0x9d87ad15fbf7a3c4},
+      {"exploding-mesh", 0x49675dd967b4cb8b},
+      {"falling-spheres", 0xb13f58e14d2299e4},
       {"finishes", 0xfcf5f1ce62d7f07d},
       {"flamenco", 0x18caa2d84303aed3},
       {"gato-bill", 0x5f6e6f201f6d4cab},
@@ -95,6 +100,9 @@ TEST(Catalogue, SceneHashesArePinned) {
       {"tetra", 0x38c3e535c1bd53f0},
       {"torre-eiffel", 0xa44a81f18aa61d8a},
       {"tree", 0xcf6d525f70c012df},
+      {"turning-solids", 0x9f7bb3254e6c5eef},
+      {"twisting-body", 0xda5aa4be6ed7bcd8},
+      {"waving-sheet", 0xf1a56eff59bb9bc2},
   };
   for (const SceneInfo& info : scene_catalogue()) {
     ASSERT_TRUE(hashes.contains(info.name)) << "pin the hash of " << info.name;

@@ -12,6 +12,7 @@
 #include "scenes/formats/mesh/mesh_import.hpp"
 #include "scenes/formats/mesh/mesh_scene.hpp"
 #include "scenes/scene.hpp"
+#include "tests/scenes/mesh_files.hpp"
 #include "tests/scenes/thrown_message.hpp"
 
 namespace beambench::scenes {
@@ -29,6 +30,9 @@ inline std::string refusal(const std::string& bytes, const std::string& ending) 
 inline std::uint64_t imported_hash(const std::string& bytes, const std::string& ending) {
   return scene_hash(mesh::mesh_scene(imported(bytes, ending).mesh, "a", {}));
 }
+
+/// Returns the hash of `tetrahedron_ply`.
+inline std::uint64_t tetrahedron_hash() { return imported_hash(tetrahedron_ply(), "ply"); }
 
 /// Returns the corners of each triangle.
 inline std::vector<std::array<glm::vec3, 3>> triangles_of(const mesh::ImportedMesh& imported) {

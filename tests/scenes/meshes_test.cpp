@@ -314,6 +314,12 @@ TEST_F(Meshes, DamagedCacheFilesAreNoticedAndMadeAnew) {
     expect_repair(bad);
   }
   expect_repair(good + "more");
+  std::string older = good;
+  older[15] = '1';
+  std::ofstream(file, std::ios::binary) << older;
+  std::vector<std::string> warnings;
+  EXPECT_EQ(scene_hash(load_scene(path, &warnings)), hash);
+  EXPECT_TRUE(warnings.empty()) << "an earlier version wrote it";
   EXPECT_EQ(cached().size(), 1U) << "nothing is left beside it";
 }
 

@@ -17,8 +17,6 @@ std::uint64_t off_hash(const std::string& text) { return imported_hash(text, "of
 
 std::string off_refusal(const std::string& text) { return refusal(text, "off"); }
 
-std::uint64_t tetrahedron_hash() { return imported_hash(tetrahedron_ply(), "ply"); }
-
 /// A tetrahedron after the header, with a text at the end of each vertex and each face.
 std::string tetrahedron_rows(std::string_view of_vertex, std::string_view of_face) {
   std::string text;

@@ -17,8 +17,6 @@ namespace {
 using namespace ply_parts;
 using tests::kPlyEncodings;
 
-std::uint64_t tetrahedron_hash() { return imported_hash(tetrahedron_ply(), "ply"); }
-
 // Encodings and types
 
 TEST(Ply, IsTheSameMeshInEachEncodingAndOfEachType) {

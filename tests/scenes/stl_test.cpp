@@ -19,8 +19,6 @@ std::uint64_t stl_hash(const std::string& bytes) { return imported_hash(bytes, "
 
 std::string stl_refusal(const std::string& bytes) { return refusal(bytes, "stl"); }
 
-std::uint64_t tetrahedron_hash() { return imported_hash(tetrahedron_ply(), "ply"); }
-
 std::string facet(const std::string& loop) {
   return "facet normal 0 0 1\nouter loop\n" + loop + "endloop\nendfacet\n";
 }

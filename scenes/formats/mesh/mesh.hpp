@@ -44,11 +44,11 @@ struct MeshCompanion {
 /// was left out (without the file's name).
 struct ImportedMesh {
   TriangleMesh mesh;
-  MeshMotion motion;
   std::vector<Camera> cameras;  ///< each accepted by a scene builder, with unique names
   std::vector<Light> lights;
   std::vector<std::string> warnings;
   std::vector<MeshCompanion> companions;
+  MeshMotion motion{};
 };
 
 // Imported meshes as bytes, for the cache and for sending between processes.

@@ -80,7 +80,7 @@ void read_fully(InputStream& file, char* into, std::size_t count) {
   if (file.read({into, count}) < count) throw std::out_of_range("the file ends too early");
 }
 
-/// The file was written by another version.
+/// The file was written by an earlier version.
 struct OtherLayout {};
 
 /// Reads the mesh in a file after verifying that the file is as it was written.
@@ -89,7 +89,9 @@ ImportedMesh read_mesh(const fs::path& path) {
   Header header{};
   read_fully(file, reinterpret_cast<char*>(&header), sizeof(header));
   const std::string_view magic(header.magic, sizeof(header.magic));
-  if (magic != kMagic && magic.starts_with(kAnyMagic)) throw OtherLayout();
+  if (magic.starts_with(kAnyMagic) && magic.back() >= '1' && magic.back() < kMagic.back()) {
+    throw OtherLayout();
+  }
   if (magic != kMagic || file.remaining() != header.size) {
     throw std::out_of_range("its header is wrong");
   }

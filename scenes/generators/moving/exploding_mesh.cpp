@@ -19,14 +19,13 @@
 namespace beambench::scenes::generators {
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
 constexpr double kInside = 0.72;  // where a shard's inner face lies, as a share of its distance
 
 using Corners = std::array<std::uint32_t, 3>;
 
 glm::dvec3 direction(Random& random) {
   const double z = random.uniform(-1.0, 1.0);
-  const double angle = kTurn * random.unit();
+  const double angle = kFullTurn * random.unit();
   const double reach = std::sqrt(1.0 - z * z);
   return {reach * portable_cos(angle), reach * portable_sin(angle), z};
 }
@@ -91,7 +90,7 @@ struct Flight {
 
   glm::dmat4 at(double time) const {
     const glm::dvec3 way =
-        time * (1.8 - 0.8 * time) * velocity - glm::dvec3(0, 0, 0.9 * time * time);
+        time * (1.8 - 0.8 * time) * velocity - glm::dvec3(0, 0, 0.5 * time * time);
     return moved_by(center + way) * rotation(0, time * turns.x) * rotation(1, time * turns.y) *
            rotation(2, time * turns.z) * moved_by(-center);
   }
@@ -102,7 +101,7 @@ Flight flight_of(const Shard& shard, Random& random) {
   for (const glm::dvec3& vertex : shard.vertices) center += vertex;
   center /= static_cast<double>(shard.vertices.size());
   const glm::dvec3 outward = glm::normalize(center + 1e-3 * direction(random));
-  const double speed = random.uniform(1.3, 2.6);
+  const double speed = random.uniform(1.0, 2.2);
   glm::dvec3 turns;
   for (int axis = 0; axis < 3; ++axis) turns[axis] = random.uniform(-260.0, 260.0);
   return {center, speed * outward, turns};
@@ -110,7 +109,7 @@ Flight flight_of(const Shard& shard, Random& random) {
 
 Animation animate(const Parameters& parameters) {
   SceneBuilder builder(parameters.label());
-  add_wide_camera(builder, "default", {5.2, -6.8, 3.0}, {0.0, 0.0, -0.15}, 38.0F);
+  add_wide_camera(builder, "default", {5.2, -6.8, 2.9}, {0.0, 0.0, -0.15}, 41.0F);
   add_wide_camera(builder, "near", {1.7, -2.6, 0.9}, {0.0, 0.0, 0.0}, 50.0F);
   light_motion(builder, 3.0);
 

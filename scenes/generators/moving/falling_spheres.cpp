@@ -41,7 +41,7 @@ glm::dvec3 center_at(const Ball& ball, double time) {
 
 Animation animate(const Parameters& parameters) {
   SceneBuilder builder(parameters.label());
-  add_wide_camera(builder, "default", {34.0, -40.0, 14.0}, {0.0, 0.0, -3.8}, 34.0F);
+  add_wide_camera(builder, "default", {38.0, -45.0, 17.0}, {0.0, 0.0, -5.0}, 35.0F);
   add_wide_camera(builder, "floor", {30.0, -30.0, -9.0}, {0.0, 0.0, -6.0}, 38.0F);
   light_motion(builder, 22.0);
   const std::vector<Ball> balls = scattered_balls(
@@ -51,7 +51,7 @@ Animation animate(const Parameters& parameters) {
     builder.set_surface(surface_of_ball(i, balls.size()));
     builder.add_sphere(center_at(balls[i], 0.0), balls[i].radius);
   }
-  add_floor(builder, 60.0, kFloor);
+  add_floor(builder, 75.0, kFloor);
   Scene scene = std::move(builder).build();
   Pose still = pose_of(scene);
   auto pose = [still = std::move(still), balls, frames](std::uint32_t frame) {

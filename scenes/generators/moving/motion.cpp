@@ -1,11 +1,12 @@
 #include "scenes/generators/moving/motion.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include <glm/vec4.hpp>
+
+#include "scenes/base/portable_math.hpp"
 
 namespace beambench::scenes::generators {
 
@@ -63,12 +64,16 @@ void add_wide_camera(SceneBuilder& builder, const std::string& name, const glm::
   builder.add_camera(camera);
 }
 
-void add_floor(SceneBuilder& builder, double half, double height) {
+void add_floor(SceneBuilder& builder, double radius, double height) {
+  constexpr int kCorners = 48;
+  std::vector<glm::dvec3> corners;
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = kFullTurn * i / kCorners;
+    corners.emplace_back(radius * portable_cos(angle), radius * portable_sin(angle), height);
+  }
   builder.set_surface(
-      {.color = {0.72F, 0.70F, 0.66F}, .diffuse = 0.9F, .specular = 0.05F, .shine = 5.0F});
-  builder.add_polygon(
-      std::array<glm::dvec3, 4>{glm::dvec3(-half, -half, height), glm::dvec3(half, -half, height),
-                                glm::dvec3(half, half, height), glm::dvec3(-half, half, height)});
+      {.color = {0.72F, 0.70F, 0.66F}, .diffuse = 0.95F, .specular = 0.0F, .shine = 5.0F});
+  builder.add_polygon(corners);
 }
 
 void light_motion(SceneBuilder& builder, double size) {

@@ -17,6 +17,9 @@
 
 namespace beambench::scenes::generators {
 
+/// In radians.
+inline constexpr double kFullTurn = 6.283185307179586;
+
 /// Returns the places in a frame of the vertices that move: those of frame 0 are the scene's own.
 using VertexPlaces = std::function<std::vector<glm::dvec3>(std::uint32_t frame)>;
 
@@ -46,8 +49,8 @@ std::uint32_t cells_for(std::int64_t triangles);
 void add_wide_camera(SceneBuilder& builder, const std::string& name, const glm::dvec3& from,
                      const glm::dvec3& at, float angle);
 
-/// Adds a square floor about the z axis.
-void add_floor(SceneBuilder& builder, double half, double height);
+/// Adds a round floor, a polygon of 48 corners, about the z axis.
+void add_floor(SceneBuilder& builder, double radius, double height);
 
 /// Adds the lights and the background of these scenes, for a scene of this size about the origin.
 void light_motion(SceneBuilder& builder, double size);

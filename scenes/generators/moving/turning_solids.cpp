@@ -18,15 +18,14 @@ namespace {
 
 using modelling::PolygonMesh;
 
-constexpr double kTurn = 6.283185307179586;
 constexpr double kSpacing = 2.3;  // between rings, and about as much between solids of a ring
 
 PolygonMesh torus(int detail) {
   return modelling::parametric_surface(
       [](double u, double v) {
-        const double reach = 0.58 + 0.26 * portable_cos(kTurn * v);
-        return glm::dvec3(reach * portable_cos(kTurn * u), reach * portable_sin(kTurn * u),
-                          0.26 * portable_sin(kTurn * v));
+        const double reach = 0.58 + 0.26 * portable_cos(kFullTurn * v);
+        return glm::dvec3(reach * portable_cos(kFullTurn * u), reach * portable_sin(kFullTurn * u),
+                          0.26 * portable_sin(kFullTurn * v));
       },
       4 * detail, 2 * detail);
 }
@@ -34,7 +33,7 @@ PolygonMesh torus(int detail) {
 /// A tube along a trefoil knot.
 PolygonMesh knot(int detail) {
   const auto point = [](double u, double v) {
-    const double t = kTurn * u;
+    const double t = kFullTurn * u;
     const glm::dvec3 place(portable_sin(t) + 2.0 * portable_sin(2.0 * t),
                            portable_cos(t) - 2.0 * portable_cos(2.0 * t), -portable_sin(3.0 * t));
     const glm::dvec3 tangent = glm::normalize(
@@ -43,7 +42,8 @@ PolygonMesh knot(int detail) {
     // The tangent is never vertical.
     const glm::dvec3 side = glm::normalize(glm::cross(tangent, glm::dvec3(0.0, 0.0, 1.0)));
     const glm::dvec3 up = glm::cross(side, tangent);
-    return 0.29 * (place + 0.55 * (portable_cos(kTurn * v) * side + portable_sin(kTurn * v) * up));
+    return 0.29 *
+           (place + 0.55 * (portable_cos(kFullTurn * v) * side + portable_sin(kFullTurn * v) * up));
   };
   return modelling::parametric_surface(point, 12 * detail, detail + 2);
 }
@@ -52,8 +52,8 @@ PolygonMesh star() {
   std::vector<glm::dvec2> outline;
   for (int i = 0; i < 10; ++i) {
     const double radius = i % 2 == 0 ? 0.95 : 0.42;
-    outline.emplace_back(radius * portable_cos(kTurn * i / 10.0),
-                         radius * portable_sin(kTurn * i / 10.0));
+    outline.emplace_back(radius * portable_cos(kFullTurn * i / 10.0),
+                         radius * portable_sin(kFullTurn * i / 10.0));
   }
   PolygonMesh mesh = modelling::extruded(modelling::flat_polygon(std::move(outline)), 0.4);
   return modelling::transformed(std::move(mesh), moved_by({0.0, 0.0, -0.2}));
@@ -91,11 +91,11 @@ Place place_of(std::size_t solid) {
 glm::dmat4 placed(std::size_t solid, double time) {
   const auto [ring, along] = place_of(solid);
   const double direction = static_cast<int>(ring) % 2 == 0 ? -1.0 : 1.0;
-  const double angle = kTurn * (along + direction * time / 3.0);
+  const double angle = kFullTurn * (along + direction * time / 3.0);
   const double number = static_cast<double>(solid);
   const glm::dvec3 center(kSpacing * ring * portable_cos(angle),
                           kSpacing * ring * portable_sin(angle),
-                          0.30 * portable_sin(kTurn * (time + 0.37 * number)));
+                          0.30 * portable_sin(kFullTurn * (time + 0.37 * number)));
   return moved_by(center) * rotation(2, 137.5 * number) * rotation(0, 25.0 + 50.0 * along) *
          rotation(1, 360.0 * time + 40.0 * number) * rotation(0, 65.0);
 }
@@ -104,8 +104,8 @@ Animation animate(const Parameters& parameters) {
   SceneBuilder builder(parameters.label());
   const auto count = static_cast<std::size_t>(parameters.integer("solids"));
   const double reach = kSpacing * (place_of(count - 1).ring + 0.5);
-  add_wide_camera(builder, "default", reach * glm::dvec3(1.0, -1.75, 1.35), {0.0, 0.0, -0.4},
-                  36.0F);
+  add_wide_camera(builder, "default", reach * glm::dvec3(1.0, -1.75, 1.35),
+                  {0.0, -0.12 * reach, -0.4}, 39.0F);
   add_wide_camera(builder, "low", reach * glm::dvec3(0.5, -2.0, 0.25), {0.0, 0.0, 0.0}, 36.0F);
   light_motion(builder, reach);
 
@@ -134,7 +134,7 @@ Animation animate(const Parameters& parameters) {
       builder.add_polygon(std::array{first + corners[0], first + corners[1], first + corners[2]});
     }
   }
-  add_floor(builder, 3.0 * reach, -1.5);
+  add_floor(builder, 4.0 * reach, -1.5);
   return with_moving_vertices(
       std::move(builder).build(), frames,
       [parts = std::move(parts)](std::uint32_t frame) { return parts.placed(frame); });

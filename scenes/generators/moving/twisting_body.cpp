@@ -14,7 +14,6 @@
 namespace beambench::scenes::generators {
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
 constexpr double kHeight = 3.2;
 
 /// A point of the straight body, with its normal: a column of four ribs, which bulges below and
@@ -25,13 +24,13 @@ struct Point {
 };
 
 double radius_at(double around, double up) {
-  const double profile = std::sqrt(up * (1.0 - up)) * (1.5 - 0.7 * up);
-  return profile * (1.0 + 0.16 * portable_cos(4.0 * kTurn * around));
+  const double profile = std::sqrt(up * (1.0 - up)) * (2.1 - 1.0 * up);
+  return profile * (1.0 + 0.16 * portable_cos(4.0 * kFullTurn * around));
 }
 
 glm::dvec3 straight_place(double around, double up) {
   const double radius = radius_at(around, up);
-  return {radius * portable_cos(kTurn * around), radius * portable_sin(kTurn * around),
+  return {radius * portable_cos(kFullTurn * around), radius * portable_sin(kFullTurn * around),
           kHeight * up};
 }
 
@@ -50,7 +49,7 @@ Point straight_point(double around, double up) {
 /// the inverse transpose of the twist's derivative.
 Point twisted(const Point& point, double turns) {
   const auto& [p, n] = point;
-  const double rate = kTurn * turns / kHeight;
+  const double rate = kFullTurn * turns / kHeight;
   const double sine = portable_sin(rate * p.z);
   const double cosine = portable_cos(rate * p.z);
   const glm::dvec3 normal(cosine * n.x - sine * n.y, sine * n.x + cosine * n.y,
@@ -107,7 +106,7 @@ Surface stripe(std::uint32_t column, std::uint32_t around) {
 
 Animation animate(const Parameters& parameters) {
   SceneBuilder builder(parameters.label());
-  add_wide_camera(builder, "default", {3.6, -5.6, 3.4}, {0.0, 0.0, 1.52}, 40.0F);
+  add_wide_camera(builder, "default", {3.0, -4.7, 3.1}, {0.0, 0.0, 1.5}, 42.0F);
   add_wide_camera(builder, "above", {0.6, -2.6, 6.2}, {0.0, 0.0, 1.2}, 40.0F);
   light_motion(builder, 3.0);
 
@@ -128,7 +127,7 @@ Animation animate(const Parameters& parameters) {
     builder.add_polygon(corners,
                         std::array{normal(corners[0]), normal(corners[1]), normal(corners[2])});
   });
-  add_floor(builder, 12.0, -0.02);
+  add_floor(builder, 14.0, -0.02);
   Scene scene = std::move(builder).build();
   Pose still = pose_of(scene);
   auto pose = [still = std::move(still), straight = std::move(straight), grid, frames,

@@ -10,30 +10,28 @@
 namespace beambench::scenes::generators {
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
 constexpr double kWidth = 3.0;  // the sheet is 3 wide, from its pole at x = 0, and 2 high
 constexpr double kHeight = 2.0;
 
 /// A vertex of the sheet at (u, v) in [0, 1]^2, when `passed` waves have gone by. The waves run
 /// from the pole to the free edge and grow on their way; a second one runs obliquely.
 glm::dvec3 on_sheet(double u, double v, double passed) {
-  const double first = portable_sin(kTurn * (1.6 * u + 0.15 * v - passed));
-  const double second = portable_sin(kTurn * (2.7 * u - 0.6 * v - 2.0 * passed));
-  const double sag = portable_cos(kTurn * (1.6 * u - passed));
+  const double first = portable_sin(kFullTurn * (1.6 * u + 0.15 * v - passed));
+  const double second = portable_sin(kFullTurn * (2.7 * u - 0.6 * v - 2.0 * passed));
+  const double sag = portable_cos(kFullTurn * (1.6 * u - passed));
   const double reach = u * (2.0 - u);  // 0 at the pole
   return {kWidth * u * (1.0 - 0.06 * reach) + 0.05 * reach * second,
           reach * (0.34 * first + 0.09 * second), kHeight * v - 0.10 * u * u + 0.06 * reach * sag};
 }
 
-/// Three stripes with a disk in the middle.
-Surface surface_at(double u, double v) {
-  const double x = kWidth * (u - 0.5);
-  const double z = kHeight * (v - 0.5);
-  Surface surface{
-      .color = {0.80F, 0.16F, 0.14F}, .diffuse = 0.85F, .specular = 0.15F, .shine = 15.0F};
-  if (v > 0.27 && v < 0.73) surface.color = {0.93F, 0.90F, 0.82F};
-  if (x * x + z * z < 0.32 * 0.32) surface.color = {0.12F, 0.30F, 0.58F};
-  return surface;
+/// Five stripes, from blue to gold.
+Surface surface_at(double v) {
+  constexpr std::array<glm::vec3, 5> kColors = {{{0.13F, 0.24F, 0.46F},
+                                                 {0.42F, 0.24F, 0.48F},
+                                                 {0.74F, 0.27F, 0.40F},
+                                                 {0.91F, 0.48F, 0.26F},
+                                                 {0.96F, 0.78F, 0.38F}}};
+  return {.color = kColors[static_cast<std::size_t>(5.0 * v)], .diffuse = 0.95F};
 }
 
 Animation animate(const Parameters& parameters) {
@@ -58,8 +56,8 @@ Animation animate(const Parameters& parameters) {
   builder.reserve_triangles(vertices, 2 * std::size_t{k} * k);
   for (const glm::dvec3& place : places(0)) builder.add_vertex(place);
   for (std::uint32_t row = 0; row < k; ++row) {
+    builder.set_surface(surface_at((row + 0.5) / k));
     for (std::uint32_t column = 0; column < k; ++column) {
-      builder.set_surface(surface_at((column + 0.5) / k, (row + 0.5) / k));
       const std::uint32_t a = row * (k + 1) + column;
       const std::uint32_t c = a + k + 2;
       builder.add_polygon(std::array{a, a + 1, c});

@@ -108,6 +108,12 @@ DEFAULT_GROUPS = (
         ),
     ),
     Group(
+        "Scenes that move, in their first frames",
+        tuple(
+            "waving-sheet turning-solids twisting-body exploding-mesh falling-spheres".split(),
+        ),
+    ),
+    Group(
         "Others",
         ("finishes", "closed-room", "prism", "aquarium", "tessellated-balls", "bumpy", "soup"),
     ),
