@@ -99,7 +99,10 @@ Bounds cone_bounds(const Cone& cone) {
   const glm::dvec3 axis = glm::dvec3(cone.apex) - glm::dvec3(cone.base);
   const glm::dvec3 square = axis * axis;
   const glm::dvec3 across(square.y + square.z, square.z + square.x, square.x + square.y);
-  const glm::dvec3 reach = glm::sqrt(across / (square.x + square.y + square.z)) * kOutward;
+  const double length_squared = square.x + square.y + square.z;
+  // No ray hits a cone without length, which a frame of an animation may have.
+  const glm::dvec3 reach =
+      length_squared > 0.0 ? glm::sqrt(across / length_squared) * kOutward : glm::dvec3(0.0);
   Bounds bounds = box_around(cone.base, static_cast<double>(cone.base_radius) * reach);
   bounds.include(box_around(cone.apex, static_cast<double>(cone.apex_radius) * reach));
   return bounds;
