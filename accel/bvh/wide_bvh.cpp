@@ -10,7 +10,11 @@
 #include <fmt/format.h>
 
 #include "accel/bvh/collapse.hpp"
+#include "accel/bvh/lbvh_builder.hpp"
+#include "accel/bvh/ploc_builder.hpp"
+#include "accel/bvh/reinsertion.hpp"
 #include "accel/bvh/spatial_builder.hpp"
+#include "accel/bvh/sweep_builder.hpp"
 #include "accel/core/tolerance.hpp"
 #include "scenes/base/error.hpp"
 
@@ -147,15 +151,32 @@ class WideBvhBuilder {
   WideBvh wide_;
 };
 
+BinaryBvh build_binary_bvh(const scenes::Scene& scene, std::span<const PrimitivePart> parts,
+                           BvhBuilder builder, const BvhOptions& options) {
+  if (builder == BvhBuilder::kSpatial) {
+    return build_spatial_bvh(scene, parts, overlap_tolerance(scene), options);
+  }
+  const std::vector<scenes::Bounds> boxes = padded_boxes(scene, parts);
+  switch (builder) {
+    case BvhBuilder::kLbvh:
+      return build_lbvh(boxes, options);
+    case BvhBuilder::kPloc:
+      return build_ploc(boxes, options);
+    case BvhBuilder::kSweep:
+      return build_sweep_bvh(boxes, options);
+    default:
+      return build_bvh(boxes, options);
+  }
+}
+
 }  // namespace
 
 WideBvh build_wide_bvh(const scenes::Scene& scene, const WideBvhOptions& options) {
   const bool collapses = options.collapse == BvhCollapse::kCost;
   const BvhOptions splits = collapses ? before_collapse(options.splits) : options.splits;
   std::vector<PrimitivePart> parts = collect_parts(scene);
-  BinaryBvh binary = options.builder == BvhBuilder::kSpatial
-                         ? build_spatial_bvh(scene, parts, overlap_tolerance(scene), splits)
-                         : build_bvh(padded_boxes(scene, parts), splits);
+  BinaryBvh binary = build_binary_bvh(scene, parts, options.builder, splits);
+  if (options.reinsertion) reinsert(binary, splits.parallel);
   const double cost = sah_cost(binary, options.splits);
   WideBvhBuilder builder(scene, std::move(parts), std::move(binary));
   if (collapses) builder.collapse(options.splits.max_leaf);

@@ -75,8 +75,11 @@ struct WideBvh {
 };
 
 enum class BvhBuilder : std::uint8_t {
-  kBinned,  ///< `build_bvh`: each piece in one leaf
-  kSpatial  ///< `build_spatial_bvh`: pieces may be divided among leaves
+  kLbvh,    ///< `build_lbvh`
+  kPloc,    ///< `build_ploc`
+  kBinned,  ///< `build_bvh`
+  kSweep,   ///< `build_sweep_bvh`
+  kSpatial  ///< `build_spatial_bvh`: pieces may be divided among leaves, unlike by the others
 };
 
 enum class BvhCollapse : std::uint8_t {
@@ -88,6 +91,7 @@ struct WideBvhOptions {
   BvhOptions splits;
   BvhBuilder builder = BvhBuilder::kBinned;
   BvhCollapse collapse = BvhCollapse::kArea;
+  bool reinsertion = false;  ///< `reinsert` what the builder returns
 };
 
 /// Throws InputError if the scene needs more than ChildReference::kBlockIndices blocks.
