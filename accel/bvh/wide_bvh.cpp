@@ -47,6 +47,7 @@ class WideBvhBuilder {
   WideBvh build() {
     wide_.scene_bounds = scene_.bounds;
     wide_.visits = ExpectedVisits(scene_.bounds);
+    reserve();
     if (!binary_.nodes.empty()) wide_.root = convert(0, 1);
     wide_.nodes.shrink_to_fit();
     wide_.blocks.shrink_to_fit();
@@ -54,6 +55,21 @@ class WideBvhBuilder {
   }
 
  private:
+  /// Makes room for a hierarchy as it is over triangles alone, so that it need not be copied while
+  /// it grows.
+  void reserve() {
+    if (collapse_) return;
+    std::size_t blocks = 0;
+    std::size_t leaves = 0;
+    for (const BvhNode& node : binary_.nodes) {
+      if (!node.is_leaf()) continue;
+      ++leaves;
+      blocks += (node.count + kBvhLanes - 1) / kBvhLanes;
+    }
+    wide_.blocks.reserve(blocks);
+    wide_.nodes.reserve(leaves / 3);
+  }
+
   /// The recursion is bounded by kMaxBvhDepth.
   ChildReference convert(std::uint32_t binary_node, std::uint32_t depth) {
     const BvhNode& node = binary_.nodes[binary_node];
@@ -106,9 +122,12 @@ class WideBvhBuilder {
         places[lane] += (octant >> axis & 1U) != 0 ? -twice_center : twice_center;
       }
     }
-    const auto present = static_cast<std::ptrdiff_t>(children.size());
-    std::stable_sort(lanes.begin(), lanes.begin() + present,
-                     [&](std::uint32_t a, std::uint32_t b) { return places[a] > places[b]; });
+    // Insertion: std::stable_sort would allocate memory, eight times for each node.
+    for (std::size_t i = 1; i < children.size(); ++i) {
+      for (std::size_t k = i; k > 0 && places[lanes[k]] > places[lanes[k - 1]]; --k) {
+        std::swap(lanes[k], lanes[k - 1]);
+      }
+    }
     std::uint32_t order = 0;
     for (std::uint32_t i = 0; i < kBvhLanes; ++i) order |= lanes[i] << 3 * i;
     return order;
@@ -126,13 +145,8 @@ class WideBvhBuilder {
     wide_.references += items.size();
     wide_.visits.add_leaf(box, static_cast<std::uint32_t>(items.size()));
     leaf_parts_.clear();
-    float extent = 0.0F;
-    for (const std::uint32_t item : items) {
-      leaf_parts_.push_back(parts_[item]);
-      const glm::vec3 sides = part_bounds(scene_, parts_[item]).extent();
-      extent = std::max({extent, sides.x, sides.y, sides.z});
-    }
-    append_blocks(scene_, leaf_parts_, extent, wide_.blocks);
+    for (const std::uint32_t item : items) leaf_parts_.push_back(parts_[item]);
+    append_blocks(scene_, leaf_parts_, wide_.blocks);
     if (wide_.blocks.size() > ChildReference::kBlockIndices) {
       throw InputError(
           fmt::format("the hierarchy over '{}' needs more than {} leaf blocks; use a scene with "
