@@ -104,4 +104,22 @@ BinaryBvh laid_out(std::span<const BvhNode> nodes, std::span<const std::uint32_t
   return Layout(nodes, items, next).make();
 }
 
+void merge_leaves(BinaryBvh& bvh, const BvhOptions& options) {
+  const auto cost = [&](const BvhNode& leaf) {
+    return static_cast<float>(half_area(leaf.box)) * leaf_cost(leaf.count, options);
+  };
+  // Children stand behind their parents.
+  for (std::size_t i = bvh.nodes.size(); i-- > 0;) {
+    BvhNode& node = bvh.nodes[i];
+    if (node.is_leaf()) continue;
+    const BvhNode& left = bvh.nodes[node.first];
+    const BvhNode& right = bvh.nodes[node.first + 1];
+    if (!left.is_leaf() || !right.is_leaf()) continue;
+    const std::uint32_t count = left.count + right.count;
+    if (!leaf_pays(count, node.box, cost(left) + cost(right), options)) continue;
+    node = {node.box, left.first, count};
+  }
+  bvh = laid_out(bvh.nodes, bvh.items);
+}
+
 }  // namespace beambench::accel::bvh

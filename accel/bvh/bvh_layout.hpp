@@ -19,4 +19,7 @@ namespace beambench::accel::bvh {
 BinaryBvh laid_out(std::span<const BvhNode> nodes, std::span<const std::uint32_t> items,
                    std::span<const std::uint32_t> next = {});
 
+/// Makes two sibling leaves one, from the bottom up, where that costs no more (`leaf_pays`).
+void merge_leaves(BinaryBvh& bvh, const BvhOptions& options);
+
 }  // namespace beambench::accel::bvh

@@ -110,4 +110,29 @@ Statistics SahBvh::statistics() const {
   return statistics;
 }
 
+void SahBvh::describe(TreeQuality& tree) const {
+  if (bvh_.empty()) return;
+  scenes::Bounds box = bvh_.scene_bounds;
+  if (!bvh_.root.is_leaf()) box = bvh_.nodes[bvh_.root.node_index()].bounds();
+  describe(bvh_.root, box, tree);
+}
+
+void SahBvh::describe(ChildReference child, const scenes::Bounds& box, TreeQuality& tree) const {
+  tree.open(box);
+  if (child.is_leaf()) {
+    for (std::uint32_t i = 0; i < child.block_count(); ++i) {
+      const PrimitiveBlock& block = bvh_.blocks[child.first_block() + i];
+      for (std::uint32_t lane = 0; lane < block.count; ++lane) {
+        tree.add_primitive(block.primitives[lane]);
+      }
+    }
+  } else {
+    const WideNode& node = bvh_.nodes[child.node_index()];
+    for (std::uint32_t lane = 0; lane < node.count(); ++lane) {
+      describe(node.children[lane], node.box(lane), tree);
+    }
+  }
+  tree.close();
+}
+
 }  // namespace beambench::accel::bvh

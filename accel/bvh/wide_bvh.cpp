@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "accel/bvh/bvh_layout.hpp"
 #include "accel/bvh/collapse.hpp"
 #include "accel/bvh/lbvh_builder.hpp"
 #include "accel/bvh/ploc_builder.hpp"
@@ -25,7 +26,7 @@ namespace {
 /// third of a wide node's, since three levels become one (CollapseCosts).
 constexpr float kNodeInPrimitives = 3.0F;
 
-/// Returns the options of a builder whose hierarchy `Collapse` makes wide.
+/// Returns the options of a builder whose leaves are small, because they will be merged.
 BvhOptions before_collapse(BvhOptions options) {
   options.block_size = 1;
   options.node_cost = kNodeInPrimitives;
@@ -187,10 +188,13 @@ BinaryBvh build_binary_bvh(const scenes::Scene& scene, std::span<const Primitive
 
 WideBvh build_wide_bvh(const scenes::Scene& scene, const WideBvhOptions& options) {
   const bool collapses = options.collapse == BvhCollapse::kCost;
-  const BvhOptions splits = collapses ? before_collapse(options.splits) : options.splits;
+  // Reinsertion has more to move where leaves are small, and they can be merged afterward.
+  const bool has_small_leaves = collapses || options.reinsertion;
+  const BvhOptions splits = has_small_leaves ? before_collapse(options.splits) : options.splits;
   std::vector<PrimitivePart> parts = collect_parts(scene);
   BinaryBvh binary = build_binary_bvh(scene, parts, options.builder, splits);
   if (options.reinsertion) reinsert(binary, splits.parallel);
+  if (options.reinsertion && !collapses) merge_leaves(binary, options.splits);
   const double cost = sah_cost(binary, options.splits);
   WideBvhBuilder builder(scene, std::move(parts), std::move(binary));
   if (collapses) builder.collapse(options.splits.max_leaf);

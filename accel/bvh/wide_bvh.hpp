@@ -55,6 +55,16 @@ struct alignas(64) WideNode {
     while (present < kBvhLanes && planes[0][present] <= planes[3][present]) ++present;
     return present;
   }
+  scenes::Bounds box(std::size_t lane) const {
+    return {{planes[0][lane], planes[1][lane], planes[2][lane]},
+            {planes[3][lane], planes[4][lane], planes[5][lane]}};
+  }
+  /// Returns the box of all children.
+  scenes::Bounds bounds() const {
+    scenes::Bounds bounds;
+    for (std::size_t lane = 0; lane < count(); ++lane) bounds.include(box(lane));
+    return bounds;
+  }
 };
 static_assert(sizeof(WideNode) == 256);
 
