@@ -98,4 +98,16 @@ Statistics GoldsmithSalmon::statistics() const {
   return statistics;
 }
 
+void GoldsmithSalmon::describe(TreeQuality& tree) const {
+  std::vector<std::uint32_t> ends;  // of the volumes that are open
+  for (std::uint32_t i = 0; i < hierarchy_.entries.size(); ++i) {
+    for (; !ends.empty() && ends.back() == i; ends.pop_back()) tree.close();
+    const HierarchyEntry& entry = hierarchy_.entries[i];
+    tree.open(entry.box);
+    if (!entry.is_volume()) tree.add_primitive(entry.primitive);
+    ends.push_back(entry.end);
+  }
+  for (; !ends.empty(); ends.pop_back()) tree.close();
+}
+
 }  // namespace beambench::accel::bvh

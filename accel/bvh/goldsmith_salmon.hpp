@@ -11,6 +11,7 @@
 #include "accel/core/intersect.hpp"
 #include "accel/core/slab_ray.hpp"
 #include "accel/core/traversal_accelerator.hpp"
+#include "accel/core/tree_quality.hpp"
 #include "scenes/base/parameters.hpp"
 
 namespace beambench::accel::bvh {
@@ -100,13 +101,14 @@ class OrderedStack {
 /// the closest hit and by plain depth-first search for any hit. Volumes and objects both have a
 /// box, which is tested before they are entered. With `Insertion::kTerminal` it is the hierarchy of
 /// the thesis (sections 4.3 and 5.4.2).
-class GoldsmithSalmon : public TraversalAccelerator<GoldsmithSalmon> {
+class GoldsmithSalmon : public TraversalAccelerator<GoldsmithSalmon>, public BoxHierarchy {
  public:
   GoldsmithSalmon(const scenes::Scene& scene, const GoldsmithSalmonOptions& options);
 
   const InsertionHierarchy& hierarchy() const { return hierarchy_; }
   Statistics statistics() const override;
   bool update(const scenes::Scene& scene) override;
+  void describe(TreeQuality& tree) const override;
 
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {

@@ -25,7 +25,7 @@ struct alignas(64) PrimitiveBlock {
   scenes::PrimitiveKind kind;
   std::uint32_t count;
   std::uint32_t first;  ///< the primitives in the blocks before it
-  float leaf_extent;    ///< at least the longest side of the box of any of its triangles
+  float leaf_extent;    ///< the longest side of the boxes of the leaf's pieces
 
   glm::vec3 corner(std::size_t which, std::size_t lane) const {
     const std::size_t row = 3 * which;
@@ -39,8 +39,7 @@ struct alignas(64) PrimitiveBlock {
 };
 
 /// Appends the blocks of one leaf: of one kind each, kind by kind, pieces in the order given.
-/// `extent` becomes their `leaf_extent`.
-void append_blocks(const scenes::Scene& scene, std::span<const PrimitivePart> pieces, float extent,
+void append_blocks(const scenes::Scene& scene, std::span<const PrimitivePart> pieces,
                    LargePageVector<PrimitiveBlock>& blocks);
 
 }  // namespace beambench::accel::bvh

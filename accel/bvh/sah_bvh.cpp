@@ -30,8 +30,15 @@ void for_each_part(std::size_t rays, const QueryContext& context, const Trace& t
 
 std::vector<ParameterInfo> SahBvh::parameters() {
   const BvhOptions defaults;
-  return {choice_parameter("builder", "binned", {"binned", "spatial"},
-                           "spatial: splits may divide primitives (Stich and others 2009)"),
+  return {choice_parameter("builder", "binned", {"lbvh", "ploc", "binned", "sweep", "spatial"},
+                           "from the fastest to the slowest build: lbvh: splits where Morton codes "
+                           "differ (Lauterbach and others 2009); ploc: neighbors merge (Meister "
+                           "and Bittner 2018); binned: splits by SAH between bins (Wald 2007); "
+                           "sweep: of all splits the best by SAH; spatial: splits may divide "
+                           "primitives (Stich and others 2009)"),
+          flag_parameter("reinsertion", false,
+                         "then put nodes where they enlarge the hierarchy least (Bittner and "
+                         "others 2013; Meister and Bittner 2018)"),
           choice_parameter("collapse", "area", {"area", "cost"},
                            "of two-way splits into eight-way nodes: by area, which suits single "
                            "rays, or at the least cost for streams"),
@@ -48,7 +55,12 @@ SahBvhOptions SahBvh::options_from(const Parameters& parameters) {
   SahBvhOptions options;
   options.splits.max_leaf = static_cast<std::uint32_t>(parameters.integer("max_leaf"));
   options.splits.parallel = parameters.flag("parallel");
-  if (parameters.choice("builder") == "spatial") options.builder = BvhBuilder::kSpatial;
+  const std::string& builder = parameters.choice("builder");
+  if (builder == "lbvh") options.builder = BvhBuilder::kLbvh;
+  if (builder == "ploc") options.builder = BvhBuilder::kPloc;
+  if (builder == "sweep") options.builder = BvhBuilder::kSweep;
+  if (builder == "spatial") options.builder = BvhBuilder::kSpatial;
+  options.reinsertion = parameters.flag("reinsertion");
   if (parameters.choice("collapse") == "cost") options.collapse = BvhCollapse::kCost;
   options.streams = parameters.choice("lists") == "streams";
   return options;
@@ -107,6 +119,31 @@ Statistics SahBvh::statistics() const {
   statistics.more = {{"cost", bvh_.cost}};
   bvh_.visits.append_to(statistics);
   return statistics;
+}
+
+void SahBvh::describe(TreeQuality& tree) const {
+  if (bvh_.empty()) return;
+  scenes::Bounds box = bvh_.scene_bounds;
+  if (!bvh_.root.is_leaf()) box = bvh_.nodes[bvh_.root.node_index()].bounds();
+  describe(bvh_.root, box, tree);
+}
+
+void SahBvh::describe(ChildReference child, const scenes::Bounds& box, TreeQuality& tree) const {
+  tree.open(box);
+  if (child.is_leaf()) {
+    for (std::uint32_t i = 0; i < child.block_count(); ++i) {
+      const PrimitiveBlock& block = bvh_.blocks[child.first_block() + i];
+      for (std::uint32_t lane = 0; lane < block.count; ++lane) {
+        tree.add_primitive(block.primitives[lane]);
+      }
+    }
+  } else {
+    const WideNode& node = bvh_.nodes[child.node_index()];
+    for (std::uint32_t lane = 0; lane < node.count(); ++lane) {
+      describe(node.children[lane], node.box(lane), tree);
+    }
+  }
+  tree.close();
 }
 
 }  // namespace beambench::accel::bvh

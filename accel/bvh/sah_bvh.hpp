@@ -8,6 +8,7 @@
 #include "accel/bvh/wide_bvh.hpp"
 #include "accel/core/instruction_set.hpp"
 #include "accel/core/traversal_accelerator.hpp"
+#include "accel/core/tree_quality.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
 #include "scenes/base/parameters.hpp"
 
@@ -17,11 +18,11 @@ struct SahBvhOptions : WideBvhOptions {
   bool streams = true;  ///< lists of rays go down together (stream_walk-inl.hpp)
 };
 
-/// A binned SAH hierarchy (Wald 2007) of eight children per node, traversed by SIMD in single
+/// A SAH hierarchy of eight children per node, traversed by SIMD in single
 /// precision (Wald, Benthin and Boulos, "Getting rid of packets", 2008). The float tests only
 /// reject; candidates that pass are confirmed by the canonical test, so the hits are those of every
 /// other classic structure, on every instruction set.
-class SahBvh : public TraversalAccelerator<SahBvh> {
+class SahBvh : public TraversalAccelerator<SahBvh>, public BoxHierarchy {
  public:
   static std::vector<ParameterInfo> parameters();
   static SahBvhOptions options_from(const Parameters& parameters);
@@ -34,6 +35,7 @@ class SahBvh : public TraversalAccelerator<SahBvh> {
   /// The instruction set in use, as Highway calls it: "AVX2".
   const char* instruction_set() const;
   Statistics statistics() const override;
+  void describe(TreeQuality& tree) const override;
   void closest_hits(const RaySource& rays, const HitSpan& hits,
                     const QueryContext& context) const override;
   void any_hits(const RaySource& rays, std::span<std::uint8_t> hits,
@@ -56,6 +58,8 @@ class SahBvh : public TraversalAccelerator<SahBvh> {
   }
 
  private:
+  void describe(ChildReference child, const scenes::Bounds& box, TreeQuality& tree) const;
+
   bool is_stream(const RaySource& rays) const {
     return streams_ && rays.batch() != nullptr && rays.size() >= Streams::kLeast && !bvh_.empty();
   }

@@ -9,8 +9,13 @@
 
 #include <fmt/format.h>
 
+#include "accel/bvh/bvh_layout.hpp"
 #include "accel/bvh/collapse.hpp"
+#include "accel/bvh/lbvh_builder.hpp"
+#include "accel/bvh/ploc_builder.hpp"
+#include "accel/bvh/reinsertion.hpp"
 #include "accel/bvh/spatial_builder.hpp"
+#include "accel/bvh/sweep_builder.hpp"
 #include "accel/core/tolerance.hpp"
 #include "scenes/base/error.hpp"
 
@@ -21,7 +26,7 @@ namespace {
 /// third of a wide node's, since three levels become one (CollapseCosts).
 constexpr float kNodeInPrimitives = 3.0F;
 
-/// Returns the options of a builder whose hierarchy `Collapse` makes wide.
+/// Returns the options of a builder whose leaves are small, because they will be merged.
 BvhOptions before_collapse(BvhOptions options) {
   options.block_size = 1;
   options.node_cost = kNodeInPrimitives;
@@ -43,6 +48,7 @@ class WideBvhBuilder {
   WideBvh build() {
     wide_.scene_bounds = scene_.bounds;
     wide_.visits = ExpectedVisits(scene_.bounds);
+    reserve();
     if (!binary_.nodes.empty()) wide_.root = convert(0, 1);
     wide_.nodes.shrink_to_fit();
     wide_.blocks.shrink_to_fit();
@@ -50,6 +56,21 @@ class WideBvhBuilder {
   }
 
  private:
+  /// Makes room for a hierarchy as it is over triangles alone, so that it need not be copied while
+  /// it grows.
+  void reserve() {
+    if (collapse_) return;
+    std::size_t blocks = 0;
+    std::size_t leaves = 0;
+    for (const BvhNode& node : binary_.nodes) {
+      if (!node.is_leaf()) continue;
+      ++leaves;
+      blocks += (node.count + kBvhLanes - 1) / kBvhLanes;
+    }
+    wide_.blocks.reserve(blocks);
+    wide_.nodes.reserve(leaves / 3);
+  }
+
   /// The recursion is bounded by kMaxBvhDepth.
   ChildReference convert(std::uint32_t binary_node, std::uint32_t depth) {
     const BvhNode& node = binary_.nodes[binary_node];
@@ -102,9 +123,12 @@ class WideBvhBuilder {
         places[lane] += (octant >> axis & 1U) != 0 ? -twice_center : twice_center;
       }
     }
-    const auto present = static_cast<std::ptrdiff_t>(children.size());
-    std::stable_sort(lanes.begin(), lanes.begin() + present,
-                     [&](std::uint32_t a, std::uint32_t b) { return places[a] > places[b]; });
+    // Insertion: std::stable_sort would allocate memory, eight times for each node.
+    for (std::size_t i = 1; i < children.size(); ++i) {
+      for (std::size_t k = i; k > 0 && places[lanes[k]] > places[lanes[k - 1]]; --k) {
+        std::swap(lanes[k], lanes[k - 1]);
+      }
+    }
     std::uint32_t order = 0;
     for (std::uint32_t i = 0; i < kBvhLanes; ++i) order |= lanes[i] << 3 * i;
     return order;
@@ -122,13 +146,8 @@ class WideBvhBuilder {
     wide_.references += items.size();
     wide_.visits.add_leaf(box, static_cast<std::uint32_t>(items.size()));
     leaf_parts_.clear();
-    float extent = 0.0F;
-    for (const std::uint32_t item : items) {
-      leaf_parts_.push_back(parts_[item]);
-      const glm::vec3 sides = part_bounds(scene_, parts_[item]).extent();
-      extent = std::max({extent, sides.x, sides.y, sides.z});
-    }
-    append_blocks(scene_, leaf_parts_, extent, wide_.blocks);
+    for (const std::uint32_t item : items) leaf_parts_.push_back(parts_[item]);
+    append_blocks(scene_, leaf_parts_, wide_.blocks);
     if (wide_.blocks.size() > ChildReference::kBlockIndices) {
       throw InputError(
           fmt::format("the hierarchy over '{}' needs more than {} leaf blocks; use a scene with "
@@ -147,15 +166,35 @@ class WideBvhBuilder {
   WideBvh wide_;
 };
 
+BinaryBvh build_binary_bvh(const scenes::Scene& scene, std::span<const PrimitivePart> parts,
+                           BvhBuilder builder, const BvhOptions& options) {
+  if (builder == BvhBuilder::kSpatial) {
+    return build_spatial_bvh(scene, parts, overlap_tolerance(scene), options);
+  }
+  const std::vector<scenes::Bounds> boxes = padded_boxes(scene, parts);
+  switch (builder) {
+    case BvhBuilder::kLbvh:
+      return build_lbvh(boxes, options);
+    case BvhBuilder::kPloc:
+      return build_ploc(boxes, options);
+    case BvhBuilder::kSweep:
+      return build_sweep_bvh(boxes, options);
+    default:
+      return build_bvh(boxes, options);
+  }
+}
+
 }  // namespace
 
 WideBvh build_wide_bvh(const scenes::Scene& scene, const WideBvhOptions& options) {
   const bool collapses = options.collapse == BvhCollapse::kCost;
-  const BvhOptions splits = collapses ? before_collapse(options.splits) : options.splits;
+  // Reinsertion has more to move where leaves are small, and they can be merged afterward.
+  const bool has_small_leaves = collapses || options.reinsertion;
+  const BvhOptions splits = has_small_leaves ? before_collapse(options.splits) : options.splits;
   std::vector<PrimitivePart> parts = collect_parts(scene);
-  BinaryBvh binary = options.builder == BvhBuilder::kSpatial
-                         ? build_spatial_bvh(scene, parts, overlap_tolerance(scene), splits)
-                         : build_bvh(padded_boxes(scene, parts), splits);
+  BinaryBvh binary = build_binary_bvh(scene, parts, options.builder, splits);
+  if (options.reinsertion) reinsert(binary, splits.parallel);
+  if (options.reinsertion && !collapses) merge_leaves(binary, options.splits);
   const double cost = sah_cost(binary, options.splits);
   WideBvhBuilder builder(scene, std::move(parts), std::move(binary));
   if (collapses) builder.collapse(options.splits.max_leaf);

@@ -55,6 +55,16 @@ struct alignas(64) WideNode {
     while (present < kBvhLanes && planes[0][present] <= planes[3][present]) ++present;
     return present;
   }
+  scenes::Bounds box(std::size_t lane) const {
+    return {{planes[0][lane], planes[1][lane], planes[2][lane]},
+            {planes[3][lane], planes[4][lane], planes[5][lane]}};
+  }
+  /// Returns the box of all children.
+  scenes::Bounds bounds() const {
+    scenes::Bounds bounds;
+    for (std::size_t lane = 0; lane < count(); ++lane) bounds.include(box(lane));
+    return bounds;
+  }
 };
 static_assert(sizeof(WideNode) == 256);
 
@@ -75,8 +85,11 @@ struct WideBvh {
 };
 
 enum class BvhBuilder : std::uint8_t {
-  kBinned,  ///< `build_bvh`: each piece in one leaf
-  kSpatial  ///< `build_spatial_bvh`: pieces may be divided among leaves
+  kLbvh,    ///< `build_lbvh`
+  kPloc,    ///< `build_ploc`
+  kBinned,  ///< `build_bvh`
+  kSweep,   ///< `build_sweep_bvh`
+  kSpatial  ///< `build_spatial_bvh`: pieces may be divided among leaves, unlike by the others
 };
 
 enum class BvhCollapse : std::uint8_t {
@@ -88,6 +101,7 @@ struct WideBvhOptions {
   BvhOptions splits;
   BvhBuilder builder = BvhBuilder::kBinned;
   BvhCollapse collapse = BvhCollapse::kArea;
+  bool reinsertion = false;  ///< `reinsert` what the builder returns
 };
 
 /// Throws InputError if the scene needs more than ChildReference::kBlockIndices blocks.

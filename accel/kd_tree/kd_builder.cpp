@@ -363,14 +363,9 @@ class Builder {
     }
     std::sort(leaf_items_.begin(), leaf_items_.end());
     leaf_pieces_.clear();
-    float extent = 0.0F;
-    for (const std::uint32_t item : leaf_items_) {
-      leaf_pieces_.push_back(pieces_[item]);
-      const glm::vec3 sides = bvh::part_bounds(scene_, pieces_[item]).extent();
-      extent = std::max({extent, sides.x, sides.y, sides.z});
-    }
+    for (const std::uint32_t item : leaf_items_) leaf_pieces_.push_back(pieces_[item]);
     const std::size_t first = tree_.blocks.size();
-    bvh::append_blocks(scene_, leaf_pieces_, extent, tree_.blocks);
+    bvh::append_blocks(scene_, leaf_pieces_, tree_.blocks);
     const std::size_t blocks = tree_.blocks.size() - first;
     tree_.nodes[pending.node] =
         KdNode::leaf(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(blocks));

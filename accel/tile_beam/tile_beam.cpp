@@ -355,6 +355,34 @@ std::size_t solid_bytes(const TileHierarchy& hierarchy) {
          hierarchy.solid_meshlets.capacity() * sizeof(SolidMeshlet);
 }
 
+/// Describes a node or a leaf, and all below it.
+void describe_child(const TileHierarchy& hierarchy, TileChild child, const scenes::Bounds& box,
+                    TreeQuality& tree) {
+  const auto add_all = [&](const auto& block, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) tree.add_primitive(block.primitives[i]);
+  };
+  tree.open(box);
+  switch (child.kind()) {
+    case TileChild::Kind::kNode: {
+      const TileNode& node = hierarchy.nodes[child.index()];
+      for (std::size_t lane = 0; lane < node.count; ++lane) {
+        describe_child(hierarchy, node.children[lane], node.boxes.get(lane), tree);
+      }
+      break;
+    }
+    case TileChild::Kind::kMeshlet:
+      add_all(hierarchy.meshlets[child.index()], hierarchy.meshlets[child.index()].triangle_count);
+      break;
+    case TileChild::Kind::kSpheres:
+      add_all(hierarchy.spheres[child.index()], hierarchy.spheres[child.index()].count);
+      break;
+    case TileChild::Kind::kCones:
+      add_all(hierarchy.cones[child.index()], hierarchy.cones[child.index()].count);
+      break;
+  }
+  tree.close();
+}
+
 }  // namespace
 
 void TileBeam::closest_hits(const RaySource& rays, const HitSpan& hits,
@@ -503,6 +531,10 @@ Statistics TileBeam::statistics() const {
                      {"solid_triangles", static_cast<double>(hierarchy_.solids.triangles.size())}};
   hierarchy_.visits.append_to(statistics);
   return statistics;
+}
+
+void TileBeam::describe(TreeQuality& tree) const {
+  if (!hierarchy_.empty()) describe_child(hierarchy_, hierarchy_.root, hierarchy_.bounds, tree);
 }
 
 void register_tile_beam(Registry& registry) {

@@ -9,6 +9,7 @@
 #include "accel/core/primary_rays.hpp"
 #include "accel/core/registry.hpp"
 #include "accel/core/traversal_accelerator.hpp"
+#include "accel/core/tree_quality.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
 #include "accel/tile_beam/pencil_kernels.hpp"
 #include "accel/tile_beam/tile_hierarchy.hpp"
@@ -25,7 +26,7 @@ namespace beambench::accel::tile_beam {
 /// point light, and rays from a planar mirror), as seen from their common point
 /// (pencil_walk-inl.hpp). All other rays, alone or in lists, return the hits of the classic
 /// structures, bit for bit; lists go down as streams (accel/bvh/streams.hpp).
-class TileBeam : public TraversalAccelerator<TileBeam> {
+class TileBeam : public TraversalAccelerator<TileBeam>, public BoxHierarchy {
  public:
   static std::vector<ParameterInfo> parameters();
   /// `workload`: whether lists of rays are expected, where `lists` is `auto`.
@@ -51,6 +52,7 @@ class TileBeam : public TraversalAccelerator<TileBeam> {
   /// The instruction set in use, as Highway calls it: "AVX3".
   const char* instruction_set() const;
   Statistics statistics() const override;
+  void describe(TreeQuality& tree) const override;
 
   /// An image is traced in tiles, a batch with its pencils.
   void closest_hits(const RaySource& rays, const HitSpan& hits,

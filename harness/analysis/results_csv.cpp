@@ -188,6 +188,11 @@ void add_times(Row& row, const CellRecord& cell) {
   add_intervals(row, cell, "total_mcycles", &Repetition::total_mcycles, cycles);
   row["build_cpu_ms_median"] = median_of(&Repetition::build_cpu_ms);
   row["trace_cpu_ms_median"] = median_of(&Repetition::trace_cpu_ms);
+  const auto build = samples(&Repetition::build_ms);
+  row["mprimitives_per_s"] =
+      !build.empty() && median(build) > 0.0
+          ? Json(static_cast<double>(cell.rays.primitives) / (1e3 * median(build)))
+          : Json();
   row["mrays_per_s"] = Json();
   if (const auto trace = trace_time(cell); known && trace && trace->value > 0.0) {
     row["mrays_per_s"] = static_cast<double>(cell.rays.rays) / (1e3 * trace->value);
@@ -228,6 +233,11 @@ Json own_figure(const accel::Statistics& statistics, std::string_view name) {
 void add_statistics(Row& row, const CellRecord& cell) {
   row["memory_bytes"] = cell.statistics ? Json(cell.statistics->bytes) : Json();
   row["allocated_bytes"] = or_null(cell.allocated_bytes);
+  row["peak_build_bytes"] = or_null(cell.peak_build_bytes);
+  const auto primitives = static_cast<double>(cell.rays.primitives);
+  row["bytes_per_primitive"] = cell.statistics && primitives > 0.0
+                                   ? Json(static_cast<double>(cell.statistics->bytes) / primitives)
+                                   : Json();
   const bool has_nodes = cell.statistics && cell.statistics->nodes > 0;
   const auto size = [&](std::uint64_t accel::Statistics::*member) {
     return has_nodes ? Json((*cell.statistics).*member) : Json();
@@ -238,7 +248,7 @@ void add_statistics(Row& row, const CellRecord& cell) {
   row["references"] = size(&accel::Statistics::references);
   row["depth"] = size(&accel::Statistics::depth);
   row["tree_cost"] = cell.statistics ? own_figure(*cell.statistics, "cost") : Json();
-  for (const char* name : {"sah_nodes", "sah_leaves", "sah_tests"}) {
+  for (const char* name : {"sah_nodes", "sah_leaves", "sah_tests", "sah_cost", "epo"}) {
     row[name] = cell.statistics ? own_figure(*cell.statistics, name) : Json();
   }
 }

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "accel/core/support.hpp"
+#include "accel/core/tree_quality.hpp"
 #include "harness/base/progress.hpp"
 #include "harness/base/stopwatch.hpp"
 #include "harness/cli/commands.hpp"
@@ -59,6 +60,7 @@ Finding examine(const accel::StructureChoice& choice, const scenes::Scene& scene
   accel::WorkCounters counters;
   rays::trace(*accelerator, input, results, &counters);
   Finding finding{choice, accelerator->statistics(), build_ms, 0, counters.by_name(), {}};
+  accel::append_quality(*accelerator, scene, finding.statistics);
   for (std::size_t i = 0; i < input.size(); ++i) finding.hits += rays::is_hit_at(results, i);
   if (levels) finding.levels = rays::count_level_visits(*accelerator, input);
   return finding;

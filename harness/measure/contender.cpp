@@ -10,8 +10,10 @@
 #include <fmt/format.h>
 
 #include "accel/core/moved_structure.hpp"
+#include "accel/core/tree_quality.hpp"
 #include "harness/measure/measurement.hpp"
 #include "harness/measure/record/machine.hpp"
+#include "scenes/base/process_memory.hpp"
 
 namespace beambench::measure {
 namespace {
@@ -55,12 +57,15 @@ void Contender::count(const CellEvents& events) {
     task_->require_support(cell_->structure);
     const MeasuringFloatMode mode;
     const auto heap_before = heap_in_use();
-    const auto structure = cell_->structure.build(task_->scene(), task_->workload());
+    std::unique_ptr<accel::Accelerator> structure;
+    record_.peak_build_bytes = peak_memory_growth(
+        [&] { structure = cell_->structure.build(task_->scene(), task_->workload()); });
     record_.allocated_bytes = heap_growth(heap_before, heap_in_use());
     task_->poison();
     record_.work = task_->count(*structure);
     counted_hits_ = task_->fingerprint();
     record_.statistics = structure->statistics();
+    accel::append_quality(*structure, task_->scene(), *record_.statistics);
     record_.harness = task_->harness_share(*structure);
   } catch (const accel::UnsupportedError& error) {
     fail(verify::Verdict::kUnsupported, error.what());

@@ -25,6 +25,7 @@
 #include "accel/core/accelerator.hpp"
 #include "accel/core/registry.hpp"
 #include "accel/core/threads.hpp"
+#include "accel/core/tree_quality.hpp"
 #include "harness/base/stopwatch.hpp"
 #include "harness/python/arrays.hpp"
 #include "harness/python/bindings.hpp"
@@ -163,7 +164,8 @@ Hits trace_image(const StructureHandle& structure, const ImageChoice& choice,
 }
 
 Record statistics_of(const StructureHandle& structure) {
-  const accel::Statistics statistics = structure.built->accelerator->statistics();
+  accel::Statistics statistics = structure.built->accelerator->statistics();
+  accel::append_quality(*structure.built->accelerator, *structure.built->scene, statistics);
   Record all;
   all["nodes"] = statistics.nodes;
   all["leaves"] = statistics.leaves;

@@ -7,59 +7,15 @@
 
 #include <gtest/gtest.h>
 
-#include "scenes/base/random.hpp"
+#include "tests/accel/binary_bvh.hpp"
 #include "tests/accel/contains.hpp"
 
 namespace beambench::accel {
 namespace {
 
-std::vector<scenes::Bounds> random_boxes(std::size_t count, std::uint64_t seed) {
-  Random random(seed);
-  std::vector<scenes::Bounds> boxes;
-  for (std::size_t i = 0; i < count; ++i) {
-    const glm::vec3 lower(random.unit(), random.unit(), random.unit());
-    const glm::vec3 size(random.unit(), random.unit(), random.unit());
-    boxes.push_back({lower, lower + size * 0.02F});
-  }
-  return boxes;
-}
-
-/// Expects every box once, in a leaf of an allowed size, and every node's box to be the union of
-/// the boxes below.
-void expect_valid(const bvh::BinaryBvh& bvh, const std::vector<scenes::Bounds>& boxes,
-                  const bvh::BvhOptions& options) {
-  ASSERT_EQ(bvh.items.size(), boxes.size());
-  std::vector<std::uint32_t> items = bvh.items;
-  std::sort(items.begin(), items.end());
-  for (std::uint32_t i = 0; i < items.size(); ++i) ASSERT_EQ(items[i], i);
-
-  std::vector<int> parents(bvh.nodes.size(), 0);
-  std::size_t in_leaves = 0;
-  for (std::uint32_t i = 0; i < bvh.nodes.size(); ++i) {
-    const bvh::BvhNode& node = bvh.nodes[i];
-    scenes::Bounds below;
-    if (node.is_leaf()) {
-      EXPECT_LE(node.count, options.max_leaf);
-      in_leaves += node.count;
-      for (std::uint32_t k = 0; k < node.count; ++k) {
-        below.include(boxes[bvh.items[node.first + k]]);
-      }
-    } else {
-      ASSERT_GT(node.first, i);
-      ASSERT_LT(node.first + 1, bvh.nodes.size());
-      for (const std::uint32_t child : {node.first, node.first + 1}) {
-        below.include(bvh.nodes[child].box);
-        ++parents[child];
-      }
-    }
-    EXPECT_EQ(below.lower, node.box.lower);
-    EXPECT_EQ(below.upper, node.box.upper);
-  }
-  EXPECT_EQ(in_leaves, boxes.size());
-  EXPECT_EQ(std::count(parents.begin(), parents.end(), 1),
-            static_cast<std::ptrdiff_t>(bvh.nodes.size()) - 1);
-  EXPECT_LE(bvh.depth, bvh::kMaxBvhDepth);
-}
+using tests::expect_same;
+using tests::expect_valid;
+using tests::random_boxes;
 
 TEST(BvhBuilder, HoldsEveryBoxOnce) {
   for (const std::size_t count : {1U, 2U, 7U, 8U, 9U, 100U, 5000U}) {
@@ -111,14 +67,7 @@ TEST(BvhBuilder, IsTheSameBuiltInParallel) {
   const bvh::BinaryBvh serial = bvh::build_bvh(boxes, options);
   options.parallel = true;
   const bvh::BinaryBvh parallel = bvh::build_bvh(boxes, options);
-  EXPECT_EQ(serial.items, parallel.items);
-  ASSERT_EQ(serial.nodes.size(), parallel.nodes.size());
-  for (std::size_t i = 0; i < serial.nodes.size(); ++i) {
-    ASSERT_EQ(serial.nodes[i].first, parallel.nodes[i].first);
-    ASSERT_EQ(serial.nodes[i].count, parallel.nodes[i].count);
-    ASSERT_EQ(serial.nodes[i].box.lower, parallel.nodes[i].box.lower);
-    ASSERT_EQ(serial.nodes[i].box.upper, parallel.nodes[i].box.upper);
-  }
+  expect_same(serial, parallel);
 }
 
 // One library ignored the bins of two axes for two years, with every hit correct.

@@ -119,11 +119,12 @@ const char* const kContract =
     "total_ms_min_spread,"
     "clock_ghz_median,total_mcycles_median,total_mcycles_ci_low,total_mcycles_ci_high,"
     "total_mcycles_pi_low,total_mcycles_pi_high,"
-    "build_cpu_ms_median,trace_cpu_ms_median,mrays_per_s,"
+    "build_cpu_ms_median,trace_cpu_ms_median,mprimitives_per_s,mrays_per_s,"
     "build_instructions,build_cycles,build_cache_misses,"
     "trace_instructions,trace_cycles,trace_cache_misses,"
-    "memory_bytes,allocated_bytes,nodes,leaves,empty_leaves,references,depth,tree_cost,"
-    "sah_nodes,sah_leaves,sah_tests,"
+    "memory_bytes,allocated_bytes,peak_build_bytes,bytes_per_primitive,"
+    "nodes,leaves,empty_leaves,references,depth,tree_cost,"
+    "sah_nodes,sah_leaves,sah_tests,sah_cost,epo,"
     "traversal_steps_per_ray,leaves_per_ray,empty_leaves_per_ray,box_tests_per_ray,"
     "primitive_tests_per_ray,sphere_tests_per_ray,cone_tests_per_ray,polygon_tests_per_ray,"
     "hits,agree,tie,graze,structure_error,embree_error,verdict\n";
@@ -153,6 +154,7 @@ TEST(CellRow, SumsUpTheRepetitions) {
   EXPECT_EQ(row.at("clips_per_ray"), 0.1);
   EXPECT_TRUE(row.at("box_tests_per_ray").is_null());
   EXPECT_EQ(row.at("allocated_bytes"), 4096);
+  EXPECT_EQ(row.at("peak_build_bytes"), 8192);
   EXPECT_EQ(row.at("isa"), "AVX2");
   EXPECT_TRUE(row.at("structure_isa").is_null()) << "it does not choose";
 }
@@ -222,14 +224,14 @@ TEST(CellRow, WithoutTheVerdictOkItKeepsCountersAndLosesTimes) {
                          column == "blocks" || column == "disturbed" ||
                          column.find("mcycles") != std::string::npos ||
                          column == "clock_ghz_median" || column == "mrays_per_s" ||
-                         column.ends_with("_cycles") || column.ends_with("_instructions") ||
-                         column.ends_with("_cache_misses");
+                         column == "mprimitives_per_s" || column.ends_with("_cycles") ||
+                         column.ends_with("_instructions") || column.ends_with("_cache_misses");
     EXPECT_EQ(value.is_null(),
               is_time || column == "leaves_per_ray" || column == "empty_leaves_per_ray" ||
                   column == "box_tests_per_ray" || column == "primitive_tests_per_ray" ||
                   column == "structure_isa" || column == "library_version" ||
                   column == "library_geometry" || column == "occluded_share" ||
-                  column == "tree_cost" || column.starts_with("sah_") ||
+                  column == "tree_cost" || column.starts_with("sah_") || column == "epo" ||
                   column == "sphere_tests_per_ray" || column == "cone_tests_per_ray" ||
                   column == "polygon_tests_per_ray")
         << column;

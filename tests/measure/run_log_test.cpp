@@ -151,6 +151,7 @@ CellRecord drawn_cell(std::size_t index) {
   }
   if (*rc::gen::arbitrary<bool>()) cell.statistics = drawn_statistics();
   cell.allocated_bytes = drawn_or_nothing<std::uint64_t>();
+  cell.peak_build_bytes = drawn_or_nothing<std::uint64_t>();
   if (*rc::gen::arbitrary<bool>()) {
     cell.harness = {static_cast<QueryPath>(*rc::gen::inRange(0, 6)), *rc::gen::arbitrary<double>()};
   }
@@ -228,6 +229,7 @@ void expect_same(const CellRecord& read, const CellRecord& written) {
   RC_ASSERT(is_same(read.work.kinds, written.work.kinds));
   RC_ASSERT(is_same(read.statistics, written.statistics));
   RC_ASSERT(read.allocated_bytes == written.allocated_bytes);
+  RC_ASSERT(read.peak_build_bytes == written.peak_build_bytes);
   RC_ASSERT(is_same(read.harness, written.harness));
   RC_ASSERT(is_same(read.repetitions, written.repetitions));
   RC_ASSERT(is_same(read.diff, written.diff));

@@ -17,6 +17,7 @@ inline CellRecord some_cell() {
   cell.harness = {QueryPath::kImageSingle, 2.5};
   cell.work.counters = {{"traversal_steps", 1280}, {"clips", 64}};
   cell.allocated_bytes = 4096;
+  cell.peak_build_bytes = 8192;
   cell.stop_reason = StopReason::kPrecision;
   cell.diff = verify::DiffReport{};
   for (int round = 0; round < 7; ++round) {

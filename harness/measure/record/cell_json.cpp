@@ -174,6 +174,7 @@ Json facts_json(const CellRecord& cell) {
   if (!cell.work.kinds.empty()) json["ray_kinds"] = kinds_json(cell.work.kinds);
   if (cell.statistics) json["statistics"] = statistics_json(*cell.statistics);
   add(json, "allocated_bytes", cell.allocated_bytes);
+  add(json, "peak_build_bytes", cell.peak_build_bytes);
   if (cell.harness) {
     json["harness"] = {{"path", to_string(cell.harness->path)}, {"ms", cell.harness->ms}};
   }
@@ -201,6 +202,7 @@ void read_facts(const Json& event, CellRecord& cell) {
   }
   if (event.contains("statistics")) cell.statistics = read_statistics(event.at("statistics"));
   cell.allocated_bytes = optional<std::uint64_t>(event, "allocated_bytes");
+  cell.peak_build_bytes = optional<std::uint64_t>(event, "peak_build_bytes");
   if (event.contains("harness")) {
     const Json& harness = event.at("harness");
     cell.harness = HarnessShare{named(harness.at("path"), QueryPath::kPicture),

@@ -1,0 +1,36 @@
+#pragma once
+// Cuts items into ranges that threads work on.
+
+#include <algorithm>
+#include <cstddef>
+
+#include <tbb/parallel_for.h>
+
+#include "accel/bvh/object_split.hpp"
+
+namespace beambench::accel::bvh {
+
+/// Ranges that together are [0, items): one, or in parallel several.
+class ItemRanges {
+ public:
+  ItemRanges(std::size_t items, bool parallel)
+      : items_(items),
+        count_(parallel ? std::clamp<std::size_t>(items / kParallelItems, 1, 64) : 1) {}
+
+  std::size_t count() const { return count_; }
+
+  /// Calls `work(range, begin, end)` for all ranges, at the same time if there are several.
+  template <class Work>
+  void for_each(const Work& work) const {
+    if (count_ == 1) return work(std::size_t{0}, std::size_t{0}, items_);
+    tbb::parallel_for(std::size_t{0}, count_, [&](std::size_t range) {
+      work(range, items_ * range / count_, items_ * (range + 1) / count_);
+    });
+  }
+
+ private:
+  std::size_t items_;
+  std::size_t count_;
+};
+
+}  // namespace beambench::accel::bvh
