@@ -211,7 +211,7 @@ class Kill : public testing::Test {
 };
 
 TEST_F(Kill, AtRandomMomentsLosesNothing) {
-  const std::uint64_t kills = tests::in_full(50, 20);
+  const std::uint64_t kills = tests::in_full(625, 20);  // four of five by SIGKILL
   const auto begin = Clock::now();
   ASSERT_EQ(start("undisturbed").wait(), 0) << err();
   const std::chrono::duration<double> whole = Clock::now() - begin;

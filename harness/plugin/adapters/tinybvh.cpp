@@ -107,7 +107,7 @@ class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
         "tinybvh " + std::to_string(TINY_BVH_VERSION_MAJOR) + "." +
         std::to_string(TINY_BVH_VERSION_MINOR) + "." + std::to_string(TINY_BVH_VERSION_SUB));
     if (vertices_.empty()) return statistics;
-    statistics.nodes = nodes();
+    statistics.nodes = used_nodes();
     statistics.references = binary(layout_).idxCount;
     statistics.bytes = bytes_of(layout_) + vertices_.capacity() * sizeof(tinybvh::bvhvec4);
     return statistics;
@@ -144,7 +144,7 @@ class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
     if constexpr (std::is_same_v<Layout, tinybvh::BVH8_CPU>) layout_.ConvertFrom(layout_.bvh8);
   }
 
-  std::uint64_t nodes() const {
+  std::uint64_t used_nodes() const {
     if constexpr (std::is_same_v<Layout, tinybvh::BVH4_CPU>) return layout_.bvh4.usedNodes;
     if constexpr (std::is_same_v<Layout, tinybvh::BVH8_CPU>) return layout_.bvh8.usedNodes;
     return binary(layout_).usedNodes;

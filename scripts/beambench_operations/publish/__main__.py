@@ -90,7 +90,7 @@ def _state(folder: Folder, options: Options, provenance: Provenance) -> str:
 
 
 def _begun(folder: Folder, options: Options, provenance: Provenance) -> str:
-    begun = progress_of(options.aside / folder.name, provenance)
+    begun = progress_of(options.aside / folder.name_aside, provenance)
     return f"{len(begun.seconds)} of {len(folder.steps)} steps are done" if begun else ""
 
 

@@ -62,7 +62,7 @@ def make_folder(folder: Folder, place: Place, provenance: Provenance) -> Progres
     Raises Problem where a step fails, Interrupted where the user ends one. When called again, it
     continues on the same machine, and starts over on another one.
     """
-    target = place.aside / folder.name
+    target = place.aside / folder.name_aside
     progress = progress_of(target, provenance)
     if progress is None:
         shutil.rmtree(target, ignore_errors=True)

@@ -82,6 +82,11 @@ class Folder:
     """Is its time not part of the whole?"""
 
     @property
+    def name_aside(self) -> str:
+        """The name of the folder while it is made: one within another is made beside that."""
+        return self.name.replace("/", "-")
+
+    @property
     def seconds(self) -> float:
         """The expected seconds."""
         return sum(step.seconds for step in self.steps)

@@ -30,7 +30,7 @@ def committed(published: Path) -> dict[tuple, pd.DataFrame]:
     rows = pd.concat(
         pd.read_csv(path, dtype=str, keep_default_na=False).rename(columns=RENAMED_COLUMNS)
         for path in sorted(published.rglob("results.csv"))
-        if path.relative_to(published).parts[0] not in _OTHER_LIBRARIES
+        if not {*path.relative_to(published).parts} & {*_OTHER_LIBRARIES}
     )
     rows = rows[~rows["verdict"].isin((NO_RAYS, UNSUPPORTED, ERROR))]
     rows = rows.assign(

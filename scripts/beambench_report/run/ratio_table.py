@@ -1,7 +1,7 @@
 """Every contender of a run over one of them, or over the best of a structure, view by view.
 
 For runs that compare programs over a few scenes: a row for each contender, a column for each scene,
-and the geometric mean over the scenes.
+and the geometric mean over the scenes. Lists of rays are those in the order in which they are made.
 """
 
 from pathlib import Path
@@ -28,7 +28,8 @@ def write_ratios(run: Path, base: str, output: Path | None = None) -> str | list
 
 
 def _text(rows: pd.DataFrame, base: str) -> str:
-    rows = rows[rows["structure"] != "null"]
+    is_sorted = rows["ray_kind"].str.contains("order=sorted", regex=False)
+    rows = rows[(rows["structure"] != "null") & ~is_sorted]
     correct = rows[rows["timed"] & (rows["verdict"] == OK) & (rows[_TIME] > 0)]
     ratios = _ratios(correct, base)
     kinds = list(dict.fromkeys(rows["kind"]))

@@ -66,7 +66,24 @@ def figures(folder: Path) -> dict[str, Any]:
         "builds": _builds(lists),
         "wrong": [row for one in (lists, pictures) for row in one.wrong.to_dict("records")],
         "cells": len(lists.rows) + len(pictures.rows),
+        "embree_4": _embree_4(folder / "embree-4"),
         "with_target": with_target,
+    }
+
+
+def _embree_4(folder: Path) -> dict[str, Any]:
+    """Returns the ratios to Embree 4 by kind of rays; nothing where it was not measured."""
+    if not (folder / "results.csv").is_file():
+        return {}
+    cells = Cells(folder)
+    (version,) = set(cells.having("embree")["library_version"])
+    return {
+        "version": version,
+        "scenes": cells.scenes,
+        "lists": {kind: line(cells, STREAMS, None, kind=kind) for kind in KINDS},
+        "tile_beam": {kind: line(cells, TILE_BEAM, None, kind=kind).mean.ratio for kind in KINDS},
+        "cells": len(cells.rows),
+        "wrong": len(cells.wrong),
     }
 
 

@@ -5,7 +5,10 @@ from collections.abc import Mapping
 import pandas as pd
 from scipy.stats import gmean
 
+from beambench.analysis import Ratio
 from beambench_operations.publish.figures.cells import Cells
+from beambench_report.base.cell_files import identity
+from beambench_report.base.files import Problem
 
 NET = "trace_net_ms_median"
 
@@ -21,6 +24,22 @@ def net_ratios(cells: Cells, base: str, contenders: Mapping[str, str]) -> pd.Ser
                     own, under = (cells.row(one, **view)[NET] for one in (contender, base))
                     found[name, scene, kind] = own / under
     return pd.Series(found).rename_axis(["name", "scene", "kind"])
+
+
+def paired_net_ratio(cells: Cells, over: pd.Series, under: pd.Series) -> Ratio:
+    """Returns a row's trace time over another one's, paired within blocks.
+
+    Raises Problem where no block has both.
+    """
+    paired = cells.files[identity(over)].ratio(
+        "trace_ms",
+        cells.files[identity(under)],
+        (float(over["harness_ms"]), float(under["harness_ms"])),
+    )
+    if paired is None:
+        both = " and ".join(f"{row['contender']} at {row['view']}" for row in (over, under))
+        raise Problem(f"{cells.folder}: no block has both {both}")
+    return paired
 
 
 def means(ratios: pd.Series) -> dict[str, dict[str, float]]:

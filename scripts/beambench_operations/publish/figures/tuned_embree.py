@@ -7,7 +7,8 @@ import pandas as pd
 
 from beambench.analysis import Ratio, geometric_mean
 from beambench_operations.publish.figures.cells import Cells
-from beambench_report.base.cell_files import identity, ratio_of
+from beambench_operations.publish.figures.net_ratios import paired_net_ratio
+from beambench_report.base.cell_files import ratio_of
 from beambench_report.base.files import Problem
 from beambench_report.embree_comparison.pairings import mode_name
 from beambench_report.embree_comparison.results import Result
@@ -50,14 +51,7 @@ def to_embree(cells: Cells, contender: str, **columns: str) -> Ratio:
     under = cells.row(contender, **columns)
     if under["kind"] != "whitted":
         return ratio_of("trace", over, under, cells.files)
-    paired = cells.files[identity(over)].ratio(
-        "trace_ms",
-        cells.files[identity(under)],
-        (float(over["harness_ms"]), float(under["harness_ms"])),
-    )
-    if paired is None:
-        raise Problem(f"{cells.folder}: no block has both {contender} and Embree at {columns}")
-    return paired
+    return paired_net_ratio(cells, over, under)
 
 
 def fastest_embree(cells: Cells, **columns: str) -> pd.Series:
