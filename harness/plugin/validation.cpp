@@ -216,6 +216,7 @@ void check_contents(const PluginContents& contents) {
     scenes.take(info.name);
     require(!info.summary.empty(), "scene", info.name, "without a summary");
     require(static_cast<bool>(info.generate), "scene", info.name, "without a function to generate");
+    require(!info.animate, "scene", info.name, "that moves, which only built-in scenes can");
     check_parameters("scene", info.name, info.parameters);
   }
   std::set<std::string> endings;
