@@ -96,6 +96,7 @@ void refit(InsertionHierarchy& hierarchy, const scenes::Scene& scene) {
 
 void refit(WideBvh& bvh, const scenes::Scene& scene, bool parallel) {
   bvh.scene_bounds = scene.bounds;
+  bvh.is_refit = true;
   const double tolerance = overlap_tolerance(scene);
   if (bvh.empty()) return;
   if (bvh.root.is_leaf()) {

@@ -116,6 +116,7 @@ Statistics SahBvh::statistics() const {
   statistics.bytes = bvh_.nodes.capacity() * sizeof(WideNode) +
                      bvh_.blocks.capacity() * sizeof(PrimitiveBlock) + stream_tree_.bytes();
   statistics.instruction_set = instruction_set();
+  if (bvh_.is_refit) return statistics;
   statistics.more = {{"cost", bvh_.cost}};
   bvh_.visits.append_to(statistics);
   return statistics;

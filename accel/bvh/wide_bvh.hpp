@@ -79,7 +79,8 @@ struct WideBvh {
   std::uint64_t leaves = 0;
   std::uint64_t references = 0;  ///< to triangles, spheres and cones
   ExpectedVisits visits;
-  double cost = 0.0;  ///< of the binary hierarchy it was made from: see sah_cost
+  double cost = 0.0;      ///< of the binary hierarchy it was made from: see sah_cost
+  bool is_refit = false;  ///< `visits` and `cost` are those of the boxes that it was built with
 
   bool empty() const { return blocks.empty(); }
 };

@@ -72,15 +72,19 @@ inline ClippedPolygon clipped_triangle(const scenes::Scene& scene, const scenes:
   std::array<ClippedPolygon, 2> polygons;
   ClippedPolygon* polygon = &polygons[0];
   ClippedPolygon* other = &polygons[1];
+  const glm::dvec3 first(scene.vertices[triangle.vertex[0]]);
+  Box whole{first, first};
   for (const std::uint32_t vertex : triangle.vertex) {
-    polygon->add(glm::dvec3(scene.vertices[vertex]));
+    const glm::dvec3 corner(scene.vertices[vertex]);
+    polygon->add(corner);
+    whole.lower = glm::min(whole.lower, corner);
+    whole.upper = glm::max(whole.upper, corner);
   }
   const auto clip_by = [&](int axis, double plane, double sign) {
     clip(*polygon, axis, plane, sign, *other);
     std::swap(polygon, other);
     return polygon->count > 0;
   };
-  const Box whole = polygon->bounds();
   for (int axis = 0; axis < 3; ++axis) {
     const double lower = box.lower[axis];
     const double upper = box.upper[axis];

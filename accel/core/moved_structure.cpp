@@ -27,6 +27,12 @@ void MovedStructure::place() {
   if (moving) set_pose(*moving, scenes::pose_of(*target), target->frame);
 }
 
+void MovedStructure::describe(TreeQuality& tree) const {
+  if (const auto* hierarchy = dynamic_cast<const BoxHierarchy*>(built.get())) {
+    hierarchy->describe(tree);
+  }
+}
+
 void MovedStructure::update() {
   if (built->update(below(*this))) return;
   throw UnsupportedError(fmt::format(

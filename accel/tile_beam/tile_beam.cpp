@@ -525,10 +525,11 @@ Statistics TileBeam::statistics() const {
   statistics.bytes = hierarchy_.bytes() + solid_bytes(hierarchy_) + hierarchy_.stream_bytes();
   statistics.instruction_set = instruction_set();
   statistics.image_rays = ImageRays::kOwn;
-  statistics.more = {{"cost", hierarchy_.cost},
-                     {"meshlets", static_cast<double>(hierarchy_.meshlets.size())},
+  statistics.more = {{"meshlets", static_cast<double>(hierarchy_.meshlets.size())},
                      {"solids", static_cast<double>(hierarchy_.solids.solids.size())},
                      {"solid_triangles", static_cast<double>(hierarchy_.solids.triangles.size())}};
+  if (hierarchy_.is_refit) return statistics;
+  statistics.more.emplace_back("cost", hierarchy_.cost);
   hierarchy_.visits.append_to(statistics);
   return statistics;
 }

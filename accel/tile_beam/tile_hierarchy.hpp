@@ -143,7 +143,8 @@ struct TileHierarchy : TileBlocks {
   std::uint32_t depth = 0;                   ///< nodes on the longest path to a leaf, leaf included
   std::uint64_t references = 0;
   ExpectedVisits visits;
-  double cost = 0.0;  ///< the cost of the underlying binary hierarchy: see sah_cost
+  double cost = 0.0;      ///< the cost of the underlying binary hierarchy: see sah_cost
+  bool is_refit = false;  ///< `visits` and `cost` are those of the boxes that it was built with
   /// The same binary hierarchy as streams go down it, with leaves of a few parts. Without nodes of
   /// its own, which are those of `stream_tree`, unless the scene moves. Empty if lists are traced
   /// ray by ray.

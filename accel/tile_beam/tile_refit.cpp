@@ -95,6 +95,7 @@ scenes::Bounds box_of(const TileNode& node) {
 }  // namespace
 
 void refit(TileHierarchy& hierarchy, const scenes::Scene& scene, bool parallel) {
+  hierarchy.is_refit = true;
   if (hierarchy.empty()) return;
   const Refill refill(hierarchy, scene);
   const auto refill_leaves = [&](std::size_t begin, std::size_t end) {

@@ -148,7 +148,9 @@ TEST_P(Builders, KeepItemsOfASubtreeTogether) {
   std::vector<std::uint32_t> end(bvh.nodes.size());
   for (std::size_t i = bvh.nodes.size(); i-- > 0;) {
     const BvhNode& node = bvh.nodes[i];
-    if (!node.is_leaf()) ASSERT_EQ(end[node.first], first[node.first + 1]);
+    if (!node.is_leaf()) {
+      ASSERT_EQ(end[node.first], first[node.first + 1]);
+    }
     first[i] = node.is_leaf() ? node.first : first[node.first];
     end[i] = node.is_leaf() ? node.first + node.count : end[node.first + 1];
   }
