@@ -122,7 +122,7 @@ def test_few_sweeps_ask_for_streams_which_embree_4_has_not(path: Path) -> None:
 def test_of_lists_of_rays_embree_has_every_width_with_both_flags(path: Path) -> None:
     packets = {(f"packet{n}", coherent) for n in (4, 8, 16) for coherent in (True, False)}
     modes = embree_modes(json.loads(path.read_text()))
-    assert modes >= packets | {("single", True)} or {mode for mode, _ in modes} == {"best"}
+    assert modes >= packets | {("single", True)} or "best" in {mode for mode, _ in modes}
 
 
 JUDGED = ("beat-embree", "beat-embree-scenes", "beat-embree-soup", "beat-embree-avx2")

@@ -23,7 +23,6 @@ from beambench_thesis.report.write import MARKDOWN as THESIS_TEXTS
 from beambench_thesis.report.write import as_markdown as as_thesis
 
 WATERTIGHT = "embree robust=true"
-WATERTIGHT_OF_EMBREE_4 = "embree mode=single robust=true coherent=auto"
 BEAT_EMBREE = ("main", "scenes", "soup", "cones", "avx2", "scaling", "resolutions")
 PENCILS = ("shadows", "mirrors", "pictures")
 
@@ -59,7 +58,6 @@ _REPORTS: dict[str, Callable[[Path], str]] = {
     "cluster/report.md": lambda folder: report_on_cluster(folder)[0],
     "haines/report.md": partial(_in_copy, write_haines),
     "havran/report.md": partial(_in_copy, write_havran),
-    "libraries/embree-4/to-embree.md": partial(write_ratios, base=WATERTIGHT_OF_EMBREE_4),
     "libraries/to-embree.md": partial(write_ratios, base=WATERTIGHT),
     "libraries/to-tinybvh.md": partial(write_ratios, base="tinybvh"),
     "pencils/report.md": partial(_comparison, PENCILS),

@@ -8,7 +8,7 @@ import pandas as pd
 
 from beambench.analysis import Ratio, geometric_mean
 from beambench_operations.publish.figures.cells import Cells
-from beambench_operations.publish.figures.net_ratios import means, net_ratios, paired_net_ratio
+from beambench_operations.publish.figures.net_ratios import paired_net_ratio
 from beambench_operations.publish.figures.tuned_embree import STREAMS, fastest_embree
 
 _BASE = "embree:mode=single,robust=true"
@@ -56,7 +56,6 @@ def figures(folder: Path) -> dict[str, Any]:
             ),
             "tuned Embree, the list in its faster order": _gain(cells, "embree"),
         },
-        "embree_4": _of_embree_4(folder / "embree-4"),
     }
 
 
@@ -100,20 +99,3 @@ def _fastest(cells: Cells, contenders: Sequence[str], **columns: str) -> pd.Seri
     rows = pd.concat([cells.having(contender, **columns) for contender in contenders])
     rows = rows[rows["timed"]]
     return rows.loc[rows["trace_ms"].idxmin()]
-
-
-def _of_embree_4(folder: Path) -> dict[str, Any]:
-    if not (folder / "results.csv").is_file():
-        return {}
-    cells = Cells(folder)
-    own = {
-        "`sah-bvh`": "sah-bvh",
-        "`tinybvh:normalize=false`": "tinybvh",
-        "Embree's single rays, not watertight": "embree:mode=single,robust=false",
-        "Embree's packets of 16, `coherent=true`": "embree:mode=packet16",
-    }
-    return {
-        "cells": len(cells.rows),
-        "wrong": len(cells.wrong),
-        "means": means(net_ratios(cells, _BASE, own)),
-    }

@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 
 import pandas as pd
-from scipy.stats import gmean
 
 from beambench.analysis import Ratio
 from beambench_operations.publish.figures.cells import Cells
@@ -40,13 +39,3 @@ def paired_net_ratio(cells: Cells, over: pd.Series, under: pd.Series) -> Ratio:
         both = " and ".join(f"{row['contender']} at {row['view']}" for row in (over, under))
         raise Problem(f"{cells.folder}: no block has both {both}")
     return paired
-
-
-def means(ratios: pd.Series) -> dict[str, dict[str, float]]:
-    """Returns the geometric mean of each name over all scenes, by kind, if all scenes have it."""
-    table = ratios.groupby(["name", "kind"], sort=False).agg([gmean, "size"])
-    scenes = ratios.index.get_level_values("scene").nunique()
-    known = table.loc[table["size"] == scenes, "gmean"]
-    return {
-        name: own.droplevel("name").to_dict() for name, own in known.groupby("name", sort=False)
-    }
