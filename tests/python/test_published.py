@@ -101,7 +101,7 @@ def test_the_findings_are_one_page(published: Path) -> None:
     assert len((published / "README.md").read_text("utf-8").splitlines()) <= 200
 
 
-MOST_BYTES = 21_000_000
+MOST_BYTES = 24_000_000
 """Of all that is published, a second run of the thesis included: it is in every clone."""
 
 
