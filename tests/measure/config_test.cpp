@@ -120,6 +120,21 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"/exclude", {{{"structure", "samt"}}}, {"/exclude/0/structure: ", "samet"}},
         Wrong{"/exclude", {{{"rays_above", -3}}}, {"/exclude/0/rays_above: expected"}}));
 
+TEST_F(Config, FramesAreScenesOfTheirOwn) {
+  json document = fine();
+  document["scenes"] = {{{"scene", "waving-sheet:triangles=200"}, {"frames", {0, 7}}}};
+  document["structures"] = {
+      {{"structure", "sah-bvh"}, {"parameters", {{"update", {false, true}}}}}};
+  const SweepConfig config = read(document);
+  ASSERT_EQ(config.scenes.size(), 2U);
+  EXPECT_EQ(config.scenes[1].spec, "waving-sheet:triangles=200@7");
+  const Plan plan = make_plan(config);
+  ASSERT_FALSE(plan.groups.empty());
+  EXPECT_EQ(plan.groups.back().scene->frame, 7U);
+  EXPECT_EQ(plan.groups.back().cells.size(), 2U);
+  EXPECT_EQ(shown_scene(plan.groups.back().scene->name), "waving-sheet:triangles=200@7");
+}
+
 TEST_F(Config, MissingKeysAreNamed) {
   for (const char* key : {"name", "scenes", "structures", "resolutions", "budget_seconds"}) {
     json document = fine();
