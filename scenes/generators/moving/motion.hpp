@@ -17,7 +17,7 @@
 
 namespace beambench::scenes::generators {
 
-/// In radians.
+/// An angle in radians.
 inline constexpr double kFullTurn = 6.283185307179586;
 
 /// Returns the places in a frame of the vertices that move: those of frame 0 are the scene's own.

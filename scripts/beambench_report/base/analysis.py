@@ -199,7 +199,7 @@ class Analysis:
 
     @property
     def right(self) -> int:
-        """How many cells have correct hits."""
+        """Counts the cells with correct hits."""
         return self.cells - self.failed - self.without_rays - self.unsupported
 
     @property

@@ -67,7 +67,7 @@ class CellFile:
 
 
 def identity(row: Mapping[str, object]) -> Identity:
-    """What identifies a row within its run."""
+    """Identity of a row within its run."""
     values = (row[name] for name in IDENTITY)
     return tuple(str(int(one)) if isinstance(one, float) else str(one) for one in values)
 

@@ -1,4 +1,4 @@
-"""What plots and files call the contenders and the views of a run."""
+"""Names of the contenders and the views of a run in plots and files."""
 
 import os
 import re
@@ -36,7 +36,7 @@ def with_names(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 def machine_label(machine_id: str) -> str:
-    """What titles and captions call a machine."""
+    """Name of a machine in titles and captions."""
     return f"machine {machine_id[:8]}"
 
 
