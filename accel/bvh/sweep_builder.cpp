@@ -12,6 +12,7 @@
 
 #include "accel/bvh/box_quads.hpp"
 #include "accel/bvh/bvh_layout.hpp"
+#include "accel/bvh/item_ranges.hpp"
 #include "accel/bvh/object_split.hpp"
 #include "accel/core/large_pages.hpp"
 #include "accel/core/padded_bounds.hpp"
@@ -99,7 +100,8 @@ class SweepBuilder {
     const Pending right{pending.free + 1, pending.free + 2 + left_nodes, middle, pending.end,
                         pending.depth + 1};
     if (options_.parallel && pending.count() >= kParallelItems) {
-      tbb::parallel_invoke([&] { subdivide(left); }, [&] { subdivide(right); });
+      tbb::task_group_context mode = calling_mode();
+      tbb::parallel_invoke([&] { subdivide(left); }, [&] { subdivide(right); }, mode);
     } else {
       subdivide(left);
       subdivide(right);
