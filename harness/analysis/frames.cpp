@@ -38,7 +38,7 @@ std::optional<double> sah_cost(const CellRecord& cell) {
 
 std::optional<FrameCost> cost_of(const CellRecord& cell) {
   const auto trace = trace_time(cell);
-  if (!trace) return std::nullopt;
+  if (!trace || cell.repetitions.empty()) return std::nullopt;
   return FrameCost{measure::median(measure::collect(cell, &Repetition::ready_ms)), trace->value,
                    sah_cost(cell)};
 }

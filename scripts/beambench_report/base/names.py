@@ -66,6 +66,22 @@ def parameter_items(text: str) -> dict[str, str]:
     return dict(item.split("=", 1) for item in text.split(",") if "=" in item)
 
 
+def brief_name(contender: str) -> str:
+    """A contender in a crowded plot: `sah-bvh lbvh reinsertion` for its parameters' values.
+
+    Flags that are not set are left out; a number keeps the name of its parameter.
+    """
+    structure, *items = contender.split(" ")
+    words = [structure]
+    for item in items:
+        name, _, value = item.partition("=")
+        if value == "true":
+            words.append(name)
+        elif value != "false":
+            words.append(value if value[:1].isalpha() else item)
+    return " ".join(words)
+
+
 def varying_parameters(texts: Iterable[str]) -> set[str]:
     """The names of those parameters that differ between rows of one structure."""
     items = [parameter_items(text) for text in texts]

@@ -33,14 +33,15 @@ def place_labels(
     numbers: Sequence[str],
     lines: Sequence[Sequence[tuple[float, float]]] = (),
     colors: Sequence[str] = (),
+    taken: Sequence[Bbox] = (),
 ) -> set[int] | None:
     """Writes beside each point its name, or its number if there is no room; labels do not overlap.
 
     Returns the points that have numbers; None if even these crowd, in which case nothing is
     written. Labels are clear of the lines if possible, and have the color of their place in
-    `colors`, if given. The figure's layout must be settled.
+    `colors`, if given. The boxes `taken`, in pixels, stay free. The layout must be settled.
     """
-    room = _Room(panel, points, lines)
+    room = _Room(panel, points, lines, taken)
     places: dict[int, _Place] = {}
     for index in sorted(range(len(points)), key=lambda i: -room.centers[i][1]):
         found = [*room.places(index, numbers[index], places)]
@@ -77,6 +78,7 @@ class _Room:
         panel: Axes,
         points: Sequence[tuple[float, float]],
         lines: Sequence[Sequence[tuple[float, float]]],
+        taken: Sequence[Bbox],
     ) -> None:
         self._scale = panel.figure.dpi / 72
         self._frame = panel.bbox
@@ -85,6 +87,7 @@ class _Room:
         self.centers = [tuple(panel.transData.transform(point)) for point in points]
         reach = 3 * self._scale
         self._points = [Bbox.from_extents(x, y, x, y).padded(reach) for x, y in self.centers]
+        self._taken = taken
         self._crossed = [
             box
             for line in lines
@@ -93,7 +96,7 @@ class _Room:
 
     def places(self, index: int, text: str, others: Mapping[int, _Place]) -> Iterator[_Place]:
         """Yields places where the text has room beside its point, other points and labels."""
-        taken = [*self._points, *(other.box for other in others.values())]
+        taken = [*self._points, *self._taken, *(other.box for other in others.values())]
         width, height, _ = self._renderer.get_text_width_height_descent(text, self._font, False)
         for offset in _offsets():
             box = _box(self.centers[index], offset, width, height, self._scale)
