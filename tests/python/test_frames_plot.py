@@ -107,7 +107,7 @@ def test_the_published_figures_say_which_series_an_update_wins(moving: Path) -> 
     assert (found["series"], found["won"], found["lost"], found["whole"]) == (2, 1, 1, 1)
     assert found["frames"] == 20
     assert found["means"]["embree"]["primary"]["total"].value == pytest.approx(1.5)
-    assert [row["primary"].every for row in found["rows"]] == ["all 20", "4"]
+    assert [row["primary"].every for row in found["rows"]] == ["all 20 frames", "4 frames"]
     (fastest,) = found["fastest"]
     assert fastest["name"]["grid"] == "voxel-grid"
     assert fastest["updated"]["total_ms"] == 22

@@ -46,9 +46,11 @@ class Series:
 
     @property
     def every(self) -> str:
-        """One build for how many frames."""
+        """Frames for which one build serves: `one`, `5 frames`, `all 20 frames`."""
         after = self.series.rebuild_after
-        return f"{after}" if after else f"all {self.last.frame + 1}"
+        if after == 1:
+            return "one frame"
+        return f"{after} frames" if after else f"all {self.last.frame + 1} frames"
 
 
 def figures(folder: Path) -> dict[str, Any]:
@@ -72,6 +74,7 @@ def figures(folder: Path) -> dict[str, Any]:
         "series": len(found),
         "last": last,
         "frames": last + 1,
+        "shown": [str(one.frame) for one in found[0].series.frames],
         "size": cells.sizes[0],
         "means": {
             structure: {kind: _means(found, structure, kind) for kind in kinds}
