@@ -32,8 +32,7 @@ auto members(T& object) {
     auto& [name, cameras, background, lights, surfaces, primitives, spheres, cones, polygons,
            triangles, vertices, corners, normals, bounds, frame, first_frame] = object;
     return std::tie(name, cameras, background, lights, surfaces, primitives, spheres, cones,
-                    polygons, triangles, vertices, corners, normals, bounds, frame,
-                    first_frame);
+                    polygons, triangles, vertices, corners, normals, bounds, frame, first_frame);
   } else if constexpr (std::is_same_v<Type, scenes::Camera>) {
     auto& [name, from, at, up, angle, aspect, hither, width, height] = object;
     return std::tie(name, from, at, up, angle, aspect, hither, width, height);
