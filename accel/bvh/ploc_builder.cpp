@@ -22,7 +22,7 @@ namespace {
 
 static_assert(kPlocRadius % 4 == 0, "neighbors are weighed four at a time");
 
-/// Where fewer than one cluster in so many would merge in a round, neighbors are merged.
+/// Neighbors are merged in a round in which fewer than one cluster in so many would merge.
 constexpr std::size_t kFewMerge = 32;
 
 /// A cluster's choice: the area of the common box in the upper half, in the lower the exclusive or
@@ -152,7 +152,7 @@ class PlocBuilder {
     return choices_[other] == choices_[i] ? other : i;
   }
 
-  /// What one range of clusters leaves behind.
+  /// Numbers of clusters and nodes that one range leaves behind.
   struct Left {
     std::size_t clusters = 0;
     std::size_t nodes = 0;

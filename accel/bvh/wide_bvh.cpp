@@ -98,11 +98,7 @@ class WideBvhBuilder {
     for (std::size_t lane = 0; lane < kBvhLanes; ++lane) {
       const scenes::Bounds box =
           lane < children.size() ? binary_.nodes[children[lane]].box : scenes::Bounds{};  // empty
-      for (int axis = 0; axis < 3; ++axis) {
-        const auto row = static_cast<std::size_t>(axis);
-        node.planes[row][lane] = box.lower[axis];
-        node.planes[row + 3][lane] = box.upper[axis];
-      }
+      node.set_box(lane, box);
     }
     for (std::uint32_t octant = 0; octant < node.orders.size(); ++octant) {
       node.orders[octant] = order_along(octant, node, children.size());

@@ -12,7 +12,7 @@
 
 namespace beambench::analysis {
 
-/// The means over blocks of one frame, in milliseconds.
+/// The times of one frame, in milliseconds: a median, and a mean over blocks.
 struct FrameCost {
   double ready_ms;  ///< of the build, or of the update
   double trace_ms;

@@ -11,7 +11,8 @@ from beambench_operations.publish.figures.frames import figures
 from beambench_report.base.analysis import read_analysis
 from beambench_report.base.figure import house_style
 from beambench_report.base.names import brief_name
-from beambench_report.run.frames import frames, moving_views, spread
+from beambench_report.run.frames import frames, moving_views
+from beambench_report.run.labels import spread
 from beambench_report.run.measured import read_measured
 from synthetic_run import synthetic_rows, write_repeated_cell, write_run
 

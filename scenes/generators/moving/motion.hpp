@@ -36,9 +36,6 @@ struct RigidParts {
   std::vector<glm::dvec3> placed(std::uint32_t frame) const;
 };
 
-/// The matrix of a translation.
-glm::dmat4 moved_by(const glm::dvec3& offset);
-
 /// Returns the value of `frames_parameter`.
 std::uint32_t frames_of(const Parameters& parameters);
 

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from itertools import accumulate
 from math import ceil
 
 import pandas as pd
@@ -15,6 +14,7 @@ from beambench_report.base.palette import SOFT, structure_color
 from beambench_report.base.quantities import number
 from beambench_report.base.records import REFERENCES, size_of
 from beambench_report.base.svg import hover
+from beambench_report.run.labels import spread
 from beambench_report.run.measured import Measured, between
 from beambench_report.run.panels import chunks, finish, numbered, scale_axis, set_title
 
@@ -48,7 +48,7 @@ class FrameLine:
 
     @property
     def label(self) -> str:
-        """As it stands at the end of the line."""
+        """Text at the end of the line."""
         return f"{brief_name(self.name)}, updated" if self.is_updated else brief_name(self.name)
 
 
@@ -227,16 +227,3 @@ def _name_ends(panel: Axes, ends: Sequence[tuple[float, float, str, str]]) -> No
                 **{"shrinkA": 0, "shrinkB": 3, "relpos": (0, 0.5)},
             },
         ).set_in_layout(False)
-
-
-def spread(places: Sequence[float], low: float, high: float, step: float) -> list[float]:
-    """Moves ascending places at least `step` apart, between low and high; closer if need be."""
-    step = min(step, (high - low) / max(1, len(places) - 1))
-    upward = list(accumulate(places, lambda before, place: max(place, before + step)))
-    downward = list(accumulate(reversed(places), lambda after, place: min(place, after - step)))
-    middle = [(a + b) / 2 for a, b in zip(upward, reversed(downward), strict=True)]
-    last = len(middle) - 1
-    return [
-        min(max(place, low + index * step), high - (last - index) * step)
-        for index, place in enumerate(middle)
-    ]

@@ -18,9 +18,8 @@ from beambench_report.base.palette import INK, PAPER, SOFT, structure_color
 from beambench_report.base.quantities import number
 from beambench_report.base.svg import hover
 from beambench_report.run.crossings import rays_in_words
-from beambench_report.run.frames import spread
 from beambench_report.run.fronts import Front, fronts
-from beambench_report.run.labels import place_labels
+from beambench_report.run.labels import place_labels, spread
 from beambench_report.run.measured import Measured, read_measured
 from beambench_report.run.panels import (
     chunks,

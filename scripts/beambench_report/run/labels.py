@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from math import ceil, cos, hypot, inf, pi, sin
 
 from matplotlib.axes import Axes
@@ -167,3 +167,16 @@ def _along(corners: Sequence[tuple[float, float]], scale: float) -> list[Bbox]:
 
 def _is_inside(box: Bbox, frame: Bbox) -> bool:
     return box.x0 >= frame.x0 and box.x1 <= frame.x1 and box.y0 >= frame.y0 and box.y1 <= frame.y1
+
+
+def spread(places: Sequence[float], low: float, high: float, step: float) -> list[float]:
+    """Moves ascending places at least `step` apart, between low and high; closer if need be."""
+    step = min(step, (high - low) / max(1, len(places) - 1))
+    upward = list(accumulate(places, lambda before, place: max(place, before + step)))
+    downward = list(accumulate(reversed(places), lambda after, place: min(place, after - step)))
+    middle = [(a + b) / 2 for a, b in zip(upward, reversed(downward), strict=True)]
+    last = len(middle) - 1
+    return [
+        min(max(place, low + index * step), high - (last - index) * step)
+        for index, place in enumerate(middle)
+    ]

@@ -156,7 +156,7 @@ def _sizes(cells: Cells, scene: str, kind: str) -> list[dict[str, Any]]:
 
 
 def _often(found: Sequence[Front]) -> dict[str, int]:
-    """In how many views a structure, or a builder, is the best choice for some number of rays."""
+    """Counts the views in which a structure or builder is best for some number of rays."""
     counts: dict[str, int] = {}
     for front in found:
         for name in {brief_name(choice.standing.name) for choice in front.choices}:

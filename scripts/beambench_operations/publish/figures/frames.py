@@ -105,12 +105,12 @@ def _means(found: Sequence[Series], structure: str, kind: str) -> dict[str, Rati
 
 
 def _name(contender: str) -> str:
-    """Without what the column says: `sah-bvh lbvh`."""
+    """Returns the name without what the column states: `sah-bvh lbvh`."""
     return brief_name(contender.replace(" update=true", ""))
 
 
 def _fastest(cells: Cells, frame: int) -> list[dict[str, Any]]:
-    """Of the last frame of each scene, the least time updated, built anew, and of grid or octree.
+    """Returns the least times of the last frames: updated, built anew, and of grid or octree.
 
     By kind of rays and scene: milliseconds with the contender.
     """
