@@ -395,8 +395,8 @@ class SweepRun {
     progress_.finish(result_line(cell));
   }
 
-  /// Returns the progress of the unfinished, in whole cells: by blocks, because it is asked for
-  /// with each event, while a contender may be timed.
+  /// Returns the progress of the unfinished, in whole cells, counted by blocks: it is computed at
+  /// each event, while a contender may be timed.
   double work_done() const {
     double done = 0.0;
     for (const OpenView& open : views_) {
