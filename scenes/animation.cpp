@@ -94,7 +94,6 @@ void set_pose(Scene& scene, const Pose& pose, std::uint32_t frame) {
   }
   scene.vertices = pose.vertices;
   scene.normals = pose.normals;
-  scene.bounds = Bounds{};
   for (std::size_t i = 0; i < scene.spheres.size(); ++i) {
     scene.spheres[i].center = pose.spheres[i].center;
   }
@@ -102,9 +101,7 @@ void set_pose(Scene& scene, const Pose& pose, std::uint32_t frame) {
     scene.cones[i].base = pose.cones[i].base;
     scene.cones[i].apex = pose.cones[i].apex;
   }
-  for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
-    scene.bounds.include(primitive_bounds(scene, id));
-  }
+  scene.bounds = bounds_of_all(scene);
 }
 
 FrameName divide_frame(std::string_view name) {

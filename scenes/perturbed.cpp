@@ -61,12 +61,6 @@ int vertical_axis(const Camera& camera) {
   return up.x > up.y && up.x > up.z ? 0 : up.y > up.z ? 1 : 2;
 }
 
-dmat4 moved_by(const dvec3& offset) {
-  dmat4 result(1.0);
-  result[3] = glm::dvec4(offset, 1.0);
-  return result;
-}
-
 dmat4 turned_about(const dvec3& center, int axis, double degrees) {
   return moved_by(center) * rotation(axis, degrees) * moved_by(-center);
 }

@@ -147,6 +147,14 @@ std::uint64_t scene_hash(const Scene& scene) {
   return fingerprint.digest();
 }
 
+Bounds bounds_of_all(const Scene& scene) {
+  Bounds bounds;
+  for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
+    bounds.include(primitive_bounds(scene, id));
+  }
+  return bounds;
+}
+
 std::size_t memory_bytes(const Scene& scene) {
   return sizeof(scene) + bytes_of(scene.cameras) + bytes_of(scene.lights) +
          bytes_of(scene.surfaces) + bytes_of(scene.primitives) + bytes_of(scene.spheres) +

@@ -53,6 +53,9 @@ struct Scene {
 /// representable). For a cone: the box of its two end discs.
 Bounds primitive_bounds(const Scene& scene, PrimitiveId id);
 
+/// Returns the bounds of all primitives together; empty where there are none.
+Bounds bounds_of_all(const Scene& scene);
+
 /// Returns the bytes of the scene's arrays, including spare capacity.
 std::size_t memory_bytes(const Scene& scene);
 

@@ -379,8 +379,7 @@ void SceneBuilder::add_primitive(PrimitiveKind kind, std::size_t index) {
 }
 
 Scene SceneBuilder::build() && {
-  const auto count = static_cast<PrimitiveId>(primitive_count());
-  for (PrimitiveId id = 0; id < count; ++id) scene_.bounds.include(primitive_bounds(scene_, id));
+  scene_.bounds = bounds_of_all(scene_);
   const std::string fault = extent_fault(scene_.bounds);
   if (!fault.empty()) throw InputError(fmt::format("scene '{}': {}", scene_.name, fault));
   if (scene_.cameras.empty()) scene_.cameras.push_back(fitted_camera(scene_.bounds));

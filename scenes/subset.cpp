@@ -79,9 +79,7 @@ Scene subset(const Scene& scene, std::span<const PrimitiveId> ids) {
   const auto shrink = [](auto&... lists) { (lists.shrink_to_fit(), ...); };
   shrink(part.primitives, part.spheres, part.cones, part.polygons, part.triangles, part.vertices,
          part.corners, part.normals);
-  for (PrimitiveId id = 0; id < part.primitives.size(); ++id) {
-    part.bounds.include(primitive_bounds(part, id));
-  }
+  part.bounds = bounds_of_all(part);
   return part;
 }
 

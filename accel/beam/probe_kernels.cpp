@@ -15,7 +15,7 @@ namespace beambench::accel::beam::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// As many samples as a register holds.
+/// The number of samples that a register holds.
 using AllLanes = hn::CappedTag<float, 16>;
 /// One sample at a time: scalar code, whose arithmetic is that of `AllLanes`, fused operations
 /// included. So both let the same samples pass.

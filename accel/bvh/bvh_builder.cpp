@@ -15,6 +15,7 @@
 
 #include "accel/bvh/box_quads.hpp"
 #include "accel/bvh/object_split.hpp"
+#include "accel/bvh/pending_node.hpp"
 #include "accel/core/large_pages.hpp"
 #include "accel/core/padded_bounds.hpp"
 
@@ -32,7 +33,7 @@ class Builder {
   BinaryBvh build() {
     BinaryBvh bvh;
     if (items_.empty()) return bvh;
-    subdivide({0, 1, 0, items_.size(), 1, measure(0, items_.size())});
+    subdivide({{0, 1, 0, items_.size(), 1}, measure(0, items_.size())});
     compact(bvh);
     bvh.items.reserve(items_.size());
     for (const BuildItem& item : items_) bvh.items.push_back(item.index());
@@ -40,18 +41,8 @@ class Builder {
   }
 
  private:
-  /// A node to be made of the items [begin, end). Nodes below it are taken from `free` on, where
-  /// there is space for the maximum, so that the number of a node does not depend on the task that
-  /// builds it.
-  struct Pending {
-    std::size_t node;
-    std::size_t free;
-    std::size_t begin;
-    std::size_t end;
-    std::uint32_t depth;
+  struct Pending : PendingNode {
     BuildExtent extent;  ///< of the items
-
-    std::size_t count() const { return end - begin; }
   };
 
   /// The beginning of the right child's items, and the extents of both children.
@@ -65,19 +56,10 @@ class Builder {
     BvhNode& node = nodes_[pending.node];
     node.box = pending.extent.boxes.bounds();
     const std::optional<Halves> halves = halve(pending);
-    if (!halves) {
-      node.first = static_cast<std::uint32_t>(pending.begin);
-      node.count = static_cast<std::uint32_t>(pending.count());
-      return;
-    }
-    node.first = static_cast<std::uint32_t>(pending.free);
-    node.count = 0;
-    const std::size_t left_nodes = 2 * (halves->middle - pending.begin) - 2;  // below the left
-    const Pending left{pending.free,   pending.free + 2,  pending.begin,
-                       halves->middle, pending.depth + 1, halves->left};
-    const Pending right{pending.free + 1,  pending.free + 2 + left_nodes,
-                        halves->middle,    pending.end,
-                        pending.depth + 1, halves->right};
+    if (!halves) return pending.make_leaf(node);
+    pending.make_interior(node);
+    const Pending left{pending.left(halves->middle), halves->left};
+    const Pending right{pending.right(halves->middle), halves->right};
     if (options_.parallel && pending.count() >= kParallelItems) {
       tbb::parallel_invoke([&] { subdivide(left); }, [&] { subdivide(right); });
     } else {

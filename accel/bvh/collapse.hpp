@@ -32,7 +32,7 @@ class Collapse {
   bool is_leaf(std::uint32_t node) const { return plans_[node].is_leaf; }
   std::uint32_t first_item(std::uint32_t node) const { return plans_[node].first; }
   std::uint32_t item_count(std::uint32_t node) const { return plans_[node].count; }
-  /// Writes the children of a node that is no leaf, and returns their number.
+  /// Writes the children of an interior node, and returns their number.
   std::size_t children_of(std::uint32_t node, std::array<std::uint32_t, kBvhLanes>& children) const;
 
  private:

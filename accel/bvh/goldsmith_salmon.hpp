@@ -152,7 +152,7 @@ class GoldsmithSalmon : public TraversalAccelerator<GoldsmithSalmon>, public Box
     Queue queue(&memory);
     ClosestHit closest(ray);
     const SlabRay slabs(ray);
-    const auto push_if_met = [&](std::uint32_t index) {
+    const auto push_if_met = [&](std::uint32_t index) __attribute__((always_inline)) {
       counting.add(Counter::kBoxTests);
       const BoxInterval met = slabs.interval(entries[index].box, ray.t_min, closest.ray.t_max);
       if (!met.empty()) queue.push({met.enter, index});

@@ -5,10 +5,19 @@
 #include <cstddef>
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_group.h>
 
 #include "accel/bvh/object_split.hpp"
 
 namespace beambench::accel::bvh {
+
+/// Returns a context whose tasks compute in the calling thread's floating-point mode: the default
+/// is that of the thread that was the first to use TBB, in which tiny areas may be 0.
+inline tbb::task_group_context calling_mode() {
+  return tbb::task_group_context(
+      tbb::task_group_context::bound,
+      tbb::task_group_context::default_traits | tbb::task_group_context::fp_settings);
+}
 
 /// Ranges that together are [0, items): one, or in parallel several.
 class ItemRanges {
@@ -23,9 +32,13 @@ class ItemRanges {
   template <class Work>
   void for_each(const Work& work) const {
     if (count_ == 1) return work(std::size_t{0}, std::size_t{0}, items_);
-    tbb::parallel_for(std::size_t{0}, count_, [&](std::size_t range) {
-      work(range, items_ * range / count_, items_ * (range + 1) / count_);
-    });
+    tbb::task_group_context mode = calling_mode();
+    tbb::parallel_for(
+        std::size_t{0}, count_,
+        [&](std::size_t range) {
+          work(range, items_ * range / count_, items_ * (range + 1) / count_);
+        },
+        mode);
   }
 
  private:

@@ -7,6 +7,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "accel/bvh/item_ranges.hpp"
 #include "accel/bvh/morton_order.hpp"
 #include "accel/bvh/object_split.hpp"
 #include "accel/core/padded_bounds.hpp"
@@ -70,10 +71,14 @@ class LbvhBuilder {
     std::vector<std::uint32_t> depths;
     collect_parts({0, keys_.size()}, 1, ranges, depths);
     std::vector<Subtree> parts(ranges.size());
-    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
-      parts[i].nodes.emplace_back();
-      parts[i].cost = add(parts[i], 0, ranges[i], depths[i]);
-    });
+    tbb::task_group_context mode = calling_mode();
+    tbb::parallel_for(
+        std::size_t{0}, parts.size(),
+        [&](std::size_t i) {
+          parts[i].nodes.emplace_back();
+          parts[i].cost = add(parts[i], 0, ranges[i], depths[i]);
+        },
+        mode);
     parts_ = std::move(parts);
   }
 
@@ -139,7 +144,7 @@ class LbvhBuilder {
 
   std::span<const scenes::Bounds> boxes_;
   BvhOptions options_;
-  LargePageVector<MortonKey> keys_;
+  UnsetLargePageVector<MortonKey> keys_;
   std::vector<Subtree> parts_;  ///< in the order in which `add` takes them
   std::size_t taken_ = 0;
 };

@@ -96,7 +96,7 @@ void sort_by_digit(std::span<const MortonKey> from, std::span<MortonKey> to, uns
 
 }  // namespace
 
-LargePageVector<MortonKey> morton_order(std::span<const scenes::Bounds> boxes, bool parallel) {
+UnsetLargePageVector<MortonKey> morton_order(std::span<const scenes::Bounds> boxes, bool parallel) {
   const ItemRanges ranges(boxes.size(), parallel);
   std::vector<QuadBox> extents(ranges.count(), QuadBox::empty());
   ranges.for_each([&](std::size_t range, std::size_t begin, std::size_t end) {
@@ -107,8 +107,8 @@ LargePageVector<MortonKey> morton_order(std::span<const scenes::Bounds> boxes, b
   QuadBox extent = QuadBox::empty();
   for (const QuadBox& part : extents) extent.include(part);
   const MortonGrid grid(extent.bounds());
-  LargePageVector<MortonKey> keys(boxes.size());
-  LargePageVector<MortonKey> sorted(boxes.size());
+  UnsetLargePageVector<MortonKey> keys(boxes.size());
+  UnsetLargePageVector<MortonKey> sorted(boxes.size());
   ranges.for_each([&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) keys[i] = MortonKey{grid.code(boxes[i])} << 32U | i;
   });

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "accel/core/large_pages.hpp"
+#include "accel/core/unset_pages.hpp"
 #include "scenes/bounds.hpp"
 
 namespace beambench::accel::bvh {
@@ -19,6 +19,6 @@ inline std::uint32_t index_of(MortonKey key) { return static_cast<std::uint32_t>
 /// (Vinkler, Bittner and Havran, "Extended Morton codes for high performance bounding volume
 /// hierarchy construction", 2017), so that a flat scene is not divided across its thickness.
 /// `parallel`: on all cores; the result is the same.
-LargePageVector<MortonKey> morton_order(std::span<const scenes::Bounds> boxes, bool parallel);
+UnsetLargePageVector<MortonKey> morton_order(std::span<const scenes::Bounds> boxes, bool parallel);
 
 }  // namespace beambench::accel::bvh

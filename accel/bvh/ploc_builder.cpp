@@ -15,13 +15,14 @@
 #include "accel/bvh/morton_order.hpp"
 #include "accel/core/large_pages.hpp"
 #include "accel/core/padded_bounds.hpp"
+#include "accel/core/unset_pages.hpp"
 
 namespace beambench::accel::bvh {
 namespace {
 
 static_assert(kPlocRadius % 4 == 0, "neighbors are weighed four at a time");
 
-/// Where fewer than one cluster in so many would merge in a round, neighbors are merged.
+/// Neighbors are merged in a round in which fewer than one cluster in so many would merge.
 constexpr std::size_t kFewMerge = 32;
 
 /// A cluster's choice: the area of the common box in the upper half, in the lower the exclusive or
@@ -33,8 +34,8 @@ using Choice = std::uint64_t;
 /// for a register.
 struct Clusters {
   std::array<LargePageVector<float>, 6> planes;  ///< lower x, y, z; upper x, y, z
-  LargePageVector<std::uint32_t> first;          ///< as in a BvhNode
-  LargePageVector<std::uint32_t> count;
+  UnsetLargePageVector<std::uint32_t> first;     ///< as in a BvhNode
+  UnsetLargePageVector<std::uint32_t> count;
   std::size_t size = 0;
 
   explicit Clusters(std::size_t capacity) : first(capacity), count(capacity) {
@@ -85,7 +86,7 @@ class PlocBuilder {
 
  private:
   Clusters first_clusters() {
-    const LargePageVector<MortonKey> keys = morton_order(boxes_, options_.parallel);
+    const UnsetLargePageVector<MortonKey> keys = morton_order(boxes_, options_.parallel);
     Clusters clusters(boxes_.size());
     clusters.size = boxes_.size();
     items_.resize(boxes_.size());
@@ -151,7 +152,7 @@ class PlocBuilder {
     return choices_[other] == choices_[i] ? other : i;
   }
 
-  /// What one range of clusters leaves behind.
+  /// Numbers of clusters and nodes that one range leaves behind.
   struct Left {
     std::size_t clusters = 0;
     std::size_t nodes = 0;
@@ -236,8 +237,8 @@ class PlocBuilder {
   BvhOptions options_;
   std::vector<std::uint32_t> items_;      ///< in Morton order
   std::vector<std::uint32_t> next_item_;  ///< of the same leaf
-  LargePageVector<Choice> choices_;
-  LargePageVector<BvhNode> nodes_;  ///< the root, and pairs
+  UnsetLargePageVector<Choice> choices_;
+  UnsetLargePageVector<BvhNode> nodes_;  ///< the root, and pairs
 };
 
 }  // namespace

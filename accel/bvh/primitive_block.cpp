@@ -9,14 +9,7 @@ void append(const scenes::Scene& scene, const PrimitivePart& piece, PrimitiveBlo
   const std::size_t lane = block.count++;
   block.primitives[lane] = piece.primitive;
   block.parts[lane] = piece.index;
-  if (block.kind == scenes::PrimitiveKind::kPolygon) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      block.put(3 * i, lane, scene.vertices[scene.triangles[piece.index].vertex[i]]);
-    }
-  } else if (block.kind == scenes::PrimitiveKind::kSphere) {
-    block.put(0, lane, scene.spheres[piece.index].center);
-    block.coordinates[3][lane] = scene.spheres[piece.index].radius;
-  }
+  copy_coordinates(scene, lane, block);
 }
 
 /// Returns the longest side of the boxes of a block's triangles.

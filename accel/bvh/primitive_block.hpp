@@ -38,6 +38,19 @@ struct alignas(64) PrimitiveBlock {
   }
 };
 
+/// Copies the coordinates of the part in a lane from the scene.
+inline void copy_coordinates(const scenes::Scene& scene, std::size_t lane, PrimitiveBlock& block) {
+  const std::uint32_t part = block.parts[lane];
+  if (block.kind == scenes::PrimitiveKind::kPolygon) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      block.put(3 * i, lane, scene.vertices[scene.triangles[part].vertex[i]]);
+    }
+  } else if (block.kind == scenes::PrimitiveKind::kSphere) {
+    block.put(0, lane, scene.spheres[part].center);
+    block.coordinates[3][lane] = scene.spheres[part].radius;
+  }
+}
+
 /// Appends the blocks of one leaf: of one kind each, kind by kind, pieces in the order given.
 void append_blocks(const scenes::Scene& scene, std::span<const PrimitivePart> pieces,
                    LargePageVector<PrimitiveBlock>& blocks);

@@ -19,21 +19,14 @@ namespace {
 QuadBox refill(PrimitiveBlock& block, const scenes::Scene& scene, float& extent) {
   QuadBox box = QuadBox::empty();
   for (std::size_t lane = 0; lane < block.count; ++lane) {
-    const std::uint32_t part = block.parts[lane];
+    copy_coordinates(scene, lane, block);
     if (block.kind == scenes::PrimitiveKind::kPolygon) {
       QuadBox own = QuadBox::empty();
-      for (std::size_t i = 0; i < 3; ++i) {
-        const glm::vec3& corner = scene.vertices[scene.triangles[part].vertex[i]];
-        block.put(3 * i, lane, corner);
-        own.include(quad_of(corner));
-      }
+      for (std::size_t i = 0; i < 3; ++i) own.include(quad_of(block.corner(i, lane)));
       const Quad sides = own.upper - own.lower;
       extent = std::max({extent, sides[0], sides[1], sides[2]});
       box.include(own);
     } else {
-      if (block.kind == scenes::PrimitiveKind::kSphere) {
-        block.put(0, lane, scene.spheres[part].center);
-      }
       const scenes::Bounds bounds = scenes::primitive_bounds(scene, block.primitives[lane]);
       box.include(QuadBox{quad_of(bounds.lower), quad_of(bounds.upper)});
       const glm::vec3 sides = bounds.extent();
@@ -54,25 +47,6 @@ scenes::Bounds refill_leaf(WideBvh& bvh, const scenes::Scene& scene, ChildRefere
   }
   for (std::size_t i = leaf.first_block(); i < end; ++i) bvh.blocks[i].leaf_extent = extent;
   return padded(box.bounds(), tolerance);
-}
-
-void set_box(WideNode& node, std::size_t lane, const scenes::Bounds& box) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto row = static_cast<std::size_t>(axis);
-    node.planes[row][lane] = box.lower[axis];
-    node.planes[row + 3][lane] = box.upper[axis];
-  }
-}
-
-/// Returns the box of all children: missing ones have empty boxes.
-scenes::Bounds box_of(const WideNode& node) {
-  scenes::Bounds box;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto row = static_cast<std::size_t>(axis);
-    box.lower[axis] = *std::ranges::min_element(node.planes[row]);
-    box.upper[axis] = *std::ranges::max_element(node.planes[row + 3]);
-  }
-  return box;
 }
 
 }  // namespace
@@ -109,7 +83,7 @@ void refit(WideBvh& bvh, const scenes::Scene& scene, bool parallel) {
       for (std::size_t lane = 0, count = node.count(); lane < count; ++lane) {
         const ChildReference child = node.children[lane];
         if (child.is_leaf()) {
-          set_box(node, lane, refill_leaf(bvh, scene, child, tolerance));
+          node.set_box(lane, refill_leaf(bvh, scene, child, tolerance));
         }
       }
     }
@@ -124,7 +98,7 @@ void refit(WideBvh& bvh, const scenes::Scene& scene, bool parallel) {
     WideNode& node = bvh.nodes[i];
     for (std::size_t lane = 0, count = node.count(); lane < count; ++lane) {
       const ChildReference child = node.children[lane];
-      if (!child.is_leaf()) set_box(node, lane, box_of(bvh.nodes[child.node_index()]));
+      if (!child.is_leaf()) node.set_box(lane, bvh.nodes[child.node_index()].bounds());
     }
   }
 }

@@ -10,16 +10,17 @@
 #include <tbb/parallel_for.h>
 
 #include "accel/bvh/bvh_layout.hpp"
+#include "accel/bvh/item_ranges.hpp"
 #include "accel/core/padded_bounds.hpp"
 
 namespace beambench::accel::bvh {
 namespace {
 
-constexpr int kMaxRounds = 12;
+constexpr int kMaxRounds = 30;
 /// The share of all nodes whose places are looked for in a round.
-constexpr double kShare = 0.1;
+constexpr double kShare = 0.3;
 /// A round that reduces the areas of interior nodes by less than this share is the last.
-constexpr double kLeastGain = 0.002;
+constexpr double kLeastGain = 0.0005;
 
 /// Where a node is to go: it becomes the sibling of `to`.
 struct Move {
@@ -67,8 +68,10 @@ class Reinsertion {
       for (std::size_t i = begin; i < end; ++i) moves[i] = best_move(moves[i].from, waiting);
     };
     if (parallel_) {
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, moves.size(), 64),
-                        [&](const auto& range) { find(range.begin(), range.end()); });
+      tbb::task_group_context mode = calling_mode();
+      tbb::parallel_for(
+          tbb::blocked_range<std::size_t>(0, moves.size(), 64),
+          [&](const auto& range) { find(range.begin(), range.end()); }, mode);
     } else {
       find(0, moves.size());
     }

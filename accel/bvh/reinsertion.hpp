@@ -11,7 +11,7 @@ namespace beambench::accel::bvh {
 /// independently of each other (Meister and Bittner, "Parallel reinsertion for bounding volume
 /// hierarchy optimization", 2018). The nodes are then moved, those that gain most first, each only
 /// if it still gains in the tree as it has become. Leaves and their boxes stay, so clipped boxes do
-/// too. `sah_cost` does not grow, and leaves are no deeper than `kMaxBvhDepth`. `parallel`: on all
+/// too. `sah_cost` does not grow, and no leaf is deeper than `kMaxBvhDepth`. `parallel`: on all
 /// cores; the result is the same.
 void reinsert(BinaryBvh& bvh, bool parallel);
 

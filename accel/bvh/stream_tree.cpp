@@ -88,14 +88,7 @@ StreamTree build_stream_tree(const WideBvh& bvh, bool parallel, StreamTree memor
   if (bvh.empty()) return {};
   // The root's box: that of the scene's bounds is less by the padding.
   scenes::Bounds bounds = bvh.scene_bounds;
-  if (!bvh.root.is_leaf()) {
-    const WideNode& root = bvh.nodes[bvh.root.node_index()];
-    for (std::size_t lane = 0; lane < root.count(); ++lane) {
-      const auto& plane = root.planes;
-      bounds.include(glm::vec3(plane[0][lane], plane[1][lane], plane[2][lane]));
-      bounds.include(glm::vec3(plane[3][lane], plane[4][lane], plane[5][lane]));
-    }
-  }
+  if (!bvh.root.is_leaf()) bounds.include(bvh.nodes[bvh.root.node_index()].bounds());
   tree.center = glm::vec3(0.5 * (glm::dvec3(bounds.lower) + glm::dvec3(bounds.upper)));
   const glm::dvec3 center(tree.center);
   const glm::dvec3 reach =

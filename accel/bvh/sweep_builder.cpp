@@ -12,7 +12,9 @@
 
 #include "accel/bvh/box_quads.hpp"
 #include "accel/bvh/bvh_layout.hpp"
+#include "accel/bvh/item_ranges.hpp"
 #include "accel/bvh/object_split.hpp"
+#include "accel/bvh/pending_node.hpp"
 #include "accel/core/large_pages.hpp"
 #include "accel/core/padded_bounds.hpp"
 
@@ -42,18 +44,6 @@ class SweepBuilder {
   }
 
  private:
-  /// A node to be made of the items [begin, end), its descendants from `free` on: there is room for
-  /// the most there can be, so that places do not depend on tasks.
-  struct Pending {
-    std::size_t node;
-    std::size_t free;
-    std::size_t begin;
-    std::size_t end;
-    std::uint32_t depth;
-
-    std::size_t count() const { return end - begin; }
-  };
-
   struct Split {
     float cost = std::numeric_limits<float>::infinity();
     std::size_t axis = 0;
@@ -81,25 +71,19 @@ class SweepBuilder {
     }
   }
 
-  void subdivide(const Pending& pending) {
+  void subdivide(const PendingNode& pending) {
     BvhNode& node = nodes_[pending.node];
     QuadBox box = QuadBox::empty();
     for (std::size_t i = pending.begin; i < pending.end; ++i) box.include(boxes_[order_[0][i]]);
     node.box = box.bounds();
     const std::size_t middle = divide(pending, node.box);
-    if (middle == pending.end) {
-      node.first = static_cast<std::uint32_t>(pending.begin);
-      node.count = static_cast<std::uint32_t>(pending.count());
-      return;
-    }
-    node.first = static_cast<std::uint32_t>(pending.free);
-    node.count = 0;
-    const std::size_t left_nodes = 2 * (middle - pending.begin) - 2;  // below the left
-    const Pending left{pending.free, pending.free + 2, pending.begin, middle, pending.depth + 1};
-    const Pending right{pending.free + 1, pending.free + 2 + left_nodes, middle, pending.end,
-                        pending.depth + 1};
+    if (middle == pending.end) return pending.make_leaf(node);
+    pending.make_interior(node);
+    const PendingNode left = pending.left(middle);
+    const PendingNode right = pending.right(middle);
     if (options_.parallel && pending.count() >= kParallelItems) {
-      tbb::parallel_invoke([&] { subdivide(left); }, [&] { subdivide(right); });
+      tbb::task_group_context mode = calling_mode();
+      tbb::parallel_invoke([&] { subdivide(left); }, [&] { subdivide(right); }, mode);
     } else {
       subdivide(left);
       subdivide(right);
@@ -108,7 +92,7 @@ class SweepBuilder {
 
   /// Moves the left child's items to the front, in all orders. Returns where the right child's
   /// begin; the end for a leaf.
-  std::size_t divide(const Pending& pending, const scenes::Bounds& box) {
+  std::size_t divide(const PendingNode& pending, const scenes::Bounds& box) {
     if (pending.count() == 1) return pending.end;
     Split split;
     if (pending.depth < kDeepestSahSplit) {
@@ -123,7 +107,7 @@ class SweepBuilder {
   }
 
   /// Replaces `best` by a better split across the axis.
-  void sweep(const Pending& pending, std::size_t axis, Split& best) {
+  void sweep(const PendingNode& pending, std::size_t axis, Split& best) {
     const std::vector<std::uint32_t>& order = order_[axis];
     QuadBox right = QuadBox::empty();
     for (std::size_t i = pending.end - 1; i > pending.begin; --i) {
@@ -142,7 +126,7 @@ class SweepBuilder {
     }
   }
 
-  void partition(const Pending& pending, const Split& split) {
+  void partition(const PendingNode& pending, const Split& split) {
     const auto at = [](auto& list, std::size_t i) {
       return list.begin() + static_cast<std::ptrdiff_t>(i);
     };

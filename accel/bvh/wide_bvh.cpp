@@ -98,36 +98,32 @@ class WideBvhBuilder {
     for (std::size_t lane = 0; lane < kBvhLanes; ++lane) {
       const scenes::Bounds box =
           lane < children.size() ? binary_.nodes[children[lane]].box : scenes::Bounds{};  // empty
-      for (int axis = 0; axis < 3; ++axis) {
-        const auto row = static_cast<std::size_t>(axis);
-        node.planes[row][lane] = box.lower[axis];
-        node.planes[row + 3][lane] = box.upper[axis];
-      }
+      node.set_box(lane, box);
     }
     for (std::uint32_t octant = 0; octant < node.orders.size(); ++octant) {
-      node.orders[octant] = order_along(octant, children);
+      node.orders[octant] = order_along(octant, node, children.size());
     }
     return node;
   }
 
   /// Returns the order for WideNode::orders: by the centers' positions along the octant's diagonal.
-  std::uint32_t order_along(std::uint32_t octant, std::span<const std::uint32_t> children) const {
+  static std::uint32_t order_along(std::uint32_t octant, const WideNode& node, std::size_t count) {
     std::array<float, kBvhLanes> places{};
     std::array<std::uint32_t, kBvhLanes> lanes{};
-    for (std::uint32_t lane = 0; lane < kBvhLanes; ++lane) {
-      lanes[lane] = lane;
-      if (lane >= children.size()) continue;
-      const scenes::Bounds& box = binary_.nodes[children[lane]].box;
-      for (int axis = 0; axis < 3; ++axis) {
-        const float twice_center = box.lower[axis] + box.upper[axis];
-        places[lane] += (octant >> axis & 1U) != 0 ? -twice_center : twice_center;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const bool backward = (octant >> axis & 1U) != 0;
+      for (std::size_t lane = 0; lane < kBvhLanes; ++lane) {
+        const float twice_center = node.planes[axis][lane] + node.planes[axis + 3][lane];
+        places[lane] += backward ? -twice_center : twice_center;
       }
     }
+    for (std::uint32_t lane = 0; lane < kBvhLanes; ++lane) lanes[lane] = lane;
     // Insertion: std::stable_sort would allocate memory, eight times for each node.
-    for (std::size_t i = 1; i < children.size(); ++i) {
-      for (std::size_t k = i; k > 0 && places[lanes[k]] > places[lanes[k - 1]]; --k) {
-        std::swap(lanes[k], lanes[k - 1]);
-      }
+    for (std::size_t i = 1; i < count; ++i) {
+      const std::uint32_t moved = lanes[i];
+      std::size_t k = i;
+      for (; k > 0 && places[moved] > places[lanes[k - 1]]; --k) lanes[k] = lanes[k - 1];
+      lanes[k] = moved;
     }
     std::uint32_t order = 0;
     for (std::uint32_t i = 0; i < kBvhLanes; ++i) order |= lanes[i] << 3 * i;

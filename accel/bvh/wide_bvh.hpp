@@ -59,6 +59,13 @@ struct alignas(64) WideNode {
     return {{planes[0][lane], planes[1][lane], planes[2][lane]},
             {planes[3][lane], planes[4][lane], planes[5][lane]}};
   }
+  void set_box(std::size_t lane, const scenes::Bounds& box) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto row = static_cast<std::size_t>(axis);
+      planes[row][lane] = box.lower[axis];
+      planes[row + 3][lane] = box.upper[axis];
+    }
+  }
   /// Returns the box of all children.
   scenes::Bounds bounds() const {
     scenes::Bounds bounds;

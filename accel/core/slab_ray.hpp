@@ -32,7 +32,9 @@ class SlabRay {
     }
   }
 
-  BoxInterval interval(const scenes::Bounds& box, float t_min, float t_max) const {
+  // Inlined always: as a call, it made traces by goldsmith-salmon a tenth to two fifths slower.
+  [[gnu::always_inline]] BoxInterval interval(const scenes::Bounds& box, float t_min,
+                                              float t_max) const {
     double enter = t_min;
     double exit = t_max;
     for (int axis = 0; axis < 3; ++axis) {

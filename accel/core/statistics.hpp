@@ -1,8 +1,11 @@
 #pragma once
 // Statistics that a structure reports after it was built.
 
+#include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -35,6 +38,12 @@ struct Statistics {
   /// code.
   std::string library_version;
   std::vector<std::pair<std::string, double>> more;  ///< what the family adds, by name
+
+  /// Returns a figure of `more`; nothing where the family does not add it.
+  std::optional<double> figure(std::string_view name) const {
+    const auto found = std::ranges::find(more, name, &std::pair<std::string, double>::first);
+    return found == more.end() ? std::nullopt : std::optional(found->second);
+  }
 };
 
 }  // namespace beambench::accel

@@ -15,9 +15,8 @@ namespace beambench::accel {
 /// metrics of bounding volume hierarchies", 2013): 0.6 for each child of an interior node, whose
 /// box is tested, hence their 1.2 for a binary node, and 1 for each primitive of a leaf.
 /// - `sah_cost`: the costs of all nodes, weighted by their areas over that of the root;
-/// - `epo` (end-point overlap): the costs of all nodes, weighted by the share of the scene's
-/// surface
-///   that lies in their boxes, but is not of the primitives below them.
+/// - `epo` (end-point overlap): the costs of all nodes, weighted by the share of the surface that
+///   lies in their boxes, but is not of the primitives below them.
 ///
 /// The hierarchy is described from the root down: `open` a node, describe its children or add the
 /// primitives of a leaf, `close` it.

@@ -28,19 +28,11 @@ std::optional<std::string> replaced(std::string parameters, const std::string& t
   return parameters.replace(at, text.size(), by);
 }
 
-std::optional<double> sah_cost(const CellRecord& cell) {
-  if (!cell.statistics) return std::nullopt;
-  for (const auto& [name, value] : cell.statistics->more) {
-    if (name == "sah_cost") return value;
-  }
-  return std::nullopt;
-}
-
 std::optional<FrameCost> cost_of(const CellRecord& cell) {
   const auto trace = trace_time(cell);
-  if (!trace) return std::nullopt;
+  if (!trace || cell.repetitions.empty()) return std::nullopt;
   return FrameCost{measure::median(measure::collect(cell, &Repetition::ready_ms)), trace->value,
-                   sah_cost(cell)};
+                   cell.statistics ? cell.statistics->figure("sah_cost") : std::nullopt};
 }
 
 std::optional<TimeRatio> ratio_of(const CellRecord& over, const CellRecord& under,

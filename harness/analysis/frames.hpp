@@ -12,7 +12,7 @@
 
 namespace beambench::analysis {
 
-/// The means over blocks of one frame, in milliseconds.
+/// The times of one frame, in milliseconds: a median, and a mean over blocks.
 struct FrameCost {
   double ready_ms;  ///< of the build, or of the update
   double trace_ms;
@@ -37,7 +37,7 @@ struct FrameSeries {
   std::vector<FrameComparison> frames;  ///< ascending
 };
 
-/// How often a structure should be built anew.
+/// The number of frames after which a structure should be built anew.
 struct RebuildInterval {
   std::uint32_t frames;  ///< one build for so many frames, the others are updates
   double mean_ms;        ///< of a frame then

@@ -222,13 +222,6 @@ void add_hardware_counts(Row& row, const CellRecord& cell) {
   add("trace", &Repetition::trace_counts);
 }
 
-/// Returns a figure that a family adds to its statistics; null where it does not.
-Json own_figure(const accel::Statistics& statistics, std::string_view name) {
-  const auto found =
-      std::ranges::find(statistics.more, name, &std::pair<std::string, double>::first);
-  return found == statistics.more.end() ? Json() : Json(found->second);
-}
-
 /// A family without nodes (Embree does not report any, `exhaustive` has none) leaves these null.
 void add_statistics(Row& row, const CellRecord& cell) {
   row["memory_bytes"] = cell.statistics ? Json(cell.statistics->bytes) : Json();
@@ -247,9 +240,9 @@ void add_statistics(Row& row, const CellRecord& cell) {
   row["empty_leaves"] = size(&accel::Statistics::empty_leaves);
   row["references"] = size(&accel::Statistics::references);
   row["depth"] = size(&accel::Statistics::depth);
-  row["tree_cost"] = cell.statistics ? own_figure(*cell.statistics, "cost") : Json();
+  row["tree_cost"] = cell.statistics ? or_null(cell.statistics->figure("cost")) : Json();
   for (const char* name : {"sah_nodes", "sah_leaves", "sah_tests", "sah_cost", "epo"}) {
-    row[name] = cell.statistics ? own_figure(*cell.statistics, name) : Json();
+    row[name] = cell.statistics ? or_null(cell.statistics->figure(name)) : Json();
   }
 }
 

@@ -27,8 +27,8 @@ enum class Rank {
   kUndecided,  ///< the interval contains 1 and ends beyond the margin
   kUnranked    ///< there is no interval
 };
-/// In records without blocks, whose intervals are of one process, those whose interval contains 1
-/// are tied and the others behind, as when they were measured.
+/// Returns the name. In records without blocks, whose intervals are of one process, contenders
+/// whose interval contains 1 are tied and the others behind, as when they were measured.
 std::string_view to_string(Rank rank);  // "tied", "behind", "undecided", "unranked"
 
 /// One contender in one view.

@@ -146,7 +146,7 @@ std::vector<SweptStructure> read_structure_entry(const JsonNode& node,
   return {tuned};
 }
 
-/// Refuses two tuned entries of one structure, whose rows could not be told apart.
+/// Refuses two tuned entries of one structure, whose rows would look the same.
 void require_tuned_once(const JsonNode& root, const std::vector<SweptStructure>& structures) {
   std::set<std::string> tuned;
   for (const SweptStructure& each : structures) {

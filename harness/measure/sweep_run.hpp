@@ -27,7 +27,7 @@ struct SweepOptions {
   /// The program that measures blocks, with its arguments (`measure_in_process`); empty: this
   /// process does. Then what differs between processes is in no interval.
   std::vector<std::string> block_program{};
-  /// How often a repetition that other processes disturb is made, at most.
+  /// Maximum number of tries of a repetition that other processes disturb.
   int tries = 3;
   /// The folder that holds /proc and the control groups, from which CPU quotas are read.
   std::filesystem::path root = "/";

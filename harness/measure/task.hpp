@@ -30,7 +30,8 @@ class Task {
   virtual ~Task() = default;
 
   const scenes::Scene& scene() const { return *group_.scene; }
-  /// Returns the facts of the rays. Asks the oracle the first time, where they are not known.
+  /// Returns the facts of the rays. Finds them with the oracle the first time, where they are not
+  /// known.
   const RaySetFacts& facts() {
     if (!facts_) facts_ = find_facts();
     return *facts_;
@@ -83,7 +84,7 @@ class Task {
 
 /// Makes the task of a group, with its rays in one of their orders. `core` is the core to measure
 /// the harness's own time on (-1: any). `known` are its facts where an earlier process found them
-/// out: then the oracle is asked only where results are verified. Throws like `make_trace_input`,
+/// out: then the oracle is needed only where results are verified. Throws like `make_trace_input`,
 /// and InputError where the rays are not those that are known.
 std::unique_ptr<Task> make_task(const CellGroup& group, const rays::RayChoice& rays, int core,
                                 const std::optional<RaySetFacts>& known);

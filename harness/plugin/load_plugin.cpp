@@ -107,6 +107,7 @@ constexpr auto kInterfaceChanges = std::to_array<std::string_view>({
     "two queries over a source of rays with a context, an inspector in place of diagnostics, what "
     "a "
     "structure supports, and update()",
+    "a scene has a frame, and scenes of the catalog may move",
 });
 static_assert(kInterfaceChanges.size() == kPluginInterface - 1);
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -18,7 +19,7 @@ namespace beambench::python {
 namespace {
 
 // Incremented when the members of a scene change.
-constexpr std::string_view kFirstLine = "beambench-scene 1\n";
+constexpr std::string_view kFirstLine = "beambench-scene 2\n";
 
 static_assert(std::endian::native == std::endian::little, "numbers are kept as they lie in memory");
 
@@ -29,9 +30,9 @@ auto members(T& object) {
   using Type = std::remove_const_t<T>;
   if constexpr (std::is_same_v<Type, scenes::Scene>) {
     auto& [name, cameras, background, lights, surfaces, primitives, spheres, cones, polygons,
-           triangles, vertices, corners, normals, bounds] = object;
+           triangles, vertices, corners, normals, bounds, frame, first_frame] = object;
     return std::tie(name, cameras, background, lights, surfaces, primitives, spheres, cones,
-                    polygons, triangles, vertices, corners, normals, bounds);
+                    polygons, triangles, vertices, corners, normals, bounds, frame, first_frame);
   } else if constexpr (std::is_same_v<Type, scenes::Camera>) {
     auto& [name, from, at, up, angle, aspect, hither, width, height] = object;
     return std::tie(name, from, at, up, angle, aspect, hither, width, height);
@@ -73,6 +74,10 @@ class Writer {
     }
   }
   void add(const std::string& text) { add_all(text); }
+  void add(const std::shared_ptr<const scenes::Scene>& scene) {
+    add(std::uint8_t{scene != nullptr});
+    if (scene) add(*scene);
+  }
   template <class T>
   void add(const std::vector<T>& values) {
     add_all(values);
@@ -109,6 +114,14 @@ class Reader {
     }
   }
   void take(std::string& text) { take_all(text); }
+  void take(std::shared_ptr<const scenes::Scene>& scene) {
+    std::uint8_t is_there = 0;
+    take(is_there);
+    if (is_there == 0) return;
+    auto read = std::make_shared<scenes::Scene>();
+    take(*read);
+    scene = std::move(read);
+  }
   template <class T>
   void take(std::vector<T>& values) {
     take_all(values);

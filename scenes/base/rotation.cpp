@@ -1,6 +1,7 @@
 #include "scenes/base/rotation.hpp"
 
 #include <glm/trigonometric.hpp>
+#include <glm/vec4.hpp>
 
 #include "scenes/base/portable_math.hpp"
 
@@ -16,6 +17,12 @@ glm::dmat4 rotation(int axis, double degrees) {
   matrix[next][last] = sine;
   matrix[last][next] = -sine;
   matrix[last][last] = cosine;
+  return matrix;
+}
+
+glm::dmat4 moved_by(const glm::dvec3& offset) {
+  glm::dmat4 matrix(1.0);
+  matrix[3] = glm::dvec4(offset, 1.0);
   return matrix;
 }
 

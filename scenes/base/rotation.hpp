@@ -1,5 +1,5 @@
 #pragma once
-// Rotations with the same bits on every machine.
+// Rotations, with the same bits on every machine, and translations.
 
 #include <glm/mat4x4.hpp>
 
@@ -8,5 +8,8 @@ namespace beambench {
 /// A rotation counter-clockwise about the x (0), y (1) or z (2) axis, seen from its positive end.
 /// Use this rather than glm::rotate, whose sine comes from the library.
 glm::dmat4 rotation(int axis, double degrees);
+
+/// A translation.
+glm::dmat4 moved_by(const glm::dvec3& offset);
 
 }  // namespace beambench

@@ -23,6 +23,7 @@ from beambench_report.havran.contenders import SCENES
 from beambench_report.havran.counts import measure
 from beambench_report.havran.report import write_report as write_havran
 from beambench_report.run.coverage import write_coverage
+from beambench_report.run.front_plots import write_fronts
 from beambench_report.run.growth import write_growth
 from beambench_report.run.page import write_page
 from beambench_report.run.pictures import (
@@ -107,7 +108,13 @@ def _add_commands_on_runs(commands: Commands) -> None:
         lambda o: write_coverage(o.run, o.second),
         help="count what lies within the prediction intervals of the other run, both ways",
     )
-    for command in (plots, pictures, page, repeated, covered):
+    drawn = add_command(
+        commands,
+        "fronts",
+        lambda o: write_fronts(o.run),
+        help="draw the Pareto fronts of build and trace time into RUN/plots",
+    )
+    for command in (plots, pictures, page, repeated, covered, drawn):
         command("run", type=Path, metavar="RUN", help="folder of a run")
     names = [kind.name for kind in KINDS]
     plots(

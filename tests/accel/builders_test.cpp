@@ -226,7 +226,7 @@ TEST(Reinsertion, NeverCostsMore) {
 }
 
 TEST(Reinsertion, RepairsABadTree) {
-  const Boxes boxes = random_boxes(4000, 3);
+  const Boxes boxes = random_boxes(300, 3);
   const BinaryBvh good = build_sweep_bvh(boxes, {.max_leaf = 1});
   // As many leaves, but in the order of the boxes, which is random.
   BinaryBvh bad = good;

@@ -75,7 +75,7 @@ bool thesis_overlaps(const Corners& corners, const Box& cube) {
 
 Box widened(const Box& box, double by) { return {box.lower - by, box.upper + by}; }
 
-/// Expects both tests to agree but for what lies within the tolerance of the boundary.
+/// Expects both tests to agree except for what lies within the tolerance of the boundary.
 void expect_both_agree(const Corners& corners, const Box& cube, double tolerance) {
   const bool ours = triangle_overlaps(corners, cube, tolerance);
   if (thesis_overlaps(corners, cube)) {

@@ -104,12 +104,13 @@ const RunFacts kRun{"id", "abc", true, "m", "Release", "-O3", "AVX2", 1};
 const char* const kContract =
     "schema_version,run_id,time_utc,commit,dirty,machine_id,build_type,flags,isa,structure_isa,"
     "library_version,library_geometry,threads,"
-    "scene,camera,scene_hash,rays_hash,seed,primitives,"
+    "scene,frame,camera,scene_hash,rays_hash,seed,primitives,"
     "structure,parameters,width,height,samples,parameter_sets,outpaced,ray_kind,order,query,query_"
     "path,rays,hit_share,"
     "occluded_share,coherence,"
     "repetitions,blocks,disturbed,stop_reason,"
-    "build_ms_median,build_ms_min,build_ms_mad,trace_ms_median,trace_ms_min,trace_ms_mad,"
+    "build_ms_median,build_ms_min,build_ms_mad,update_ms_median,update_ms_min,"
+    "trace_ms_median,trace_ms_min,trace_ms_mad,"
     "trace_ms,trace_ms_ci_low,trace_ms_ci_high,trace_ms_pi_low,trace_ms_pi_high,trace_clock,"
     "trace_warm_ms_median,trace_warm_ms_ci_low,trace_warm_ms_ci_high,"
     "trace_warm_ms_pi_low,trace_warm_ms_pi_high,"
@@ -229,7 +230,7 @@ TEST(CellRow, WithoutTheVerdictOkItKeepsCountersAndLosesTimes) {
     EXPECT_EQ(value.is_null(),
               is_time || column == "leaves_per_ray" || column == "empty_leaves_per_ray" ||
                   column == "box_tests_per_ray" || column == "primitive_tests_per_ray" ||
-                  column == "structure_isa" || column == "library_version" ||
+                  column == "frame" || column == "structure_isa" || column == "library_version" ||
                   column == "library_geometry" || column == "occluded_share" ||
                   column == "tree_cost" || column.starts_with("sah_") || column == "epo" ||
                   column == "sphere_tests_per_ray" || column == "cone_tests_per_ray" ||

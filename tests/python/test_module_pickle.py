@@ -111,7 +111,7 @@ def test_a_damaged_pickle_is_refused() -> None:
     for bad in (bytes(damaged), pickled[:-3], pickled[:20], pickled + b"x"):
         with pytest.raises(bb.InputError, match="damaged"):
             restore(bad, *rest)
-    for bad in (b"", pickled.replace(b"scene 1", b"scene 9")):
+    for bad in (b"", pickled.replace(b"scene 2", b"scene 9")):
         with pytest.raises(bb.InputError, match="another version"):
             restore(bad, *rest)
 

@@ -327,7 +327,7 @@ def test_a_folder_without_plots_has_the_same_figures_as_one_with_them(run_folder
 def test_plots_that_are_not_all_there_are_drawn_on_the_page(
     full_run: Path, tmp_path: Path, left: str
 ) -> None:
-    """Of the drawn ones one kind suffices, which tells them from the nine of the folder."""
+    """One kind of drawn pictures suffices: it differs from the nine of the folder."""
     run = shutil.copytree(full_run, tmp_path / "run")
     index = run / "plots/index.json"
     assert figures_on(render(read_run(run))) == 9

@@ -29,11 +29,12 @@ from beambench_report.base.records import read_run
 from beambench_report.run.counters import counters_in_common
 from beambench_report.run.crossings import cost_of_a_ray, overtakes
 from beambench_report.run.distributions import thinned
+from beambench_report.run.fronts import pareto_front
 from beambench_report.run.labels import place_labels
 from beambench_report.run.measured import read_measured
 from beambench_report.run.plots import KINDS, draw
 from beambench_report.run.resolutions import resolutions
-from beambench_report.run.trade_offs import pareto_front, trade_offs
+from beambench_report.run.trade_offs import trade_offs
 from svg_texts import missing_in
 from synthetic_run import synthetic_rows, without_times, write_run, write_trace_cell
 

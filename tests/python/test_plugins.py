@@ -330,7 +330,8 @@ def test_another_interface_is_refused_by_its_stamp(
             "RayBatch (version 3);",
             "counts tests by kind of primitive (version 5);",
             "change hits (version 6); two queries",
-            "update() (version 7); build",
+            "update() (version 7); a scene has a frame",
+            "may move (version 8); build",
         ],
     )
     refusal_of(
@@ -341,7 +342,8 @@ def test_another_interface_is_refused_by_its_stamp(
             "(version 3); a RayBatch",
             "counts tests by kind of primitive (version 5);",
             "change hits (version 6); two queries",
-            "update() (version 7); build",
+            "update() (version 7); a scene has a frame",
+            "may move (version 8); build",
         ],
     )
     refusal_of(8, version + 1, [f"this program has {version}, an older one; build it again"])

@@ -41,7 +41,7 @@ def cells(everything: Path) -> Cells:
 
 @pytest.fixture(scope="module")
 def report(everything: Path) -> Report:
-    """What the page of all runs states."""
+    """Facts that the page of all runs states."""
     return gather(everything, PLAN)
 
 

@@ -94,7 +94,7 @@ def test_levels_are_counted_from_one_less() -> None:
 
 
 def test_a_claim_is_judged_over_every_finished_variant(tmp_path: Path) -> None:
-    """In the second variant the beams are slower with fewer objects, and the third is not done."""
+    """The beams are slower with fewer objects in the second variant; the third is not done."""
     plan = make_plan(["5.2"], [], False, variants=3)
 
     def spoil(row: Row) -> Row:

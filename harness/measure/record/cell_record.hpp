@@ -165,7 +165,7 @@ struct CellRecord {
   CountedWork work;
   // Absent where the structure could not be built:
   std::optional<accel::Statistics> statistics;
-  std::optional<std::uint64_t> allocated_bytes;  ///< by which the heap grew (`heap_in_use`)
+  std::optional<std::uint64_t> allocated_bytes;   ///< by which the heap grew (`heap_in_use`)
   std::optional<std::uint64_t> peak_build_bytes;  ///< of memory, in the build, above that before it
   std::optional<HarnessShare> harness;
   std::vector<Repetition> repetitions;

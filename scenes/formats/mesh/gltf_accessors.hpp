@@ -12,7 +12,7 @@
 
 namespace beambench::scenes::mesh {
 
-/// What usually refers to an accessor, for messages.
+/// The kind of object that refers to an accessor, for messages.
 inline constexpr std::string_view kPrimitive = "a primitive";
 
 /// The elements of an accessor, read in place from the buffers, including sparse ones. Must not

@@ -18,7 +18,7 @@ namespace beambench::scenes::mesh {
 /// mesh each became, so that equal places are looked up once per vertex, not once per corner.
 class SharedVertices {
  public:
-  /// With `merges` false, its vertices are not merged with others at the same place, which may
+  /// If `merges` is false, its vertices are not merged with others at the same place, which may
   /// leave it when the mesh moves.
   explicit SharedVertices(std::vector<glm::vec3> places, bool merges = true);
 

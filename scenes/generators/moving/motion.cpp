@@ -35,12 +35,6 @@ std::vector<glm::dvec3> RigidParts::placed(std::uint32_t frame) const {
   return places;
 }
 
-glm::dmat4 moved_by(const glm::dvec3& offset) {
-  glm::dmat4 matrix(1.0);
-  matrix[3] = glm::dvec4(offset, 1.0);
-  return matrix;
-}
-
 std::uint32_t frames_of(const Parameters& parameters) {
   return static_cast<std::uint32_t>(parameters.integer("frames"));
 }

@@ -17,7 +17,7 @@
 
 namespace beambench::scenes::generators {
 
-/// In radians.
+/// An angle in radians.
 inline constexpr double kFullTurn = 6.283185307179586;
 
 /// Returns the places in a frame of the vertices that move: those of frame 0 are the scene's own.
@@ -35,9 +35,6 @@ struct RigidParts {
 
   std::vector<glm::dvec3> placed(std::uint32_t frame) const;
 };
-
-/// The matrix of a translation.
-glm::dmat4 moved_by(const glm::dvec3& offset);
 
 /// Returns the value of `frames_parameter`.
 std::uint32_t frames_of(const Parameters& parameters);

@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 
 #include "scenes/base/portable_math.hpp"
+#include "scenes/base/rotation.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/generators/moving/motion.hpp"
 #include "scenes/modelling/box.hpp"

@@ -21,7 +21,7 @@ _DISTINGUISHING = {"camera": ", camera {}", "samples": ", {} samples", "ray_kind
 
 @dataclass(frozen=True)
 class Nights:
-    """What the history knows of one machine, the oldest night first; the last one is `tonight`.
+    """The recorded nights of one machine, the oldest first; the last one is `tonight`.
 
     Only cells of the last night are there. `ratios` are NaN where a night has no time, or
     other inputs (scene, rays or reference) than the last one.

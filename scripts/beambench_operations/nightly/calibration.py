@@ -1,4 +1,4 @@
-"""How often does pure noise raise a false alarm, and which slow-downs are found?
+"""Finds how often pure noise raises a false alarm, and which slow-downs are found.
 
 Noise is taken from repeated runs of one sweep by one program: groups of consecutive runs are put
 one after another (block bootstrap), all contenders of a scene together, since they share a
@@ -34,7 +34,7 @@ _SEED = 1999
 
 @dataclass(frozen=True)
 class Noise:
-    """What nights without any change differ by: for each scene an array, a row for each night."""
+    """Differences between nights without change: an array for each scene, a row for each night."""
 
     scenes: tuple[np.ndarray, ...]
     nights: int
@@ -50,7 +50,7 @@ class Noise:
 
 @dataclass(frozen=True)
 class Power:
-    """How often a planted slow-down of one series was found and named."""
+    """Returns how often a planted slow-down of one series was found and named."""
 
     slowdown: float
     found: float
@@ -98,7 +98,7 @@ class Calibration:
         return json.dumps(document, indent=2) + "\n"
 
     def summary(self) -> str:
-        """For people."""
+        """Formats it for people."""
         by_blocks = (
             ""
             if self.within is None
@@ -126,7 +126,7 @@ class Calibration:
 
 @dataclass(frozen=True)
 class Effort:
-    """How long power is estimated."""
+    """Duration for which power is estimated."""
 
     precision: float = 0.03
     """Enough trials when no 95% interval of a power is wider than this to either side."""
@@ -248,7 +248,7 @@ def _powers(
 def _nights_until_found(
     values: np.ndarray, series: int, before: int, slowdown: float, rule: Rule
 ) -> int:
-    """How many nights after it got slower the series was named; 0 where it was not in `_WAIT`.
+    """Nights from the slow-down until the series was named; 0 where it was not in `_WAIT`.
 
     The others are as they were: they count by making Holm's correction what it is.
     """

@@ -69,7 +69,7 @@ class Comparison:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What two programs differ by."""
+    """The difference between two programs."""
 
     cells: list[Comparison]
     slower: list[Comparison]
@@ -95,7 +95,7 @@ class Outcome:
         return "\n".join([*lines, *self.sentences])
 
     def verdict(self) -> str:
-        """What the table comes to, in a sentence or two."""
+        """Summarizes the table in a sentence or two."""
         rule = (
             f"by more than {TOLERANCE:.0%} and by more than chance explains (paired t test, Holm's "
             f"correction to {LEVEL:.0%} over {len(self.cells)} cells)"
@@ -116,7 +116,7 @@ class Outcome:
         return text
 
     def _undecided(self) -> str:
-        """What the turns were too few, or the machine too noisy, to rule out."""
+        """States what the turns were too few, or the machine too noisy, to rule out."""
         open_cells = [cell for cell in self.cells if not cell.is_decided]
         if not open_cells:
             return ""
@@ -205,7 +205,7 @@ def _table(folders: list[Path]) -> tuple[pd.DataFrame, pd.DataFrame]:
 
 
 def _ratio(times_b: pd.Series, times_a: pd.Series) -> tuple[int, Ratio | None]:
-    """How many turns have both times, and their ratio, paired by turns."""
+    """Returns the number of turns that have both times, and their ratio, paired by turns."""
     known = times_b.notna() & times_a.notna()
     ratio = block_ratio(times_b[known].to_dict(), times_a[known].to_dict())
     return int(known.sum()), ratio

@@ -86,7 +86,7 @@ class Difference:
 
 @dataclass(frozen=True)
 class _File:
-    """What was read of one file."""
+    """The parts of one file that were read."""
 
     rows: pd.DataFrame
     cells: Mapping[Identity, CellFile]

@@ -1,4 +1,4 @@
-"""What of a run is committed: small files from which every figure can be computed again."""
+"""Chooses what is committed of a run: small files from which every figure can be computed again."""
 
 import gzip
 import shutil

@@ -58,12 +58,12 @@ class Comparison:
         return not self.warning
 
     def count(self, side: str) -> int:
-        """How many ratios are higher (`slower`) or lower (`faster`), by their intervals."""
+        """Counts the ratios that are higher (`slower`) or lower (`faster`), by their intervals."""
         return sum(pair.side == side for pair in self.pairs)
 
     @property
     def compared(self) -> int:
-        """How many ratios both runs have."""
+        """Counts the ratios that both runs have."""
         return sum(pair.ratio is not None for pair in self.pairs)
 
 

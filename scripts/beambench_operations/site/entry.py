@@ -1,4 +1,4 @@
-"""What the site keeps of a run: its line in the index, and its cells for comparisons.
+"""The site's record of a run: its line in the index, and its cells for comparisons.
 
 Kept as JSON within a script, `runs/<name>/data.js`, so that a page opened as a file can load it. A
 run whose files did not change since is not read again.
@@ -67,7 +67,7 @@ class Cell:
 
     @property
     def rays(self) -> str:
-        """What identifies the rays: cells with the same ones have one reference."""
+        """Identity of the rays: cells with the same ones have one reference."""
         parts = self.key.split(_BAR)
         return _BAR.join(parts[:2] + parts[4:])
 
@@ -99,7 +99,7 @@ class Entry:
 
     @property
     def machine(self) -> Machine:
-        """Where it ran."""
+        """The machine on which it ran."""
         return Machine(self.machine_ids, self.processor)
 
     @property
@@ -109,7 +109,7 @@ class Entry:
 
     @property
     def date(self) -> str:
-        """As tables show it."""
+        """The text that tables show."""
         return self.time.replace("T", " ").replace("Z", "")[:16] or "no date"
 
 

@@ -41,7 +41,7 @@ class Mismatch:
 
 
 def page_values(history: MachineHistory, address: Address, repository: Repository) -> dict:
-    """What the template shows, but for names and comparisons."""
+    """Content of the template, without names and comparisons."""
     nights = history.nights
     rows = _rows(history, address, repository)
     return {

@@ -176,6 +176,49 @@ class Overhead:
 
 
 @dataclass(frozen=True)
+class FrameCost:
+    """What a structure costs in one frame."""
+
+    ready_ms: float
+    """Of the build, or of the update."""
+    trace_ms: float
+    sah_cost: float | None
+
+    @property
+    def total_ms(self) -> float:
+        """The whole frame."""
+        return self.ready_ms + self.trace_ms
+
+
+@dataclass(frozen=True)
+class FrameComparison:
+    """A structure in one frame: updated from the first one, and built anew."""
+
+    frame: int
+    updated: FrameCost
+    built: FrameCost
+    total_ratio: Ratio
+    """Of the updated structure over that of the new one, paired within blocks."""
+    trace_ratio: Ratio
+
+
+@dataclass(frozen=True)
+class FrameSeries:
+    """A structure with the same rays over the frames of a scene."""
+
+    contender: str
+    """With its parameters, apart from `update`: `embree:robust=false`."""
+    subject: str
+    """Scene, camera, resolution, samples and rays: `waving-sheet/default/320x240/1/primary`."""
+    frames: tuple[FrameComparison, ...]
+    """Ascending."""
+    rebuild_after: int | None
+    """One build for so many frames has the least mean time; None: no second build pays."""
+    mean_ms: float
+    """Of a frame then."""
+
+
+@dataclass(frozen=True)
 class Analysis:
     """What a run comes to."""
 
@@ -196,10 +239,12 @@ class Analysis:
     """Of each query path, the largest first."""
     block_totals: Mapping[str, Mapping[int, float]]
     """Build and trace of each cell, by its name, in each block; none in records of one process."""
+    frame_series: tuple[FrameSeries, ...] = ()
+    """Of the scenes that move, the structures that were measured updated and built anew."""
 
     @property
     def right(self) -> int:
-        """How many cells have correct hits."""
+        """Counts the cells with correct hits."""
         return self.cells - self.failed - self.without_rays - self.unsupported
 
     @property
@@ -295,7 +340,20 @@ def _analysis(source: _Json) -> Analysis:
             one["cell"]: {int(block): ms for block, ms in one["total_ms"].items()}
             for one in source.get("block_totals", ())
         },
+        tuple(_frame_series(one) for one in source.get("frame_series", ())),
     )
+
+
+def _frame_series(source: _Json) -> FrameSeries:
+    frames = tuple(
+        FrameComparison(
+            one["frame"],
+            *(FrameCost(**one[name]) for name in ("updated", "built")),
+            *(Ratio(**one[name]) for name in ("total_ratio", "trace_ratio")),
+        )
+        for one in source["frames"]
+    )
+    return FrameSeries(**{**source, "frames": frames})
 
 
 def _view(source: _Json) -> Standings:

@@ -40,7 +40,8 @@ class CellFile:
     message: str
     examples: tuple[Example, ...]
     total_ms: Mapping[int, float]
-    """Build and trace, by the block that measured it: that of its fastest undisturbed repetition.
+    """Build or update, and trace, by the block that measured it: that of its fastest undisturbed
+    repetition.
 
     In records of one process, of each repetition by the round in which it had its turn.
     """
@@ -67,7 +68,7 @@ class CellFile:
 
 
 def identity(row: Mapping[str, object]) -> Identity:
-    """What identifies a row within its run."""
+    """Identity of a row within its run."""
     values = (row[name] for name in IDENTITY)
     return tuple(str(int(one)) if isinstance(one, float) else str(one) for one in values)
 
@@ -131,7 +132,7 @@ def _cell_file(cell: LoggedCell) -> CellFile:
     return CellFile(
         cell.message,
         tuple(_example(text) for text in cell.examples),
-        {one[turn]: one["build_ms"] + one["trace_ms"] for one in repetitions},
+        {one[turn]: one.get("update_ms", one["build_ms"]) + one["trace_ms"] for one in repetitions},
         *(
             {one[turn]: one[name] for one in repetitions if name in one}
             for name in ("trace_ms", "warm_trace_ms", "clock_ghz")

@@ -96,7 +96,7 @@ class Dictionary:
 
     @cached_property
     def _found(self) -> dict[str, Column | None]:
-        """What `find` has returned: every reader asks for the same columns."""
+        """Results of `find`: every reader needs the same columns."""
         return {}
 
 

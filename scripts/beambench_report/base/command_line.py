@@ -47,7 +47,7 @@ def run_command(parser: argparse.ArgumentParser, arguments: list[str] | None) ->
 
 
 class ScriptParser(argparse.ArgumentParser):
-    """The arguments of a program of scripts/, which itself answers --help."""
+    """The arguments of a program of scripts/, which has a --help of its own."""
 
     def __init__(self, name: str) -> None:
         """Begins without arguments."""

@@ -159,7 +159,7 @@ class Look:
 
     @property
     def line(self) -> dict[str, object]:
-        """How matplotlib draws a line with markers."""
+        """Style in which matplotlib draws a line with markers."""
         return {
             **{"color": self.color, "linestyle": self.dashes, "linewidth": 1.2},
             **{"marker": self.marker, "markersize": 4.5},

@@ -25,7 +25,7 @@ class Facts:
 
 @dataclass(frozen=True)
 class Manifest:
-    """What was measured by what, and where."""
+    """The program and the machine of a measurement."""
 
     run_id: str = ""
     sweep: str = ""
@@ -64,7 +64,7 @@ def read_manifest(directory: Path) -> Manifest | None:
 
 
 def read_description(directory: Path) -> str:
-    """What the sweep says of itself in DIRECTORY/config.json; empty where it says nothing."""
+    """Description of the sweep in DIRECTORY/config.json; empty where there is none."""
     return str((_read_object(directory / "config.json") or {}).get("description", ""))
 
 
@@ -152,7 +152,7 @@ class Machine:
         return self.ids != other.ids or bool(both_known and self.processor != other.processor)
 
     def __str__(self) -> str:
-        """As people read it."""
+        """Formats it for people."""
         ids = " and ".join(self.ids)
         return f"{ids} ({self.processor})" if self.processor else ids
 

@@ -1,4 +1,4 @@
-"""What plots and files call the contenders and the views of a run."""
+"""Names of the contenders and the views of a run in plots and files."""
 
 import os
 import re
@@ -36,7 +36,7 @@ def with_names(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 def machine_label(machine_id: str) -> str:
-    """What titles and captions call a machine."""
+    """Name of a machine in titles and captions."""
     return f"machine {machine_id[:8]}"
 
 
@@ -64,6 +64,22 @@ def file_stems(titles: Iterable[str]) -> dict[str, str]:
 def parameter_items(text: str) -> dict[str, str]:
     """The parameters of a row, `name=value` separated by commas."""
     return dict(item.split("=", 1) for item in text.split(",") if "=" in item)
+
+
+def brief_name(contender: str) -> str:
+    """A contender in a crowded plot: `sah-bvh lbvh reinsertion` for its parameters' values.
+
+    Flags that are not set are left out; a number keeps the name of its parameter.
+    """
+    structure, *items = contender.split(" ")
+    words = [structure]
+    for item in items:
+        name, _, value = item.partition("=")
+        if value == "true":
+            words.append(name)
+        elif value != "false":
+            words.append(value if value[:1].isalpha() else item)
+    return " ".join(words)
 
 
 def varying_parameters(texts: Iterable[str]) -> set[str]:

@@ -32,7 +32,7 @@ _NEWEST = "An image that several runs measured is drawn once, by the newest of t
 
 @dataclass(frozen=True)
 class Axis:
-    """What grows: the stem of its figures, its name, and how each line and tick is called."""
+    """The quantity that grows: stem of its figures, name, and names of lines and ticks."""
 
     stem: str
     name: str

@@ -70,7 +70,7 @@ class Pairing:
 
     @property
     def image(self) -> tuple:
-        """What was traced, and with which instruction set."""
+        """Rays that were traced, and the instruction set."""
         return (self.kind, self.scene, self.camera, self.resolution, self.samples, self.isa)
 
 
@@ -127,7 +127,7 @@ def _pairings_of(run: Run) -> list[Pairing]:
 
 
 def _image(row: Row) -> tuple:
-    """What both must have in common."""
+    """Facts that both must have in common."""
     names = ("kind", "scene", "camera", "width", "height", "samples", "machine_id", "run_id")
     own = parameter_items(row["parameters"])
     return (*(row[name] for name in names), own.get("isa", "best"))
@@ -171,7 +171,7 @@ def _is_culled(row: Row) -> bool:
 
 
 def _ratios(mode: Row, row: Row, files: Mapping[Identity, CellFile]) -> tuple[Ratio, Ratio | None]:
-    """Of first and of second traces, paired by rounds where single repetitions are there."""
+    """Ratios of first and of second traces, paired by rounds where single repetitions are there."""
     ratio, second = None, None
     over, under = files.get(identity(mode)), files.get(identity(row))
     if over and under:

@@ -50,7 +50,7 @@ def plots(found: Sequence[Pairing]) -> list[Plot]:
 
 
 def _ratios(isa: str, found: Sequence[Pairing]) -> list[Plot]:
-    """As few figures of whole groups as fit on a page each."""
+    """Divides whole groups among as few figures as fit on a page each."""
     panels = []
     for group in groups():
         own = [pair for pair in found if group.holds(pair)]

@@ -41,7 +41,7 @@ def part_of_targets(isa: str) -> float:
 
 
 def groups() -> list[Group]:
-    """In the order of the report. `escena1`, of the thesis, has the targets of the spheres."""
+    """The targets, in order. `escena1`, of the thesis, has the targets of the spheres."""
     return [
         Group(
             "Scenes of triangles",

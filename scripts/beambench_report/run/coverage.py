@@ -16,7 +16,7 @@ _Interval = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Coverage:
-    """How many values of one run are within the prediction intervals of another."""
+    """Counts the values of one run that are within the prediction intervals of another."""
 
     what: str
     within: int

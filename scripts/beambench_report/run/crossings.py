@@ -51,7 +51,7 @@ def crossings(measured: Measured) -> list[Plot]:
 
 
 def cost_of_a_ray(build_ms: float, ns_per_ray: float, rays: np.ndarray) -> np.ndarray:
-    """In ns, with its share of the build."""
+    """The time in ns, with its share of the build."""
     return 1e6 * build_ms / rays + ns_per_ray
 
 
@@ -142,7 +142,7 @@ def _mark_crossings(panel: Axes, rows: pd.DataFrame) -> None:
 
 
 def overtakes(rows: pd.DataFrame) -> list[tuple[float, str]]:
-    """From how many rays on the first of the rows is ahead of another one; the last at the end."""
+    """Numbers of rays from which the first row is ahead of another one; the last at the end."""
     first = rows.iloc[0]
     found = []
     for _, other in rows.iloc[1:].iterrows():

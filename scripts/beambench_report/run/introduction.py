@@ -1,4 +1,4 @@
-"""What the head of a page says of a run: what was traced, how much, and what references are."""
+"""Describes a run at the head of its page: what was traced, how much, and what references are."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -66,7 +66,7 @@ def traced(rows: pd.DataFrame) -> str:
 
 
 def kinds_of_primitives(rows: pd.DataFrame) -> str:
-    """What the primitives of a scene are, where Embree's rows state it; else empty."""
+    """Kinds of a scene's primitives, where Embree's rows state them; else empty."""
     if "library_geometry" not in rows:
         return ""
     types = {one for text in rows["library_geometry"] for one in str(text).split("+")}
@@ -83,7 +83,7 @@ _BY_SIMD = {"image-simd": "made", "list-packed": "read"}
 
 
 def about_references(rows: pd.DataFrame) -> list[str]:
-    """What the references are, in sentences, and for whom the time of `null` is no lower limit."""
+    """Explains the references, and for whom the time of `null` is not a lower limit."""
     paths = rows["query_path"] if "query_path" in rows else pd.Series("", index=rows.index)
     is_null = rows["structure"] == "null"
     own = set(paths[is_null])

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from math import ceil, cos, hypot, inf, pi, sin
 
 from matplotlib.axes import Axes
@@ -33,14 +33,15 @@ def place_labels(
     numbers: Sequence[str],
     lines: Sequence[Sequence[tuple[float, float]]] = (),
     colors: Sequence[str] = (),
+    taken: Sequence[Bbox] = (),
 ) -> set[int] | None:
     """Writes beside each point its name, or its number if there is no room; labels do not overlap.
 
     Returns the points that have numbers; None if even these crowd, in which case nothing is
     written. Labels are clear of the lines if possible, and have the color of their place in
-    `colors`, if given. The figure's layout must be settled.
+    `colors`, if given. The boxes `taken`, in pixels, stay free. The layout must be settled.
     """
-    room = _Room(panel, points, lines)
+    room = _Room(panel, points, lines, taken)
     places: dict[int, _Place] = {}
     for index in sorted(range(len(points)), key=lambda i: -room.centers[i][1]):
         found = [*room.places(index, numbers[index], places)]
@@ -77,6 +78,7 @@ class _Room:
         panel: Axes,
         points: Sequence[tuple[float, float]],
         lines: Sequence[Sequence[tuple[float, float]]],
+        taken: Sequence[Bbox],
     ) -> None:
         self._scale = panel.figure.dpi / 72
         self._frame = panel.bbox
@@ -85,6 +87,7 @@ class _Room:
         self.centers = [tuple(panel.transData.transform(point)) for point in points]
         reach = 3 * self._scale
         self._points = [Bbox.from_extents(x, y, x, y).padded(reach) for x, y in self.centers]
+        self._taken = taken
         self._crossed = [
             box
             for line in lines
@@ -93,7 +96,7 @@ class _Room:
 
     def places(self, index: int, text: str, others: Mapping[int, _Place]) -> Iterator[_Place]:
         """Yields places where the text has room beside its point, other points and labels."""
-        taken = [*self._points, *(other.box for other in others.values())]
+        taken = [*self._points, *self._taken, *(other.box for other in others.values())]
         width, height, _ = self._renderer.get_text_width_height_descent(text, self._font, False)
         for offset in _offsets():
             box = _box(self.centers[index], offset, width, height, self._scale)
@@ -164,3 +167,16 @@ def _along(corners: Sequence[tuple[float, float]], scale: float) -> list[Bbox]:
 
 def _is_inside(box: Bbox, frame: Bbox) -> bool:
     return box.x0 >= frame.x0 and box.x1 <= frame.x1 and box.y0 >= frame.y0 and box.y1 <= frame.y1
+
+
+def spread(places: Sequence[float], low: float, high: float, step: float) -> list[float]:
+    """Moves ascending places at least `step` apart, between low and high; closer if need be."""
+    step = min(step, (high - low) / max(1, len(places) - 1))
+    upward = list(accumulate(places, lambda before, place: max(place, before + step)))
+    downward = list(accumulate(reversed(places), lambda after, place: min(place, after - step)))
+    middle = [(a + b) / 2 for a, b in zip(upward, reversed(downward), strict=True)]
+    last = len(middle) - 1
+    return [
+        min(max(place, low + index * step), high - (last - index) * step)
+        for index, place in enumerate(middle)
+    ]

@@ -1,4 +1,4 @@
-"""What the plots of a run show: its rows in ns per ray, its repetitions, and who is fastest."""
+"""Data of the plots of a run: its rows in ns per ray, its repetitions, and who is fastest."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass

@@ -35,7 +35,7 @@ from beambench_report.run.tables import Table, compare, ratio_field, view_table,
 
 @dataclass(frozen=True)
 class View:
-    """What is shown of one view; the first table is that of the finest resolution."""
+    """Content of one view; the first table is that of the finest resolution."""
 
     title: str
     anchor: str

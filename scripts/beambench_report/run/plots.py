@@ -13,6 +13,7 @@ from beambench_report.base.records import Run
 from beambench_report.run.counters import counters
 from beambench_report.run.crossings import break_even_table, crossings
 from beambench_report.run.distributions import distributions
+from beambench_report.run.frames import frames
 from beambench_report.run.measured import Measured, read_measured
 from beambench_report.run.overall_plot import overalls
 from beambench_report.run.resolutions import resolutions
@@ -36,6 +37,7 @@ KINDS = (
     Kind(swept, "by a parameter", "a parameter that two structures sweep"),
     Kind(crossings, "break-even", "two contenders with times in one view"),
     Kind(distributions, "distributions", "repetitions, which the log has: run.jsonl"),
+    Kind(frames, "frames", "times in two frames of a scene that moves"),
     Kind(counters, "counters", "a counter that two contenders have"),
 )
 

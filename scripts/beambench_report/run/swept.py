@@ -171,7 +171,7 @@ def _share_scale(panels: Mapping[Axes, Mapping[str, _Line]]) -> None:
 
 
 def _lines(measured: Measured, sweep: _Sweep, rows: pd.DataFrame) -> dict[str, _Line]:
-    """Of one image: each line that has values enough, as ratios to the base."""
+    """Lines of one image that have enough values, as ratios to the base."""
     bases = {row["value"]: row for _, row in rows[rows["structure"] == sweep.base].iterrows()}
     found: dict[str, _Line] = {}
     for name, own in rows[rows["structure"] != sweep.base].groupby("line", sort=False):

@@ -1,7 +1,5 @@
 """What a fast trace costs: build time and memory against it, and who pays least for it."""
 
-from collections.abc import Sequence
-
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -12,6 +10,7 @@ from beambench_report.base.palette import PAPER, SOFT
 from beambench_report.base.quantities import number, size_in_words
 from beambench_report.base.records import size_of
 from beambench_report.base.svg import hover
+from beambench_report.run.fronts import pareto_front
 from beambench_report.run.labels import place_labels
 from beambench_report.run.measured import Measured, ns_in_words
 from beambench_report.run.panels import MOST_LINES, finish, panels_with_legend, scale_axis
@@ -38,19 +37,6 @@ def trade_offs(measured: Measured) -> list[Plot]:
         if costs:
             plots.append(_trade_off(measured, view, f"trade-offs-{stem}", rows, costs))
     return plots
-
-
-def pareto_front(points: Sequence[tuple[float, float]]) -> list[int]:
-    """Returns the points that no other one beats in one coordinate and equals in the other; by the
-    first.
-
-    Of points in the same place, the first.
-    """
-    front: list[int] = []
-    for index in sorted(range(len(points)), key=lambda i: points[i]):
-        if not front or points[index][1] < points[front[-1]][1]:
-            front.append(index)
-    return front
 
 
 def _trade_off(

@@ -1,4 +1,4 @@
-"""Which structure wins where: each structure with its own best parameters, view by view.
+"""Finds which structure wins where: each with its own best parameters, view by view.
 
 Beside the analysis of a run, which ranks every contender, a structure counts once here: with the
 parameters, and the order of the rays, that give it the least trace time in the view. Whether it is

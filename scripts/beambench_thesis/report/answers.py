@@ -1,4 +1,4 @@
-"""What the report says before anything else: a sentence with one figure for each main question."""
+"""First sentences of the report: one with a figure for each main question."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

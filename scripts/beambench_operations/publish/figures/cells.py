@@ -72,7 +72,7 @@ class Cells:
 
     @property
     def scenes(self) -> list[str]:
-        """In the order of the rows."""
+        """The cells in the order of the rows."""
         return list(dict.fromkeys(self.rows["scene"]))
 
     @property

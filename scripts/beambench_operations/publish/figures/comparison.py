@@ -11,7 +11,7 @@ from beambench_report.embree_comparison.results import Result, outcomes_in_words
 
 
 def read_pairings(folder: Path, names: Sequence[str]) -> list[Pairing]:
-    """Of those runs of a folder that are there."""
+    """Comparisons of those runs of a folder that are there."""
     runs = [folder / name for name in names]
     return pairings(read_run(run) for run in runs if (run / "results.csv").is_file())
 

@@ -1,4 +1,4 @@
-"""How figures are written in the texts: the filters of the templates."""
+"""Formats figures in the texts: the filters of the templates."""
 
 from collections.abc import Callable
 
@@ -7,7 +7,7 @@ from beambench_report.base.quantities import number
 
 
 def fixed(value: float | Ratio, digits: int = 2) -> str:
-    """With so many digits behind the point, thousands marked: 1,234.50."""
+    """Formats with so many digits behind the point, thousands marked: 1,234.50."""
     return f"{_value(value):,.{digits}f}"
 
 
@@ -17,7 +17,7 @@ def short(value: float | Ratio) -> str:
 
 
 def brief(value: float | Ratio) -> str:
-    """As tables of many ratios have it: 0.97, 2.4, 24."""
+    """Formats as in tables of many ratios: 0.97, 2.4, 24."""
     known = _value(value)
     return f"{known:.{2 if known < 0.995 else 1 if known < 9.95 else 0}f}"
 
@@ -61,7 +61,7 @@ def holds(condition: object) -> str:
 
 
 def _value(value: float | Ratio) -> float:
-    """Of what a template does not know, an error that names it: hence the sum."""
+    """Raises an error that names what a template uses and lacks: hence the sum."""
     return value.value if isinstance(value, Ratio) else value + 0
 
 

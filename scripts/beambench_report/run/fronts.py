@@ -1,0 +1,92 @@
+"""Build or trace: the Pareto front of a view, and from how many rays each of it is the best choice.
+
+Build times and times of a ray are those of the analysis of the run.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from beambench.analysis import break_even_rays
+from beambench_report.base.analysis import Analysis, Standing, Standings
+
+
+@dataclass(frozen=True)
+class Choice:
+    """A contender that is the best for some number of rays, its build included."""
+
+    rays: float
+    """The number from which on it is; 0 for the first one."""
+    standing: Standing
+
+
+@dataclass(frozen=True)
+class Front:
+    """The contenders of a view of which none other is both built and traced in less time."""
+
+    view: Standings
+    members: tuple[Standing, ...]
+    """By the build, the shortest first."""
+    choices: tuple[Choice, ...]
+    """Those of them that are ever the best choice, by the number of rays."""
+
+    @property
+    def scene(self) -> str:
+        """The view without its rays."""
+        return self.view.subject.removesuffix(f", {self.view.ray_kind} rays")
+
+    @property
+    def others(self) -> tuple[Standing, ...]:
+        """The contenders that are not on the front."""
+        return tuple(one for one in self.view.ranked if one not in self.members)
+
+    @property
+    def never(self) -> tuple[Standing, ...]:
+        """The members that are the best choice for no number of rays."""
+        chosen = [choice.standing for choice in self.choices]
+        return tuple(one for one in self.members if one not in chosen)
+
+
+def fronts(analysis: Analysis) -> list[Front]:
+    """Returns the front of each view with contenders, in the order of the run."""
+    found = []
+    for view in analysis.views:
+        if view.ranked:
+            members = front_of(view.ranked)
+            found.append(Front(view, members, choices_of(members)))
+    return found
+
+
+def pareto_front(points: Sequence[tuple[float, float]]) -> list[int]:
+    """Returns the points that no other one beats in one coordinate and equals in the other; by the
+    first.
+
+    Of points in the same place, the first.
+    """
+    front: list[int] = []
+    for index in sorted(range(len(points)), key=lambda i: points[i]):
+        if not front or points[index][1] < points[front[-1]][1]:
+            front.append(index)
+    return front
+
+
+def front_of(standings: Sequence[Standing]) -> tuple[Standing, ...]:
+    """Returns the Pareto front of build and trace, the shortest build first."""
+    places = pareto_front([(one.build_ms, one.ns_per_ray) for one in standings])
+    return tuple(standings[place] for place in places)
+
+
+def choices_of(front: Sequence[Standing]) -> tuple[Choice, ...]:
+    """Returns the contenders that are the best for some number of rays, by that number.
+
+    After each comes the one that overtakes it first, and of those that do so at once the fastest.
+    """
+    choices = [Choice(0.0, front[0])]
+    while later := front[front.index(choices[-1].standing) + 1 :]:
+        since = [_break_even(one, choices[-1].standing) for one in later]
+        first = min(range(len(later)), key=lambda place: (since[place], -place))
+        choices.append(Choice(since[first], later[first]))
+    return tuple(choices)
+
+
+def _break_even(one: Standing, other: Standing) -> float:
+    return break_even_rays(one.build_ms, one.ns_per_ray, other.build_ms, other.ns_per_ray)
