@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/vec4.hpp>
+
 #include "accel/core/ray.hpp"
 #include "accel/embree/user_geometry.hpp"
 #include "accel/embree_api/api.hpp"
