@@ -11,6 +11,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "scenes/base/error.hpp"
+#include "scenes/base/portable_math.hpp"
 #include "scenes/base/printable.hpp"
 #include "scenes/triangulate.hpp"
 
@@ -157,7 +158,8 @@ Camera fitted_camera(const Bounds& bounds) {
   // the eye to differ from the center in float.
   const glm::dvec3 farthest = glm::max(glm::abs(lower), glm::abs(upper));
   const double radius = std::max(0.5 * glm::length(upper - lower), 1e-5 * glm::length(farthest));
-  const double distance = radius / std::sin(0.5 * glm::radians(static_cast<double>(camera.angle)));
+  const double distance =
+      radius / portable_sin(0.5 * glm::radians(static_cast<double>(camera.angle)));
   camera.from = fitted_eye(center, distance);
   camera.at = center;
   return camera;

@@ -37,6 +37,8 @@ std::int64_t targets_of(const std::string& isa) {
   return targets;
 }
 
+void restrict_to(const std::string& isa) { hwy::DisableTargets(~targets_of(isa)); }
+
 std::string best_simd_target() {
   return hwy::TargetName(hwy::SupportedAndGeneratedTargets().front());
 }

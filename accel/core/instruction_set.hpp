@@ -17,6 +17,10 @@ ParameterInfo isa_parameter();
 /// machine (or the compiled code) has none of them.
 std::int64_t targets_of(const std::string& isa);
 
+/// Restricts all of this program's kernels to a value of `isa_parameter`, Embree's excepted. Call
+/// it before a structure is built. Throws like `targets_of`.
+void restrict_to(const std::string& isa);
+
 /// Returns Highway's name for the best of them: "AVX3".
 std::string best_simd_target();
 

@@ -18,11 +18,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the folder of an installed program's sweeps, or else that of the sources.
+/// Returns the folder of the sweeps installed with the program or inside the Python package, or
+/// else that of the sources.
 fs::path sweep_folder() {
-  const fs::path installed = base::code_folder().parent_path() / "share/beambench/sweeps";
-  std::error_code error;
-  return fs::is_directory(installed, error) ? installed : fs::path(BEAMBENCH_SWEEPS);
+  const fs::path code = base::code_folder();
+  for (const fs::path& prefix : {code.parent_path(), code}) {
+    const fs::path installed = prefix / "share/beambench/sweeps";
+    std::error_code error;
+    if (fs::is_directory(installed, error)) return installed;
+  }
+  return BEAMBENCH_SWEEPS;
 }
 
 /// Returns the name in a path of the former folder; empty for other paths.

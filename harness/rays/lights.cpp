@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include "scenes/base/portable_math.hpp"
+
 namespace beambench::rays {
 namespace {
 
@@ -23,7 +25,7 @@ glm::dvec3 point_in_ball(int i, int count) {
   const double angle = kGoldenAngle * i;
   const double inside = 0.5 + kWeyl * i;  // its fraction: the volume nearer to the center
   const double radius = std::cbrt(inside - std::floor(inside));
-  return radius * glm::dvec3(across * std::cos(angle), across * std::sin(angle), z);
+  return radius * glm::dvec3(across * portable_cos(angle), across * portable_sin(angle), z);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "harness/rays/normal.hpp"
 #include "harness/rays/picture_order.hpp"
 #include "harness/rays/trace_input.hpp"
+#include "scenes/base/portable_math.hpp"
 #include "scenes/base/random.hpp"
 
 namespace beambench::rays {
@@ -78,8 +79,8 @@ dvec3 cosine_direction(const dvec3& normal, Random& random) {
   const double radius_2 = random.unit();
   const double radius = std::sqrt(radius_2);
   const double angle = 2.0 * std::numbers::pi * random.unit();
-  return tangent * (radius * std::cos(angle)) +
-         glm::cross(normal, tangent) * (radius * std::sin(angle)) +
+  return tangent * (radius * portable_cos(angle)) +
+         glm::cross(normal, tangent) * (radius * portable_sin(angle)) +
          normal * std::sqrt(1.0 - radius_2);
 }
 

@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "scenes/base/portable_math.hpp"
+
 namespace beambench::scenes::modelling {
 namespace {
 
@@ -46,7 +48,7 @@ void add_smooth(SceneBuilder& builder, const PolygonMesh& mesh, const SmoothOpti
     }
     areas.push_back(area_normal(mesh, corners));
   }
-  const double min_cosine = std::cos(glm::radians(options.crease));
+  const double min_cosine = portable_cos(glm::radians(options.crease));
   std::vector<glm::dvec3> normals;
   for (std::size_t i = 0; i < mesh.size(); ++i) {
     const glm::dvec3 own = glm::normalize(areas[i]);

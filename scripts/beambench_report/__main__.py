@@ -96,6 +96,12 @@ def _add_commands_on_runs(commands: Commands) -> None:
         lambda o: write_page(o.run, o.reference),
         help="write RUN/report.html from all that RUN holds; it draws what RUN/plots lacks",
     )
+    whole = add_command(
+        commands,
+        "report",
+        _whole_report,
+        help="all three: RUN/pictures, RUN/plots and RUN/report.html",
+    )
     repeated = add_command(
         commands,
         "repeated",
@@ -114,7 +120,7 @@ def _add_commands_on_runs(commands: Commands) -> None:
         lambda o: write_fronts(o.run),
         help="draw the Pareto fronts of build and trace time into RUN/plots",
     )
-    for command in (plots, pictures, page, repeated, covered, drawn):
+    for command in (plots, pictures, page, whole, repeated, covered, drawn):
         command("run", type=Path, metavar="RUN", help="folder of a run")
     names = [kind.name for kind in KINDS]
     plots(
@@ -127,13 +133,17 @@ def _add_commands_on_runs(commands: Commands) -> None:
     )
     for command in (repeated, covered):
         command("second", type=Path, metavar="SECOND", help="the same sweep, run again")
-    pictures("--beambench", type=Path, required=True, metavar="PROGRAM", help="the built beambench")
-    page(
-        "--reference",
-        metavar="CONTENDER",
-        help="whose times are 1 in the ratios, as the plots call it; if not given, the contender "
-        "with correct hits in the most views, Embree's fastest rather than others",
-    )
+    for command in (pictures, whole):
+        command(
+            "--beambench", type=Path, required=True, metavar="PROGRAM", help="the built beambench"
+        )
+    for command in (page, whole):
+        command(
+            "--reference",
+            metavar="CONTENDER",
+            help="whose times are 1 in the ratios, as the plots call it; if not given, the "
+            "contender with correct hits in the most views, Embree's fastest rather than others",
+        )
 
 
 def _add_tables(commands: Commands) -> None:
@@ -243,6 +253,12 @@ def _add_other_works(commands: Commands) -> None:
             metavar="PROGRAM",
             help="if not given, build/release/bin/beambench",
         )
+
+
+def _whole_report(options: Options) -> list[Path]:
+    write_pictures(options.run, options.beambench)
+    write_plots(options.run)
+    return write_page(options.run, options.reference)
 
 
 def _contact_sheet(options: Options) -> list[Path]:

@@ -43,7 +43,7 @@ def test_help_names_every_command_that_others_rely_on() -> None:
 
 
 # Their examples measure, or verify whole images, for half a minute.
-SLOW = {"time", "sampling", "verify", "census"}
+SLOW = {"time", "sampling", "verify", "census", "fingerprint"}
 
 
 @pytest.mark.parametrize(

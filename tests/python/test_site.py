@@ -74,13 +74,13 @@ def test_of_a_run_without_plots_a_page_has_the_figure_over_all_views(tmp_path: P
     page = write_site([folder], tmp_path / "site").parent / f"runs/{name}/index.html"
     text = page.read_text("utf-8")
     assert text.count("<svg ") == 1
-    command = f"python -m beambench_report plots {folder}"
-    assert f"draw them: <code>{command}</code>" in text
-    assert draw(command.split()[3:]) == 0
+    remedy = f"draw them: <code>beambench report {folder}</code>"
+    assert remedy in text
+    assert draw(["plots", str(folder)]) == 0
     write_site([folder], tmp_path / "site")
     text = page.read_text("utf-8")
     assert text.count("<svg ") == 4
-    assert command not in text
+    assert remedy not in text
 
 
 def test_every_run_has_a_line_and_a_page(site: Path) -> None:

@@ -1,6 +1,6 @@
 #pragma once
 // The interface of libbeambench_image_encoder.so: pixels in, the bytes of a file out, by
-// OpenImageIO.
+// OpenImageIO (image_encoder.cpp) or by libpng and tinyexr (small_image_encoder.cpp).
 //
 // It is separate from the program and loaded when the first picture is written, because OpenImageIO
 // needs over two hundred shared libraries: loaded at the start, they took most of the time of every
@@ -32,7 +32,7 @@ struct StoredImage {
 /// The result of encoding an image: the bytes of the file, or the reason for a failure.
 struct EncodedImage {
   std::vector<unsigned char> bytes;  ///< empty if encoding failed
-  std::string error;                 ///< the reason, if OpenImageIO states it
+  std::string error;                 ///< the reason, if the library states it
 };
 
 /// Encodes the image in the format given by the ending of `file`, which is not written.

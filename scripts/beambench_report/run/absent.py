@@ -8,12 +8,10 @@ from beambench_report.base.machine import Manifest
 from beambench_report.base.records import FAULTLESS_VERDICTS, Run
 from beambench_report.run.images import Figures, Image
 
-_REPORT = "python -m beambench_report"
 
-
-def command(run: Run, name: str, *options: str) -> str:
-    """Returns the command of this package that adds something to the folder of the run."""
-    return " ".join((_REPORT, name, shlex.quote(str(run.directory)), *options))
+def report_command(run: Run) -> str:
+    """Returns the command that adds figures and pictures to the folder of the run."""
+    return f"beambench report {shlex.quote(str(run.directory))}"
 
 
 def not_begun(run: Run, manifest: Manifest) -> list[str]:
@@ -56,5 +54,4 @@ def absent(
     for kind in figures.missing:
         yield f"There is no figure '{kind.name}'; it needs {kind.needs}."
     if not pictures:
-        render = command(run, "pictures", "--beambench build/release/bin/beambench")
-        yield f"There are no pictures of the scenes; render them: {render}"
+        yield f"There are no pictures of the scenes; render them: {report_command(run)}"

@@ -15,7 +15,7 @@ from beambench_report.base.machine import Manifest, read_description, read_manif
 from beambench_report.base.names import file_stems
 from beambench_report.base.palette import css_color
 from beambench_report.base.records import Run, read_run, size_of
-from beambench_report.run.absent import absent, command, not_begun
+from beambench_report.run.absent import absent, not_begun, report_command
 from beambench_report.run.all_cells import pack
 from beambench_report.run.html import environment
 from beambench_report.run.images import Image, figures_of, read_pictures
@@ -144,7 +144,7 @@ def render(
             ),
             plots=[plot for plot in figures.images if not plot.subject],
             undrawn=figures.undrawn,
-            draw_command=command(run, "plots"),
+            draw_command=report_command(run),
             cells=pack(run),
             dictionary=dictionary(),
         )
