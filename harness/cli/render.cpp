@@ -261,7 +261,7 @@ std::string compare(const RenderRequest& request, const accel::StructureChoice& 
                      request.difference, report.count(verify::DiffClass::kTie),
                      report.count(verify::DiffClass::kGraze),
                      report.count(verify::DiffClass::kStructureError),
-                     report.count(verify::DiffClass::kEmbreeError));
+                     report.count(verify::DiffClass::kOracleError));
 }
 
 /// Returns the structure for a picture: plain pictures are the same with any structure, other

@@ -57,7 +57,7 @@ std::string bits_text(const verify::VerifiedCell& cell) {
 
 std::string table_text(const std::vector<verify::VerifiedCell>& cells) {
   TextTable table({"scene", "ray kind", "structure", "rays", "hits", "agree", "tie", "graze",
-                   "structure error", "embree error", "bits", "verdict"},
+                   "structure error", "oracle error", "bits", "verdict"},
                   3);
   for (const verify::VerifiedCell& cell : cells) {
     std::vector<std::string> row{cell.scene, cell.rays, cell.label};
@@ -237,13 +237,17 @@ int verify_structures(const VerifyRequest& request) {
   const bool verified = std::ranges::any_of(cells, &verify::VerifiedCell::was_possible);
   const bool passed = verified && std::ranges::all_of(cells, &verify::VerifiedCell::passed);
   fmt::print("{}", table_text(cells));
+  print_oracle_note(std::ranges::any_of(cells, [](const verify::VerifiedCell& cell) {
+    return cell.report && cell.report->count(verify::DiffClass::kOracleError) > 0;
+  }));
   for (const verify::VerifiedCell& cell : cells) print_disputes(cell);
   print_missing_rays(cells);
   if (!request.json.empty()) write_json(request, cells, passed);
   if (!verified) {
     throw InputError(
-        fmt::format("nothing was verified: there are no rays of the kinds '{}'; choose other kinds "
-                    "with --rays, or another camera or resolution",
+        fmt::format("nothing was verified: there are no rays of the kinds '{}', or no structure "
+                    "that supports them and the primitives; choose other kinds with --rays, "
+                    "another camera or resolution, or other structures",
                     request.rays));
   }
   return passed ? base::kSuccess : base::kMismatch;
@@ -313,7 +317,7 @@ void add_verify_command(CLI::App& app, int& exit_code) {
       "Each ray's hit is compared with that of Embree given exact intersectors. agree: the same\n"
       "primitive at the same place; tie: another primitive at the same place; graze: the ray "
       "passes\n"
-      "a boundary within rounding; structure error, embree error: one of the two is wrong, by\n"
+      "a boundary within rounding; structure error, oracle error: one of the two is wrong, by\n"
       "exact arithmetic over all primitives. bits: whether bit-exact structures return "
       "the\n"
       "same bits as exhaustive, or as the first of them. Exits with 1 unless every verdict is ok\n"

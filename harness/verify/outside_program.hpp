@@ -16,7 +16,8 @@ namespace beambench::verify {
 ///
 /// The command's output goes to stderr; that of later runs is suppressed. Throws InputError if the
 /// command has no {hits}; each run throws it if the command fails, or if the numbers of hits and
-/// rays differ.
+/// rays differ, and UnsupportedError if it ends with exit code 77, or if {obj} cannot express the
+/// scene.
 Tracer program_of(const std::string& command);
 
 }  // namespace beambench::verify

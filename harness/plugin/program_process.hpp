@@ -1,0 +1,34 @@
+#pragma once
+// A program that answers requests, one line each.
+
+#include <string>
+
+#include <sys/types.h>
+
+namespace beambench::plugin {
+
+/// A process that reads requests from its standard input and writes answers to its standard output.
+/// It is ended with this object.
+class ProgramProcess {
+ public:
+  /// Starts `FILE --beambench 1`. Throws PluginError where that is not possible.
+  explicit ProgramProcess(const std::string& file);
+  ~ProgramProcess();
+  ProgramProcess(const ProgramProcess&) = delete;
+  ProgramProcess& operator=(const ProgramProcess&) = delete;
+
+  /// Sends a line and returns the line that answers it. Throws PluginError, and ends the program,
+  /// if it ends, writes more than one line, or does not answer within that time.
+  std::string request(const std::string& line, double seconds);
+
+ private:
+  [[noreturn]] void fail(const std::string& problem);
+  [[noreturn]] void refuse_more_lines();
+  void stop();
+
+  std::string file_;
+  int socket_ = -1;
+  pid_t process_ = -1;
+};
+
+}  // namespace beambench::plugin
