@@ -1,6 +1,7 @@
 #include "harness/verify/outside_program.hpp"
 
 #include <array>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -98,6 +99,11 @@ class OutsideProgram {
     const char* where = std::exchange(quiet_, true) ? "( {} ) >/dev/null 2>&1" : "( {} ) >&2";
     const int status = std::system(fmt::format(fmt::runtime(where), command).c_str());
     if (status == 0) return;
+    constexpr int kExitOfInterrupted = 128 + SIGINT;  // as shells report it
+    if ((WIFSIGNALED(status) && WTERMSIG(status) == SIGINT) ||
+        (WIFEXITED(status) && WEXITSTATUS(status) == kExitOfInterrupted)) {
+      throw Interrupted(fmt::format("interrupted while '{}' was running", command_));
+    }
     const std::string how = WIFEXITED(status)
                                 ? fmt::format("ended with exit code {}", WEXITSTATUS(status))
                                 : fmt::format("was ended by signal {}", WTERMSIG(status));

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from html import escape
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from beambench import _beambench
 from beambench._beambench import NO_PRIMITIVE, InputError
 from beambench.arrays import flags, ids, rays_in_place, reals
 from beambench.scene import Scene
+from beambench.structure import Hits
 
 Vector = tuple[float, float, float]
 
@@ -99,7 +101,7 @@ class Example:
         )
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Report:
     """The findings of a verification."""
 
@@ -131,6 +133,26 @@ class Report:
         if left > 0:
             lines.append(f"{left} more that do not agree: see classes and examples")
         return "\n".join(lines)
+
+    def __repr__(self) -> str:
+        """Returns the verdict and the counts."""
+        return f"<beambench.Report {str(self).splitlines()[0]}>"
+
+    def _repr_html_(self) -> str:
+        color = "#1a7f37" if self.ok else "#b42318"
+        most = max(self.counts.values())
+        rows = "".join(
+            f"<tr><th>{name.replace('_', ' ')}</th><td>{count:,}</td>"
+            f'<td><div style="width:{160 * count / most:.0f}px;height:0.8em;background:#8aa"></div>'
+            "</td></tr>"
+            for name, count in self.counts.items()
+            if count > 0
+        )
+        examples = "".join(f"<pre>{escape(str(one))}</pre>" for one in self.examples[:5])
+        return (
+            f'<p><b style="color:{color}">{escape(self.verdict)}</b>: {self.rays:,} rays, '
+            f"{self.hits:,} of them hit</p><table>{rows}</table>{examples}"
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -199,6 +221,7 @@ def _require_form(given: dict[str, object]) -> None:
 def verify(
     scene: Scene,
     rays: ArrayLike,
+    hits: Hits | None = None,
     *,
     t: ArrayLike | None = None,
     point: ArrayLike | None = None,
@@ -208,14 +231,16 @@ def verify(
 ) -> Report:
     """Verifies the hits that any program reports for a list of rays.
 
-    The claims are of closest hits (`t` or `point`, optionally with `primitive` or `triangle`) or of
-    any hits (only `occluded`). A claim is compared with the hit of an oracle in double precision,
-    with tolerances of rounding in float32; disputes are decided by exact arithmetic.
+    The claims are of closest hits (`hits`, a whole result of `closest_hits` or `trace_image`; or
+    `t` or `point`, optionally with `primitive` or `triangle`) or of any hits (only `occluded`). A
+    claim is compared with the hit of an oracle in double precision, with tolerances of rounding in
+    float32; disputes are decided by exact arithmetic.
 
     Args:
         scene: the scene against which the rays were traced.
         rays: shape (N, 8), float32: origin, t_min, direction, t_max; used in place, or converted
             first.
+        hits: in place of `t` and `primitive`; those of an image are taken row by row.
         t: shape (N,), real numbers, rounded to float32: the hit is at origin + t * direction;
             infinity: a miss.
         point: shape (N, 3), real numbers, rounded to float32: the point that is hit; three
@@ -234,6 +259,10 @@ def verify(
     """
     if not isinstance(scene, Scene):
         raise TypeError(f"scene is a {type(scene).__name__}; expected a beambench.Scene")
+    if hits is not None:
+        if any(each is not None for each in (t, point, primitive, triangle, occluded)):
+            raise TypeError("hits already have t and primitive; give them alone")
+        t, primitive = hits.t.reshape(-1), hits.primitive.reshape(-1)
     _require_form(
         {
             "t": t,
