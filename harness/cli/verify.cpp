@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "accel/core/threads.hpp"
 #include "harness/cli/commands.hpp"
@@ -48,6 +49,7 @@ struct VerifyRequest {
   int threads = 1;
   std::string json;
   std::string pictures;
+  bool verbose = false;
 };
 
 std::string bits_text(const verify::VerifiedCell& cell) {
@@ -209,6 +211,7 @@ std::vector<verify::VerifiedCell> verify_kind(
 
 int verify_structures(const VerifyRequest& request) {
   const rays::Resolution resolution = rays::parse_resolution(request.resolution);
+  refuse_structures_as_scenes(request.scenes);
   const std::vector<rays::RayChoice> kinds = rays::parse_ray_choices(request.rays);
   rays::require_ray_count(resolution,
                           static_cast<int>(accel::sample_offsets(request.samples).size()));
@@ -218,7 +221,8 @@ int verify_structures(const VerifyRequest& request) {
   for (const scenes::Scene& scene : scenes) choose_camera(scene, request.view);
   if (!request.pictures.empty()) make_folder(request.pictures, "choose another with --pictures");
 
-  base::Progress progress(scenes.size() * kinds.size() * structures);
+  base::Progress progress(scenes.size() * kinds.size() * structures, stderr,
+                          !request.verbose && ::isatty(STDERR_FILENO) == 1);
   std::vector<verify::VerifiedCell> cells;
   for (const scenes::Scene& scene : scenes) {
     const rays::ImageOfRays image{choose_camera(scene, request.view), resolution, request.samples};
@@ -289,7 +293,7 @@ void add_verify_command(CLI::App& app, int& exit_code) {
                        "Threads that trace; 0: one for each core, within the CPU "
                        "quota")
           ->capture_default_str()
-          ->check(CLI::Range(0, 1024));
+          ->check(whole_number_in(0, 1024));
   CLI::Option* run =
       command
           ->add_option("--command", request->command,
@@ -313,6 +317,7 @@ void add_verify_command(CLI::App& app, int& exit_code) {
       ->add_option("--pictures", request->pictures,
                    "Write a picture of the differences to this folder if there are errors")
       ->type_name("DIR");
+  add_verbose_option(*command, request->verbose);
   command->footer(
       "Each ray's hit is compared with that of Embree given exact intersectors. agree: the same\n"
       "primitive at the same place; tie: another primitive at the same place; graze: the ray "

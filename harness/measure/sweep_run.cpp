@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "harness/base/messages.hpp"
 #include "harness/base/progress.hpp"
@@ -97,7 +98,8 @@ class SweepRun {
         throttling_(options.root, manifest_.measurement.throttling),
         names_(names_of(plan)),
         views_(unfinished(std::move(plan))),
-        progress_(count_cells(), messages) {
+        progress_(count_cells(), messages,
+                  !options.line_per_cell && ::isatty(::fileno(messages)) == 1) {
     if (!options.resume) manifest_.google_benchmark = benchmark.context();
   }
 

@@ -124,6 +124,7 @@ constexpr auto kInterfaceChanges = std::to_array<std::string_view>({
     "a "
     "structure supports, and update()",
     "a scene has a frame, and scenes of the catalog may move",
+    "an inspector's occupied cells have levels",
 });
 static_assert(kInterfaceChanges.size() == kPluginInterface - 1);
 

@@ -1,6 +1,7 @@
 #include "harness/verify/outside_program.hpp"
 
 #include <array>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -109,6 +110,11 @@ class OutsideProgram {
     if (WIFEXITED(status) && WEXITSTATUS(status) == kDeclined) {
       throw accel::UnsupportedError(
           fmt::format("the command declines these rays (exit code {})", kDeclined));
+    }
+    constexpr int kExitOfInterrupted = 128 + SIGINT;  // as shells report it
+    if ((WIFSIGNALED(status) && WTERMSIG(status) == SIGINT) ||
+        (WIFEXITED(status) && WEXITSTATUS(status) == kExitOfInterrupted)) {
+      throw Interrupted(fmt::format("interrupted while '{}' was running", command_));
     }
     const std::string how = WIFEXITED(status)
                                 ? fmt::format("ended with exit code {}", WEXITSTATUS(status))

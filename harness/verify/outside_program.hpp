@@ -1,11 +1,18 @@
 #pragma once
 // Runs an outside program that traces rays.
 
+#include <stdexcept>
 #include <string>
 
 #include "harness/verify/minimize.hpp"
 
 namespace beambench::verify {
+
+/// Thrown when the user interrupts (Ctrl-C) a program that is running on behalf of this one.
+class Interrupted : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 /// Runs a shell command for each scene and input, in which these words are replaced by the paths of
 /// files in a temporary folder:

@@ -21,6 +21,8 @@ _OPTIONS = (
     "--remote-debugging-pipe",
     "--no-sandbox",  # it refuses to run as root otherwise, as in most containers
     "--disable-gpu",
+    "--use-angle=swiftshader",  # WebGL without a graphics card
+    "--enable-unsafe-swiftshader",
     "--disable-dev-shm-usage",
     "--hide-scrollbars",
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from html import escape
 from typing import Any
 
 import numpy as np
@@ -100,7 +101,7 @@ class Example:
         )
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Report:
     """The findings of a verification."""
 
@@ -132,6 +133,26 @@ class Report:
         if left > 0:
             lines.append(f"{left} more that do not agree: see classes and examples")
         return "\n".join(lines)
+
+    def __repr__(self) -> str:
+        """Returns the verdict and the counts."""
+        return f"<beambench.Report {str(self).splitlines()[0]}>"
+
+    def _repr_html_(self) -> str:
+        color = "#1a7f37" if self.ok else "#b42318"
+        most = max(self.counts.values())
+        rows = "".join(
+            f"<tr><th>{name.replace('_', ' ')}</th><td>{count:,}</td>"
+            f'<td><div style="width:{160 * count / most:.0f}px;height:0.8em;background:#8aa"></div>'
+            "</td></tr>"
+            for name, count in self.counts.items()
+            if count > 0
+        )
+        examples = "".join(f"<pre>{escape(str(one))}</pre>" for one in self.examples[:5])
+        return (
+            f'<p><b style="color:{color}">{escape(self.verdict)}</b>: {self.rays:,} rays, '
+            f"{self.hits:,} of them hit</p><table>{rows}</table>{examples}"
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -221,9 +242,10 @@ def verify(
 ) -> Report:
     """Verifies the hits that any program reports for a list of rays.
 
-    The claims are of closest hits (`hits`, or `t` or `point`, optionally with `primitive` or
-    `triangle`) or of any hits (only `occluded`). A claim is compared with the hit of an oracle in double precision,
-    with tolerances of rounding in float32; disputes are decided by exact arithmetic.
+    The claims are of closest hits (`hits`, a whole result of `closest_hits` or `trace_image`; or
+    `t` or `point`, optionally with `primitive` or `triangle`) or of any hits (only `occluded`). A
+    claim is compared with the hit of an oracle in double precision, with tolerances of rounding in
+    float32; disputes are decided by exact arithmetic.
 
     Args:
         scene: the scene against which the rays were traced.
