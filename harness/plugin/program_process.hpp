@@ -17,6 +17,8 @@ class ProgramProcess {
   ProgramProcess(const ProgramProcess&) = delete;
   ProgramProcess& operator=(const ProgramProcess&) = delete;
 
+  /// Returns whether it can be sent requests: no error has ended it.
+  bool is_running() const { return socket_ >= 0; }
   /// Sends a line and returns the line that answers it. Throws PluginError, and ends the program,
   /// if it ends, writes more than one line, or does not answer within that time.
   std::string request(const std::string& line, double seconds);

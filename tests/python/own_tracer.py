@@ -26,6 +26,8 @@ for number, corners in enumerate(vertices[faces]):
         t = ((a * np.cross(b, c)).sum(1) / volume).astype("f4")
     inside = ((u >= 0) & (v >= 0) & (w >= 0)) | ((u <= 0) & (v <= 0) & (w <= 0))
     inside &= (t >= near) & (t <= far) & (t < best)
+    if fault == "leak":
+        inside &= np.min(np.abs([u, v, w]), axis=0) > 1e-9 * np.abs(volume)
     if fault == "epsilon":
         inside &= np.abs(volume) > 1e-8
     best[inside], found[inside] = t[inside], number
