@@ -121,7 +121,7 @@ class ProgramTracer final : public BatchTracer {
                        {kSelfReportedTrace, 1e3 * trace_seconds_}};
     return statistics;
   }
-  /// So that the program's time for a query is one number.
+  /// The program's time for a query is then one number.
   bool takes_whole_queries() const override { return true; }
 
  private:

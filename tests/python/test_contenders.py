@@ -177,7 +177,7 @@ def test_what_a_function_returns_decides_the_verdict(
 
 
 def program(folder: Path, answers: str) -> Path:
-    """Writes a program that answers requests by code in terms of `verb` and `words`."""
+    """Writes a program that handles requests by code in terms of `verb` and `words`."""
     file = folder / "mine"
     file.write_text(
         f"#!{sys.executable}\n"

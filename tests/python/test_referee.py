@@ -64,7 +64,7 @@ def test_only_all_is_written_as_all(wrong: int, text: str) -> None:
 
 
 def test_a_counterexample_that_is_none_is_not_confirmed(tmp_path: Path) -> None:
-    """The library's answer is right here, and the judge's is wrong."""
+    """The library is right in the last case, and the judge is wrong."""
     (tmp_path / "scene.obj").write_text("v 0 0 1\nv 1 0 1\nv 0 1 1\nf 1 2 3\n")
     ray = {"origin": [0.25, 0.25, 0], "direction": [0, 0, 1], "t_min": 0, "t_max": None}
     for claimed, judged, confirmed in [(None, 1, True), (1, 1, False), (1, None, False)]:

@@ -349,7 +349,7 @@ def test_a_kit_holds_each_scene_as_files(kit: Path) -> None:
         faces = [line for line in (folder / "scene.obj").read_text().splitlines() if line[0] == "f"]
         assert len(faces) == case["triangles"] > 0
         assert case["family"]
-        assert "either answer" in case["tolerance"] or "any of the" in case["tolerance"]
+        assert "either result" in case["tolerance"] or "any of the" in case["tolerance"]
         whole = np.isinf(closest[7::8]) & (closest[3::8] == 0)
         assert whole.all() if case["family"] != "t interval" else not whole.any()
     families = {case["family"] for case in index["cases"]}

@@ -1,4 +1,4 @@
-"""What was found for one library: rows by family, and its smallest counterexample."""
+"""The findings for one library: rows by family, and its smallest counterexample."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def rows_of(library: str, version: str, cases: list[dict[str, Any]]) -> list[dic
 
 
 def wrong_rays(row: dict[str, Any]) -> int:
-    """Returns the rays whose answer is wrong: wrong hits, and leaks of closed meshes."""
+    """Returns how many rays have a wrong result: wrong hits, and leaks of closed meshes."""
     return int(row["structure_error"]) + int(row["leaks"])
 
 

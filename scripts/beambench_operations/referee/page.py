@@ -16,7 +16,7 @@ place), by exact arithmetic. A `leak` is a miss at an edge of a closed mesh, see
 Other grazes, where a ray passes an edge within K u, count as right. [referee.csv](referee.csv) has
 the counts of each family and query.
 
-"Right" is the share of rays with a right answer, of those that the library traces. The families
+"Right" is the share of rays with a right result, of those that the library traces. The families
 under "wrong in" have at least one wrong or leaked ray; those under "unsupported" are declined. The
 [adapters](../../../harness/plugin/outside) state the precision, and what a call does besides
 tracing.
@@ -48,7 +48,7 @@ PYTHONPATH=scripts python3 -m beambench_operations.referee NAME=PLUGIN ... --kit
 
 
 def share(rows: list[dict[str, Any]], query: str) -> str:
-    """Returns the share of right answers to a query, rounded so that only all are 100%."""
+    """Returns the share of right results of a query, rounded so that only all are 100%."""
     chosen = [row for row in rows if row["query"] == query]
     rays = sum(row["rays"] for row in chosen)
     wrong = sum(map(wrong_rays, chosen))

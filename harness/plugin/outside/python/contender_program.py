@@ -92,7 +92,7 @@ def answer(library: Library, state: dict[str, Any], verb: str, path: str, count:
 
 
 def serve(library: Library) -> None:
-    """Answers requests until the input ends."""
+    """Carries out requests until the input ends."""
     state: dict[str, Any] = {}
     for line in sys.stdin:
         verb, *words = line.split()
