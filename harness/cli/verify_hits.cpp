@@ -40,14 +40,21 @@ struct VerifiedClaims {
   std::size_t primitives = 0;
   verify::ClaimsReport found{};  ///< empty if nothing was verified
   verify::Verdict verdict = verify::Verdict::kError;
-  std::uint64_t leaks = 0;  ///< rays that left a closed surface without a hit
-  std::string message{};    ///< why nothing was verified; empty otherwise
-  std::string picture{};    ///< the picture's file; empty: none
-  std::string minimal{};    ///< a line about the reduction; empty: none
+  /// Rays that left a closed surface between two triangles: the differ alone calls them grazes.
+  std::uint64_t leaks = 0;
+  std::string message{};  ///< why nothing was verified; empty otherwise
+  std::string picture{};  ///< the picture's file; empty: none
+  std::string minimal{};  ///< a line about the reduction; empty: none
 
   bool passed() const { return verify::is_right(verdict); }
   bool was_possible() const { return verdict != verify::Verdict::kUnsupported; }
 };
+
+/// Returns whether the program reports that the ray hits nothing.
+bool is_miss(const verify::Mismatch& mismatch) {
+  return mismatch.query == rays::Query::kClosestHit ? !mismatch.answer
+                                                    : mismatch.any_hit_answer == 0;
+}
 
 /// Returns whether a mismatch is a dispute: ties are not, and grazes only if there are too many.
 bool is_dispute(const verify::Mismatch& mismatch, verify::Verdict verdict) {
@@ -213,15 +220,19 @@ VerifiedClaims verify_case(const VerifyHitsRequest& request, const scenes::Scene
                            const verify::KitCase& files,
                            const std::optional<verify::Tracer>& tracer, base::Progress& progress) {
   render::DisputedPlaces places;
-  const auto collect = [&](const verify::Mismatch& mismatch) { places.add(mismatch); };
+  std::uint64_t grazed_misses = 0;
+  const auto collect = [&](const verify::Mismatch& mismatch) {
+    places.add(mismatch);
+    if (mismatch.diff_class == verify::DiffClass::kGraze && is_miss(mismatch)) ++grazed_misses;
+  };
   VerifiedClaims claims{printable(files.name), files.family, scene.name, scene.primitives.size()};
   claims.found = tracer
                      ? verify::verify_traced_file(scene, files.rays, *tracer, collect, progress)
                      : verify::verify_hit_files(scene, files.rays, files.hits, collect, progress);
   const verify::DiffReport& report = claims.found.report;
   claims.verdict = report.verdict;
-  if (files.closed && claims.found.misses > 0) {
-    claims.leaks = claims.found.misses;
+  if (files.closed && grazed_misses > 0) {
+    claims.leaks = grazed_misses;
     claims.verdict = verify::Verdict::kMismatch;
   }
   if (!request.pictures.empty() && !places.empty()) {

@@ -181,6 +181,7 @@ OpenedPlugin opened(const std::string& file) {
   if (is_program(file)) {
     return {{{structure_of_program(file)}, {}, {}}, "a program of its own", "its author"};
   }
+  const LoadingTime time;
   void* object = open(file);
   if (const void* entry = ::dlsym(object, kEntry)) {
     return filled_by(file, *static_cast<const Plugin*>(entry));
@@ -296,7 +297,6 @@ void add_from_environment(std::vector<std::string>& files) {
 }  // namespace
 
 void load_plugin(const std::string& file, Activity& activity) {
-  const LoadingTime time;
   activity.write(Activity::Line::kForeign, file, ": loading it");
   require_file(file);
   OpenedPlugin plugin = checked_plugin(file);

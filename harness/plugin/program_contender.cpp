@@ -10,6 +10,7 @@
 #include <mutex>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -26,7 +27,8 @@
 namespace beambench::plugin {
 namespace {
 
-constexpr double kSecondsToDescribe = 10.0;
+/// Interpreters that import large libraries take many seconds on a busy machine.
+constexpr double kSecondsToDescribe = 120.0;
 constexpr std::string_view kMagic = "BEAMSCN1";
 
 /// Appends arrays to memory.
@@ -59,15 +61,45 @@ void write_scene(const beambench_scene& scene, SharedMemory& memory) {
   out.write(scene.cones, scene.cone_count);
 }
 
-/// A program that was started for one scene.
+/// The processes of a program that no structure uses: starting an interpreter may take seconds.
+class IdleProcesses {
+ public:
+  explicit IdleProcesses(std::string file) : file_(std::move(file)) {}
+
+  std::unique_ptr<ProgramProcess> take() {
+    const std::lock_guard lock(changing_);
+    if (idle_.empty()) return std::make_unique<ProgramProcess>(file_);
+    auto process = std::move(idle_.back());
+    idle_.pop_back();
+    return process;
+  }
+  void give_back(std::unique_ptr<ProgramProcess> process) {
+    const std::lock_guard lock(changing_);
+    if (process->is_running()) idle_.push_back(std::move(process));
+  }
+  const std::string& file() const { return file_; }
+
+ private:
+  std::string file_;
+  std::mutex changing_;
+  std::vector<std::unique_ptr<ProgramProcess>> idle_;
+};
+
+/// A program that has built one scene.
 class ProgramTracer final : public BatchTracer {
  public:
-  ProgramTracer(std::string file, std::string version, const scenes::Scene& scene, double timeout)
-      : file_(std::move(file)), version_(std::move(version)), timeout_(timeout), process_(file_) {
+  ProgramTracer(std::shared_ptr<IdleProcesses> idle, std::string version,
+                const scenes::Scene& scene, double timeout)
+      : idle_(std::move(idle)),
+        version_(std::move(version)),
+        timeout_(timeout),
+        process_(idle_->take()) {
     SharedMemory memory;
     write_scene(SceneArrays(scene).view(), memory);
     build_seconds_ = ask(fmt::format("build {}", memory.path()));
   }
+
+  ~ProgramTracer() override { idle_->give_back(std::move(process_)); }
 
   void closest_hits(const beambench_batch& batch, float* t,
                     std::uint32_t* primitive) const override {
@@ -89,7 +121,7 @@ class ProgramTracer final : public BatchTracer {
                        {kSelfReportedTrace, 1e3 * trace_seconds_}};
     return statistics;
   }
-  /// So that the program's time for a query is one number.
+  /// The program's time for a query is then one number.
   bool takes_whole_queries() const override { return true; }
 
  private:
@@ -108,7 +140,7 @@ class ProgramTracer final : public BatchTracer {
   /// Returns the seconds that the program reports.
   double ask(const std::string& request) const {
     const base::Stopwatch stopwatch;
-    const std::string answer = process_.request(request, timeout_);
+    const std::string answer = process_->request(request, timeout_);
     const double round_trip = stopwatch.seconds();
     const std::string_view verb = std::string_view(request).substr(0, request.find(' '));
     const std::size_t space = std::min(answer.find(' '), answer.size());
@@ -117,7 +149,7 @@ class ProgramTracer final : public BatchTracer {
         std::string_view(answer).substr(std::min(space + 1, answer.size()));
     if (word == "unsupported") {
       throw accel::UnsupportedError(
-          fmt::format("{} declines '{}': {}", file_, verb, printable(std::string(rest))));
+          fmt::format("{} declines '{}': {}", idle_->file(), verb, printable(std::string(rest))));
     }
     double seconds = 0.0;
     const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), seconds);
@@ -126,22 +158,22 @@ class ProgramTracer final : public BatchTracer {
       throw PluginError(
           fmt::format("the program {} answered '{}' to '{}'; expected 'ok SECONDS', 'unsupported "
                       "REASON' or 'error TEXT'",
-                      file_, printable(answer), verb));
+                      idle_->file(), printable(answer), verb));
     }
     if (seconds > round_trip) {
       throw PluginError(
           fmt::format("the program {} reports {} s for '{}', longer than the {} s from the request "
                       "to the answer; report seconds of a steady clock",
-                      file_, seconds, verb, round_trip));
+                      idle_->file(), seconds, verb, round_trip));
     }
     return seconds;
   }
 
-  std::string file_;
+  std::shared_ptr<IdleProcesses> idle_;
   std::string version_;
   double timeout_;
   mutable std::mutex asking_;  ///< a program answers one request at a time
-  mutable ProgramProcess process_;
+  std::unique_ptr<ProgramProcess> process_;
   mutable SharedMemory memory_;
   double build_seconds_ = 0.0;
   mutable double trace_seconds_ = 0.0;
@@ -178,7 +210,10 @@ accel::Support support_of(const nlohmann::json& description) {
 }  // namespace
 
 accel::StructureInfo structure_of_program(const std::string& file) {
-  const std::string answer = ProgramProcess(file).request("describe", kSecondsToDescribe);
+  auto idle = std::make_shared<IdleProcesses>(file);
+  auto process = idle->take();
+  const std::string answer = process->request("describe", kSecondsToDescribe);
+  idle->give_back(std::move(process));
   const auto description = nlohmann::json::parse(answer, nullptr, /*allow_exceptions=*/false);
   if (!description.is_object()) {
     throw PluginError(fmt::format("answers '{}' to 'describe'; expected a JSON object in one line",
@@ -189,10 +224,10 @@ accel::StructureInfo structure_of_program(const std::string& file) {
           accel::Conformance::kTolerance,
           {integer_parameter("timeout", 60, 1, 86400,
                              "seconds within which the program must answer a request")},
-          [file, version = text_of(description, "version")](
+          [idle, version = text_of(description, "version")](
               const scenes::Scene& scene, const Parameters& parameters, const accel::Workload&) {
             return structure_of(std::make_unique<ProgramTracer>(
-                file, version, scene, static_cast<double>(parameters.integer("timeout"))));
+                idle, version, scene, static_cast<double>(parameters.integer("timeout"))));
           },
           support_of(description)};
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A program that answers requests, one line each.
+// A program that replies to requests, one line each.
 
 #include <string>
 
@@ -7,7 +7,7 @@
 
 namespace beambench::plugin {
 
-/// A process that reads requests from its standard input and writes answers to its standard output.
+/// A process that reads requests from its standard input and writes replies to its standard output.
 /// It is ended with this object.
 class ProgramProcess {
  public:
@@ -17,8 +17,10 @@ class ProgramProcess {
   ProgramProcess(const ProgramProcess&) = delete;
   ProgramProcess& operator=(const ProgramProcess&) = delete;
 
-  /// Sends a line and returns the line that answers it. Throws PluginError, and ends the program,
-  /// if it ends, writes more than one line, or does not answer within that time.
+  /// Returns whether it can be sent requests: no error has ended it.
+  bool is_running() const { return socket_ >= 0; }
+  /// Sends a line and returns the reply. Throws PluginError, and ends the program,
+  /// if it ends, writes more than one line, or does not reply within that time.
   std::string request(const std::string& line, double seconds);
 
  private:

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstddef>
 #include <stdexcept>
 
 namespace beambench::rays {
@@ -27,17 +25,6 @@ std::size_t ClaimedHits::size() const {
     }
   }
   return count;
-}
-
-std::size_t ClaimedHits::misses() const {
-  const auto is_infinite = [](float value) { return std::isinf(value); };
-  const auto count = [](std::ptrdiff_t number) { return static_cast<std::size_t>(number); };
-  if (!occluded.empty()) return count(std::ranges::count(occluded, 0));
-  if (!primitives.empty()) return count(std::ranges::count(primitives, scenes::kNoPrimitive));
-  if (!triangles.empty()) return count(std::ranges::count(triangles, scenes::kNoPrimitive));
-  if (!t.empty()) return count(std::ranges::count_if(t, is_infinite));
-  return count(
-      std::ranges::count_if(points, [&](const glm::vec3& point) { return is_infinite(point.x); }));
 }
 
 ClaimedHits ClaimedHits::part(std::size_t first, std::size_t count) const {

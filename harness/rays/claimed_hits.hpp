@@ -25,8 +25,6 @@ struct ClaimedHits {
   /// Returns the number of rays. Throws std::logic_error if the arrays differ in length, or do not
   /// match one of the forms above.
   std::size_t size() const;
-  /// Returns how many rays hit nothing, by what is claimed.
-  std::size_t misses() const;
   /// Returns the part for `count` rays from `first` on.
   ClaimedHits part(std::size_t first, std::size_t count) const;
 };

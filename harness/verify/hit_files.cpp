@@ -46,7 +46,6 @@ ClaimsReport verify_hit_files(const scenes::Scene& scene, const std::filesystem:
   std::vector<accel::Ray> block(kRaysAtOnce);
   rays::HitTable table;
   std::uint64_t verified = 0;
-  std::uint64_t misses = 0;
   for (;;) {
     const std::size_t ray_count = ray_reader.read(block);
     // One more than the number of rays, to detect excess hits.
@@ -70,12 +69,11 @@ ClaimsReport verify_hit_files(const scenes::Scene& scene, const std::filesystem:
                                    error.what()));
     }
     verified += ray_count;
-    misses += table.view().misses();
     progress.advance(ray_reader.part());
     if (ray_count < kRaysAtOnce) break;
   }
 
-  ClaimsReport found{hit_reader.query(), verifier.finish(), {}, misses};
+  ClaimsReport found{hit_reader.query(), verifier.finish(), {}};
   pardon_grazes(ray_reader.header(), found.report);
   for (const Mismatch& example : found.report.examples) {
     found.places.push_back(
@@ -100,10 +98,7 @@ ClaimsReport verify_traced_file(const scenes::Scene& scene, const std::filesyste
         fmt::format("{}: the hit of ray {}: {}", rays.string(), error.index, error.what()));
   }
   const bool any = !hits.occluded.empty();
-  ClaimsReport found{any ? rays::Query::kAnyHit : rays::Query::kClosestHit,
-                     verifier.finish(),
-                     {},
-                     hits.view().misses()};
+  ClaimsReport found{any ? rays::Query::kAnyHit : rays::Query::kClosestHit, verifier.finish(), {}};
   pardon_grazes(set, found.report);
   for (const Mismatch& example : found.report.examples) {
     found.places.push_back(fmt::format("ray {}", example.index));

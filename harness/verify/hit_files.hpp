@@ -1,7 +1,6 @@
 #pragma once
 // Verifies hits found by any program for the rays of a file.
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -18,7 +17,6 @@ struct ClaimsReport {
   rays::Query query;  ///< the query of the hits
   DiffReport report;
   std::vector<std::string> places;  ///< of the report's examples: "ray 17 (hits.csv:18)"
-  std::uint64_t misses = 0;         ///< rays for which the program reports that they hit nothing
 };
 
 /// Reads both files in parts and verifies the hits: any number of them in constant memory. Grazes

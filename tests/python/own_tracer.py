@@ -17,17 +17,19 @@ with Path(rays).open("rb") as file:
 origin, near, direction, far = rays[:, :3], rays[:, 3], rays[:, 4:7], rays[:, 7]
 best = np.full(len(rays), np.inf)
 found = np.full(len(rays), 0xFFFFFFFF, "u4")
-for number, (a, b, c) in enumerate(vertices[faces]):
+for number, corners in enumerate(vertices[faces]):
+    # Neighbors compute the same numbers for the edge that they share, so no ray leaks.
+    a, b, c = corners[:, None] - origin
+    u, v, w = ((direction * np.cross(*edge)).sum(1) for edge in ((b, c), (c, a), (a, b)))
+    volume = u + v + w
     with np.errstate(all="ignore"):
-        p = np.cross(direction, c - a)
-        scale = 1 / (p @ (b - a))
-        u = ((origin - a) * p).sum(1) * scale
-        q = np.cross(origin - a, b - a)
-        v = (direction * q).sum(1) * scale
-        t = q @ (c - a) * scale
-    inside = (u >= 0) & (v >= 0) & (u + v <= 1) & (t >= near) & (t <= far) & (t < best)
+        t = ((a * np.cross(b, c)).sum(1) / volume).astype("f4")
+    inside = ((u >= 0) & (v >= 0) & (w >= 0)) | ((u <= 0) & (v <= 0) & (w <= 0))
+    inside &= (t >= near) & (t <= far) & (t < best)
+    if fault == "leak":
+        inside &= np.min(np.abs([u, v, w]), axis=0) > 1e-9 * np.abs(volume)
     if fault == "epsilon":
-        inside &= np.abs(1 / scale) > 1e-8
+        inside &= np.abs(volume) > 1e-8
     best[inside], found[inside] = t[inside], number
 any_hit = header["query"] == "any"
 columns = ["occluded"] if any_hit else ["t", "triangle"]

@@ -177,7 +177,7 @@ def test_what_a_function_returns_decides_the_verdict(
 
 
 def program(folder: Path, answers: str) -> Path:
-    """Writes a program that answers requests by code in terms of `verb` and `words`."""
+    """Writes a program that handles requests by code in terms of `verb` and `words`."""
     file = folder / "mine"
     file.write_text(
         f"#!{sys.executable}\n"
@@ -205,9 +205,9 @@ def test_times_of_a_program_are_its_own(tmp_path: Path) -> None:
     file = program(
         tmp_path,
         """\
+        time.sleep(0.02)
         if verb == "closest":
             count = int(words[1])
-            time.sleep(0.02)
             with open(words[0], "r+b") as memory:
                 memory.seek(32 * count)
                 memory.write(MISSES * count)
@@ -243,6 +243,17 @@ def test_a_program_that_breaks_the_protocol_is_an_error(
         assert word in done.stdout, done.stdout
 
 
+def test_one_process_builds_all_scenes(tmp_path: Path) -> None:
+    log = tmp_path / "log"
+    answers = f"print(os.getpid(), verb, file=open({str(log)!r}, 'a'))\nanswer('ok', 0)"
+    done = call("--plugin", program(tmp_path, answers), "verify", "tetra:n=1", "tetra:n=2",
+                "--accel", "odd", "--resolution", "8x6")  # fmt: skip
+    assert done.returncode == 1  # it writes no hits
+    lines = [line.split() for line in log.read_text().splitlines()]
+    assert [verb for _, verb in lines] == ["build", "closest", "build", "closest"]
+    assert len({pid for pid, _ in lines}) == 1
+
+
 def test_a_program_that_hangs_is_ended_after_its_timeout(tmp_path: Path) -> None:
     file = program(tmp_path, "print(os.getpid(), file=open('pid', 'w'), flush=True)\n"
                              "time.sleep(1000)").resolve()  # fmt: skip
@@ -269,7 +280,7 @@ def test_a_program_may_decline_a_query(tmp_path: Path) -> None:
 
 def test_what_is_not_a_contender_is_refused(tmp_path: Path) -> None:
     file = tmp_path / "mine"
-    file.write_text("#!/bin/sh\necho hello\n")
+    file.write_text("#!/bin/sh\nread line\necho hello\n")
     file.chmod(0o755)
     refused(call("--plugin", file, "list"), ["mine", "'hello' to 'describe'", "JSON"])
     file.write_text("#!/bin/sh\nexit 4\n")

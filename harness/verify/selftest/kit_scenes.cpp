@@ -20,7 +20,7 @@ namespace {
 using accel::Ray;
 
 constexpr const char* kUsual =
-    "t within K u of the exact one; where a ray passes an edge within K u, either answer";
+    "t within K u of the exact one; where a ray passes an edge within K u, either result";
 constexpr const char* kTies =
     "t within K u of the exact one, and any of the primitives that lie there";
 
@@ -117,7 +117,7 @@ class Kit {
     made.rays.erase(ends.begin(), ends.end());
     pass(family, std::move(made), tolerance, false);
     pass(kIntervalFamily, std::move(parts),
-         "a hit within K u of an end of the interval, either answer; otherwise as without one",
+         "a hit within K u of an end of the interval, either result; otherwise as without one",
          false);
   }
   void add_closed(const std::string& family, ClosedMesh mesh, std::vector<Ray> rays) {
@@ -166,7 +166,7 @@ void add_meshes(Kit& kit, std::uint64_t count) {
   }
   kit.add_all("edges and vertices", {mesh.scene, rays_at_edges(mesh, count, random)}, kUsual);
   kit.add_all("origins on surfaces", {mesh.scene, rays_from_surface(mesh, count, random)},
-              "a hit within K u of the origin, either answer; otherwise t within K u");
+              "a hit within K u of the origin, either result; otherwise t within K u");
   kit.add_all("odd directions", {mesh.scene, rays_of_odd_directions(mesh, count, random)}, kUsual);
 }
 
@@ -194,7 +194,7 @@ void for_each_kit_scene(const SelftestEffort& effort, PrimitiveKinds kinds,
   kit.add("thousands in a plane", coplanar_squares());
   kit.add_all(kIntervalFamily, limits_at_the_hit(), kUsual);
   kit.add_all("rays in planes", block_of_squares(),
-              "either answer for a polygon in whose plane the ray lies; what lies in front of it "
+              "either result for a polygon in whose plane the ray lies; what lies in front of it "
               "or behind it as usual");
   add_meshes(kit, 2 * effort.rays);
 }
