@@ -44,7 +44,7 @@ class SharedView {
     const side = forward.clone().cross(up).normalize();
     const along = side.multiplyScalar(0.75).addScaledVector(up, 0.6).addScaledVector(forward, -0.55).normalize();
     [this.fov, this.aspect] = [40, 1.3];
-    this.camera.position.copy(this.target).addScaledVector(along, 2.3 * size);
+    this.camera.position.copy(this.target).addScaledVector(along, 2.9 * size);
     this.#moved();
   }
 

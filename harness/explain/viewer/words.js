@@ -16,7 +16,7 @@ function beamSharing(structure, work) {
   for (let ray = 0; ray < work.passed.length; ++ray) {
     together += work.passed[ray];
     const last = paths.first_beam[ray + 1] - 1;
-    if (last >= paths.first_beam[ray] && paths.beams[paths.beam[last]][0] === BEAM.leaves) ++background;
+    if (last >= paths.first_beam[ray] && beams.kinds[paths.beam[last]] === BEAM.leaves) ++background;
   }
   return { background, together, beams: beams.kinds.length };
 }
@@ -88,6 +88,16 @@ function factsOf(structure) {
   return facts.join(", ");
 }
 
+/** The area of a polygon, in pixels, at least 1. */
+function areaOf(corners) {
+  let twice = 0;
+  for (let i = 0; i < corners.length; i += 2) {
+    const next = (i + 2) % corners.length;
+    twice += corners[i] * corners[next + 1] - corners[next] * corners[i + 1];
+  }
+  return Math.max(1, Math.abs(twice) / 2);
+}
+
 /** The lines about one step: [text, class]. */
 function linesOf(step) {
   const lines = [];
@@ -95,8 +105,7 @@ function linesOf(step) {
   if (step.beam) {
     const what = ["An empty leaf: the beam continues", "An occupied leaf: the beam's pixels become rays",
       "The end of the scene: the beam's pixels are background, without a ray"][step.beam.kind];
-    lines.push([`${place}. ${what}.`], [`${counted(step.beam.samples, "pixel")} in the beam.`]);
-    for (const [first, second] of step.beam.cuts.slice(0, 4)) lines.push([`Cut: its rays cross ${first} before ${second}.`]);
+    lines.push([`${place}. ${what}.`], [`The beam has ${step.beam.corners.length / 2} edges and covers ${counted(areaOf(step.beam.corners), "pixel")}.`]);
     return lines;
   }
   const end = step.exit < 1e30 ? ` to ${coordinate(step.exit)}` : " on";
