@@ -85,7 +85,8 @@ class Stage {
       new THREE.MeshBasicMaterial({ color: 0x888888 })).translateX(0));
     this.scene.children.at(-1).position.copy(shared.image.eye());
     this.controls = new THREE.OrbitControls(shared.camera, this.renderer.domElement);
-    this.controls.target = shared.target;
+    this.controls.target = shared.target;  // made with one of their own, which they looked at
+    this.controls.update();
     this.controls.addEventListener("change", () => shared.draw());
     shared.stages.push(this);
     new ResizeObserver(() => {

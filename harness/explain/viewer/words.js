@@ -26,11 +26,13 @@ function sentenceOf(structure, work) {
   const sharing = beamSharing(structure, work);
   if (sharing && sharing.together > 0) {
     const saved = sharing.together / Math.max(sharing.beams, 1);
+    const background = sharing.background > 0
+      ? `Beams that leave the scene through empty leaves settle ${share(sharing.background, rays)} of the pixels ` +
+        "as background at once: none of these pixels ever becomes a ray."
+      : "No beam leaves the scene here: each pixel becomes a ray where its beam meets an occupied leaf.";
     return `${structure.label} follows the image in ${counted(sharing.beams, "beam")}, bundles of pixels ` +
-      `that see the same leaf. One by one, the ${number(rays)} rays would enter these leaves ` +
-      `${number(sharing.together)} times, ${oneDigit(saved)}x as often. Beams that leave the scene through ` +
-      `empty leaves settle ${share(sharing.background, rays)} of the pixels as background at once: none of ` +
-      "these pixels ever becomes a ray.";
+      `that pass the same leaf. One by one, the ${number(rays)} rays would enter these leaves ` +
+      `${number(sharing.together)} times, ${oneDigit(saved)}x as often. ${background}`;
   }
   if (structure.tiles) {
     const ways = structure.tiles.ways;
