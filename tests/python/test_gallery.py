@@ -34,7 +34,7 @@ def test_without_a_program_there_is_no_gallery(tmp_path: Path) -> None:
     (tmp_path / "runs").mkdir()
     write_run(tmp_path / "runs", synthetic_rows())
     index = write_site([tmp_path / "runs"], tmp_path / "site")
-    assert "gallery" not in index.read_text()
+    assert "gallery/index.html" not in index.read_text()
 
 
 def test_what_the_program_cannot_do_is_reported(tmp_path: Path) -> None:
