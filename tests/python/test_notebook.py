@@ -1,4 +1,4 @@
-"""What notebooks show: pictures of scenes, tables of runs, examples of verdicts, pages."""
+"""Notebooks show pictures of scenes, tables of runs, examples of verdicts, and pages."""
 
 from __future__ import annotations
 

@@ -54,7 +54,7 @@ _LEFT_OUT = {"null", "embree", "exhaustive"}
 
 @dataclass(frozen=True)
 class Exhibit:
-    """A page, and what its index tells of it."""
+    """A page, with the title and the text of its link."""
 
     title: str
     href: str
