@@ -50,7 +50,7 @@ struct TimeRequest {
   bool verbose = false;
 };
 
-/// What messages about the sweep of a request begin with.
+/// The beginning of messages about the sweep of a request.
 constexpr std::string_view kSweepName = "beambench time";
 
 /// A temporary folder for a run that is not kept.

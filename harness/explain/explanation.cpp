@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 
 #include "accel/core/hit_buffer.hpp"
 #include "accel/core/inspector_of.hpp"
@@ -65,9 +66,17 @@ Json spheres_json(const scenes::Scene& scene, PackedArrays& arrays) {
   return {{"shapes", add(arrays, spheres)}, {"primitives", add(arrays, primitives)}};
 }
 
-Json mesh_json(const DisplayMesh& mesh, PackedArrays& arrays) {
-  Floats corners;
-  for (const glm::vec3& corner : mesh.corners) append(corners, corner);
+/// Corners are whole numbers that divide the scene's box into 65,535 parts along each axis.
+Json mesh_json(const DisplayMesh& mesh, const scenes::Bounds& box, PackedArrays& arrays) {
+  constexpr float kParts = 65535.0F;
+  const glm::vec3 scale = kParts / glm::max(box.extent(), std::numeric_limits<float>::min());
+  std::vector<std::uint16_t> corners;
+  for (const glm::vec3& corner : mesh.corners) {
+    const glm::vec3 place = glm::clamp((corner - box.lower) * scale, 0.0F, kParts);
+    for (int axis = 0; axis < 3; ++axis) {
+      corners.push_back(static_cast<std::uint16_t>(std::lround(place[axis])));
+    }
+  }
   Counts triangles;
   for (const auto& triangle : mesh.triangles) {
     triangles.insert(triangles.end(), triangle.begin(), triangle.end());
@@ -96,7 +105,7 @@ Json scene_json(const scenes::Scene& scene, PackedArrays& arrays) {
           {"surfaces", std::move(surfaces)},
           {"surface_of", add(arrays, surface_of)},
           {"lights", std::move(lights)},
-          {"mesh", mesh_json(display_mesh(scene), arrays)},
+          {"mesh", mesh_json(display_mesh(scene), scene.bounds, arrays)},
           {"spheres", spheres_json(scene, arrays)}};
 }
 
@@ -127,30 +136,12 @@ Json cells_json(const ShownCells& shown, PackedArrays& arrays) {
           {"levels", add(arrays, levels)}};
 }
 
-Json plane_json(const accel::CrossedPlane& plane) {
-  return fmt::format("{} = {:.4g}", "xyz"[plane.axis], plane.at);
-}
-
 Json paths_json(const PathTable& paths, PackedArrays& arrays) {
   Floats boxes;
   Json places = Json::array();
   for (const Place& place : paths.places) {
     append(boxes, place.cell.box);
     places.push_back({place.word, place.index, place.cell.level, place.has_box});
-  }
-  Json beams = Json::array();
-  for (const PathTable::Beam& beam : paths.beams) {
-    Json corners = Json::array();
-    for (const glm::dvec2& corner : beam.corners) {
-      corners.push_back(std::round(corner.x * 100.0) / 100.0);
-      corners.push_back(std::round(corner.y * 100.0) / 100.0);
-    }
-    Json cuts = Json::array();
-    for (const accel::PlaneOrder& cut : beam.cuts) {
-      cuts.push_back({plane_json(cut.first), plane_json(cut.second)});
-    }
-    beams.push_back({static_cast<int>(beam.kind), beam.place, std::move(corners), beam.samples,
-                     std::move(cuts)});
   }
   return {{"places", std::move(places)},
           {"boxes", add(arrays, boxes)},
@@ -164,7 +155,7 @@ Json paths_json(const PathTable& paths, PackedArrays& arrays) {
           {"t", add(arrays, paths.t)},
           {"first_beam", add(arrays, paths.first_beam)},
           {"beam", add(arrays, paths.beam)},
-          {"beams", std::move(beams)}};
+          {"beam_place", add(arrays, paths.beam_place)}};
 }
 
 /// Returns the boxes of leaves by their numbers, as far as beams or rays entered them.
@@ -287,11 +278,12 @@ Json structure_json(const scenes::Scene& scene, const rays::ImageOfRays& image,
   accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
   structure->closest_hits(rays, hits, {});  // also makes cells that are made on demand
   rays::HitCheck(scene, choice).require(hits, rays);
-  const PathTable paths = follow_image(*structure, rays, advance);
   const accel::Inspector& inspector = accel::inspector_of(*structure);
   const std::vector<accel::BeamPlace> places = inspector.places(rays);
   // Blocks of rays are more than outlines where a structure has both.
   const auto beams = places.empty() ? inspector.beams(rays) : std::nullopt;
+  const PathTable paths =
+      follow_image(*structure, rays, beams.value_or(std::vector<accel::BeamOutline>()), advance);
   const accel::Statistics statistics = structure->statistics();
   return {{"label", choice.short_label()},
           {"description", choice.info().summary},
@@ -332,8 +324,8 @@ nlohmann::json explain(const scenes::Scene& scene, const rays::ImageOfRays& imag
         kMostPixels, rays::to_string(size)));
   }
   if (structures.empty() || structures.size() > 2) {
-    throw InputError(fmt::format("a page shows one structure, or two side by side, not {}",
-                                 structures.size()));
+    throw InputError(
+        fmt::format("a page shows one structure, or two side by side, not {}", structures.size()));
   }
   PackedArrays arrays;
   Json page{{"scene", scene_json(scene, arrays)}, {"image", image_json(image)}};

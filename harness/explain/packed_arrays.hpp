@@ -19,6 +19,7 @@ class PackedArrays {
   /// JavaScript without "Array"), `at` (its first byte, a multiple of 4) and `count`.
   nlohmann::json add(std::span<const float> values) { return append("Float32", values); }
   nlohmann::json add(std::span<const std::uint32_t> values) { return append("Uint32", values); }
+  nlohmann::json add(std::span<const std::uint16_t> values) { return append("Uint16", values); }
   nlohmann::json add(std::span<const std::uint8_t> values) { return append("Uint8", values); }
 
   /// Returns all bytes, compressed as zlib does, in base64.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,26 +33,21 @@ struct PathTable {
   std::vector<std::uint32_t> primitive;      ///< of each test
   std::vector<float> t;                      ///< of each test; kMiss (canonical_ray.hpp) for a miss
 
+  /// Leaves that a ray passes in a beam, with all rays of that beam, before its own steps. Leaf i
+  /// of a ray is at first_beam[ray] + i.
   std::vector<std::uint32_t> first_beam{0};  ///< of each ray, and the end
-  std::vector<std::uint32_t> beam;           ///< indices into `beams`
-
-  /// A beam in a cell, distinct.
-  struct Beam {
-    accel::BeamKind kind;
-    std::uint32_t place;
-    std::vector<glm::dvec2> corners;  ///< in pixels
-    std::uint64_t samples;
-    std::vector<accel::PlaneOrder> cuts;
-  };
-  std::vector<Beam> beams;
+  std::vector<std::uint32_t> beam;           ///< of each leaf: a beam of the image
+  std::vector<std::uint32_t> beam_place;     ///< the leaf
 };
 
 /// The most tests of a step in the table.
 inline constexpr std::size_t kMostTests = 40;
 
-/// Follows the first sample of each pixel. `advance` is called now and then with the share that is
-/// done.
+/// Follows the first sample of each pixel. `beams` are those of the image (`Inspector::beams`), or
+/// none: a ray's own steps begin where its last beam ends. `advance` is called now and then with
+/// the share that is done.
 PathTable follow_image(const accel::Accelerator& structure, const accel::PrimaryRays& image,
+                       std::span<const accel::BeamOutline> beams,
                        const std::function<void(double)>& advance);
 
 }  // namespace beambench::explain

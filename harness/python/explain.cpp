@@ -15,6 +15,8 @@
 #include "harness/python/scene_handle.hpp"
 
 namespace beambench::python {
+namespace nb = nanobind;
+
 namespace {
 
 std::string explain_html(const SceneHandle& scene, const std::string& structures,

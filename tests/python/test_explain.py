@@ -109,7 +109,9 @@ def test_two_structures_follow_the_same_ray(chromium: Browser, tmp_path: Path) -
     assert pixels[0].split(":")[0] == pixels[1].split(":")[0]
     hits = texts(chromium, ".step .note")
     assert hits[0] == hits[1], "both find the same hit"
-    assert "ray-primitive tests with" in chromium.evaluate("document.getElementById('sentence').innerText")
+    assert "ray-primitive tests with" in chromium.evaluate(
+        "document.getElementById('sentence').innerText"
+    )
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""What notebooks show: pictures of scenes, tables of runs, examples of verdicts, pages."""
+"""Notebooks show pictures of scenes, tables of runs, examples of verdicts, and pages."""
 
 from __future__ import annotations
 
@@ -70,6 +70,7 @@ def test_a_run_is_shown_as_a_table_with_bars() -> None:
         "structures": ["samet:max_level=3", "sah-bvh"],
         "resolutions": ["8x8"],
         "repetitions": {"minimum": 1, "maximum": 1},
+        "budget_seconds": 1,
     }
     results = bb.sweep(sweep)
     html = results._repr_html_()

@@ -5,7 +5,7 @@ async function readData() {
   const packed = Uint8Array.from(atob(data.arrays), (digit) => digit.charCodeAt(0));
   const unpacked = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
   const bytes = await new Response(unpacked).arrayBuffer();
-  const kinds = { Float32: Float32Array, Uint32: Uint32Array, Uint8: Uint8Array };
+  const kinds = { Float32: Float32Array, Uint32: Uint32Array, Uint16: Uint16Array, Uint8: Uint8Array };
   const withArrays = (value) => {
     if (value === null || typeof value !== "object") return value;
     if (value.type in kinds) return new kinds[value.type](bytes, value.at, value.count);
@@ -42,8 +42,10 @@ function stepsOf(structure, ray) {
   };
   const steps = [];
   for (let i = paths.first_beam[ray]; i < paths.first_beam[ray + 1]; ++i) {
-    const [kind, place, corners, samples, cuts] = paths.beams[paths.beam[i]];
-    steps.push({ beam: { kind, corners, samples, cuts }, ...placeOf(place), tests: [], omitted: 0 });
+    const { kinds, first, corners } = structure.beams;
+    const beam = paths.beam[i];
+    const outline = [...corners.subarray(2 * first[beam], 2 * first[beam + 1])];
+    steps.push({ beam: { number: beam, kind: kinds[beam], corners: outline }, ...placeOf(paths.beam_place[i]), tests: [], omitted: 0 });
   }
   let best = null;
   for (let i = paths.first_step[ray]; i < paths.first_step[ray + 1]; ++i) {

@@ -16,7 +16,7 @@ function rampColor(part) {
 }
 
 /** A color for a number, such that neighbors differ. */
-const numberedColor = (value) => `hsl(${(value * 137.5) % 360} 55% ${45 + (value % 3) * 10}%)`;
+const numberedColor = (value) => `hsl(${(value * 137.5) % 360}, 55%, ${45 + (value % 3) * 10}%)`;
 
 function rampMode(name, title, values, unit) {
   const most = values.reduce((a, b) => Math.max(a, Number.isFinite(b) ? b : 0), 0) || 1;

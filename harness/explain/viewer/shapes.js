@@ -14,9 +14,12 @@ class Surfaces {
     if (count > 0) {
       const positions = new Float32Array(3 * count);
       const colors = new Uint8Array(3 * count);
+      // Corners are whole numbers in the scene's box.
+      const { lower, upper } = scene;
+      const part = lower.map((low, axis) => (upper[axis] - low) / 65535);
       for (let i = 0; i < count; ++i) {
         const corner = 3 * mesh.triangles[i];
-        positions.set(mesh.corners.subarray(corner, corner + 3), 3 * i);
+        for (let axis = 0; axis < 3; ++axis) positions[3 * i + axis] = lower[axis] + mesh.corners[corner + axis] * part[axis];
         colors.set(this.#color(mesh.primitives[Math.floor(i / 3)]), 3 * i);
       }
       const geometry = new THREE.BufferGeometry();

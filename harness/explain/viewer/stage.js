@@ -44,7 +44,7 @@ class SharedView {
     const side = forward.clone().cross(up).normalize();
     const along = side.multiplyScalar(0.75).addScaledVector(up, 0.6).addScaledVector(forward, -0.55).normalize();
     [this.fov, this.aspect] = [40, 1.3];
-    this.camera.position.copy(this.target).addScaledVector(along, 2.3 * size);
+    this.camera.position.copy(this.target).addScaledVector(along, 2.9 * size);
     this.#moved();
   }
 
@@ -85,7 +85,8 @@ class Stage {
       new THREE.MeshBasicMaterial({ color: 0x888888 })).translateX(0));
     this.scene.children.at(-1).position.copy(shared.image.eye());
     this.controls = new THREE.OrbitControls(shared.camera, this.renderer.domElement);
-    this.controls.target = shared.target;
+    this.controls.target = shared.target;  // made with one of their own, which they looked at
+    this.controls.update();
     this.controls.addEventListener("change", () => shared.draw());
     shared.stages.push(this);
     new ResizeObserver(() => {

@@ -16,7 +16,7 @@ function beamSharing(structure, work) {
   for (let ray = 0; ray < work.passed.length; ++ray) {
     together += work.passed[ray];
     const last = paths.first_beam[ray + 1] - 1;
-    if (last >= paths.first_beam[ray] && paths.beams[paths.beam[last]][0] === BEAM.leaves) ++background;
+    if (last >= paths.first_beam[ray] && beams.kinds[paths.beam[last]] === BEAM.leaves) ++background;
   }
   return { background, together, beams: beams.kinds.length };
 }
@@ -26,11 +26,13 @@ function sentenceOf(structure, work) {
   const sharing = beamSharing(structure, work);
   if (sharing && sharing.together > 0) {
     const saved = sharing.together / Math.max(sharing.beams, 1);
+    const background = sharing.background > 0
+      ? `Beams that leave the scene through empty leaves settle ${share(sharing.background, rays)} of the pixels ` +
+        "as background at once: none of these pixels ever becomes a ray."
+      : "No beam leaves the scene here: each pixel becomes a ray where its beam meets an occupied leaf.";
     return `${structure.label} follows the image in ${counted(sharing.beams, "beam")}, bundles of pixels ` +
-      `that see the same leaf. One by one, the ${number(rays)} rays would enter these leaves ` +
-      `${number(sharing.together)} times, ${oneDigit(saved)}x as often. Beams that leave the scene through ` +
-      `empty leaves settle ${share(sharing.background, rays)} of the pixels as background at once: none of ` +
-      "these pixels ever becomes a ray.";
+      `that pass the same leaf. One by one, the ${number(rays)} rays would enter these leaves ` +
+      `${number(sharing.together)} times, ${oneDigit(saved)}x as often. ${background}`;
   }
   if (structure.tiles) {
     const ways = structure.tiles.ways;
@@ -88,6 +90,16 @@ function factsOf(structure) {
   return facts.join(", ");
 }
 
+/** The area of a polygon, in pixels, at least 1. */
+function areaOf(corners) {
+  let twice = 0;
+  for (let i = 0; i < corners.length; i += 2) {
+    const next = (i + 2) % corners.length;
+    twice += corners[i] * corners[next + 1] - corners[next] * corners[i + 1];
+  }
+  return Math.max(1, Math.abs(twice) / 2);
+}
+
 /** The lines about one step: [text, class]. */
 function linesOf(step) {
   const lines = [];
@@ -95,8 +107,7 @@ function linesOf(step) {
   if (step.beam) {
     const what = ["An empty leaf: the beam continues", "An occupied leaf: the beam's pixels become rays",
       "The end of the scene: the beam's pixels are background, without a ray"][step.beam.kind];
-    lines.push([`${place}. ${what}.`], [`${counted(step.beam.samples, "pixel")} in the beam.`]);
-    for (const [first, second] of step.beam.cuts.slice(0, 4)) lines.push([`Cut: its rays cross ${first} before ${second}.`]);
+    lines.push([`${place}. ${what}.`], [`The beam has ${step.beam.corners.length / 2} edges and covers ${counted(areaOf(step.beam.corners), "pixel")}.`]);
     return lines;
   }
   const end = step.exit < 1e30 ? ` to ${coordinate(step.exit)}` : " on";

@@ -11,7 +11,7 @@ from urllib.parse import urlencode
 from beambench_report.base.files import Problem
 
 _SCENES = {
-    "escena2": "nine balls over a floor, with much background",
+    "escena2": "91 balls in front of a wall, with much background",
     "gato-bill": "a cat of many small polygons",
     "habitacion": "a closed room, in which every ray hits something",
 }
@@ -40,14 +40,21 @@ _FIGURES = (
 )
 """Title, state of the page, and the paragraph."""
 
+_OWN_TEXTS = {
+    ("habitacion", "Exit beams"): "There are none: the room is closed, and each pixel becomes a "
+    "ray. Beams save only the empty leaves that neighboring rays share.",
+}
+
 _STRUCTURES_SHOW = "escena2"
+_ELSEWHERE = {"polygon-beam": "tetra:n=4"}
+"""Structures that do not take the spheres of that scene."""
 _LEFT_OUT = {"null", "embree", "exhaustive"}
 """Structures that have no cells to show."""
 
 
 @dataclass(frozen=True)
 class Exhibit:
-    """A page, and what its index tells of it."""
+    """A page, with the title and the text of its link."""
 
     title: str
     href: str
@@ -73,12 +80,14 @@ def make_gallery(beambench: Path, folder: Path) -> Gallery:
     for scene, about in _SCENES.items():
         page = _write(beambench, folder, scene, "beam")
         exhibits = [
-            Exhibit(title, f"{page}#{urlencode(state)}", text) for title, state, text in _FIGURES
+            Exhibit(title, f"{page}#{urlencode(state)}", _OWN_TEXTS.get((scene, title), text))
+            for title, state, text in _FIGURES
         ]
         figures.append((scene, about, exhibits))
     structures = [
-        Exhibit(name, _write(beambench, folder, _STRUCTURES_SHOW, name), _sentence(summary))
+        Exhibit(name, _write(beambench, folder, scene, name), _sentence(summary))
         for name, summary in _structures(beambench)
+        for scene in [_ELSEWHERE.get(name, _STRUCTURES_SHOW)]
     ]
     return Gallery(figures, structures)
 

@@ -86,7 +86,7 @@ def write_site(
     """Writes the site of all runs below the folders; returns its first page.
 
     The newest run of the sweep of the run `published` is also compared with that run. The program
-    `beambench` writes the pages of the gallery; None: there is no gallery. Raises Problem if there
+    `beambench` writes the pages of the gallery; None: the site has none. Raises Problem if there
     is no run, if `target` contains other files, or if the program cannot write a page.
     """
     found, histories = _find_runs([*folders, *([published] if published else [])])
