@@ -14,11 +14,8 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include "accel/core/float_mode.hpp"
 #include "harness/measure/record/robust_statistics.hpp"
-
-#if defined(__SSE2__)
-#include <immintrin.h>
-#endif
 
 #if defined(__GLIBC__) && __GLIBC_PREREQ(2, 33)
 #define BEAMBENCH_HAS_MALLINFO2 1
@@ -29,18 +26,7 @@
 namespace beambench::measure {
 namespace {
 
-#if defined(__SSE2__)
-constexpr bool kHasMxcsr = true;
-// Power-on value (all exceptions masked, round to nearest) with FTZ (bit 15) and DAZ (bit 6).
-constexpr unsigned kMeasuringMode = 0x1F80U | 0x8000U | 0x0040U;
-unsigned read_mode() { return _mm_getcsr(); }
-void write_mode(unsigned mode) { _mm_setcsr(mode); }
-#else
-constexpr bool kHasMxcsr = false;
-constexpr unsigned kMeasuringMode = 0;
-unsigned read_mode() { return 0; }
-void write_mode(unsigned) {}
-#endif
+constexpr unsigned kMeasuringMode = accel::kInitialFloatMode | accel::kFlushSubnormals;
 
 constexpr int kMultiplications = 8000;
 
@@ -94,9 +80,11 @@ std::string reason(int error) {
 
 }  // namespace
 
-MeasuringFloatMode::MeasuringFloatMode() : previous_(read_mode()) { write_mode(kMeasuringMode); }
-MeasuringFloatMode::~MeasuringFloatMode() { write_mode(previous_); }
-bool MeasuringFloatMode::available() { return kHasMxcsr; }
+MeasuringFloatMode::MeasuringFloatMode() : previous_(accel::float_mode()) {
+  accel::set_float_mode(kMeasuringMode);
+}
+MeasuringFloatMode::~MeasuringFloatMode() { accel::set_float_mode(previous_); }
+bool MeasuringFloatMode::available() { return accel::kFlushSubnormals != 0; }
 unsigned MeasuringFloatMode::control_word() { return kMeasuringMode; }
 
 int present_core() { return ::sched_getcpu(); }

@@ -21,7 +21,7 @@
 namespace beambench::measure {
 
 /// Sets the processor's floating-point mode while it lives: round to nearest, no traps, denormals
-/// flushed to zero and read as zero (MXCSR's FTZ and DAZ), as Embree requires. Hits are verified
+/// flushed to zero and read as zero (on x86, FTZ and DAZ of MXCSR), as Embree requires. Hits are verified
 /// outside of it.
 class MeasuringFloatMode {
  public:
@@ -32,7 +32,7 @@ class MeasuringFloatMode {
 
   /// Returns whether this processor has such a mode and the program can set it.
   static bool available();
-  /// Returns its MXCSR; 0 where there is none.
+  /// Returns the control word in that mode (accel/core/float_mode.hpp); 0 where it is not known.
   static unsigned control_word();
 
  private:

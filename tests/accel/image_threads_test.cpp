@@ -16,8 +16,8 @@
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/task_arena.h>
-#include <xmmintrin.h>
 
+#include "accel/core/float_mode.hpp"
 #include "accel/core/registry.hpp"
 #include "accel/core/threads.hpp"
 #include "accel/core/traversal_accelerator.hpp"
@@ -144,7 +144,7 @@ class Meeting : public TraversalAccelerator<Meeting> {
   std::optional<Hit> find_closest(const Ray&, Counting&) const {
     std::unique_lock lock(mutex_);
     threads_.insert(std::this_thread::get_id());
-    modes_.insert(_mm_getcsr() & kModeBits);
+    modes_.insert(float_mode() & kFlushSubnormals);
     came_.notify_all();
     came_.wait_for(lock, std::chrono::seconds(20), [&] { return threads_.size() >= expected_; });
     return std::nullopt;
@@ -156,8 +156,6 @@ class Meeting : public TraversalAccelerator<Meeting> {
 
   std::size_t threads() const { return threads_.size(); }
   const std::set<unsigned>& modes() const { return modes_; }
-
-  static constexpr unsigned kModeBits = 0x8040;  ///< flush denormals, read them as zero
 
  private:
   std::size_t expected_;
@@ -203,12 +201,12 @@ TEST(TraceOn, ThreadsComputeInTheCallersMode) {
   const scenes::Scene scene = scenes::load_scene("escena1");
   const PrimaryRays rays(scene.cameras.front(), 1, 64, 1);
   HitBuffer buffer(1, 64, 1);
-  const unsigned before = _mm_getcsr();
-  for (const unsigned mode : {0U, Meeting::kModeBits, 0U}) {
+  const unsigned before = float_mode();
+  for (const unsigned mode : {0U, kFlushSubnormals, 0U}) {
     const Meeting meeting(3);
-    _mm_setcsr((before & ~Meeting::kModeBits) | mode);
+    set_float_mode((before & ~kFlushSubnormals) | mode);
     meeting.closest_hits(rays, buffer, {.threads = 3});
-    _mm_setcsr(before);
+    set_float_mode(before);
     EXPECT_EQ(meeting.modes(), std::set<unsigned>{mode});
   }
 }

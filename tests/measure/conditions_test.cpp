@@ -17,7 +17,7 @@ float half_of_the_smallest() {
 }
 
 TEST(MeasuringFloatMode, FlushesDenormalsAndIsPutBack) {
-  if (!MeasuringFloatMode::available()) GTEST_SKIP() << "no MXCSR on this processor";
+  if (!MeasuringFloatMode::available()) GTEST_SKIP() << "its control word is not known";
   EXPECT_GT(half_of_the_smallest(), 0.0F);
   {
     const MeasuringFloatMode mode;

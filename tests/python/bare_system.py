@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 import shutil
 import subprocess
 from collections.abc import Mapping
@@ -55,6 +56,18 @@ class BareSystem:
     def path(self, inside: str) -> Path:
         """Returns where a file of the system is for programs outside of it."""
         return self.folder / inside.lstrip("/")
+
+    def copy_repository(self, folder: str) -> None:
+        """Copies what git knows of this working tree into a folder of the system."""
+        self.path(folder).mkdir(parents=True, exist_ok=True)
+        subprocess.run(
+            "git ls-files -z --cached --others --exclude-standard "
+            f"| tar --create --null --files-from=- "
+            f"| tar --extract --directory={shlex.quote(str(self.path(folder)))}",
+            shell=True,
+            cwd=REPOSITORY,
+            check=True,
+        )
 
     def run(
         self,

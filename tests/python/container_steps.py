@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-import shlex
 import shutil
-import subprocess
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -79,14 +77,7 @@ def _copy(stage: Stage, words: str, stages: dict[str, Stage]) -> None:
             for path in origin.path("/").glob(source.lstrip("/")):
                 shutil.copy(path, into)
     elif sources == ["."]:
-        folder = shlex.quote(str(into))
-        subprocess.run(
-            "git ls-files -z --cached --others --exclude-standard "
-            f"| tar --create --null --files-from=- | tar --extract --directory={folder}",
-            shell=True,
-            cwd=REPOSITORY,
-            check=True,
-        )
+        stage.system.copy_repository(str(Path(stage.folder) / target))
     else:
         for source in sources:
             shutil.copy(REPOSITORY / source, into)
