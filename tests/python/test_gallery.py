@@ -10,8 +10,10 @@ import pytest
 from beambench_operations.site.gallery import make_gallery
 from beambench_operations.site.write import write_site
 from beambench_report.base.files import Problem
-from program import BINARY, output_of
+from program import BINARY, can_explain, output_of
 from synthetic_run import synthetic_rows, write_run
+
+pytestmark = pytest.mark.skipif(not can_explain(), reason="built without three.js: no npm here")
 
 
 def test_there_is_a_page_for_each_figure_and_each_structure(tmp_path: Path) -> None:

@@ -3,8 +3,8 @@
 const number = (value) => Math.round(value).toLocaleString("en-US");
 const mean = (values) => values.reduce((sum, value) => sum + value, 0) / values.length;
 const share = (part, whole) => `${((100 * part) / whole).toFixed(part < whole / 50 && part > 0 ? 1 : 0)}%`;
-const counted = (count, noun) => `${number(count)} ${noun}${count === 1 ? "" : "s"}`;
-const oneDigit = (value) => (value >= 100 ? number(value) : value.toFixed(1));
+const counted = (count, noun) => `${number(count)} ${noun}${Math.round(count) === 1 ? "" : "s"}`;
+const oneDigit = (value) => (value >= 100 || Number.isInteger(value) ? number(value) : value.toFixed(1));
 const coordinate = (value) => Number(value.toPrecision(5)).toString();
 
 /** How beams share the work of the rays that they contain; null without beams. */
