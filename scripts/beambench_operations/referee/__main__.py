@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import csv
 import json
+import re
 import shutil
 import subprocess
 import sys
@@ -93,11 +94,12 @@ def main(arguments: list[str]) -> int:
     rows: dict[str, list[dict[str, Any]]] = {}
     found: dict[str, Counterexample | None] = {}
     for text in given.libraries:
-        name, _, plugin = text.partition("=")
+        name, _, plugin = text.rpartition("=")  # parameters have a "=", too
+        place = re.sub(r"[^\w.-]+", "-", name)
         library = Library(given.program, name, plugin)
-        cases = library.verify(given.kit, given.work / f"{name}.json")
+        cases = library.verify(given.kit, given.work / f"{place}.json")
         rows[name] = rows_of(name, library.version(), cases)
-        found[name] = library.minimal(given.kit, cases, given.output / "minimal" / name)
+        found[name] = library.minimal(given.kit, cases, given.output / "minimal" / place)
         print(f"{name}: {sum(map(wrong_rays, rows[name]))} wrong", flush=True)
 
     with (given.output / "referee.csv").open("w", encoding="utf-8", newline="") as file:
