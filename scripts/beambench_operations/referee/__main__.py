@@ -5,10 +5,12 @@ from __future__ import annotations
 import argparse
 import csv
 import json
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -16,10 +18,24 @@ from beambench_operations.referee.findings import (
     COLUMNS,
     Counterexample,
     counterexample,
+    crashed_case,
     rows_of,
     wrong_rays,
 )
 from beambench_operations.referee.page import page
+
+CRASH = re.compile(r"over \S*?([^/\s]+)/scene\.nff (crashed|ended the process) ?(\([^)]*\))?")
+
+
+def part_of_kit(kit: Path, folder: Path, chosen: Callable[[str], bool]) -> Path:
+    """Makes a kit of the chosen cases, by the names of their folders."""
+    index = json.loads((kit / "kit.json").read_text("utf-8"))
+    index["cases"] = [case for case in index["cases"] if chosen(case["folder"])]
+    folder.mkdir()
+    for case in index["cases"]:
+        (folder / case["folder"]).symlink_to((kit / case["folder"]).resolve())
+    (folder / "kit.json").write_text(json.dumps(index), "utf-8")
+    return folder
 
 
 class Library:
@@ -28,12 +44,15 @@ class Library:
     def __init__(self, program: str, name: str, plugin: str) -> None:
         """Initializes it; nothing runs yet."""
         self.name = name
-        self._call = [program, "--plugin", plugin]
+        self._words = [program, "--plugin", plugin]
+
+    def _call(self, *arguments: str | Path) -> subprocess.CompletedProcess[str]:
+        return subprocess.run(
+            [*self._words, *map(str, arguments)], capture_output=True, text=True, check=False
+        )
 
     def _run(self, *arguments: str | Path) -> str:
-        done = subprocess.run(
-            [*self._call, *map(str, arguments)], capture_output=True, text=True, check=False
-        )
+        done = self._call(*arguments)
         if done.returncode > 1:
             raise SystemExit(f"{self.name}: {done.stderr.strip()[-2000:]}")
         return done.stdout
@@ -44,10 +63,33 @@ class Library:
         return str(json.loads(text)["structures"][0]["library_version"])
 
     def verify(self, kit: Path, verdict: Path) -> list[dict[str, Any]]:
-        """Returns the cases of the kit as found, from an earlier verdict if there is one."""
-        if not verdict.exists():
-            self._run("verify", "--kit", kit, "--accel", self.name, "--json", verdict)
-        cases: list[dict[str, Any]] = json.loads(verdict.read_text("utf-8"))["cases"]
+        """Returns the cases of the kit as found, from an earlier verdict if there is one.
+
+        A scene over which the library crashes is an error, and left out.
+        """
+        crashes: dict[str, str] = {}
+        while not verdict.exists():
+            with tempfile.TemporaryDirectory() as folder:
+                rest = part_of_kit(kit, Path(folder) / "kit", lambda name: name not in crashes)
+                done = self._call("verify", "--kit", rest, "--accel", self.name, "--json", verdict)
+            crash = CRASH.search(done.stderr)
+            if not verdict.exists() and crash is None:
+                raise SystemExit(f"{self.name}: {done.stderr.strip()[-2000:]}")
+            if crash is not None:
+                crashes[crash[1]] = f"{crash[2]} {crash[3] or ''}".strip()
+        found = json.loads(verdict.read_text("utf-8"))
+        if crashes:
+            families = {
+                case["folder"]: case["family"]
+                for case in json.loads((kit / "kit.json").read_text("utf-8"))["cases"]
+            }
+            found["cases"] += [
+                crashed_case(name, families[name], query, how)
+                for name, how in crashes.items()
+                for query in ("closest", "any")
+            ]
+            verdict.write_text(json.dumps(found), "utf-8")
+        cases: list[dict[str, Any]] = found["cases"]
         return cases
 
     def minimal(self, kit: Path, cases: list[dict[str, Any]], out: Path) -> Counterexample | None:
@@ -59,11 +101,7 @@ class Library:
             return None
         name = min(wrong, key=lambda case: case["primitives"])["name"].split(",")[0]
         with tempfile.TemporaryDirectory() as folder:
-            small = Path(folder) / "kit"
-            shutil.copytree(kit / name, small / name)
-            index = json.loads((kit / "kit.json").read_text("utf-8"))
-            index["cases"] = [case for case in index["cases"] if case["folder"] == name]
-            (small / "kit.json").write_text(json.dumps(index), "utf-8")
+            small = part_of_kit(kit, Path(folder) / "kit", lambda each: each == name)
             failures = Path(folder) / "failures"
             self._run("verify", "--kit", small, "--accel", self.name, "--minimize", failures)
             found = next(path for path in sorted(failures.iterdir()) if "closest" in path.name)
@@ -93,11 +131,12 @@ def main(arguments: list[str]) -> int:
     rows: dict[str, list[dict[str, Any]]] = {}
     found: dict[str, Counterexample | None] = {}
     for text in given.libraries:
-        name, _, plugin = text.partition("=")
+        name, _, plugin = text.rpartition("=")  # parameters have a "=", too
+        place = re.sub(r"[^\w.-]+", "-", name)
         library = Library(given.program, name, plugin)
-        cases = library.verify(given.kit, given.work / f"{name}.json")
+        cases = library.verify(given.kit, given.work / f"{place}.json")
         rows[name] = rows_of(name, library.version(), cases)
-        found[name] = library.minimal(given.kit, cases, given.output / "minimal" / name)
+        found[name] = library.minimal(given.kit, cases, given.output / "minimal" / place)
         print(f"{name}: {sum(map(wrong_rays, rows[name]))} wrong", flush=True)
 
     with (given.output / "referee.csv").open("w", encoding="utf-8", newline="") as file:

@@ -30,6 +30,12 @@ def rows_of(library: str, version: str, cases: list[dict[str, Any]]) -> list[dic
     return list(rows.values())
 
 
+def crashed_case(name: str, family: str, query: str, how: str) -> dict[str, Any]:
+    """Returns a case over whose scene the library crashed."""
+    return {"name": f"{name}, {query}", "family": family, "query": query, "verdict": "error",
+            "message": how, "primitives": 0, **dict.fromkeys(COUNTS, 0)}  # fmt: skip
+
+
 def wrong_rays(row: dict[str, Any]) -> int:
     """Returns how many rays have a wrong result: wrong hits, and leaks of closed meshes."""
     return int(row["structure_error"]) + int(row["leaks"])

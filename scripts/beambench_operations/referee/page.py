@@ -17,12 +17,13 @@ Other grazes, where a ray passes an edge within K u, count as right. [referee.cs
 the counts of each family and query.
 
 "Right" is the share of rays with a right result, of those that the library traces. The families
-under "wrong in" have at least one wrong or leaked ray; those under "unsupported" are declined. The
+under "wrong in" have at least one wrong or leaked ray; in those under "fails in" the library
+crashed or did not return in time; it declines those under "declines". The
 [adapters](../../../harness/plugin/outside) state the precision, and what a call does besides
 tracing.
 
-| library | version | rays | right, closest | right, any | wrong | leaks | wrong in | unsupported |
-|---|---|---:|---:|---:|---:|---:|---|---|
+| library | version | rays | right: closest | any | wrong | leaks | wrong in | fails in | declines |
+|---|---|---:|---:|---:|---:|---:|---|---|---|
 """
 
 CASES = """
@@ -74,7 +75,8 @@ def library_row(name: str, rows: list[dict[str, Any]]) -> str:
         share(rows, "any"),
         f"{sum(row['structure_error'] for row in rows):,}",
         f"{sum(row['leaks'] for row in rows):,}",
-        families(rows, lambda row: wrong_rays(row) > 0 or row["errors"] > 0),
+        families(rows, lambda row: wrong_rays(row) > 0),
+        families(rows, lambda row: row["errors"] > 0),
         families(rows, lambda row: row["unsupported"] > 0),
     ]
     return "| " + " | ".join(cells) + " |\n"

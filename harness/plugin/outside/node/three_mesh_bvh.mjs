@@ -45,7 +45,7 @@ function build(path) {
   return performance.now() - begin;
 }
 
-/** Traces rays with directions as they are: t is in their units. */
+/** Traces rays with normalized directions, which three.js expects; distances are scaled to t. */
 function trace(verb, path, count) {
   const rays = new Float32Array(read(path, 0, 32 * count));
   const begin = performance.now();
@@ -55,7 +55,8 @@ function trace(verb, path, count) {
     const r = rays.subarray(8 * i, 8 * i + 8);
     ray.origin.set(r[0], r[1], r[2]);
     ray.direction.set(r[4], r[5], r[6]);
-    const length = ray.direction.length(); // distances are Euclidean
+    const length = ray.direction.length();
+    ray.direction.divideScalar(length);
     const hit = bvh.raycastFirst(ray, THREE.DoubleSide, r[3] * length, r[7] * length);
     if (verb === "any") {
       results.writeUInt8(hit ? 1 : 0, i);
