@@ -18,7 +18,8 @@ function beamSharing(structure, work) {
     const last = paths.first_beam[ray + 1] - 1;
     if (last >= paths.first_beam[ray] && beams.kinds[paths.beam[last]] === BEAM.leaves) ++background;
   }
-  return { background, together, beams: beams.kinds.length };
+  const exits = beams.kinds.filter((kind) => kind === BEAM.leaves).length;
+  return { background, together, exits, beams: beams.kinds.length };
 }
 
 function sentenceOf(structure, work) {
@@ -27,12 +28,13 @@ function sentenceOf(structure, work) {
   if (sharing && sharing.together > 0) {
     const saved = sharing.together / Math.max(sharing.beams, 1);
     const background = sharing.background > 0
-      ? `Beams that leave the scene through empty leaves settle ${share(sharing.background, rays)} of the pixels ` +
-        "as background at once: none of these pixels ever becomes a ray."
+      ? `${counted(sharing.exits, "exit beam")}, which left the scene through empty leaves, decided ` +
+        `${share(sharing.background, rays)} of the pixels at once: they are background, and none of their rays was ` +
+        "traced or tested."
       : "No beam leaves the scene here: each pixel becomes a ray where its beam meets an occupied leaf.";
-    return `${structure.label} follows the image in ${counted(sharing.beams, "beam")}, bundles of pixels ` +
-      `that pass the same leaf. One by one, the ${number(rays)} rays would enter these leaves ` +
-      `${number(sharing.together)} times, ${oneDigit(saved)}x as often. ${background}`;
+    return `${structure.label} traces beams, bundles of the rays of neighboring pixels, through an octree, and divides ` +
+      `them by its leaves. The beams entered ${number(sharing.beams)} leaves; one by one, the ${number(rays)} rays ` +
+      `would enter ${number(sharing.together)}, ${oneDigit(saved)}x as many (work is counted here, not timed). ${background}`;
   }
   if (structure.tiles) {
     const ways = structure.tiles.ways;
