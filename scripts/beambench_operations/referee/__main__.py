@@ -107,6 +107,9 @@ class Library:
             found = next(path for path in sorted(failures.iterdir()) if "closest" in path.name)
             shutil.rmtree(out, ignore_errors=True)
             shutil.copytree(found, out)
+        case = json.loads((out / "case.json").read_text("utf-8"))
+        case["scene"] = f"{name} of the kit"  # in place of a temporary path
+        (out / "case.json").write_text(json.dumps(case, indent=2) + "\n", "utf-8")
         return counterexample(out)
 
 
