@@ -69,7 +69,7 @@ def test_the_first_sentence_says_what_beams_save(chromium: Browser, beam_page: P
     shown(chromium, beam_page)
     sentence = chromium.evaluate("document.getElementById('sentence').innerText")
     assert "beams" in sentence
-    assert "none of these pixels ever becomes a ray" in sentence
+    assert "none of their rays was traced or tested" in sentence
 
 
 def test_a_ray_is_followed_forward_and_back(chromium: Browser, beam_page: Path) -> None:

@@ -28,7 +28,7 @@ _FIGURES = (
     (
         "Exit beams",
         {"map": "beams", "only": "2", "scene": "yes"},
-        "The beams that leave the scene through empty leaves alone (blue). One beam settles all of "
+        "Exit beams alone (blue), which leave the scene through empty leaves. One of them decides all of "
         "its pixels as background: none of them becomes a ray, however fine the image is.",
     ),
     (
