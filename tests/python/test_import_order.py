@@ -27,6 +27,7 @@ ORDER = (
     "beambench_operations.nightly",
     "beambench_operations.campaign",
     "beambench_operations.publish",
+    "beambench_operations.referee",
     "beambench_operations.__main__",
 )
 

@@ -331,7 +331,7 @@ def test_another_interface_is_refused_by_its_stamp(
             "counts tests by kind of primitive (version 5);",
             "change hits (version 6); two queries",
             "update() (version 7); a scene has a frame",
-            "may move (version 8); build",
+            "may move (version 8); an",
         ],
     )
     refusal_of(
@@ -343,7 +343,7 @@ def test_another_interface_is_refused_by_its_stamp(
             "counts tests by kind of primitive (version 5);",
             "change hits (version 6); two queries",
             "update() (version 7); a scene has a frame",
-            "may move (version 8); build",
+            "may move (version 8); an",
         ],
     )
     refusal_of(8, version + 1, [f"this program has {version}, an older one; build it again"])

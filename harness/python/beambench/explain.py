@@ -22,7 +22,14 @@ class Page:
     """In a notebook, in pixels."""
 
     def save(self, path: str | os.PathLike[str]) -> Path:
-        """Writes the page to a file and returns its path."""
+        """Writes the page to a file.
+
+        Args:
+            path: the file, which is replaced if it exists.
+
+        Returns:
+            The path of the file.
+        """
         file = Path(path)
         file.write_text(self.html, encoding="utf-8")
         return file

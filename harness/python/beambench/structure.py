@@ -186,8 +186,8 @@ class Structure:
         )
 
     def __repr__(self) -> str:
-        """Returns name and scene, without the parameters."""
-        return f"<beambench.Structure '{self.name.split(':')[0]}' over '{self.scene.name}'>"
+        """Returns name, parameters and scene in one line."""
+        return f"<beambench.Structure '{self.name}' over '{self.scene.name}'>"
 
     def _repr_html_(self) -> str:
         name, _, parameters = self.name.partition(":")

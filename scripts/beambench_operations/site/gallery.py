@@ -28,8 +28,8 @@ _FIGURES = (
     (
         "Exit beams",
         {"map": "beams", "only": "2", "scene": "yes"},
-        "Exit beams alone (blue), which leave the scene through empty leaves. One of them decides all of "
-        "its pixels as background: none of them becomes a ray, however fine the image is.",
+        "Exit beams alone (blue), which leave the scene through empty leaves. One of them decides "
+        "all of its pixels as background: none becomes a ray, however fine the image is.",
     ),
     (
         "Occupied leaves",
