@@ -10,8 +10,8 @@
 namespace beambench::accel {
 
 #if defined(__SSE2__)
-/// The bits that flush subnormal results to zero and read subnormal operands as zero; 0 on a processor
-/// whose control word is not known here.
+/// The bits that flush subnormal results to zero and read subnormal operands as zero; 0 on a
+/// processor whose control word is not known here.
 inline constexpr std::uint32_t kFlushSubnormals = 0x8040;
 /// The word of a new thread: rounds to nearest, exceptions masked.
 inline constexpr std::uint32_t kInitialFloatMode = 0x1F80;

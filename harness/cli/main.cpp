@@ -113,8 +113,7 @@ int parse_and_run(const Arguments& arguments) {
         add_explain_command, add_rays_command, add_hits_command, add_stats_command,
         add_time_command, add_verify_command, add_trace_command, add_selftest_command,
         add_run_command, add_analyze_command, add_report_command, add_merge_command,
-        add_fingerprint_command, add_completion_command,
-        add_man_command}) {
+        add_fingerprint_command, add_completion_command, add_man_command}) {
     add(app, exit_code);
   }
   for (AddCommand* add : thesis_commands()) add(app, exit_code);

@@ -21,8 +21,8 @@
 namespace beambench::measure {
 
 /// Sets the processor's floating-point mode while it lives: round to nearest, no traps, denormals
-/// flushed to zero and read as zero (on x86, FTZ and DAZ of MXCSR), as Embree requires. Hits are verified
-/// outside of it.
+/// flushed to zero and read as zero (on x86, FTZ and DAZ of MXCSR), as Embree requires. Hits are
+/// verified outside of it.
 class MeasuringFloatMode {
  public:
   MeasuringFloatMode();
