@@ -76,6 +76,10 @@ class HitSpan {
   explicit HitSpan(Hit& hit)
       : t_(&hit.t), primitive_(&hit.primitive), width_(1), height_(1), samples_(1) {}
 
+  /// The hits of a list in two arrays.
+  HitSpan(float* t, scenes::PrimitiveId* primitive, std::size_t count)
+      : t_(t), primitive_(primitive), width_(static_cast<int>(count)), height_(1), samples_(1) {}
+
   /// Returns the hits [first, first + count) as those of a list.
   HitSpan part(std::size_t first, std::size_t count) const {
     HitSpan part(*this);

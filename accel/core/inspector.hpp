@@ -9,7 +9,7 @@
 #include "accel/core/beam_outline.hpp"
 #include "accel/core/beam_passage.hpp"
 #include "accel/core/beam_place.hpp"
-#include "accel/core/overlap.hpp"
+#include "accel/core/cell.hpp"
 #include "accel/core/primary_rays.hpp"
 #include "accel/core/ray.hpp"
 #include "accel/core/ray_source.hpp"
@@ -47,9 +47,8 @@ class [[gnu::visibility("default")]] Inspector {
     return {{}, path(image.ray(x, y, sample))};
   }
 
-  /// Returns the cells that hold references, in scene units; empty where the structure has no
-  /// cells.
-  virtual std::vector<Box> occupied_cells() const { return {}; }
+  /// Returns the cells that hold references; empty where the structure has no cells.
+  virtual std::vector<Cell> occupied_cells() const { return {}; }
   /// Returns all nodes, the root first; empty where steps do not number them.
   virtual std::vector<NodeFacts> nodes() const { return {}; }
 

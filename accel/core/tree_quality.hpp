@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "accel/core/accelerator.hpp"
@@ -46,6 +47,8 @@ class TreeQuality {
 
     double cost() const;
   };
+  /// Returns all nodes in preorder.
+  std::span<const Entry> entries() const { return entries_; }
 
  private:
   std::vector<Entry> entries_;

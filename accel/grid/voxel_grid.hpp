@@ -39,10 +39,10 @@ class VoxelGrid : public TraversalAccelerator<VoxelGrid<Voxels, Boxes>> {
     return statistics;
   }
 
-  std::vector<Box> occupied_cells() const override {
-    std::vector<Box> cells;
+  std::vector<Cell> occupied_cells() const override {
+    std::vector<Cell> cells;
     for (std::size_t voxel = 0; voxel < voxel_count(grid_); ++voxel) {
-      if (voxels_.holds_references(voxel)) cells.push_back(grid_.box(voxel_at(grid_, voxel), 1));
+      if (voxels_.holds_references(voxel)) cells.push_back({grid_.box(voxel_at(grid_, voxel), 1)});
     }
     return cells;
   }

@@ -44,13 +44,13 @@ Statistics GridHierarchy::statistics() const {
   return statistics;
 }
 
-std::vector<Box> GridHierarchy::occupied_cells() const {
-  std::vector<Box> cells;
+std::vector<Cell> GridHierarchy::occupied_cells() const {
+  std::vector<Cell> cells;
   for (const NestedGrid& grid : grids_) {
     for (std::size_t i = 0; i < grid::voxel_count(grid.place()); ++i) {
       const Voxel voxel = voxels_[grid.first_voxel + i];
       if (voxel.is_empty() || voxel.is_divided()) continue;
-      cells.push_back(grid.place().box(grid::voxel_at(grid.place(), i), 1));
+      cells.push_back({grid.place().box(grid::voxel_at(grid.place(), i), 1), grid.level + 1});
     }
   }
   return cells;

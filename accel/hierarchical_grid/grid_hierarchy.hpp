@@ -8,6 +8,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "accel/core/cell.hpp"
 #include "accel/core/cell_grid.hpp"
 #include "accel/core/overlap.hpp"
 #include "accel/core/statistics.hpp"
@@ -69,8 +70,8 @@ class GridHierarchy {
   }
 
   Statistics statistics() const;
-  /// Returns the undivided voxels that hold references, in scene units.
-  std::vector<Box> occupied_cells() const;
+  /// Returns the undivided voxels that hold references.
+  std::vector<Cell> occupied_cells() const;
 
  private:
   friend class GridHierarchyBuilder;

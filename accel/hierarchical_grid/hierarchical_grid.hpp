@@ -23,7 +23,7 @@ class HierarchicalGrid : public TraversalAccelerator<HierarchicalGrid<Boxes>> {
   const GridHierarchy& hierarchy() const { return hierarchy_; }
 
   Statistics statistics() const override { return hierarchy_.statistics(); }
-  std::vector<Box> occupied_cells() const override { return hierarchy_.occupied_cells(); }
+  std::vector<Cell> occupied_cells() const override { return hierarchy_.occupied_cells(); }
 
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {

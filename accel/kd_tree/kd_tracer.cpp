@@ -25,10 +25,12 @@ Statistics KdTracer::statistics() const {
   return statistics;
 }
 
-std::vector<Box> KdTracer::occupied_cells() const {
-  std::vector<Box> cells;
-  for_each_leaf(tree_, [&](const KdNode& leaf, const scenes::Bounds& cell) {
-    if (leaf.block_count() > 0) cells.push_back({glm::dvec3(cell.lower), glm::dvec3(cell.upper)});
+std::vector<Cell> KdTracer::occupied_cells() const {
+  std::vector<Cell> cells;
+  for_each_leaf(tree_, [&](const KdNode& leaf, const KdPlace& place) {
+    if (leaf.block_count() == 0) return;
+    const scenes::Bounds& cell = place.cell;
+    cells.push_back({{glm::dvec3(cell.lower), glm::dvec3(cell.upper)}, place.level});
   });
   return cells;
 }

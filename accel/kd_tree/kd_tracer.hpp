@@ -25,7 +25,7 @@ class KdTracer : public TraversalAccelerator<KdTracer> {
   /// The instruction set in use, as Highway calls it: "AVX2".
   const char* instruction_set() const;
   Statistics statistics() const override;
-  std::vector<Box> occupied_cells() const override;
+  std::vector<Cell> occupied_cells() const override;
 
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {

@@ -90,24 +90,25 @@ struct KdPlace {
 /// Finds a node's place on the way down from the root.
 KdPlace place_of(const KdTree& tree, std::uint32_t node);
 
-/// Calls `visit(leaf, cell)` for all leaves, in the order of their nodes' pairs.
+/// Calls `visit(leaf, place)` for all leaves, in the order of their nodes' pairs.
 template <class Visit>
 void for_each_leaf(const KdTree& tree, Visit visit) {
   struct Open {
     std::uint32_t node;
-    scenes::Bounds cell;
+    KdPlace place;
   };
-  std::vector<Open> open{{0, tree.root}};
+  std::vector<Open> open{{0, {tree.root, 1}}};
   while (!open.empty()) {
     const Open at = open.back();
     open.pop_back();
     const KdNode& node = tree.nodes[at.node];
     if (node.is_leaf()) {
-      visit(node, at.cell);
+      visit(node, at.place);
       continue;
     }
-    open.push_back({node.children() + 1, upper_cell(at.cell, node)});
-    open.push_back({node.children(), lower_cell(at.cell, node)});
+    const auto& [cell, level] = at.place;
+    open.push_back({node.children() + 1, {upper_cell(cell, node), level + 1}});
+    open.push_back({node.children(), {lower_cell(cell, node), level + 1}});
   }
 }
 

@@ -49,7 +49,7 @@ class HashedOctree {
   }
 
   Statistics statistics() const;
-  std::vector<Box> occupied_cells() const { return octree_.occupied_cells(); }
+  std::vector<Cell> occupied_cells() const { return octree_.occupied_cells(); }
 
  private:
   std::size_t slot_of(std::uint64_t name) const {

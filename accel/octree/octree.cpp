@@ -119,11 +119,11 @@ Statistics Octree::statistics() const {
   return statistics;
 }
 
-std::vector<Box> Octree::occupied_cells() const {
-  std::vector<Box> cells;
+std::vector<Cell> Octree::occupied_cells() const {
+  std::vector<Cell> cells;
   const auto add = [&](const auto& place) {
     if (!place.is_leaf() || place.node().count == 0) return;
-    cells.push_back(grid_.box(place.corner(), place.size()));
+    cells.push_back({grid_.box(place.corner(), place.size()), place.level()});
   };
   central_planes_ ? for_each_node(OctreeCursor(*this), add) : for_each_node(BoxCursor(*this), add);
   return cells;

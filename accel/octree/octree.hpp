@@ -10,6 +10,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "accel/core/cell.hpp"
 #include "accel/core/cell_grid.hpp"
 #include "accel/core/statistics.hpp"
 #include "scenes/base/parameters.hpp"
@@ -126,8 +127,8 @@ class Octree {
   }
 
   Statistics statistics() const;
-  /// Returns the leaves that hold references, in scene units.
-  std::vector<Box> occupied_cells() const;
+  /// Returns the leaves that hold references.
+  std::vector<Cell> occupied_cells() const;
 
  private:
   friend class OctreeBuilder;

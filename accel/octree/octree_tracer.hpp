@@ -47,7 +47,7 @@ class OctreeTracer : public TraversalAccelerator<OctreeTracer<Search>> {
     return statistics;
   }
 
-  std::vector<Box> occupied_cells() const override { return octree_.occupied_cells(); }
+  std::vector<Cell> occupied_cells() const override { return octree_.occupied_cells(); }
 
   /// Used by searches that name leaves by the numbers of their nodes.
   std::vector<NodeFacts> nodes() const override {

@@ -86,10 +86,11 @@ Statistics OnDemandOctree::statistics() const {
   return statistics;
 }
 
-std::vector<Box> OnDemandOctree::occupied_cells() const {
-  std::vector<Box> cells;
+std::vector<Cell> OnDemandOctree::occupied_cells() const {
+  std::vector<Cell> cells;
   for_each_node([&](const OnDemandNode& node, const OctreeCell& cell, bool leaf) {
-    if (leaf && !node.references.empty()) cells.push_back(grid().box(cell.corner, cell.size));
+    if (!leaf || node.references.empty()) return;
+    cells.push_back({grid().box(cell.corner, cell.size), cell.level});
   });
   return cells;
 }

@@ -12,6 +12,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "accel/core/cell.hpp"
 #include "accel/core/cell_grid.hpp"
 #include "accel/core/least_references.hpp"
 #include "accel/core/overlap.hpp"
@@ -72,8 +73,8 @@ class OnDemandOctree {
   /// Returns statistics of the octree as divided so far: nodes that may still be divided count as
   /// leaves, and are counted.
   Statistics statistics() const;
-  /// Returns the current leaves that hold references, in scene units.
-  std::vector<Box> occupied_cells() const;
+  /// Returns the current leaves that hold references.
+  std::vector<Cell> occupied_cells() const;
 
  private:
   const Children& divide(const OnDemandNode& node, const OctreeCell& cell) const;

@@ -114,7 +114,7 @@ class WithOutsideList : public TraversalAccelerator<WithOutsideList<Inner>> {
     statistics.more.emplace_back("outside_objects", static_cast<double>(ids_.outside.size()));
     return statistics;
   }
-  std::vector<Box> occupied_cells() const override { return inner_.occupied_cells(); }
+  std::vector<Cell> occupied_cells() const override { return inner_.occupied_cells(); }
   const Inner& inner() const { return inner_; }
 
  private:

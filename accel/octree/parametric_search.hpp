@@ -20,8 +20,8 @@ namespace beambench::accel::octree {
 /// Gargantini and Atkinson, "Ray tracing an octree: numerical evaluation of the first
 /// intersection", Computer Graphics Forum 12(4), 1993: the ordered parameters of the ray at the
 /// three planes between a node's children determine the children that it passes through (at most
-/// four), and the interval in each. A node is visited once per ray; there is no search for a leaf's
-/// neighbor.
+/// four), and the interval in each. A node is visited once per ray; neighbors of leaves are not
+/// searched for.
 ///
 /// They use a linear octree, which stores the codes of occupied leaves: `HashedOctree` is nearest
 /// to it.

@@ -19,9 +19,8 @@ namespace beambench::accel::octree {
 inline constexpr std::string_view kLastClimb = "last_climb";
 inline constexpr std::string_view kLastClimbMeaning =
     "levels from the leaf in which a ray leaves the root up to the root: Samet's search climbs "
-    "them "
-    "before it knows that there is no neighbor; here they are not climbed, and not among the "
-    "traversal steps";
+    "them before it finds that the leaf lacks a neighbor; here they are not climbed, and not among "
+    "the traversal steps";
 
 /// Samet's search over the nearest common ancestor: nothing is stored, each move climbs and
 /// descends.

@@ -113,12 +113,13 @@ Statistics RayClassification::statistics() const {
   return statistics;
 }
 
-std::vector<Box> RayClassification::occupied_cells() const {
-  std::vector<Box> cells;
+std::vector<Cell> RayClassification::occupied_cells() const {
+  std::vector<Cell> cells;
   for (const auto& tree : trees_) {
     if (!tree) continue;
     tree->for_each_leaf([&](const RayTree::Place& place) {
-      if (!place.set->candidates.empty()) cells.push_back(origins_of(tree->face(), place.rays));
+      if (place.set->candidates.empty()) return;
+      cells.push_back({origins_of(tree->face(), place.rays), place.depth + 1});
     });
   }
   return cells;

@@ -55,7 +55,7 @@ class RayClassification : public TraversalAccelerator<RayClassification> {
 
   Statistics statistics() const override;
   /// Returns the origins of all sets of rays that have candidates.
-  std::vector<Box> occupied_cells() const override;
+  std::vector<Cell> occupied_cells() const override;
 
  private:
   /// Calls `test(id)` for the primitives that the ray may meet before `canonical.t_max`, until it

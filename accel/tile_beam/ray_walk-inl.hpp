@@ -217,8 +217,10 @@ class RayWalk {
     if (enter > query_.t_max() * bvh::ProbeRay::kWider) return !waiting_.empty();
     counting.add(Counter::kTraversalSteps);
     counting.enter([&] {
+      const scenes::Bounds box = bounds_of(hierarchy, at);
       return TraceStep{.place = at.kind() == TileChild::Kind::kNode ? "node" : "leaf",
                        .index = at.index(),
+                       .box = Box{glm::dvec3(box.lower), glm::dvec3(box.upper)},
                        .t_enter = enter,
                        .t_exit = query_.t_max()};
     });

@@ -211,6 +211,39 @@ void TileCones::set(std::size_t lane, const glm::dvec3& along, double half_angle
   sine_squared[lane] = static_cast<float>(kWider * sine * sine + kMin);
 }
 
+scenes::Bounds bounds_of(const TileHierarchy& hierarchy, TileChild child) {
+  scenes::Bounds bounds;
+  const auto include_lanes = [&](const TileBoxes& boxes, std::size_t count) {
+    for (std::size_t lane = 0; lane < count; ++lane) bounds.include(boxes.get(lane));
+  };
+  switch (child.kind()) {
+    case TileChild::Kind::kNode:
+      include_lanes(hierarchy.nodes[child.index()].boxes, hierarchy.nodes[child.index()].count);
+      break;
+    case TileChild::Kind::kMeshlet: {
+      const Meshlet& meshlet = hierarchy.meshlets[child.index()];
+      for (std::size_t i = 0; i < meshlet.vertex_count; ++i) {
+        bounds.include(
+            glm::vec3(meshlet.vertices[0][i], meshlet.vertices[1][i], meshlet.vertices[2][i]));
+      }
+      break;
+    }
+    case TileChild::Kind::kSpheres: {
+      const SphereBlock& block = hierarchy.spheres[child.index()];
+      for (std::size_t i = 0; i < block.count; ++i) {
+        const glm::vec3 center(block.center[0][i], block.center[1][i], block.center[2][i]);
+        bounds.include(center - block.radius[i]);
+        bounds.include(center + block.radius[i]);
+      }
+      break;
+    }
+    case TileChild::Kind::kCones:
+      include_lanes(hierarchy.cones[child.index()].boxes, hierarchy.cones[child.index()].count);
+      break;
+  }
+  return bounds;
+}
+
 TileHierarchy build_tile_hierarchy(const scenes::Scene& scene,
                                    const TileHierarchyOptions& options) {
   return Builder(scene, options).take();

@@ -178,6 +178,9 @@ struct TileHierarchyOptions {
   bool moves = false;  ///< the scene's coordinates will change (tile_refit.hpp); no culling then
 };
 
+/// Returns the bounds of what a node or leaf holds, a node's from the boxes of its children.
+scenes::Bounds bounds_of(const TileHierarchy& hierarchy, TileChild child);
+
 /// Throws InputError if the scene needs more than TileChild::kIndices leaves of a kind.
 TileHierarchy build_tile_hierarchy(const scenes::Scene& scene, const TileHierarchyOptions& options);
 

@@ -281,8 +281,8 @@ void add_kinds(Row& row, const CellRecord& cell) {
 
 void add_verification(Row& row, const CellRecord& cell) {
   row["hits"] = cell.diff ? Json(cell.diff->hits) : Json();
-  for (std::size_t i = 0; i < verify::kDiffClassNames.size(); ++i) {
-    row[std::string(verify::kDiffClassNames[i])] = cell.diff ? Json(cell.diff->counts[i]) : Json();
+  for (std::size_t i = 0; i < verify::kRecordedClassNames.size(); ++i) {
+    row[std::string(verify::kRecordedClassNames[i])] = cell.diff ? Json(cell.diff->counts[i]) : Json();
   }
   row["verdict"] = verify::to_string(cell.verdict);
 }

@@ -35,6 +35,21 @@ std::string table(const std::vector<std::vector<std::string>>& lines) {
   return out;
 }
 
+/// Returns the longest time per ray of any contender or reference of a view.
+double longest_time(const Standings& view) {
+  double longest = 0.0;
+  for (const auto* list : {&view.ranked, &view.references}) {
+    for (const Standing& one : *list) longest = std::max(longest, one.ns_per_ray);
+  }
+  return longest;
+}
+
+/// Returns a bar for a part of the longest time.
+std::string bar(double part) {
+  constexpr double kWidth = 30.0;
+  return std::string(static_cast<std::size_t>(std::max(1L, std::lround(part * kWidth))), '#');
+}
+
 /// Returns the fastest, those that are as fast, and those of which that is not decided.
 std::string winners(const Standings& view) {
   std::vector<std::string> tied, others;
@@ -134,12 +149,14 @@ std::string describe(std::span<const Standings> views) {
 std::string describe_contenders(std::span<const Standings> views) {
   std::string out;
   for (const Standings& view : views) {
-    std::vector<std::vector<std::string>> lines{
-        {"contender", "SIMD", "build ms", "ns per ray", "Mrays/s", "times the fastest"}};
+    std::vector<std::vector<std::string>> lines{{"contender", "SIMD", "build ms", "ns per ray",
+                                                 "Mrays/s", "times the fastest", "time per ray"}};
+    const double longest = longest_time(view);
     const auto add = [&](const Standing& one, const std::string& note) {
       lines.push_back({one.name() + note, one.isa.empty() ? "-" : one.isa,
                        fmt::format("{:.4g}", one.build_ms), fmt::format("{:.4g}", one.ns_per_ray),
-                       fmt::format("{:.4g}", 1e3 / one.ns_per_ray), in_words(one.ratio)});
+                       fmt::format("{:.4g}", 1e3 / one.ns_per_ray), in_words(one.ratio),
+                       bar(one.ns_per_ray / longest)});
     };
     for (const Standing& one : view.ranked) {
       const bool is_first = &one == view.ranked.data();

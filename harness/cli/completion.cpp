@@ -1,10 +1,12 @@
 // beambench completion, beambench man: generated from the program's options.
 
+#include <array>
 #include <cstdio>
 #include <map>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -21,6 +23,7 @@
 #include "scenes/catalogue.hpp"
 
 namespace beambench::cli {
+
 namespace {
 
 using Words = std::vector<std::string>;
@@ -64,14 +67,6 @@ Words names_of(const CLI::Option& option) {
   return names;
 }
 
-Words option_names(const CLI::App& command) {
-  Words names;
-  for (const CLI::Option* option : command.get_options()) {
-    for (std::string& name : names_of(*option)) names.push_back(std::move(name));
-  }
-  return names;
-}
-
 Words command_names(const CLI::App& app) {
   Words names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
@@ -85,6 +80,23 @@ Words argument_words(const CLI::App& command) {
     if (option->get_positional() && known != known_values().end()) return known->second;
   }
   return {};
+}
+
+/// Returns a case for each name that has parameters, which adds them to the words.
+std::string parameter_cases() {
+  std::string cases;
+  const auto add = [&](const auto& infos) {
+    for (const auto& info : infos) {
+      if (info.parameters.empty()) continue;
+      Words names;
+      for (const ParameterInfo& parameter : info.parameters) names.push_back(parameter.name + '=');
+      cases += fmt::format("      {}) words=\"$words {}\" ;;\n", info.name, fmt::join(names, " "));
+    }
+  };
+  add(accel::registry().structures());
+  add(scenes::scene_catalogue());
+  add(rays::ray_kinds());
+  return cases;
 }
 
 std::string bash_script(const CLI::App& app) {
@@ -105,13 +117,27 @@ std::string bash_script(const CLI::App& app) {
   }
   Words first = command_names(app);
   for (std::string& name : option_names(app)) first.push_back(std::move(name));
+  // The shell divides words at colons, too, so the word is taken from the line. In a list, what
+  // comes before the last comma or colon stays; it is removed again as far as the shell keeps it.
   return fmt::format(
       "_beambench() {{\n"
-      "  local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}} words=''\n"
-      "  if [[ $COMP_CWORD -eq 1 ]]; then\n"
+      "  local line=${{COMP_LINE:0:$COMP_POINT}} words='' command='' before='' token\n"
+      "  local word=${{line##* }} part kept name\n"
+      "  for token in $(printf '%s' \"${{line%\"$word\"}}\"); do\n"
+      "    if [[ -z $command && -n $before && $before != --plugin && $token != -* ]]; then\n"
+      "      command=$token\n"
+      "    fi\n"
+      "    before=$token\n"
+      "  done\n"
+      "  part=${{word##*,}}\n"
+      "  kept=${{word%\"$part\"}}\n"
+      "  name=${{word%%:*}}\n"
+      "  if [[ $before == --plugin ]]; then\n"
+      "    words=''\n"
+      "  elif [[ -z $command ]]; then\n"
       "    words='{}'\n"
       "  elif [[ $word == -* ]]; then\n"
-      "    case ${{COMP_WORDS[1]}} in\n"
+      "    case $command in\n"
       "{}"
       "    esac\n"
       "  elif [[ $before == -* ]]; then  # a value: a word that is known, or a file\n"
@@ -119,14 +145,26 @@ std::string bash_script(const CLI::App& app) {
       "{}"
       "    esac\n"
       "  else\n"
-      "    case ${{COMP_WORDS[1]}} in\n"
+      "    case $command in\n"
       "{}"
       "    esac\n"
       "  fi\n"
-      "  COMPREPLY=($(compgen -W \"$words\" -- \"$word\"))\n"
+      "  if [[ $word == *:* ]]; then  # parameters of the name before the last colon\n"
+      "    name=${{word%:*}}\n"
+      "    name=${{name##*,}}\n"
+      "    [[ $part == *:* ]] && kept=${{word%\"${{part#*:}}\"}} part=${{part#*:}} words=''\n"
+      "    case $name in\n"
+      "{}"
+      "    esac\n"
+      "  fi\n"
+      "  COMPREPLY=($(compgen -P \"$kept\" -W \"$words\" -- \"$part\"))\n"
+      "  if [[ $word == *:* && ${{COMP_WORDBREAKS-}} == *:* ]]; then\n"
+      "    COMPREPLY=(\"${{COMPREPLY[@]#\"${{word%:*}}\":}}\")\n"
+      "  fi\n"
+      "  [[ ${{COMPREPLY[0]-}} != *= ]] || compopt -o nospace 2>/dev/null\n"
       "}}\n"
       "complete -o default -F _beambench beambench\n",
-      fmt::join(first, " "), options, values, arguments);
+      fmt::join(first, " "), options, values, arguments, parameter_cases());
 }
 
 /// Returns the zsh script, which runs bash's completions. The first completion loads the script as
@@ -219,7 +257,7 @@ std::string option_entry(const CLI::Option& option) {
   } else {
     for (const std::string& name : names_of(option)) names += bold(name) + ", ";
     names.resize(names.size() - 2);
-    if (takes_value(option)) names += " \\fIVALUE\\fR";
+    if (takes_value(option)) names += fmt::format(" \\fI{}\\fR", escaped(option.get_type_name()));
   }
   std::string about = escaped(option.get_description());
   if (!option.get_default_str().empty()) {
@@ -236,6 +274,22 @@ std::string command_section(const CLI::App& command) {
   return out + ".PP\n" + verbatim(command.get_footer());
 }
 
+/// The variables that the program reads.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kEnvironment{{
+    {"BEAMBENCH_MEMORY",
+     "How much memory the program may use, such as 800M or 12G; if not set, "
+     "what the system and its control groups leave."},
+    {"BEAMBENCH_PLUGINS",
+     "Shared objects to load before any command, as with --plugin; several "
+     "are separated by colons."},
+    {"BEAMBENCH_UNGUARDED", "If set, plug-ins run in the process of the program, for debuggers."},
+    {"BEAMBENCH_CACHE",
+     "The folder of installed meshes and of what was read from meshes, in place "
+     "of $XDG_CACHE_HOME/beambench."},
+    {"TMPDIR", "The folder for temporary files, in place of /tmp."},
+    {"XDG_CACHE_HOME", "The folder of all caches, in place of ~/.cache."},
+}};
+
 std::string manual_page(const CLI::App& app) {
   std::string out = fmt::format(
       ".TH BEAMBENCH 1 \"\" \"beambench {}\" \"User Commands\"\n"
@@ -246,10 +300,22 @@ std::string manual_page(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options()) out += option_entry(*option);
   out += ".SH COMMANDS\n";
   for (const CLI::App* command : app.get_subcommands({})) out += command_section(*command);
+  out += ".SH ENVIRONMENT\n";
+  for (const auto& [name, meaning] : kEnvironment) {
+    out += fmt::format(".TP\n{}\n{}\n", bold(std::string(name)), escaped(meaning));
+  }
   return out + ".SH EXAMPLES AND EXIT STATUS\n" + verbatim(app.get_footer());
 }
 
 }  // namespace
+
+std::vector<std::string> option_names(const CLI::App& command) {
+  Words names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (std::string& name : names_of(*option)) names.push_back(std::move(name));
+  }
+  return names;
+}
 
 void add_completion_command(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("completion", "Print a shell's completion script");

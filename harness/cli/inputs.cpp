@@ -9,8 +9,10 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "harness/rays/ray_kind.hpp"
 #include "harness/rays/trace_input.hpp"
 #include "scenes/base/error.hpp"
+#include "scenes/catalogue.hpp"
 #include "scenes/scene.hpp"
 #include "scenes/scene_builder.hpp"
 
@@ -103,6 +105,55 @@ scenes::Camera choose_camera(const scenes::Scene& scene, const ViewRequest& requ
   return camera;
 }
 
+void add_verbose_option(CLI::App& command, bool& verbose) {
+  command.add_flag(
+      "--verbose", verbose,
+      "Print a line for each cell, on a terminal too, in place of one line of progress");
+}
+
+CLI::Validator whole_number_in(std::int64_t lower, std::int64_t upper) {
+  const std::string range = fmt::format("a whole number from {} to {}", lower, upper);
+  return {[=](const std::string& text) {
+            std::int64_t number = 0;
+            const char* const stop = text.data() + text.size();
+            const auto [end, error] = std::from_chars(text.data(), stop, number);
+            const bool valid = error == std::errc() && end == stop && number >= lower;
+            return valid && number <= upper ? "" : fmt::format("'{}' is not {}", text, range);
+          },
+          fmt::format("in [{} - {}]", lower, upper)};
+}
+
+CLI::Validator number_in(double lower, double upper) {
+  const std::string range = fmt::format("a number from {} to {}", lower, upper);
+  return {[=](const std::string& text) {
+            double number = 0.0;
+            const char* const stop = text.data() + text.size();
+            const auto [end, error] = std::from_chars(text.data(), stop, number);
+            const bool valid = error == std::errc() && end == stop && number >= lower;
+            return valid && number <= upper
+                       ? ""
+                       : fmt::format("'{}' is not {}, written without a unit", text, range);
+          },
+          fmt::format("in [{} - {}]", lower, upper)};
+}
+
+void refuse_structures_as_scenes(const std::vector<std::string>& scenes) {
+  const auto refuse = [](std::string_view name, std::string_view what, std::string_view option) {
+    throw InputError(fmt::format(
+        "'{}' is {}, not a scene; a list after {} is separated by commas, without blanks: {} A,B",
+        name, what, option, option));
+  };
+  for (const std::string& scene : scenes) {
+    const std::string_view name = std::string_view(scene).substr(0, scene.find_first_of(":,"));
+    const auto is_name = [&](const auto& info) { return info.name == name; };
+    if (std::ranges::any_of(scenes::scene_catalogue(), is_name)) continue;
+    if (std::ranges::any_of(accel::registry().structures(), is_name)) {
+      refuse(name, "a structure", "--accel");
+    }
+    if (std::ranges::any_of(rays::ray_kinds(), is_name)) refuse(name, "a kind of rays", "--rays");
+  }
+}
+
 accel::StructureChoice choose_one(std::string_view option, std::string_view text) {
   std::vector<accel::StructureChoice> choices = accel::registry().choose_list(text);
   if (choices.size() == 1) return choices.front();
@@ -157,7 +208,7 @@ void add_light_options(CLI::App& command, WhittedRequest& request) {
       .add_option("--depth", request.max_depth,
                   "Maximum ray depth, the primary ray included; 1: no mirrors and no glass")
       ->capture_default_str()
-      ->check(CLI::Range(1, 64));
+      ->check(whole_number_in(1, 64));
   command
       .add_option("--shadows", request.shadows,
                   "rays; cache: test the last occluder first; light-buffer: lists of "
@@ -168,14 +219,14 @@ void add_light_options(CLI::App& command, WhittedRequest& request) {
                   "Minimum weight in its pixel for a reflected or refracted ray to be traced; "
                   "0: all are traced")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(number_in(0.0, 1.0));
 }
 
 void add_whitted_options(CLI::App& command, WhittedRequest& request) {
   add_light_options(command, request);
   command.add_option("--threads", request.threads, "0: one for each core, within the CPU quota")
       ->capture_default_str()
-      ->check(CLI::Range(0, 1024));
+      ->check(whole_number_in(0, 1024));
 }
 
 render::WhittedOptions whitted_options(const WhittedRequest& request) {

@@ -25,8 +25,18 @@ inline constexpr const char* kSceneHelp =
     "Catalogue name, mesh:NAME, or path of an NFF or mesh file";
 /// Adds SCENE as one required argument.
 void add_scene_option(CLI::App& command, std::string& scene);
+/// Throws InputError if a scene's name is that of a structure or of a kind of rays: a list was
+/// separated by blanks in place of commas.
+void refuse_structures_as_scenes(const std::vector<std::string>& scenes);
 /// Adds --frame.
 CLI::Option* add_frame_option(CLI::App& command, std::uint32_t& frame);
+
+/// Adds --verbose.
+void add_verbose_option(CLI::App& command, bool& verbose);
+
+/// Returns the check of an option whose value is a whole number, or any number, in [lower, upper].
+CLI::Validator whole_number_in(std::int64_t lower, std::int64_t upper);
+CLI::Validator number_in(double lower, double upper);
 
 /// The requested camera: one of the scene's, or a view given by options.
 struct ViewRequest {

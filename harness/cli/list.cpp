@@ -128,8 +128,8 @@ void print_plugins() {
   fmt::print("\nPlug-ins:\n");
   for (const plugin::LoadedPlugin& plugin : plugin::loaded_plugins()) {
     fmt::print("\n  {}\n{}", printable(plugin.file), wrap(plugin.description, 6));
-    fmt::print("      hash {}, built by {} for {}{}\n", rays::hex_digits(plugin.hash),
-               plugin.compiler, plugin.instructions,
+    fmt::print("      hash {}, built by {}{}{}\n", rays::hex_digits(plugin.hash), plugin.compiler,
+               plugin.instructions.empty() ? "" : " for " + plugin.instructions,
                plugin.optimized ? "" : ", without optimization");
   }
 }

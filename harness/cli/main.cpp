@@ -24,8 +24,10 @@
 #include "harness/plugin/activity.hpp"
 #include "harness/plugin/load_plugin.hpp"
 #include "harness/rays/hit_check.hpp"
+#include "harness/verify/outside_program.hpp"
 #include "scenes/base/error.hpp"
 #include "scenes/base/nearest_name.hpp"
+#include "scenes/base/process_memory.hpp"
 
 namespace beambench::cli {
 namespace {
@@ -59,13 +61,21 @@ void add_plugin_option(CLI::App& app) {
       ->type_name("FILE");
 }
 
+/// Checks an option in place of a command.
+void require_known_option(const CLI::App& app, const std::string& word) {
+  const std::vector<std::string> names = option_names(app);
+  if (std::ranges::find(names, word.substr(0, word.find('='))) != names.end()) return;
+  throw InputError(fmt::format("there is no option '{}' before a command; {}see 'beambench --help'",
+                               word, did_you_mean(word, names)));
+}
+
 /// Checks the command, because CLI11 would only report that a subcommand is required, or that an
 /// argument was not expected.
 void require_known_command(const CLI::App& app, const Arguments& arguments) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
   const std::string word = arguments.size() > 1 ? arguments[1] : "";
-  if (word.starts_with('-')) return;
+  if (word.starts_with('-')) return require_known_option(app, word);
   if (std::find(names.begin(), names.end(), word) != names.end()) return;
   const std::string_view remedy = "'beambench --help' describes them";
   if (word.empty()) {
@@ -84,11 +94,7 @@ void take_help_for_a_command(Arguments& arguments) {
 
 /// Returns "did you mean '--resolution'? " for the first word that no option or argument has taken.
 std::string suggested_option(const CLI::App& command) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : command.get_options()) {
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
-  }
+  const std::vector<std::string> names = option_names(command);
   for (const std::string& word : command.remaining()) {
     if (word.starts_with('-')) return did_you_mean(word.substr(0, word.find('=')), names);
   }
@@ -104,9 +110,10 @@ int parse_and_run(const Arguments& arguments) {
   app.require_subcommand(1);
   for (const auto add :
        {add_list_command, add_scene_command, add_export_command, add_render_command,
-        add_rays_command, add_hits_command, add_stats_command, add_time_command, add_verify_command,
-        add_trace_command, add_selftest_command, add_run_command, add_analyze_command,
-        add_report_command, add_merge_command, add_fingerprint_command, add_completion_command,
+        add_explain_command, add_rays_command, add_hits_command, add_stats_command,
+        add_time_command, add_verify_command, add_trace_command, add_selftest_command,
+        add_run_command, add_analyze_command, add_report_command, add_merge_command,
+        add_fingerprint_command, add_completion_command,
         add_man_command}) {
     add(app, exit_code);
   }
@@ -132,6 +139,7 @@ int parse_and_run(const Arguments& arguments) {
 int run_command_line(const Arguments& arguments, const std::vector<std::string>& plugins,
                      plugin::Activity& activity) {
   try {
+    available_memory();  // refuses an invalid BEAMBENCH_MEMORY before any work
     for (const std::string& file : plugins) plugin::load_plugin(file, activity);
     if (arguments.size() == 2 && arguments[1] == measure::kBlockCommand) {
       return measure::serve_block(activity);
@@ -139,6 +147,8 @@ int run_command_line(const Arguments& arguments, const std::vector<std::string>&
     return parse_and_run(arguments);
   } catch (const InputError& error) {
     return fail(error.what(), base::kInvalidInput);
+  } catch (const verify::Interrupted& error) {
+    return fail(error.what(), base::kInterrupted);
   } catch (const PluginError& error) {
     return fail(error.what(), base::kMismatch);
   } catch (const rays::InvalidHit& error) {

@@ -261,7 +261,7 @@ std::string compare(const RenderRequest& request, const accel::StructureChoice& 
                      request.difference, report.count(verify::DiffClass::kTie),
                      report.count(verify::DiffClass::kGraze),
                      report.count(verify::DiffClass::kStructureError),
-                     report.count(verify::DiffClass::kEmbreeError));
+                     report.count(verify::DiffClass::kOracleError));
 }
 
 /// Returns the structure for a picture: plain pictures are the same with any structure, other
@@ -380,22 +380,24 @@ void add_render_command(CLI::App& app, int&) {
       ->type_name("A-B")
       ->excludes(frame);
   add_image_options(*command, request->image);
-  command
-      ->add_option("--shade", request->shading,
-                   "preview, normals, id, depth, or whitted: lights, shadows, mirrors and glass")
-      ->capture_default_str();
+  CLI::Option* shade =
+      command
+          ->add_option(
+              "--shade", request->shading,
+              "preview, normals, id, depth, or whitted: lights, shadows, mirrors and glass")
+          ->capture_default_str();
   add_whitted_options(*command, request->whitted);
   CLI::Option* soft =
       command
           ->add_option("--soft-shadows", request->light_points,
                        "Lights are balls, each shown by so many of its points (with --shade "
                        "whitted); 16 suits a draft, 64 and more a picture")
-          ->check(CLI::Range(1, rays::kMaxLightPoints));
+          ->check(whole_number_in(1, rays::kMaxLightPoints));
   command
       ->add_option("--light-size", request->light_size,
                    "The diameter of these balls, in diagonals of the scene's box")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(number_in(0.0, 1e6))
       ->needs(soft);
   CLI::Option* exposure =
       command
@@ -408,7 +410,8 @@ void add_render_command(CLI::App& app, int&) {
   CLI::Option* heatmap = command
                              ->add_option("--heatmap", request->heatmap,
                                           "Instead of shading: a work counter as colors")
-                             ->excludes(exposure);
+                             ->excludes(exposure)
+                             ->excludes(shade);
   CLI::Option* difference =
       command
           ->add_option("--difference", request->difference,

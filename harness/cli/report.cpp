@@ -77,7 +77,9 @@ void add_report_command(CLI::App& app, int& /*exit_code*/) {
   command->footer(
       "Writes DIR/plots, DIR/pictures and DIR/report.html, and prints the path of the page. Needs "
       "the\nPython package: pipx install 'beambench[report]', or in a clone of the repository, "
-      "scripts/setup.\n"
+      "scripts/setup.\nIts Python is the one named by BEAMBENCH_REPORT_PYTHON, or that of either, "
+      "or "
+      "python3.\n"
       "Examples:\n"
       "  beambench run quick -o my-run --benchmark_filter=tetra.*samet\n"
       "  beambench report my-run");

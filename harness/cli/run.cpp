@@ -18,6 +18,7 @@
 #include "harness/base/messages.hpp"
 #include "harness/base/stopwatch.hpp"
 #include "harness/cli/commands.hpp"
+#include "harness/cli/inputs.hpp"
 #include "harness/cli/interruption.hpp"
 #include "harness/measure/division.hpp"
 #include "harness/measure/record/machine.hpp"
@@ -37,6 +38,7 @@ struct RunRequest {
   std::string output;
   std::string resume;
   std::optional<std::string> shard;
+  bool verbose = false;
   bool dry_run = false;
   bool json = false;
   std::optional<double> quiet_minutes;  ///< to wait for a quiet machine, at most
@@ -62,6 +64,7 @@ measure::SweepOptions options_of(const RunRequest& request) {
   options.resume = !request.resume.empty();
   if (options.resume) options.folder = request.resume;
   if (!request.output.empty()) options.folder = request.output;
+  options.line_per_cell = request.verbose;
   return options;
 }
 
@@ -266,7 +269,8 @@ void add_run_command(CLI::App& app, int& exit_code) {
           "Wait until the load average is at most 0.5, for that long at most, and end with "
           "exit code 2 if it does not get there")
       ->type_name("MINUTES")
-      ->check(CLI::Range(0.0, 1e5));
+      ->check(number_in(0.0, 1e5));
+  add_verbose_option(*command, request->verbose);
   CLI::Option* dry_run =
       command->add_flag("--dry-run", request->dry_run, "Print the names of the cells and stop");
   command

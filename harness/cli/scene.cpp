@@ -199,7 +199,7 @@ void add_scene_command(CLI::App& app, int&) {
       "Generate it in growing sizes; print primitives, bytes and seconds of each");
   growth->excludes(frame);
   command->add_option("--growth-limit", request->growth_limit, "Maximum number of primitives")
-      ->check(CLI::Range(std::size_t{1}, measure::kMaxGrowth))
+      ->check(whole_number_in(1, measure::kMaxGrowth))
       ->capture_default_str()
       ->needs(growth);
   command->add_flag("--csv", request->csv, "Print the growth as CSV")

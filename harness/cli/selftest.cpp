@@ -223,14 +223,14 @@ void add_selftest_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("--scenes", request->effort.scenes,
                    "Number of random scenes, of each check that makes them")
-      ->check(CLI::Range(1, 100'000))
+      ->check(whole_number_in(1, 100'000))
       ->capture_default_str();
   command->add_option("--seed", request->effort.seed, "Seed of the first random scene")
       ->capture_default_str();
   command
       ->add_option("--rays", request->effort.rays,
                    "Rays, about, for each random scene: more find rarer faults")
-      ->check(CLI::Range(20, 1'000'000))
+      ->check(whole_number_in(20, 1'000'000))
       ->capture_default_str();
   CLI::Option* minimize =
       command

@@ -1,24 +1,30 @@
 // beambench time: times a few structures at once, without a sweep file.
 
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "accel/core/registry.hpp"
 #include "harness/analysis/words.hpp"
+#include "harness/base/messages.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/interruption.hpp"
 #include "harness/measure/sweep_run.hpp"
 #include "harness/measure/tuning.hpp"
 #include "harness/plugin/load_plugin.hpp"
+#include "harness/rays/ray_kind.hpp"
 #include "scenes/base/error.hpp"
 #include "scenes/base/files.hpp"
 #include "scenes/base/json_text.hpp"
@@ -41,7 +47,11 @@ struct TimeRequest {
   int threads = 1;
   double seconds = 20.0;
   std::string save;
+  bool verbose = false;
 };
+
+/// The beginning of messages about the sweep of a request.
+constexpr std::string_view kSweepName = "beambench time";
 
 /// A temporary folder for a run that is not kept.
 class TemporaryFolder {
@@ -90,6 +100,34 @@ nlohmann::json structures_of(const std::string& text) {
   return structures;
 }
 
+/// Returns each kind of rays once. Lists are separated by commas; several words are taken, too.
+std::vector<std::string> rays_of(const TimeRequest& request) {
+  std::vector<std::string> kinds;
+  for (const rays::RayChoice& choice :
+       rays::parse_ray_choices(fmt::format("{}", fmt::join(request.rays, ",")))) {
+    kinds.push_back(choice.file.empty() ? choice.label : choice.file.string());
+  }
+  return kinds;
+}
+
+/// Names the option in place of the sweep's JSON pointer, with which a message begins.
+std::string with_option_name(std::string message) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kOptions{
+      {{"scenes", "SCENE"},
+       {"structures", "--accel"},
+       {"resolutions", "--resolution"},
+       {"samples", "--samples"},
+       {"rays", "--rays"},
+       {"threads", "--threads"},
+       {"budget_seconds", "--seconds"}}};
+  for (const auto& [key, option] : kOptions) {
+    if (!message.starts_with(fmt::format("{}: /{}", kSweepName, key))) continue;
+    const std::size_t text = message.find(": ", kSweepName.size() + 2);
+    return std::string(option) + message.substr(text);
+  }
+  return message;
+}
+
 /// Returns the request in the form of `beambench run`. At least six repetitions, because fewer give
 /// no interval, and then nothing would be decided.
 nlohmann::json sweep_of(const TimeRequest& request) {
@@ -99,7 +137,7 @@ nlohmann::json sweep_of(const TimeRequest& request) {
           {"structures", structures_of(request.structures)},
           {"resolutions", {request.resolution}},
           {"samples", {request.samples}},
-          {"rays", request.rays},
+          {"rays", rays_of(request)},
           {"threads", request.threads},
           {"precision", 0.02},
           {"repetitions", {{"minimum", 6}, {"maximum", 200}}},
@@ -116,17 +154,33 @@ void require_can_be_saved(const TimeRequest& request) {
   }
 }
 
+/// Throws InputError, which names the option.
+std::pair<measure::SweepConfig, measure::Plan> plan_of(const TimeRequest& request) {
+  try {
+    measure::SweepConfig config =
+        measure::parse_sweep(sweep_of(request), std::string(kSweepName), accel::registry());
+    measure::Plan plan = measure::make_plan(config);
+    return {std::move(config), std::move(plan)};
+  } catch (const InputError& error) {
+    throw InputError(with_option_name(error.what()));
+  }
+}
+
 int time_structures(const TimeRequest& request) {
   if (!request.save.empty()) require_can_be_saved(request);
   Interruption interruption("interrupted; nothing was kept");
-  const measure::SweepConfig config =
-      measure::parse_sweep(sweep_of(request), "beambench time", accel::registry());
-  measure::Plan plan = measure::make_plan(config);
+  refuse_structures_as_scenes(request.scenes);
+  const auto [config, planned] = plan_of(request);
+  measure::Plan plan = std::move(planned);
+  if (plan.merged > 0) {
+    base::print_message(stderr, "what is given twice is timed once\n");
+  }
   if (!request.save.empty()) write_file(request.save, json_text(config.source) + "\n");
   const TemporaryFolder folder;
   interruption.set_folder_to_remove(folder.path());
   measure::SweepOptions options;
   options.folder = folder.path();
+  options.line_per_cell = request.verbose;
   options.block_program = plugin::program_words();
   const measure::GoogleBenchmark benchmark(measure::parse_benchmark_flags({}));
   const analysis::Analysis found = analysis::analyze(
@@ -153,26 +207,30 @@ void add_time_command(CLI::App& app, int& exit_code) {
   command->add_option("--camera", request->camera, "By name (default: each scene's first)");
   command->add_option("--resolution", request->resolution, "WIDTHxHEIGHT")->capture_default_str();
   command
-      ->add_option("--rays", request->rays,
-                   "Kinds of rays, as after 'beambench rays SCENE --rays'; several are timed apart")
+      ->add_option(
+          "--rays", request->rays,
+          "Kinds of rays, as after 'beambench rays SCENE --rays', separated by commas; each "
+          "is timed apart")
+      ->type_name("KIND[,KIND...]")
       ->capture_default_str();
   command->add_option("--samples", request->samples, "Per pixel")->capture_default_str();
   command->add_option("--threads", request->threads, "That trace an image or a list (1 to 1024)")
-      ->check(CLI::Range(1, 1024))
+      ->check(whole_number_in(1, 1024))
       ->capture_default_str();
   command
       ->add_option("--seconds", request->seconds,
                    "Time for all repetitions; six of each are made in any case")
-      ->check(CLI::Range(0.1, 1e6))
+      ->check(number_in(0.1, 1e6))
       ->capture_default_str();
   command->add_option("--save", request->save,
                       "Write the sweep that this is, for 'beambench run FILE'");
+  add_verbose_option(*command, request->verbose);
   command->footer(
       "Contenders take turns, each repetition builds its structure anew, and every hit is "
       "verified.\n"
       "Examples:\n"
       "  beambench time balls:n=3 --accel samet,sah-bvh,embree --seconds 5\n"
-      "  beambench time tetra:n=3 --accel all --rays primary shadow --seconds 5 --save mine.json");
+      "  beambench time tetra:n=3 --accel all --rays primary,shadow --seconds 5 --save mine.json");
   command->callback([request, &exit_code] { exit_code = time_structures(*request); });
 }
 

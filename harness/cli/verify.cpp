@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "accel/core/threads.hpp"
 #include "harness/cli/commands.hpp"
@@ -48,6 +49,7 @@ struct VerifyRequest {
   int threads = 1;
   std::string json;
   std::string pictures;
+  bool verbose = false;
 };
 
 std::string bits_text(const verify::VerifiedCell& cell) {
@@ -57,7 +59,7 @@ std::string bits_text(const verify::VerifiedCell& cell) {
 
 std::string table_text(const std::vector<verify::VerifiedCell>& cells) {
   TextTable table({"scene", "ray kind", "structure", "rays", "hits", "agree", "tie", "graze",
-                   "structure error", "embree error", "bits", "verdict"},
+                   "structure error", "oracle error", "bits", "verdict"},
                   3);
   for (const verify::VerifiedCell& cell : cells) {
     std::vector<std::string> row{cell.scene, cell.rays, cell.label};
@@ -209,6 +211,7 @@ std::vector<verify::VerifiedCell> verify_kind(
 
 int verify_structures(const VerifyRequest& request) {
   const rays::Resolution resolution = rays::parse_resolution(request.resolution);
+  refuse_structures_as_scenes(request.scenes);
   const std::vector<rays::RayChoice> kinds = rays::parse_ray_choices(request.rays);
   rays::require_ray_count(resolution,
                           static_cast<int>(accel::sample_offsets(request.samples).size()));
@@ -218,7 +221,8 @@ int verify_structures(const VerifyRequest& request) {
   for (const scenes::Scene& scene : scenes) choose_camera(scene, request.view);
   if (!request.pictures.empty()) make_folder(request.pictures, "choose another with --pictures");
 
-  base::Progress progress(scenes.size() * kinds.size() * structures);
+  base::Progress progress(scenes.size() * kinds.size() * structures, stderr,
+                          !request.verbose && ::isatty(STDERR_FILENO) == 1);
   std::vector<verify::VerifiedCell> cells;
   for (const scenes::Scene& scene : scenes) {
     const rays::ImageOfRays image{choose_camera(scene, request.view), resolution, request.samples};
@@ -237,13 +241,17 @@ int verify_structures(const VerifyRequest& request) {
   const bool verified = std::ranges::any_of(cells, &verify::VerifiedCell::was_possible);
   const bool passed = verified && std::ranges::all_of(cells, &verify::VerifiedCell::passed);
   fmt::print("{}", table_text(cells));
+  print_oracle_note(std::ranges::any_of(cells, [](const verify::VerifiedCell& cell) {
+    return cell.report && cell.report->count(verify::DiffClass::kOracleError) > 0;
+  }));
   for (const verify::VerifiedCell& cell : cells) print_disputes(cell);
   print_missing_rays(cells);
   if (!request.json.empty()) write_json(request, cells, passed);
   if (!verified) {
     throw InputError(
-        fmt::format("nothing was verified: there are no rays of the kinds '{}'; choose other kinds "
-                    "with --rays, or another camera or resolution",
+        fmt::format("nothing was verified: there are no rays of the kinds '{}', or no structure "
+                    "that supports them and the primitives; choose other kinds with --rays, "
+                    "another camera or resolution, or other structures",
                     request.rays));
   }
   return passed ? base::kSuccess : base::kMismatch;
@@ -285,7 +293,7 @@ void add_verify_command(CLI::App& app, int& exit_code) {
                        "Threads that trace; 0: one for each core, within the CPU "
                        "quota")
           ->capture_default_str()
-          ->check(CLI::Range(0, 1024));
+          ->check(whole_number_in(0, 1024));
   CLI::Option* run =
       command
           ->add_option("--command", request->command,
@@ -309,11 +317,12 @@ void add_verify_command(CLI::App& app, int& exit_code) {
       ->add_option("--pictures", request->pictures,
                    "Write a picture of the differences to this folder if there are errors")
       ->type_name("DIR");
+  add_verbose_option(*command, request->verbose);
   command->footer(
       "Each ray's hit is compared with that of Embree given exact intersectors. agree: the same\n"
       "primitive at the same place; tie: another primitive at the same place; graze: the ray "
       "passes\n"
-      "a boundary within rounding; structure error, embree error: one of the two is wrong, by\n"
+      "a boundary within rounding; structure error, oracle error: one of the two is wrong, by\n"
       "exact arithmetic over all primitives. bits: whether bit-exact structures return "
       "the\n"
       "same bits as exhaustive, or as the first of them. Exits with 1 unless every verdict is ok\n"

@@ -1,7 +1,9 @@
 #include "harness/cli/verify_hits.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <span>
@@ -32,15 +34,27 @@ constexpr std::size_t kPrinted = 3;  // examples; the JSON has them all
 
 /// The findings for one file of rays.
 struct VerifiedClaims {
-  std::string name;  ///< of the case
+  std::string name;    ///< of the case
+  std::string family;  ///< of a kit
   std::string scene;
   std::size_t primitives = 0;
-  verify::ClaimsReport found;
+  verify::ClaimsReport found{};  ///< empty if nothing was verified
+  verify::Verdict verdict = verify::Verdict::kError;
+  /// Rays that left a closed surface between two triangles: the differ alone calls them grazes.
+  std::uint64_t leaks = 0;
+  std::string message{};  ///< why nothing was verified; empty otherwise
   std::string picture{};  ///< the picture's file; empty: none
   std::string minimal{};  ///< a line about the reduction; empty: none
 
-  bool passed() const { return verify::is_right(found.report.verdict); }
+  bool passed() const { return verify::is_right(verdict); }
+  bool was_possible() const { return verdict != verify::Verdict::kUnsupported; }
 };
+
+/// Returns whether the program reports that the ray hits nothing.
+bool is_miss(const verify::Mismatch& mismatch) {
+  return mismatch.query == rays::Query::kClosestHit ? !mismatch.answer
+                                                    : mismatch.any_hit_answer == 0;
+}
 
 /// Returns whether a mismatch is a dispute: ties are not, and grazes only if there are too many.
 bool is_dispute(const verify::Mismatch& mismatch, verify::Verdict verdict) {
@@ -50,7 +64,7 @@ bool is_dispute(const verify::Mismatch& mismatch, verify::Verdict verdict) {
 
 std::string table_text(std::span<const VerifiedClaims> all, const std::string& first_column) {
   std::vector<std::string> header{first_column, "query", "rays", "hits"};
-  for (const char* name : {"agree", "tie", "graze", "structure error", "embree error", "verdict"}) {
+  for (const char* name : {"agree", "tie", "graze", "structure error", "oracle error", "verdict"}) {
     header.emplace_back(name);
   }
   TextTable table(std::move(header), 2);
@@ -59,17 +73,83 @@ std::string table_text(std::span<const VerifiedClaims> all, const std::string& f
     std::vector<std::string> row{each.name, std::string(rays::to_string(each.found.query)),
                                  fmt::format("{}", report.rays), fmt::format("{}", report.hits)};
     for (const std::uint64_t count : report.counts) row.push_back(fmt::format("{}", count));
-    row.emplace_back(verify::to_string(report.verdict));
+    row.emplace_back(verify::to_string(each.verdict));
     table.add(std::move(row));
   }
   return table.text();
 }
 
+/// The cases of a family and a query, added up.
+struct FamilyRow {
+  std::string family;
+  rays::Query query;
+  std::size_t cases = 0;
+  std::size_t right = 0;
+  std::uint64_t rays = 0;
+  std::uint64_t leaks = 0;
+  std::array<std::uint64_t, verify::kDiffClassNames.size()> counts{};
+  verify::Verdict verdict = verify::Verdict::kUnsupported;  ///< the worst
+
+  void add(const VerifiedClaims& claims) {
+    ++cases;
+    leaks += claims.leaks;
+    rays += claims.found.report.rays;
+    for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += claims.found.report.counts[i];
+    if (!claims.was_possible()) return;
+    if (claims.passed()) ++right;
+    if (failed()) return;
+    verdict = claims.verdict;
+  }
+  bool failed() const {
+    return !verify::is_right(verdict) && verdict != verify::Verdict::kUnsupported;
+  }
+  std::uint64_t count(verify::DiffClass diff_class) const {
+    return counts[static_cast<std::size_t>(diff_class)];
+  }
+};
+
+/// Returns the rows in the order of the kit, those that failed last.
+std::vector<FamilyRow> rows_by_family(std::span<const VerifiedClaims> all) {
+  std::vector<FamilyRow> rows;
+  for (const VerifiedClaims& each : all) {
+    auto row = std::ranges::find_if(rows, [&](const FamilyRow& known) {
+      return known.family == each.family && known.query == each.found.query;
+    });
+    if (row == rows.end()) row = rows.insert(row, {each.family, each.found.query});
+    row->add(each);
+  }
+  std::ranges::stable_partition(rows, [](const FamilyRow& row) { return !row.failed(); });
+  return rows;
+}
+
+std::string family_table(std::span<const VerifiedClaims> all) {
+  TextTable table({"family", "query", "cases", "right", "rays", "agree or tie", "graze", "wrong",
+                   "leaks", "oracle error", "verdict"},
+                  2);
+  using verify::DiffClass;
+  for (const FamilyRow& row : rows_by_family(all)) {
+    table.add({row.family, std::string(rays::to_string(row.query)), fmt::format("{}", row.cases),
+               fmt::format("{}", row.right), fmt::format("{}", row.rays),
+               fmt::format("{}", row.count(DiffClass::kAgree) + row.count(DiffClass::kTie)),
+               fmt::format("{}", row.count(DiffClass::kGraze)),
+               fmt::format("{}", row.count(DiffClass::kStructureError)),
+               fmt::format("{}", row.leaks), fmt::format("{}", row.count(DiffClass::kOracleError)),
+               std::string(verify::to_string(row.verdict))});
+  }
+  return table.text();
+}
+
+bool has_oracle_errors(const VerifiedClaims& claims) {
+  return claims.found.report.count(verify::DiffClass::kOracleError) > 0;
+}
+
 void print_disputes(const VerifiedClaims& claims, const scenes::Scene& scene) {
   const verify::DiffReport& report = claims.found.report;
+  if (!claims.message.empty()) fmt::print("\n{}\n", claims.message);
   std::size_t disputes = 0;
   for (std::size_t i = 0; i < report.examples.size(); ++i) {
-    if (!is_dispute(report.examples[i], report.verdict)) continue;
+    const verify::Verdict verdict = claims.leaks > 0 ? verify::Verdict::kGrazes : report.verdict;
+    if (!is_dispute(report.examples[i], verdict)) continue;
     if (++disputes > kPrinted) continue;
     fmt::print("\n{}",
                verify::describe(scene, claims.found.places[i], report.examples[i], "reported"));
@@ -84,15 +164,18 @@ void print_disputes(const VerifiedClaims& claims, const scenes::Scene& scene) {
 Json json_of(const VerifiedClaims& claims) {
   const verify::DiffReport& report = claims.found.report;
   Json out{{"name", claims.name},
+           {"family", claims.family},
            {"scene", claims.scene},
            {"primitives", claims.primitives},
            {"query", rays::to_string(claims.found.query)},
-           {"verdict", verify::to_string(report.verdict)},
+           {"verdict", verify::to_string(claims.verdict)},
+           {"message", claims.message},
            {"passed", claims.passed()},
            {"rays", report.rays},
-           {"hits", report.hits}};
-  for (std::size_t i = 0; i < verify::kDiffClassNames.size(); ++i) {
-    out[std::string(verify::kDiffClassNames[i])] = report.counts[i];
+           {"hits", report.hits},
+           {"leaks", claims.leaks}};
+  for (std::size_t i = 0; i < verify::kRecordedClassNames.size(); ++i) {
+    out[std::string(verify::kRecordedClassNames[i])] = report.counts[i];
   }
   out["examples"] = Json::array();
   for (std::size_t i = 0; i < report.examples.size(); ++i) {
@@ -105,9 +188,17 @@ Json json_of(const VerifiedClaims& claims) {
   return out;
 }
 
+/// Returns whether hits were verified, and all of them right.
+bool passed(std::span<const VerifiedClaims> all) {
+  return std::ranges::any_of(all, &VerifiedClaims::was_possible) &&
+         std::ranges::all_of(all, [](const VerifiedClaims& claims) {
+           return claims.passed() || !claims.was_possible();
+         });
+}
+
 void write_json(const VerifyHitsRequest& request, std::span<const VerifiedClaims> all) {
   Json out{{"beambench", measure::build_info().version},
-           {"passed", std::ranges::all_of(all, &VerifiedClaims::passed)},
+           {"passed", passed(all)},
            {"cases", Json::array()}};
   for (const VerifiedClaims& each : all) out["cases"].push_back(json_of(each));
   write_file(request.json, json_text(out) + '\n');
@@ -129,12 +220,21 @@ VerifiedClaims verify_case(const VerifyHitsRequest& request, const scenes::Scene
                            const verify::KitCase& files,
                            const std::optional<verify::Tracer>& tracer, base::Progress& progress) {
   render::DisputedPlaces places;
-  const auto collect = [&](const verify::Mismatch& mismatch) { places.add(mismatch); };
-  VerifiedClaims claims{
-      printable(files.name), scene.name, scene.primitives.size(),
-      tracer ? verify::verify_traced_file(scene, files.rays, *tracer, collect, progress)
-             : verify::verify_hit_files(scene, files.rays, files.hits, collect, progress)};
+  std::uint64_t grazed_misses = 0;
+  const auto collect = [&](const verify::Mismatch& mismatch) {
+    places.add(mismatch);
+    if (mismatch.diff_class == verify::DiffClass::kGraze && is_miss(mismatch)) ++grazed_misses;
+  };
+  VerifiedClaims claims{printable(files.name), files.family, scene.name, scene.primitives.size()};
+  claims.found = tracer
+                     ? verify::verify_traced_file(scene, files.rays, *tracer, collect, progress)
+                     : verify::verify_hit_files(scene, files.rays, files.hits, collect, progress);
   const verify::DiffReport& report = claims.found.report;
+  claims.verdict = report.verdict;
+  if (files.closed && grazed_misses > 0) {
+    claims.leaks = grazed_misses;
+    claims.verdict = verify::Verdict::kMismatch;
+  }
   if (!request.pictures.empty() && !places.empty()) {
     const rays::ImageOfRays image{choose_camera(scene, request.view),
                                   rays::parse_resolution(request.resolution), 1};
@@ -159,12 +259,47 @@ VerifiedClaims verify_case(const VerifyHitsRequest& request, const scenes::Scene
   return claims;
 }
 
+/// Verifies a case of a kit: one that the tracer declines is unsupported, and one where it fails is
+/// an error. Throws where the very first case fails: then the command or the structure is at fault.
+VerifiedClaims verify_kit_case(const VerifyHitsRequest& request, const verify::KitCase& files,
+                               const std::optional<verify::Tracer>& tracer, bool is_first,
+                               base::Progress& progress) {
+  const scenes::Scene scene = open_scene(files.scene.string());
+  if (!tracer) return verify_case(request, scene, files, tracer, progress);
+  const auto without_hits = [&](verify::Verdict verdict, const std::exception& error) {
+    VerifiedClaims claims{printable(files.name), files.family, scene.name, scene.primitives.size()};
+    claims.found.query = files.query;
+    claims.verdict = verdict;
+    claims.message = error.what();
+    progress.finish(fmt::format("{}: {}", verify::to_string(verdict), claims.message));
+    return claims;
+  };
+  try {
+    return verify_case(request, scene, files, tracer, progress);
+  } catch (const accel::UnsupportedError& error) {
+    return without_hits(verify::Verdict::kUnsupported, error);
+  } catch (const InputError& error) {
+    if (is_first) throw;
+    return without_hits(verify::Verdict::kError, error);
+  } catch (const PluginError& error) {
+    return without_hits(verify::Verdict::kError, error);
+  }
+}
+
 void require_outputs(const VerifyHitsRequest& request) {
   if (!request.json.empty()) require_writable(request.json);
   if (!request.pictures.empty()) make_folder(request.pictures, "choose another with --pictures");
 }
 
 }  // namespace
+
+void print_oracle_note(bool any) {
+  if (!any) return;
+  fmt::print(
+      "\noracle error: the program is right there, and the oracle, Embree given exact "
+      "intersectors, is not,\nby exact arithmetic over all primitives. Such rays count as "
+      "right.\n");
+}
 
 std::string case_text(const std::filesystem::path& folder, const verify::MinimalCase& minimal) {
   return fmt::format("reduced to {} and {}, in {}{}",
@@ -194,12 +329,16 @@ int verify_hits(const VerifyHitsRequest& request) {
   choose_camera(scene, request.view);
   base::Progress progress(request.minimize.empty() ? 1 : 2);
   const std::filesystem::path file = request.hits.empty() ? request.rays : request.hits;
-  const VerifiedClaims claims = verify_case(
-      request, scene, {file.filename().string(), request.scene, request.rays, request.hits}, tracer,
-      progress);
+  const VerifiedClaims claims = verify_case(request, scene,
+                                            {.name = file.filename().string(),
+                                             .scene = request.scene,
+                                             .rays = request.rays,
+                                             .hits = request.hits},
+                                            tracer, progress);
   progress.clear();
   fmt::print("{} over {}\n\n{}", subject_of(request, request.hits), scene.name,
              table_text({&claims, 1}, "file"));
+  print_oracle_note(has_oracle_errors(claims));
   print_disputes(claims, scene);
   if (!request.json.empty()) write_json(request, {&claims, 1});
   return claims.passed() ? base::kSuccess : base::kMismatch;
@@ -221,19 +360,29 @@ int verify_kit(const VerifyHitsRequest& request) {
   std::vector<VerifiedClaims> all;
   std::size_t failed = 0;
   for (const verify::KitCase& each : cases) {
-    const scenes::Scene scene = open_scene(each.scene.string());
-    all.push_back(verify_case(request, scene, each, tracer, progress));
-    if (all.back().passed() || ++failed > kPrinted) continue;
+    all.push_back(verify_kit_case(request, each, tracer, all.empty(), progress));
+    const VerifiedClaims& claims = all.back();
+    if (claims.passed() || !claims.was_possible() || ++failed > kPrinted) continue;
     progress.clear();
-    fmt::print("{}:\n", printable(each.name));
-    print_disputes(all.back(), scene);
+    fmt::print("{}:\n", claims.name);
+    print_disputes(claims, open_scene(each.scene.string()));
     fmt::print("\n");
   }
   progress.clear();
-  fmt::print("{}", table_text(all, "case"));
-  fmt::print("\n{}: {} of {} cases right\n", subject_of(request, request.kit), all.size() - failed,
-             all.size());
+  if (failed > kPrinted) fmt::print("... and {} more cases failed\n\n", failed - kPrinted);
+  const auto supported =
+      static_cast<std::size_t>(std::ranges::count_if(all, &VerifiedClaims::was_possible));
+  fmt::print("{}", family_table(all));
+  print_oracle_note(std::ranges::any_of(all, has_oracle_errors));
+  fmt::print(
+      "\n{}: {} of {} cases right{}\n", subject_of(request, request.kit), supported - failed,
+      supported,
+      supported == all.size() ? "" : fmt::format(", {} unsupported", all.size() - supported));
   if (!request.json.empty()) write_json(request, all);
+  if (supported == 0) {
+    throw InputError(
+        fmt::format("nothing was verified: {}", all.empty() ? "no cases" : all.front().message));
+  }
   return failed == 0 ? base::kSuccess : base::kMismatch;
 }
 

@@ -32,6 +32,9 @@ int verify_hits(const VerifyHitsRequest& request);
 /// Verifies all scenes of a kit in the same way.
 int verify_kit(const VerifyHitsRequest& request);
 
+/// Explains the column "oracle error" where there are any.
+void print_oracle_note(bool any);
+
 /// Returns one line about the reduced error in that folder.
 std::string case_text(const std::filesystem::path& folder, const verify::MinimalCase& minimal);
 

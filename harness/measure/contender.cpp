@@ -13,6 +13,7 @@
 #include "accel/core/tree_quality.hpp"
 #include "harness/measure/measurement.hpp"
 #include "harness/measure/record/machine.hpp"
+#include "harness/plugin/program_contender.hpp"
 #include "scenes/base/process_memory.hpp"
 
 namespace beambench::measure {
@@ -37,6 +38,16 @@ std::string message_of(const std::exception& error) {
 bool is_all_zero(const std::map<std::string, std::uint64_t, std::less<>>& counters) {
   return std::all_of(counters.begin(), counters.end(),
                      [](const auto& counter) { return counter.second == 0; });
+}
+
+/// Returns the time of a phase by a program's own clock (`figure`), where the structure is in
+/// another process, or the time that was measured. The processor time of another process is
+/// unknown: it counts as working all the time.
+PhaseTime own_time(const accel::StructureInfo& info, const accel::Accelerator& structure,
+                   const char* figure, const PhaseTime& measured) {
+  if (info.origin.empty()) return measured;
+  const auto own = structure.statistics().figure(figure);
+  return own ? PhaseTime{*own, *own} : measured;
 }
 
 }  // namespace
@@ -149,6 +160,8 @@ Repetition Contender::time_once(const Instruments& instruments,
         HardwareCounts trace_counts = instruments.counters.count([&] {
           trace = time_phase([&] { task_->trace(*structure); }, cpu_clock(instruments.threads));
         });
+        build = own_time(choice.info(), *structure, plugin::kSelfReportedBuild, build);
+        trace = own_time(choice.info(), *structure, plugin::kSelfReportedTrace, trace);
         if (instruments.threads > 1) trace_counts = {};  // they are of the calling thread alone
         repetition.build_ms = build.wall_ms;
         repetition.trace_ms = trace.wall_ms;
@@ -171,7 +184,8 @@ void Contender::trace_warm(const accel::Accelerator& structure) {
   const MeasuringFloatMode mode;
   task_->poison();
   const PhaseTime again = time_phase([&] { task_->trace(structure); });
-  record_.repetitions.back().warm_trace_ms = again.wall_ms;
+  record_.repetitions.back().warm_trace_ms =
+      own_time(cell_->structure.info(), structure, plugin::kSelfReportedTrace, again).wall_ms;
   if (task_->fingerprint() == record_.hits_hash) return;
   fail(verify::Verdict::kMismatch,
        "a second trace of the same structure wrote other hits than its first");

@@ -203,6 +203,11 @@ std::set<std::string> GoogleBenchmark::select(std::span<const std::string> names
   NameCollector collector;
   benchmark::RunSpecifiedBenchmarks(&collector);
   if (collector.names().empty()) {
+    const std::string complaint = collector.messages();
+    if (complaint.find("Could not compile") != std::string::npos) {
+      throw InputError(fmt::format("--benchmark_filter='{}' is not a valid regular expression",
+                                   benchmark::GetBenchmarkFilter()));
+    }
     throw InputError(fmt::format(
         "--benchmark_filter='{}' selects none of the {} cells; list their names with --dry-run",
         benchmark::GetBenchmarkFilter(), names.size()));

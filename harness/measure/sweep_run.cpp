@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "harness/base/messages.hpp"
 #include "harness/base/progress.hpp"
@@ -97,7 +98,8 @@ class SweepRun {
         throttling_(options.root, manifest_.measurement.throttling),
         names_(names_of(plan)),
         views_(unfinished(std::move(plan))),
-        progress_(count_cells(), messages) {
+        progress_(count_cells(), messages,
+                  !options.line_per_cell && ::isatty(::fileno(messages)) == 1) {
     if (!options.resume) manifest_.google_benchmark = benchmark.context();
   }
 
@@ -395,8 +397,8 @@ class SweepRun {
     progress_.finish(result_line(cell));
   }
 
-  /// Returns the progress of the unfinished, in whole cells: by blocks, because it is asked for
-  /// with each event, while a contender may be timed.
+  /// Returns the progress of the unfinished, in whole cells, counted by blocks: it is computed at
+  /// each event, while a contender may be timed.
   double work_done() const {
     double done = 0.0;
     for (const OpenView& open : views_) {

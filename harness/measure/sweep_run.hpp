@@ -27,6 +27,8 @@ struct SweepOptions {
   /// The program that measures blocks, with its arguments (`measure_in_process`); empty: this
   /// process does. Then what differs between processes is in no interval.
   std::vector<std::string> block_program{};
+  /// Prints a line for each cell, on a terminal too, in place of one line that is redrawn.
+  bool line_per_cell = false;
   /// Maximum number of tries of a repetition that other processes disturb.
   int tries = 3;
   /// The folder that holds /proc and the control groups, from which CPU quotas are read.

@@ -76,7 +76,7 @@ class GuardedInspector final : public accel::Inspector {
     steps.steps = guard_->checked(std::move(steps.steps));
     return steps;
   }
-  std::vector<accel::Box> occupied_cells() const override {
+  std::vector<accel::Cell> occupied_cells() const override {
     return guard_->call([&] { return shown().occupied_cells(); });
   }
   /// Not forwarded, because readers rely on the node numbers.

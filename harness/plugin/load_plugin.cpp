@@ -15,7 +15,9 @@
 #include <unistd.h>
 
 #include "accel/core/registry.hpp"
+#include "harness/plugin/c_contenders.hpp"
 #include "harness/plugin/guarded_structure.hpp"
+#include "harness/plugin/program_contender.hpp"
 #include "harness/plugin/validation.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "scenes/base/error.hpp"
@@ -27,6 +29,7 @@ namespace beambench::plugin {
 namespace {
 
 constexpr const char* kEntry = "beambench_plugin";
+constexpr const char* kContenders = "beambench_contenders";  // of the C interface
 /// The time after which loading a plug-in counts as hanging.
 constexpr unsigned kSecondsToLoad = 10;
 
@@ -69,13 +72,33 @@ class LoadingTime {
   LoadingTime& operator=(const LoadingTime&) = delete;
 };
 
-/// Opens a plug-in, which stays loaded until the program ends, because the registry points to its
-/// code.
-const Plugin& open(const std::string& file) {
+/// What a plug-in provides, and how it was built.
+struct OpenedPlugin {
+  PluginContents contents;
+  std::string description;
+  std::string compiler;
+  std::string instructions{};
+  bool optimized = true;
+};
+
+void require_file(const std::string& file) {
   namespace fs = std::filesystem;
   std::error_code error;
   if (!fs::exists(file, error)) refuse(file, "is not there; check the path after --plugin");
-  if (!fs::is_regular_file(file, error)) refuse(file, "is not a file; name a shared object");
+  if (!fs::is_regular_file(file, error)) {
+    refuse(file, "is not a file; name a shared object, or a program");
+  }
+}
+
+/// Returns whether a file is a program of its own: it may be run, and is not called `*.so`.
+bool is_program(const std::string& file) {
+  return file.find(".so") == std::string::npos && ::access(file.c_str(), X_OK) == 0;
+}
+
+/// Opens a shared object, which stays loaded until the program ends, because the registry points to
+/// its code.
+void* open(const std::string& file) {
+  namespace fs = std::filesystem;
   const std::string path =
       fs::absolute(file).string();  // a bare name would be searched for elsewhere
   void* object = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
@@ -83,14 +106,7 @@ const Plugin& open(const std::string& file) {
     refuse(file, fmt::format("cannot be loaded: {}; build it with beambench_add_plugin",
                              loader_message(path)));
   }
-  const void* entry = ::dlsym(object, kEntry);
-  if (entry == nullptr) {
-    refuse(file,
-           fmt::format("is not a beambench plug-in: it does not define '{}'; see 'Bring your own "
-                       "structure' in the README",
-                       kEntry));
-  }
-  return *static_cast<const Plugin*>(entry);
+  return object;
 }
 
 constexpr std::string_view kBuildAgain =
@@ -108,6 +124,7 @@ constexpr auto kInterfaceChanges = std::to_array<std::string_view>({
     "a "
     "structure supports, and update()",
     "a scene has a frame, and scenes of the catalog may move",
+    "an inspector's occupied cells have levels",
 });
 static_assert(kInterfaceChanges.size() == kPluginInterface - 1);
 
@@ -142,20 +159,51 @@ void require_same_stamp(const std::string& file, const PluginStamp& stamp) {
   }
 }
 
-PluginContents contents_of(const std::string& file, const Plugin& plugin) {
+OpenedPlugin filled_by(const std::string& file, const Plugin& plugin) {
+  const PluginStamp& stamp = plugin.stamp;
+  require_same_stamp(file, stamp);
   if (plugin.fill == nullptr) refuse(file, "has no function that fills in what it provides");
-  PluginContents contents;
+  OpenedPlugin opened{{},
+                      plugin.description == nullptr ? "" : plugin.description,
+                      stamp.compiler,
+                      stamp.instructions,
+                      stamp.optimized};
   try {
-    foreign_call(file, "while it was loaded", [&] { plugin.fill(contents); });
+    foreign_call(file, "while it was loaded", [&] { plugin.fill(opened.contents); });
   } catch (const PluginError& error) {
     throw InputError(error.what());
   }
+  return opened;
+}
+
+/// Returns the contents of a shared object or a program, by the interface that it has.
+OpenedPlugin opened(const std::string& file) {
+  if (is_program(file)) {
+    return {{{structure_of_program(file)}, {}, {}}, "a program of its own", "its author"};
+  }
+  const LoadingTime time;
+  void* object = open(file);
+  if (const void* entry = ::dlsym(object, kEntry)) {
+    return filled_by(file, *static_cast<const Plugin*>(entry));
+  }
+  if (void* contenders = ::dlsym(object, kContenders)) {
+    return {{structures_of(reinterpret_cast<decltype(&beambench_contenders)>(contenders)), {}, {}},
+            fmt::format("by version {} of the C interface", BEAMBENCH_C_INTERFACE),
+            "its author"};
+  }
+  refuse(file, fmt::format("is not a beambench plug-in: it defines neither '{}' nor '{}', the "
+                           "function of the C interface; see harness/plugin/README.md",
+                           kEntry, kContenders));
+}
+
+OpenedPlugin checked_plugin(const std::string& file) {
   try {
-    check_contents(contents);
+    OpenedPlugin plugin = opened(file);
+    check_contents(plugin.contents);
+    return plugin;
   } catch (const PluginError& error) {
     refuse(file, error.what());
   }
-  return contents;
 }
 
 template <class Thing>
@@ -249,17 +297,15 @@ void add_from_environment(std::vector<std::string>& files) {
 }  // namespace
 
 void load_plugin(const std::string& file, Activity& activity) {
-  const LoadingTime time;
   activity.write(Activity::Line::kForeign, file, ": loading it");
-  const Plugin& plugin = open(file);
-  require_same_stamp(file, plugin.stamp);
-  PluginContents contents = contents_of(file, plugin);
+  require_file(file);
+  OpenedPlugin plugin = checked_plugin(file);
+  PluginContents& contents = plugin.contents;
   activity.clear(Activity::Line::kForeign);
 
-  const PluginStamp& stamp = plugin.stamp;
-  all_loaded().push_back({file, plugin.description == nullptr ? "" : plugin.description,
-                          rays::fingerprint(read_input(file, kLargestFile)), stamp.compiler,
-                          stamp.instructions, stamp.optimized,
+  all_loaded().push_back({file, plugin.description,
+                          rays::fingerprint(read_input(file, kLargestFile)), plugin.compiler,
+                          plugin.instructions, plugin.optimized,
                           names_of(contents.structures, &accel::StructureInfo::name),
                           names_of(contents.scenes, &scenes::SceneInfo::name),
                           names_of(contents.readers, &scenes::SceneReader::ending)});

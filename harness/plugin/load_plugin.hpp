@@ -15,17 +15,19 @@ namespace beambench::plugin {
 struct LoadedPlugin {
   std::string file;  ///< as given on the command line
   std::string description;
-  std::uint64_t hash;  ///< fingerprint of the file
-  std::string compiler;
-  std::string instructions;
+  std::uint64_t hash;        ///< fingerprint of the file
+  std::string compiler;      ///< "its author" where the interface does not state it
+  std::string instructions;  ///< empty where the interface does not state it
   bool optimized;
   std::vector<std::string> structures;  ///< their names
   std::vector<std::string> scenes;
   std::vector<std::string> readers;  ///< the endings of their files
 };
 
-/// Loads a plug-in (plugin.hpp) and adds its contents to `registry()` and to the catalogue, each
-/// with `origin` set. Must be called before a structure or a scene is chosen. Throws InputError
+/// Loads a plug-in and adds its contents to `registry()` and to the catalogue, each with `origin`
+/// set: a shared object with the C++ interface (plugin.hpp) or the C interface (contender.h), or a
+/// program (program_contender.hpp), which is an executable file not called `*.so`.
+/// Must be called before a structure or a scene is chosen. Throws InputError
 /// naming the file if it cannot be loaded, is not a plug-in, was built for another version of the
 /// interface (the message states the changes), with other types or another C++ library, throws, or
 /// provides nothing or contents that `check_contents` refuses. In that case, none of it is

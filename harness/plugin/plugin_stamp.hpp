@@ -16,7 +16,7 @@ namespace beambench::plugin {
 /// Incremented whenever an installed header changes so that a plug-in built with the old one would
 /// fail: a virtual function, a type, the meaning of a call. load_plugin.cpp lists the changes of
 /// each version.
-inline constexpr std::uint32_t kPluginInterface = 8;
+inline constexpr std::uint32_t kPluginInterface = 9;
 
 /// Identifies the build of a plug-in. The position of the first two members never changes.
 struct PluginStamp {

@@ -21,6 +21,7 @@ void bind_catalogue(nanobind::module_& module);
 void bind_scene(nanobind::module_& module);
 void bind_structure(nanobind::module_& module);
 void bind_picture(nanobind::module_& module);
+void bind_explain(nanobind::module_& module);
 void bind_verify(nanobind::module_& module);
 void bind_sweep(nanobind::module_& module);
 

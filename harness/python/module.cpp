@@ -43,6 +43,7 @@ NB_MODULE(_beambench, module) {
   beambench::python::bind_scene(module);
   beambench::python::bind_structure(module);
   beambench::python::bind_picture(module);
+  beambench::python::bind_explain(module);
   beambench::python::bind_verify(module);
   beambench::python::bind_sweep(module);
 }

@@ -14,7 +14,7 @@
 namespace beambench::rays {
 
 /// Returns the unit normal of the primitive at the hit, on the side from which the ray comes. A
-/// polygon has the normal of the triangle in which the point lies deepest.
+/// polygon has the normal of the triangle that holds the point by the largest margin.
 glm::dvec3 geometric_normal(const scenes::Scene& scene, const accel::Ray& ray,
                             const accel::Hit& hit);
 

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "harness/rays/lights.hpp"
+#include "scenes/base/comma_list.hpp"
 #include "scenes/base/error.hpp"
 #include "scenes/base/printable.hpp"
 
@@ -174,14 +175,15 @@ Parameters parameters_of(const RayChoice& choice) {
   return {info.name, info.parameters, parse_spec(choice.label).parameters};
 }
 
-std::vector<RayChoice> parse_ray_choices(std::string_view list) {
+std::vector<RayChoice> parse_ray_choices(std::string_view text) {
+  const std::string list = without_blanks_at_commas(text);
   std::vector<RayChoice> choices;
   for (std::size_t start = 0; start <= list.size();) {
     std::size_t comma = std::min(list.find(',', start), list.size());
-    while (comma < list.size() && is_parameter(list.substr(comma + 1))) {
+    while (comma < list.size() && is_parameter(std::string_view(list).substr(comma + 1))) {
       comma = std::min(list.find(',', comma + 1), list.size());
     }
-    RayChoice choice = parse_ray_choice(list.substr(start, comma - start));
+    RayChoice choice = parse_ray_choice(std::string_view(list).substr(start, comma - start));
     if (std::ranges::find(choices, choice) == choices.end()) choices.push_back(std::move(choice));
     start = comma + 1;
   }

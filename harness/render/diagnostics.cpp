@@ -23,7 +23,7 @@ namespace {
 /// The classes in increasing severity; the position is the category in the map, except for
 /// agreement.
 constexpr std::array kBySeverity{verify::DiffClass::kTie, verify::DiffClass::kGraze,
-                                 verify::DiffClass::kEmbreeError,
+                                 verify::DiffClass::kOracleError,
                                  verify::DiffClass::kStructureError};
 
 std::uint8_t category_of(verify::DiffClass diff_class) {
@@ -128,7 +128,7 @@ void write_disputed_places(const std::filesystem::path& file, const scenes::Scen
   };
   add("tie", okabe_ito::kSkyBlue, verify::DiffClass::kTie);
   add("graze", okabe_ito::kYellow, verify::DiffClass::kGraze);
-  add("the oracle is wrong", okabe_ito::kBluishGreen, verify::DiffClass::kEmbreeError);
+  add("the oracle is wrong", okabe_ito::kBluishGreen, verify::DiffClass::kOracleError);
   add("wrong", okabe_ito::kVermillion, verify::DiffClass::kStructureError);
   const std::vector<LegendEntry> legend = mark_points(picture, rays, groups);
   write_image(file, with_legend(picture, "hits by class", legend));

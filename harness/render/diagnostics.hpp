@@ -21,7 +21,7 @@ namespace beambench::render {
 /// The names of the compared structures.
 struct ComparedNames {
   std::string verified;   ///< whose errors are `DiffClass::kStructureError`
-  std::string reference;  ///< whose errors are `DiffClass::kEmbreeError`
+  std::string reference;  ///< whose errors are `DiffClass::kOracleError`
 };
 
 /// The name of a reference that is the oracle itself.

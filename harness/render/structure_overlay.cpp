@@ -11,7 +11,7 @@
 
 #include "accel/core/inspector_of.hpp"
 #include "harness/base/messages.hpp"
-#include "harness/rays/ray_generators.hpp"
+#include "harness/render/light_pencil.hpp"
 #include "harness/render/picture/overlay.hpp"
 #include "harness/render/picture/place_overlay.hpp"
 #include "scenes/base/error.hpp"
@@ -64,24 +64,11 @@ std::vector<LegendEntry> draw_beams(Image& picture, const accel::Accelerator& ac
   return overlay_tiles(picture, {places, samples, rays.samples()});
 }
 
-/// Draws the pencil of one light among the shadow rays of a picture. It is empty if no hit faces
-/// the light.
 std::vector<LegendEntry> draw_pencil(Image& picture, const accel::Accelerator& accelerator,
                                      const scenes::Scene& scene, const accel::PrimaryRays& rays,
                                      const scenes::Light& light) {
-  const rays::RayList shadows = rays::shadow_rays(
-      scene.lights, rays::in_picture_order(rays::surface_points(scene, rays), rays));
-  const auto pencil =
-      std::ranges::find(shadows.pencils, glm::dvec3(light.position), &accel::Pencil::apex);
-  if (pencil == shadows.pencils.end()) return overlay_pencil(picture, {{}, {}, rays.samples()});
-  const accel::RayBatch all = shadows.batch();
-  const accel::Pencil alone{0, pencil->count, pencil->apex, pencil->toward};
-  const accel::RayBatch batch{all.rays.subspan(pencil->first, pencil->count),
-                              {&alone, 1},
-                              all.samples.subspan(pencil->first, pencil->count),
-                              &rays};
-  return overlay_pencil(
-      picture, {accel::inspector_of(accelerator).places(batch), batch.samples, rays.samples()});
+  const LightPencil pencil = light_pencil(accelerator, scene, rays, light);
+  return overlay_pencil(picture, {pencil.places, pencil.samples, rays.samples()});
 }
 
 }  // namespace
@@ -127,8 +114,13 @@ std::vector<LegendEntry> draw_overlay(const OverlayChoice& choice, Image& pictur
   switch (choice.overlay) {
     case Overlay::kBeams:
       return draw_beams(picture, accelerator, rays);
-    case Overlay::kCells:
-      return overlay_cells(picture, rays, accel::inspector_of(accelerator).occupied_cells());
+    case Overlay::kCells: {
+      std::vector<accel::Box> boxes;
+      for (const accel::Cell& cell : accel::inspector_of(accelerator).occupied_cells()) {
+        boxes.push_back(cell.box);
+      }
+      return overlay_cells(picture, rays, boxes);
+    }
     case Overlay::kPencils:
       return draw_pencil(picture, accelerator, scene, rays, scene.lights[choice.light - 1]);
   }

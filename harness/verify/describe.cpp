@@ -117,7 +117,7 @@ std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,
 nlohmann::ordered_json to_json(const Mismatch& mismatch) {
   nlohmann::ordered_json out{
       {"index", mismatch.index},
-      {"class", kDiffClassNames[static_cast<std::size_t>(mismatch.diff_class)]},
+      {"class", kRecordedClassNames[static_cast<std::size_t>(mismatch.diff_class)]},
       {"reason", mismatch.reason},
       {"ray", ray_json(mismatch.ray)}};
   if (mismatch.query == rays::Query::kAnyHit) {

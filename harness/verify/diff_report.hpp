@@ -29,11 +29,14 @@ enum class DiffClass : std::size_t {
   kGraze,  ///< the boundary of the primitive in dispute is within K u of the ray, or its
            ///< hit at one place with an end of the ray; what lies behind it is judged alike
   kStructureError,  ///< the structure is wrong, by exact arithmetic
-  kEmbreeError,     ///< the structure is correct and the oracle wrong, by the same arithmetic
+  kOracleError,     ///< the structure is correct and the oracle wrong, by the same arithmetic
   kCount
 };
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(DiffClass::kCount)>
-    kDiffClassNames{"agree", "tie", "graze", "structure_error", "embree_error"};
+    kDiffClassNames{"agree", "tie", "graze", "structure_error", "oracle_error"};
+/// The names in records and JSON, which do not change.
+inline constexpr std::array<std::string_view, kDiffClassNames.size()> kRecordedClassNames{
+    "agree", "tie", "graze", "structure_error", "embree_error"};
 
 /// The result of a verification, as stated in records.
 enum class Verdict {

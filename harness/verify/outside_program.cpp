@@ -1,6 +1,7 @@
 #include "harness/verify/outside_program.hpp"
 
 #include <array>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -14,6 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "accel/core/support.hpp"
 #include "harness/rays/hit_file.hpp"
 #include "harness/rays/ray_file.hpp"
 #include "scenes/base/error.hpp"
@@ -26,6 +28,9 @@ namespace beambench::verify {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// The exit code by which a program declines a query: that of a skipped test in Automake and Meson.
+constexpr int kDeclined = 77;
 
 /// A temporary folder of this process, removed with its contents.
 class WorkFolder {
@@ -72,6 +77,10 @@ class OutsideProgram {
       write_file(nff, [&](std::ostream& file) { scenes::nff::write_nff(scene, file); });
     }
     if (const fs::path obj = folder.file("scene.obj"); replace_word(command, "{obj}", obj)) {
+      if (!scene.spheres.empty() || !scene.cones.empty()) {
+        throw accel::UnsupportedError(
+            fmt::format("'{}' has spheres or cones, which {{obj}} cannot express", scene.name));
+      }
       write_file(obj, [&](std::ostream& file) { scenes::mesh::write_obj(scene, file); });
     }
     for (const auto& [word, name] :
@@ -98,6 +107,15 @@ class OutsideProgram {
     const char* where = std::exchange(quiet_, true) ? "( {} ) >/dev/null 2>&1" : "( {} ) >&2";
     const int status = std::system(fmt::format(fmt::runtime(where), command).c_str());
     if (status == 0) return;
+    if (WIFEXITED(status) && WEXITSTATUS(status) == kDeclined) {
+      throw accel::UnsupportedError(
+          fmt::format("the command declines these rays (exit code {})", kDeclined));
+    }
+    constexpr int kExitOfInterrupted = 128 + SIGINT;  // as shells report it
+    if ((WIFSIGNALED(status) && WTERMSIG(status) == SIGINT) ||
+        (WIFEXITED(status) && WEXITSTATUS(status) == kExitOfInterrupted)) {
+      throw Interrupted(fmt::format("interrupted while '{}' was running", command_));
+    }
     const std::string how = WIFEXITED(status)
                                 ? fmt::format("ended with exit code {}", WEXITSTATUS(status))
                                 : fmt::format("was ended by signal {}", WTERMSIG(status));

@@ -1,11 +1,18 @@
 #pragma once
 // Runs an outside program that traces rays.
 
+#include <stdexcept>
 #include <string>
 
 #include "harness/verify/minimize.hpp"
 
 namespace beambench::verify {
+
+/// Thrown when the user interrupts (Ctrl-C) a program that is running on behalf of this one.
+class Interrupted : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 /// Runs a shell command for each scene and input, in which these words are replaced by the paths of
 /// files in a temporary folder:
@@ -16,7 +23,8 @@ namespace beambench::verify {
 ///
 /// The command's output goes to stderr; that of later runs is suppressed. Throws InputError if the
 /// command has no {hits}; each run throws it if the command fails, or if the numbers of hits and
-/// rays differ.
+/// rays differ, and UnsupportedError if it ends with exit code 77, or if {obj} cannot express the
+/// scene.
 Tracer program_of(const std::string& command);
 
 }  // namespace beambench::verify

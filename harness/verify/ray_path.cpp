@@ -323,7 +323,7 @@ nlohmann::ordered_json to_json(const scenes::Scene& scene, const RayPath& path) 
   Account account(scene, ray);
   for (const accel::TraceStep& step : path.steps) out["steps"].push_back(step_json(step, account));
   if (verified.searched) out["exact"] = hit_json(verified.exact);
-  out["class"] = kDiffClassNames[static_cast<std::size_t>(verified.diff_class)];
+  out["class"] = kRecordedClassNames[static_cast<std::size_t>(verified.diff_class)];
   out["reason"] = verified.reason;
   return out;
 }

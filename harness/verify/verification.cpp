@@ -173,8 +173,8 @@ nlohmann::ordered_json to_json(const VerifiedCell& cell) {
   if (cell.report) {
     out["rays"] = cell.report->rays;
     out["hits"] = cell.report->hits;
-    for (std::size_t i = 0; i < kDiffClassNames.size(); ++i) {
-      out[std::string(kDiffClassNames[i])] = cell.report->counts[i];
+    for (std::size_t i = 0; i < kRecordedClassNames.size(); ++i) {
+      out[std::string(kRecordedClassNames[i])] = cell.report->counts[i];
     }
   }
   if (!cell.bits_reference.empty()) {

@@ -138,7 +138,7 @@ void classify_any_hit(const Measure& measure, const std::vector<scenes::Primitiv
   if (answer != crossings.empty()) {  // correct, so the oracle is wrong
     const bool excused = answer ? all_grazed : is_hit_nearly();
     if (excused) return classify_as(DiffClass::kAgree, {}, found);
-    return classify_as(DiffClass::kEmbreeError,
+    return classify_as(DiffClass::kOracleError,
                        answer ? "there is a hit, as reported" : "there is no hit, as reported",
                        found);
   }
@@ -172,7 +172,7 @@ void classify_closest_hit(const Measure& measure, const std::vector<Crossing>& c
   if (class_among(measure, crossings, found.oracle)) {
     return classify_as(DiffClass::kAgree, {}, found);
   }
-  classify_as(DiffClass::kEmbreeError, "the answer is the exact one and the oracle's is not",
+  classify_as(DiffClass::kOracleError, "the answer is the exact one and the oracle's is not",
               found);
 }
 

@@ -84,6 +84,7 @@ constexpr std::array kAliases{
     Alias{"--structures", "--accel"},
     Alias{"--target", "--at"},
     Alias{"--view", "--camera"},
+    Alias{"-v", "--version"},
     // keys of sweeps
     Alias{"accel", "structures"},
     Alias{"sizes", "resolutions"},
@@ -119,6 +120,14 @@ std::string only_whole_of(std::string_view word, std::span<const std::string> na
   return whole;
 }
 
+std::string lower_case(std::string_view word) {
+  std::string lower(word);
+  for (char& c : lower) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return lower;
+}
+
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);  // distances of a's prefix to every prefix of b
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -151,9 +160,10 @@ std::string similar_name(std::string_view word, std::span<const std::string> nam
 }  // namespace
 
 std::string nearest_name(std::string_view word, std::span<const std::string> names) {
-  std::string name = alias_of(word, names);
-  if (name.empty()) name = only_whole_of(word, names);
-  return name.empty() ? similar_name(word, names) : name;
+  const std::string lower = lower_case(word);
+  std::string name = alias_of(lower, names);
+  if (name.empty()) name = only_whole_of(lower, names);
+  return name.empty() ? similar_name(lower, names) : name;
 }
 
 std::string did_you_mean(std::string_view word, std::span<const std::string> names) {

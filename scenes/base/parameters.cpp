@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "scenes/base/comma_list.hpp"
 #include "scenes/base/error.hpp"
 #include "scenes/base/nearest_name.hpp"
 #include "scenes/base/printable.hpp"
@@ -350,6 +351,8 @@ Spec parse_spec(std::string_view text) {
 }
 
 std::vector<Spec> parse_spec_list(std::string_view text) {
+  const std::string list = without_blanks_at_commas(text);
+  text = list;
   if (text.ends_with(',')) refuse(text, "a name is missing after the last comma");
   std::vector<Spec> specs;
   std::string_view rest = text;

@@ -73,7 +73,8 @@ TEST(KdTree, LeavesReferToExactlyWhatOverlapsThem) {
     double sum = 0.0;
     std::uint64_t leaves = 0;
     std::uint64_t references = 0;
-    kd_tree::for_each_leaf(tree, [&](const kd_tree::KdNode& leaf, const scenes::Bounds& cell) {
+    kd_tree::for_each_leaf(tree, [&](const kd_tree::KdNode& leaf, const kd_tree::KdPlace& place) {
+      const scenes::Bounds& cell = place.cell;
       sum += volume(cell);
       ++leaves;
       const Box box{glm::dvec3(cell.lower), glm::dvec3(cell.upper)};
@@ -191,7 +192,8 @@ TEST(KdTree, TheHeuristicCutsEmptySpaceOff) {
   const Statistics statistics = structure.statistics();
   EXPECT_GT(statistics.empty_leaves, 0U);
   double occupied = 0.0;
-  for (const Box& cell : structure.occupied_cells()) {
+  for (const auto& [cell, level] : structure.occupied_cells()) {
+    EXPECT_GT(level, 1);
     const glm::dvec3 size = cell.upper - cell.lower;
     occupied += size.x * size.y * size.z;
   }

@@ -95,8 +95,8 @@ Result run_over_random_inputs(std::size_t count) {
 }  // namespace
 }  // namespace beambench::fuzz
 
-/// Takes files and folders, or --random COUNT. Exits with 1 if the target fails for an input, or if
-/// there are no inputs, and with 2 if COUNT is not a number.
+/// Takes files and folders, or --random COUNT. Exits with 1 if the target fails for an input, or
+/// without inputs, and with 2 if COUNT is not a number.
 int main(int count, char** arguments) {
   const std::span given(arguments + 1, static_cast<std::size_t>(count - 1));
   beambench::fuzz::Result result;

@@ -127,7 +127,7 @@ TEST(Coverage, OfBothIntervalsIsAsStated) {
   EXPECT_LT(predicted, 0.97);
 }
 
-/// No interval of a run can know of a drift: the figure is reported, not required.
+/// The interval of one run cannot show a drift: the figure is reported, not required.
 TEST(Coverage, FallsWhereTheMachineDrifts) {
   const auto [confident, predicted] = coverage(20'000, 1.02);
   RecordProperty("predicted_with_2_percent_drift", std::to_string(predicted));

@@ -13,11 +13,16 @@ import pytest
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 _BASES = REPOSITORY / "build/bare"
+_CACHE = _BASES / "cache"
+"""Root's caches in all systems, among them that of the compiler."""
 _OWN_MOUNTS = ("unshare", "--mount", "--pid", "--fork")
 _ENTER = """
-mount -t proc proc "$1/proc" && mount --rbind /dev "$1/dev" || exit 125
-system=$1 folder=$2 user=$3
-shift 3
+mkdir --parents "$1/root/.cache" "$2" &&
+  mount --types proc proc "$1/proc" &&
+  mount --rbind /dev "$1/dev" &&
+  mount --bind "$2" "$1/root/.cache" || exit 125
+system=$1 folder=$3 user=$4
+shift 4
 exec chroot "$system" su --shell /bin/sh "$user" --command 'cd "$0" && exec "$@"' -- "$folder" "$@"
 """
 
@@ -73,7 +78,7 @@ class BareSystem:
     ) -> str:
         """Runs a command inside; returns its output. Fails the test where the command fails."""
         done = subprocess.run(
-            [*_OWN_MOUNTS, "sh", "-c", _ENTER, "sh", self.folder, folder, user, *command],
+            [*_OWN_MOUNTS, "sh", "-c", _ENTER, "sh", self.folder, _CACHE, folder, user, *command],
             env={"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "LC_ALL": "C.UTF-8"}
             | dict(environment or {}),
             capture_output=True,

@@ -25,6 +25,12 @@ def beambench(*arguments: str | Path, cwd: Path | None = None) -> subprocess.Com
     )
 
 
+def can_explain() -> bool:
+    """Returns whether the program contains three.js, which scripts/setup fetches where npm is."""
+    words = ["explain", "tetra:n=1", "--accel", "samet", "--resolution", "1x1", "-o", "/dev/null"]
+    return "no three.js" not in beambench(*words).stderr
+
+
 def shell(line: str, cwd: Path, timeout: float = 300) -> subprocess.CompletedProcess[str]:
     """Runs a line pasted into a shell that finds the program on its PATH."""
     path = f"{BINARY.resolve().parent}:{os.environ['PATH']}"

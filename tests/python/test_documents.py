@@ -72,7 +72,10 @@ def bash_words() -> str:
 
 def completed(script: str, *words: str) -> list[str]:
     """Returns bash's completions of the last of the words."""
-    line = f'{script}\nCOMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _beambench; printf "%s\\n" '
+    line = (
+        f'{script}\nCOMP_LINE="$*"; COMP_POINT=${{#COMP_LINE}}; COMP_WORDBREAKS=" :="; _beambench; '
+        'printf "%s\\n" '
+    )
     done = subprocess.run(
         ["bash", "-c", line + '"${COMPREPLY[@]}"', "bash", "beambench", *words],
         capture_output=True,
@@ -110,6 +113,26 @@ def test_bash_completes_names_and_leaves_files_to_the_shell(bash_words: str) -> 
     assert "complete -o default" in bash_words
 
 
+def test_bash_completes_lists_and_parameters(bash_words: str) -> None:
+    assert completed(bash_words, "verify", "--accel", "samet,sah") == ["samet,sah-bvh"]
+    assert completed(bash_words, "time", "tetra", "--rays", "primary,sha") == ["primary,shadow"]
+    # The shell itself keeps what comes before a colon.
+    assert completed(bash_words, "render", "balls", "--accel", "samet:max_l") == ["max_level="]
+    assert completed(bash_words, "verify", "--accel", "embree,samet:max_l") == ["max_level="]
+    assert "samet:max_level=5,max_objects=".split(":")[1] in completed(
+        bash_words, "verify", "--accel", "samet:max_level=5,max_o"
+    )
+    assert completed(bash_words, "scene", "tetra:") == ["n="]
+
+
+def test_bash_completes_commands_after_a_plugin_and_leaves_its_file_to_the_shell(
+    bash_words: str,
+) -> None:
+    assert completed(bash_words, "--plugin", "") == []
+    assert completed(bash_words, "--plugin", "mine.so", "rend") == ["render"]
+    assert completed(bash_words, "--plugin", "mine.so", "scene", "tetr") == ["tetra"]
+
+
 @pytest.mark.skipif(shutil.which("fish") is None, reason="fish is not installed")
 def test_fish_completes(tmp_path: Path) -> None:
     (tmp_path / "beambench.fish").write_text(output_of("completion", "fish"))
@@ -142,6 +165,11 @@ def test_the_manual_names_every_command_and_option() -> None:
         for option in options(command):
             assert f"\\fB{option}\\fR" in section, (command, option)
         assert "Examples:" in section
+    assert "\\fIVALUE\\fR" not in page
+    assert "\\fIX,Y,Z\\fR" in page
+    environment = page.split(".SH ENVIRONMENT\n")[1].split(".SH ")[0]
+    assert "BEAMBENCH_MEMORY" in environment
+    assert "BEAMBENCH_CACHE" in environment
 
 
 @pytest.mark.skipif(

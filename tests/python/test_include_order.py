@@ -40,6 +40,7 @@ MODULES = {
     "harness/verify": "verify",
     "harness/plugin": "plugin",
     "harness/render": "render",
+    "harness/explain": "explain",
     "harness/measure": "measure",
     "harness/analysis": "analysis",
     "harness/python": "python",

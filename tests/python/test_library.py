@@ -34,8 +34,8 @@ def counts_in(output: str) -> dict[str, int]:
 
 def test_right_hits_are_found_right(example: Path) -> None:
     counts = counts_in(output_of(example, code=0))
-    assert list(counts) == ["agree", "tie", "graze", "structure_error", "embree_error"]
-    assert counts["structure_error"] == counts["embree_error"] == 0
+    assert list(counts) == ["agree", "tie", "graze", "structure_error", "oracle_error"]
+    assert counts["structure_error"] == counts["oracle_error"] == 0
     assert sum(counts.values()) == 80 * 60
 
 

@@ -444,3 +444,42 @@ def test_columns_of_text_are_those_of_the_dictionary() -> None:
 
     known = dictionary().columns
     assert set(TEXT_COLUMNS) == {column.name for column in known if column.type == "text"}
+
+
+# Hits of a structure
+
+
+def test_hits_of_a_structure_are_verified_as_a_whole() -> None:
+    rays = vertical_rays()
+    structure = bb.Structure(SCENE, "sah-bvh")
+    hits = structure.closest_hits(rays)
+    report = bb.verify(SCENE, rays, hits)
+    assert report.ok
+    assert report.rays == len(rays)
+    assert report.classes.shape == (len(rays),)
+    hits.primitive[WRONG] = (hits.primitive[WRONG] + 3) % (2 * SIZE * SIZE)
+    assert bb.verify(SCENE, rays, hits).verdict == "mismatch"
+
+
+@pytest.mark.parametrize("samples", [1, 4])
+def test_hits_of_an_image_are_verified_in_its_shape(samples: int) -> None:
+    image = {"resolution": (64, 48), "samples": samples}
+    hits = bb.Structure(SCENE, "embree").trace_image(**image)
+    report = bb.verify(SCENE, SCENE.rays("primary", **image), hits)
+    assert report.ok
+    assert report.classes.shape == hits.t.shape == ((48, 64) if samples == 1 else (48, 64, 4))
+    hits.t[20, 30] += 1
+    report = bb.verify(SCENE, SCENE.rays("primary", **image), hits)
+    assert report.verdict == "mismatch"
+    assert bb.CLASSES[np.ravel(report.classes[20, 30])[0]] == "structure_error"
+
+
+def test_hits_go_alone_and_are_hits() -> None:
+    rays = vertical_rays()
+    hits = bb.Structure(SCENE, "embree").closest_hits(rays)
+    with pytest.raises(TypeError, match="hits cannot be combined with t"):
+        bb.verify(SCENE, rays, hits, t=hits.t)
+    with pytest.raises(TypeError, match=r"hits is a ndarray; expected a beambench\.Hits"):
+        bb.verify(SCENE, rays, hits.t)
+    with pytest.raises(bb.InputError, match="rows, but there are"):
+        bb.verify(SCENE, rays[:-1], hits)

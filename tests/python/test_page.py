@@ -109,8 +109,9 @@ def test_a_build_pays_off_over_a_contender_that_is_named(run_folder: Path) -> No
             row["build_ms_median"] = 2.5
     text = text_of(write_run(run_folder, rows))
     # samet max_level=5 takes 1 ms more to build, and 160 ns less per ray.
-    assert "6.25 k rays (samet max_level=5)" in text
-    assert "Its build pays off from 6.25 k rays (samet max_level=5) on." in text
+    assert "6.25 k rays with fewer, samet max_level=5 is ahead" in text
+    ahead = "samet max_level=5 is ahead, build included."
+    assert f"Its build pays off from 6.25 k rays on; with fewer, {ahead}" in text
     rows = [{**row, "build_ms_median": 0.0} for row in rows]
     text = text_of(write_run(run_folder, rows))
     assert "the first ray" in text
@@ -614,3 +615,11 @@ def test_a_tuned_contender_has_its_parameters_and_others_their_simd(tmp_path: Pa
     assert "embree (best of 8): mode=single" in text
     assert "memory SIMD" in text
     assert "AVX512" in text
+
+
+def test_the_first_sentence_names_the_winner_and_its_margin(run_folder: Path) -> None:
+    rows = synthetic_rows()
+    for row in rows:
+        row["trace_ms_median"] = 1.0 if row["structure"] == "embree" else 4.0
+    text = text_of(write_run(run_folder, rows))
+    assert re.search(r"embree[^.]* (is the fastest|takes the least time)[^.]*4x faster than", text)

@@ -135,6 +135,33 @@ def test_words_filter(opened: Browser, words: str, count: str) -> None:
     assert type_filter(opened, words) == count
 
 
+def test_a_filter_excludes_words_and_values_and_takes_blanks(opened: Browser) -> None:
+    embree = type_filter(opened, "embree")
+    others = type_filter(opened, "-embree")
+    assert others != embree
+    assert not any("embree" in text for text in column(opened, CELLS, 0))
+    assert type_filter(opened, "verdict!=ok") == type_filter(opened, "verdict != ok")
+    assert type_filter(opened, "trace_ms_median < 10") == type_filter(opened, "trace_ms_median<10")
+    assert opened.evaluate("document.getElementById('filter-problem').hidden")
+
+
+def test_the_address_keeps_the_filter(opened: Browser) -> None:
+    count = type_filter(opened, "embree -tetra")
+    assert opened.evaluate("decodeURIComponent(location.hash)") == "#filter=embree -tetra"
+    type_filter(opened, "")
+    assert opened.evaluate("location.hash") == "#cells"
+    opened.evaluate("location.hash = '#filter=embree%20-tetra'")
+    opened.evaluate("new Promise(done => setTimeout(done, 50))")
+    assert opened.evaluate("document.getElementById('cells-count').innerText") == count
+
+
+def test_the_card_of_a_cell_closes_with_the_way_back(opened: Browser) -> None:
+    opened.evaluate("location.hash = '#cell-nobody'; dispatchEvent(new Event('hashchange'))")
+    assert not opened.evaluate("document.getElementById('one-cell').hidden")
+    opened.evaluate("location.hash = '#cells'; dispatchEvent(new Event('hashchange'))")
+    assert opened.evaluate("document.getElementById('one-cell').hidden")
+
+
 def test_a_filter_keeps_the_order(opened: Browser) -> None:
     opened.evaluate(f"document.querySelector('{CELLS} th:nth-child(7) button').click()")
     type_filter(opened, "embree")

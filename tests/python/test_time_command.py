@@ -19,9 +19,11 @@ def test_time_ranks_the_structures_and_ends_with_two_verdicts() -> None:
     text = output_of("time", "tetra:n=3", "--accel", "samet,sah-bvh,exhaustive", *QUICK)
     lines = text.splitlines()
     assert lines[0] == "tetra:n=3 32x20, 640 primary rays"
-    assert (
-        lines[1].split() == "contender SIMD build ms ns per ray Mrays/s times the fastest".split()
-    )
+    head = "contender SIMD build ms ns per ray Mrays/s times the fastest time per ray"
+    assert lines[1].split() == head.split()
+    bars = [line.split()[-1] for line in lines[2:5]]
+    assert [set(bar) for bar in bars] == [{"#"}] * 3
+    assert max(bars, key=len) == bars[-1], "the slowest has the longest bar"
     ranked = [line.split()[0] for line in lines[2:5]]
     assert set(ranked) == {"samet", "sah-bvh", "exhaustive"}
     assert ranked[-1] == "exhaustive"
@@ -75,3 +77,32 @@ def test_nothing_is_left_behind(tmp_path: Path) -> None:
     )
     assert done.returncode == 0, done.stderr
     assert list(tmp_path.iterdir()) == []
+
+
+def test_lists_are_separated_by_commas_or_as_before_by_blanks() -> None:
+    for words in (["primary,shadow"], ["primary, shadow"], ["primary", "shadow"]):
+        text = output_of("time", "tetra:n=1", "--accel", "samet, sah-bvh", *QUICK, "--rays", *words)
+        assert "640 primary rays" in text
+        assert "shadow rays" in text
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--accel", "samet", "embree"], "'embree' is a structure, not a scene"),
+        (["--accel", "samet", "--resolution", "640"], "--resolution: expected WIDTHxHEIGHT"),
+        (["--accel", "samet", "--seconds", "5s"], "--seconds: '5s' is not a number from 0.1"),
+        (["--accel", "samet", "--camera", "no"], "SCENE: "),
+    ],
+)
+def test_messages_name_the_option_and_not_a_place_in_json(words: list[str], said: str) -> None:
+    done = beambench("time", "tetra:n=1", *words)
+    assert done.returncode == 2
+    assert said in done.stderr
+    assert "/0" not in done.stderr
+
+
+def test_what_is_given_twice_is_timed_once_and_said() -> None:
+    done = beambench("time", "tetra:n=1", "--accel", "samet,samet", *QUICK)
+    assert "timed once" in done.stderr
+    assert "1 cell, all verified" in done.stdout

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 import struct
 import subprocess
@@ -318,46 +319,7 @@ def test_obj_files_have_the_triangles_that_hits_name(tmp_path: Path) -> None:
 
 # Commands and kits
 
-TRACER = """
-import json, struct, sys
-import numpy as np
-
-obj, rays, hits, fault = sys.argv[1:]
-lines = [line.split() for line in open(obj)]
-vertices = np.array([line[1:] for line in lines if line[0] == "v"], "f8")
-faces = np.array([line[1:] for line in lines if line[0] == "f"], int) - 1
-with open(rays, "rb") as file:
-    file.readline()
-    header = json.loads(file.readline())
-    rays = np.fromfile(file, "<f4").reshape(-1, 8).astype("f8")
-origin, near, direction, far = rays[:, :3], rays[:, 3], rays[:, 4:7], rays[:, 7]
-best = np.full(len(rays), np.inf)
-found = np.full(len(rays), 0xFFFFFFFF, "u4")
-for number, (a, b, c) in enumerate(vertices[faces]):
-    with np.errstate(all="ignore"):
-        p = np.cross(direction, c - a)
-        scale = 1 / (p @ (b - a))
-        u = ((origin - a) * p).sum(1) * scale
-        q = np.cross(origin - a, b - a)
-        v = (direction * q).sum(1) * scale
-        t = q @ (c - a) * scale
-    inside = (u >= 0) & (v >= 0) & (u + v <= 1) & (t >= near) & (t <= far) & (t < best)
-    if fault == "epsilon":
-        inside &= np.abs(1 / scale) > 1e-8
-    best[inside], found[inside] = t[inside], number
-any_hit = header["query"] == "any"
-columns = ["occluded"] if any_hit else ["t", "triangle"]
-kind = [("occluded", "u1")] if any_hit else [("t", "<f4"), ("triangle", "<u4")]
-table = np.zeros(len(rays), kind)
-if any_hit:
-    table["occluded"] = found != 0xFFFFFFFF
-else:
-    table["t"], table["triangle"] = best, found
-with open(hits, "wb") as file:
-    file.write(b"beambench-hits 1\\n")
-    file.write(json.dumps({"hits": len(table), "columns": columns}).encode() + b"\\n")
-    table.tofile(file)
-"""
+TRACER = (Path(__file__).parent / "own_tracer.py").read_text()
 
 
 @pytest.fixture(scope="module")
@@ -365,7 +327,7 @@ def kit(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("kit")
     (folder / "tracer.py").write_text(TRACER)
     text = output_of("selftest", "--export", folder / "kit", "--scenes", "7")
-    assert "17 scenes of polygons" in text
+    assert "47 scenes of polygons" in text
     return folder
 
 
@@ -375,7 +337,7 @@ def tracer(kit: Path, fault: str) -> str:
 
 def test_a_kit_holds_each_scene_as_files(kit: Path) -> None:
     index = json.loads((kit / "kit/kit.json").read_text())
-    assert len(index["cases"]) == 17
+    assert len(index["cases"]) == 47
     for case in index["cases"]:
         folder = kit / "kit" / case["folder"]
         names = {path.name for path in folder.iterdir()}
@@ -386,6 +348,14 @@ def test_a_kit_holds_each_scene_as_files(kit: Path) -> None:
         assert len((folder / "rays.csv").read_text().splitlines()) == 1 + len(closest) // 8
         faces = [line for line in (folder / "scene.obj").read_text().splitlines() if line[0] == "f"]
         assert len(faces) == case["triangles"] > 0
+        assert case["family"]
+        assert "either result" in case["tolerance"] or "any of the" in case["tolerance"]
+        whole = np.isinf(closest[7::8]) & (closest[3::8] == 0)
+        assert whole.all() if case["family"] != "t interval" else not whole.any()
+    families = {case["family"] for case in index["cases"]}
+    assert {"t interval", "rays in planes", "edges and vertices", "closed mesh"} <= families
+    assert {"huge scale", "tiny scale", "odd directions", "origins on surfaces"} <= families
+    assert {"needles", "duplicates", "thousands in a plane"} <= families
     assert "beambench verify --kit" in (kit / "kit/README.md").read_text()
     refused(beambench("selftest", "--export", kit / "kit"), ["is not empty"])
 
@@ -412,7 +382,9 @@ def test_a_program_is_run_over_a_kit_and_its_fault_reduced(kit: Path, tmp_path: 
     (small / "kit.json").write_text(json.dumps(index))
     done = beambench("verify", "--kit", small, "--command", tracer(kit, "none"))
     assert done.returncode == 0, done.stdout + done.stderr
-    assert "12 of 12 cases right" in done.stdout
+    count = 2 * len(index["cases"])
+    assert count >= 12
+    assert f"{count} of {count} cases right" in done.stdout
 
     failures = tmp_path / "failures"
     command = tracer(kit, "epsilon")
@@ -443,6 +415,75 @@ def test_a_program_is_run_over_a_kit_and_its_fault_reduced(kit: Path, tmp_path: 
         assert beambench(*files, "--command", tracer(kit, "none")).returncode == 0
 
 
+HITS_COMMAND = f"{BINARY} hits {{nff}} --rays {{rays}} --accel sah-bvh -o {{hits}}"
+
+
+def family_rows(text: str) -> list[tuple[str, str]]:
+    """Returns the family with the query, and the verdict of each row of the last table."""
+    lines = text[text.rindex("family  ") :].splitlines()[2:]
+    cells = [re.split(r"  +", line) for line in lines[: lines.index("")]]
+    return [(f"{row[0]}, {row[1]}", row[-1].strip()) for row in cells]
+
+
+def test_a_program_may_decline_a_query_by_exit_code_77(kit: Path) -> None:
+    """Half of the cases are unsupported, and what is supported decides."""
+    command = "head -2 {rays} | grep -aq '\"any\"' && exit 77; " + HITS_COMMAND
+    done = beambench("verify", "--kit", kit / "kit", "--command", command)
+    assert done.returncode == 0, done.stdout + done.stderr
+    rows = family_rows(done.stdout)
+    assert {verdict for name, verdict in rows if name.endswith(", any")} == {"unsupported"}
+    assert {verdict for name, verdict in rows if name.endswith(", closest")} == {"ok"}
+    assert "47 of 47 cases right, 47 unsupported" in done.stdout
+
+
+def test_a_program_that_declines_everything_verifies_nothing(kit: Path) -> None:
+    done = beambench("verify", "--kit", kit / "kit", "--command", "exit 77 {hits}")
+    assert done.returncode == 2
+    assert "nothing was verified: the command declines" in done.stderr
+
+
+def test_a_program_that_fails_in_some_cases_is_run_over_the_others(kit: Path) -> None:
+    command = "test $(grep -c '^p 4' {nff}) -gt 4000 && exit 3; " + HITS_COMMAND
+    done = beambench("verify", "--kit", kit / "kit", "--command", command)
+    assert done.returncode == 1, done.stdout + done.stderr
+    rows = family_rows(done.stdout)
+    assert ("thousands in a plane, closest", "error") in rows
+    assert ("closed mesh, closest", "ok") in rows
+    verdicts = [verdict for _, verdict in rows]
+    assert verdicts == sorted(verdicts, key=lambda verdict: verdict == "error")
+    assert "ended with exit code 3" in done.stdout
+
+
+def test_a_closed_mesh_must_not_leak(kit: Path, tmp_path: Path) -> None:
+    """A miss at an edge is a graze elsewhere, and no fault."""
+    small = shutil.copytree(kit / "kit", tmp_path / "kit")
+    index = json.loads((small / "kit.json").read_text())
+    index["cases"] = [
+        case for case in index["cases"] if case["family"] in ("closed mesh", "origins on surfaces")
+    ]
+    (small / "kit.json").write_text(json.dumps(index))
+    done = beambench("verify", "--kit", small, "--command", tracer(kit, "leak"),
+                     "--json", tmp_path / "v")  # fmt: skip
+    assert done.returncode == 1
+    for case in json.loads((tmp_path / "v").read_text())["cases"]:
+        assert case["structure_error"] == 0
+        assert case["passed"] == (case["family"] == "origins on surfaces")
+        assert (case["leaks"] > 0) == (case["family"] == "closed mesh")
+        assert case["leaks"] <= case["graze"]
+
+
+def test_spheres_are_unsupported_where_a_command_takes_obj(tmp_path: Path) -> None:
+    output_of("selftest", "--export", tmp_path / "kit", "--scenes", "2", "--primitives", "all")
+    done = beambench("verify", "--kit", tmp_path / "kit", "--json", tmp_path / "v",
+                     "--command", "exit 3; {obj} {hits}")  # fmt: skip
+    assert done.returncode == 1
+    index = json.loads((tmp_path / "kit/kit.json").read_text())["cases"]
+    found = json.loads((tmp_path / "v").read_text())["cases"]
+    for case, verified in zip(np.repeat(index, 2), found, strict=True):
+        polygons_alone = case["spheres"] == case["cones"] == 0
+        assert verified["verdict"] == ("error" if polygons_alone else "unsupported")
+
+
 def test_hits_that_lie_in_a_kit_are_verified(kit: Path, tmp_path: Path) -> None:
     copy = tmp_path / "kit"
     shutil.copytree(kit / "kit", copy)
@@ -454,7 +495,7 @@ def test_hits_that_lie_in_a_kit_are_verified(kit: Path, tmp_path: Path) -> None:
             output_of("hits", folder / "scene.nff", *chosen, "-o", folder / hits)
     done = beambench("verify", "--kit", copy)
     assert done.returncode == 0, done.stdout + done.stderr
-    assert "34 of 34 cases right" in done.stdout
+    assert "94 of 94 cases right" in done.stdout
 
 
 def test_a_fault_of_files_is_reduced_to_what_the_answers_name(

@@ -154,7 +154,7 @@ TEST(HitCheck, NamesThePixel) {
   }
 }
 
-/// Primitives so small that t is rounded to their very center, where there is no normal.
+/// Primitives so small that t is rounded to their very center, where a normal is not defined.
 TEST(HitCheck, RaysFromTheSmallestThingsAreFinite) {
   scenes::SceneBuilder builder = with_light({4.0, 6.0, 8.0});
   builder.set_surface({.diffuse = 0.2F, .specular = 0.5F, .transmittance = 0.3F});

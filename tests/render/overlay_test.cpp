@@ -242,11 +242,11 @@ TEST(OverlayCells, CountsAllCells) {
 // Any eye, including near faces and edges of cells: nothing is drawn where no cell can be.
 TEST(OverlayCells, WhereRaysMissAllCellsNothingIsDrawnButNextToThem) {
   const scenes::Scene scene = scenes::load_scene("balls:n=1");
-  const auto cells = accel::registry()
-                         .choose(parse_spec("samet:max_level=4"))
-                         .build(scene)
-                         ->inspector()
-                         ->occupied_cells();
+  const auto structure = accel::registry().choose(parse_spec("samet:max_level=4")).build(scene);
+  std::vector<accel::Box> cells;
+  for (const accel::Cell& cell : structure->inspector()->occupied_cells()) {
+    cells.push_back(cell.box);
+  }
   ASSERT_FALSE(cells.empty());
   const accel::PrimaryRays rays(scene.cameras.front(), 120, 100, 1);
   Image image(120, 100, kGround);

@@ -141,7 +141,7 @@ void expect_right(const scenes::Scene& scene, const scenes::Camera& camera, Tall
   tally.grazes += report.count(DiffClass::kGraze);
   EXPECT_EQ(report.count(DiffClass::kStructureError), 0U)
       << describe(scene, report.examples.front());
-  EXPECT_EQ(report.count(DiffClass::kEmbreeError), 0U) << describe(scene, report.examples.front());
+  EXPECT_EQ(report.count(DiffClass::kOracleError), 0U) << describe(scene, report.examples.front());
 }
 
 scenes::Camera camera_of(const View& view, Random& random) {

@@ -69,7 +69,7 @@ TEST(Differ, FindsNoErrorInExhaustiveSearchOnRandomScenes) {
     const DiffReport report =
         verify_results(reference, traced("exhaustive", scene, rays), accel::Conformance::kBitExact);
     ASSERT_EQ(report.verdict, Verdict::kOk) << first_example(reference, report);
-    ASSERT_EQ(report.count(DiffClass::kEmbreeError), 0U) << first_example(reference, report);
+    ASSERT_EQ(report.count(DiffClass::kOracleError), 0U) << first_example(reference, report);
     ASSERT_EQ(report.rays, rays.count());
   }
 }
@@ -265,7 +265,7 @@ TEST_F(FaultyBuffer, ErrorOfTheOracleIsNotTheStructures) {
   hits[on_wall()] = accel::oracle::ExactHit{4.0, kTile};
   const ReferenceHits wrong(scene_, rays_, hits);
   const DiffReport report = verify_results(wrong, buffer_, accel::Conformance::kTolerance);
-  EXPECT_EQ(report.count(DiffClass::kEmbreeError), 2U);
+  EXPECT_EQ(report.count(DiffClass::kOracleError), 2U);
   EXPECT_EQ(report.verdict, Verdict::kOk);
 }
 

@@ -113,7 +113,7 @@ TEST_P(FlatCone, IsVerified) {
           verify_results(reference, traced(structure, scene_, input),
                          accel::registry().choose(parse_spec(structure)).info().conformance);
       EXPECT_EQ(report.verdict, Verdict::kOk) << structure << first_example(reference, report);
-      EXPECT_EQ(report.count(DiffClass::kEmbreeError), 0U)
+      EXPECT_EQ(report.count(DiffClass::kOracleError), 0U)
           << structure << first_example(reference, report);
       EXPECT_GT(report.hits, 2'000U);
     }
@@ -166,7 +166,7 @@ TEST(FlatCones, IsVerifiedWhereRoundingOfTCrossesItsHeight) {
   const DiffReport report =
       verify_results(reference, traced("exhaustive", scene, input), accel::Conformance::kBitExact);
   EXPECT_EQ(report.verdict, Verdict::kOk) << first_example(reference, report);
-  EXPECT_EQ(report.count(DiffClass::kEmbreeError), 0U) << first_example(reference, report);
+  EXPECT_EQ(report.count(DiffClass::kOracleError), 0U) << first_example(reference, report);
 }
 
 }  // namespace

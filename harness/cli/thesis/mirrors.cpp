@@ -134,7 +134,7 @@ void add_mirrors_command(CLI::App& app, int& exit_code) {
   add_image_options(*command, request->image);
   command->add_option("--repetitions", request->repetitions, "How often each method is timed")
       ->capture_default_str()
-      ->check(CLI::Range(1, 1000));
+      ->check(whole_number_in(1, 1000));
   command->add_flag("--json", request->json, "Print JSON instead of text");
   command->footer(
       "A planar mirror shows what a virtual eye behind it sees (Heckbert and Hanrahan 1984). The\n"

@@ -106,7 +106,7 @@ void add_sampling_command(CLI::App& app, int&) {
   add_view_options(*command, request->image.view);
   command->add_option("--repetitions", request->repetitions, "How often each method is timed")
       ->capture_default_str()
-      ->check(CLI::Range(1, 1000));
+      ->check(whole_number_in(1, 1000));
   command->add_option("--picture", request->picture,
                       "PNG of the number of object-space samples in each pixel");
   command->add_flag("--json", request->json, "Print JSON instead of text");

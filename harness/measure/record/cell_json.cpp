@@ -240,8 +240,8 @@ Json verification_json(const CellRecord& cell) {
   Json json{{"hits_hash", rays::hex_digits(cell.hits_hash.value())},
             {"rays", cell.diff.value().rays},
             {"hits", cell.diff->hits}};
-  for (std::size_t i = 0; i < verify::kDiffClassNames.size(); ++i) {
-    json[std::string(verify::kDiffClassNames[i])] = cell.diff->counts[i];
+  for (std::size_t i = 0; i < verify::kRecordedClassNames.size(); ++i) {
+    json[std::string(verify::kRecordedClassNames[i])] = cell.diff->counts[i];
   }
   json["verdict"] = to_string(cell.diff->verdict);
   return json;
@@ -252,8 +252,8 @@ void read_verification(const Json& event, CellRecord& cell) {
   verify::DiffReport& report = cell.diff.emplace();
   event.at("rays").get_to(report.rays);
   event.at("hits").get_to(report.hits);
-  for (std::size_t i = 0; i < verify::kDiffClassNames.size(); ++i) {
-    event.at(std::string(verify::kDiffClassNames[i])).get_to(report.counts[i]);
+  for (std::size_t i = 0; i < verify::kRecordedClassNames.size(); ++i) {
+    event.at(std::string(verify::kRecordedClassNames[i])).get_to(report.counts[i]);
   }
   report.verdict = named(event.at("verdict"), verify::Verdict::kUnsupported);
   cell.verdict = report.verdict;

@@ -179,6 +179,17 @@ std::map<std::string, std::string> hashes(const Json& manifest, const char* list
   return found;
 }
 
+/// Throws InputError if a folder holds anything but hidden files, a lock or what a killed process
+/// left: a run is a folder of its own.
+void require_empty(const fs::path& folder) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.path().filename().string().starts_with('.') || is_left_behind(entry.path())) continue;
+    throw InputError(
+        fmt::format("'{}' is not empty: it holds '{}'; choose a new folder with -o, or empty it",
+                    folder.string(), entry.path().filename().string()));
+  }
+}
+
 }  // namespace
 
 std::uint64_t for_each_event(const fs::path& folder,
@@ -229,6 +240,7 @@ RunLog RunLog::create(const fs::path& folder) {
                     "choose another folder with -o",
                     folder.string(), folder.string()));
   }
+  require_empty(folder);
   remove_left_behind(folder);
   return log;
 }

@@ -1,5 +1,5 @@
 # beambench_add_plugin(<target> <source>...): a shared object lib<target>.so to be loaded by
-# `beambench --plugin`.
+# `beambench --plugin`, in C++ (<beambench/plugin.hpp>) or in C (<beambench/contender.h>).
 function(beambench_add_plugin target)
   add_library(${target} MODULE ${ARGN})
   target_link_libraries(${target} PRIVATE beambench::plugin)

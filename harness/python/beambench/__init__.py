@@ -24,6 +24,7 @@ from beambench.catalogue import (
     scenes,
     structures,
 )
+from beambench.explain import Page, explain
 from beambench.picture import to_srgb
 from beambench.ray_arrays import rays
 from beambench.scene import Camera, Scene
@@ -41,6 +42,7 @@ __all__ = [
     "Example",
     "Hits",
     "InputError",
+    "Page",
     "Parameter",
     "RayKindInfo",
     "Report",
@@ -49,6 +51,7 @@ __all__ = [
     "Structure",
     "StructureInfo",
     "__version__",
+    "explain",
     "ray_kinds",
     "rays",
     "scenes",

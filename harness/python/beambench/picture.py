@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import base64
+import struct
+import zlib
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -24,3 +28,30 @@ def to_srgb(picture: ArrayLike) -> NDArray[np.uint8]:
     encoded = np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
     display: NDArray[np.uint8] = np.round(255.0 * encoded).astype(np.uint8)
     return display
+
+
+def to_png(picture: NDArray[np.uint8]) -> bytes:
+    """Returns a PNG file of an sRGB picture of shape (height, width, 3)."""
+    height, width, _ = picture.shape
+
+    def chunk(kind: bytes, content: bytes) -> bytes:
+        checked = kind + content
+        return struct.pack(">I", len(content)) + checked + struct.pack(">I", zlib.crc32(checked))
+
+    # Each row begins with the number of its filter: 0, none.
+    rows = np.insert(picture.reshape(height, 3 * width), 0, 0, axis=1)
+    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    return b"".join(
+        (
+            b"\x89PNG\r\n\x1a\n",
+            chunk(b"IHDR", header),
+            chunk(b"IDAT", zlib.compress(rows.tobytes())),
+            chunk(b"IEND", b""),
+        )
+    )
+
+
+def to_img(picture: NDArray[np.uint8], words: str) -> str:
+    """Returns an HTML element with the picture in it; `words` are plain text without quotes."""
+    data = base64.b64encode(to_png(picture)).decode()
+    return f'<img alt="{words}" src="data:image/png;base64,{data}">'

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import warnings
 from dataclasses import dataclass
+from html import escape
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from beambench import _beambench
 from beambench._beambench import InputError
 from beambench.arrays import encoded, ids, reals, require_coordinates, text, whole_number
+from beambench.picture import to_img, to_srgb
 
 if TYPE_CHECKING:
     from beambench.structure import Structure
@@ -277,7 +279,9 @@ class Scene:
             or len(size) != 2
             or not all(isinstance(n, int | np.integer) for n in size)
         ):
-            raise TypeError(f"resolution is {resolution!r}; expected (width, height)")
+            raise TypeError(
+                f"resolution is {resolution!r}; expected (width, height), two whole numbers"
+            )
         if resolution is not None and not all(1 <= n <= 16384 for n in size):
             raise InputError(
                 f"resolution is {tuple(size)}; expected width and height from 1 to 16384"
@@ -367,6 +371,14 @@ class Scene:
     def __repr__(self) -> str:
         """Returns name and size."""
         return f"<beambench.Scene '{self.name}', {self.primitives} primitives>"
+
+    def _repr_html_(self) -> str:
+        words = escape(f"{self.name}, {self.primitives:,} primitives")
+        camera = self.cameras[0]
+        side = 320 / max(1.0, camera.aspect)
+        size = (max(round(side * camera.aspect), 1), max(round(side), 1))
+        picture = to_srgb(self.render(resolution=size))
+        return f"<figure>{to_img(picture, words)}<figcaption>{words}</figcaption></figure>"
 
 
 def _unpickled(pickled: bytes, warned: list[str], source_rows: NDArray[np.int64] | None) -> Scene:

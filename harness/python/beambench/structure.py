@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from html import escape
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -36,6 +37,10 @@ def require_threads(threads: int) -> int:
     if not 0 <= whole_number("threads", threads) <= 1024:
         raise InputError(f"threads is {threads}; expected 1 to 1024, or 0 for one for each core")
     return int(threads)
+
+
+def _shown(value: float | str) -> str:
+    return value if isinstance(value, str) else f"{value:,.6g}" if value % 1 else f"{value:,.0f}"
 
 
 def _text(value: object) -> str:
@@ -181,5 +186,17 @@ class Structure:
         )
 
     def __repr__(self) -> str:
-        """Returns name and scene."""
-        return f"<beambench.Structure '{self.name}' over '{self.scene.name}'>"
+        """Returns name and scene, without the parameters."""
+        return f"<beambench.Structure '{self.name.split(':')[0]}' over '{self.scene.name}'>"
+
+    def _repr_html_(self) -> str:
+        name, _, parameters = self.name.partition(":")
+        rows = "".join(
+            f"<tr><th>{escape(key)}</th><td>{escape(_shown(value))}</td></tr>"
+            for key, value in self.statistics.items()
+            if value not in (0, "")
+        )
+        return (
+            f"<p><b>{escape(name)}</b> over {escape(self.scene.name)}<br>"
+            f"<small>{escape(parameters.replace(',', ', '))}</small></p><table>{rows}</table>"
+        )

@@ -36,14 +36,16 @@ def sweep(
     interval. For times that are to hold elsewhere, use `beambench run`.
 
     Args:
-        config: a sweep as in harness/measure/sweep.schema.json, or the path of its JSON file.
-        output: folder for the whole record, which must not hold a run; None: it is not kept.
+        config: a sweep as in harness/measure/sweep.schema.json, the path of its JSON file, or the
+            name of one that comes with beambench, such as "quick".
+        output: folder for the whole record, which must be empty or new; None: it is not kept.
         resume: continue the run in `output`, of which every finished cell is kept.
         progress: report on the standard error.
 
     Returns:
         results.csv, a row for each cell; results/README.md describes the columns. Wrong cells
-        have no times: look at `verdict`. `attrs["summary"]` is the text of summary.txt.
+        have no times: look at `verdict`. `attrs["summary"]` is the text of summary.txt. A notebook
+        shows a table with bars for each view.
 
     Raises:
         InputError: a fault in the configuration, with its place, or in the folder.
@@ -51,6 +53,8 @@ def sweep(
     """
     try:
         import pandas as pd
+
+        from beambench.results import Results
     except ImportError as error:
         raise ImportError("sweeps are returned as DataFrames: install pandas first") from error
     text = json.dumps(dict(config)) if isinstance(config, Mapping) else ""
@@ -59,13 +63,15 @@ def sweep(
         raise _beambench.InputError("resume continues the run in a folder; give it as output")
     with tempfile.TemporaryDirectory(prefix="beambench-") as temporary:
         folder = Path(temporary) / "run" if output is None else output
-        results, summary = _beambench.sweep(text, path, encoded("output", folder), resume, progress)
+        table, summary = _beambench.sweep(text, path, encoded("output", folder), resume, progress)
         # `null` is a structure's name; only an empty field is a missing value.
         frame = pd.read_csv(
-            os.fsdecode(results),
+            os.fsdecode(table),
             keep_default_na=False,
             na_values=[""],
             dtype=dict.fromkeys(TEXT_COLUMNS, "str"),
         )
     frame.attrs["summary"] = summary
-    return frame
+    results = Results(frame)
+    results.attrs = frame.attrs
+    return results

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from html import escape
 from typing import Any
 
 import numpy as np
@@ -12,11 +13,12 @@ from beambench import _beambench
 from beambench._beambench import NO_PRIMITIVE, InputError
 from beambench.arrays import flags, ids, rays_in_place, reals
 from beambench.scene import Scene
+from beambench.structure import Hits
 
 Vector = tuple[float, float, float]
 
 CLASSES: tuple[str, ...] = tuple(_beambench.class_names())
-"""agree, tie, graze, structure_error (the claim is wrong), embree_error (the oracle is)."""
+"""agree, tie, graze, structure_error (the claim is wrong), oracle_error (the oracle is)."""
 
 
 def _number(value: float) -> str:
@@ -99,7 +101,7 @@ class Example:
         )
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Report:
     """The findings of a verification."""
 
@@ -112,7 +114,7 @@ class Report:
     counts: dict[str, int]
     """How many rays are of each class."""
     classes: NDArray[np.uint8]
-    """The class of each ray: shape (N,), uint8, indices of CLASSES."""
+    """The class of each ray: uint8, indices of CLASSES. Shape (N,), or that of the given Hits."""
     examples: list[Example]
     """Errors first, at most ten of each class but agree."""
 
@@ -131,6 +133,26 @@ class Report:
         if left > 0:
             lines.append(f"{left} more that do not agree: see classes and examples")
         return "\n".join(lines)
+
+    def __repr__(self) -> str:
+        """Returns the verdict and the counts."""
+        return f"<beambench.Report {str(self).splitlines()[0]}>"
+
+    def _repr_html_(self) -> str:
+        color = "#1a7f37" if self.ok else "#b42318"
+        most = max(self.counts.values())
+        rows = "".join(
+            f"<tr><th>{name.replace('_', ' ')}</th><td>{count:,}</td>"
+            f'<td><div style="width:{160 * count / most:.0f}px;height:0.8em;background:#8aa"></div>'
+            "</td></tr>"
+            for name, count in self.counts.items()
+            if count > 0
+        )
+        examples = "".join(f"<pre>{escape(str(one))}</pre>" for one in self.examples[:5])
+        return (
+            f'<p><b style="color:{color}">{escape(self.verdict)}</b>: {self.rays:,} rays, '
+            f"{self.hits:,} of them hit</p><table>{rows}</table>{examples}"
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -177,7 +199,7 @@ class _Claims:
         )
 
 
-def _require_form(given: dict[str, object]) -> None:
+def _require_form(given: dict[str, ArrayLike | None]) -> None:
     """Raises TypeError unless the arrays match one kind of claim."""
     names = " and ".join(name for name, array in given.items() if array is not None)
     wanted = (
@@ -196,9 +218,21 @@ def _require_form(given: dict[str, object]) -> None:
         )
 
 
+def _require_hits_alone(hits: object, given: dict[str, ArrayLike | None]) -> None:
+    """Raises TypeError unless these are Hits, and the only ones."""
+    if not isinstance(hits, Hits):
+        raise TypeError(
+            f"hits is a {type(hits).__name__}; expected a beambench.Hits, or arrays by name: t=..."
+        )
+    names = " and ".join(name for name, array in given.items() if array is not None)
+    if names:
+        raise TypeError(f"hits cannot be combined with {names}; give one or the other")
+
+
 def verify(
     scene: Scene,
     rays: ArrayLike,
+    hits: Hits | None = None,
     *,
     t: ArrayLike | None = None,
     point: ArrayLike | None = None,
@@ -208,14 +242,17 @@ def verify(
 ) -> Report:
     """Verifies the hits that any program reports for a list of rays.
 
-    The claims are of closest hits (`t` or `point`, optionally with `primitive` or `triangle`) or of
-    any hits (only `occluded`). A claim is compared with the hit of an oracle in double precision,
-    with tolerances of rounding in float32; disputes are decided by exact arithmetic.
+    The claims are of closest hits (`hits`, a whole result of `closest_hits` or `trace_image`; or
+    `t` or `point`, optionally with `primitive` or `triangle`) or of any hits (only `occluded`). A
+    claim is compared with the hit of an oracle in double precision, with tolerances of rounding in
+    float32; disputes are decided by exact arithmetic.
 
     Args:
         scene: the scene against which the rays were traced.
         rays: shape (N, 8), float32: origin, t_min, direction, t_max; used in place, or converted
             first.
+        hits: what a structure returned, with N hits in any shape: those of an image, from
+            `Structure.trace_image`, are in the order of `Scene.rays("primary", ...)`.
         t: shape (N,), real numbers, rounded to float32: the hit is at origin + t * direction;
             infinity: a miss.
         point: shape (N, 3), real numbers, rounded to float32: the point that is hit; three
@@ -234,15 +271,18 @@ def verify(
     """
     if not isinstance(scene, Scene):
         raise TypeError(f"scene is a {type(scene).__name__}; expected a beambench.Scene")
-    _require_form(
-        {
-            "t": t,
-            "point": point,
-            "primitive": primitive,
-            "triangle": triangle,
-            "occluded": occluded,
-        }
-    )
+    given: dict[str, ArrayLike | None] = {
+        "t": t,
+        "point": point,
+        "primitive": primitive,
+        "triangle": triangle,
+        "occluded": occluded,
+    }
+    if hits is not None:
+        _require_hits_alone(hits, given)
+        t, primitive = hits.t.reshape(-1), hits.primitive.reshape(-1)
+    else:
+        _require_form(given)
     lines = rays_in_place(rays)
     claims = _Claims(
         None if t is None else reals("t", t, ("N",), np.float32),
@@ -273,6 +313,6 @@ def verify(
         rays=found["rays"],
         hits=found["hits"],
         counts=dict(zip(CLASSES, found["counts"], strict=True)),
-        classes=classes,
+        classes=classes if hits is None else classes.reshape(hits.t.shape),
         examples=[claims.example(entry, lines) for entry in found["examples"]],
     )

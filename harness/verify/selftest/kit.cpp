@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <ostream>
 #include <utility>
 
@@ -10,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/rays/ray_file.hpp"
-#include "harness/verify/selftest/test_scenes.hpp"
+#include "harness/verify/selftest/kit_scenes.hpp"
 #include "scenes/base/error.hpp"
 #include "scenes/base/files.hpp"
 #include "scenes/base/json_text.hpp"
@@ -38,48 +37,17 @@ or leave the loop to it:
 
     beambench verify --kit FOLDER --command 'my-tracer {obj} {rays} {hits}'
 
-The formats are described in harness/verify/README.md of beambench.
+A tracer that ends with exit code 77 declines the query, or rays with an interval: the table says `unsupported`. `kit.json`
+names the family of each case and the tolerance that a library with float arithmetic can be expected to keep: K u is 16
+units in the last place of a float as large as the coordinates. The formats are described in harness/verify/README.md of beambench.
 )";
-
-/// Calls `visit_made` for each scene. Scenes that a family cannot make of these kinds are left out,
-/// and so are scenes all of whose rays are edge-on.
-void for_each_scene(const SelftestEffort& effort, PrimitiveKinds kinds,
-                    const std::function<void(SceneWithRays)>& visit_made) {
-  const auto visit = [&](SceneWithRays made) {
-    std::erase_if(made.rays, [&](const accel::Ray& ray) { return is_edge_on(made.scene, ray); });
-    if (!made.rays.empty()) visit_made(std::move(made));
-  };
-  const auto with_rays = [&](scenes::Scene scene, std::uint64_t seed) {
-    if (scene.primitives.empty()) return;
-    Random random(seed);
-    SceneWithRays made{std::move(scene), {}};
-    const accel::PrimaryRays image(made.scene.cameras.front(), 24, 20, 1);
-    image.for_each(0, image.height(),
-                   [&](std::size_t, const accel::Ray& ray) { made.rays.push_back(ray); });
-    const std::vector<accel::Ray> more = random_rays(made.scene, effort.rays, random);
-    made.rays.insert(made.rays.end(), more.begin(), more.end());
-    visit(std::move(made));
-  };
-  for (std::uint64_t i = 0; i < effort.scenes; ++i) {
-    with_rays(family_scene(effort.seed + i, kinds), effort.seed + i);
-  }
-  for (std::uint64_t i = 0; i < effort.scenes; ++i) {
-    const auto primitives = static_cast<int>(1 + i * 60 / effort.scenes);
-    with_rays(random_scene(effort.seed + i, primitives, kinds), effort.seed + i);
-  }
-  if (kinds.polygons) visit(cubes_on_a_lattice());
-  visit(heap(kinds));
-  for (scenes::Scene& scene : smallest_scenes()) {
-    if (kinds.include(scene)) with_rays(std::move(scene), effort.seed);
-  }
-}
 
 std::string folder_name(std::size_t number, std::string name) {
   std::ranges::replace(name, ' ', '-');
   return fmt::format("{:03}-{}", number, name);
 }
 
-void write_scene(const fs::path& folder, SceneWithRays made) {
+void write_scene(const fs::path& folder, SceneWithRays made, const std::string& family) {
   fs::create_directory(folder);
   const scenes::Scene& scene = made.scene;
   write_file(folder / "scene.nff",
@@ -96,7 +64,7 @@ void write_scene(const fs::path& folder, SceneWithRays made) {
   for (const rays::Query query : {rays::Query::kClosestHit, rays::Query::kAnyHit}) {
     set.query = query;
     rays::write_ray_file(folder / fmt::format("{}.rays", rays::to_string(query)), set,
-                         {{"scene", scene.name}});
+                         {{"scene", scene.name}, {"family", family}});
   }
 }
 
@@ -112,7 +80,7 @@ void make_empty_folder(const fs::path& folder) {
 
 std::size_t kit_size(const SelftestEffort& effort, PrimitiveKinds kinds) {
   std::size_t count = 0;
-  for_each_scene(effort, kinds, [&](const SceneWithRays&) { ++count; });
+  for_each_kit_scene(effort, kinds, [&](const KitScene&) { ++count; });
   return count;
 }
 
@@ -120,16 +88,22 @@ std::size_t write_kit(const fs::path& folder, const SelftestEffort& effort, Prim
                       base::Progress& progress) {
   make_empty_folder(folder);
   nlohmann::ordered_json cases = nlohmann::ordered_json::array();
-  for_each_scene(effort, kinds, [&](SceneWithRays made) {
-    const std::string name = folder_name(cases.size(), made.scene.name);
+  for_each_kit_scene(effort, kinds, [&](KitScene each) {
+    SceneWithRays& made = each.made;
+    const bool interval = each.family == kIntervalFamily;
+    const std::string name =
+        folder_name(cases.size(), made.scene.name + (interval ? " interval" : ""));
     progress.start(name);
     cases.push_back({{"folder", name},
+                     {"family", each.family},
+                     {"tolerance", each.tolerance},
+                     {"closed", each.closed},
                      {"scene", made.scene.name},
                      {"spheres", made.scene.spheres.size()},
                      {"cones", made.scene.cones.size()},
                      {"polygons", made.scene.polygons.size()},
                      {"triangles", made.scene.triangles.size()}});
-    write_scene(folder / name, std::move(made));
+    write_scene(folder / name, std::move(made), each.family);
     progress.finish("written");
   });
   write_file(folder / "README.md", kReadme);
@@ -158,9 +132,13 @@ std::vector<KitCase> read_kit(const fs::path& folder) {
       fail(fmt::format("'{}' is not a folder of the kit", name));
     }
     for (const std::string_view query : {"closest", "any"}) {
-      KitCase found{fmt::format("{}, {}", name, query), folder / name / "scene.nff",
-                    folder / name / fmt::format("{}.rays", query),
-                    folder / name / fmt::format("{}.hits", query)};
+      KitCase found{.name = fmt::format("{}, {}", name, query),
+                    .scene = folder / name / "scene.nff",
+                    .rays = folder / name / fmt::format("{}.rays", query),
+                    .hits = folder / name / fmt::format("{}.hits", query),
+                    .family = each.value("family", name),
+                    .query = query == "any" ? rays::Query::kAnyHit : rays::Query::kClosestHit,
+                    .closed = each.value("closed", false)};
       const fs::path csv = folder / name / fmt::format("{}-hits.csv", query);
       if (!fs::exists(found.hits) && fs::exists(csv)) found.hits = csv;
       cases.push_back(std::move(found));

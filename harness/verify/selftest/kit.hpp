@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "harness/base/progress.hpp"
+#include "harness/rays/ray_kind.hpp"
 #include "harness/verify/selftest/selftest.hpp"
 #include "harness/verify/selftest/subject.hpp"
 
@@ -17,15 +18,16 @@ struct KitCase {
   std::filesystem::path scene;  ///< .nff
   std::filesystem::path rays;   ///< .rays
   std::filesystem::path hits;   ///< expected file of the program's hits: .hits or .csv, or missing
+  std::string family{};         ///< "needles"; a kit without families: the folder
+  rays::Query query = rays::Query::kClosestHit;
+  bool closed = false;  ///< each ray must hit: one that does not has leaked
 };
 
 /// Writes a kit into a folder, which is created and must be empty: for each scene a folder with
 /// scene.nff, scene.obj if it has only triangles, closest.rays, any.rays and rays.csv (the rays of
-/// both); kit.json names them, README.md explains them. The scenes are the families of
-/// `family_scene` and random scenes, `effort.scenes` of each, cubes on a lattice, a block of
-/// squares, a heap and the smallest scenes. The rays are an image's and those of the self-test,
-/// without those in the plane of a polygon. `progress` gets a cell for each scene. Throws
-/// InputError. Returns the number of scenes.
+/// both); kit.json names them, with family and tolerance, README.md explains them. The scenes are
+/// those of `for_each_kit_scene`. `progress` gets a cell for each scene. Throws InputError. Returns
+/// the number of scenes.
 std::size_t write_kit(const std::filesystem::path& folder, const SelftestEffort& effort,
                       PrimitiveKinds kinds, base::Progress& progress);
 /// Returns the number of scenes of a kit.

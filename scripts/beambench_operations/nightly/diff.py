@@ -203,7 +203,7 @@ def _contenders(rows: pd.DataFrame) -> list[Contender]:
 
 
 def _overall(pairs: list[Pair]) -> Ratio:
-    """The geometric mean; its interval by the spread over cells, which are no repetitions."""
+    """The geometric mean; its interval by the spread over cells, which are not repetitions."""
     logs = pd.Series([log(pair.ratio.value) for pair in pairs])
     if len(logs) < 2:
         return pairs[0].ratio

@@ -109,7 +109,7 @@ def _make(plan: Plan, options: Options, provenance: Provenance) -> int:
             has_texts = _write_texts(options.published)
             wrong = wrong or bool(progress.wrong) or not has_texts
             _commit(folder, provenance, options)
-    site = write_site([options.published], options.aside / "site")
+    site = write_site([options.published], options.aside / "site", beambench=options.beambench)
     say(f"{size_in_words(size(options.published))} are published; look at {site}")
     return 1 if wrong else 0
 

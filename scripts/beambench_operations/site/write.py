@@ -4,6 +4,7 @@ index.html                 all runs
 runs/<name>/index.html     the page of each run, and data.js, what comparisons need of it
 compare/<a>-vs-<b>.html    a run and the one before it; index.html: any two of a sweep
 history/<name>.html        the runs of one sweep on one machine
+gallery/index.html         pages of `beambench explain`, where a program to write them is given
 site.json                  the files of the site, so that the next one removes what has gone
 """
 
@@ -20,6 +21,7 @@ import pandas as pd
 from beambench_operations.site.changes import Repository
 from beambench_operations.site.comparison import Comparison, compare
 from beambench_operations.site.entry import Entry, as_script, entry_of, read_script, stamp_of
+from beambench_operations.site.gallery import make_gallery
 from beambench_operations.site.history_page import page_values, read_mismatches
 from beambench_operations.site.machine_history import MachineHistory, history_of
 from beambench_report.base.files import Problem, read_json, write_text
@@ -75,11 +77,17 @@ class _Site:
         self.write(place, made.render(**shared, **values))
 
 
-def write_site(folders: Iterable[Path], target: Path, published: Path | None = None) -> Path:
+def write_site(
+    folders: Iterable[Path],
+    target: Path,
+    published: Path | None = None,
+    beambench: Path | None = None,
+) -> Path:
     """Writes the site of all runs below the folders; returns its first page.
 
-    The newest run of the sweep of the run `published` is also compared with that run. Raises
-    Problem if there is no run, or if `target` contains other files.
+    The newest run of the sweep of the run `published` is also compared with that run. The program
+    `beambench` writes the pages of the gallery; None: the site has none. Raises Problem if there
+    is no run, if `target` contains other files, or if the program cannot write a page.
     """
     found, histories = _find_runs([*folders, *([published] if published else [])])
     site = _Site(target, Repository())
@@ -87,6 +95,8 @@ def write_site(folders: Iterable[Path], target: Path, published: Path | None = N
     runs, broken, doubles = _write_runs(site, found)
     _write_comparisons(site, runs, published)
     listed = _write_histories(site, runs, histories)
+    if beambench:
+        _write_gallery(site, beambench)
     site.page("compare/index.html", "any.html.j2", runs=_choices(runs))
     site.page(
         "index.html",
@@ -95,6 +105,7 @@ def write_site(folders: Iterable[Path], target: Path, published: Path | None = N
         histories=listed,
         broken=broken,
         doubles=doubles,
+        has_gallery=beambench is not None,
         sweeps=len({run.entry.sweep for run in runs}),
         machines=len({str(run.entry.machine) for run in runs}),
     )
@@ -102,6 +113,13 @@ def write_site(folders: Iterable[Path], target: Path, published: Path | None = N
         (target / gone).unlink(missing_ok=True)
     write_text(target / _FILES, json.dumps(sorted(site.written), indent=0) + "\n")
     return target / "index.html"
+
+
+def _write_gallery(site: _Site, beambench: Path) -> None:
+    folder = site.target / "gallery"
+    gallery = make_gallery(beambench, folder)
+    site.written |= {f"gallery/{page.name}" for page in folder.glob("*.html")}
+    site.page("gallery/index.html", "gallery.html.j2", gallery=gallery)
 
 
 def _find_runs(folders: Iterable[Path]) -> tuple[list[Path], list[Path]]:

@@ -148,6 +148,11 @@ class Overall:
     """Those with times in every view, the fastest first; then the others."""
     references: tuple[Mean, ...]
 
+    @property
+    def largest_ratio(self) -> float:
+        """The largest ratio of any of them, which bars end at."""
+        return max(mean.ratio.value for mean in (*self.means, *self.references))
+
 
 @dataclass(frozen=True)
 class Steadiness:

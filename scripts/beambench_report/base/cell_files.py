@@ -74,7 +74,7 @@ def identity(row: Mapping[str, object]) -> Identity:
 
 
 def read_cell_files(directory: Path) -> dict[Identity, CellFile]:
-    """Reads every cell of the log that has an end or repetitions; none where there is no log."""
+    """Reads every cell of the log that has an end or repetitions; empty without a log."""
     return {
         identity(cell.facts): _cell_file(cell)
         for cell in logged_cells(directory)

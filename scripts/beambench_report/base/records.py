@@ -91,7 +91,7 @@ def finest_rays(rows: pd.DataFrame) -> float:
 
 
 def contenders_with_times(rows: pd.DataFrame) -> pd.DataFrame:
-    """The rows that can be compared; a baseline is no contender."""
+    """The rows that can be compared; a baseline is not a contender."""
     return rows[rows["timed"] & (rows["verdict"] != BASELINE) & (rows["total_ms_median"] > 0)]
 
 

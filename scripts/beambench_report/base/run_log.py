@@ -43,7 +43,7 @@ def _log_in(run: Path) -> Path:
 
 
 def logged_cells(run: Path) -> list[LoggedCell]:
-    """The cells of RUN/run.jsonl in the order of the plan; none where there is no log.
+    """The cells of RUN/run.jsonl in the order of the plan; empty without a log.
 
     Raises Problem naming the line that is not as it was written.
     """

@@ -56,7 +56,7 @@ def cost_of_a_ray(build_ms: float, ns_per_ray: float, rays: np.ndarray) -> np.nd
 
 
 def _contenders(measured: Measured, view: str) -> pd.DataFrame:
-    """The fastest first; null, which finds nothing, is no contender."""
+    """The fastest first; null, which finds nothing, is left out."""
     rows = measured.finest(view).dropna(subset=["build_ms_median"])
     rows = rows[rows["structure"] != "null"]
     # Exhaustive builds nothing and loses everywhere: beside others only.

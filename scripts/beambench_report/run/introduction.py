@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 import pandas as pd
 
-from beambench_report.base.analysis import Overhead
+from beambench.analysis import MARGIN
+from beambench_report.base.analysis import Analysis, Overall, Overhead, Standings
 from beambench_report.base.records import REFERENCES, Run, size_of
 
 _MOST_SIZES = 4
@@ -45,6 +46,50 @@ def tiles(run: Run, overheads: Sequence[Overhead]) -> list[Tile]:
         figure = f"{100 * one.part:,.0f}%" if one.part >= 0.1 else f"{100 * one.part:.2g}%"
         made.append(Tile(figure, f"of a trace is the harness's, at most: {one.title}"))
     return made
+
+
+def headline(analysis: Analysis) -> list[str]:
+    """Names the fastest contender and its margin: for each kind of rays, over all its views."""
+    # The order of contenders that one process measured is no claim.
+    verb = "is the fastest" if analysis.has_blocks else "takes the least time"
+    sentences = [_over_views(kind, verb) for kind in analysis.means if kind.views > 1]
+    if not sentences and len(analysis.views) == 1:
+        sentences = [_in_view(analysis.views[0], verb)]
+    return [sentence for sentence in sentences if sentence]
+
+
+def _over_views(kind: Overall, verb: str) -> str:
+    everywhere = [mean for mean in kind.means if mean.views == kind.views]
+    if len(everywhere) < 2:
+        return ""
+    first, second = everywhere[:2]
+    wins = f"fastest or tied in {first.wins} of {kind.views} views of {kind.ray_kind} rays"
+    margin = second.ratio.value / first.ratio.value
+    if margin <= 1 + MARGIN:
+        return (
+            f"{first.contender} and {second.contender} are equally fast on average; "
+            f"{first.contender} is {wins}."
+        )
+    return (
+        f"{first.contender} {verb} on average, {_times(margin)} faster than the next, "
+        f"{second.contender}; it is {wins}."
+    )
+
+
+def _in_view(view: Standings, verb: str) -> str:
+    if not view.fastest or view.undecided or not view.behind:
+        return ""
+    if view.tied:
+        names = _listed(one.name for one in (view.fastest, *view.tied))
+        return f"{names} are tied for the fastest."
+    return (
+        f"{view.fastest.name} {verb}, {_times(view.behind.ratio.value)} faster than the "
+        f"next, {view.behind.name}."
+    )
+
+
+def _times(factor: float) -> str:
+    return f"{factor:.3g}x"
 
 
 def traced(rows: pd.DataFrame) -> str:

@@ -35,11 +35,12 @@ def place_labels(
     colors: Sequence[str] = (),
     taken: Sequence[Bbox] = (),
 ) -> set[int] | None:
-    """Writes beside each point its name, or its number if there is no room; labels do not overlap.
+    """Writes beside each point its name, or its number where the name does not fit.
 
-    Returns the points that have numbers; None if even these crowd, in which case nothing is
-    written. Labels are clear of the lines if possible, and have the color of their place in
-    `colors`, if given. The boxes `taken`, in pixels, stay free. The layout must be settled.
+    Labels do not overlap. Returns the points that have numbers; None if even these crowd, in
+    which case nothing is written. Labels are clear of the lines if possible, and have the color of
+    their place in `colors`, if given. The boxes `taken`, in pixels, stay free. The layout must be
+    settled.
     """
     room = _Room(panel, points, lines, taken)
     places: dict[int, _Place] = {}

@@ -44,7 +44,7 @@ class Measured:
     def timed(self) -> pd.DataFrame:
         """The rows whose times count, and what one ray took: ns, its 95% interval, repetitions.
 
-        Columns added: `ns`, `ns_low`, `ns_high` (nan where there is no interval), `repeated` (the
+        Columns added: `ns`, `ns_low`, `ns_high` (nan without an interval), `repeated` (the
         ns of every repetition) and `is_reference`.
         """
         rows = self.run.rows

@@ -22,6 +22,7 @@ from beambench_report.run.images import Image, figures_of, read_pictures
 from beambench_report.run.inline_svg import dark_variables
 from beambench_report.run.introduction import (
     about_references,
+    headline,
     kinds_of_primitives,
     tiles,
     traced,
@@ -135,6 +136,7 @@ def render(
             dark=dark_variables(),
             interval=ratio_field,
             traced=traced(run.rows),
+            headline=headline(analysis),
             tiles=tiles(run, analysis.overheads),
             about_references=about_references(run.rows),
             comparison=compare(reference, finest) if reference else None,

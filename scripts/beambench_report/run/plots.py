@@ -49,7 +49,7 @@ def draw(measured: Measured, kinds: Sequence[Kind] = KINDS) -> Iterator[Plot]:
 
 
 def without_figure(stems: Iterable[str], kinds: Sequence[Kind] = KINDS) -> list[Kind]:
-    """The kinds of which there is no figure among those of these stems."""
+    """The kinds without a figure among those of these stems."""
     known = tuple(stems)
     return [kind for kind in kinds if not any(stem.startswith(kind.name) for stem in known)]
 

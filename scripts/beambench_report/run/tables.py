@@ -230,7 +230,14 @@ def compare(reference: str, finest: Mapping[str, Compared]) -> Comparison:
         for row in shown.rows.itertuples():
             structures.setdefault(row.contender, row.structure)
             verdicts[row.contender, view] = row.verdict
-    structures = dict(sorted(structures.items(), key=lambda one: one[1] in REFERENCES))
+
+    def order(contender: str) -> tuple[bool, bool, float]:
+        ratios = [shown.ratios.get(contender) for shown in finest.values()]
+        values = [log2(one.value) for one in ratios if one is not None and one.value > 0]
+        mean = sum(values) / len(values) if values else 0.0
+        return structures[contender] in REFERENCES, not values, mean
+
+    structures = {contender: structures[contender] for contender in sorted(structures, key=order)}
     lines = tuple(
         (
             contender,

@@ -308,7 +308,7 @@ def gains_grow_with_the_samples(e: Evidence) -> list[Check]:
     quantity="times the loss",
 )
 def beams_mind_the_level_less(e: Evidence) -> list[Check]:
-    """From the best to the worst of levels 5 to 7 at 1280x1024, times grow less for the beams."""
+    """From the best to the worst of levels 5 to 7 at 1280x1024, times of the beams grow less."""
 
     def spread(scene: str, contender: str) -> Measured | None:
         by_level = e.times_by("level", scene, contender)

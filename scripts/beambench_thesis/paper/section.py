@@ -86,7 +86,7 @@ def by_number(cell: Cell) -> str:
 
 
 def by_file(cell: Cell) -> str:
-    """Returns `levels:14`: run and line of its results.csv, if there is no rows.csv."""
+    """Returns `levels:14`: run and line of its results.csv, if rows.csv is missing."""
     return f"{cell.run}:{cell.line}"
 
 

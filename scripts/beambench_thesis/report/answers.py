@@ -12,7 +12,7 @@ _NOT_MEASURED = "Not measured here."
 
 @dataclass(frozen=True)
 class Answer:
-    """A question and the sentence that answers it."""
+    """A question and its answer in one sentence."""
 
     question: str
     text: str

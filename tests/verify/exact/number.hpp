@@ -12,7 +12,7 @@
 namespace beambench::exact {
 
 /// An integer times a power of two, such as every finite double. Sums, differences and products are
-/// exact. There is no division: quotients are compared by cross-multiplication.
+/// exact. Division is not needed: quotients are compared by cross-multiplication.
 class Number {
  public:
   Number() = default;

@@ -17,7 +17,7 @@ Phase = Literal["total", "trace"]
 
 
 class Cells:
-    """A contender is named as sweeps do, by what tells it apart: `samet:max_level=6`."""
+    """A contender is named as in sweeps, with the parameters that differ: `samet:max_level=6`."""
 
     def __init__(self, folder: Path) -> None:
         """Raises Problem where FOLDER/results.csv cannot be read."""
@@ -32,7 +32,7 @@ class Cells:
         return read_cell_files(self.folder)
 
     def having(self, contender: str = "", **columns: str) -> pd.DataFrame:
-        """The rows of a contender, or of all, with these values; none is no error."""
+        """The rows of a contender, or of all, with these values; empty if none has them."""
         # One selection: each copies all columns.
         wanted = [self.rows[name] == value for name, value in columns.items()]
         if contender:

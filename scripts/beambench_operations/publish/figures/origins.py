@@ -58,7 +58,7 @@ def machine_in_words(processor: str) -> str:
 def made(folder: Path) -> str:
     """Returns the commits and machines of a folder's runs: `654e80c, EPYC`.
 
-    Says so where runs are from before blocks: their order is no claim.
+    Says so where runs are from before blocks: their order is not a claim.
     """
     found = dict.fromkeys(
         (one.short_commit, machine_in_words(one.processor)) for one in origins(folder)

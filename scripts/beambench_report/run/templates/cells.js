@@ -31,20 +31,20 @@
 
   const holds = {
     "<": (a, b) => a < b, ">": (a, b) => a > b, "<=": (a, b) => a <= b, ">=": (a, b) => a >= b,
-    "=": (a, b) => a === b,
+    "=": (a, b) => a === b, "!=": (a, b) => a !== b,
   };
 
   // A test of rows, or a sentence on what is wrong with the word; null where it is no comparison.
   const comparison = (word) => {
-    const [, name, sign, text] = /^([a-z_0-9]+)(<=|>=|<|>|=)(.*)$/.exec(word) ?? [];
+    const [, name, sign, text] = /^([a-z_0-9]+)(<=|>=|!=|<|>|=)(.*)$/.exec(word) ?? [];
     if (!name) return null;
     const column = byName.get(name);
     if (!column) return occurs(word) ? null : `'${word}': there is no column '${name}'`;
     if (column.words) {
-      if (sign !== "=") return `'${word}': ${name} holds texts, which only '=' compares`;
+      if (sign !== "=" && sign !== "!=") return `'${word}': ${name} holds texts, which only '=' and '!=' compare`;
       const same = column.words.map((one) => one.toLowerCase() === text);
       if (!same.includes(true)) return `'${word}': no row has this ${name}`;
-      return (row) => same[column.at[row]];
+      return (row) => same[column.at[row]] === (sign === "=");
     }
     const bound = Number(text);
     if (text === "" || Number.isNaN(bound)) return `'${word}': '${text}' is not a number`;
@@ -65,9 +65,17 @@
 
   const notRight = (row) => !["ok", "baseline"].includes(textOf(byName.get("verdict"), row));
 
+  // A word with a minus before it leaves rows out.
+  const test = (word) => {
+    if (!/^-[^-]/.test(word)) return comparison(word) ?? occurrence(word);
+    const wanted = test(word.slice(1));
+    return typeof wanted === "string" ? wanted : (row) => !wanted(row);
+  };
+
   const filter = () => {
-    const words = form.elements.filter.value.toLowerCase().split(/\s+/).filter(Boolean);
-    const understood = words.map((word) => comparison(word) ?? occurrence(word));
+    const asked = form.elements.filter.value;
+    const words = asked.toLowerCase().replace(/\s*(<=|>=|!=|<|>|=)\s*/g, "$1").split(/\s+/).filter(Boolean);
+    const understood = words.map(test);
     const tests = understood.filter((test) => typeof test !== "string");
     const problems = understood.filter((test) => typeof test === "string");
     const problem = document.getElementById("filter-problem");
@@ -78,6 +86,9 @@
     for (let row = 0; row < rows; ++row) if (tests.every((test) => test(row))) kept.push(row);
     matching = Uint32Array.from(kept);
     sort();
+    // In the address, so that a link or a reload keeps it.
+    const place = asked.trim() ? `#filter=${encodeURIComponent(asked.trim())}` : "";
+    if (place || location.hash.startsWith("#filter=")) history.replaceState(null, "", place || "#cells");
   };
 
   // Sorting
@@ -180,11 +191,15 @@
 
   const open = () => {
     const wanted = decodeURIComponent(location.hash.slice(1));
-    if (!wanted.startsWith("cell-")) return;
+    const box = document.getElementById("one-cell");
+    box.hidden = !wanted.startsWith("cell-");
+    if (wanted.startsWith("filter=") && form.elements.filter.value !== wanted.slice(7)) {
+      form.elements.filter.value = wanted.slice(7);
+      filter();
+    }
+    if (box.hidden) return;
     let row = 0;
     while (row < rows && anchorOf(row) !== wanted) ++row;
-    const box = document.getElementById("one-cell");
-    box.hidden = false;
     box.replaceChildren();
     const title = document.createElement("h3");
     const list = document.createElement("dl");
@@ -198,7 +213,9 @@
       const value = document.createElement("dd");
       name.title = column.meaning;
       name.textContent = column.name.replaceAll("_", " ");
-      value.textContent = column.unit ? `${text} ${column.unit}` : text;
+      // The unit of a text says how it is written, such as "16 hex digits".
+      const unit = column.figures ? column.unit.replace("10^6 ", "million ") : "";
+      value.textContent = unit ? `${text} ${unit}` : text;
       pair.append(name, value);
       list.append(pair);
     }

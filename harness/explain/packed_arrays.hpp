@@ -1,0 +1,45 @@
+#pragma once
+// Arrays of numbers for a page: one block of bytes, compressed, as text.
+
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+namespace beambench::explain {
+
+/// Collects arrays of little-endian numbers. JSON describes where each is; a page gets all bytes in
+/// one text.
+class PackedArrays {
+ public:
+  /// Each returns the description of the array that it adds: `type` (the name of the typed array of
+  /// JavaScript without "Array"), `at` (its first byte, a multiple of 4) and `count`.
+  nlohmann::json add(std::span<const float> values) { return append("Float32", values); }
+  nlohmann::json add(std::span<const std::uint32_t> values) { return append("Uint32", values); }
+  nlohmann::json add(std::span<const std::uint16_t> values) { return append("Uint16", values); }
+  nlohmann::json add(std::span<const std::uint8_t> values) { return append("Uint8", values); }
+
+  /// Returns all bytes, compressed as zlib does, in base64.
+  std::string text() const;
+
+ private:
+  static_assert(std::endian::native == std::endian::little);
+
+  template <class Number>
+  nlohmann::json append(std::string_view type, std::span<const Number> values) {
+    const nlohmann::json place{{"type", type}, {"at", bytes_.size()}, {"count", values.size()}};
+    bytes_.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
+    bytes_.resize((bytes_.size() + 3) / 4 * 4);
+    return place;
+  }
+
+  std::string bytes_;
+};
+
+/// Returns RFC 4648's base64 of bytes, with padding.
+std::string base64(std::string_view bytes);
+
+}  // namespace beambench::explain

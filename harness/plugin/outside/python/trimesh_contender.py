@@ -1,0 +1,44 @@
+"""trimesh's own ray tracing, in double, through an R-tree. Its rays are infinite."""
+
+from importlib.metadata import version
+
+import contender_program as program
+import numpy as np
+import trimesh
+
+
+def build(mesh):
+    made = trimesh.Trimesh(mesh.vertices.astype("f8"), mesh.triangles, process=False)
+    return trimesh.ray.ray_triangle.RayMeshIntersector(made)
+
+
+def closest(built, rays):
+    program.without_interval(rays)
+    origins, directions = rays[:, :3].astype("f8"), rays[:, 4:7].astype("f8")
+    triangles, numbers, places = built.intersects_id(
+        origins, directions, multiple_hits=False, return_locations=True
+    )
+    t, found = np.full(len(rays), np.inf), np.zeros(len(rays), np.int64)
+    if len(numbers):
+        way = directions[numbers]
+        t[numbers] = np.einsum("ij,ij->i", places - origins[numbers], way)
+        t[numbers] /= np.einsum("ij,ij->i", way, way)
+        found[numbers] = triangles
+    return t, found
+
+
+def occluded(built, rays):
+    program.without_interval(rays)
+    return built.intersects_any(rays[:, :3].astype("f8"), rays[:, 4:7].astype("f8"))
+
+
+program.serve(
+    program.Library(
+        "trimesh",
+        "trimesh of PyPI: its own triangles, an R-tree, double",
+        f"trimesh {version('trimesh')}, rtree {version('rtree')}",
+        build,
+        closest,
+        occluded,
+    )
+)

@@ -1,0 +1,27 @@
+#pragma once
+// A scene as the arrays of the C interface.
+
+#include <vector>
+
+#include "harness/plugin/c/beambench/contender.h"
+#include "scenes/scene.hpp"
+
+namespace beambench::plugin {
+
+/// Vertices and triangles are those of the scene, which must outlive this object; spheres and cones
+/// are copied, because the scene keeps their ids elsewhere.
+class SceneArrays {
+ public:
+  explicit SceneArrays(const scenes::Scene& scene);
+  SceneArrays(const SceneArrays&) = delete;
+  SceneArrays& operator=(const SceneArrays&) = delete;
+
+  const beambench_scene& view() const { return view_; }
+
+ private:
+  std::vector<beambench_sphere> spheres_;
+  std::vector<beambench_cone> cones_;
+  beambench_scene view_;
+};
+
+}  // namespace beambench::plugin

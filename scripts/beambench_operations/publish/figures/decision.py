@@ -1,0 +1,84 @@
+"""results/published/decision: which structure for which rays."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from beambench.analysis import Ratio, geometric_mean
+from beambench_operations.publish.figures.cells import Cells
+from beambench_operations.publish.figures.tuned_embree import STREAMS, TILE_BEAM
+from beambench_report.base.cell_files import ratio_of
+from beambench_report.base.names import parameter_items
+
+SINGLE = "sah-bvh:builder=spatial,lists=single"
+_OWN = {TILE_BEAM: "`tile-beam`", STREAMS: "`sah-bvh`, streams", SINGLE: "`sah-bvh`, ray by ray"}
+
+
+@dataclass(frozen=True)
+class Row:
+    """One kind of rays: how many times as fast as Embree each contender is, by contender."""
+
+    best: dict[str, Ratio]  # over Embree's fastest correct way
+    watertight: dict[str, Ratio]  # over its fastest watertight way
+    by_scene: dict[str, dict[str, Ratio]]  # by scene: over Embree's fastest correct way
+
+    @property
+    def winner(self) -> str:
+        """The contender with the largest mean over Embree; `embree` where all are behind it."""
+        return self.shown if self.best[self.shown].value > 1 else "embree"
+
+    @property
+    def shown(self) -> str:
+        """The contender with the largest mean, whose ratios stand beside the winner."""
+        return max(self.best, key=lambda own: self.best[own].value)
+
+
+def figures(folder: Path) -> dict[str, Any]:
+    """Returns the ratios to Embree by kind of rays and contender."""
+    cells = Cells(folder)
+    kinds = list(dict.fromkeys(cells.rows["kind"]))
+    return {
+        "rows": {kind: _row(cells, kind) for kind in kinds},
+        "names": _OWN | {"embree": "`embree`"},
+        "contenders": list(_OWN),
+        "streams": STREAMS,
+        "single": SINGLE,
+        "scenes": cells.scenes,
+        "size": cells.sizes[0],
+        "cells": len(cells.rows),
+        "wrong": cells.wrong.to_dict("records"),
+        "isa": sorted(set(cells.having(TILE_BEAM)["structure_isa"])),
+    }
+
+
+def _row(cells: Cells, kind: str) -> Row:
+    embree = cells.having("embree", kind=kind)
+    embree = embree[embree["timed"]]
+    watertight = embree[embree["parameters"].map(_is_watertight)]
+    over_best, over_watertight = (
+        {name: _over(cells, name, kind, rows) for name in _OWN} for rows in (embree, watertight)
+    )
+    return Row(
+        {name: geometric_mean(list(own.values())) for name, own in over_best.items()},
+        {name: geometric_mean(list(own.values())) for name, own in over_watertight.items()},
+        {scene: {name: over_best[name][scene] for name in _OWN} for scene in cells.scenes},
+    )
+
+
+def _over(cells: Cells, name: str, kind: str, embree: pd.DataFrame) -> dict[str, Ratio]:
+    """Returns the time of the fastest of these rows of Embree over a contender's, by scene."""
+    fastest = embree.loc[embree.groupby("scene")["trace_ms"].idxmin()].set_index(
+        "scene", drop=False
+    )
+    return {
+        scene: ratio_of(
+            "trace", fastest.loc[scene], cells.row(name, scene=scene, kind=kind), cells.files
+        )
+        for scene in cells.scenes
+    }
+
+
+def _is_watertight(parameters: str) -> bool:
+    return parameter_items(parameters).get("robust") == "true"
