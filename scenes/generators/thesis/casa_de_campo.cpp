@@ -332,8 +332,10 @@ modelling::Field crown(const glm::dvec3& center, double radius, std::uint64_t se
   std::vector<Clump> clumps = {{center, radius}};
   Random random(seed);
   while (clumps.size() < 26) {
-    const glm::dvec3 way(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0),
-                         random.uniform(-0.8, 1.0));
+    // One by one: compilers evaluate arguments in different orders.
+    const double z = random.uniform(-0.8, 1.0);
+    const double y = random.uniform(-1.0, 1.0);
+    const glm::dvec3 way(random.uniform(-1.0, 1.0), y, z);
     const double length = std::sqrt(way.x * way.x + way.y * way.y + way.z * way.z);
     if (length > 1.0 || length < 0.3) continue;
     clumps.push_back(
