@@ -80,7 +80,8 @@ def test_setup_does_not_clear_what_a_linked_environment_points_to(
 ) -> None:
     tree, others = tmp_path / "tree", tmp_path / "others"
     (tree / "scripts").mkdir(parents=True)
-    shutil.copy(repository / "scripts/setup", tree / "scripts")
+    for script in ("setup", "packages.sh"):
+        shutil.copy(repository / "scripts" / script, tree / "scripts")
     for path in [*PACKAGE_LISTS, "requirements.txt"]:
         (tree / "scripts" / path).touch()  # nothing to install
     others.mkdir()
@@ -100,7 +101,8 @@ def bare_tree(repository: Path, tmp_path: Path) -> Path:
     tree, tools = tmp_path / "bare", tmp_path / "tools"
     (tree / "scripts").mkdir(parents=True)
     tools.mkdir()
-    shutil.copy(repository / "scripts/setup", tree / "scripts")
+    for script in ("setup", "packages.sh"):
+        shutil.copy(repository / "scripts" / script, tree / "scripts")
     (tree / "scripts/viewer").symlink_to("/bin/true")
     for path in [*PACKAGE_LISTS, "requirements.txt"]:
         (tree / "scripts" / path).touch()
