@@ -23,7 +23,6 @@
 #include "scenes/catalogue.hpp"
 
 namespace beambench::cli {
-
 namespace {
 
 using Words = std::vector<std::string>;

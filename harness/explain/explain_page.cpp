@@ -27,8 +27,9 @@ std::string script_text(const nlohmann::json& data) {
 std::string explain_page(const nlohmann::json& explanation) {
   if (three_text().empty()) {
     throw InputError(
-        "this build of beambench has no three.js to show pages with; install npm, run "
-        "scripts/setup, and build again");
+        "this build of beambench has no three.js to show pages with; run scripts/viewer where "
+        "npm's "
+        "registry can be reached, and build again");
   }
   std::string page(page_text());
   // The data last: a name in it may look like a mark.

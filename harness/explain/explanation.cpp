@@ -14,6 +14,7 @@
 
 #include "accel/core/hit_buffer.hpp"
 #include "accel/core/inspector_of.hpp"
+#include "accel/core/slab_ray.hpp"
 #include "harness/explain/display_mesh.hpp"
 #include "harness/explain/packed_arrays.hpp"
 #include "harness/explain/shown_cells.hpp"
@@ -167,20 +168,6 @@ std::map<std::uint64_t, accel::Box> boxes_by_index(const PathTable& paths) {
   return boxes;
 }
 
-/// Returns the t at which a ray enters a box, or leaves it; infinity where it misses the box.
-double crossing(const accel::Ray& ray, const accel::Box& box, bool leaving) {
-  double enter = 0.0;
-  double exit = std::numeric_limits<double>::infinity();
-  for (int axis = 0; axis < 3; ++axis) {
-    const double a = (box.lower[axis] - ray.origin[axis]) / ray.direction[axis];
-    const double b = (box.upper[axis] - ray.origin[axis]) / ray.direction[axis];
-    enter = std::max(enter, std::min(a, b));
-    exit = std::min(exit, std::max(a, b));
-  }
-  if (enter > exit) return std::numeric_limits<double>::infinity();
-  return leaving ? exit : enter;
-}
-
 /// Describes beams: their outlines, and the view depth at which each enters its leaf or, at the end
 /// of the scene, leaves it; infinity where that is unknown.
 Json beams_json(const std::vector<accel::BeamOutline>& beams, const accel::PrimaryRays& rays,
@@ -204,8 +191,13 @@ Json beams_json(const std::vector<accel::BeamOutline>& beams, const accel::Prima
     const auto leaf = boxes.find(beam.node);
     float depth = accel::kInfinity;
     if (leaf != boxes.end()) {
-      depth = static_cast<float>(crossing(rays.ray_at(center.x, center.y), leaf->second,
-                                          beam.kind == accel::BeamKind::kLeaving));
+      const auto [lower, upper] = leaf->second;
+      const accel::BoxInterval inside =
+          accel::SlabRay(rays.ray_at(center.x, center.y))
+              .interval({glm::vec3(lower), glm::vec3(upper)}, 0.0F, accel::kInfinity);
+      if (!inside.empty()) {
+        depth = beam.kind == accel::BeamKind::kLeaving ? inside.exit : inside.enter;
+      }
     }
     depths.push_back(depth);
   }

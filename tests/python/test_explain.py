@@ -10,7 +10,7 @@ import pytest
 from browser import Browser
 from program import beambench, can_explain
 
-pytestmark = pytest.mark.skipif(not can_explain(), reason="built without three.js: no npm here")
+pytestmark = pytest.mark.skipif(not can_explain(), reason="built without three.js")
 
 READY = "document.body.dataset.ready"
 STEP = "document.querySelector('.step h3').innerText"

@@ -13,7 +13,7 @@ from beambench_report.base.files import Problem
 from program import BINARY, can_explain, output_of
 from synthetic_run import synthetic_rows, write_run
 
-pytestmark = pytest.mark.skipif(not can_explain(), reason="built without three.js: no npm here")
+pytestmark = pytest.mark.skipif(not can_explain(), reason="built without three.js")
 
 
 def test_there_is_a_page_for_each_figure_and_each_structure(tmp_path: Path) -> None:

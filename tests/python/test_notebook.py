@@ -82,7 +82,7 @@ def test_a_run_is_shown_as_a_table_with_bars() -> None:
     assert type(results[["structure"]]).__name__ == "DataFrame"
 
 
-@pytest.mark.skipif(not can_explain(), reason="built without three.js: no npm here")
+@pytest.mark.skipif(not can_explain(), reason="built without three.js")
 def test_explain_returns_a_page(tmp_path: Path) -> None:
     scene = bb.Scene("tetra:n=2")
     page = bb.explain(scene, "samet", "sah-bvh", resolution=(8, 8))
