@@ -122,6 +122,7 @@ def test_the_record_adds_up(tmp_path: Path) -> None:
     assert report["lost"] == []
 
 
+@pytest.mark.full
 def test_what_processes_of_this_machine_take_is_measured_and_shown(tmp_path: Path) -> None:
     written = measure(tmp_path, CLUSTER, [Picture("stetra", 32, 20, 1)], repeats=1)
     assert written == [tmp_path / "measured.csv"]
@@ -208,11 +209,17 @@ def names_in(folder: Path) -> set[str]:
     ("victim", "work"),
     [
         ("consumer", ["--work", "beams"]),
-        ("producer", ["--work", "beams"]),
-        ("mpirun", ["--work", "tiles", "--block", "8"]),
-        ("consumer", ["--work", "tiles", "--block", "8", "--results", "stored"]),
+        pytest.param("producer", ["--work", "beams"], marks=pytest.mark.full),
+        pytest.param("mpirun", ["--work", "tiles", "--block", "8"], marks=pytest.mark.full),
+        pytest.param(
+            "consumer",
+            ["--work", "tiles", "--block", "8", "--results", "stored"],
+            marks=pytest.mark.full,
+        ),
         ("producer", ["--work", "interlaced", "--results", "stored"]),
-        ("mpirun", ["--work", "interlaced", "--results", "stored"]),
+        pytest.param(
+            "mpirun", ["--work", "interlaced", "--results", "stored"], marks=pytest.mark.full
+        ),
     ],
     ids=lambda value: value if isinstance(value, str) else " ".join(value[1::2]),
 )

@@ -93,7 +93,15 @@ def test_the_real_program_finds_the_same_and_hands_over_the_same(
 
 # Shadows and mirrors; mirrors and glass; polygons with shading normals; textures.
 @needs_mpi
-@pytest.mark.parametrize("scene", ["balls:n=2", "escena2", "bola-espacial", "delfines"])
+@pytest.mark.parametrize(
+    "scene",
+    [
+        "balls:n=2",
+        pytest.param("escena2", marks=pytest.mark.full),
+        pytest.param("bola-espacial", marks=pytest.mark.full),
+        "delfines",
+    ],
+)
 def test_its_light_is_that_of_one_process(tmp_path: Path, scene: str) -> None:
     one = tmp_path / "one.png"
     asked = ["--shade", "whitted", "--resolution", "90x70", "--samples", "5"]

@@ -42,8 +42,8 @@ def test_help_names_every_command_that_others_rely_on() -> None:
     assert wanted <= set(COMMANDS)
 
 
-# Their examples measure, or verify whole images, for half a minute.
-SLOW = {"time", "sampling", "verify", "census", "fingerprint"}
+# Their examples measure, draw large pictures or verify whole images, for up to half a minute.
+SLOW = {"time", "render", "report", "sampling", "verify", "census", "fingerprint"}
 
 
 @pytest.mark.parametrize(

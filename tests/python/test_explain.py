@@ -148,6 +148,7 @@ def test_a_scene_of_50000_triangles_is_small_and_quick(chromium: Browser, tmp_pa
     assert written < 60
 
 
+@pytest.mark.full
 def test_large_scenes_are_decimated_and_the_page_says_so(chromium: Browser, tmp_path: Path) -> None:
     page = explained(tmp_path, "soup:triangles=210000", "voxel-grid", "--resolution", "8x8")
     shown(chromium, page)

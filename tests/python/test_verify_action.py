@@ -54,7 +54,7 @@ def prepare(folder: Path, language: str) -> None:
         subprocess.run(command, shell=True, cwd=folder, check=True, capture_output=True)
 
 
-@pytest.mark.parametrize("language", ["c", "rust", "python"])
+@pytest.mark.parametrize("language", ["c", "rust", pytest.param("python", marks=pytest.mark.full)])
 def test_an_example_passes_and_writes_summary_and_badge(tmp_path: Path, language: str) -> None:
     prepare(tmp_path, language)
     given = inputs(ACTION / f"examples/{language}.yml")
