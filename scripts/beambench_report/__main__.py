@@ -1,4 +1,4 @@
-"""Command line: python -m beambench_report plots|pictures|page|winners|repeated|... ..."""
+"""Command line: python -m beambench_report plots|pictures|page|winners|... ..."""
 
 import argparse
 import sys
@@ -15,7 +15,6 @@ from beambench_report.base.command_line import (
     run_command,
 )
 from beambench_report.base.files import say
-from beambench_report.base.records import read_run
 from beambench_report.embree_comparison.report import comparison
 from beambench_report.haines.counts import measure_tests
 from beambench_report.haines.report import write_report as write_haines
@@ -33,7 +32,6 @@ from beambench_report.run.pictures import (
 )
 from beambench_report.run.plots import KINDS, write_plots
 from beambench_report.run.ratio_table import write_ratios
-from beambench_report.run.repeatability import repeatability
 from beambench_report.run.winners import write_winners
 
 _FORMER_COMMANDS = {
@@ -102,12 +100,6 @@ def _add_commands_on_runs(commands: Commands) -> None:
         _whole_report,
         help="all three: RUN/pictures, RUN/plots and RUN/report.html",
     )
-    repeated = add_command(
-        commands,
-        "repeated",
-        lambda o: repeatability(read_run(o.run), read_run(o.second)).summary() + "\n",
-        help="count the medians of SECOND that lie within the intervals of RUN",
-    )
     covered = add_command(
         commands,
         "coverage",
@@ -120,7 +112,7 @@ def _add_commands_on_runs(commands: Commands) -> None:
         lambda o: write_fronts(o.run),
         help="draw the Pareto fronts of build and trace time into RUN/plots",
     )
-    for command in (plots, pictures, page, whole, repeated, covered, drawn):
+    for command in (plots, pictures, page, whole, covered, drawn):
         command("run", type=Path, metavar="RUN", help="folder of a run")
     names = [kind.name for kind in KINDS]
     plots(
@@ -131,8 +123,7 @@ def _add_commands_on_runs(commands: Commands) -> None:
         metavar="KIND",
         help=f"draw only these of {', '.join(map(repr, names))}; if not given, all",
     )
-    for command in (repeated, covered):
-        command("second", type=Path, metavar="SECOND", help="the same sweep, run again")
+    covered("second", type=Path, metavar="SECOND", help="the same sweep, run again")
     for command in (pictures, whole):
         command(
             "--beambench", type=Path, required=True, metavar="PROGRAM", help="the built beambench"

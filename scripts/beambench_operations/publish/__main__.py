@@ -139,7 +139,7 @@ def _made(folder: Folder, options: Options) -> Progress:
 
 def _commit(folder: Folder, provenance: Provenance, options: Options) -> None:
     relative = options.published.relative_to(ROOT)
-    words = f"Published: {folder.title} ({provenance.commit[:7]})"
+    words = f"Published: {folder.name} ({provenance.commit[:7]})"
     if options.commit:
         git("add", "--all", "--", str(relative))
         git("commit", "--quiet", "-m", words)

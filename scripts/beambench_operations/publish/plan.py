@@ -66,7 +66,8 @@ class Folder:
     """A folder of results/published, made by one commit on one machine."""
 
     name: str
-    title: str
+    question: str
+    """The question that its page answers."""
     steps: tuple[Step, ...]
     needs: str = ""
     """`meshes`, `debian-13`, `libraries` or `its name`, what must be there or be named by --only;
@@ -130,14 +131,14 @@ def as_table(plan: Plan, states: dict[str, str], took: dict[str, float | None]) 
     rows = [
         (
             one.name,
-            one.title,
+            one.question,
             f"{one.seconds / 60:.1f}{' (apart)' if one.is_apart else ''}",
             f"{seconds / 60:.1f}" if (seconds := took.get(one.name)) is not None else "",
             states.get(one.name, ""),
         )
         for one in plan.folders
     ]
-    heads = ("folder", "what", "minutes", "took", "state")
+    heads = ("folder", "question", "minutes", "took", "state")
     lines = markdown_table(heads, rows, right=(2, 3))
     return "\n".join([*lines, "", f"{plan.minutes:.0f} minutes in all, but for what is apart"])
 

@@ -3,17 +3,18 @@
 from pathlib import Path
 from typing import Any
 
+from beambench.analysis import Ratio
 from beambench_operations.publish.figures.cells import Cells
 from beambench_report.base.analysis import read_analysis
-from beambench_report.base.records import read_run
-from beambench_report.run.repeatability import repeatability
 
-_LEVEL_6 = ("beam:max_level=6", "samet:max_level=6")
-_TETRA = "tetra:n=6"
+_BEAMS = "beam:max_level=6,leaf=exact"
+"""Tests samples one by one, as single rays are tested."""
+_BEAMS_SIMD = "beam:max_level=6,leaf=simd"
+_RAYS = "samet:max_level=6"
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """Who is fastest at the highest resolution; beams beside single rays; the second run."""
+    """Who is fastest at the highest resolution; beams beside single rays."""
     cells = Cells(folder)
     analysis = read_analysis(folder)
     (of_primary,) = analysis.means
@@ -24,32 +25,17 @@ def figures(folder: Path) -> dict[str, Any]:
         "views": analysis.views,
         "means": of_primary.means,
         "size": analysis.views[0].size,
-        "beams": {
-            scene: {
-                size: cells.ratio(_LEVEL_6[1], _LEVEL_6[0], "total", scene=scene, size=size)
-                for size in cells.sizes
-            }
-            for scene in cells.scenes
-        },
+        "beams": _speedups(cells, _BEAMS),
+        "beams_simd": _speedups(cells, _BEAMS_SIMD),
         "sizes": cells.sizes,
-        "tetra": {
-            size: cells.ratio(*_LEVEL_6, "total", scene=_TETRA, size=size) for size in cells.sizes
-        },
-        "again": _again(folder),
     }
 
 
-def _again(folder: Path) -> dict[str, Any]:
-    """The medians of each of two runs that lie in the intervals that the other one states."""
-    first, second = read_run(folder), read_run(folder / "again")
-    there, back = repeatability(first, second), repeatability(second, first)
+def _speedups(cells: Cells, beams: str) -> dict[str, dict[str, Ratio]]:
+    """Returns how many times as fast as single rays beams are, by scene and size."""
     return {
-        "folders": (str(first.directory.name), str(second.directory.name)),
-        "cells": len(there.cells),
-        "within": int(there.cells["within"].sum()),
-        "share": there.share,
-        "swapped": int(back.cells["within"].sum()),
-        "swapped_share": back.share,
-        "half": float(there.cells["change"].abs().quantile(0.5)),
-        "most": float(there.cells["change"].abs().quantile(0.9)),
+        scene: {
+            size: cells.ratio(_RAYS, beams, "total", scene=scene, size=size) for size in cells.sizes
+        }
+        for scene in cells.scenes
     }
