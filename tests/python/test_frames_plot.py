@@ -91,7 +91,7 @@ def test_updated_lines_are_solid_and_names_stand_beside_the_ends(moving: Path) -
     times, ratios = plot.figure.axes
     assert [line.get_linestyle() for line in times.lines] == ["--", "-", "--", "--", "-", "--"]
     assert {text.get_text() for text in times.texts} >= {"sah-bvh lbvh", "embree, updated"}
-    assert [text.get_text() for text in ratios.texts] == ["sah-bvh", "embree"]
+    assert [text.get_text() for text in ratios.texts] == ["sah-bvh", "embree robust=false"]
     assert (times.get_ylabel(), ratios.get_xlabel()) == (
         "ms per frame\n(lower is better)",
         "frame",
@@ -131,6 +131,10 @@ def test_the_time_of_an_updated_frame_is_without_the_build(tmp_path: Path) -> No
         ("samet", "samet"),
         ("sah-bvh builder=lbvh reinsertion=true update=false", "sah-bvh lbvh reinsertion"),
         ("samet max_level=6", "samet max_level=6"),
+        (
+            "embree mode=packet16 robust=false coherent=true",
+            "embree packet16 robust=false coherent",
+        ),
     ],
 )
 def test_crowded_plots_name_values_only(contender: str, brief: str) -> None:

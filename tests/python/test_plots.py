@@ -24,10 +24,11 @@ from beambench_report.base.figure import (
     untimed,
     write_plot,
 )
+from beambench_report.base.names import brief_name
 from beambench_report.base.quantities import number
 from beambench_report.base.records import read_run
-from beambench_report.run.counters import counters_in_common
-from beambench_report.run.crossings import cost_of_a_ray, overtakes
+from beambench_report.run.counters import counters, counters_in_common
+from beambench_report.run.crossings import cost_of_a_ray, crossings, leaders, overtakes
 from beambench_report.run.distributions import thinned
 from beambench_report.run.fronts import pareto_front
 from beambench_report.run.labels import place_labels
@@ -169,11 +170,43 @@ def test_a_wrong_contender_has_no_line_and_is_named_in_the_caption(tmp_path: Pat
 
 def test_of_a_structure_with_many_variants_only_the_fastest_have_lines(tmp_path: Path) -> None:
     (plot,) = resolutions(read_measured(write_run(tmp_path, many_rows(2, 6))))
-    legend = next(legend for axes in plot.figure.axes if (legend := axes.get_legend()))
-    shown = [text.get_text() for text in legend.get_texts()]
-    assert shown == ["samet max_level=0", "samet max_level=1"]
+    for panel in plot.figure.axes:
+        names = [text.get_text() for text in panel.texts]
+        assert sorted(names) == ["samet max_level=0", "samet max_level=1"]
     caption = " ".join(plot.figure.get_supxlabel().split())
-    assert "Of a structure with more than 4 variants the 2 fastest." in caption
+    assert "Left out: 4 slower contenders; of each structure, the 2 fastest variants" in caption
+
+
+def test_break_even_draws_who_is_ahead_and_names_each_line_at_its_end(run_folder: Path) -> None:
+    measured = read_measured(run_folder)
+    with house_style():
+        [plot] = crossings(measured)
+    for panel, view in zip(plot.figure.axes, measured.run.views, strict=True):
+        rows = measured.finest(view)
+        rows = rows[rows["structure"] != "null"]
+        names = {text.get_text() for text in panel.texts}
+        assert {brief_name(name) for name in rows["contender"]} <= names
+        lines = [line for line in panel.lines if len(line.get_xdata()) > 1]
+        thick = [line for line in lines if line.get_linewidth() > 1]
+        assert len(lines) == len(rows)
+        assert len(thick) == len(leaders(rows)) < len(rows)
+        lowest = np.min([line.get_ydata() for line in lines], axis=0)
+        assert np.array_equal(lowest, np.min([line.get_ydata() for line in thick], axis=0))
+
+
+def test_counters_of_zero_are_stated_in_words(tmp_path: Path) -> None:
+    rows = [
+        {**row, "traversal_steps_per_ray": 0.0 if row["structure"] == "exhaustive" else 11.5}
+        for row in synthetic_rows()
+    ]
+    measured = read_measured(write_run(tmp_path, rows))
+    with house_style():
+        [plot, _] = counters(measured)
+    panel = next(one for one in plot.figure.axes if one.get_title("left") == "traversal steps")
+    words = [text.get_text() for text in panel.texts]
+    assert words.count("none") == 1
+    assert "0" not in words
+    assert all(value > 0 for line in panel.lines for value in line.get_xdata())
 
 
 def test_a_caption_does_not_outgrow_its_figure(tmp_path: Path) -> None:

@@ -11,6 +11,8 @@ from beambench.analysis import name_cells, without_order
 
 # Lists the plots of a run for programs, as plots/README.md does for people.
 PLOT_INDEX = "index.json"
+# Flags: are edges watertight, and are the backs of closed solids left out?
+_CHANGE_HITS = ("robust", "backface_culling")
 _NAMED = ("scene", "camera", "structure", "parameters", "samples", "ray_kind")
 
 
@@ -69,7 +71,8 @@ def parameter_items(text: str) -> dict[str, str]:
 def brief_name(contender: str) -> str:
     """A contender in a crowded plot: `sah-bvh lbvh reinsertion` for its parameters' values.
 
-    Flags that are not set are left out; a number keeps the name of its parameter.
+    Flags that are not set are left out, except those that change which hits are found; a number
+    keeps the name of its parameter.
     """
     structure, *items = contender.split(" ")
     words = [structure]
@@ -77,6 +80,8 @@ def brief_name(contender: str) -> str:
         name, _, value = item.partition("=")
         if value == "true":
             words.append(name)
+        elif name in _CHANGE_HITS:
+            words.append(item)
         elif value != "false":
             words.append(value if value[:1].isalpha() else item)
     return " ".join(words)

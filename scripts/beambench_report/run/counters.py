@@ -81,8 +81,8 @@ def _counters(measured: Measured, rows: pd.DataFrame, names: Sequence[str], head
         heading,
         rows,
         "Counts for each ray (less work is better), in a pass of its own, not in the timed code; "
-        "logarithmic where they differ by more than 20 times. No dot: not counted. Counters that "
-        "only one structure has are left out.",
+        'logarithmic where they differ by more than 20 times. "none": counted, and 0. Without dot '
+        "or word: not counted. Counters that only one structure has are left out.",
         times=False,
     )
 
@@ -91,17 +91,26 @@ def _draw(panel: Axes, rows: pd.DataFrame, name: str, looks: dict[str, Look]) ->
     values = rows[name].dropna()
     is_log = scale_axis(panel, "x", values, ticks=4)
     above = values[values > 0]
-    # A logarithmic axis has no 0: it lies at the lower end.
-    floor = above.min() / 3 if is_log else 0
-    low, high = (floor / 1.5, above.max() * 2) if is_log else (0, 1.12 * above.max())
-    panel.set_xlim(low, high)
+    panel.set_xlim(*((above.min() / 3, above.max() * 2) if is_log else (0, 1.12 * above.max())))
     for place, (contender, value) in enumerate(zip(rows["contender"], rows[name], strict=True)):
         if pd.isna(value):
             continue
-        at = max(value, floor)
         look = looks[contender]
+        if value == 0:  # which a logarithmic axis does not have
+            words = panel.text(
+                0.02,
+                place,
+                "none",
+                transform=panel.get_yaxis_transform(),
+                va="center",
+                fontsize=6.5,
+                style="italic",
+                color=look.color,
+            )
+            hover(words, f"{contender}: counted, and 0")
+            continue
         (dot,) = panel.plot(
-            at,
+            value,
             place,
             look.marker,
             color=look.color,
@@ -111,10 +120,10 @@ def _draw(panel: Axes, rows: pd.DataFrame, name: str, looks: dict[str, Look]) ->
             clip_on=False,
         )
         hover(dot, f"{contender}: {number(value)} per ray")
-        is_right = panel.transLimits.transform(panel.transScale.transform((at, place)))[0] > 0.55
+        is_right = panel.transLimits.transform(panel.transScale.transform((value, place)))[0] > 0.55
         panel.annotate(
             number(value),
-            (at, place),
+            (value, place),
             (-5 if is_right else 5, 0),
             textcoords="offset points",
             ha="right" if is_right else "left",

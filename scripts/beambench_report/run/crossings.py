@@ -7,17 +7,18 @@ from textwrap import fill
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.ticker import EngFormatter, LogLocator
+from matplotlib.ticker import EngFormatter
 
 from beambench.analysis import break_even_rays
-from beambench_report.base.figure import Look, Plot
-from beambench_report.base.palette import INK, PAPER
+from beambench_report.base.figure import Plot
+from beambench_report.base.names import brief_name
+from beambench_report.base.palette import INK, PAPER, structure_color
 from beambench_report.base.quantities import number
 from beambench_report.base.records import OK, Run, size_of
 from beambench_report.base.svg import hover
+from beambench_report.run.labels import End, name_ends, share_for_names
 from beambench_report.run.measured import Measured, short_title
 from beambench_report.run.panels import (
-    MOST_LINES,
     hide_repeated_labels,
     panels_with_legend,
     parts_by_kind,
@@ -28,14 +29,17 @@ from beambench_report.run.panels import (
 )
 
 _MOST_PANELS = 4
-_FEWEST, _MOST = 1e3, 1e10
-# Most of them where the lines bend.
-_RAYS = np.concatenate([np.logspace(3, 8, 18), [1e10]])
+_MOST_LINES = 12
+_FEWEST, _MOST = 1e3, 1e9
+_RAYS = np.logspace(3, 9, 49)
+_TICKS = (1e3, 1e5, 1e7, 1e9)
+_PANEL_WIDTHS = (6.3, 3.0)  # inches, of figures of one and of two columns
 
 _READING = (
     "Build time / number of rays + trace time of a ray, by the medians at the resolution in the "
-    "title. Circles: where the fastest to trace, its build included, overtakes another one; the "
-    "dark one: the last of them, from which on it is ahead of all. Every pair: break-even.csv."
+    "title. Thick: who is ahead of all others, build included, from some number of rays on. "
+    "Circles: where the fastest to trace overtakes another one; the dark one: the last of them. "
+    "Every pair: break-even.csv."
 )
 
 
@@ -60,26 +64,40 @@ def _contenders(measured: Measured, view: str) -> pd.DataFrame:
     rows = measured.finest(view).dropna(subset=["build_ms_median"])
     rows = rows[rows["structure"] != "null"]
     # Exhaustive builds nothing and loses everywhere: beside others only.
-    return rows.head(MOST_LINES) if (~rows["is_reference"]).any() else rows.iloc[:0]
+    if rows["is_reference"].all():
+        return rows.iloc[:0]
+    shown = leaders(rows) | set(rows["contender"].head(_MOST_LINES - len(leaders(rows))))
+    return rows[rows["contender"].isin(shown)]
+
+
+def leaders(rows: pd.DataFrame) -> set[str]:
+    """Returns the contenders that are ahead of all others at some number of rays."""
+    costs = [cost_of_a_ray(row["build_ms_median"], row["ns"], _RAYS) for _, row in rows.iterrows()]
+    return set(rows["contender"].iloc[np.argmin(costs, axis=0)])
 
 
 def _crossings(measured: Measured, kind: str, shown: dict[str, pd.DataFrame], stem: str) -> Plot:
-    order = pd.concat(shown.values()).sort_values("ns")["contender"].drop_duplicates()
-    legend = {contender: measured.looks[contender] for contender in order}
     columns = min(2, len(shown))
-    figure, panels = panels_with_legend(len(shown), columns, 2.6 if columns > 1 else 3.8, legend)
+    figure, panels = panels_with_legend(len(shown), columns, 2.6 if columns > 1 else 3.8, {})
+    names = [brief_name(name) for rows in shown.values() for name in rows["contender"]]
+    share = share_for_names(names, _PANEL_WIDTHS[columns - 1])
+    ends: list[list[End]] = []
     for panel, (view, rows) in zip(panels, shown.items(), strict=True):
         title = f"{short_title(measured.run.rows, view)}, {size_of(rows.iloc[0])}"
         set_title(panel, title)
-        for index, (_, row) in enumerate(rows.iterrows()):
-            _draw_line(panel, row, legend[row["contender"]], index, len(rows))
+        ahead = leaders(rows)
+        ends.append(
+            [_draw_line(panel, row, row["contender"] in ahead) for _, row in rows.iterrows()]
+        )
         _mark_crossings(panel, rows)
-        panel.set(xscale="log", yscale="log", xlim=(_FEWEST, _MOST))
+        panel.set(xscale="log", yscale="log")
+        panel.set_xlim(_FEWEST, _FEWEST * (_MOST / _FEWEST) ** (1 / (1 - share)))
+        panel.spines["bottom"].set_bounds(_FEWEST, _MOST)
         panel.set_xlabel("number of rays")
         panel.set_ylabel("ns per ray, with build\n(lower is better)")
         panel.grid(linewidth=0.6)
         panel.minorticks_off()
-        panel.xaxis.set_major_locator(LogLocator(numticks=5))
+        panel.set_xticks(_TICKS)
         panel.xaxis.set_major_formatter(EngFormatter(sep=" "))
     share_limits(panels, "y")
     least, most = panels[0].get_ylim()
@@ -91,23 +109,20 @@ def _crossings(measured: Measured, kind: str, shown: dict[str, pd.DataFrame], st
         f"From how many rays on a build pays off, {kind}",
         f"ns per ray, build included, against the number of rays, {kind}",
     )
-    return plot_of_views(measured.run, stem, figure, list(shown), what, _READING)
+    plot = plot_of_views(measured.run, stem, figure, list(shown), what, _READING)
+    for panel, own in zip(panels, ends, strict=True):
+        name_ends(panel, own)
+    return plot
 
 
-def _draw_line(panel: Axes, row: pd.Series, look: Look, index: int, count: int) -> None:
-    """Two markers a line, each at another place, so that lines of one color differ."""
-    build = row["build_ms_median"]
-    share = (index + 0.5) / count
-    marked = [10 ** (3.2 + 1.6 * share), 10 ** (8 + 1.8 * share)]
-    rays = np.sort([*_RAYS, *marked])
-    (line,) = panel.plot(
-        rays,
-        cost_of_a_ray(build, row["ns"], rays),
-        markevery=[int(place) for place in np.searchsorted(rays, marked)],
-        **look.line,
-    )
-    words = f"build {number(build)} ms, then {number(row['ns'])} ns per ray"
+def _draw_line(panel: Axes, row: pd.Series, is_ahead: bool) -> End:
+    """Draws the cost of one contender; returns where its name belongs."""
+    costs = cost_of_a_ray(row["build_ms_median"], row["ns"], _RAYS)
+    color = structure_color(row["structure"])
+    (line,) = panel.plot(_RAYS, costs, color=color, linewidth=2.2 if is_ahead else 0.9)
+    words = f"build {number(row['build_ms_median'])} ms, then {number(row['ns'])} ns per ray"
     hover(line, f"{row['contender']}: {words}")
+    return _MOST, costs[-1], brief_name(row["contender"]), color
 
 
 def _mark_crossings(panel: Axes, rows: pd.DataFrame) -> None:

@@ -14,7 +14,7 @@ from beambench_report.base.palette import SOFT, structure_color
 from beambench_report.base.quantities import number
 from beambench_report.base.records import REFERENCES, size_of
 from beambench_report.base.svg import hover
-from beambench_report.run.labels import spread
+from beambench_report.run.labels import name_ends
 from beambench_report.run.measured import Measured, between
 from beambench_report.run.panels import chunks, finish, numbered, scale_axis, set_title
 
@@ -23,7 +23,6 @@ _MOST_PANELS = 4
 _HEIGHTS = (2.6, 1.5)  # inches, of the two rows of a scene
 _ROOM = 0.95  # of the frames' extent, for the names at the right
 _LABEL_SIZE = 6
-_LABEL_STEP = 7.2  # points
 _READING = (
     "Upper panels: build or update, and the first trace after it, mean over the blocks. Solid: "
     "updated from the first frame; dashed: built anew in each."
@@ -139,7 +138,7 @@ def _plot(measured: Measured, kind: str, views: Sequence[MovingView], stem: str)
     heading = f"Update or build anew: time of each frame, {kind} rays"
     finish(figure, heading, shown, _READING + _READING_OF_RATIOS * has_ratios)
     for panel, ends in labels:
-        _name_ends(panel, ends)
+        name_ends(panel, ends, _LABEL_SIZE)
     scenes = ", ".join(view.title for view in views)
     return Plot(stem, figure, f"milliseconds per frame and what updates cost the rays: {scenes}")
 
@@ -203,27 +202,3 @@ def _finish_axes(panel: Axes, places: Sequence[int]) -> None:
     panel.set_xlim(first - 0.04 * (last - first), last + _ROOM * (last - first))
     panel.set_xticks(sorted(set(places)))
     panel.spines["bottom"].set_bounds(first, last)
-
-
-def _name_ends(panel: Axes, ends: Sequence[tuple[float, float, str, str]]) -> None:
-    """Writes the names at the right of the lines' ends, apart from one another."""
-    scale = 72 / panel.figure.dpi
-    ordered = sorted(ends, key=lambda end: end[1])
-    at = [float(panel.transData.transform(end[:2])[1]) * scale for end in ordered]
-    low, high = (float(edge) * scale for edge in (panel.bbox.y0, panel.bbox.y1))
-    for (x, y, name, color), own, place in zip(
-        ordered, at, spread(at, low, high, _LABEL_STEP), strict=True
-    ):
-        panel.annotate(
-            name,
-            (x, y),
-            (11, place - own),
-            textcoords="offset points",
-            va="center",
-            fontsize=_LABEL_SIZE,
-            color=color,
-            arrowprops={
-                **{"arrowstyle": "-", "color": color, "linewidth": 0.5, "alpha": 0.6},
-                **{"shrinkA": 0, "shrinkB": 3, "relpos": (0, 0.5)},
-            },
-        ).set_in_layout(False)

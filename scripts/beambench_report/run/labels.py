@@ -1,6 +1,6 @@
 """Names or numbers beside points, so that none covers another one, or a point."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
 from math import ceil, cos, hypot, inf, pi, sin
@@ -181,3 +181,44 @@ def spread(places: Sequence[float], low: float, high: float, step: float) -> lis
         min(max(place, low + index * step), high - (last - index) * step)
         for index, place in enumerate(middle)
     ]
+
+
+End = tuple[float, float, str, str]
+"""The last point of a line, its name and its color."""
+
+_LINE_OF_NAME = 1.2  # of the size
+_CHARACTER = 0.58  # of the size, the mean width of one
+_GAP = 11  # points, between a line and its name
+
+
+def share_for_names(names: Iterable[str], width: float) -> float:
+    """Returns the share of a panel of that width, in inches, that names at its right end take."""
+    longest = max(map(len, names), default=0)
+    return min(0.6, (_GAP + _CHARACTER * _SIZE * longest) / (72 * width))
+
+
+def name_ends(panel: Axes, ends: Sequence[End], size: float = _SIZE) -> None:
+    """Writes the names at the right of the lines' ends, apart from one another.
+
+    The layout must be settled.
+    """
+    scale = 72 / panel.figure.dpi
+    ordered = sorted(ends, key=lambda end: end[1])
+    at = [float(panel.transData.transform(end[:2])[1]) * scale for end in ordered]
+    low, high = (float(edge) * scale for edge in (panel.bbox.y0, panel.bbox.y1))
+    for (x, y, name, color), own, place in zip(
+        ordered, at, spread(at, low, high, _LINE_OF_NAME * size), strict=True
+    ):
+        panel.annotate(
+            name,
+            (x, y),
+            (_GAP, place - own),
+            textcoords="offset points",
+            va="center",
+            fontsize=size,
+            color=color,
+            arrowprops={
+                **{"arrowstyle": "-", "color": color, "linewidth": 0.5, "alpha": 0.6},
+                **{"shrinkA": 0, "shrinkB": 3, "relpos": (0, 0.5)},
+            },
+        ).set_in_layout(False)

@@ -19,10 +19,10 @@ from beambench_report.run.measured import by_kind, short_title
 
 TALLEST = 1.38 * PAGE_WIDTH
 """In inches; what is wanted is 1.4, and matplotlib rounds to pixels."""
-MOST_ROWS = 60
-"""Contenders that a figure with a row for each can show."""
 MOST_LINES = 24
 """Contenders that a figure with a line for each can show."""
+MOST_ROWS = 60
+"""Contenders that a figure with a row for each can show."""
 WIDE_RANGE = 20
 """An axis is logarithmic where its largest value is more than this many times its least."""
 
@@ -146,17 +146,17 @@ def scale_axis(panel: Axes, which: str, values: Iterable[float], ticks: int = 9)
         axis.set_minor_locator(NullLocator())
         axis.set_minor_formatter(NullFormatter())
     else:
-        axis.set_major_locator(MaxNLocator(5, steps=(1, 2, 5, 10)))
+        axis.set_major_locator(MaxNLocator(min(5, ticks - 1), steps=(1, 2, 5, 10)))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.9g}"))
     return is_wide
 
 
-def hide_repeated_labels(panels: Sequence[Axes], columns: int) -> None:
-    """Hides labels in panels with shared axes, except at the left and at the lower end."""
+def hide_repeated_labels(panels: Sequence[Axes], columns: int, is_shared: str = "xy") -> None:
+    """Hides labels in panels, except at the left and at the lower end; ticks of shared axes."""
     for place, panel in enumerate(panels):
         if place % columns:
             panel.set_ylabel("")
-            panel.tick_params(axis="y", labelleft=False)
+            panel.tick_params(axis="y", labelleft="y" not in is_shared)
         if place + columns < len(panels):
             panel.set_xlabel("")
             panel.tick_params(axis="x", labelbottom=False)
