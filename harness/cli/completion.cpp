@@ -81,15 +81,16 @@ Words argument_words(const CLI::App& command) {
   return {};
 }
 
-/// Returns a case for each name that has parameters, which adds them to the words.
-std::string parameter_cases() {
+/// Returns a case for each name that has parameters, which adds them to the words; `line` has
+/// places for the name and for its parameters.
+std::string parameter_cases(fmt::format_string<std::string, std::string> line) {
   std::string cases;
   const auto add = [&](const auto& infos) {
     for (const auto& info : infos) {
       if (info.parameters.empty()) continue;
       Words names;
       for (const ParameterInfo& parameter : info.parameters) names.push_back(parameter.name + '=');
-      cases += fmt::format("      {}) words=\"$words {}\" ;;\n", info.name, fmt::join(names, " "));
+      cases += fmt::format(line, std::string(info.name), fmt::format("{}", fmt::join(names, " ")));
     }
   };
   add(accel::registry().structures());
@@ -163,7 +164,8 @@ std::string bash_script(const CLI::App& app) {
       "  [[ ${{COMPREPLY[0]-}} != *= ]] || compopt -o nospace 2>/dev/null\n"
       "}}\n"
       "complete -o default -F _beambench beambench\n",
-      fmt::join(first, " "), options, values, arguments, parameter_cases());
+      fmt::join(first, " "), options, values, arguments,
+      parameter_cases("      {}) words=\"$words {}\" ;;\n"));
 }
 
 /// Returns the zsh script, which runs bash's completions. The first completion loads the script as
@@ -183,26 +185,53 @@ std::string fish_quoted(const std::string& text) {
   return quoted + '\'';
 }
 
+/// Returns the function that completes the last part of a list, or a parameter. The shell replaces
+/// the whole word, so what comes before that part is repeated.
+std::string fish_function() {
+  return fmt::format(
+      "function __beambench_words\n"
+      "  set -l word (commandline -ct)\n"
+      "  set -l words $argv\n"
+      "  set -l part (string replace -r '.*,' '' -- \"$word\")\n"
+      "  set -l kept (string replace -r '[^,]*$' '' -- \"$word\")\n"
+      "  if string match -q '*:*' -- \"$word\"  # parameters of the name before the last colon\n"
+      "    if string match -q '*:*' -- \"$part\"\n"
+      "      set words\n"
+      "      set kept $kept(string replace -r ':.*' ':' -- \"$part\")\n"
+      "    end\n"
+      "    switch (string replace -r ':[^:]*$' '' -- \"$word\" | string replace -r '.*,' '')\n"
+      "{}"
+      "    end\n"
+      "  end\n"
+      "  test -n \"$words\"; and printf '%s\\n' $kept$words\n"
+      "end\n",
+      parameter_cases("      case {}\n        set -a words {}\n"));
+}
+
+/// Returns `-a` with the words.
+std::string fish_words(const Words& words) {
+  return fmt::format(" -a '(__beambench_words {})'", fmt::join(words, " "));
+}
+
 std::string fish_option(const CLI::Option& option, const std::string& condition) {
   std::string line = "complete -c beambench" + condition;
   if (option.get_positional()) {
     const auto known = known_values().find(option.get_name(true));
     if (known == known_values().end()) return "";
-    return fmt::format("{} -a '{}'\n", line, fmt::join(known->second, " "));
+    return line + fish_words(known->second) + '\n';
   }
   for (const std::string& name : option.get_snames()) line += " -s " + name;
   for (const std::string& name : option.get_lnames()) line += " -l " + name;
   if (takes_value(option)) {
     line += " -r";
     const auto known = known_values().find(names_of(option).back());
-    if (known != known_values().end())
-      line += fmt::format(" -f -a '{}'", fmt::join(known->second, " "));
+    if (known != known_values().end()) line += " -f" + fish_words(known->second);
   }
   return line + " -d " + fish_quoted(option.get_description()) + '\n';
 }
 
 std::string fish_script(const CLI::App& app) {
-  std::string script;
+  std::string script = fish_function();
   for (const CLI::Option* option : app.get_options()) {
     script += fish_option(*option, " -n __fish_use_subcommand");
   }

@@ -278,7 +278,8 @@ void bind_scene(nb::module_& module) {
                    "(T, 3) uint32, indices of vertices, read-only.")
       .def_prop_ro("triangle_primitives", &triangle_primitives_of, kOwned,
                    "(T,) uint32: the primitive of each triangle, read-only.")
-      .def_prop_ro("spheres", &spheres_of, kOwned, "(S, 4) float32: center and radius, read-only.")
+      .def_prop_ro("spheres", &spheres_of, kOwned,
+                   "(S, 4) float32: center and positive radius, read-only.")
       .def_prop_ro("primitive_kinds", &kinds_of, kOwned,
                    "(P,) uint32: 0 sphere, 1 cone, 2 polygon; read-only.")
       .def("rays", &rays_of_kind, nb::arg("kind"), nb::arg("image"),

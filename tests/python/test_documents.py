@@ -137,13 +137,22 @@ def test_bash_completes_commands_after_a_plugin_and_leaves_its_file_to_the_shell
 def test_fish_completes(tmp_path: Path) -> None:
     (tmp_path / "beambench.fish").write_text(output_of("completion", "fish"))
 
-    def offered(line: str) -> str:
+    def offered(line: str) -> list[str]:
         script = f"source beambench.fish; complete -C {line!r}"
-        return shell(f'fish --no-config -c "{script}"', tmp_path).stdout
+        lines = shell(f'fish --no-config -c "{script}"', tmp_path).stdout.splitlines()
+        return [line.split("\t")[0] for line in lines]
 
-    assert all(command in offered("beambench ") for command in COMMANDS)
-    assert all(option in offered("beambench trace --") for option in ["--pixel", "--json"])
+    assert set(COMMANDS) <= set(offered("beambench "))
+    assert {"--pixel", "--json"} <= set(offered("beambench trace --"))
     assert "normals" in offered("beambench render --shade ")
+    assert offered("beambench verify --accel samet,sah-b") == ["samet,sah-bvh"]
+    assert offered("beambench time tetra --rays primary,sha") == ["primary,shadow"]
+    for typed in ("samet:max_l", "embree,samet:max_l"):
+        whole = typed.replace("max_l", "max_level=")
+        assert offered(f"beambench verify --accel {typed}") == [whole]
+    more = "samet:max_level=5,max_o"
+    assert f"{more}bjects=" in offered(f"beambench verify --accel {more}")
+    assert "tetra:n=" in offered("beambench scene tetra:")
 
 
 @pytest.mark.skipif(shutil.which("zsh") is None, reason="zsh is not installed")

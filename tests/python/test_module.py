@@ -113,6 +113,7 @@ def test_spheres_are_what_their_arrays_say() -> None:
     scene = bb.Scene.from_spheres(centers, [1, 0.5])
     assert np.array_equal(scene.spheres, [[0, 0, 0, 1], [3, 0, 0, 0.5]])
     assert np.array_equal(bb.Scene.from_spheres(centers, 1).spheres[:, 3], [1, 1])
+    assert np.array_equal(bb.Scene.from_spheres(centers, -2).spheres[:, 3], [2, 2])
     assert len(scene.rays("shadow", resolution=(8, 8))) > 0
     hits = bb.Structure(scene, "exhaustive").trace_image(resolution=(65, 65))
     seen, counts = np.unique(hits.primitive, return_counts=True)

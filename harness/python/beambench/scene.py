@@ -229,7 +229,11 @@ class Scene:
 
     @property
     def spheres(self) -> NDArray[np.float32]:
-        """Center and radius of each sphere: shape (S, 4), float32, read-only, without a copy."""
+        """Center and radius of each sphere: shape (S, 4), float32, read-only, without a copy.
+
+        Radii are positive, also those of spheres that were made with a negative one, which rays
+        hit only from the inside.
+        """
         return self._compiled.spheres
 
     @property
