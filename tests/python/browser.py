@@ -114,6 +114,11 @@ class Browser:
         assert "exceptionDetails" not in reply, reply["exceptionDetails"]
         return reply["result"].get("value")
 
+    def settle(self) -> None:
+        """Waits until timers that have run out did their work: tables are sorted by one."""
+        waiting = "new Promise(done => setTimeout(done, 20))"
+        self.call("Runtime.evaluate", expression=waiting, awaitPromise=True)
+
     def press(self, key: str, code: int, text: str = "") -> None:
         """Presses a key as a user does."""
         for kind in ("keyDown", "keyUp"):

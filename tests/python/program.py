@@ -6,6 +6,8 @@ import os
 import subprocess
 from pathlib import Path
 
+from beambench_report.run.html import environment
+
 BINARY = Path(
     os.environ.get(
         "BEAMBENCH_BINARY",
@@ -29,6 +31,11 @@ def can_explain() -> bool:
     """Returns whether the program contains three.js, which scripts/setup fetches where npm is."""
     words = ["explain", "tetra:n=1", "--accel", "samet", "--resolution", "1x1", "-o", "/dev/null"]
     return "no three.js" not in beambench(*words).stderr
+
+
+def sorts_tables() -> bool:
+    """Returns whether pages contain DataTables, which scripts/setup fetches where npm is."""
+    return bool(environment().globals["library_scripts"])
 
 
 def shell(line: str, cwd: Path, timeout: float = 300) -> subprocess.CompletedProcess[str]:

@@ -87,6 +87,7 @@ def test_a_wheel_is_small_and_has_the_licenses_of_its_libraries(wheels: Path, na
     bundled = [name for name in names if re.match(r"[^/]*\.libs/lib", name)]
     licenses = [name for name in names if ".dist-info/licenses/" in name]
     assert len(licenses) > len(bundled) > 3
+    assert {"three", "datatables.net"} <= {name.rsplit("/", 1)[1] for name in licenses}
     assert not any(name.endswith((".hpp", ".a", ".cmake")) for name in names)
     assert not any("OpenImageIO" in name for name in names)
 
@@ -127,6 +128,8 @@ def test_a_bare_system_has_results_within_a_minute(
     assert "pipx install 'beambench[report]'" in system.path("root/words").read_text("utf-8")
     system.run(*pip, "beambench[report]")
     assert system.run(program, "report", "run") == "run/report.html\n"
+    page = system.path("root/run/report.html").read_text("utf-8")
+    assert "/*! DataTables " in page, "its tables sort and filter"
     for made in ("report.html", "plots/overall.svg", "pictures"):
         assert system.path(f"root/run/{made}").exists()
     by_name = "import beambench as bb\ntry: bb.sweep('quik')\nexcept bb.InputError as e: print(e)"

@@ -13,6 +13,7 @@ import pandas as pd
 from pandas.api.types import is_numeric_dtype
 
 from beambench_report.base.columns import Column, dictionary
+from beambench_report.base.quantities import DASH, number
 from beambench_report.base.records import Run
 
 _DIGITS = 5
@@ -21,6 +22,8 @@ _FIRST_SHOWN = (
     "repetitions build_ms_median trace_ms_median total_ms_median mrays_per_s memory_bytes "
     "primitive_tests_per_ray verdict"
 ).split()
+_MOST_WRITTEN = 500
+"""Rows of the table that a page shows without JavaScript."""
 _OWN = ("contender", "subject", "view", "is_tuned", "kind", "timed")
 """The columns that `Run` adds."""
 _NAMES = {
@@ -32,11 +35,19 @@ _NAMES = {
 
 @dataclass(frozen=True)
 class AllCells:
-    """The packed rows as JSON, and what is not in there."""
+    """The packed rows as JSON, what is not in there, and what is shown without JavaScript."""
 
     rows: int
     packed: str
+    headings: list[str]
+    written: list[list[str]]
+    """The first rows, with the columns that are shown first."""
     same_everywhere: list[tuple[str, str]]
+
+    @property
+    def unwritten(self) -> int:
+        """Counts the rows that need JavaScript."""
+        return self.rows - len(self.written)
 
 
 def pack(run: Run, own: Mapping[str, Column] | None = None) -> AllCells:
@@ -73,7 +84,19 @@ def pack(run: Run, own: Mapping[str, Column] | None = None) -> AllCells:
             }
         )
     packed = json.dumps({"rows": len(rows), "columns": columns}, separators=(",", ":"))
-    return AllCells(len(rows), packed.replace("<", "\\u003c"), same)
+    shown = [column for column in columns if column["first"]]
+    written = [
+        [_written(column, row) for column in shown] for row in range(min(len(rows), _MOST_WRITTEN))
+    ]
+    headings = [column["name"] for column in shown]
+    return AllCells(len(rows), packed.replace("<", "\\u003c"), headings, written, same)
+
+
+def _written(column: dict, row: int) -> str:
+    if "words" in column:
+        return column["words"][column["at"][row]]
+    figure = column["figures"][row]
+    return DASH if figure is None else number(figure)
 
 
 def _unknown(series: pd.Series) -> Column:

@@ -2,6 +2,8 @@
 
 import base64
 import io
+import re
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 
@@ -9,10 +11,20 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 from PIL import Image
 
-from beambench_report.base.files import Problem
+from beambench_report.base.files import ROOT, Problem
 from beambench_report.base.quantities import duration_in_words, number
 
 TEMPLATES = Path(__file__).with_name("templates")
+_LIBRARY = next(
+    filter(Path.is_dir, (Path(__file__).with_name("library"), ROOT / "build/viewer")), Path()
+)
+"""Where scripts/viewer put DataTables; in an installed package it is beside this file."""
+_SCRIPTS = ("dataTables.min.js", "dataTables.columnControl.min.js")
+_STYLE = ("columnControl.dataTables.min.css",)
+_WITHOUT_LIBRARY = (
+    "The tables of this page neither sort nor filter, because DataTables was not found when it was "
+    "written; fetch it with scripts/viewer, and write the page again."
+)
 _TYPES = {".png": "image/png", ".svg": "image/svg+xml"}
 
 
@@ -33,11 +45,23 @@ def environment(*own: Path) -> Environment:
         path = next(folder / name for folder in folders if (folder / name).exists())
         return Markup(path.read_text("utf-8"))
 
+    scripts, style = _library(_SCRIPTS), _library(_STYLE)
     made.globals["raw"] = raw
+    made.globals["library_scripts"], made.globals["library_style"] = scripts, style
+    made.globals["without_library"] = "" if scripts else _WITHOUT_LIBRARY
     made.filters["duration"] = duration_in_words
     made.filters["number"] = number
+    made.filters["slug"] = lambda text: "-".join(re.findall(r"[a-z0-9]+", str(text).lower()))
     made.filters["as_script_data"] = Markup  # `pack` has escaped what would end a script
     return made
+
+
+def _library(names: Sequence[str]) -> Markup:
+    """Files of DataTables, joined; empty where it was not fetched."""
+    paths = [_LIBRARY / name for name in names]
+    if not all(path.is_file() for path in paths):
+        return Markup()
+    return Markup("\n".join(path.read_text("utf-8") for path in paths))
 
 
 _THUMBNAIL = (640, 480)  # pixels, at most: a page shows pictures at half of that

@@ -6,6 +6,7 @@
   const status = document.getElementById("status");
   const loaded = new Map();
   const waiting = new Map();
+  let made = null;
   window.beambench = {
     add: (run) => {
       loaded.set(run.name, run);
@@ -63,6 +64,7 @@
   const figure = (ends, inWords, side = "") => {
     const cell = document.createElement("td");
     cell.className = `figure ${side}`;
+    cell.dataset.order = ends ? ends[0] : "";
     cell.textContent = ends ? inWords(ends[0]) : "–";
     if (ends && ends[1] !== null && ends[2] !== null) {
       const small = document.createElement("small");
@@ -86,6 +88,8 @@
     if (one !== form.elements.before.value || two !== form.elements.after.value) return;
     const [before, after] = [loaded.get(one), loaded.get(two)];
     const apart = differ(before, after);
+    made?.destroy();
+    made = null;
     if (before.in_blocks !== after.in_blocks) {
       document.getElementById("warning").hidden = true;
       status.textContent = "One of these runs is from before blocks: its times are medians, and they are not compared.";
@@ -131,6 +135,7 @@
       if (!apart) row.append(figure(then[MS], plain), figure(cell[MS], plain), figure(change(then[MS], cell[MS]), percent));
       return row;
     }));
+    if (window.DataTable) made = makeSortable(table);
   };
 
   const fill = () => {
