@@ -23,7 +23,13 @@ from beambench_operations.publish.documents import write_documents
 from beambench_operations.publish.make import Interrupted, Place, make_folder, run_program
 from beambench_operations.publish.needs import missing
 from beambench_operations.publish.plan import Command, Folder, Sweep, as_table, read_plan
-from beambench_operations.publish.progress import RECORD, is_published, progress_of, seconds_of
+from beambench_operations.publish.progress import (
+    RECORD,
+    Extent,
+    extent_of,
+    is_published,
+    progress_of,
+)
 from beambench_operations.publish.provenance import (
     Provenance,
     preflight,
@@ -53,7 +59,7 @@ def given(**own: object) -> Namespace:
 
 def test_all_of_it_fits_into_the_time() -> None:
     plan = read_plan()
-    assert plan.minutes <= plan.most_minutes == 275
+    assert plan.minutes <= plan.most_minutes == 240
     assert all(step.seconds > 0 for folder in plan.folders for step in folder.steps)
 
 
@@ -142,19 +148,25 @@ def test_some_folders_alone() -> None:
 
 
 def test_the_table_states_minutes_and_what_is_apart() -> None:
-    text = as_table(read_plan(), {"census": "complete"}, {"census": 90.0})
+    text = as_table(read_plan(), {"census": "complete"}, {"census": Extent(90.0, 12, 3)})
     (line,) = (line for line in text.splitlines() if line.startswith("| census | "))
-    assert line.endswith("| 1.5 | complete |")
+    assert line.endswith("| 1.5 | 12 | 3 | complete |")
     assert "(apart)" in text
 
 
-def test_what_a_folder_took_is_known_from_its_record_or_manifests(tmp_path: Path) -> None:
-    (tmp_path / "a").mkdir()
+def test_the_extent_of_a_folder_is_known_from_its_record_or_manifests_and_its_rows(
+    tmp_path: Path,
+) -> None:
+    for name, blocks in (("a", "3,\n4,x"), ("b", ",x"), ("nested", "2,x")):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "results.csv").write_text(f"blocks,scene\n{blocks}\n")
     times = {"time_utc": "2026-11-24T00:00:00Z", "finished_utc": "2026-11-24T00:01:30Z"}
     (tmp_path / "a/manifest.json").write_text(json.dumps(times))
-    assert seconds_of(tmp_path) == 90
+    (tmp_path / "nested" / RECORD).write_text('{"seconds": [7]}')
+    assert extent_of(tmp_path) == Extent(90, 3, 3)
     (tmp_path / RECORD).write_text('{"seconds": [1.5, 2]}')
-    assert seconds_of(tmp_path) == 3.5
+    assert extent_of(tmp_path) == Extent(3.5, 3, 3)
+    assert extent_of(tmp_path / "nested") == Extent(7, 1, 2)
 
 
 # Making a folder

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import fcntl
 import json
 import os
 import shutil
@@ -50,6 +51,15 @@ def same_rows(wanted: Path, found: Path) -> None:
     assert not fault
     assert not damage
     assert not difference(one, other)
+
+
+def wait_until_unlocked(folder: Path) -> None:
+    """Waits for the process of a block, which ends with the run that was killed, but after it."""
+    descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX)
+    finally:
+        os.close(descriptor)
 
 
 @pytest.fixture(scope="module")
@@ -161,6 +171,7 @@ def test_a_killed_shard_is_resumed_and_merged(measured: Path, tmp_path: Path, se
         complete = ended.code == 0
         assert complete or ended_as_killed(ended), ended.last_words()
         if not complete and (lost / "run.jsonl").exists():
+            wait_until_unlocked(lost)
             others = [path for path in shards(measured) if path.name != str(number)]
             words = [f"shard {number}/4 in '{lost}' has", "finish it with: beambench run --resume"]
             merged = beambench("merge", lost, *others, "-o", tmp_path / "early")

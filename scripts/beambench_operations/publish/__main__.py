@@ -9,7 +9,7 @@ from beambench_operations.publish.documents import PUBLISHED, differences, write
 from beambench_operations.publish.make import Place, make_folder
 from beambench_operations.publish.needs import Debian13, missing, plugins_for
 from beambench_operations.publish.plan import Folder, Plan, as_table, read_plan
-from beambench_operations.publish.progress import Progress, is_published, progress_of, seconds_of
+from beambench_operations.publish.progress import Progress, extent_of, is_published, progress_of
 from beambench_operations.publish.provenance import Provenance, git, preflight, require_clean
 from beambench_operations.publish.small import size
 from beambench_operations.publish.verified_again import verify_again, write_summary
@@ -56,13 +56,13 @@ def _run(options: Options) -> int:
         return _verify_again(options)
     if options.plan:
         provenance = preflight(options.beambench) if options.beambench.is_file() else None
-        took = {one.name: seconds_of(options.published / one.name) for one in plan.folders}
+        extents = {one.name: extent_of(options.published / one.name) for one in plan.folders}
         states = {
             one.name: _state(one, options, provenance) or _begun(one, options, provenance)
             for one in plan.folders
             if provenance
         }
-        print(as_table(plan, states, took))
+        print(as_table(plan, states, extents))
         return 0
     return _make(plan, options, preflight(options.beambench))
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from beambench_operations.publish.progress import Extent
 from beambench_report.base.files import ROOT, Problem, load_json
 from beambench_report.base.quantities import markdown_table
 
@@ -123,23 +124,20 @@ def read_plan(path: Path = PLAN) -> Plan:
         raise Problem(f"{path}: is not a plan ({error!r}); restore it with git") from None
 
 
-def as_table(plan: Plan, states: dict[str, str], took: dict[str, float | None]) -> str:
+def as_table(plan: Plan, states: dict[str, str], published: dict[str, Extent]) -> str:
     """Returns the plan as a table.
 
-    `states` has the state of each folder, `took` the seconds that the published one took.
+    `states` has the state of each folder, `published` the extent of those that are published.
     """
-    rows = [
-        (
-            one.name,
-            one.question,
-            f"{one.seconds / 60:.1f}{' (apart)' if one.is_apart else ''}",
-            f"{seconds / 60:.1f}" if (seconds := took.get(one.name)) is not None else "",
-            states.get(one.name, ""),
-        )
-        for one in plan.folders
-    ]
-    heads = ("folder", "question", "minutes", "took", "state")
-    lines = markdown_table(heads, rows, right=(2, 3))
+    rows = []
+    for one in plan.folders:
+        minutes = f"{one.seconds / 60:.1f}{' (apart)' if one.is_apart else ''}"
+        own = published.get(one.name, Extent(None, 0, None))
+        took = "" if own.seconds is None else f"{own.seconds / 60:.1f}"
+        extent = (took, str(own.cells or ""), str(own.blocks or ""))
+        rows.append((one.name, one.question, minutes, *extent, states.get(one.name, "")))
+    heads = ("folder", "question", "minutes", "took", "cells", "blocks", "state")
+    lines = markdown_table(heads, rows, right=(2, 3, 4, 5))
     return "\n".join([*lines, "", f"{plan.minutes:.0f} minutes in all, but for what is apart"])
 
 

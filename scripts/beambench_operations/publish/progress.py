@@ -4,6 +4,8 @@ import json
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import pandas as pd
+
 from beambench_operations.publish.provenance import Provenance
 from beambench_report.base.files import read_json, write_text
 from beambench_report.base.machine import read_manifest
@@ -57,14 +59,31 @@ def progress_of(folder: Path, provenance: Provenance) -> Progress | None:
     return Progress(folder, source["made_by"], source["seconds"], source["wrong"])
 
 
-def seconds_of(folder: Path) -> float | None:
-    """Returns the seconds a published folder took, by its record or the manifests of its runs."""
+@dataclass(frozen=True)
+class Extent:
+    """The extent of a published folder."""
+
+    seconds: float | None
+    cells: int
+    blocks: int | None
+    """The fewest of a cell with times; none where no row states blocks."""
+
+
+def extent_of(folder: Path) -> Extent:
+    """Returns the extent of a published folder, by its record, or its manifests, and its rows."""
+    nested = [file.parent for file in folder.rglob(RECORD) if file.parent != folder]
+    within = [
+        file for file in folder.rglob("*") if not any(file.is_relative_to(one) for one in nested)
+    ]
     source = read_json(folder / RECORD)
-    if isinstance(source, dict):
-        return sum(source["seconds"])
-    manifests = [read_manifest(file.parent) for file in folder.rglob("manifest.json")]
+    manifests = [read_manifest(file.parent) for file in within if file.name == "manifest.json"]
     known = [one.seconds for one in manifests if one is not None and one.seconds is not None]
-    return sum(known) if known else None
+    seconds = source["seconds"] if isinstance(source, dict) else known
+    tables = [pd.read_csv(file, dtype=str) for file in within if file.name == "results.csv"]
+    blocks = [int(n) for one in tables if "blocks" in one for n in one["blocks"].dropna()]
+    return Extent(
+        sum(seconds) if seconds else None, sum(map(len, tables)), min(blocks, default=None)
+    )
 
 
 def is_published(folder: Path, provenance: Provenance) -> bool:
