@@ -39,7 +39,7 @@ class Model:
 
 @dataclass(frozen=True)
 class _Motion:
-    """A rotation by rows, then a translation."""
+    """A rotation, row by row, followed by a translation."""
 
     rows: tuple[float, ...] = _UNTURNED
     offset: Point = (0.0, 0.0, 0.0)
@@ -54,7 +54,7 @@ class _Motion:
         return x, y, z
 
     def after(self, other: _Motion) -> _Motion:
-        """This motion of what the other one has moved."""
+        """Returns the motion that applies `other` first and then this one."""
         rows = tuple(
             sum(self.rows[3 * row + i] * other.rows[3 * i + column] for i in range(3))
             for row in range(3)
@@ -86,7 +86,7 @@ class _Reader:
         self._lines = text.splitlines()
 
     def read(self) -> None:
-        """Objects stand before what belongs to them, so that a list of open ones is enough."""
+        """Reads all objects. Parents precede their children, so recursion needs no tree."""
         while self._has_more():
             if self._words()[0] == "OBJECT":
                 self._object(_Motion())
@@ -97,7 +97,7 @@ class _Reader:
         return self.line < len(self._lines)
 
     def _words(self) -> list[str]:
-        """Those of the next line that has any."""
+        """Returns the words of the next line that is not empty."""
         while True:
             self.line += 1
             words = self._lines[self.line - 1].split()
@@ -128,7 +128,7 @@ class _Reader:
             elif word == "kids":
                 below = parent.after(_Motion(rows, offset))
                 for number in range(_count(rest)):
-                    if not self._has_more():  # the tracks of TORCS count some that they lack
+                    if not self._has_more():  # TORCS counts missing objects
                         self.model.surfaces["objects that the file lacks"] += _count(rest) - number
                         return
                     if self._words()[0] != "OBJECT":

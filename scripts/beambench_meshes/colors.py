@@ -1,7 +1,7 @@
-"""A color for a texture by its name, as textures themselves are not read.
+"""Picks a color for a texture by its name, because textures themselves are not read.
 
-Names of textures say what they show: grass, road, brick. Where none is recognized, the color is a
-muted one that depends on the name only.
+Texture names describe what is shown: grass, road, brick. An unrecognized name gets a muted color
+that depends only on the name.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import re
 
 from beambench_meshes.surface_mesh import Color
 
-# The first that a name holds counts.
+# The first keyword contained in the name decides.
 _KNOWN: tuple[tuple[str, Color], ...] = (
     ("lava|fire", (0.80, 0.28, 0.08)),
     ("slime|acid", (0.35, 0.55, 0.12)),
@@ -32,17 +32,17 @@ _KNOWN: tuple[tuple[str, Color], ...] = (
 
 
 def color_of_texture(name: str) -> Color:
-    """Always the same for the same name."""
+    """Returns the color for a texture; the same name always has the same color."""
     for pattern, color in _KNOWN:
         if re.search(pattern, name.lower()):
             return _shaded(color, name)
     digest = _digest(name)
-    # From red earth to ocher, as what is built mostly is.
+    # From red earth to ocher, like most buildings.
     return colorsys.hls_to_rgb(0.02 + 0.12 * digest[0] / 255, 0.35 + 0.25 * digest[1] / 255, 0.16)
 
 
 def _shaded(color: Color, name: str) -> Color:
-    """A little lighter or darker, so that textures of one kind differ."""
+    """Returns a slightly lighter or darker color, so that textures of one kind differ."""
     factor = 0.85 + 0.3 * _digest(name)[0] / 255
     red, green, blue = (min(1.0, part * factor) for part in color)
     return red, green, blue

@@ -1,4 +1,4 @@
-"""Registers what a user downloaded."""
+"""Registers meshes that the user downloaded."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from beambench_meshes.say import say
 
 
 def find(name: str) -> Download:
-    """The scene of that name. Raises Problem that lists them."""
+    """Returns the scene of that name. Raises Problem, which lists the known names."""
     for download in DOWNLOADS:
         if download.name == name:
             return download
@@ -22,7 +22,10 @@ def find(name: str) -> Download:
 
 
 def find_file(folder: Path, download: Download) -> Path:
-    """Its file in the folder or below. Raises Problem that says where to get it."""
+    """Returns the scene's file in the folder or below.
+
+    Raises Problem, which says where to get it.
+    """
     expected = " or ".join(download.files)
     get = f"{download.name} is from {download.where}"
     if not folder.is_dir():
@@ -35,7 +38,7 @@ def find_file(folder: Path, download: Download) -> Path:
 
 
 def register(download: Download, file: Path, cache: Path, beambench: Path) -> None:
-    """Registers a file, and compares it with what is published of it. Raises Problem."""
+    """Registers a file and compares it with the published facts about it. Raises Problem."""
     entry = cache / "registered" / f"{download.name}.json"
     former = _former(entry)
     checksum = sha256(file)
@@ -52,7 +55,7 @@ def register(download: Download, file: Path, cache: Path, beambench: Path) -> No
         "license": download.license,
         "sha256": checksum,
     }
-    # Without cameras first: which are right depends on what is in the file.
+    # Without cameras first: the right cameras depend on the contents of the file.
     write_entry(entry, content)
     try:
         loaded = load(beambench, download.name)
@@ -73,7 +76,7 @@ def register(download: Download, file: Path, cache: Path, beambench: Path) -> No
 
 
 def _former(entry: Path) -> dict[str, object]:
-    """The entry of an earlier call; nothing where there is none that can be read."""
+    """Returns the entry written by an earlier call; empty if there is none or it cannot be read."""
     with contextlib.suppress(OSError, ValueError):
         content = json.loads(entry.read_text())
         if isinstance(content, dict):
@@ -107,7 +110,7 @@ def _compare(download: Download, version: Version | None, checksum: str) -> None
 
 
 def _cameras(version: Version, loaded: Loaded) -> list[dict[str, object]]:
-    """Those whose eyes are within the mesh: a copy may be scaled."""
+    """Returns the cameras whose eyes are within the mesh: a copy may be scaled."""
     inside = [camera for camera in version.cameras if _holds(loaded, camera)]
     if version.cameras:
         say(

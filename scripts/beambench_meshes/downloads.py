@@ -1,8 +1,8 @@
-"""Scenes of the literature that no registry has: a user downloads them, `--from` registers them.
+"""Scenes of the literature that are in no registry: a user downloads them, `--from` registers them.
 
-What is known of them has its source beside it. Where no checksum is published, the number of
-triangles identifies the version, and the checksum of the user's file is kept, so that a later run
-notices another file.
+Every fact about them cites its source. Where no checksum is published, the number of triangles
+identifies the version, and the checksum of the user's file is stored, so that a later run notices a
+different file.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ _MCGUIRE = "the McGuire Computer Graphics Archive (casual-effects.com/data)"
 
 @dataclass(frozen=True)
 class Version:
-    """A version of a scene, known by its number of triangles, where cameras are right for it."""
+    """A version of a scene, known by its number of triangles, with the cameras that fit it."""
 
     triangles: int
     which: str
-    within: int = 0  # how many more or fewer there may be, where papers print rounded numbers
+    within: int = 0  # allowed difference, where papers print rounded numbers
     up: str = ""
     front: str = ""
     cameras: tuple[Camera, ...] = ()
@@ -30,20 +30,20 @@ class Version:
 
 @dataclass(frozen=True)
 class Download:
-    """A scene, where a user gets it, and by which files it is recognized."""
+    """A scene, where to get it, and which files identify it."""
 
     name: str
     what: str
     where: str
     license: str
-    files: tuple[str, ...]  # the one of these that is there, the first first
+    files: tuple[str, ...]  # the first of these that exists is used
     versions: tuple[Version, ...]
     up: str = ""
     front: str = ""
 
 
-# From the list of cameras in the GPU ray traversal framework of Aila, Laine and Karras (its App.cpp
-# and benchmark.cmd), decoded; 73.74 degrees.
+# From the list of cameras in the GPU ray traversal framework of Aila, Laine and Karras (its
+# App.cpp and benchmark.cmd), decoded; 73.74 degrees.
 _AILA = "the benchmark of Aila, Laine and Karras (2012)"
 _CONFERENCE = tuple(
     Camera(f"aila-laine-{number}", eye, at, 73.74, (0.0, 0.0, 1.0))
@@ -77,7 +77,7 @@ DOWNLOADS = (
         "CC-BY-3.0 (Crytek's), CC-BY-NC (Dabrovic's)",
         ("sponza.obj",),
         (
-            # Ours: papers name no numbers for their views of the nave.
+            # Our own: papers do not publish coordinates for their views of the nave.
             Version(262267, "Crytek's", cameras=_NAVE, cameras_by="this project"),
             Version(66450, "Dabrovic's"),
         ),
@@ -168,7 +168,8 @@ DOWNLOADS = (
             Version(
                 12759246,
                 "that archive's",
-                # Printed by one user of the archive's copy; the archive itself prints none.
+                # Published by one user of the archive's copy; the archive itself publishes no
+                # count.
                 sha256="1bda60ac06a11a6299799c95f4caac63b5c2a3654464040ff5b7d4bb8db190a8",
             ),
         ),

@@ -1,4 +1,4 @@
-"""Entries of the registry, and what beambench says of the meshes that they name."""
+"""Entries of the registry, and beambench's report on the meshes that they name."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from beambench_meshes.surface_mesh import Point
 
 @dataclass(frozen=True)
 class Camera:
-    """Where a person would stand, in the mesh's coordinates; the angle is the vertical one."""
+    """A camera where a person would stand, in the mesh's coordinates; the angle is vertical."""
 
     name: str
     eye: Point
@@ -24,7 +24,7 @@ class Camera:
     up: Point | None = None  # if not given, that of the mesh
 
     def as_json(self) -> dict[str, object]:
-        """As an entry has it."""
+        """Returns the camera as an entry stores it."""
         up = {"up": self.up} if self.up else {}
         return {"name": self.name, "from": self.eye, "at": self.at, **up, "angle": self.angle}
 
@@ -40,7 +40,7 @@ class Loaded:
 
 
 def write_entry(entry: Path, content: dict[str, object]) -> None:
-    """Writes a file of the folder `registered` whole; keys without a value are left out."""
+    """Writes a file to the folder `registered` atomically, without keys that have no value."""
     pending = entry.with_name(entry.name + ".pending")
     kept = {key: value for key, value in content.items() if value}
     pending.write_text(json.dumps(kept, ensure_ascii=False, indent=1) + "\n")
@@ -48,7 +48,10 @@ def write_entry(entry: Path, content: dict[str, object]) -> None:
 
 
 def load(beambench: Path, name: str) -> Loaded:
-    """Has a registered mesh read, which also fills the cache. Raises Problem where that fails."""
+    """Makes beambench read a registered mesh, which also fills the cache.
+
+    Raises Problem on failure.
+    """
     command = [str(beambench), "scene", f"mesh:{name}", "--json"]
     try:
         done = subprocess.run(command, capture_output=True, text=True, check=False)

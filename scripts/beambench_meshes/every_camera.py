@@ -30,7 +30,7 @@ _FITTED = ("three-quarter", "front", "side", "top")
 
 
 def views() -> list[tuple[str, str]]:
-    """Mesh and camera of each."""
+    """Yields the mesh and camera of each view."""
     return [
         (recipe.name, camera)
         for recipe in RECIPES
@@ -51,7 +51,7 @@ def _cells(program: str, mesh: str, camera: str) -> Iterator[dict[str, object]]:
 
 
 def main() -> int:
-    """The exit code: 2 for wrong arguments. A wrong hit is a row, and no failure."""
+    """Returns the exit code: 2 for invalid arguments. A wrong hit is a row, not a failure."""
     if len(sys.argv) != 3:
         print(__doc__, file=sys.stderr)
         return 2

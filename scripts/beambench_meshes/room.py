@@ -23,7 +23,7 @@ _ROOM_COLORS = {"room-floor": (0.55, 0.40, 0.28), "room-wall": (0.86, 0.83, 0.76
 
 @dataclass(frozen=True)
 class Place:
-    """Where a piece stands: its middle, turned about the vertical, its bottom at an elevation."""
+    """The place of a piece: its center, its rotation about the vertical, and its elevation."""
 
     catalog: str
     model: str
@@ -54,7 +54,7 @@ PLACES = (
 
 @dataclass
 class Mesh:
-    """Triangles and polygons by surface, vertices as they will be written."""
+    """Triangles and polygons by surface, with vertices as they will be written."""
 
     vertices: list[tuple[float, float, float]]
     faces: list[tuple[str, list[int]]]
@@ -65,7 +65,7 @@ class Catalog:
     """One of the package's files: a ZIP with models and a list of their sizes."""
 
     def __init__(self, file: Path) -> None:
-        """Reads the list; raises Problem where the file is not there or is another."""
+        """Reads the list. Raises Problem if the file is missing or is a different one."""
         try:
             self._zip = zipfile.ZipFile(file)
             listed = self._zip.read("PluginFurnitureCatalog.properties").decode("latin-1")
@@ -84,7 +84,7 @@ class Catalog:
                 self._entries[PurePosixPath(entry["model"]).stem] = entry
 
     def piece(self, model: str) -> tuple[dict[str, str], Mesh]:
-        """An entry of the list and its model."""
+        """Returns an entry of the list and its model."""
         if model not in self._entries:
             raise Problem(f"{self._file}: it has no model '{model}'; is the package another one?")
         entry = self._entries[model]
@@ -123,7 +123,7 @@ class Catalog:
 
 
 def _indices(corners: list[str], vertices: int) -> list[int]:
-    """Positions of a face's corners in the list of vertices, from 0."""
+    """Returns the indices of a face's corners in the list of vertices, counted from 0."""
     numbers = [int(corner.split("/")[0]) for corner in corners]
     return [number - 1 if number > 0 else vertices + number for number in numbers]
 
@@ -131,7 +131,7 @@ def _indices(corners: list[str], vertices: int) -> list[int]:
 def _turned_model(
     entry: dict[str, str], vertices: list[tuple[float, float, float]]
 ) -> list[tuple[float, float, float]]:
-    """The vertices by the rotation that a catalog may give a model before it is scaled."""
+    """Applies the rotation that a catalog may specify for a model before it is scaled."""
     if "modelRotation" not in entry:
         return vertices
     m = [float(number) for number in entry["modelRotation"].split()]
@@ -146,7 +146,7 @@ def _turned_model(
 
 
 def _placed(entry: dict[str, str], mesh: Mesh, place: Place) -> list[tuple[float, float, float]]:
-    """The vertices, scaled to the catalog's centimeters and put in their place."""
+    """Returns the vertices, scaled to the catalog's centimeters and moved into place."""
     vertices = _turned_model(entry, mesh.vertices)
     low = [min(v[axis] for v in vertices) for axis in range(3)]
     high = [max(v[axis] for v in vertices) for axis in range(3)]
@@ -187,7 +187,7 @@ def _shell() -> list[Mesh]:
 
 
 def furnish(folder: Path) -> list[Mesh]:
-    """The room and its furniture."""
+    """Returns the room with its furniture."""
     catalogs: dict[str, Catalog] = {}
     meshes = _shell()
     for place in PLACES:
@@ -199,7 +199,7 @@ def furnish(folder: Path) -> list[Mesh]:
 
 
 def write(meshes: list[Mesh], output: Path) -> None:
-    """Writes OUTPUT.obj and OUTPUT.mtl; the OBJ last, whole or not at all."""
+    """Writes OUTPUT.mtl, then OUTPUT.obj, atomically."""
     library = output.with_suffix(".mtl")
     colors = {name: color for mesh in meshes for name, color in mesh.colors.items()}
     library.write_text(

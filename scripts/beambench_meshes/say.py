@@ -4,5 +4,5 @@ from __future__ import annotations
 
 
 def say(text: str) -> None:
-    """Prints a line at once, in the order of what other programs print."""
+    """Prints a line at once, so that it is in order with the output of other programs."""
     print(f"== {text}", flush=True)

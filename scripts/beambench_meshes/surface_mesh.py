@@ -16,14 +16,14 @@ _FLOAT = struct.Struct("<f")
 
 
 def _as_written(number: float) -> str:
-    """Returns a number as the nearest float, in digits that give it back."""
+    """Formats a number as the nearest float, with enough digits to read it back exactly."""
     rounded: float = _FLOAT.unpack(_FLOAT.pack(number))[0]
-    return f"{rounded + 0.0:.9g}"  # -0 and 0 are one place
+    return f"{rounded + 0.0:.9g}"  # -0 and 0 are the same place
 
 
 @dataclass
 class SurfaceMesh:
-    """Polygons, each with the name of its surface; vertices at the same place are one."""
+    """Polygons, each with the name of its surface; vertices at the same place are merged."""
 
     vertices: list[Point] = field(default_factory=list)
     faces: list[tuple[str, list[int]]] = field(default_factory=list)
@@ -31,7 +31,7 @@ class SurfaceMesh:
     _places: dict[Point, int] = field(default_factory=dict)
 
     def vertex(self, place: Point) -> int:
-        """Returns the number of the vertex at a place."""
+        """Returns the index of the vertex at a place."""
         if not all(abs(part) <= _LARGEST for part in place):  # catches NaN too
             raise Problem(f"it has a vertex at {place}, beyond all that is meant")
         number = self._places.setdefault(place, len(self.vertices))
@@ -40,11 +40,11 @@ class SurfaceMesh:
         return number
 
     def triangles(self) -> int:
-        """The number of triangles after each polygon is cut into triangles."""
+        """Returns the number of triangles after every polygon is triangulated."""
         return sum(len(corners) - 2 for _, corners in self.faces)
 
     def write(self, output: Path) -> None:
-        """Writes OUTPUT.obj and its .mtl; the OBJ last, whole or not at all."""
+        """Writes OUTPUT.mtl, then OUTPUT.obj, atomically."""
         names = {name: f"surface-{number}" for number, name in enumerate(self.colors)}
         library = output.with_suffix(".mtl")
         _write_whole(

@@ -1,4 +1,4 @@
-"""Operating beambench: nights and their history, the site, campaigns, and what is published.
+"""Operating beambench: nights and their history, the site, campaigns, and publishing.
 
-Each is a package of its own: history, site, nightly, campaign, publish, in this order.
+Each part is a package: history, site, nightly, campaign, publish, in this order.
 """

@@ -44,7 +44,7 @@ _FORMER_COMMANDS = {
         for name in ("benchmarks", "compare", "diff", "nightly", "site")
     },
 }
-"""The package and the command that do the work now; the former names work for one version."""
+"""The new package and command of each moved command; the old names work for one version."""
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -1,1 +1,1 @@
-"""Long campaigns against the program: inputs, rays and kills at random, counted in one record."""
+"""Long campaigns against the program: random inputs, rays and kills, counted in one record."""

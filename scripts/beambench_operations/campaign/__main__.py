@@ -26,10 +26,10 @@ HOME = ROOT / "results/robustness"
 _TARGETS = ROOT / "build/fuzz/bin"
 _LONGEST = 300.0  # seconds of a piece of fuzzing: what Ctrl-C may cost
 _MEASURE = {"fuzz": "seconds", "rays": "scenes", "kills": "runs"}
-"""The count that the subjects of a command get alike, over all pieces of the record."""
+"""The count that is balanced between the subjects of a command, over all pieces of the record."""
 
 Work = dict[str, Callable[[int | None], Piece]]
-"""What makes a piece of a subject, of a given seed or the next one."""
+"""Functions that make a piece for a subject, with a given seed or the next one."""
 
 
 def main(arguments: list[str]) -> int:

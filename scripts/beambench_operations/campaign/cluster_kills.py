@@ -1,4 +1,4 @@
-"""Killing processes of the cluster program: the picture is right, or a message states why."""
+"""Kills processes of the cluster program: the picture must be right, or a message must say why."""
 
 import contextlib
 import os
@@ -15,7 +15,7 @@ PROGRAM = "beambench-cluster"
 _RUNS = 5
 _TIMEOUT = 5  # seconds, of --timeout
 _SIGNALS = (signal.SIGKILL, signal.SIGSTOP)
-_ENDING = 60  # seconds: that, mpirun's own, and those of a busy machine
+_ENDING = 60  # seconds: the same, plus those of mpirun and of a busy machine
 _WORK = ["balls:n=2", "--shade", "whitted", "--depth", "6", "--resolution", "320x240"]
 
 
@@ -25,7 +25,7 @@ def is_possible(beambench: Path) -> bool:
 
 
 def kill_cluster(beambench: Path, folder: Path, random: Random, programs: Programs) -> Tally:
-    """Kills or stops one process of three in each of some runs."""
+    """Kills or stops one of three processes in each of several runs."""
     tally = Tally()
     right = folder / "right.png"
 
@@ -60,7 +60,7 @@ def kill_cluster(beambench: Path, folder: Path, random: Random, programs: Progra
 
 
 def _processes(run: Program) -> list[int]:
-    """Returns the processes of the program that mpirun has started."""
+    """Returns the program's processes that mpirun has started."""
     try:
         children = Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split()
         names = {int(child): Path(f"/proc/{child}/comm").read_text() for child in children}

@@ -21,7 +21,7 @@ SWEEP = {
     "budget_seconds": 0,
     "warm_up_seconds": 0,
 }
-"""The sweep that is killed: seconds, and cells of several scenes and structures."""
+"""The sweep that is killed: it takes seconds and has cells of several scenes and structures."""
 
 
 def write_sweep(folder: Path) -> Path:
@@ -33,7 +33,7 @@ def write_sweep(folder: Path) -> Path:
 
 @dataclass
 class Tally:
-    """The counts and faults of a piece so far."""
+    """Counts and faults of a piece so far."""
 
     kills: int = 0
     runs: int = 0
@@ -42,7 +42,7 @@ class Tally:
 
 
 def finished(program: Program, tally: Tally) -> Ended:
-    """Returns how a program ended. After five minutes it is killed, which counts as a fault."""
+    """Returns how a program ended. It is killed after five minutes, which counts as a fault."""
     ended = program.wait(_HANGING)
     if ended is None:
         tally.faults.append(f"it did not end within {_HANGING:.0f} s")
@@ -57,7 +57,7 @@ def finished(program: Program, tally: Tally) -> Ended:
 def killed(
     program: Program, random: Random, whole: float, tally: Tally, *, to_all: bool = False
 ) -> Ended:
-    """Sends a signal at a moment of the first `whole` seconds; returns how the program ended."""
+    """Sends a signal at some moment of the first `whole` seconds; returns how the program ended."""
     number = random.choice(SIGNALS)
     if program.wait(random.uniform(0, whole)) is None:
         program.send(number, to_all=to_all)

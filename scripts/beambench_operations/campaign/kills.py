@@ -25,7 +25,7 @@ _MOST_KILLS = 12
 
 
 def kill_sweep(beambench: Path, folder: Path, random: Random, programs: Programs) -> Tally:
-    """Kills a sweep. Each cell must be there once at the end, as in an undisturbed run."""
+    """Kills a sweep. At the end it must have each cell once, as in an undisturbed run."""
     tally = Tally()
     sweep = write_sweep(folder)
     begin = [beambench, "run", sweep, "-o", folder / "undisturbed"]
@@ -65,7 +65,7 @@ def killable(beambench: Path) -> list[str]:
 
 
 def kill(beambench: Path, kind: str, seed: int, record: Record, programs: Programs) -> Piece:
-    """Kills a subject several times in a folder of its own, which is kept if something is wrong."""
+    """Kills a subject several times in a new folder, which is kept if anything is wrong."""
     with TemporaryDirectory(prefix="beambench-campaign-", ignore_cleanup_errors=True) as name:
         folder = Path(name)
         tally = _KINDS[kind](beambench.resolve(), folder, Random(seed), programs)

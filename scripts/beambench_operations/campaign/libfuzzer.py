@@ -1,4 +1,4 @@
-"""Pieces of fuzzing by libFuzzer: a target for some time, and its corpus minimized."""
+"""Pieces of fuzzing by libFuzzer: a target is fuzzed for some time, then its corpus minimized."""
 
 import os
 import re
@@ -17,7 +17,7 @@ SOURCES = ROOT / "tests/fuzz"
 _DICTIONARIES = dict.fromkeys(
     ("sweep", "run_log", "manifest", "rays", "hits", "gltf", "mesh_entry"), "json"
 )
-"""Of the targets whose dictionary has another name than they."""
+"""The dictionaries of targets that do not have one with their own name."""
 _LIMITS = ("-max_len=4096", "-timeout=20", "-rss_limit_mb=3000")
 _GO_ON = ("-fork=1", "-ignore_crashes=1", "-ignore_timeouts=1", "-ignore_ooms=1")
 _ENVIRONMENT = {"ASAN_OPTIONS": "detect_leaks=0", "UBSAN_OPTIONS": "print_stacktrace=1"}
@@ -30,7 +30,7 @@ _MOST_REPEATED = 100
 
 @dataclass(frozen=True)
 class Target:
-    """A program of libFuzzer, and where its inputs come from."""
+    """A libFuzzer program and the sources of its inputs."""
 
     name: str
     program: Path
@@ -55,7 +55,7 @@ def targets_in(folder: Path) -> list[Target]:
 
 
 def fuzz(target: Target, seed: int, seconds: float, record: Record, programs: Programs) -> Piece:
-    """Fuzzes a target, goes on after what it finds, and keeps one input for each message."""
+    """Fuzzes a target, continues after each finding, and keeps one input for each message."""
     corpus = record.corpus(target.name)
     corpus.mkdir(parents=True, exist_ok=True)
     memory = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
@@ -92,7 +92,7 @@ def status(log: str) -> tuple[int, dict[str, int]]:
 def _minimize(
     target: Target, corpus: Path, scratch: Path, programs: Programs, environment: dict[str, str]
 ) -> Ended:
-    """Leaves only inputs that add to the coverage; leaves all of them if that fails."""
+    """Keeps only inputs that add to the coverage; keeps all of them if that fails."""
     fresh = scratch / "fresh"
     fresh.mkdir()
     folders: Sequence[Path] = (fresh, corpus, *target.seeds())
@@ -112,7 +112,7 @@ def _findings(
 ) -> Iterator[Finding]:
     """Yields a finding for each message with which the target fails again on the same input.
 
-    An input that took too long while the machine was busy, but does not any more, is left out.
+    An input that timed out only because the machine was busy is left out.
     """
     messages = set()
     for file in sorted(path for kind in _FAULTS for path in faults.glob(kind))[:_MOST_REPEATED]:
@@ -127,7 +127,7 @@ def _findings(
 
 
 def _message(ended: Ended) -> str:
-    """Returns the error message without the parts that differ from run to run."""
+    """Returns the error message without the parts that vary from run to run."""
     if ended.code == 0:
         return "it did not fail when it was repeated"
     lines = ended.errors.splitlines()

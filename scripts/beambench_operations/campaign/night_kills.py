@@ -1,4 +1,4 @@
-"""Killing and resuming nightly runs: no night of the history is lost or doubled."""
+"""Kills and resumes nightly runs: the history must not lose or duplicate a night."""
 
 import sqlite3
 import sys
@@ -26,7 +26,7 @@ _IN_PROGRESS = ("a nightly run is in progress", "no run was cut off")
 
 
 def kill_nights(beambench: Path, folder: Path, random: Random, programs: Programs) -> Tally:
-    """Runs an undisturbed night, then kills others until enough kills were made and the last is
+    """Runs an undisturbed night, then kills others until enough were killed and the last one is
     complete.
     """
     tally = Tally()
@@ -61,7 +61,7 @@ def kill_nights(beambench: Path, folder: Path, random: Random, programs: Program
 
 
 def _fault(home: Path) -> str:
-    """Returns what is wrong with the history; empty if nothing is."""
+    """Returns what is wrong with the history; empty if nothing is wrong."""
     with closing(sqlite3.connect(home / "history.sqlite")) as history:
         nights = sorted(folder for (folder,) in history.execute("SELECT folder FROM nights"))
     if nights != sorted(_nights(home)):

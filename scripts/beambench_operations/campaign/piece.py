@@ -1,4 +1,4 @@
-"""The pieces of a campaign, each of which counts as a whole or not at all."""
+"""The pieces of a campaign, each of which counts completely or not at all."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -6,13 +6,13 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True)
 class Finding:
-    """Something that went wrong."""
+    """A fault that was found."""
 
     file: str
-    """What repeats it, or was left by it, in the folder of findings."""
+    """The file that reproduces it or was left by it, in the folder of findings."""
     message: str
     command: str
-    """To be run at the top of the repository."""
+    """The command that repeats it, run at the top of the repository."""
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class Piece:
     findings: list[Finding] = field(default_factory=list)
 
     def __str__(self) -> str:
-        """Returns one line, for the progress."""
+        """Returns one line that reports the piece."""
         counts = ", ".join(f"{count:,} {what}" for what, count in self.counts.items())
         findings = f", {len(self.findings)} FINDINGS" if self.findings else ""
         return f"{self.command} {self.subject}, seed {self.seed}: {counts}{findings}"

@@ -1,4 +1,4 @@
-"""Running pieces, several at once, until the time is up."""
+"""Runs pieces, several at once, until the time is up."""
 
 import time
 from collections.abc import Callable, Collection
@@ -9,7 +9,7 @@ from beambench_operations.campaign.programs import Programs
 from beambench_operations.campaign.record import Record
 from beambench_report.base.files import say
 
-_SILENCE = 30.0  # seconds without a word, at most
+_SILENCE = 30.0  # longest time in seconds without a message
 
 Choose = Callable[[Collection[str]], Task]
 """The next task, given the subjects that are under way."""
@@ -18,10 +18,10 @@ Choose = Callable[[Collection[str]], Task]
 def do_pieces(
     choose: Choose, record: Record, programs: Programs, seconds: float, jobs: int
 ) -> list[Piece]:
-    """Records each piece when it is done, and returns them; at least one is started.
+    """Records each piece when it is done and returns all of them; starts at least one.
 
-    Pieces under way at the end of the time are finished. If an exception ends this, such as a
-    keyboard interrupt, the pieces under way are stopped and not counted.
+    Pieces in progress when the time is up are finished. If an exception such as a keyboard
+    interrupt ends the call, the pieces in progress are stopped and not counted.
     """
     end = time.monotonic() + seconds
     said = time.monotonic()

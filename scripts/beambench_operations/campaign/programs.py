@@ -22,12 +22,12 @@ _PATIENCE = 3.0  # seconds from SIGTERM to SIGKILL
 
 
 class Stopped(Exception):  # noqa: N818 (the user's wish is no error)
-    """The campaign ends: pieces under way are not counted."""
+    """The campaign has ended; pieces in progress are not counted."""
 
 
 @dataclass(frozen=True)
 class Ended:
-    """The end of a program; a negative code is a signal."""
+    """How a program ended; a negative code is a signal."""
 
     code: int
     output: str
@@ -35,13 +35,13 @@ class Ended:
     cpu_seconds: float
 
     def last_words(self) -> str:
-        """Returns the last line that it printed, as a reason."""
+        """Returns the last line of its output, as the reason."""
         lines = (self.errors.strip() or self.output.strip()).splitlines()
         return lines[-1] if lines else f"it ended with {self.code} and said nothing"
 
 
 class Program:
-    """A process in a session of its own: a keyboard's interrupt does not reach it."""
+    """A process in its own session, which a keyboard interrupt does not reach."""
 
     def __init__(
         self, command: Sequence[str | Path], cwd: Path | None, env: Mapping[str, str]
@@ -94,7 +94,7 @@ class Program:
                 (os.killpg if to_all else os.kill)(self.pid, number)
 
     def end(self) -> None:
-        """Ends it and all of its group."""
+        """Kills the process and its whole group."""
         self.send(signal.SIGTERM, to_all=True)
         self.wait(_PATIENCE)
         with contextlib.suppress(ProcessLookupError):
@@ -106,7 +106,7 @@ class Programs:
     """All programs of a campaign, started by any of its threads."""
 
     def __init__(self) -> None:
-        """Begins with no programs."""
+        """Creates an empty group."""
         self._lock = threading.Lock()
         self._begun: list[Program] = []
         self._stopped = False
@@ -132,7 +132,7 @@ class Programs:
         cwd: Path | None = None,
         env: Mapping[str, str] | None = None,
     ) -> Ended:
-        """Runs a program and ends it after that time. Raises Stopped like `start`."""
+        """Runs a program, and ends it after the given time. Raises Stopped like `start`."""
         program = self.start(command, cwd, env)
         ended = program.wait(seconds)
         if ended is None:
@@ -144,7 +144,7 @@ class Programs:
         return ended
 
     def stop(self) -> None:
-        """Ends all of them, and lets none be started."""
+        """Ends all programs and prevents new ones."""
         with self._lock:
             self._stopped = True
             for program in self._begun:

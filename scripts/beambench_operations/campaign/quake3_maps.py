@@ -40,7 +40,7 @@ def read(data: bytes) -> None:
 
 
 def mutated(data: bytes, others: list[bytes], random: Random) -> bytes:
-    """Returns the bytes with some changed, left out, repeated, or taken from another input."""
+    """Returns the bytes with some changed, removed, repeated, or taken from another input."""
     result = bytearray(data)
     for _ in range(random.choice((1, 1, 2, 4, 8))):
         place = random.randrange(len(result) + 1)
@@ -66,7 +66,7 @@ def mutated(data: bytes, others: list[bytes], random: Random) -> bytes:
 
 
 def fault(data: bytes) -> str:
-    """Returns the exception of an input with its place; empty if there is none."""
+    """Returns the exception that an input causes, with its place; empty if there is none."""
     try:
         read(data)
     except Exception as error:

@@ -10,14 +10,15 @@ from beambench_operations.campaign.record import Record
 from beambench_report.base.files import Problem, output_of
 
 SCENES = 20
-"""Random ones of each of the three checks that make them; the scenes that are made to be hard come
-besides."""
+"""The number of random scenes of each of the three checks that make them; built-in hard scenes are
+added.
+"""
 RAYS = 4000
-"""For each random scene, about."""
+"""Rays for each random scene, approximately."""
 CHECKS = ("random scenes", "scene families", "views")
-"""Those that make random scenes, each its own for every seed."""
+"""The checks that make random scenes, different ones for every seed."""
 FIRST_SEED = 100_000
-"""Above the seeds of the tests."""
+"""The first seed, above the seeds of the tests."""
 
 
 def structures(beambench: Path) -> list[str]:
@@ -54,7 +55,7 @@ def trace(beambench: Path, structure: str, seed: int, record: Record, programs: 
 def _kept(
     check: dict, file: Path, title: str, command: list[str | Path], record: Record
 ) -> Finding:
-    """Returns the failure, reduced if it is a wrong hit."""
+    """Returns the failure; a wrong hit is minimized first."""
     message = f"{check['check']}: {check['failure']}"
     if check["case"]:
         stem = f"{title}-{check['check']}"
@@ -72,5 +73,5 @@ def _cut_off(
 
 
 def next_seed(record: Record, structure: str) -> int:
-    """Returns the first seed of the structure that was not used yet."""
+    """Returns the structure's first unused seed."""
     return FIRST_SEED + record.total("rays", structure, "scenes")

@@ -48,7 +48,7 @@ class Record:
         return int(sum(p["counts"].get(what, p.get(what, 0)) for p in ours))
 
     def add(self, piece: Piece) -> None:
-        """Adds a piece; campaigns that run at once keep each other's pieces."""
+        """Adds a piece; concurrent campaigns keep each other's pieces."""
         self.folder.mkdir(parents=True, exist_ok=True)
         with (self.folder / "record.lock").open("w") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
@@ -58,7 +58,7 @@ class Record:
             write_text(self.file, as_json(pieces))
 
     def keep(self, source: Path, name: str, message: str, command: list[str | Path]) -> Finding:
-        """Copies the files of a finding; `source` in its command becomes the copy."""
+        """Copies the files of a finding; in its command, the copy replaces `source`."""
         self.findings.mkdir(parents=True, exist_ok=True)
         kept = self.findings / re.sub(r"[^A-Za-z0-9._=-]", "-", name)
         if source.is_dir():
@@ -70,7 +70,7 @@ class Record:
 
 
 def as_json(pieces: list[dict]) -> str:
-    """Returns a record of pieces, one a line."""
+    """Formats a record of pieces, one on each line."""
     lines = ",\n".join(json.dumps(piece) for piece in pieces)
     return f'{{"version": {VERSION}, "pieces": [\n{lines}\n]}}\n'
 

@@ -30,7 +30,7 @@ single rays, images, and batches with pencils, from cameras anywhere.
 def write_report(pieces: list[dict], folder: Path) -> list[Path]:
     """Writes campaigns.md, campaigns.csv, and the record, from which other campaigns continue.
 
-    Raises Problem where no piece was recorded.
+    Raises Problem if no piece was recorded.
     """
     if not pieces:
         raise Problem("there is no record yet; scripts/campaign fuzz, rays or kills makes one")
@@ -124,6 +124,6 @@ def _amount(row: pd.Series) -> str:
 
 
 def _plain(text: str) -> str:
-    """Returns a program's message about an untrusted input as plain text in Markdown."""
+    """Escapes a program's message about an untrusted input as plain text in Markdown."""
     printable = "".join(letter if letter.isprintable() else " " for letter in text)
     return "`" + printable.replace("`", "'") + "`"

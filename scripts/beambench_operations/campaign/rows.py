@@ -1,4 +1,4 @@
-"""Comparison of two runs of one sweep, times left out."""
+"""Compares two runs of one sweep without their times."""
 
 from pathlib import Path
 
@@ -21,7 +21,7 @@ def cells_of(results: Path) -> tuple[pd.DataFrame, str]:
 
 
 def difference(undisturbed: pd.DataFrame, disturbed: pd.DataFrame) -> str:
-    """Returns the difference in a sentence; empty if there is none."""
+    """Returns the difference as a sentence; empty if there is none."""
     for cells, others, what in (
         (undisturbed, disturbed, "is missing"),
         (disturbed, undisturbed, "is too much"),

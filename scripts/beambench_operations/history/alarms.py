@@ -13,7 +13,7 @@ from beambench_operations.history.store import Alarm, History
 from beambench_report.base.records import FAULTLESS_VERDICTS
 
 SHARE = 0.001
-"""An increase by more than this part of a counter is a regression."""
+"""A relative increase of a counter above this is a regression."""
 
 
 @dataclass(frozen=True)
@@ -27,18 +27,18 @@ class Increase:
 
     @property
     def share(self) -> float:
-        """The relative increase; infinite where the counter was 0 before."""
+        """Returns the relative increase; infinite if the counter was 0 before."""
         return self.after / self.before - 1 if self.before > 0 else float("inf")
 
 
 def find_increases(nights: Nights) -> list[Increase]:
-    """Returns counters that are higher in the last night than ever since the last report."""
+    """Returns the counters that are higher in the last night than in any since the last report."""
     if len(nights.nights) < 2:
         return []
     found = []
     counters = pd.DataFrame.from_dict(nights.counters, orient="index", dtype=float)
     for name in sorted(counters):
-        # NaN where it was not counted; no night has the work -1.
+        # NaN where it was not counted; -1 cannot occur as a count.
         *earlier, after = (
             counters[name].reindex(nights.works.ravel()).to_numpy().reshape(nights.works.shape)
         )
@@ -56,7 +56,7 @@ def find_increases(nights: Nights) -> list[Increase]:
 
 
 NIGHTS = 120
-"""How many nights back a counter's least value and a step are sought."""
+"""How many nights back to look for a counter's minimum and for a step."""
 
 _ROOM = 3
 _MANY = 5
@@ -103,7 +103,8 @@ def _slower(nights: Nights, earlier: list[Alarm]) -> Iterator[tuple[str, str, di
             "nights_before": step.before,
             "nights_after": step.after,
             "since_run": first["run_id"],
-            # Noise moves the place of a step by some nights: the commits leave room for that.
+            # Noise shifts the detected place of a step by some nights, so the range of commits is
+            # widened.
             "since_commit": _commit(nights, step.change + _ROOM - 1),
             "last_good_commit": _commit(nights, step.change - _ROOM),
         }
@@ -115,13 +116,13 @@ def _commit(nights: Nights, place: int) -> str:
 
 
 def series_key(pool: pd.Series) -> str:
-    """Identifies a pool in any night."""
+    """Returns the key that identifies a pool in any night."""
     names = "scene camera structure parameters samples ray_kind".split()
     return " | ".join(str(pool[name]) for name in names)
 
 
 def reported_starts(nights: Nights, earlier: list[Alarm]) -> np.ndarray:
-    """Returns the night from which each pool is tested: that of its last reported step."""
+    """Returns the night from which each pool is tested: the night of its last reported step."""
     place = {run_id: place for place, run_id in enumerate(nights.nights["run_id"])}
     starts: dict[str, int] = {}
     for alarm in earlier:
@@ -132,7 +133,7 @@ def reported_starts(nights: Nights, earlier: list[Alarm]) -> np.ndarray:
 
 
 def doubt(alarms: Iterable[Alarm], series: int) -> str:
-    """Returns a caveat if most series got slower at once: then their reference got faster."""
+    """Returns a caveat if most series got slower at once: their reference probably got faster."""
     slower = sum(alarm.kind == "time" for alarm in alarms)
     if slower < _MANY or slower * 2 < series:
         return ""

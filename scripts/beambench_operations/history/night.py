@@ -1,4 +1,4 @@
-"""One run as the history keeps it: inputs, verdicts, counters and ratios."""
+"""A run as the history stores it: inputs, verdicts, counters and ratios."""
 
 import hashlib
 import json
@@ -17,7 +17,7 @@ from beambench_report.base.records import FAULTLESS_VERDICTS, Run, in_blocks, si
 
 Key = tuple[str, str, str, str, int, int, int, str]
 
-# Contenders of one view answered the same rays; ratios are between them only.
+# Contenders of one view traced the same rays; ratios are only formed among them.
 VIEW = ("scene", "camera", "width", "height", "samples", "ray_kind")
 
 
@@ -38,22 +38,22 @@ class Figure:
 
 @dataclass(frozen=True)
 class Night:
-    """A run, ready for the history."""
+    """A run in the form in which it enters the history."""
 
     run_id: str
     time_utc: str
     commit: str
     dirty: bool
     machine_id: str
-    """With the processor where a manifest names it: nights of two machines are never mixed."""
+    """The machine, with the processor if the manifest names it: two machines are never mixed."""
     csv_sha256: str
     in_blocks: bool
-    """Others are shown, and compared with no night."""
+    """Was it measured in blocks? Other nights are shown but not compared."""
     figures: tuple[Figure, ...]
 
     @property
     def wrong(self) -> int:
-        """Cells with wrong hits."""
+        """Number of cells with wrong hits."""
         return sum(figure.verdict not in FAULTLESS_VERDICTS for figure in self.figures)
 
 
@@ -151,13 +151,13 @@ def is_timed(rows: pd.DataFrame) -> pd.Series:
 def references_of(rows: pd.DataFrame) -> dict[tuple, int]:
     """Returns the reference row of each view: Embree's single rays, if possible.
 
-    Embree is the one contender that no commit of ours changes.
+    Embree is the only contender that our commits do not change.
     """
     known = rows.assign(
         place=range(len(rows)), is_other=~rows["parameters"].str.contains("mode=single")
     )
     known = known[(rows["structure"] == "embree") & is_timed(rows)]
-    # By what it is, not by where it stands: rows come in another order each night.
+    # Selected by identity, not by position: the order of rows varies from night to night.
     best = known.sort_values(["is_other", "parameters", "place"]).drop_duplicates(list(VIEW))
     return dict(zip(views_of(best), best["place"].tolist(), strict=True))
 

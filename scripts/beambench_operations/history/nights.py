@@ -23,8 +23,8 @@ _DISTINGUISHING = {"camera": ", camera {}", "samples": ", {} samples", "ray_kind
 class Nights:
     """The recorded nights of one machine, the oldest first; the last one is `tonight`.
 
-    Only cells of the last night are there. `ratios` are NaN where a night has no time, or
-    other inputs (scene, rays or reference) than the last one.
+    Only cells of the last night are included. `ratios` are NaN where a night has no time, or where
+    its inputs (scene, rays or reference) differ from those of the last night.
     """
 
     nights: pd.DataFrame
@@ -33,14 +33,14 @@ class Nights:
     """IDENTITY, the names of `with_names`, `verdict` tonight, `is_reference`"""
     ratios: np.ndarray
     errors: np.ndarray
-    """Standard errors of their logarithms, from the blocks of each night."""
+    """Standard errors of the logarithms of the ratios, from the blocks of each night."""
     works: np.ndarray
-    """Number of the counters of each cell in each night; -1 where its inputs differ."""
+    """Number of each cell's set of counters in each night; -1 where its inputs differ."""
     counters: dict[int, dict[str, float]]
 
     @cached_property
     def pools(self) -> pd.DataFrame:
-        """The series that are tested: a contender over a scene, its resolutions taken together."""
+        """The series that are tested: a contender over a scene, its resolutions pooled."""
         names = [name for name in IDENTITY if name not in ("width", "height")]
         tested = self.cells[~self.cells["is_reference"] & (self.cells["verdict"] != BASELINE)]
         groups = tested.groupby(names, sort=False)
@@ -53,10 +53,10 @@ class Nights:
         return pd.DataFrame(rows, columns=[*names, "title", "members"])
 
     def pooled(self) -> np.ndarray:
-        """Logarithm of the ratio of each pool in each night, 0 being its usual value.
+        """Returns the logarithm of the ratio of each pool in each night, relative to its median.
 
-        The mean over resolutions of what each is above its own median; a night that lacks one
-        resolution is tested by the others.
+        Each resolution is centered on its own median, and the mean is taken over the resolutions
+        that a night has.
         """
         with np.errstate(all="ignore"):
             logs = np.log(self.ratios)
@@ -67,19 +67,19 @@ class Nights:
 
 
 def series_title(contender: str, row: Mapping[str, object], named: Iterable[str]) -> str:
-    """A series as people read it: the contender, the scene, and what else distinguishes it."""
+    """Returns the series as shown to people: the contender, the scene, and further details."""
     title = f"{contender} in {row['scene']}"
     return title + "".join(_DISTINGUISHING[name].format(row[name]) for name in named)
 
 
 def nan_median(values: np.ndarray) -> np.ndarray:
-    """The median of each column; NaN, without a warning, where a column holds nothing."""
+    """Returns the median of each column; NaN, without a warning, where a column is empty."""
     with warnings.catch_warnings(action="ignore", category=RuntimeWarning):
         return np.nanmedian(values, axis=0)
 
 
 def nan_mean(values: np.ndarray) -> np.ndarray:
-    """The mean of each row; NaN, without a warning, where a row holds nothing."""
+    """Returns the mean of each row; NaN, without a warning, where a row is empty."""
     with warnings.catch_warnings(action="ignore", category=RuntimeWarning):
         return np.nanmean(values, axis=1)
 
@@ -87,10 +87,10 @@ def nan_mean(values: np.ndarray) -> np.ndarray:
 def read_nights(
     history: History, last: int | None = None, most: int | None = None, *, compared: bool = False
 ) -> Nights:
-    """The nights up to the one of number `last` (the newest if not given), on its machine.
+    """Returns the nights up to the one of number `last` (default: the newest), on its machine.
 
-    Of these, the newest `most`; all if not given. If `compared`, the earlier ones are those that it
-    is compared with: nights in blocks, where it is one.
+    Of these, it returns the newest `most` (default: all). With `compared`, the earlier nights are
+    those it can be compared with: if it was measured in blocks, only such nights.
     """
     tonight = _tonight(history, last)
     names = "id run_id time_utc commit_hash dirty folder cells wrong in_blocks".split()
@@ -107,7 +107,7 @@ def read_nights(
     cells = _cells_of(history, tonight)
     shape = (len(nights), len(cells))
     ratios, errors, works = np.full(shape, np.nan), np.full(shape, np.nan), np.full(shape, -1)
-    # One query: a look-up for each night would take longer than all of them together.
+    # One query: a separate look-up for each night would take longer than this.
     figures = history.read(
         "SELECT f.night, f.cell, f.work, f.ratio, f.error, f.reference IS t.reference "
         "FROM figures f JOIN figures t ON t.cell = f.cell AND t.input = f.input "

@@ -31,14 +31,17 @@ class Rule:
     side: int = 12
     """Least number of nights on each side of a step."""
     window: int = 60
-    """Nights that are looked at."""
+    """The number of recent nights that are examined."""
     level: float = 0.01
     """Chance that a night of pure noise raises any alarm, over all series together."""
     tolerance: float = 0.01
-    """Shifts that may be smaller than this, by their interval, are no regression."""
+    """A shift whose interval reaches below this is not a regression."""
     inflation: float = 1.9
-    """What the standard error is multiplied by: a change that was searched for lies where the
-    noise helps it, and a night is looked at again the night after. By calibration."""
+    """The factor on the standard error.
+
+    A change found by searching lies where the noise favors it, and each night is examined again on
+    the next. Found by calibration.
+    """
 
 
 @dataclass(frozen=True)
@@ -50,16 +53,16 @@ class Step:
     """The first night of the new level."""
     before: int
     after: int
-    """How many nights were compared."""
+    """The number of nights compared."""
     shift: float
     low: float
     high: float
     p_value: float
-    """Before Holm's correction."""
+    """Without Holm's correction."""
 
 
 Tested = TypeVar("Tested")
-"""What has a `p_value`."""
+"""Anything with a `p_value`."""
 
 _LEAST_NOISE = 0.002  # a series may look quieter than any clock is
 _BLOCK = 3
@@ -102,7 +105,7 @@ def _may_have_risen(recent: np.ndarray, rule: Rule) -> np.ndarray:
     far = nan_median(recent[:-side])
     rise = np.fmax(now - near, now - far)
     error = 1.2533 * noise * sqrt(1 / side + 1 / max(len(recent) - side, side))
-    # Not a number means gaps, which are no reason to spare the search.
+    # NaN means gaps, which do not justify skipping the search.
     return ~((rise <= rule.tolerance) | (rise <= 2 * error))
 
 
@@ -123,7 +126,7 @@ def _measure(
     shift = float(np.median(after) - np.median(before))
     deviations = np.concatenate([before - np.median(before), after - np.median(after)])
     noise = max(_scale(deviations), _LEAST_NOISE)
-    # 1.2533: the median is that much less certain than the mean, of normal noise.
+    # 1.2533: for normal noise, the median's standard error exceeds the mean's by this factor.
     error = 1.2533 * noise * sqrt(1 / len(before) + 1 / len(after)) * _drag(deviations)
     p_value = float(stats.t.sf(shift / (rule.inflation * error), len(deviations) - 2))
     low, high = _bootstrap(before, after)

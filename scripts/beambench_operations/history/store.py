@@ -103,11 +103,11 @@ class Alarm:
 
 
 FindAlarms = Callable[["History", int], list[Alarm]]
-"""The alarms of the night of a number."""
+"""Returns the alarms of the night with a given number."""
 
 
 class History:
-    """The open file. Every change is one transaction, stored completely or not at all."""
+    """An open history file. Every change is one transaction, stored completely or not at all."""
 
     def __init__(self, path: Path) -> None:
         """Opens or creates the file. Raises Problem where it is not a history of this version."""
@@ -162,7 +162,7 @@ class History:
         return [Alarm(night, kind, series, json.loads(text)) for night, kind, series, text in rows]
 
     def number_of(self, run_id: str) -> int | None:
-        """Returns the number of a run, if the history has it."""
+        """Returns the number of a run, or None if the history lacks it."""
         found = self.read("SELECT id FROM nights WHERE run_id = ?", (run_id,))
         return found[0][0] if found else None
 
@@ -267,7 +267,7 @@ def rebuild(
             for night, folder in nights:
                 if history.add(night, folder, find_alarms) is None:
                     raise Problem(f"{folder}: the run {night.run_id} is in another folder, too")
-        # What a killed process left to be rolled back belongs to the file that goes.
+        # A rollback journal left by a killed process belongs to the file that is being replaced.
         for ending in ("-journal", "-wal", "-shm"):
             path.with_name(path.name + ending).unlink(missing_ok=True)
 

@@ -1,1 +1,1 @@
-"""Nightly runs: measured, kept, reported; comparisons of two programs or files."""
+"""Nightly runs: measuring, storing and reporting them; comparing two programs or files."""

@@ -34,35 +34,35 @@ _SEED = 1999
 
 @dataclass(frozen=True)
 class Noise:
-    """Differences between nights without change: an array for each scene, a row for each night."""
+    """Night-to-night noise with no code changes: an array for each scene, a row for each night."""
 
     scenes: tuple[np.ndarray, ...]
     nights: int
     within: float | None = None
-    """Standard error of a usual series by the blocks of one night."""
+    """The standard error of a typical series, from the blocks of one night."""
 
     @property
     def standard_deviation(self) -> float:
-        """Of a usual series, as a part of the time."""
+        """Returns the noise of a typical series as a fraction of the time."""
         parts = np.concatenate([scene.std(axis=0) for scene in self.scenes])
         return float(np.median(parts))
 
 
 @dataclass(frozen=True)
 class Power:
-    """Returns how often a planted slow-down of one series was found and named."""
+    """How often a planted slowdown of one series was found and named."""
 
     slowdown: float
     found: float
     low: float
-    """Of the 95% confidence interval of `found`."""
+    """The 95% confidence interval of `found`."""
     high: float
     trials: int
     nights_until: float | None
-    """The median number of nights after the change until it was; None where it never was."""
+    """The median number of nights from the change until it was found; None if it never was."""
 
     def __str__(self) -> str:
-        """Returns a sentence."""
+        """Returns the result as a sentence."""
         when = "" if self.nights_until is None else f", after {self.nights_until:.0f} nights"
         return (
             f"A slow-down by {self.slowdown:.1%} was found and named in {self.found:.1%} of "
@@ -79,7 +79,7 @@ class Calibration:
     series: int
     alarms: int
     alarms_low: float
-    """Of the 95% interval of the number of alarms, were they independent of each other."""
+    """Returns the 95% interval of the number of alarms, treating alarms as independent."""
     alarms_high: float
     noise: float
     noise_nights: int
@@ -89,16 +89,16 @@ class Calibration:
 
     @property
     def smallest_found(self) -> float | None:
-        """The smallest slow-down whose power is 90% or more by the low end of its interval."""
+        """Returns the smallest slowdown whose power is surely at least 90%, by its interval."""
         return min((one.slowdown for one in self.power if one.low >= 0.9), default=None)
 
     def as_json(self) -> str:
-        """For a file."""
+        """Returns the result as JSON-compatible data."""
         document = {**asdict(self), "smallest_slowdown_with_90_percent_power": self.smallest_found}
         return json.dumps(document, indent=2) + "\n"
 
     def summary(self) -> str:
-        """Formats it for people."""
+        """Formats the result for people."""
         by_blocks = (
             ""
             if self.within is None
@@ -126,21 +126,21 @@ class Calibration:
 
 @dataclass(frozen=True)
 class Effort:
-    """Duration for which power is estimated."""
+    """The number of nights within which a slowdown should be found."""
 
     precision: float = 0.03
-    """Enough trials when no 95% interval of a power is wider than this to either side."""
+    """Trials stop when no 95% interval of a power is wider than this to either side."""
     trials: int = 1200
-    """At most: the precision needs 1,067 where the power is a half."""
+    """The most trials: this precision needs 1,067 where the power is one half."""
     seconds: float = 3600.0
-    """Nor longer than this; the intervals are then what they are."""
+    """The time limit; when it is reached, the intervals stay as wide as they are."""
 
 
 Report = Callable[[str], None]
 
 
 def noise_of(nights: Nights) -> Noise:
-    """The noise of the nights of a history in which nothing changed."""
+    """Returns the noise of the nights of a history without any change."""
     pooled = nights.pooled()
     whole = np.isfinite(pooled).all(axis=1)
     scenes = nights.pools["scene"].to_numpy()
@@ -151,12 +151,12 @@ def noise_of(nights: Nights) -> Noise:
 
 
 def has_enough(noise: Noise) -> bool:
-    """Are there nights enough to draw from?"""
+    """Are there enough nights to draw from?"""
     return noise.nights >= _LEAST_NIGHTS and bool(noise.scenes)
 
 
 def synthetic_nights(noise: Noise, nights: int, random: np.random.Generator) -> np.ndarray:
-    """Nights of pure noise over as many scenes as a nightly sweep has."""
+    """Draws nights of pure noise over as many scenes as a nightly sweep has."""
     columns = []
     for number in range(SCENES):
         source = noise.scenes[number % len(noise.scenes)]
@@ -167,7 +167,9 @@ def synthetic_nights(noise: Noise, nights: int, random: np.random.Generator) -> 
 
 
 def count_alarms(values: np.ndarray, rule: Rule) -> list[tuple[int, int, int]]:
-    """Night, series and night of the change of every alarm, as night after night would raise it."""
+    """Yields night, series and night of the change for every alarm, as successive nights raise
+    them.
+    """
     starts = np.zeros(values.shape[1], int)
     alarms = []
     for night in range(2 * rule.side, len(values) + 1):
@@ -185,7 +187,7 @@ def calibrate(
     effort: Effort | None = None,
     report: Report | None = None,
 ) -> Calibration:
-    """Tests noise, and noise with a slow-down of one series; `report` gets progress."""
+    """Tests pure noise, then noise with one slowed series; `report` receives progress."""
     rule, random = Rule(), np.random.default_rng(_SEED)
     values = synthetic_nights(noise, nights, random)
     alarms = len(count_alarms(values, rule))
@@ -199,7 +201,7 @@ def calibrate(
 
 
 def share_interval(found: int, trials: int) -> tuple[float, float]:
-    """The 95% interval of a share (Wilson 1927): right for shares near 0 and 1 as well."""
+    """Returns the 95% interval of a share (Wilson 1927), which is valid near 0 and 1 as well."""
     interval = stats.binomtest(found, trials).proportion_ci(method="wilson")
     return float(interval.low), float(interval.high)
 
@@ -212,7 +214,10 @@ def _powers(
     random: np.random.Generator,
     report: Report | None,
 ) -> tuple[Power, ...]:
-    """Each trial plants every slow-down into the same noise, so that chance orders none of them."""
+    """Measures the power.
+
+    Each trial plants every slowdown into the same noise, so chance does not reorder them.
+    """
     waits: dict[float, list[int]] = {slowdown: [] for slowdown in slowdowns}
     begun, reported, trials = monotonic(), monotonic(), 0
     before = rule.window - _WAIT
@@ -248,9 +253,9 @@ def _powers(
 def _nights_until_found(
     values: np.ndarray, series: int, before: int, slowdown: float, rule: Rule
 ) -> int:
-    """Nights from the slow-down until the series was named; 0 where it was not in `_WAIT`.
+    """Returns the nights from the slowdown until the series was named; 0 if not within `_WAIT`.
 
-    The others are as they were: they count by making Holm's correction what it is.
+    The other series are unchanged; they matter because Holm's correction depends on their number.
     """
     slower = values.copy()
     slower[before:, series] += log1p(slowdown)
@@ -260,14 +265,14 @@ def _nights_until_found(
     return 0
 
 
-_BLOCKS = 8  # of a night, where its sweep does not say
+_BLOCKS = 8  # of a night, if its sweep does not say
 _NIGHTS = 200
 
 
 def noise_of_samples(folders: Iterable[Path]) -> Noise:
-    """Noise of nights that are drawn from the blocks of runs: what days differ by is not in it.
+    """Returns the noise of nights drawn from the blocks of runs, without day-to-day variation.
 
-    Raises Problem where no run has as many blocks as a night.
+    Raises Problem if no run has as many blocks as a night.
     """
     random = np.random.default_rng(_SEED)
     drawn = [noise for folder in folders for noise in _drawn(folder, random)]
@@ -282,7 +287,7 @@ def noise_of_samples(folders: Iterable[Path]) -> Noise:
 
 
 def _drawn(folder: Path, random: np.random.Generator) -> Iterator[Noise]:
-    """The noise of a run's scenes: means of blocks, the same ones for all that it measured."""
+    """Returns the noise of a run's scenes: means over the same blocks for all of its cells."""
     rows = read_run(folder).rows
     bases, totals = references_of(rows), read_analysis(folder).block_totals
     names = [name_of(row) for row in rows.to_dict("records")]

@@ -24,7 +24,7 @@ _PUBLISHED = ROOT / "results/published/nightly"
 
 
 def add_nightly_command(commands: Commands) -> None:
-    """Adds the command and its parts."""
+    """Adds the command and its subcommands."""
     parser = commands.add_parser("nightly", help="measure, record and report nightly runs")
     parts = parser.add_subparsers(dest="part", required=True)
     run = add_command(parts, "run", _run, help="measure and record a night, write the site")
@@ -108,7 +108,7 @@ def _home(folder: str | Path) -> Home:
 
 
 def _alone(work: Callable[[Options], Result]) -> Callable[[Options], Result]:
-    """Returns the work on checked options while no other process uses the home."""
+    """Yields the operations for checked options, while no other process uses the home."""
 
     def checked(options: Options) -> Result:
         _check(options)
@@ -119,7 +119,7 @@ def _alone(work: Callable[[Options], Result]) -> Callable[[Options], Result]:
 
 
 def _check(options: Options) -> None:
-    """Completes `published`. Raises Problem for invalid arguments."""
+    """Fills in `published`. Raises Problem for invalid arguments."""
     if getattr(options, "keep", 1) < 1:
         raise Problem("--keep must be at least 1")
     wanted = getattr(options, "published", None)

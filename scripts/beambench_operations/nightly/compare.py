@@ -47,7 +47,7 @@ _GONE = {
     UNSUPPORTED: "the structure does not support this any more",
 }
 LEAST_TURNS = 6
-"""Student's t of fewer pairs is so wide that only large slow-downs are found."""
+"""With fewer pairs, Student's t is so wide that only large slowdowns are found."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ class Comparison:
     ratio: Ratio
     """B's time over A's, with its interval: above 1, B is slower."""
     p_value: float
-    """That B is no slower, before Holm's correction."""
+    """The p-value of the hypothesis that B is not slower, before Holm's correction."""
 
     @property
     def is_decided(self) -> bool:
@@ -73,11 +73,11 @@ class Outcome:
 
     cells: list[Comparison]
     slower: list[Comparison]
-    """Slower by more than chance and TOLERANCE explain, over all cells together."""
+    """Cells slower by more than chance and TOLERANCE explain, corrected over all cells."""
     sentences: list[str]
-    """Work and verdicts that got worse."""
+    """Work counters and verdicts that got worse."""
     together: Ratio
-    """Of the geometric mean of all cells, turn by turn."""
+    """The geometric mean of all cells, turn by turn."""
 
     @property
     def is_regression(self) -> bool:
@@ -85,7 +85,7 @@ class Outcome:
         return bool(self.slower or self.sentences)
 
     def table(self) -> str:
-        """A line for each cell, the one that got slowest first."""
+        """Returns a line for each cell, the largest slowdown first."""
         named = {cell.title for cell in self.slower}
         lines = [f"{'B/A':>7}  {'95% confidence':<17} {'turns':>5}  cell"]
         for cell in sorted(self.cells, key=lambda cell: -cell.ratio.value):
@@ -116,7 +116,7 @@ class Outcome:
         return text
 
     def _undecided(self) -> str:
-        """States what the turns were too few, or the machine too noisy, to rule out."""
+        """Returns which slowdowns the turns were too few, or the machine too noisy, to rule out."""
         open_cells = [cell for cell in self.cells if not cell.is_decided]
         if not open_cells:
             return ""
@@ -138,7 +138,7 @@ def measure_in_turns(
 ) -> tuple[list[Path], list[Path]]:
     """Runs the sweep by A and B, B and A, ...; returns the folders of their runs.
 
-    Raises Problem where `turns` is odd or below LEAST_TURNS, or a program cannot be run.
+    Raises Problem if `turns` is odd or below LEAST_TURNS, or if a program cannot be run.
     """
     if turns < LEAST_TURNS or turns % 2:
         raise Problem(
@@ -147,7 +147,7 @@ def measure_in_turns(
         )
     folders: tuple[list[Path], list[Path]] = ([], [])
     for turn in range(turns):
-        order = (0, 1) if turn % 2 == 0 else (1, 0)  # neither is always the one that warms up
+        order = (0, 1) if turn % 2 == 0 else (1, 0)  # both warm up the machine equally often
         for which in order:
             folder = directory / f"{'ab'[which]}-{turn + 1:02d}"
             if not (folder / "results.csv").exists():
@@ -188,14 +188,14 @@ def compare_turns(first: list[Path], second: list[Path]) -> Outcome:
     _, together = _ratio(_mean_cell(times_b[cells]), _mean_cell(times_a[cells]))
     return Outcome(
         compared,
-        holm(compared, len(compared), LEVEL),  # each tests for more than TOLERANCE already
+        holm(compared, len(compared), LEVEL),  # each test is already for more than TOLERANCE
         _differences(rows_a, rows_b, titles),
         together or Ratio(float("nan")),
     )
 
 
 def _table(folders: list[Path]) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Times, one row per turn and one column per cell; and the rows of the last turn."""
+    """Returns times, with a row per turn and a column per cell, and the rows of the last turn."""
     runs = [read_run(folder).rows for folder in folders]
     turns = [
         pd.Series(rows["total_ms"].where(is_timed(rows)).to_numpy(), pd.Index(keys_of(rows)))
@@ -205,14 +205,14 @@ def _table(folders: list[Path]) -> tuple[pd.DataFrame, pd.DataFrame]:
 
 
 def _ratio(times_b: pd.Series, times_a: pd.Series) -> tuple[int, Ratio | None]:
-    """Returns the number of turns that have both times, and their ratio, paired by turns."""
+    """Returns the number of turns with both times, and the ratio of these, paired by turns."""
     known = times_b.notna() & times_a.notna()
     ratio = block_ratio(times_b[known].to_dict(), times_a[known].to_dict())
     return int(known.sum()), ratio
 
 
 def _mean_cell(times: pd.DataFrame) -> pd.Series:
-    """The geometric mean of the cells in each turn; unknown in turns that lack one."""
+    """Returns the geometric mean of the cells in each turn; NaN in turns that lack a cell."""
     return pd.Series(np.exp(np.log(times.to_numpy(float)).mean(axis=1)), index=times.index)
 
 
@@ -222,7 +222,7 @@ def _p_value(ratio: Ratio, pairs: int) -> float:
 
 
 def _differences(first: pd.DataFrame, second: pd.DataFrame, titles: dict) -> list[str]:
-    """Verdicts and counters that got worse."""
+    """Returns the verdicts and counters that got worse."""
     keys = [name for name in IDENTITY if name in first]
     both = first.merge(second, on=keys, suffixes=("_a", "_b"))
     sentences = []

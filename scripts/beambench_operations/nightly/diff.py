@@ -1,7 +1,7 @@
-"""Two result files of any two machines or versions, cell by cell, with intervals.
+"""Compares two result files of any two machines or versions, cell by cell, with intervals.
 
-Milliseconds of two machines are not comparable. Where the files are of two, each time is divided by
-that of a contender that both files have, in the same file: what is compared are ratios.
+Milliseconds of two machines are not comparable. If the files are of two machines, each time is
+divided by that of a contender that both files have, and these ratios are compared.
 """
 
 import tempfile
@@ -56,18 +56,19 @@ class Pair:
 
 @dataclass(frozen=True)
 class Difference:
-    """B beside A."""
+    """The comparison of B with A."""
 
     what: str
     warning: str
-    """Empty where both files are of one machine, and both or neither in blocks."""
+    """Why times are ratios; empty if both files are of one machine, and both or neither in blocks.
+    """
     pairs: list[Pair]
     only_a: int
     only_b: int
     wrong: list[str]
 
     def text(self) -> str:
-        """Structure by structure: a line for all its cells, then each cell."""
+        """Returns a line for all cells of each structure, followed by a line for each cell."""
         lines = [*([self.warning, ""] if self.warning else []), self.what]
         for structure, group in groupby(self.pairs, key=lambda pair: pair.structure):
             own = sorted(group, key=lambda pair: -pair.ratio.value)
@@ -86,7 +87,7 @@ class Difference:
 
 @dataclass(frozen=True)
 class _File:
-    """The parts of one file that were read."""
+    """The parts of a file that are compared."""
 
     rows: pd.DataFrame
     cells: Mapping[Identity, CellFile]
@@ -94,10 +95,11 @@ class _File:
 
 
 def diff(first: Path, second: Path, *, relative: bool | None = None) -> Difference:
-    """Compares two CSVs. `relative`: by the ratio to a contender that both files have.
+    """Compares two CSVs.
 
-    If not given, it is so where the machines differ; there milliseconds are refused. Raises Problem
-    where nothing can be compared.
+    With `relative`, times are ratios to a contender that both files have; without it, milliseconds.
+    By default they are ratios if the machines differ, since milliseconds are then refused. Raises
+    Problem if nothing can be compared.
     """
     file_a, file_b = _read(first), _read(second)
     warning = ""
@@ -141,7 +143,7 @@ def diff(first: Path, second: Path, *, relative: bool | None = None) -> Differen
 
 
 def _read(path: Path) -> _File:
-    """A CSV, or the folder that holds one; whatever its name."""
+    """Reads a CSV of any name, or the one in a folder."""
     if path.is_dir() or path.name == "results.csv":
         folder = path if path.is_dir() else path.parent
         rows = read_run(folder).rows
@@ -159,9 +161,10 @@ def _read(path: Path) -> _File:
 
 
 def _reference(rows_a: pd.DataFrame, rows_b: pd.DataFrame) -> Contender:
-    """The contender that both files have in the most views; Embree's single rays if possible.
+    """Returns the contender that both files have in the most views; Embree's single rays if
+    possible.
 
-    Raises Problem where they have no contender in common.
+    Raises Problem if they have no contender in common.
     """
     views_a, views_b = (
         {(*view, *who) for view, who in zip(views_of(rows), _contenders(rows), strict=True)}
@@ -178,7 +181,7 @@ def _reference(rows_a: pd.DataFrame, rows_b: pd.DataFrame) -> Contender:
 
 
 def _figures(file: _File, reference: Contender | None) -> dict[Key, tuple[Median, str]]:
-    """The time of each cell, or its ratio to the reference, and its inputs."""
+    """Returns each cell's time, or its ratio to the reference, and its inputs."""
     timed = contenders_with_times(file.rows)
     rows = [row for _, row in timed.iterrows()]
     cells = list(
@@ -203,7 +206,9 @@ def _contenders(rows: pd.DataFrame) -> list[Contender]:
 
 
 def _overall(pairs: list[Pair]) -> Ratio:
-    """The geometric mean; its interval by the spread over cells, which are not repetitions."""
+    """Returns the geometric mean with an interval from the spread over cells, which are not
+    repetitions.
+    """
     logs = pd.Series([log(pair.ratio.value) for pair in pairs])
     if len(logs) < 2:
         return pairs[0].ratio

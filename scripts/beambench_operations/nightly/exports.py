@@ -19,7 +19,7 @@ _BY_BEAMBENCH = "google-benchmark.json"
 
 
 def write_exports(run: Run) -> list[Path]:
-    """Writes both files into the folder of a run; the second only where there are repetitions."""
+    """Writes both files into the folder of a run; the second only if there are repetitions."""
     paths = [write_text(run.directory / BIGGER_IS_BETTER, bigger_is_better(run))]
     if (run.directory / _BY_BEAMBENCH).is_file():
         paths.append(write_text(run.directory / GOOGLE_BENCHMARK, google_benchmark(run)))
@@ -27,7 +27,7 @@ def write_exports(run: Run) -> list[Path]:
 
 
 def bigger_is_better(run: Run) -> str:
-    """Returns million rays per second, build included, in the format customBiggerIsBetter."""
+    """Returns millions of rays per second, build included, in the format customBiggerIsBetter."""
     entries = []
     for _, row in contenders_with_times(run.rows).iterrows():
         total = row["total_ms"]
@@ -47,7 +47,7 @@ def bigger_is_better(run: Run) -> str:
 
 
 def google_benchmark(run: Run) -> str:
-    """The repetitions, as beambench wrote them for Google Benchmark's compare.py."""
+    """Returns the repetitions, as beambench wrote them for Google Benchmark's compare.py."""
     path = run.directory / _BY_BEAMBENCH
     if not path.is_file():
         raise Problem(f"{path}: is not there; write it: beambench analyze --write {run.directory}")
@@ -55,5 +55,5 @@ def google_benchmark(run: Run) -> str:
 
 
 def benchmark_name(row: pd.Series) -> str:
-    """The name of a cell: as Google Benchmark's, parts between slashes, no blanks."""
+    """Returns the name of a cell in Google Benchmark's style: parts between slashes, no spaces."""
     return name_of(row).replace(" ", "_")

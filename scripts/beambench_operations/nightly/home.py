@@ -17,10 +17,10 @@ from beambench_report.base.run_log import LOG, logged_cells
 
 @contextmanager
 def only_one(path: Path) -> Iterator[int]:
-    """Holds the lock file while the block runs; the system frees it, however the process ends.
+    """Holds the lock file during the block; the system frees it however the process ends.
 
-    Yields the file's descriptor: a child that inherits it holds the lock, too, even after its
-    parent is killed. Raises Problem at once where another process has the lock.
+    Yields the file's descriptor: a child that inherits it also holds the lock, even after its
+    parent is killed. Raises Problem at once if another process has the lock.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     with path.open("a+", encoding="utf-8") as file:
@@ -42,14 +42,17 @@ def only_one(path: Path) -> Iterator[int]:
 HOME = ROOT / "results/runs/nightly"
 
 KEEP_SAMPLES = 30
-"""How many runs keep their raw samples; CSV, manifest, sweep and pictures of mismatches stay."""
+"""How many runs keep their raw samples.
+
+CSVs, manifests, sweeps and mismatch pictures always stay.
+"""
 
 
 class Home:
     """The files of a history."""
 
     def __init__(self, folder: Path) -> None:
-        """Names the files; none need exist."""
+        """Names the files, which need not exist yet."""
         self.folder = folder
         self.history = folder / "history.sqlite"
         self.lock = folder / "nightly.lock"  # while a run is in progress
@@ -57,11 +60,11 @@ class Home:
         self.page = self.site / "index.html"
 
     def finished(self) -> list[Path]:
-        """Folders of the runs that ended, the oldest first."""
+        """Returns the folders of finished runs, the oldest first."""
         return [path for path in recorded_folders(self.folder) if is_finished(path)]
 
     def unfinished(self) -> list[Path]:
-        """Folders of the runs that were cut off, the oldest first."""
+        """Returns the folders of interrupted runs, the oldest first."""
         begun = sorted(path for path in self.folder.glob("[0-9]*") if path.is_dir())
         return [path for path in begun if not is_finished(path)]
 
@@ -82,14 +85,14 @@ def adopt(home: Home, run: Path, run_id: str) -> Path:
 
 
 def is_finished(run: Path) -> bool:
-    """Did the run come to its end?"""
+    """Is the run finished?"""
     manifest = read_json(run / "manifest.json")
     ended = isinstance(manifest, dict) and bool(manifest.get("finished_utc"))
     return ended and (run / "results.csv").exists()
 
 
 def abandon(run: Path) -> Path:
-    """Renames a run that was cut off, so that it never gets into the history."""
+    """Renames an interrupted run, so that it never enters the history."""
     target = run.with_name(f"abandoned-{run.name}")
     if target.exists():
         shutil.rmtree(target)

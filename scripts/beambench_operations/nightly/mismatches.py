@@ -10,18 +10,18 @@ from beambench_operations.site.history_page import MISMATCHES
 from beambench_report.base.files import write_text
 from beambench_report.base.records import ERROR, FAULTLESS_VERDICTS, Run, size_of
 
-_MAX_PICTURES = 12  # one cause makes many cells wrong, and a page is read by people
+_MAX_PICTURES = 12  # one cause makes many cells wrong, and people read the page
 _SECONDS = 120
 
 
 def picture_mismatches(run: Run, beambench: Path) -> list[Path]:
-    """Renders RUN/mismatches/*.png for cells of primary rays; returns the rendered pictures.
+    """Renders RUN/mismatches/*.png for cells of primary rays; returns the pictures.
 
     If a picture cannot be made, the page is written without it.
     """
     wrong = run.rows[~run.rows["verdict"].isin((*FAULTLESS_VERDICTS, ERROR))]
     wrong = wrong[wrong["ray_kind"] == "primary"]
-    # The lowest resolution shows what the highest does, and is read faster.
+    # The lowest resolution shows the same as the highest and is easier to read.
     wrong = wrong.sort_values("rays", kind="stable").drop_duplicates(
         ["scene", "camera", "structure", "parameters"]
     )

@@ -18,7 +18,7 @@ from beambench_report.base.run_log import has_log
 
 
 def run_night(options: Options, lock: int) -> int:
-    """Measures and reports a night; returns 1 where something regressed or was wrong.
+    """Measures and reports a night; returns 1 if anything regressed or was wrong.
 
     `lock` is the descriptor of the lock that keeps other runs away.
     """
@@ -62,7 +62,7 @@ def record(options: Options, folder: Path) -> int:
 
 
 def catch_up(home: Home) -> None:
-    """Adds runs that finished, but whose process was killed before they were in the history."""
+    """Adds finished runs whose process was killed before they entered the history."""
     with History(home.history) as history:
         known = {folder for (folder,) in history.read("SELECT folder FROM nights")}
         for folder in home.finished():
@@ -82,7 +82,7 @@ def rebuild_history(home: Home) -> int:
 
 
 def describe(options: Options) -> str:
-    """Returns a description of what a night would do."""
+    """Describes what a night would do."""
     sweep = load_json(options.sweep)
     runs = options.home.finished()
     lines = [
@@ -111,6 +111,6 @@ def _folder_for(options: Options) -> Path:
 
 
 def _free_folder(home: Path, time: datetime) -> Path:
-    """Returns a folder named by this time, or by the first later second without a run."""
+    """Returns a folder named after this time, or after the first later second that is free."""
     folder = home / time.strftime("%Y%m%dT%H%M%SZ")
     return _free_folder(home, time + timedelta(seconds=1)) if folder.exists() else folder

@@ -82,7 +82,7 @@ def _verify_again(options: Options) -> int:
 
 
 def _state(folder: Folder, options: Options, provenance: Provenance) -> str:
-    """Returns why a folder is not made: it is complete, or left as it is; empty if it is made."""
+    """Returns why a folder is skipped: it is complete, or left as it is; empty if it is made."""
     if is_published(options.published / folder.name, provenance):
         return "complete"
     lack = missing(folder, options, provenance)

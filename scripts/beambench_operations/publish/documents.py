@@ -1,8 +1,8 @@
-"""The texts of results/published, each made from the rows in its folder.
+"""The texts of results/published, each computed from the rows in its folder.
 
-A template FOLDER/README.md.j2 makes FOLDER/README.md: it has the sentences, and an expression for
-each figure. Its variables are computed by `figures/FOLDER.py`. The template of the whole page uses
-the figures of every folder, by the folder's name with _ for -.
+A template FOLDER/README.md.j2 makes FOLDER/README.md: it contains the sentences, with an expression
+for each figure. Its variables are computed by `figures/FOLDER.py`. The template of the page of
+findings uses the figures of every folder, by the folder's name with _ for -.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Line breaks in Markdown, since figures vary in length, and the images that it shows."""
+"""Line breaks and images in Markdown: the lengths of figures vary, so lines are filled again."""
 
 import re
 import textwrap
@@ -12,7 +12,7 @@ _IMAGE = re.compile(r"\]\(([^)\s:]+)\.png\)")
 
 
 def laid_out(text: str) -> str:
-    """Returns the text with paragraphs and items of lists in lines of at most 120 columns.
+    """Fills paragraphs and list items to lines of at most 120 columns.
 
     Headings, tables, images, comments and fenced code stay as they are.
     """
@@ -52,7 +52,7 @@ def _filled(block: list[str]) -> list[str]:
 
 
 def with_small_images(text: str, folder: Path) -> str:
-    """Returns the text with links to SVG where FOLDER has them: PNGs of plots are not committed."""
+    """Replaces links to PNGs by SVGs if FOLDER has them: PNGs of plots are not committed."""
 
     def smaller(found: re.Match[str]) -> str:
         has_svg = (folder / f"{found[1]}.svg").is_file()

@@ -1,4 +1,4 @@
-"""Making one folder: first aside, step by step, then moved into results/published."""
+"""Makes one folder, step by step in a separate place, then moves it into results/published."""
 
 import json
 import shutil
@@ -25,19 +25,19 @@ from beambench_report.base.quantities import duration_in_words
 
 WRONG_HITS = 1
 _FIRST_TEMPLATES = Path(__file__).parent / "templates"
-"""Of the pages of folders that were not published yet."""
+"""The page of a folder that was not published before."""
 
 Run = Callable[[Sequence[str], Path | None], int]
-"""Runs a program, its standard output into a file or nowhere; returns its exit code."""
+"""Runs a program, with its standard output in a file or discarded; returns its exit code."""
 
 
 class Interrupted(KeyboardInterrupt):
-    """The user ended it; what was finished is kept."""
+    """The user interrupted the work; finished steps are kept."""
 
 
 @dataclass(frozen=True)
 class Place:
-    """The place where a folder is made, its programs, and its destination."""
+    """Where a folder is made, the programs that make it, and its destination."""
 
     aside: Path
     published: Path
@@ -46,7 +46,7 @@ class Place:
     run: Run = field(default=lambda command, into: run_program(command, into))
 
     def names(self, folder: Path) -> dict[str, str]:
-        """Returns the names that words of commands may contain."""
+        """Returns the names that arguments of commands may contain."""
         return {
             "beambench": str(self.beambench),
             "bin": str(self.beambench.parent),
@@ -59,8 +59,8 @@ class Place:
 def make_folder(folder: Folder, place: Place, provenance: Provenance) -> Progress:
     """Runs the remaining steps and publishes the folder.
 
-    Raises Problem where a step fails, Interrupted where the user ends one. When called again, it
-    continues on the same machine, and starts over on another one.
+    Raises Problem if a step fails, Interrupted if the user interrupts it. A later call continues on
+    the same machine, and starts over on another one.
     """
     target = place.aside / folder.name_aside
     progress = progress_of(target, provenance)
@@ -88,7 +88,7 @@ def make_folder(folder: Folder, place: Place, provenance: Provenance) -> Progres
 
 
 def run_program(command: Sequence[str], into: Path | None) -> int:
-    """Runs a program; messages go to the terminal, its output into a file or nowhere."""
+    """Runs a program; its messages go to the terminal, its output to a file or nowhere."""
     if into is None:
         return run_in_foreground(command)
     into.parent.mkdir(parents=True, exist_ok=True)
@@ -122,7 +122,7 @@ def _command(step: Command, target: Path, place: Place) -> int:
 
 
 def _publish(folder: Folder, progress: Progress, published: Path) -> None:
-    """Replaces the published folder; templates and files to keep stay."""
+    """Replaces the published folder, except templates and files to keep."""
     leave_out(progress.folder, folder.leave_out)
     make_small(progress.folder)
     progress.publish()

@@ -15,7 +15,7 @@ from beambench_report.base.files import ROOT, Problem, say
 _MESH = "mesh:cat"
 _CLONE = "root/beambench"
 _ASIDE = "results/runs/aside"
-"""Below the clone: the folders that are being made."""
+"""The folders that are being made, below the clone."""
 
 
 def missing(folder: Folder, given: Options, provenance: Provenance) -> str:
@@ -59,10 +59,10 @@ def plugins_for(given: Options) -> list[Path]:
 
 
 class Debian13:
-    """A Debian 13 in a folder, with its own clone and build of this commit."""
+    """A Debian 13 system in a folder, with a clone and build of this commit."""
 
     def __init__(self, root: Path, commit: str) -> None:
-        """Creates or completes it. Raises Problem where that fails."""
+        """Creates or completes the system. Raises Problem on failure."""
         self.root = root.resolve()
         if os.geteuid() != 0:
             raise Problem("a Debian 13 in a folder needs root; leave --debian-13 out")
@@ -72,13 +72,13 @@ class Debian13:
         self.build()
 
     def build(self) -> None:
-        """Installs what is missing there, and builds. Raises Problem where that fails."""
+        """Installs missing packages there, and builds. Raises Problem on failure."""
         say("Building in Debian 13")
         if code := self._shell("scripts/setup beambench", self.root):
             raise Problem(f"{self.root}: exit code {code} of: scripts/setup beambench")
 
     def run(self, command: Sequence[str], aside: Path) -> int:
-        """Runs a command of the program, whose folders are below `aside`; returns its exit code."""
+        """Runs a beambench command with its folders below `aside`; returns its exit code."""
         inside = [word.replace(str(aside), _ASIDE) for word in command]
         return self._shell(shlex.join(["build/release/bin/beambench", *inside[1:]]), aside)
 
@@ -86,7 +86,7 @@ class Debian13:
         """Runs a line in the clone, with /proc, /sys and /dev, and `aside` as a folder of the
         clone.
 
-        The mounts have a namespace of their own, so they end with it.
+        The mounts are in a separate namespace, so they end with the process.
         """
         line = (
             "set -e; "
@@ -108,7 +108,7 @@ class Debian13:
             self._copy_setting(Path("/etc") / name)
 
     def _copy_setting(self, file: Path) -> None:
-        """Copies network settings of this machine, never its package sources."""
+        """Copies this machine's network settings, but not its package sources."""
         target = self.root / file.relative_to("/")
         if file.name == "resolv.conf" and file.is_file():
             shutil.copy(file, target)

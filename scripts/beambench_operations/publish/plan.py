@@ -17,22 +17,22 @@ SWEEPS = ROOT / "harness/measure/sweeps"
 
 @dataclass(frozen=True)
 class Sweep:
-    """A sweep that beambench runs into a folder of its own; if interrupted, it is resumed."""
+    """A sweep that beambench runs in its own folder and resumes if interrupted."""
 
     source: Path
     into: str
     seconds: float
     changes: dict[str, Any] = field(default_factory=dict)
-    """What replaces members of the sweep's file, so that all of it fits the time."""
+    """Members that replace those of the sweep's file, so that the whole plan fits the time."""
 
     @property
     def words(self) -> str:
-        """The step as the plan shows it."""
+        """Describes the step in the plan."""
         changed = f", with other {', '.join(self.changes)}" if self.changes else ""
         return f"beambench run {self.source.name}{changed}"
 
     def config(self) -> dict[str, Any]:
-        """Returns the sweep as it is run. Raises Problem where its file cannot be read."""
+        """Returns the sweep as it will be run. Raises Problem if its file cannot be read."""
         try:
             config = load_json(self.source)
         except (OSError, ValueError) as error:
@@ -47,13 +47,13 @@ class Command:
     words_of: tuple[str, ...]
     seconds: float
     resume: tuple[str, ...] = ()
-    """What continues it when it was cut off; empty: it is begun anew."""
+    """Arguments that continue it after an interruption; empty: it is started again."""
     into: str = ""
-    """The file that gets its standard output; empty: nothing is kept of it."""
+    """The file for its standard output; empty: the output is discarded."""
 
     @property
     def words(self) -> str:
-        """The step as the plan shows it."""
+        """Describes the step in the plan."""
         named = [word for word in self.words_of if not word.startswith("{folder}")]
         text = " ".join(named).replace("{python} -m ", "").replace("{beambench}", "beambench")
         return text.replace(" --beambench beambench", "").split(" --program")[0]
@@ -71,26 +71,26 @@ class Folder:
     """The question that its page answers."""
     steps: tuple[Step, ...]
     needs: str = ""
-    """`meshes`, `debian-13`, `libraries` or `its name`, what must be there or be named by --only;
-    else it is left as it is.
+    """A requirement: `meshes`, `debian-13`, `libraries`, or `its name`, which must be given by
+    --only. Without it the folder is left as it is.
     """
     embree: str = ""
-    """The major version of Embree that it takes; empty: any."""
+    """The major version of Embree that it requires; empty: any."""
     keep: Sequence[str] = ()
     """Files of an earlier commit that no step makes; the texts name their commit."""
     leave_out: Sequence[str] = ()
-    """Files and folders that steps make and nothing published needs; patterns."""
+    """Patterns of files and folders that steps make and no published text needs."""
     is_apart: bool = False
-    """Is its time not part of the whole?"""
+    """Is its time excluded from the total?"""
 
     @property
     def name_aside(self) -> str:
-        """The name of the folder while it is made: one within another is made beside that."""
+        """Returns the folder's name while it is made: a nested folder is made beside its parent."""
         return self.name.replace("/", "-")
 
     @property
     def seconds(self) -> float:
-        """The expected seconds."""
+        """Returns the expected seconds."""
         return sum(step.seconds for step in self.steps)
 
 

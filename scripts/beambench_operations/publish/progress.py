@@ -11,17 +11,17 @@ from beambench_report.base.files import read_json, write_text
 from beambench_report.base.machine import read_manifest
 
 RECORD = "published.json"
-"""In a published folder: the commit, the machine and its state, and what each step took."""
+"""The file in a published folder: commit, machine, machine state, and the time of each step."""
 
 
 @dataclass
 class Progress:
-    """The progress of a folder that is being made at `folder`."""
+    """The progress of making the folder at `folder`."""
 
     folder: Path
     made_by: dict[str, object]
     seconds: list[float] = field(default_factory=list)
-    """That the finished steps took."""
+    """The seconds that the finished steps took."""
     wrong: list[int] = field(default_factory=list)
     """The steps in which a structure's hits were wrong."""
 
@@ -38,7 +38,7 @@ class Progress:
         self._write(state_file(self.folder))
 
     def publish(self) -> None:
-        """Writes the progress into the folder, which is complete."""
+        """Writes the progress into the complete folder."""
         self._write(self.folder / RECORD)
 
     def _write(self, file: Path) -> None:
@@ -52,7 +52,7 @@ def state_file(folder: Path) -> Path:
 
 
 def progress_of(folder: Path, provenance: Provenance) -> Progress | None:
-    """Returns progress made by the same sources on the same machine; None without any."""
+    """Returns the progress made by the same sources on the same machine, if any."""
     source = read_json(state_file(folder))
     if not isinstance(source, dict) or not provenance.is_of(source.get("made_by", {})):
         return None

@@ -10,7 +10,7 @@ from beambench_report.base.files import ROOT, Problem, output_of, read_json
 
 _KEPT_APART = "results/published"
 _MEASURES = ("accel", "harness", "scenes", "CMakeLists.txt", "scripts/beambench_thesis")
-"""What decides times: texts, plots and tests may change between two folders."""
+"""Sources that affect times. Texts, plots and tests may change between two folders."""
 _LOOKS_BUSY = 0.05
 _SWEEP = {
     "name": "preflight",
@@ -33,10 +33,10 @@ class Provenance:
     cores: int
     embree: str
     noise: float
-    """How much longer than usual the slowest twentieth of equal work took just now."""
+    """How much longer than usual the slowest 5% of equal work took just now."""
     load: float
     cpu_quota: float | None = None
-    """How many processors' time the program may use; None: there is no quota."""
+    """How many processors' time the program may use; None: without a quota."""
 
     @property
     def warnings(self) -> list[str]:
@@ -87,7 +87,7 @@ def preflight(beambench: Path) -> Provenance:
 def require_clean(provenance: Provenance, root: Path = ROOT) -> None:
     """Raises Problem for uncommitted changes, and for a program built from other sources.
 
-    results/published may change: that is where a publication writes.
+    results/published may change, since a publication writes there.
     """
     changed = git("status", "--porcelain", "--", ".", f":!{_KEPT_APART}", root=root)
     if changed:

@@ -35,7 +35,7 @@ def _comparison(names: Sequence[str], folder: Path) -> str:
 
 
 def _thesis(name: str, folder: Path) -> str:
-    """Returns a text on the thesis; the pictures of octrees exist, so none are drawn."""
+    """Returns a text on the thesis. The pictures of octrees exist already, so none are drawn."""
     return _thesis_texts(folder)[name]
 
 
@@ -45,7 +45,7 @@ def _thesis_texts(folder: Path) -> dict[str, str]:
 
 
 def _in_copy(write: Callable[[Path], object], folder: Path) -> str:
-    """Returns the report of a command that writes it, run in a copy of the folder."""
+    """Runs the command that writes a report in a copy of the folder; returns the report."""
     with tempfile.TemporaryDirectory() as copy:
         for table in (*folder.glob("*.csv"), *folder.glob("*.json")):
             shutil.copy(table, copy)

@@ -1,4 +1,4 @@
-"""Chooses what is committed of a run: small files from which every figure can be computed again."""
+"""Chooses the files of a run to commit: small ones from which every figure can be recomputed."""
 
 import gzip
 import shutil
@@ -19,15 +19,15 @@ _NOT_COMMITTED = (
     "*answers.jsonl",
     "tasks",
 )
-"""Interrupted simulations of the cluster go on from `answers`, and begin from `tasks`: what single
-beams cost.
+"""Interrupted simulations of the cluster continue from `answers` and start from `tasks`, which has
+the cost of each beam.
 """
 
 
 def make_small(folder: Path) -> None:
-    """Leaves in a finished folder what is committed.
+    """Removes everything from a finished folder that is not committed.
 
-    Logs are packed by gzip; of plots the SVG stays, and pictures get a palette.
+    Logs are compressed by gzip; plots are kept as SVG, and pictures get a palette.
     """
     for log in sorted(folder.rglob(LOG)):
         _pack(log)
@@ -36,7 +36,7 @@ def make_small(folder: Path) -> None:
 
 
 def _pack(log: Path) -> None:
-    """Puts the packed log in the place of a log; the same bytes from the same log."""
+    """Replaces a log by its compressed form; equal logs give equal bytes."""
     with (
         log.with_name(PACKED_LOG).open("wb") as file,
         gzip.GzipFile("", "wb", fileobj=file, mtime=0) as packed,
@@ -56,7 +56,7 @@ def leave_out(folder: Path, patterns: Sequence[str]) -> None:
 
 
 def make_images_small(folder: Path) -> None:
-    """Of a plot the SVG stays, a picture gets a palette; texts show what is left."""
+    """Keeps plots only as SVG, gives pictures a palette, and updates links in texts."""
     for picture in sorted(folder.rglob("*.png")):
         if picture.with_suffix(".svg").is_file():
             picture.unlink()
@@ -67,7 +67,7 @@ def make_images_small(folder: Path) -> None:
 
 
 def with_palette(picture: Path) -> None:
-    """Writes a PNG with a palette of few colors, where that is smaller."""
+    """Writes a PNG with a small palette, if that is smaller."""
     with Image.open(picture) as image:
         if image.mode == "P":
             return
@@ -76,7 +76,7 @@ def with_palette(picture: Path) -> None:
         opaque.paste(image.convert("RGB"), mask=image.getchannel("A") if has_alpha else None)
     pending = picture.with_name(f".pending-{picture.name}")
     palette = opaque.quantize(_COLORS)
-    # Dithered, or curved surfaces have steps.
+    # Dithered; otherwise curved surfaces show steps.
     small = opaque.quantize(palette=palette, dither=Image.Dither.FLOYDSTEINBERG)
     small.save(pending, "PNG", optimize=True)
     if pending.stat().st_size < picture.stat().st_size:
@@ -86,5 +86,5 @@ def with_palette(picture: Path) -> None:
 
 
 def size(folder: Path) -> int:
-    """Bytes of all files."""
+    """Returns the bytes of all files."""
     return sum(file.stat().st_size for file in folder.rglob("*") if file.is_file())

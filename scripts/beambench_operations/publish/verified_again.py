@@ -1,4 +1,4 @@
-"""Verifies the committed rows again, and lists what differs with the present program.
+"""Verifies the committed rows again, and lists differences from the current program.
 
 Each view of the published runs is traced once by each of its contenders. Times are not compared.
 """
@@ -23,9 +23,9 @@ _OTHER_LIBRARIES = ("embree-4", "libraries")
 
 
 def committed(published: Path) -> dict[tuple, pd.DataFrame]:
-    """Returns the rows of each view of all committed runs; of a cell that several have, the last.
+    """Returns the rows of each view of all committed runs; for a cell of several runs, the last.
 
-    Columns added: `resolution`, and `contender`, as the option --accel takes it.
+    The columns `resolution` and `contender` (as for the option --accel) are added.
     """
     rows = pd.concat(
         pd.read_csv(path, dtype=str, keep_default_na=False).rename(columns=RENAMED_COLUMNS)
@@ -43,9 +43,9 @@ def committed(published: Path) -> dict[tuple, pd.DataFrame]:
 
 
 def verify_again(published: Path, beambench: Path, record: Path) -> list[dict[str, Any]]:
-    """Verifies each view; returns what was found of each, in the order of the views.
+    """Verifies each view; returns the findings in the order of the views.
 
-    `record` gets a line for each view when it is done; views that it has are not verified again.
+    `record` receives a line for each finished view; views that it has are not verified again.
     """
     done = {line["view"]: line for line in _lines(record)}
     views = {", ".join(map(str, view)): rows for view, rows in committed(published).items()}
@@ -66,7 +66,7 @@ def verify_again(published: Path, beambench: Path, record: Path) -> list[dict[st
 
 
 def summary(lines: list[dict[str, Any]], commit: str) -> dict[str, Any]:
-    """Returns what is committed: the hashes, verdicts and classes that differ."""
+    """Returns the hashes, verdicts and classes that differ from the committed ones."""
     kinds: dict[str, dict[str, int]] = defaultdict(lambda: {"views": 0, "hashes_changed": 0})
     for line in lines:
         kind = kinds[line["view"].rsplit(", ", 1)[1]]
@@ -97,7 +97,7 @@ def _is_new_verdict(cell: dict[str, Any]) -> bool:
 
 
 def _lines(record: Path) -> Iterator[dict[str, Any]]:
-    """Yields the findings of an interrupted run; an incomplete line is left out."""
+    """Yields the findings of an interrupted run; an incomplete line is skipped."""
     if not record.is_file():
         return
     for line in record.read_text("utf-8").splitlines():
@@ -127,7 +127,7 @@ def _verified(title: str, rows: pd.DataFrame, beambench: Path) -> list[dict[str,
 
 
 def _compared(rows: pd.DataFrame, cells: list[dict[str, Any]]) -> dict[str, Any]:
-    """Returns what differs. Counts of classes are compared only where the rays are the same."""
+    """Returns the differences. Counts of classes are compared only if the rays are the same."""
     rays_hash = rows["rays_hash"].iloc[0]
     now_hash = next((cell["rays_hash"] for cell in cells if "rays_hash" in cell), rays_hash)
     same_rays = now_hash == rays_hash

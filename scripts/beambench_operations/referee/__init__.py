@@ -1,1 +1,1 @@
-"""The referee's table: how many hits of other projects' libraries are right."""
+"""The referee's table: how many hits of other projects' libraries are correct."""

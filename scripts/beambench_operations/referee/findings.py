@@ -37,13 +37,13 @@ def crashed_case(name: str, family: str, query: str, how: str) -> dict[str, Any]
 
 
 def wrong_rays(row: dict[str, Any]) -> int:
-    """Returns how many rays have a wrong result: wrong hits, and leaks of closed meshes."""
+    """Returns the number of rays with a wrong result: wrong hits, and leaks of closed meshes."""
     return int(row["structure_error"]) + int(row["leaks"])
 
 
 @dataclass(frozen=True)
 class Counterexample:
-    """A ray about which a library is wrong, over the fewest triangles."""
+    """A ray that a library gets wrong, with as few triangles as possible."""
 
     folder: str
     triangles: int
@@ -54,7 +54,7 @@ class Counterexample:
 
 
 def read_obj(path: Path) -> list[Triangle]:
-    """Returns the triangles of an OBJ file that has nothing else."""
+    """Returns the triangles of an OBJ file that contains only triangles."""
     lines = [line.split() for line in path.read_text("utf-8").splitlines()]
     vertices = [vector([float(word) for word in line[1:4]]) for line in lines if line[:1] == ["v"]]
     faces = [[int(word) - 1 for word in line[1:4]] for line in lines if line[:1] == ["f"]]

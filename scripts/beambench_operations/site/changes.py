@@ -29,11 +29,11 @@ class Change:
     """The change from one commit to another."""
 
     subjects: tuple[str, ...]
-    """Of the commits between, the newest first; the first twenty."""
+    """The subjects of the first twenty commits between, the newest first."""
     url: str
-    """A page that shows the difference; may be empty."""
+    """The web page that shows the difference; may be empty."""
     command: str
-    """What shows it in a clone."""
+    """The command that shows it in a clone."""
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class Repository:
         return web_address(self._git("remote", "get-url", "origin"))
 
     def commit_url(self, commit: str) -> str:
-        """Returns the page of a commit."""
+        """Returns the address of the page of a commit."""
         return f"{self._pages}/commit/{commit}" if self.url and _HASH.fullmatch(commit) else ""
 
     def subject(self, commit: str) -> str:
@@ -77,7 +77,7 @@ class Repository:
         return _output_of("git", "-C", str(self.folder), *arguments)
 
 
-@cache  # many runs are of one commit
+@cache  # many runs have the same commit
 def _output_of(*command: str) -> str:
     try:
         done = subprocess.run(command, capture_output=True, text=True, check=False)

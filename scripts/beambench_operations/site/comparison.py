@@ -1,4 +1,6 @@
-"""Two runs of one sweep, cell by cell: ratios within each run, and milliseconds on one machine."""
+"""Compares two runs of one sweep, cell by cell: ratios within each run, and milliseconds on one
+machine.
+"""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -18,15 +20,15 @@ class Pair:
     before: Cell
     after: Cell
     ratios: tuple[Ends | None, Ends | None]
-    """To the reference, each within its run; None where there is none."""
+    """The ratio to the reference within each run; None without one."""
     ratio: Ratio | None
-    """The later ratio to the reference over the earlier one; None where there is none."""
+    """The later ratio to the reference over the earlier one; None without either."""
     ms: Ratio | None
-    """The same of milliseconds; None across machines."""
+    """The same for milliseconds; None across machines."""
 
     @property
     def side(self) -> str:
-        """`slower` or `faster` where the interval of the ratio is on one side of 1."""
+        """`slower` or `faster` if the interval of the ratio is on one side of 1."""
         if self.ratio is None or self.ratio.interval is None:
             return ""
         low, high = self.ratio.interval
@@ -35,26 +37,26 @@ class Pair:
 
 @dataclass(frozen=True)
 class Comparison:
-    """A later run beside an earlier one."""
+    """A later run compared with an earlier one."""
 
     before: Entry
     after: Entry
     reference: str
-    """Structure and parameters of what the ratios are to; empty where the runs share none."""
+    """Structure and parameters of the reference; empty if the runs share none."""
     warning: str
-    """Empty where both ran on one machine."""
+    """A note on machines; empty if both ran on one machine."""
     sentences: tuple[str, ...]
     pairs: tuple[Pair, ...]
 
     @property
     def reference_label(self) -> str:
-        """The reference as the later run calls it."""
+        """The reference as the later run names it."""
         names = (cell.contender for cell in self.after.cells if cell.who == self.reference)
         return next(names, "")
 
     @property
     def same_machine(self) -> bool:
-        """Only then are milliseconds compared."""
+        """Are milliseconds compared?"""
         return not self.warning
 
     def count(self, side: str) -> int:
@@ -108,10 +110,11 @@ def compare(before: Entry, after: Entry) -> Comparison:
 
 
 def _ratios(before: Entry, after: Entry) -> tuple[str, dict[str, Ends], dict[str, Ends]]:
-    """The reference of both runs, and the ratios to it by the keys of the cells.
+    """Returns the reference of both runs, and the ratios to it by the keys of the cells.
 
-    Where each has another reference, a contender that both have: Embree's single rays if possible;
-    ratios are of medians then, not paired. What finds nothing has no ratio worth a look.
+    If the runs have different references, a contender that both have is taken, Embree's single rays
+    if possible; the ratios are then of medians, not paired. Contenders that find no hits have no
+    ratio.
     """
     if before.reference == after.reference != "":
         name = after.reference

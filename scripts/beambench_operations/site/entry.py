@@ -43,22 +43,23 @@ Ends = tuple[float, float | None, float | None]
 
 @dataclass(frozen=True)
 class Cell:
-    """One cell, small: figures have five digits."""
+    """One cell in compact form: figures have five digits."""
 
     key: str
-    """Identifies it in every run: the columns of `IDENTITY`."""
+    """The key that identifies it in every run: the columns of `IDENTITY`."""
     view: str
     size: str
     contender: str
     verdict: str
     inputs: str
-    """Of scene and rays: cells with others are not compared."""
+    """A hash of scene and rays; cells with different ones are not compared."""
     work: str
-    """Of its counters."""
+    """A hash of its counters."""
     ms: Ends | None
-    """Build and trace, with their interval; None where no time counts."""
+    """Build and trace together, with their interval; None if no time counts."""
     ratio: Ends | None
-    """Of these to the reference of the same run, paired where the repetitions are known."""
+    """The ratio of this time to the reference of the same run, paired if the repetitions are known.
+    """
 
     @property
     def who(self) -> str:
@@ -67,14 +68,14 @@ class Cell:
 
     @property
     def rays(self) -> str:
-        """Identity of the rays: cells with the same ones have one reference."""
+        """The key of the rays: cells with the same rays have one reference."""
         parts = self.key.split(_BAR)
         return _BAR.join(parts[:2] + parts[4:])
 
 
 @dataclass(frozen=True)
 class Entry:
-    """One run."""
+    """A run in the index."""
 
     run_id: str
     time: str
@@ -84,17 +85,17 @@ class Entry:
     processor: str
     sweep: str
     in_blocks: bool
-    """Runs from before blocks are compared with none in blocks."""
+    """Was it measured in blocks? Other runs are not compared with these."""
     cut_off: bool
     wrong: int
     without_rays: int
     doubts: tuple[str, ...] | None
-    """Why the times are worth little; None where the record is silent."""
+    """Reasons to distrust the times; None if the record does not say."""
     timed: int
     fastest: tuple[str, ...]
-    """For each kind of rays."""
+    """The winner for each kind of rays."""
     reference: str
-    """What the ratios are to; empty where no contender has times."""
+    """The reference of the ratios; empty if no contender has times."""
     cells: tuple[Cell, ...]
 
     @property
@@ -104,17 +105,17 @@ class Entry:
 
     @property
     def machine_title(self) -> str:
-        """The processor; where it is not known, the machine's number."""
+        """Returns the processor or, if it is unknown, the machine's number."""
         return self.processor or " and ".join(self.machine_ids)
 
     @property
     def date(self) -> str:
-        """The text that tables show."""
+        """Returns the text for tables."""
         return self.time.replace("T", " ").replace("Z", "")[:16] or "no date"
 
 
 def entry_of(run: Run) -> Entry:
-    """Reads off a run what the site needs."""
+    """Reads the parts of a run that the site needs."""
     rows = run.rows
     manifest = read_manifest(run.directory) or Manifest()
     files = read_cell_files(run.directory)
@@ -143,7 +144,9 @@ def entry_of(run: Run) -> Entry:
 
 
 def _reference(run: Run) -> tuple[str, str] | None:
-    """Structure and parameters: Embree's single rays, or else what has times in the most cells."""
+    """Returns structure and parameters: Embree's single rays, or else the contender with times in
+    the most cells.
+    """
     timed = contenders_with_times(run.rows)
     counts = Counter(zip(timed["structure"], timed["parameters"], strict=True))
 
@@ -155,7 +158,7 @@ def _reference(run: Run) -> tuple[str, str] | None:
 
 
 def _fastest(analysis: Analysis) -> tuple[str, ...]:
-    """Who has the least geometric mean of trace times, and in how many views it is ahead."""
+    """Returns the contender with the least mean trace time, and its number of wins."""
     several = len(analysis.means) > 1
     return tuple(
         f"{f'{one.ray_kind}: ' if several else ''}{first.contender} ({first.wins} of {one.views})"
@@ -206,7 +209,7 @@ def _small(figure: Median | Ratio) -> Ends:
 
 
 def as_script(name: str, entry: Entry, stamp: str) -> str:
-    """The text of data.js."""
+    """Returns the text of data.js."""
     source = asdict(entry) | {
         "name": name,
         "stamp": stamp,
@@ -216,7 +219,7 @@ def as_script(name: str, entry: Entry, stamp: str) -> str:
 
 
 def read_script(path: Path, name: str, stamp: str) -> Entry | None:
-    """The entry of a file that was written under this name and stamp; None otherwise."""
+    """Returns the entry of a file written under this name and stamp; None otherwise."""
     try:
         text = path.read_text("utf-8")
         source = json.loads(text.removeprefix(_BEGIN).removesuffix(_END))
@@ -225,7 +228,7 @@ def read_script(path: Path, name: str, stamp: str) -> Entry | None:
         cells = tuple(Cell(*map(_frozen, cell)) for cell in source.pop("cells"))
         return Entry(cells=cells, **{key: _frozen(value) for key, value in source.items()})
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
-        return None  # none yet, or of another version: it is written anew
+        return None  # missing or of another version: it is written anew
 
 
 def _frozen(value: object) -> object:
@@ -233,7 +236,7 @@ def _frozen(value: object) -> object:
 
 
 def stamp_of(directory: Path) -> str:
-    """Changes with the files of a run, and with the code that makes pages of them."""
+    """Returns a stamp that changes with the files of a run and the code that makes its pages."""
     return sha256(f"{_state(directory)}{_code()}".encode()).hexdigest()
 
 

@@ -38,7 +38,7 @@ _FIGURES = (
         "pixel of such a beam becomes a ray, which begins at the leaf and not at the eye.",
     ),
 )
-"""Title, state of the page, and the paragraph."""
+"""Title, state of the page, and paragraph of a figure."""
 
 _OWN_TEXTS = {
     ("habitacion", "Exit beams"): "There are none: the room is closed, and each pixel becomes a "
@@ -47,14 +47,14 @@ _OWN_TEXTS = {
 
 _STRUCTURES_SHOW = "escena2"
 _ELSEWHERE = {"polygon-beam": "tetra:n=4"}
-"""Structures that do not take the spheres of that scene."""
+"""Structures that do not support that scene's spheres."""
 _LEFT_OUT = {"null", "embree", "exhaustive"}
-"""Structures that have no cells to show."""
+"""Structures without cells to show."""
 
 
 @dataclass(frozen=True)
 class Exhibit:
-    """A page, with the title and the text of its link."""
+    """A page, with its title and the text of its link."""
 
     title: str
     href: str
@@ -71,9 +71,9 @@ class Gallery:
 
 
 def make_gallery(beambench: Path, folder: Path) -> Gallery:
-    """Writes all pages into the folder with the program `beambench`; returns what they show.
+    """Writes all pages into the folder with the program `beambench`; returns the contents.
 
-    Raises Problem where the program cannot write a page.
+    Raises Problem if the program cannot write a page.
     """
     folder.mkdir(parents=True, exist_ok=True)
     figures = []
@@ -106,7 +106,7 @@ def _sentence(summary: str) -> str:
 
 
 def _write(beambench: Path, folder: Path, scene: str, structure: str) -> str:
-    """Writes the page of a structure over a scene; returns its file's name."""
+    """Writes the page of a structure over a scene; returns the name of its file."""
     name = re.sub(r"[^a-z0-9]+", "-", f"{scene}-{structure}") + ".html"
     words = [beambench, "explain", scene, "--accel", structure, "-o", folder / name]
     done = subprocess.run(words, capture_output=True, text=True, check=False)

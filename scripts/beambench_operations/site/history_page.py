@@ -28,12 +28,12 @@ _STEP = 2000.0
 _MISSING = -32768
 
 Address = Callable[[str], str]
-"""Of the page of a run by its id; empty where it has none."""
+"""The address of a run's page by the run's id; empty without a page."""
 
 
 @dataclass(frozen=True)
 class Mismatch:
-    """A contender that was wrong, and the pictures of it."""
+    """A contender with wrong hits, and their pictures."""
 
     title: str
     images: tuple[tuple[str, str], ...]
@@ -61,7 +61,7 @@ def page_values(history: MachineHistory, address: Address, repository: Repositor
 
 
 def _rows(history: MachineHistory, address: Address, repository: Repository) -> list[dict]:
-    """A line for each run, the oldest first."""
+    """Returns a line for each run, the oldest first."""
     counts = Counter(alarm.night for alarm in history.alarms)
     rows, before = [], ""
     for place, night in enumerate(history.nights.nights.to_dict("records")):
@@ -90,7 +90,7 @@ def _earlier(history: MachineHistory, address: Address) -> list[tuple[str, str, 
 
 
 def _not_tested(nights: Nights) -> str:
-    """Why times are not tested yet; nothing where they are."""
+    """Returns why times are not tested yet; empty if they are."""
     known = int(nights.nights["in_blocks"].sum())
     if known >= 2 * Rule().side:
         return ""
@@ -101,7 +101,7 @@ def _not_tested(nights: Nights) -> str:
 
 
 def chart_data(nights: Nights, alarms: Sequence[Alarm], rows: Sequence[Mapping]) -> str:
-    """JSON for charts.js; `rows` are the lines of the runs."""
+    """Returns the JSON for charts.js; `rows` are the lines of the runs."""
     cells = nights.cells
     views: dict[str, dict[str, list[dict]]] = {}
     for (view, *_), group in cells.groupby(["view", "width", "height", "samples"], sort=False):
@@ -144,7 +144,7 @@ def _night(row: Mapping) -> dict:
 
 
 def pack_ratios(ratios: np.ndarray) -> str:
-    """Ratios as base64 of little-endian 16-bit integers."""
+    """Encodes ratios as base64 of little-endian 16-bit integers."""
     with np.errstate(all="ignore"):
         logs = np.round(np.log(ratios) * _STEP)
     whole = np.where(np.isfinite(logs), np.clip(logs, -32767, 32767), _MISSING)
@@ -152,7 +152,7 @@ def pack_ratios(ratios: np.ndarray) -> str:
 
 
 def read_mismatches(directory: Path) -> list[Mismatch]:
-    """The pictures that a nightly run made of what was wrong."""
+    """Returns the pictures that a nightly run made of wrong hits."""
     index = directory / MISMATCHES
     captions = {
         "picture": "as the structure sees it",

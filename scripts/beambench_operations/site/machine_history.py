@@ -1,4 +1,4 @@
-"""The runs of one sweep on one machine in the order of their time, and their alarms."""
+"""The runs of one sweep on one machine in chronological order, and their alarms."""
 
 from collections.abc import Sequence
 from contextlib import ExitStack
@@ -20,16 +20,16 @@ class MachineHistory:
     nights: Nights
     alarms: list[Alarm]
     left_out: list[str]
-    """Runs that are in no history, each with the reason."""
+    """Runs that are not in the history, each with the reason."""
 
     @property
     def newest(self) -> int:
-        """The number of the last run."""
+        """Returns the number of the last run."""
         return int(self.nights.nights.iloc[-1]["number"])
 
     @property
     def tonight(self) -> list[Alarm]:
-        """The alarms of the last run."""
+        """Returns the alarms of the last run."""
         return [one for one in self.alarms if one.night == self.newest]
 
 

@@ -33,7 +33,7 @@ from beambench_report.run.plots import KINDS
 
 _TEMPLATES = Path(__file__).with_name("templates")
 _DRAWN = KINDS[:1]
-"""Of runs whose folder has no plots; all kinds would take a second a run."""
+"""The plot drawn for runs without plots; drawing all kinds would take a second for each run."""
 _FILES = "site.json"
 _RUN_FILES = {"results.csv", "manifest.json"}
 _HISTORY = "history.sqlite"
@@ -48,7 +48,7 @@ class _Run:
     folder: Path
     entry: Entry
     changed: bool
-    """Since the site was last written."""
+    """Has it changed since the site was last written?"""
     history: str = ""
     comparisons: list[tuple[str, str]] = field(default_factory=list)
 
@@ -86,8 +86,8 @@ def write_site(
     """Writes the site of all runs below the folders; returns its first page.
 
     The newest run of the sweep of the run `published` is also compared with that run. The program
-    `beambench` writes the pages of the gallery; None: the site has none. Raises Problem if there
-    is no run, if `target` contains other files, or if the program cannot write a page.
+    `beambench` writes the pages of the gallery; without it, the site has none. Raises Problem if
+    nothing is found, if `target` contains other files, or if the program cannot write a page.
     """
     found, histories = _find_runs([*folders, *([published] if published else [])])
     site = _Site(target, Repository())
@@ -123,10 +123,10 @@ def _write_gallery(site: _Site, beambench: Path) -> None:
 
 
 def _find_runs(folders: Iterable[Path]) -> tuple[list[Path], list[Path]]:
-    """Returns the folders of runs below given ones, each once, and the histories of nightly runs.
+    """Returns the run folders below the given ones, each once, and the histories of nightly runs.
 
-    Abandoned runs and hidden folders are left out. Raises Problem where a folder does not exist, or
-    where no run is found.
+    Abandoned runs and hidden folders are left out. Raises Problem if a folder does not exist or no
+    run is found.
     """
     runs: dict[Path, Path] = {}
     histories: dict[Path, Path] = {}
@@ -147,7 +147,7 @@ def _find_runs(folders: Iterable[Path]) -> tuple[list[Path], list[Path]]:
 
 
 def _former_files(target: Path) -> set[str]:
-    """Returns the files of the existing site. Raises Problem for a folder of anything else."""
+    """Returns the files of the existing site. Raises Problem if the folder is not a site."""
     files = read_json(target / _FILES)
     if files is None and target.exists() and (not target.is_dir() or any(target.iterdir())):
         raise Problem(f"{target}: is not empty, and no site; give a new folder")
@@ -157,7 +157,7 @@ def _former_files(target: Path) -> set[str]:
 def _write_runs(
     site: _Site, folders: Sequence[Path]
 ) -> tuple[list[_Run], list[tuple[Path, str]], list[str]]:
-    """Writes the runs; returns them, unreadable ones with the reason, and doubled ids."""
+    """Writes the runs; returns them, the unreadable ones with the reason, and duplicate ids."""
     runs, broken, doubles = [], [], []
     names: dict[str, Path] = {}
     for run_id, folder in sorted((_run_id(folder), folder) for folder in folders):
@@ -166,7 +166,7 @@ def _write_runs(
         name = next(one for one in free if one not in names)
         try:
             entry, changed = _write_run(site, name, folder)
-        except Exception as error:  # whatever a record holds, the others get their pages
+        except Exception as error:  # whatever one record contains, the others get their pages
             prefix = "" if isinstance(error, Problem) else f"{type(error).__name__}: "
             broken.append((folder, f"{prefix}{error}"))
             continue
@@ -185,7 +185,7 @@ def _run_id(folder: Path) -> str:
     try:
         rows = pd.read_csv(path, usecols=["run_id"], dtype=str, keep_default_na=False)
         return str(rows["run_id"].iloc[-1])
-    except (OSError, ValueError, IndexError):  # those of pandas are among them
+    except (OSError, ValueError, IndexError):  # pandas' errors are among them
         return folder.name
 
 
@@ -212,7 +212,9 @@ def _write_run(site: _Site, name: str, folder: Path) -> tuple[Entry, bool]:
 
 
 def _write_comparisons(site: _Site, runs: Sequence[_Run], published: Path | None) -> None:
-    """Compares each run with its predecessor on the sweep, and with that on its machine."""
+    """Compares each run with its predecessors: the one on its sweep, and the one on its machine,
+    too.
+    """
     known = published.resolve() if published else None
     by_sweep: dict[str, list[_Run]] = defaultdict(list)
     for run in runs:

@@ -1,1 +1,1 @@
-"""What every part of the package uses: records, names, figures, files, published figures."""
+"""Modules used by every part of the package: records, names, figures, files, published figures."""

@@ -1,7 +1,7 @@
-"""The conclusions from a run, as beambench draws them: who is fastest, and what times are worth.
+"""The conclusions from a run, as beambench draws them: who is fastest, and how good the times are.
 
-They are computed by harness/analysis and read here: from analysis.json, or where a run was cut off
-before it was written, from the log.
+They are computed by harness/analysis and read here: from analysis.json or, for a run that was cut
+off before that was written, from the log.
 """
 
 import os
@@ -36,13 +36,13 @@ class Standing:
     rank: str
     """"tied" with the fastest, clearly "behind" it, "undecided", or "unranked"."""
     variant: str = ""
-    """Of a tuned contender, the parameters that stand for it: `embree:mode=stream`."""
+    """For a tuned contender, the parameters that represent it: `embree:mode=stream`."""
     isa: str = ""
     """The instruction set of its SIMD code; empty: it has none."""
 
     @property
     def name(self) -> str:
-        """The contender; where it is tuned, with its parameters."""
+        """The contender's name; if it is tuned, with its parameters."""
         note = self.contender.removeprefix(self.structure)
         return f"{self.variant}{note}" if self.variant else self.contender
 
@@ -53,7 +53,7 @@ class Standing:
 
     @property
     def mrays_per_s(self) -> float:
-        """Millions of rays per second."""
+        """Returns millions of rays per second."""
         return 1e3 / self.ns_per_ray
 
 
@@ -62,7 +62,7 @@ class BreakEven:
     """The ray count from which the fastest, build included, is ahead of all not tied with it."""
 
     rays: float
-    """0: from the first; infinite: never, by the medians."""
+    """The ray count. 0: from the first ray; infinite: never, by the medians."""
     over: str
     """The last contender that it overtakes."""
     in_words: str
@@ -74,51 +74,51 @@ class Standings:
 
     view: str
     subject: str
-    """The view, whichever machine measured it."""
+    """Returns the view, whichever machine measured it."""
     ray_kind: str
     size: str
     rays: int
     ranked: tuple[Standing, ...]
-    """The fastest first; empty where no contender's hits were correct."""
+    """The contenders, the fastest first; empty if none had correct hits."""
     references: tuple[Standing, ...]
     left_out: tuple[tuple[str, str], ...]
     """Contenders of the run without a time here, each with the reason."""
     unrecorded: int
-    """The number of them without a row that no condition of the sweep leaves out."""
+    """The number of contenders without a row, although the sweep has them here."""
     in_means: bool
-    """Is it among the views that means are over?"""
+    """Do the means include this view?"""
     clock: str
-    """By which all are compared: "wall", or "cpu" where others disturbed too many traces."""
+    """The clock that is compared: "wall", or "cpu" if other processes disturbed too many traces."""
     break_even: BreakEven | None
-    """None: there is nobody to compare with."""
+    """The break-even point; None if there is no other contender."""
 
     @property
     def fastest(self) -> Standing | None:
-        """The contender of the least median; `tied` has those that may be as fast."""
+        """Returns the contender with the least median; `tied` has those that may be as fast."""
         return self.ranked[0] if self.ranked else None
 
     @property
     def tied(self) -> tuple[Standing, ...]:
-        """The other contenders that may be as fast."""
+        """Returns the other contenders that may be as fast."""
         return tuple(one for one in self.ranked[1:] if one.is_tied)
 
     @property
     def undecided(self) -> tuple[Standing, ...]:
-        """The contenders of which it is not known whether they are as fast, or slower."""
+        """Returns the contenders that may be as fast or slower."""
         return tuple(one for one in self.ranked[1:] if one.rank == "undecided")
 
     @property
     def behind(self) -> Standing | None:
-        """The first contender that is clearly slower than the fastest."""
+        """Returns the first contender that is clearly slower than the fastest."""
         return next((one for one in self.ranked if one.rank == "behind"), None)
 
     @property
     def embree(self) -> Standing | None:
-        """Embree's fastest mode."""
+        """Returns Embree's fastest mode."""
         return next((one for one in self.ranked if one.structure == _EMBREE), None)
 
     def trace_ms(self, one: Standing) -> float:
-        """The median time of one trace."""
+        """Returns the median time of one trace."""
         return 1e-6 * one.ns_per_ray * self.rays
 
 
@@ -129,13 +129,13 @@ class Mean:
     contender: str
     structure: str
     ratio: Ratio
-    """Geometric mean of its ratios to the fastest of each view."""
+    """The geometric mean of its ratios to the fastest of each view."""
     views: int
     wins: int
     """Views in which it is the fastest or tied with it."""
     scatter_low: float | None = None
     scatter_high: float | None = None
-    """95% confidence interval of the mean by the scatter between the views."""
+    """The 95% confidence interval of the mean, from the scatter between the views."""
 
 
 @dataclass(frozen=True)
@@ -145,12 +145,12 @@ class Overall:
     ray_kind: str
     views: int
     means: tuple[Mean, ...]
-    """Those with times in every view, the fastest first; then the others."""
+    """The contenders with times in every view, the fastest first; then the others."""
     references: tuple[Mean, ...]
 
     @property
     def largest_ratio(self) -> float:
-        """The largest ratio of any of them, which bars end at."""
+        """Returns the largest ratio of any of them, where bars end."""
         return max(mean.ratio.value for mean in (*self.means, *self.references))
 
 
@@ -159,9 +159,9 @@ class Steadiness:
     """The late blocks of a run compared with its early ones."""
 
     shift: float
-    """Of the logarithms of times: 0.03 where late blocks took 3% longer."""
+    """The difference of the logarithms of times: 0.03 if late blocks took 3% longer."""
     limit: float
-    """What chance explains."""
+    """The difference that chance explains."""
 
     @property
     def is_steady(self) -> bool:
@@ -171,27 +171,27 @@ class Steadiness:
 
 @dataclass(frozen=True)
 class Overhead:
-    """The largest part of a contender's trace time that the harness itself takes."""
+    """The contender with the largest share of the harness in its trace time."""
 
     query_path: str
     cell: str
     title: str
-    """The cell of that trace, as plots and pages call it."""
+    """Returns the cell of that trace, as plots and pages name it."""
     part: float
 
 
 @dataclass(frozen=True)
 class FrameCost:
-    """What a structure costs in one frame."""
+    """The cost of a structure in one frame."""
 
     ready_ms: float
-    """Of the build, or of the update."""
+    """The time of the build or of the update."""
     trace_ms: float
     sah_cost: float | None
 
     @property
     def total_ms(self) -> float:
-        """The whole frame."""
+        """Returns the time of the whole frame."""
         return self.ready_ms + self.trace_ms
 
 
@@ -203,7 +203,7 @@ class FrameComparison:
     updated: FrameCost
     built: FrameCost
     total_ratio: Ratio
-    """Of the updated structure over that of the new one, paired within blocks."""
+    """The time of the updated structure over that of the new one, paired within blocks."""
     trace_ratio: Ratio
 
 
@@ -212,40 +212,42 @@ class FrameSeries:
     """A structure with the same rays over the frames of a scene."""
 
     contender: str
-    """With its parameters, apart from `update`: `embree:robust=false`."""
+    """The structure with its parameters, apart from `update`: `embree:robust=false`."""
     subject: str
     """Scene, camera, resolution, samples and rays: `waving-sheet/default/320x240/1/primary`."""
     frames: tuple[FrameComparison, ...]
-    """Ascending."""
+    """The frames in ascending order."""
     rebuild_after: int | None
-    """One build for so many frames has the least mean time; None: no second build pays."""
+    """The number of frames between builds with the least mean time; None: a second build never
+    pays.
+    """
     mean_ms: float
-    """Of a frame then."""
+    """The mean time of a frame with that number."""
 
 
 @dataclass(frozen=True)
 class Analysis:
-    """What a run comes to."""
+    """The conclusions from a run."""
 
     cells: int
     failed: int
-    """Wrong or not built."""
+    """Number of cells that are wrong or were not built."""
     without_rays: int
     unsupported: int
-    """Of rays or primitives that the structure does not support."""
+    """Number of cells whose rays or primitives the structure does not support."""
     reasons_for_care: tuple[str, ...]
-    """Why the times are worth little, in clauses; that the machine was not steady is the first."""
+    """Reasons to distrust the times, as clauses; an unsteady machine comes first."""
     steadiness: Steadiness | None
-    """None where there are too few blocks for the test."""
+    """The test of steadiness; None if there are too few blocks."""
     views: tuple[Standings, ...]
     means: tuple[Overall, ...]
-    """Of each kind of rays."""
+    """The means for each kind of rays."""
     overheads: tuple[Overhead, ...]
-    """Of each query path, the largest first."""
+    """The harness's share for each query path, the largest first."""
     block_totals: Mapping[str, Mapping[int, float]]
-    """Build and trace of each cell, by its name, in each block; none in records of one process."""
+    """Build and trace of each cell, by its name, in each block; empty in records of one process."""
     frame_series: tuple[FrameSeries, ...] = ()
-    """Of the scenes that move, the structures that were measured updated and built anew."""
+    """Structures that were measured updated and built anew, over the scenes that move."""
 
     @property
     def right(self) -> int:
@@ -259,14 +261,14 @@ class Analysis:
 
     @property
     def without_times(self) -> list[str]:
-        """The contenders and references of which no view has a time, in the order of the run."""
+        """Returns contenders and references without a time in any view, in the order of the run."""
         timed = {one.contender for view in self.views for one in (*view.ranked, *view.references)}
         names = dict.fromkeys(name for view in self.views for name, _ in view.left_out)
         return [name for name in names if name not in timed]
 
     @property
     def ratios_are_paired(self) -> bool:
-        """Was any ratio to the fastest made round by round?"""
+        """Was any ratio to the fastest paired round by round?"""
         return any(ratio.paired for ratio in self._ratios)
 
     @property
@@ -281,7 +283,7 @@ class Analysis:
 
     @property
     def ties_are_known(self) -> bool:
-        """Has any ratio an interval, where there are ratios?"""
+        """Has any ratio an interval, if there are ratios?"""
         return not self._ratios or any(ratio.interval for ratio in self._ratios)
 
     @property
@@ -290,7 +292,7 @@ class Analysis:
 
 
 def has_analysis(directory: Path) -> bool:
-    """Can the conclusions from a run in this folder be had?"""
+    """Can conclusions be drawn from a run in this folder?"""
     return (directory / ANALYSIS).is_file() or has_log(directory)
 
 
@@ -301,9 +303,9 @@ def block_totals(run: Run) -> Mapping[str, Mapping[int, float]]:
 
 
 def read_analysis(directory: Path) -> Analysis:
-    """Reads DIRECTORY/analysis.json; where there is none, analyzes the log of the run.
+    """Reads DIRECTORY/analysis.json; without one, analyzes the log of the run.
 
-    Raises Problem where there is neither, or one that cannot be read.
+    Raises Problem if there is neither, or if it cannot be read.
     """
     path = directory / ANALYSIS
     source = read_json(path)

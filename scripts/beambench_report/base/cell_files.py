@@ -1,7 +1,4 @@
-"""The repetitions, messages and examples of single cells, which results.csv does not have.
-
-They are in the log of a run (`run_log`).
-"""
+"""The repetitions, messages and examples of single cells, which are only in the log."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -27,7 +24,7 @@ Identity = tuple[str, ...]
 
 @dataclass(frozen=True)
 class Example:
-    """One disputed ray in words, and the command that shows its path again."""
+    """One disputed ray in words, and the command that replays it."""
 
     text: str
     replay: str
@@ -40,23 +37,22 @@ class CellFile:
     message: str
     examples: tuple[Example, ...]
     total_ms: Mapping[int, float]
-    """Build or update, and trace, by the block that measured it: that of its fastest undisturbed
-    repetition.
+    """Build or update, and trace, by block: from the block's fastest undisturbed repetition.
 
     In records of one process, of each repetition by the round in which it had its turn.
     """
     trace_ms: Mapping[int, float] = field(default_factory=dict)
-    """The first trace after each build, likewise."""
+    """The first trace after each build, in the same way."""
     warm_ms: Mapping[int, float] = field(default_factory=dict)
     """The second trace of the same structure, in the blocks or rounds that had one."""
     clock_ghz: Mapping[int, float] = field(default_factory=dict)
-    """The clock's rate about each, where it was read."""
+    """The clock's rate during each, if it was read."""
     in_blocks: bool = False
 
     def ratio(
         self, times: str, base: "CellFile", shares: tuple[float, float] = (0.0, 0.0)
     ) -> Ratio | None:
-        """One of its times over that of another cell, paired; None where none can be paired.
+        """Returns one of its times over that of another cell, paired; None if none can be paired.
 
         `shares` are subtracted from the times of each, in milliseconds.
         """
@@ -68,13 +64,13 @@ class CellFile:
 
 
 def identity(row: Mapping[str, object]) -> Identity:
-    """Identity of a row within its run."""
+    """Returns the identity of a row within its run."""
     values = (row[name] for name in IDENTITY)
     return tuple(str(int(one)) if isinstance(one, float) else str(one) for one in values)
 
 
 def read_cell_files(directory: Path) -> dict[Identity, CellFile]:
-    """Reads every cell of the log that has an end or repetitions; empty without a log."""
+    """Reads every finished or repeated cell of the log; empty without a log."""
     return {
         identity(cell.facts): _cell_file(cell)
         for cell in logged_cells(directory)
@@ -83,7 +79,7 @@ def read_cell_files(directory: Path) -> dict[Identity, CellFile]:
 
 
 def repetitions_of(cell: LoggedCell) -> list[Repetition]:
-    """The repetitions of a cell whose times count; of another, none."""
+    """Returns the repetitions of a cell whose times count; empty for others."""
     return cell.repetitions if cell.verdict in TIMED_VERDICTS else []
 
 

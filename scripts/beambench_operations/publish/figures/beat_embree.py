@@ -14,7 +14,9 @@ from beambench_report.embree_comparison.pairings import in_one_way
 _MILLION = "bumpy:triangles=1000000"
 _FEWER = "bumpy:triangles=200000"
 _EQUALLY_DENSE = {"320x200": "143x89", "1280x1024": "572x458"}
-"""For each resolution of the million triangles, that at which a fifth of them are as dense."""
+"""For each resolution over the million triangles, the one with as many pixels per triangle over a
+fifth of them.
+"""
 
 
 def figures(folder: Path) -> dict[str, Any]:
@@ -39,7 +41,7 @@ def figures(folder: Path) -> dict[str, Any]:
 
 
 def _xeon(file: Path) -> dict[str, Ratio]:
-    """The geometric mean over the scenes of triangles by resolution, of an earlier run."""
+    """Returns the geometric means over the scenes of triangles by resolution in an earlier run."""
     return {
         row.resolution: Ratio(row.ratio, row.low, row.high)
         for row in pd.read_csv(file).itertuples()
@@ -47,10 +49,11 @@ def _xeon(file: Path) -> dict[str, Ratio]:
 
 
 def _memory(run: Path) -> dict[str, float]:
-    """A second trace's time per ray over a million triangles, over that over a fifth of them.
+    """Returns the second trace's time per ray over a million triangles, divided by that over a
+    fifth.
 
-    Images have as many pixels per triangle, so that the work is alike and the memory that it is
-    done in is not. Empty where it was not measured.
+    Both images have as many pixels per triangle, so the work is alike while the memory differs.
+    Empty if it was not measured.
     """
     if not run.is_dir():
         return {}

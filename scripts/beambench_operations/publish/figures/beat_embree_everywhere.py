@@ -30,7 +30,9 @@ _PICTURES = {"AVX2": 1.5, "AVX-512": 2.0}
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """Returns the ratios to Embree by kind of rays, and what lengths, batches and threads do."""
+    """Returns the ratios to Embree by kind of rays, and the effects of lengths, batches and
+    threads.
+    """
     lists, pictures = Cells(folder / "lists"), Cells(folder / "pictures")
     isa = instruction_set(lists)
     own = {kind: line(lists, STREAMS, target, kind=kind) for kind, target in _TARGETS[isa].items()}
@@ -72,7 +74,7 @@ def figures(folder: Path) -> dict[str, Any]:
 
 
 def _embree_4(folder: Path) -> dict[str, Any]:
-    """Returns the ratios to Embree 4 by kind of rays; nothing where it was not measured."""
+    """Returns the ratios to Embree 4 by kind of rays; empty if it was not measured."""
     if not (folder / "results.csv").is_file():
         return {}
     cells = Cells(folder)
@@ -110,7 +112,9 @@ def _lengths(cells: Cells) -> dict[str, dict[int, Ratio]]:
 
 
 def _batches(cells: Cells) -> dict[str, dict[str, dict[int, Ratio]]]:
-    """Returns the time of pictures in batches of 4,096 over that in others: scene, contender."""
+    """Returns the time of pictures in batches of 4,096 over that in other sizes, by scene and
+    contender.
+    """
     kinds = list(dict.fromkeys(cells.rows["kind"]))
     least = next(kind for kind in kinds if kind.endswith("batch=4096"))
     return {

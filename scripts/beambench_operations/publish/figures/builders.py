@@ -23,12 +23,12 @@ _BASE = "sweep"
 _MESHES = ("bumpy", "tessellated-balls")
 _QUALITIES = ("sah_cost", "epo")
 _LEAST = 4
-"""Hierarchies of a scene, below which a rank correlation says nothing."""
+"""The fewest hierarchies of a scene for which a rank correlation is meaningful."""
 
 
 @dataclass(frozen=True)
 class Correlation:
-    """Spearman's rank correlation with trace time, in each scene by itself."""
+    """Spearman's rank correlation with trace time within each scene."""
 
     middle: float
     least: float
@@ -79,7 +79,7 @@ def figures(folder: Path) -> dict[str, Any]:
 def correlation(rows: pd.DataFrame, quality: str) -> Correlation | None:
     """Returns the correlation of a quality of hierarchies with their trace times, scene by scene.
 
-    None where no scene has enough of them.
+    None if no scene has enough hierarchies.
     """
     found = []
     for _, own in rows.groupby("scene", sort=False):
@@ -89,7 +89,7 @@ def correlation(rows: pd.DataFrame, quality: str) -> Correlation | None:
 
 
 def _variants() -> list[str]:
-    """The builders as tables name them: `lbvh`, `lbvh reinsertion`."""
+    """Returns the builders as tables name them: `lbvh`, `lbvh reinsertion`."""
     return [*_BUILDERS, *(f"{name} reinsertion" for name in _REINSERTED)]
 
 
@@ -99,7 +99,7 @@ def _contender(variant: str) -> str:
 
 
 def _costs(cells: Cells, scene: str) -> dict[str, float]:
-    """The SAH cost of each builder over that of `sweep`."""
+    """Returns the SAH cost of each builder relative to `sweep`."""
     known = {}
     for variant in _variants():
         rows = cells.having(_contender(variant), scene=scene).dropna(subset=["sah_cost"])
@@ -109,7 +109,7 @@ def _costs(cells: Cells, scene: str) -> dict[str, float]:
 
 
 def _titles(cells: Cells) -> dict[str, str]:
-    """The scenes as other texts name them, without parameters that are not given."""
+    """Returns the scenes as other texts name them, without parameters left at their defaults."""
     rows = cells.rows.drop_duplicates("scene")
     return {
         row["scene"]: row["subject"].removesuffix(f", {row['ray_kind']} rays")
@@ -118,7 +118,7 @@ def _titles(cells: Cells) -> dict[str, str]:
 
 
 def _gains(cells: Cells, builder: str, kind: str) -> dict[str, Ratio]:
-    """The trace time without reinsertion over that with it by scene, and means over them."""
+    """Returns the speedup of the trace by reinsertion, by scene, and its means."""
     own = {"ray_kind": kind}
     names = _contender(builder), _contender(f"{builder} reinsertion")
     gains = {
@@ -138,7 +138,7 @@ def _hierarchies(cells: Cells, kind: str, *, alone: bool) -> pd.DataFrame:
 
 
 def _sizes(cells: Cells, scene: str, kind: str) -> list[dict[str, Any]]:
-    """Memory and speed of the build of each contender in a scene, the fastest build first."""
+    """Returns the memory and build speed of each contender in a scene, the fastest build first."""
     rows = cells.having(scene=scene, ray_kind=kind)
     rows = rows[rows["timed"]].sort_values("build_ms_median")
     return [

@@ -17,7 +17,10 @@ Phase = Literal["total", "trace"]
 
 
 class Cells:
-    """A contender is named as in sweeps, with the parameters that differ: `samet:max_level=6`."""
+    """The rows of a run.
+
+    Contenders are named as in sweeps, with the parameters that differ: `samet:max_level=6`.
+    """
 
     def __init__(self, folder: Path) -> None:
         """Raises Problem where FOLDER/results.csv cannot be read."""
@@ -28,19 +31,19 @@ class Cells:
 
     @cached_property
     def files(self) -> dict[Identity, CellFile]:
-        """The repetitions of each cell, where they are published."""
+        """The repetitions of each cell, if they are published."""
         return read_cell_files(self.folder)
 
     def having(self, contender: str = "", **columns: str) -> pd.DataFrame:
-        """The rows of a contender, or of all, with these values; empty if none has them."""
-        # One selection: each copies all columns.
+        """Returns the rows of a contender, or of all, with these values; may be empty."""
+        # One selection, since each copies all columns.
         wanted = [self.rows[name] == value for name, value in columns.items()]
         if contender:
             wanted.append(self._is(contender))
         return self.rows[np.logical_and.reduce(wanted)] if wanted else self.rows
 
     def row(self, contender: str, **columns: str) -> pd.Series:
-        """The only such row that has times. Raises Problem where there is none, or several."""
+        """Returns the only such row that has times. Raises Problem if there is none, or several."""
         found = self.having(contender, **columns)
         found = found[found["timed"]]
         if len(found) != 1:
@@ -51,19 +54,19 @@ class Cells:
         return found.iloc[0]
 
     def ratio(self, over: str, under: str, phase: Phase = "trace", **columns: str) -> Ratio:
-        """A contender's time over another one's: paired where the repetitions are published."""
+        """Returns a contender's time over another's, paired if the repetitions are published."""
         both = (self.row(contender, **columns) for contender in (over, under))
         return ratio_of(phase, *both, self.files)
 
     def mean(self, over: str, under: str, **columns: str) -> Ratio:
-        """The geometric mean of `ratio` over all scenes."""
+        """Returns the geometric mean of `ratio` over all scenes."""
         return geometric_mean(
             [self.ratio(over, under, scene=scene, **columns) for scene in self.scenes]
         )
 
     @property
     def about_backs(self) -> str:
-        """A sentence where `tile-beam` leaves out the backs of solids; empty where it does not."""
+        """A sentence, if `tile-beam` skips the backs of solids; else empty."""
         if self.having("tile-beam:backface_culling=true").empty:
             return ""
         return (
@@ -72,7 +75,7 @@ class Cells:
 
     @property
     def scenes(self) -> list[str]:
-        """The cells in the order of the rows."""
+        """The scenes in the order of the rows."""
         return list(dict.fromkeys(self.rows["scene"]))
 
     @property
@@ -94,7 +97,7 @@ class Cells:
 
 
 def counted(published: Path) -> dict[str, Any]:
-    """Counts the cells of every results.csv, and those whose hits are wrong by structure."""
+    """Counts the cells of every results.csv, and those with wrong hits by structure."""
     columns = ["structure", "verdict"]
     rows = pd.concat(
         pd.read_csv(file, usecols=columns, keep_default_na=False)

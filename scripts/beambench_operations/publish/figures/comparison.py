@@ -1,4 +1,4 @@
-"""Tile beams beside Embree's fastest mode, as the texts on them state it."""
+"""Figures of tile beams compared with Embree's fastest mode, as the texts state them."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -11,13 +11,13 @@ from beambench_report.embree_comparison.results import Result, outcomes_in_words
 
 
 def read_pairings(folder: Path, names: Sequence[str]) -> list[Pairing]:
-    """Comparisons of those runs of a folder that are there."""
+    """Returns the comparisons of those runs of a folder that exist."""
     runs = [folder / name for name in names]
     return pairings(read_run(run) for run in runs if (run / "results.csv").is_file())
 
 
 def figures_of(found: Sequence[Pairing]) -> dict[str, Any]:
-    """The groups of scenes by title, with their ratios at each resolution, and the counts."""
+    """Returns the groups of scenes by title, with ratios at each resolution, and the counts."""
     best, avx2 = ({one.group.title: one for one in results(found, isa)} for isa in ("best", "avx2"))
     return {
         "groups": best,
@@ -30,14 +30,16 @@ def figures_of(found: Sequence[Pairing]) -> dict[str, Any]:
 
 
 def marked(one: Result) -> str:
-    """A ratio and its target: bold where it is missed, in italics where that is open."""
+    """Formats a ratio and its target: bold if missed, in italics if open."""
     mark = {"missed": "**", "open": "*"}.get(one.outcome, "")
     target = "" if one.target is None else f", target {one.target:g}"
     return f"{mark}{brief(one.ratio)}{mark}{target}{' †' * one.is_culled}"
 
 
 def with_target(one: Result, size: str = "") -> str:
-    """A mean with its interval, its target and whether it meets that; `size` in a sentence."""
+    """Formats a mean with its interval, its target and whether it is met; `size` is added in a
+    sentence.
+    """
     at = f" at {size}" if size else ""
     target = "" if one.target is None else f", target {one.target:g}: {one.outcome}"
     return f"{interval(one.ratio)}{at}{target}{' †' * one.is_culled}"

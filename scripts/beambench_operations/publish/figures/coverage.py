@@ -1,4 +1,4 @@
-"""results/published/coverage: two sweeps, each measured twice: what a second run finds."""
+"""results/published/coverage: two sweeps, each measured twice: how well a second run agrees."""
 
 from pathlib import Path
 from typing import Any
@@ -44,7 +44,7 @@ def _coverage(*folders: Path) -> dict[str, Any]:
 
 
 def _changes(first: Run, second: Run) -> pd.Series:
-    """Returns by which part each cell's time changed."""
+    """Returns the relative change of each cell's time."""
     times = [
         run.rows[run.rows["timed"]].set_index(list(IDENTITY))["trace_ms"] for run in (first, second)
     ]
@@ -52,7 +52,7 @@ def _changes(first: Run, second: Run) -> pd.Series:
 
 
 def _precise(run: Run, wanted: float) -> tuple[int, int]:
-    """Returns how many timed cells are as precise as the sweep wants, and all of them."""
+    """Returns how many timed cells are as precise as the sweep demands, and how many there are."""
     timed = run.rows[run.rows["timed"]]
     width = (timed["trace_ms_pi_high"] - timed["trace_ms_pi_low"]) / timed["trace_ms"]
     return int((width <= 2 * wanted).sum()), len(timed)

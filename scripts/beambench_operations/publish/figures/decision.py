@@ -18,7 +18,7 @@ _OWN = {TILE_BEAM: "`tile-beam`", STREAMS: "`sah-bvh`, streams", SINGLE: "`sah-b
 
 @dataclass(frozen=True)
 class Row:
-    """One kind of rays: how many times as fast as Embree each contender is, by contender."""
+    """The speeds relative to Embree for one kind of rays, by contender."""
 
     best: dict[str, Ratio]  # over Embree's fastest correct way
     watertight: dict[str, Ratio]  # over its fastest watertight way
@@ -26,12 +26,12 @@ class Row:
 
     @property
     def winner(self) -> str:
-        """The contender with the largest mean over Embree; `embree` where all are behind it."""
+        """The contender with the largest mean over Embree; `embree` if all are slower."""
         return self.shown if self.best[self.shown].value > 1 else "embree"
 
     @property
     def shown(self) -> str:
-        """The contender with the largest mean, whose ratios stand beside the winner."""
+        """The contender with the largest mean, whose ratios are shown."""
         return max(self.best, key=lambda own: self.best[own].value)
 
 

@@ -8,7 +8,7 @@ from beambench_operations.publish.figures.comparison import figures_of, read_pai
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """The groups of scenes with their ratios, and sah-bvh over Embree's single rays."""
+    """Returns the ratios of groups of scenes, and sah-bvh relative to Embree's single rays."""
     cells = Cells(folder)
     return figures_of(read_pairings(folder, (".",))) | {
         "cells": len(cells.rows),

@@ -1,4 +1,4 @@
-"""Formats figures in the texts: the filters of the templates."""
+"""Filters of the templates, which format figures."""
 
 from collections.abc import Callable
 
@@ -7,12 +7,12 @@ from beambench_report.base.quantities import number
 
 
 def fixed(value: float | Ratio, digits: int = 2) -> str:
-    """Formats with so many digits behind the point, thousands marked: 1,234.50."""
+    """Formats with a fixed number of decimals, with thousands separators: 1,234.50."""
     return f"{_value(value):,.{digits}f}"
 
 
 def short(value: float | Ratio) -> str:
-    """Three significant digits: 0.971, 2.40, 24.1, 1,230."""
+    """Formats with three significant digits: 0.971, 2.40, 24.1, 1,230."""
     return number(_value(value))
 
 
@@ -23,7 +23,7 @@ def brief(value: float | Ratio) -> str:
 
 
 def count(value: float) -> str:
-    """A whole number, thousands marked."""
+    """Formats a whole number with thousands separators."""
     whole = round(_value(value))
     if value != whole:
         raise ValueError(f"{value} is no count")
@@ -31,40 +31,65 @@ def count(value: float) -> str:
 
 
 def percent(share: float, digits: int = 0) -> str:
-    """A share of 1: 37%."""
+    """Formats a share of 1: 37%."""
     return f"{100 * _value(share):.{digits}f}%"
 
 
 def signed_percent(share: float, digits: int = 0) -> str:
-    """A difference in parts of 1: +3%, -16%."""
+    """Formats a relative difference: +3%, -16%."""
     return f"{100 * _value(share):+.{digits}f}%"
 
 
 def interval(ratio: Ratio) -> str:
-    """The ratio with its 95% confidence interval: 2.40 (2.35 to 2.46)."""
+    """Formats a ratio with its 95% confidence interval: 2.40 (2.35 to 2.46)."""
     if ratio.interval is None:
         return f"{short(ratio)} (no interval)"
     low, high = (number(end) for end in ratio.interval)
     return f"{short(ratio)} ({low} to {high})"
 
 
+def is_ahead(speedup: Ratio) -> bool:
+    """Is the interval above 1?"""
+    return speedup.low is not None and speedup.low > 1
+
+
+def is_behind(speedup: Ratio) -> bool:
+    """Is the interval below 1?"""
+    return speedup.high is not None and speedup.high < 1
+
+
+def speedup(ratio: Ratio, otherwise: str) -> str:
+    """Formats a speedup with its interval; if that is below 1, with `otherwise`, who is faster."""
+    if is_behind(ratio):
+        return f"{interval(ratio)}: {otherwise}"
+    is_open = ratio.interval is not None and not is_ahead(ratio)
+    return f"{interval(ratio)}{': undecided' * is_open}"
+
+
+def inverse(ratio: Ratio) -> Ratio:
+    """Returns the ratio of the same two times the other way around."""
+    ends = [None if end is None else 1 / end for end in (ratio.high, ratio.low)]
+    return Ratio(1 / ratio.value, *ends, paired=ratio.paired)
+
+
 def cited(figure: str) -> str:
-    """A figure that another work states, or that a target sets: nobody measured it here."""
+    """Marks a figure that another work states, or that a target sets: it was not measured here."""
     return figure
 
 
 def holds(condition: object) -> str:
-    """Nothing, where what a sentence says without a figure is so. Raises ValueError otherwise."""
+    """Returns nothing if a statement without a figure is true. Raises ValueError otherwise."""
     if not condition:
         raise ValueError("what this sentence says does not follow from the rows any more")
     return ""
 
 
 def _value(value: float | Ratio) -> float:
-    """Raises an error that names what a template uses and lacks: hence the sum."""
+    """Returns the value. The sum raises an error that names an undefined variable of a template."""
     return value.value if isinstance(value, Ratio) else value + 0
 
 
-FILTERS: dict[str, Callable[..., str]] = {
-    one.__name__: one for one in (fixed, short, brief, count, percent, signed_percent, interval)
+FILTERS: dict[str, Callable[..., str | Ratio]] = {
+    one.__name__: one
+    for one in (fixed, short, brief, count, percent, signed_percent, interval, speedup, inverse)
 }

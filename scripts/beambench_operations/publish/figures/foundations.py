@@ -1,4 +1,4 @@
-"""results/published/foundations: what the thesis builds on and surveys, beside its beams."""
+"""results/published/foundations: beams compared with the thesis's foundations."""
 
 from pathlib import Path
 from typing import Any
@@ -21,7 +21,7 @@ _SMALL_ANGLE = 30
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """Returns the times over those of beams by scene, and the runs of `beambench mirrors`."""
+    """Returns the times relative to beams by scene, and the runs of `beambench mirrors`."""
     primary, followed = Cells(folder / "primary"), Cells(folder / "followed")
     glass = [_glass(file) for file in sorted((folder / "mirrors").glob("*.json"))]
     return {
@@ -40,7 +40,7 @@ def figures(folder: Path) -> dict[str, Any]:
 
 
 def _table(cells: Cells, contenders: dict[str, str], kind: str) -> dict[str, Any]:
-    """The ratios of contenders to beams by scene, where both have times, and their means."""
+    """Returns ratios of contenders to beams by scene, where both have times, and the means."""
     rows: dict[str, dict[str, Ratio]] = {}
     for scene in cells.scenes:
         own = {
@@ -59,12 +59,14 @@ def _table(cells: Cells, contenders: dict[str, str], kind: str) -> dict[str, Any
 
 
 def _are_timed(cells: Cells, contenders: tuple[str, ...], **columns: str) -> bool:
-    """Returns whether all have times there: not where the scene has no rays of the kind."""
+    """Returns whether all have times there; they do not if the scene has no rays of the kind."""
     return all(cells.having(one, **columns)["timed"].any() for one in contenders)
 
 
 def _glass(file: Path) -> dict[str, Any]:
-    """The refracted rays of one picture: times, and the share in no beam at small angles."""
+    """Returns the refracted rays of one picture: times, and the share outside beams at small
+    angles.
+    """
     source = load_json(file)
     seen = source["seen_through"]
     small = [

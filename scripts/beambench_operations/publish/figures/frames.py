@@ -8,10 +8,11 @@ from typing import Any
 from beambench.analysis import Ratio, geometric_mean
 from beambench_operations.publish.figures.cells import Cells
 from beambench_report.base.analysis import FrameComparison, FrameSeries, read_analysis
+from beambench_report.base.cell_files import ratio_of
 from beambench_report.base.names import brief_name
 
 _BUILT_ONLY = ("samet", "voxel-grid")
-"""A grid and an octree: they have no update."""
+"""Structures without an update: a grid and an octree."""
 
 
 @dataclass(frozen=True)
@@ -24,7 +25,7 @@ class Series:
     series: FrameSeries
 
     def is_of(self, scene: str, structure: str) -> bool:
-        """Is it that of this structure over this scene?"""
+        """Does it belong to this structure over this scene?"""
         return (self.scene, self.structure) == (scene, structure)
 
     @property
@@ -40,13 +41,13 @@ class Series:
 
     @property
     def is_lost(self) -> bool:
-        """Is it clearly behind there?"""
+        """Is it clearly behind in the last frame?"""
         low = self.last.total_ratio.low
         return low is not None and low > 1
 
     @property
     def every(self) -> str:
-        """Frames for which one build serves: `one`, `5 frames`, `all 20 frames`."""
+        """The number of frames that one build serves: `one frame`, `5 frames`, `all 20 frames`."""
         after = self.series.rebuild_after
         if after == 1:
             return "one frame"
@@ -80,6 +81,7 @@ def figures(folder: Path) -> dict[str, Any]:
             structure: {kind: _means(found, structure, kind) for kind in kinds}
             for structure in structures
         },
+        "over_embree": {kind: _over_embree(cells, structures, last, kind) for kind in kinds},
         "total": _mean(found, "total_ratio"),
         "won": sum(one.is_won for one in found),
         "lost": sum(one.is_lost for one in found),
@@ -104,15 +106,36 @@ def _means(found: Sequence[Series], structure: str, kind: str) -> dict[str, Rati
     return {which: _mean(own, f"{which}_ratio") for which in ("total", "trace")}
 
 
+def _over_embree(
+    cells: Cells, structures: Sequence[str], frame: int, kind: str
+) -> dict[str, Ratio]:
+    """Returns Embree's time of a frame over that of each updated structure, the fastest first.
+
+    Embree is updated or built anew, whichever is faster in the scene.
+    """
+    scenes = cells.rows.loc[cells.rows["frame"] == frame, "scene"].unique()
+    found: dict[str, list[Ratio]] = {}
+    for scene in scenes:
+        embree = cells.having("embree", scene=scene, ray_kind=kind)
+        embree = embree[embree["timed"]]
+        fastest = embree.loc[embree["total_ms"].idxmin()]
+        for structure in structures:
+            if structure != "embree":
+                own = cells.row(f"{structure}:update=true", scene=scene, ray_kind=kind)
+                found.setdefault(structure, []).append(ratio_of("total", fastest, own, cells.files))
+    means = {structure: geometric_mean(ratios) for structure, ratios in found.items()}
+    return dict(sorted(means.items(), key=lambda one: -one[1].value))
+
+
 def _name(contender: str) -> str:
-    """Returns the name without what the column states: `sah-bvh lbvh`."""
+    """Returns the name without the parameter that the column states: `sah-bvh lbvh`."""
     return brief_name(contender.replace(" update=true", ""))
 
 
 def _fastest(cells: Cells, frame: int) -> list[dict[str, Any]]:
     """Returns the least times of the last frames: updated, built anew, and of grid or octree.
 
-    By kind of rays and scene: milliseconds with the contender.
+    Each row has a scene and a kind of rays, with milliseconds and contender.
     """
     rows = cells.rows[cells.rows["timed"] & (cells.rows["frame"] == frame)]
     updated = rows["parameters"].str.contains("update=true", regex=False)

@@ -12,7 +12,7 @@ _SCENE = "tetra"
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """Box and polygon tests over TETRA: his, ours, and those that the test of C++ pins."""
+    """Returns box and polygon tests over TETRA: Haines's, ours, those pinned by the C++ test."""
     ours = read_tests(folder / "tests.csv")
     given, shuffled = (ours[contender][_SCENE] for contender in CONTENDERS)
     return {
@@ -25,7 +25,7 @@ def figures(folder: Path) -> dict[str, Any]:
 
 
 def _pinned(name: str) -> int:
-    """The count that the test expects. Raises Problem where it expects none of that name."""
+    """Returns the count that the test expects. Raises Problem if it expects none of that name."""
     found = re.search(rf"EXPECT_EQ\({re.escape(name)}, ([\d']+)U\)", _PINS.read_text("utf-8"))
     if found is None:
         raise Problem(f"{_PINS}: does not expect a value of {name}; name what the text states")

@@ -9,7 +9,7 @@ _STRUCTURE, _SCENE = "Samet 1989, center", "tetra"
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """The quantities of each depth: ours, then his."""
+    """Returns the quantities of each depth: ours, then Havran's."""
     ours, his = read_counts(folder / "counts.csv"), read_counts(PUBLISHED)
     return {
         "depths": {

@@ -34,7 +34,9 @@ _SINGLE_RAYS = ("sah-bvh:builder=spatial,lists=single", "sah-bvh:builder=binned,
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """Returns geometric means over watertight Embree, and what streams gain over the others."""
+    """Returns geometric means relative to watertight Embree, and the speedup of streams over
+    others.
+    """
     cells = Cells(folder)
     return {
         "scenes": cells.scenes,
@@ -77,7 +79,8 @@ def _means(cells: Cells, contender: str) -> dict[str, Ratio]:
 def _gain(cells: Cells, *others: str) -> dict[str, dict[str, Ratio]]:
     """Returns the time of the fastest of the others, chosen in each view, over that of streams.
 
-    By kind of rays and scene, and as `mean`. Only Embree has lists in two orders.
+    The result is by kind of rays and scene, with the mean as `mean`. Only Embree has lists in two
+    orders.
     """
     found: dict[str, dict[str, Ratio]] = {}
     for kind in _KINDS:

@@ -1,4 +1,4 @@
-"""Trace times without the harness's share, over those of one contender on the same rays."""
+"""Trace times without the harness's share, relative to one contender on the same rays."""
 
 from collections.abc import Mapping
 
@@ -13,7 +13,7 @@ NET = "trace_net_ms_median"
 
 
 def net_ratios(cells: Cells, base: str, contenders: Mapping[str, str]) -> pd.Series:
-    """Returns ratios by name in `contenders`, scene and kind of rays, of what has times."""
+    """Returns the ratios of timed cells by name in `contenders`, scene and kind of rays."""
     found = {}
     for kind in dict.fromkeys(cells.rows["ray_kind"]):
         for scene in cells.scenes:
@@ -28,7 +28,7 @@ def net_ratios(cells: Cells, base: str, contenders: Mapping[str, str]) -> pd.Ser
 def paired_net_ratio(cells: Cells, over: pd.Series, under: pd.Series) -> Ratio:
     """Returns a row's trace time over another one's, paired within blocks.
 
-    Raises Problem where no block has both.
+    Raises Problem if no block has both.
     """
     paired = cells.files[identity(over)].ratio(
         "trace_ms",

@@ -9,7 +9,7 @@ from beambench_report.base.machine import read_manifest
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """The night's cells and time, and the calibration."""
+    """Returns the night's cells and time, and the calibration."""
     cells = Cells(folder)
     manifest = read_manifest(folder)
     if manifest is None or manifest.seconds is None:

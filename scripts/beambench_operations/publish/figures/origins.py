@@ -16,18 +16,18 @@ class Origin:
     """The origin of one run."""
 
     path: str
-    """Within the published folder; empty for the folder itself."""
+    """The path within the published folder; empty for the folder itself."""
     commit: str
     machine_id: str
     processor: str
     cores: int
     embree: str
     noise: float | None
-    """How much longer than usual the slowest twentieth of equal work took before the run."""
+    """How much longer than usual the slowest 5% of equal work took before the run."""
 
     @property
     def short_commit(self) -> str:
-        """The commit as the texts name it."""
+        """Returns the commit as the texts name it."""
         return self.commit[:7]
 
 
@@ -58,7 +58,7 @@ def machine_in_words(processor: str) -> str:
 def made(folder: Path) -> str:
     """Returns the commits and machines of a folder's runs: `654e80c, EPYC`.
 
-    Says so where runs are from before blocks: their order is not a claim.
+    Says so if runs are from before blocks: their order is not a claim.
     """
     found = dict.fromkeys(
         (one.short_commit, machine_in_words(one.processor)) for one in origins(folder)

@@ -9,7 +9,7 @@ from beambench_operations.publish.reports import PENCILS
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """The groups with their ratios, and the cells whose hits are wrong."""
+    """Returns the groups with their ratios, and the cells whose hits are wrong."""
     runs = [folder / name for name in PENCILS if (folder / name / "results.csv").is_file()]
     cells = [Cells(run) for run in runs]
     return figures_of(read_pairings(folder, PENCILS)) | {

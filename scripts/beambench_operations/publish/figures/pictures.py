@@ -13,7 +13,7 @@ _NS = 1e6  # in a millisecond
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """Nanoseconds per ray by mode, the share of shading, before and after, and the profile."""
+    """Returns nanoseconds per ray by mode, the share of shading, both versions, and the profile."""
     cells = Cells(folder)
     per_ray = {
         scene: {mode: _ns(cells, scene, f"embree:mode={mode},robust=true") for mode in _MODES}
@@ -45,7 +45,9 @@ def _ns(cells: Cells, scene: str, contender: str) -> float:
 
 
 def _not_robust(cells: Cells, mode: str) -> float:
-    """The time without `robust` over that with it, in geometric mean of the scenes that have it."""
+    """Returns the time without `robust` over that with it, as a mean over the scenes that have
+    both.
+    """
     ratios = []
     for scene in cells.scenes:
         with_it = cells.row(f"embree:mode={mode},robust=true", scene=scene)
@@ -57,7 +59,7 @@ def _not_robust(cells: Cells, mode: str) -> float:
 
 
 def _gain(file: Path) -> dict[str, Any]:
-    """Nanoseconds per ray before over after, of the scenes' medians over rounds."""
+    """Returns nanoseconds per ray before over after, from the scenes' medians over rounds."""
     columns = [f"{when}_ns_per_ray" for when in ("before_single", "after_single", "after_best")]
     table = read_table(file, ("scene", *columns), "restore it with git")
     medians = table.groupby("scene", sort=False)[columns].median()
@@ -74,7 +76,7 @@ def _gain(file: Path) -> dict[str, Any]:
 
 
 def _profile(file: Path) -> dict[str, Any]:
-    """The percent of each part by scene, the largest parts first."""
+    """Returns the percentage of each part by scene, the largest parts first."""
     table = read_table(file, ("scene", "part", "percent"), "restore it with git")
     parts = table.pivot(index="part", columns="scene", values="percent").fillna(0.0)
     order = parts.sum(axis=1).sort_values(ascending=False).index

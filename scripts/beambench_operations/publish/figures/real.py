@@ -15,7 +15,9 @@ _WATERTIGHT = "embree, watertight"
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """Geometric means over the views, as times the fastest; every camera; the large scene."""
+    """Returns geometric means of the times relative to the fastest, the cameras, and the large
+    scene.
+    """
     cells = Cells(folder)
     kinds = list(dict.fromkeys(cells.rows["kind"]))
     means = {kind: _means(cells, kind) for kind in kinds}

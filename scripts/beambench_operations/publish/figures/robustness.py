@@ -1,4 +1,4 @@
-"""results/published/robustness: what campaigns of random inputs, rays and kills came to."""
+"""results/published/robustness: results of campaigns of random inputs, rays and kills."""
 
 from pathlib import Path
 from typing import Any
@@ -12,14 +12,14 @@ _AIMS = {
     "nights": {"kills": 300},
     "cluster": {"kills": 50},
 }
-"""What part 20 of the plan asks for; of kills by what is killed."""
+"""The aims of part 20 of the plan; for kills, by subject."""
 
 
 _COUNTS = ["executions", "scenes", "rays", "kills", "runs", "cpu_seconds", "findings"]
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """Sums over the subjects of each campaign, and how much was aimed at."""
+    """Returns sums over the subjects of each campaign, and its aims."""
     columns = ("command", "subject", "commits", *_COUNTS)
     rows = read_table(folder / "campaigns.csv", columns, "write it with scripts/campaign --report")
     done = {}

@@ -36,9 +36,9 @@ _GOOD_PERCENT = 10
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """Claims by verdict, each with its cells and the range of its ratios; planar mirrors.
+    """Returns claims by verdict, each with its cells and the range of its ratios; planar mirrors.
 
-    Where there is a second run of the same commit and machine, the repetitions of both count.
+    If there is a second run of the same commit and machine, the repetitions of both count.
     """
     report = gather(folder, read_plan(folder), None)
     second = _second(folder)
@@ -76,7 +76,7 @@ def figures(folder: Path) -> dict[str, Any]:
 
 
 def _second(folder: Path) -> Report | None:
-    """A second run of the same kind."""
+    """Returns a second run of the same kind, if there is one."""
     again = folder.with_name(f"{folder.name}-again")
     return gather(again, read_plan(again)) if _is_of_one_kind(again, folder) else None
 
@@ -91,7 +91,7 @@ def _is_of_one_kind(other: Path, folder: Path) -> bool:
 
 
 def _again(first: Report, second: Report) -> dict[str, Any]:
-    """The verdicts of two runs beside one another."""
+    """Compares the verdicts of two runs."""
     names = [
         one.name
         for one in second.plan.sweeps
@@ -112,7 +112,9 @@ def _again(first: Report, second: Report) -> dict[str, Any]:
 
 
 def compared(first: dict[str, Verdict], second: dict[str, Verdict]) -> dict[str, Any]:
-    """The claims that two runs test: undecided in one or both, decided alike, decided otherwise."""
+    """Compares the claims that both runs test: undecided in one or both, decided alike or
+    differently.
+    """
     both = [name for name in first if second.get(name, Verdict.NOT_TESTED) in TESTED]
     decided = [n for n in both if Verdict.UNDECIDED not in (first[n], second[n])]
     return {
@@ -126,10 +128,10 @@ def compared(first: dict[str, Verdict], second: dict[str, Verdict]) -> dict[str,
 
 
 def times_found_again(runs: Sequence[tuple[Run, Run]]) -> dict[str, Any]:
-    """Do the fastest repetitions of repeated sweeps lie in the intervals that the first ones state?
+    """Counts the fastest repetitions of repeated sweeps that lie in the first runs' intervals.
 
-    The claims are judged by these intervals (thesis/paper/measured.py). With them the changes that
-    half and nine tenths of the cells stay below, and of the medians the same.
+    The claims are judged by these intervals (thesis/paper/measured.py). The result also has the
+    median and the 90% quantile of the changes, for the fastest repetitions and for the medians.
     """
     figures = {"fastest": "fastest_mcycles", "median": "total_mcycles_median"}
     columns = [*IDENTITY, "fastest_error", *figures.values()]

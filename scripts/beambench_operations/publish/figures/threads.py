@@ -51,7 +51,7 @@ def figures(folder: Path) -> dict[str, Any]:
 
 
 def _shown(speedup: Ratio) -> str:
-    """A field of the table, marked where it is implausible."""
+    """Formats a field of the table, marked if it is implausible."""
     text = interval(speedup) if speedup.interval else fixed(speedup)
     return f"{text}, implausible" if is_implausible(speedup, _THREADS) else text
 

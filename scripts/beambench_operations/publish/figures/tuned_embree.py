@@ -1,4 +1,4 @@
-"""Tuned Embree, with lists in both orders, beside other contenders of one run."""
+"""Tuned Embree, with lists in both orders, compared with other contenders of one run."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -19,14 +19,14 @@ TILE_BEAM = "tile-beam"
 
 @dataclass(frozen=True)
 class Line:
-    """Embree's time over that of one contender, scene by scene and in geometric mean."""
+    """Embree's time over that of one contender, scene by scene and as a geometric mean."""
 
     scenes: Mapping[str, Ratio]
     mean: Result
 
 
 def instruction_set(cells: Cells) -> str:
-    """Returns the name of the aims that the machine's instruction set has."""
+    """Returns the machine's instruction set, as the targets name it."""
     names = set(cells.having(STREAMS)["structure_isa"])
     return "AVX-512" if all(name.startswith("AVX3") for name in names) else "AVX2"
 
@@ -43,9 +43,9 @@ def line(cells: Cells, contender: str, target: float | None, **columns: str) -> 
 
 
 def to_embree(cells: Cells, contender: str, **columns: str) -> Ratio:
-    """Returns the time of Embree's fastest correct way, in either order, over a contender's.
+    """Returns the time of Embree's fastest correct mode, in either order, over a contender's.
 
-    Of whole pictures, both without the time of shading.
+    For whole pictures, both times exclude shading.
     """
     over = fastest_embree(cells, **columns)
     under = cells.row(contender, **columns)
@@ -55,7 +55,7 @@ def to_embree(cells: Cells, contender: str, **columns: str) -> Ratio:
 
 
 def fastest_embree(cells: Cells, **columns: str) -> pd.Series:
-    """Returns the row of Embree's fastest correct way. Raises Problem where it has none."""
+    """Returns the row of Embree's fastest correct mode. Raises Problem if there is none."""
     rows = timed_embree(cells, **columns)
     if rows.empty:
         raise Problem(f"{cells.folder}/results.csv: Embree has no time at {columns}")
@@ -69,7 +69,7 @@ def timed_embree(cells: Cells, **columns: str) -> pd.DataFrame:
 
 
 def modes(cells: Cells, kind: str) -> dict[str, str]:
-    """Returns Embree's fastest way by scene."""
+    """Returns Embree's fastest mode by scene."""
     return {
         scene: mode_name(fastest_embree(cells, kind=kind, scene=scene)) for scene in cells.scenes
     }

@@ -13,7 +13,7 @@ _KINDS = ("camera", "reflected", "refracted", "shadow")
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """Ratios to Embree's single rays, the rays by kind, shading, and the shadow cache."""
+    """Returns ratios to Embree's single rays, the rays by kind, shading, and the shadow cache."""
     cells = Cells(folder)
     ratios = net_ratios(cells, _BASE, {name: name for name in _NAMES}).xs(_PLAIN, level="kind")
     rays = {
@@ -44,7 +44,7 @@ def figures(folder: Path) -> dict[str, Any]:
 
 
 def _cache(cells: Cells) -> list[tuple[float, str, str]]:
-    """The time of a picture with the shadow cache over that without it, the least first."""
+    """Returns the time of a picture with the shadow cache over that without it, the least first."""
     return sorted(
         (
             float(
