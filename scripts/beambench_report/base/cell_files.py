@@ -84,16 +84,16 @@ def repetitions_of(cell: LoggedCell) -> list[Repetition]:
 
 
 def name_of(row: Mapping[str, object]) -> str:
-    """The name of a row's cell in logs and analyses."""
+    """Returns the name of a row's cell in logs and analyses."""
     accel = f"{row['structure']}:{row['parameters']}".rstrip(":")
     view = (row["scene"], row["camera"], size_of(row), f"{row['samples']:.0f}", row["ray_kind"])
     return "/".join((*view, accel))
 
 
 def median_of(row: Mapping[str, object], phase: str) -> Median:
-    """The time of a phase, "total" or "trace", by which a row is compared, with its interval.
+    """Returns the time of a phase, "total" or "trace", that is compared, with its interval.
 
-    The mean over its blocks; in records of one process, the median of the repetitions.
+    It is the mean over a row's blocks; in records of one process, the median of the repetitions.
     """
     ends = (row.get(f"{phase}_ms_ci_{end}") for end in ("low", "high"))
     known = [None if end is None or pd.isna(end) else float(end) for end in ends]
@@ -106,7 +106,7 @@ def ratio_of(
     base: Mapping[str, object],
     files: Mapping[Identity, CellFile],
 ) -> Ratio:
-    """A time of a row over another one's: paired where the repetitions of both are known."""
+    """Returns a row's time over another one's, paired if the repetitions of both are known."""
     over, under = (files.get(identity(one)) for one in (row, base))
     paired = over.ratio(f"{phase}_ms", under) if over and under else None
     return paired or unpaired_ratio_of(phase, row, base)
@@ -115,7 +115,7 @@ def ratio_of(
 def unpaired_ratio_of(
     phase: Literal["total", "trace"], row: Mapping[str, object], base: Mapping[str, object]
 ) -> Ratio:
-    """A time of a row over another one's that was not measured with it."""
+    """Returns a row's time over that of another one that was not measured with it."""
     return unpaired_ratio(median_of(row, phase), median_of(base, phase))
 
 
@@ -138,7 +138,7 @@ def _cell_file(cell: LoggedCell) -> CellFile:
 
 
 def _fastest_of_blocks(repetitions: Sequence[Repetition]) -> list[Repetition]:
-    """The undisturbed repetition of each block with the fastest trace."""
+    """Returns the undisturbed repetition with the fastest trace of each block."""
     undisturbed = [
         one for one in repetitions if is_undisturbed(one["trace_ms"], one["trace_cpu_ms"])
     ]
@@ -147,7 +147,7 @@ def _fastest_of_blocks(repetitions: Sequence[Repetition]) -> list[Repetition]:
 
 
 def _example(text: str) -> Example:
-    """The command stands in a line of its own: `  replay beambench trace ...`."""
+    """Splits off the command, which has its own line: `  replay beambench trace ...`."""
     lines = text.rstrip().splitlines()
     replays = [line.strip() for line in lines if line.lstrip().startswith("replay ")]
     words = [line for line in lines if line.strip() not in replays]

@@ -30,7 +30,7 @@ _KINDS = "(camera|reflected|refracted|shadow)"  # of the rays of a whole picture
 
 @dataclass(frozen=True)
 class Column:
-    """One column: what it holds, in which unit, and how it is measured."""
+    """One column: its contents, its unit, and how it is measured."""
 
     name: str
     group: str
@@ -41,12 +41,12 @@ class Column:
 
     @property
     def is_number(self) -> bool:
-        """Does it hold figures?"""
+        """Are its values numbers?"""
         return self.type in ("integer", "number")
 
     @property
     def is_pattern(self) -> bool:
-        """Does it stand for many columns, as for all counters that families of structures add?"""
+        """Does it stand for many columns, such as all counters of families of structures?"""
         return "<" in self.name
 
     @property
@@ -80,11 +80,11 @@ class Dictionary:
 
     @cached_property
     def columns(self) -> tuple[Column, ...]:
-        """Every column in the order of the file."""
+        """Returns every column in the order of the file."""
         return tuple(column for group in self.groups for column in group.columns)
 
     def find(self, name: str) -> Column | None:
-        """Returns the entry of a file's column: that of its name, or of the narrowest pattern."""
+        """Returns the entry of a file's column: that of its name, or the narrowest pattern."""
         if name not in self._found:
             found = [column for column in self.columns if column.is_that(name)]
             # A pattern with the kind of rays is narrower than that of any counter.
@@ -128,7 +128,7 @@ _READING = (
     'plt.savefig("structures.png", bbox_inches="tight")',
     "```",
 )
-"""A test runs it."""
+"""A test runs this code."""
 
 
 def as_markdown(known: Dictionary) -> str:

@@ -12,7 +12,7 @@ BEAMBENCH = PROGRAMS / "beambench"
 
 Options = argparse.Namespace
 Result = int | str | list[Path]
-"""What a command returns: its exit code, a text to be printed, or the files that it wrote."""
+"""The result of a command: its exit code, a text to print, or the files that it wrote."""
 Commands = argparse._SubParsersAction
 AddArgument = Callable[..., argparse.Action]
 
@@ -27,7 +27,7 @@ def add_command(
 
 
 def run_command(parser: argparse.ArgumentParser, arguments: list[str] | None) -> int:
-    """Runs the command in `arguments`, those of the process if None.
+    """Runs the command in `arguments` (default: those of the process).
 
     Returns the exit code: 2 for invalid arguments or input.
     """
@@ -47,10 +47,10 @@ def run_command(parser: argparse.ArgumentParser, arguments: list[str] | None) ->
 
 
 class ScriptParser(argparse.ArgumentParser):
-    """The arguments of a program of scripts/, which has a --help of its own."""
+    """The arguments of a program of scripts/, which prints its own --help."""
 
     def __init__(self, name: str) -> None:
-        """Begins without arguments."""
+        """Creates a parser without arguments."""
         super().__init__(f"scripts/{name}", add_help=False, allow_abbrev=False)
 
     def error(self, message: str) -> NoReturn:
@@ -60,7 +60,7 @@ class ScriptParser(argparse.ArgumentParser):
     def run(self, work: Callable[[Options], int], arguments: list[str], interrupted: str) -> int:
         """Returns the exit code: that of `work`, 2 for invalid input, 130 after Ctrl-C.
 
-        What the latter means is reported by the sentence `interrupted`.
+        The sentence `interrupted` tells the user the consequence of Ctrl-C.
         """
         try:
             return work(self.parse_args(arguments))

@@ -1,4 +1,4 @@
-"""Tables as CSV files, no text of which a spreadsheet takes for a formula, and read back."""
+"""Writes and reads tables as CSV files, without texts that a spreadsheet takes for formulas."""
 
 import pandas as pd
 from pandas.api.types import is_string_dtype
@@ -7,13 +7,13 @@ from beambench_report.base.formulas import guarded
 
 
 def unguarded(table: pd.DataFrame) -> pd.DataFrame:
-    """A table that was read, its texts as they were before they were written."""
+    """Reads a table, with its texts as they were before they were written."""
     texts = [name for name in table if is_string_dtype(table[name])]
     plain = {name: table[name].str.removeprefix("'") for name in texts}
     return table.assign(**plain)
 
 
 def csv_of(table: pd.DataFrame, float_format: str | None = None) -> str:
-    """A table as CSV, without its index."""
+    """Formats a table as CSV, without its index."""
     safe = table.map(guarded).rename(columns=guarded)
     return safe.to_csv(index=False, float_format=float_format, lineterminator="\n")

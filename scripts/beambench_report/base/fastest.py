@@ -1,13 +1,14 @@
-"""What a cell costs, by the repetitions that other work on the machine disturbed least.
+"""The cost of a cell, from the repetitions that other work on the machine disturbed least.
 
-Other work only ever adds to a time, and on a shared machine to more than half of the repetitions,
-so that medians of equal work differ by half (Chen and Revels, Robust benchmarking in noisy
-environments, 2016, section III). So the fastest few of the repetitions count. They are chosen by
-their wall time, and what they cost is counted in clock cycles, since the clock of two runs may
-differ. To choose by cycles would be wrong: the clock's rate is read before and after a repetition,
-and where a disturbed moment falls on a reading, the cycles are too few. Of a second run on a
-disturbed machine the least cycles lay several times as far from those of the first as the cycles of
-the fastest repetitions.
+Other work only ever adds to a time. On a shared machine it adds to more than half of the
+repetitions, so that medians of equal work differ by half (Chen and Revels, Robust benchmarking in
+noisy environments, 2016, section III). Therefore only the fastest few repetitions count.
+
+They are chosen by their wall time, and their cost is counted in clock cycles, since the clock of
+two runs may differ. Choosing by cycles would be wrong: the clock's rate is read before and after a
+repetition, and where a disturbance coincides with a reading, there are too few cycles. On a
+disturbed machine, the least cycles of a second run differed from those of the first several times
+as much as the cycles of the fastest repetitions did.
 """
 
 from collections.abc import Sequence
@@ -29,10 +30,10 @@ class Fastest:
     trace_ms: float
     mcycles: float
     error: float
-    """How far as many further repetitions of this process may differ, as a part.
+    """The relative difference to expect from as many further repetitions of this process.
 
-    NaN for fewer than four repetitions, of which the fastest one alone counts. No bound that holds
-    whatever the distribution: results/published/thesis states how often a second run was within it.
+    NaN for fewer than four repetitions, of which only the fastest counts. The bound depends on the
+    distribution: results/published/thesis states how often a second run was within it.
     """
 
 
@@ -43,8 +44,8 @@ def fastest_of(files: Sequence[CellFile]) -> Fastest | None:
     """Returns the fastest repetitions of one cell over the files of several runs.
 
     None if no clock rate is known. The error is the range of the fastest repetitions' cycles or of
-    their wall times, whichever is less: a clock that was read wrong widens only the former, one
-    that changed only the latter.
+    their wall times, whichever is less: a misread clock widens only the former, a clock that
+    changed only the latter.
     """
     repetitions = sorted(
         (ms, ms * file.clock_ghz[turn], file.trace_ms[turn])
@@ -62,11 +63,11 @@ def fastest_of(files: Sequence[CellFile]) -> Fastest | None:
 
 
 def _rank(count: int) -> int | None:
-    """Returns the number of repetitions that count: the least rank that all of as many further ones
-    exceed with a probability of at most 2.5%.
+    """Returns the number of repetitions that count.
 
-    None for fewer than four, five for six to twenty-four (repeat_spread_of_minimum of the
-    harness).
+    It is the least rank that an equal number of further repetitions all exceed with a probability
+    of at most 2.5%: None for fewer than four, five for six to twenty-four (repeat_spread_of_minimum
+    of the harness).
     """
     exceeded = ((rank, comb(2 * count - rank, count)) for rank in range(1, count + 1))
     return next((rank for rank, ways in exceeded if ways <= 0.025 * comb(2 * count, count)), None)
@@ -75,7 +76,7 @@ def _rank(count: int) -> int | None:
 def with_fastest(runs: Sequence[Run]) -> list[pd.DataFrame]:
     """Returns the rows of each run with `fastest_ms` and so on: the fields of Fastest.
 
-    They are NaN where the repetitions of a row are not known. Of a cell that several runs measured,
+    They are NaN if the repetitions of a row are not known. For a cell that several runs measured,
     all repetitions count, in each of its rows.
     """
     files: dict[Identity, list[CellFile]] = {}

@@ -1,8 +1,8 @@
-"""Figures of page width, their captions and looks, and writing them whole.
+"""Figures of page width, their captions and styles, and saving them.
 
-One color a structure, the same in every plot of every run: those of Okabe and Ito ("Color Universal
-Design", 2008), which color-blind readers can distinguish, their yellow darkened so that it can be
-seen on white, and two grays. Variants of one structure share its color and differ in marker and
+Each structure has one color, the same in every plot of every run: those of Okabe and Ito ("Color
+Universal Design", 2008), which color-blind readers can distinguish, with a darkened yellow that is
+visible on white, and two grays. Variants of one structure share its color and differ in marker and
 dashes. Each color has a variant for dark pages (`base.palette`).
 """
 
@@ -25,14 +25,14 @@ from beambench_report.base.svg import compact
 
 PAGE_WIDTH = 7.2  # inches
 DPI = 200
-"""Of PNG files; texts are as wide as they were measured only at the same."""
+"""The resolution of PNG files; widths of texts were measured at this one."""
 _LINE_HEIGHT = 0.16  # inches, of a caption's line
 _CAPTION_COLUMNS = 118  # characters that fit the page width
 _MOST_WRONG = 6  # contenders that a caption names
 
 _STYLE = {
     "font.size": 9,
-    "font.sans-serif": ["DejaVu Sans"],  # the list of all that matplotlib knows fills an SVG
+    "font.sans-serif": ["DejaVu Sans"],  # the list of all that matplotlib knows bloats an SVG
     "text.color": INK,
     "axes.edgecolor": SOFT,
     "axes.labelcolor": INK,
@@ -53,17 +53,17 @@ _STYLE = {
 
 @dataclass(frozen=True)
 class Plot:
-    """A finished figure, the name of its files and a sentence on what it shows."""
+    """A finished figure, the name of its files and a sentence that describes it."""
 
     stem: str
     figure: Figure
     summary: str
     view: str = ""
-    """The title of the view it shows; empty where it shows them all."""
+    """The title of the view that it shows; empty if it shows all of them."""
 
 
 def house_style() -> AbstractContextManager[None]:
-    """Within it, matplotlib draws as all our figures look."""
+    """Applies the style of our figures to matplotlib within the block."""
     return mpl.rc_context(_STYLE)
 
 
@@ -85,9 +85,9 @@ def legend_below(figure: Figure, columns: int, **handles: object) -> None:
 
 
 def caption(figure: Figure, rows: pd.DataFrame, explanation: str, *, times: bool) -> None:
-    """Writes under a figure what it shows, where the data come from and whose hits were wrong.
+    """Writes under a figure its description, the source of its data and the wrong contenders.
 
-    A figure of times leaves the latter out; counters and memory are shown all the same.
+    A figure of times leaves the latter out; counters and memory are shown nevertheless.
     """
     lines = [explanation, _source(rows)]
     if wrong := untimed(rows):
@@ -98,7 +98,7 @@ def caption(figure: Figure, rows: pd.DataFrame, explanation: str, *, times: bool
 
 
 def write_below(figure: Figure, paragraphs: Iterable[str]) -> None:
-    """Writes small text under a figure, and makes the figure so much taller."""
+    """Writes small text under a figure, and makes the figure taller to fit it."""
     wrapped = "\n".join(textwrap.fill(text, _CAPTION_COLUMNS) for text in paragraphs)
     figure.supxlabel(wrapped, x=0.01, ha="left", fontsize=7.5, color=SOFT)
     width, height = figure.get_size_inches()
@@ -113,7 +113,7 @@ def untimed(rows: pd.DataFrame) -> list[str]:
 
 
 def write_plot(plot: Plot, directory: Path) -> list[Path]:
-    """Writes the figure as PNG and as SVG; in the latter what `svg.hover` was given is shown."""
+    """Writes the figure as PNG and as SVG; the SVG shows the texts passed to `svg.hover`."""
 
     return [
         write_whole(
@@ -127,7 +127,7 @@ def write_plot(plot: Plot, directory: Path) -> list[Path]:
 def svg_of(plot: Plot) -> str:
     """Returns the text of the figure's SVG file."""
     drawn = io.StringIO()
-    # Of its stem, so that no two plots on one page have the same ids.
+    # Derived from the stem, so that no two plots on one page share ids.
     with mpl.rc_context({"svg.hashsalt": f"beambench-{plot.stem}"}):
         plot.figure.savefig(drawn, format="svg", dpi=DPI, metadata={"Date": None})
     return compact(drawn.getvalue())
@@ -143,7 +143,7 @@ def _source(rows: pd.DataFrame) -> str:
     )
 
 
-# Of Okabe and Ito, for lines that stand for no structure.
+# From Okabe and Ito, for lines that do not represent structures.
 LINE_COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
 MARKERS = "osD^vP*X<>"
 DASHES = ("-", "--", "-.", ":")

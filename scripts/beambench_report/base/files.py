@@ -1,7 +1,7 @@
 """Errors, running programs, and reading and writing files.
 
-Files are written under a temporary name and renamed, so that none is ever incomplete. Symbolic
-links stay links: their targets are replaced. Devices and pipes are written into.
+Files are written under a temporary name and renamed, so they are never incomplete. Symbolic links
+stay links: their targets are replaced. Devices and pipes are written directly.
 """
 
 import json
@@ -27,16 +27,16 @@ class Problem(Exception):  # noqa: N818 (invalid arguments are no programming er
 
 
 def say(text: str) -> None:
-    """Reports progress or a warning on standard error; where that is full, the work goes on."""
+    """Reports progress or a warning on standard error; if that fails, the work continues."""
     try:
         print(printable(text), file=sys.stderr, flush=True)
     except OSError:
-        # What was not written is not tried again at the end, which from Python 3.13 on would fail.
+        # Discard unwritten text: flushing it at exit would fail from Python 3.13 on.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stderr.fileno())
 
 
 def write_whole(path: Path, write: Callable[[Path], object]) -> Path:
-    """Lets `write` fill a file beside `path` and puts it there; returns `path`."""
+    """Calls `write` for a temporary file beside `path` and renames it; returns `path`."""
     if path.exists() and not path.is_file() and not path.is_dir():
         write(path)
         return path
@@ -51,14 +51,14 @@ def write_whole(path: Path, write: Callable[[Path], object]) -> Path:
 
 
 def write_text(path: Path, text: str) -> Path:
-    """Writes a text whole; returns `path`."""
+    """Writes a text atomically; returns `path`."""
     return write_whole(path, lambda pending: pending.write_text(text, "utf-8"))
 
 
 def read_table(
     path: Path, columns: Collection[str], remedy: str, types: dict[str, type] | None = None
 ) -> pd.DataFrame:
-    """Reads a CSV file. Raises Problem where it is missing, no CSV, or lacks a column."""
+    """Reads a CSV file. Raises Problem if it is missing, is not CSV, or lacks a column."""
     try:
         rows = pd.read_csv(path, dtype=types)
     except FileNotFoundError:
@@ -74,8 +74,8 @@ def read_table(
 def load_json(path: Path) -> Any:  # noqa: ANN401 (as of json.loads)
     """Returns the contents of a JSON file; a byte order mark is skipped.
 
-    Raises ValueError where the file is not JSON or nests too deep for a parser, OSError where it
-    cannot be read.
+    Raises ValueError if the file is not JSON or nests too deep for a parser, OSError if it cannot
+    be read.
     """
     try:
         return json.loads(path.read_text("utf-8-sig"))
@@ -84,7 +84,10 @@ def load_json(path: Path) -> Any:  # noqa: ANN401 (as of json.loads)
 
 
 def read_json(path: Path) -> object:
-    """Returns the contents of a JSON file; None without a file. Raises Problem for others."""
+    """Returns the contents of a JSON file; None without a file.
+
+    Raises Problem if it is not JSON.
+    """
     try:
         return load_json(path)
     except FileNotFoundError:
@@ -103,8 +106,8 @@ def run_in_foreground(
 ) -> int:
     """Runs a program, by default without its standard output; returns its exit code.
 
-    SIGTERM is passed on to it, a keyboard's interrupt it gets itself: it ends by either in good
-    order, and is waited for. Raises Problem where it cannot be run.
+    SIGTERM is passed on to the program, and a keyboard interrupt reaches it directly. After either,
+    the program is waited for, so that it can end cleanly. Raises Problem if it cannot be run.
     """
     try:
         child = subprocess.Popen(command, stdout=output, pass_fds=pass_fds)
@@ -127,8 +130,9 @@ def output_of(
     success: Collection[int] = (0,),
     env: dict[str, str] | None = None,
 ) -> str:
-    """Returns the standard output of a program. Raises Problem, with the last line that it printed
-    as an error, where it cannot be run or does not succeed.
+    """Returns the standard output of a program.
+
+    Raises Problem, with the last line of its standard error, if it cannot be run or fails.
     """
     try:
         done = subprocess.run(command, capture_output=True, text=True, check=False, env=env)

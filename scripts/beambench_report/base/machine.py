@@ -16,7 +16,7 @@ _NOT_FACTS = ("uncontrolled", "notes", "google_benchmark")
 
 @dataclass(frozen=True)
 class Facts:
-    """A titled list of names and values, or a table where there are many of a kind."""
+    """A titled list of names and values, or a table of several similar things."""
 
     title: str
     pairs: list[tuple[str, str]] = field(default_factory=list)
@@ -34,16 +34,16 @@ class Manifest:
     cut_off: bool = False
     machine: str = ""
     noise: float | None = None
-    """How much longer than usual the slowest twentieth of equal work took before the run."""
+    """How much longer than usual the slowest 5% of equal work took before the run."""
     scenes: list[str] = field(default_factory=list)
-    """Of the sweep, with their parameters."""
+    """The scenes of the sweep, with their parameters."""
     uncontrolled: list[str] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     facts: list[Facts] = field(default_factory=list)
 
 
 def read_manifest(directory: Path) -> Manifest | None:
-    """DIRECTORY/manifest.json; None where there is none."""
+    """Reads DIRECTORY/manifest.json; None if it is missing."""
     source = _read_object(directory / "manifest.json")
     if source is None:
         return None
@@ -64,7 +64,7 @@ def read_manifest(directory: Path) -> Manifest | None:
 
 
 def read_description(directory: Path) -> str:
-    """Description of the sweep in DIRECTORY/config.json; empty where there is none."""
+    """Returns the description of the sweep in DIRECTORY/config.json; empty without one."""
     return str((_read_object(directory / "config.json") or {}).get("description", ""))
 
 
@@ -76,7 +76,7 @@ def _read_object(path: Path) -> dict | None:
 
 
 def _facts(source: dict) -> list[Facts]:
-    """Plain members first, then a list for each group of them."""
+    """Returns plain members first, then a list for each group of them."""
     plain = Facts("Run")
     groups = [plain]
     for name, value in source.items():
@@ -136,15 +136,15 @@ class Machine:
     """A machine, as far as it is known."""
 
     ids: tuple[str, ...]
-    """One, unless a file has runs of several machines."""
+    """The machine's ids: one, unless a file has runs of several machines."""
     processor: str
-    """Empty where no manifest is beside the run."""
+    """The processor; empty if the run has no manifest."""
 
     def differs_from(self, other: Machine) -> bool:
         """Are they different machines, as far as both are known?
 
-        Several machines are different even from themselves: another run of theirs may have
-        measured a cell on another one.
+        Several machines differ even from themselves: another run of theirs may have measured a cell
+        on a different one.
         """
         if max(len(self.ids), len(other.ids)) > 1:
             return True
@@ -158,9 +158,9 @@ class Machine:
 
 
 def require_one_machine(rows: pd.DataFrame, folder: Path) -> None:
-    """Raises Problem where the rows of FOLDER are of several machines.
+    """Raises Problem if the rows of FOLDER are of several machines.
 
-    For tables that divide the times of different views by one another.
+    It protects tables that divide the times of different views.
     """
     ids = sorted(set(rows["machine_id"]))
     if len(ids) > 1:
@@ -171,7 +171,7 @@ def require_one_machine(rows: pd.DataFrame, folder: Path) -> None:
 
 
 def machine_of(rows: pd.DataFrame, folder: Path) -> Machine:
-    """The machine of the rows; FOLDER may hold the manifest of their run."""
+    """Returns the machine of the rows; FOLDER may hold the manifest of their run."""
     manifest = read_manifest(folder)
     is_theirs = manifest is not None and set(rows["run_id"]) == {manifest.run_id}
     return Machine(tuple(sorted(set(rows["machine_id"]))), manifest.machine if is_theirs else "")

@@ -17,11 +17,12 @@ _NAMED = ("scene", "camera", "structure", "parameters", "samples", "ray_kind")
 
 
 def with_names(rows: pd.DataFrame) -> pd.DataFrame:
-    """Returns the rows with what plots and pages call their cells.
+    """Returns the rows with the names of their cells in plots and pages.
 
     `contender`: the structure, with those parameters that differ between its rows. `subject`: what
-    the rays see, the scene and what else varies. `view`: the same on one machine, what is compared.
-    `kind`: the rays, in whatever order. `is_tuned`: was it the best of several parameter sets?
+    the rays see, the scene and anything else that varies. `view`: the same on one machine, within
+    which contenders are compared. `kind`: the rays, in any order. `is_tuned`: was it the best of
+    several parameter sets?
     """
     facts = rows[list(_NAMED)].assign(
         samples=rows["samples"].fillna(0).astype(int),
@@ -34,16 +35,17 @@ def with_names(rows: pd.DataFrame) -> pd.DataFrame:
     found = pd.DataFrame(names, columns=["contender", "subject", "view"], index=rows.index)
     found["is_tuned"] = facts["parameter_sets"] > 1
     found["kind"] = rows["ray_kind"].map(without_order)
-    return pd.concat([rows, found], axis="columns").copy()  # in one piece: it had many columns
+    return pd.concat([rows, found], axis="columns").copy()  # defragmented: it had many columns
 
 
 def machine_label(machine_id: str) -> str:
-    """Name of a machine in titles and captions."""
+    """Returns the name of a machine in titles and captions."""
     return f"machine {machine_id[:8]}"
 
 
 def path_of_name(name: str) -> str:
-    """The path of the file that records name so: `\\x1b` is a byte, two backslashes are one.
+    """Returns the path of a file that records name like this: `\x1b` is a byte, two backslashes are
+    one.
 
     Names of files are made by `name_of_path` (scenes/base/printable.hpp).
     """
@@ -54,7 +56,7 @@ def path_of_name(name: str) -> str:
 
 
 def file_stems(titles: Iterable[str]) -> dict[str, str]:
-    """A file name for each title: lower case, digits and dashes, no two the same."""
+    """Returns a file name for each title: lower case, digits and dashes, all different."""
     stems: dict[str, str] = {}
     for title in titles:
         plain = re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-") or "scene"
@@ -64,12 +66,12 @@ def file_stems(titles: Iterable[str]) -> dict[str, str]:
 
 
 def parameter_items(text: str) -> dict[str, str]:
-    """The parameters of a row, `name=value` separated by commas."""
+    """Formats the parameters of a row: `name=value`, separated by commas."""
     return dict(item.split("=", 1) for item in text.split(",") if "=" in item)
 
 
 def brief_name(contender: str) -> str:
-    """A contender in a crowded plot: `sah-bvh lbvh reinsertion` for its parameters' values.
+    """Returns a contender's name in crowded plots: `sah-bvh lbvh reinsertion`, with values only.
 
     Flags that are not set are left out, except those that change which hits are found; a number
     keeps the name of its parameter.
@@ -88,6 +90,6 @@ def brief_name(contender: str) -> str:
 
 
 def varying_parameters(texts: Iterable[str]) -> set[str]:
-    """The names of those parameters that differ between rows of one structure."""
+    """Returns the names of those parameters that differ between rows of one structure."""
     items = [parameter_items(text) for text in texts]
     return {name for one in items for name in one if len({own.get(name, "") for own in items}) > 1}

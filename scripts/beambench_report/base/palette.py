@@ -1,7 +1,7 @@
 """The colors of plots, each for white and for dark pages.
 
-Plots are drawn in those for white. Within a page each is a CSS variable, which a dark page sets to
-the other one: `run.inline_svg`.
+Plots are drawn in the colors for white pages. Within a page each color is a CSS variable, which a
+dark page redefines: `run.inline_svg`.
 """
 
 from dataclasses import dataclass
@@ -28,7 +28,7 @@ _PAGE = (
     Tint("grid", GRID, "#3a4145"),
     Tint("card", PAPER, "#1c2023"),
 )
-# Embree's is not quite black: matplotlib leaves a black fill out of an SVG, where no page can then
+# Embree's is not quite black: matplotlib omits a black fill from an SVG, so a page could not
 # replace it.
 _STRUCTURES = (
     Tint("embree", "#0a0a0a", "#ffffff"),
@@ -50,7 +50,7 @@ _STRUCTURES = (
     Tint("z-buffer", "#6b4a2b", "#c9a27a"),
     Tint("polygon-beam", "#c2185b", "#ff4fa3"),
 )
-# Of plug-ins, so that none is taken for a structure of the project.
+# For plug-ins, so that none is taken for a structure of the project.
 _SPARE = (
     Tint("plug-in-1", "#6a3d9a", "#b08be0"),
     Tint("plug-in-2", "#8c510a", "#c98f4e"),
@@ -59,22 +59,22 @@ _SPARE = (
     Tint("plug-in-5", "#c2278f", "#ff7ad1"),
 )
 SCENE_COLORS = tuple(tint.light for tint in _SPARE)
-"""For plots whose lines are scenes: no structure of the project has them."""
+"""For plots whose lines are scenes: no structure of the project has these colors."""
 TINTS = (*_PAGE, *_STRUCTURES, *_SPARE)
 
 
 def structure_tint(structure: str) -> Tint:
-    """The color of a structure; an unknown one has a spare one, always the same."""
+    """Returns the color of a structure; an unknown one always has the same spare color."""
     known = {tint.name: tint for tint in _STRUCTURES}
     return known.get(structure, _SPARE[crc32(structure.encode()) % len(_SPARE)])
 
 
 def structure_color(structure: str) -> str:
-    """The color of a structure on white."""
+    """Returns the color of a structure on white."""
     return structure_tint(structure).light
 
 
 def css_color(structure: str) -> str:
-    """The same for pages: the CSS variable, which is another color where the page is dark."""
+    """Returns the CSS variable of the color for pages, which redefine it if they are dark."""
     tint = structure_tint(structure)
     return f"var(--{tint.name}, {tint.light})"

@@ -1,4 +1,4 @@
-"""The thesis's figures, as results/thesis has them, and the resolutions at which it measured."""
+"""The thesis's figures from results/thesis, and the resolutions at which it measured."""
 
 from functools import cache
 
@@ -12,18 +12,18 @@ COARSEST, FINEST = RESOLUTIONS[0], RESOLUTIONS[-1]
 
 
 def rays(resolution: str) -> int:
-    """Rays of an image with one sample per pixel."""
+    """Returns the rays of an image with one sample per pixel."""
     width, height = resolution.split("x")
     return int(width) * int(height)
 
 
 def read_published(name: str) -> pd.DataFrame:
-    """A table of results/thesis. Raises Problem where it is missing."""
+    """Reads a table of results/thesis. Raises Problem if it is missing."""
     return read_table(FOLDER / name, (), "restore it with git", {"table": str})
 
 
 @cache
 def primitives_by_scene() -> dict[str, int]:
-    """Table 5.1: polygons and spheres of each scene."""
+    """Reads table 5.1: polygons and spheres of each scene."""
     scenes = read_published("scenes.csv")
     return dict(zip(scenes["scene"], scenes["polygons"] + scenes["spheres"], strict=True))

@@ -1,4 +1,4 @@
-"""Reads the results.csv of a run and checks that it holds what plots and pages need."""
+"""Reads the results.csv of a run and checks that it has what plots and pages need."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ from beambench_report.base.files import Problem
 from beambench_report.base.names import with_names
 from beambench_report.base.run_log import has_log
 
-# The columns without which there is nothing to show.
+# Columns that plots and pages cannot do without.
 NEEDED_COLUMNS = (
     "run_id commit dirty machine_id threads "
     "scene camera primitives structure parameters width height samples ray_kind rays "
@@ -35,7 +35,7 @@ FAULTLESS_VERDICTS = (*TIMED_VERDICTS, NO_RAYS, UNSUPPORTED)
 
 @dataclass(frozen=True)
 class Run:
-    """One run: one row per cell, as in results.csv, and the names that plots and pages use.
+    """One run: a row per cell, as in results.csv, and the names that plots and pages use.
 
     Columns added to those of the file: those of `with_names`, and `timed` (do the row's times
     count?).
@@ -46,17 +46,17 @@ class Run:
 
     @property
     def views(self) -> list[str]:
-        """The titles of the views, in the order of the file."""
+        """Returns the titles of the views, in the order of the file."""
         return self.rows["view"].unique().tolist()
 
     @property
     def counters(self) -> list[str]:
-        """The counter columns that hold anything, in the order of the file."""
+        """Returns the counter columns that are not empty, in the order of the file."""
         return self._counters(of_a_kind=False)
 
     @property
     def counters_by_kind(self) -> list[str]:
-        """Those of whole pictures that are of one kind of their rays."""
+        """Returns the counters of whole pictures that concern one kind of their rays."""
         return self._counters(of_a_kind=True)
 
     def _counters(self, *, of_a_kind: bool) -> list[str]:
@@ -67,36 +67,36 @@ class Run:
         ]
 
     def view(self, title: str) -> pd.DataFrame:
-        """The rows of one view."""
+        """Returns the rows of one view."""
         return self.rows[self.rows["view"] == title]
 
     def finest(self, title: str) -> pd.DataFrame:
-        """The rows of one view at its `finest_rays`."""
+        """Returns the rows of one view at its `finest_rays`."""
         rows = self.view(title)
         return rows[rows["rays"] == finest_rays(rows)]
 
 
 def in_blocks(rows: pd.DataFrame) -> bool:
-    """Was the run measured in blocks? Older ones are medians of one process."""
+    """Was the run measured in blocks? Older runs are medians of one process."""
     return "blocks" in rows and bool(rows["blocks"].notna().any())
 
 
 def finest_rays(rows: pd.DataFrame) -> float:
-    """The highest number of rays that two contenders have; of fewer contenders, the highest.
+    """Returns the highest number of rays that two contenders have; with one contender, its highest.
 
-    In a run that was cut off, the last resolution may have one cell.
+    In an interrupted run, the last resolution may have only one cell.
     """
     others = rows[~rows["structure"].isin(REFERENCES)].groupby("rays")["contender"].nunique()
     return max(others.index[others > 1], default=rows["rays"].max())
 
 
 def contenders_with_times(rows: pd.DataFrame) -> pd.DataFrame:
-    """The rows that can be compared; a baseline is not a contender."""
+    """Returns the rows that can be compared; a baseline is not a contender."""
     return rows[rows["timed"] & (rows["verdict"] != BASELINE) & (rows["total_ms_median"] > 0)]
 
 
 def size_of(row: Mapping[str, object]) -> str:
-    """The resolution of a row: `320x200`."""
+    """Returns the resolution of a row: `320x200`."""
     return f"{row['width']:.0f}x{row['height']:.0f}"
 
 
@@ -106,13 +106,13 @@ def read_run(directory: Path) -> Run:
     try:
         status = path.stat()
     except OSError:
-        return Run(directory, _read(path))  # which says what is wrong
+        return Run(directory, _read(path))  # its message is already clear
     return Run(directory, _known(path, status.st_ino, status.st_size, status.st_mtime_ns).copy())
 
 
 @lru_cache(maxsize=256)
 def _known(path: Path, *_status: int) -> pd.DataFrame:
-    """The rows of a file that has not changed since: the texts of published runs share many."""
+    """Returns the rows of an unchanged file, cached: the published texts share many."""
     return _read(path)
 
 
@@ -132,7 +132,7 @@ def _read(path: Path) -> pd.DataFrame:
         column = dictionary().find(name)
         if column and column.is_number:
             rows[name] = _numbers(rows[name], path)
-        elif column or not is_numeric_dtype(rows[name]):  # of unknown columns, figures stay figures
+        elif column or not is_numeric_dtype(rows[name]):  # figures in unknown columns stay numbers
             rows[name] = rows[name].astype(str).where(rows[name].notna(), "")
     for name in ("scene", "structure", "rays"):
         empty = rows.index[rows[name].isna() | (rows[name] == "")]
@@ -142,7 +142,7 @@ def _read(path: Path) -> pd.DataFrame:
     for name in ("trace_ms", "total_ms"):
         if name not in rows or rows[name].isna().all():  # a record of one process
             rows = rows.copy().assign(**{name: rows[f"{name}_median"]})
-    if "outpaced" in rows:  # another parameter set stands for the contender
+    if "outpaced" in rows:  # another parameter set represents the contender
         rows = rows[rows["outpaced"] != "true"].reset_index(drop=True)
     try:
         rows = with_names(rows)
@@ -156,7 +156,7 @@ def _read_csv(path: Path) -> pd.DataFrame:
     texts = {column.name: str for column in dictionary().columns if not column.is_number}
     texts[VERSION_COLUMN] = str
     try:
-        # `null` is the name of a structure, so that only an empty field means "not measured".
+        # `null` is a structure's name, so only an empty field means "not measured".
         rows = pd.read_csv(
             path, dtype=texts, keep_default_na=False, na_values=[""], low_memory=False
         )
@@ -171,7 +171,7 @@ def _read_csv(path: Path) -> pd.DataFrame:
 
 
 def _require_version(rows: pd.DataFrame, path: Path) -> None:
-    """A reader that guesses what another version's columns mean would be silently wrong."""
+    """Refuses other versions: guessing the meaning of their columns could be silently wrong."""
     known = dictionary().schema_version
     if VERSION_COLUMN not in rows:
         raise Problem(

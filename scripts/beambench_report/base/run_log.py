@@ -1,7 +1,7 @@
-"""Reads run.jsonl, the log of a run: what `beambench run` adds a line to with each event.
+"""Reads run.jsonl, the log of a run, to which `beambench run` adds a line for each event.
 
-The events are described in harness/measure/record/run_log.hpp. What follows the last whole line is
-left out: there the run was cut off.
+The events are described in harness/measure/record/run_log.hpp. Anything after the last complete
+line is ignored: the run was cut off there.
 """
 
 import gzip
@@ -17,7 +17,7 @@ PACKED_LOG = "run.jsonl.gz"
 
 Event = dict[str, object]
 Repetition = dict[str, float]
-"""A member for each figure, as in the log; `round` is its turn."""
+"""One repetition, with a member for each figure in the log; `round` is its turn."""
 
 
 @dataclass
@@ -25,7 +25,7 @@ class LoggedCell:
     """One cell of a log."""
 
     facts: Event
-    """What the cell is; the members that identify it have the names of the columns."""
+    """The facts of the cell; the members that identify it have the names of the columns."""
     repetitions: list[Repetition] = field(default_factory=list)
     verdict: str = ""
     message: str = ""
@@ -34,7 +34,7 @@ class LoggedCell:
 
 
 def has_log(run: Path) -> bool:
-    """Was a run begun in this folder, whose log is still there, packed or not?"""
+    """Does this folder contain the log of a run, compressed or not?"""
     return _log_in(run).is_file()
 
 
@@ -43,9 +43,9 @@ def _log_in(run: Path) -> Path:
 
 
 def logged_cells(run: Path) -> list[LoggedCell]:
-    """The cells of RUN/run.jsonl in the order of the plan; empty without a log.
+    """Returns the cells of RUN/run.jsonl in the order of the plan; empty without a log.
 
-    Raises Problem naming the line that is not as it was written.
+    Raises Problem naming a line that is malformed.
     """
     cells: dict[int, LoggedCell] = {}
     for place, event in _events(run):
@@ -59,7 +59,7 @@ def logged_cells(run: Path) -> list[LoggedCell]:
 
 
 def _events(run: Path) -> Iterator[tuple[str, Event]]:
-    """Each event, and where it stands."""
+    """Yields each event with its position."""
     path = _log_in(run)
     if not path.is_file():
         return

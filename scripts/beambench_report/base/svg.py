@@ -14,7 +14,7 @@ _TITLE, _DEFS = f"{{{_SVG}}}title", f"{{{_SVG}}}defs"
 _HREF = f"{{{_XLINK}}}href"
 _HOVER = "hover:"
 _MANY_CORNERS = 10
-# All texts are in one family, and lines end alike: the root says so once.
+# All texts share one font family, and all lines end alike, so the root element states both once.
 _FAMILY = re.compile(r" *font-family: ([^;]*);")
 _ROOT_STYLE = "stroke-linejoin: round; stroke-linecap: butt; font-family: {}"
 
@@ -22,16 +22,16 @@ _Drawn = TypeVar("_Drawn", bound=Artist)
 
 
 def hover(artist: _Drawn, text: str) -> _Drawn:
-    """Lets the SVG show the text where the mouse rests on the artist; returns the artist.
+    """Makes the SVG show the text when the mouse is over the artist; returns the artist.
 
-    The text travels in the artist's id, which `compact` makes a title.
+    The text is stored in the artist's id, which `compact` turns into a title.
     """
     artist.set_gid(_HOVER + text)
     return artist
 
 
 def compact(svg: str) -> str:
-    """Returns a plot with hover titles in place; a third as long, and drawn the same."""
+    """Returns the plot with hover titles; it looks the same at a third of the length."""
     root = ElementTree.fromstring(svg)
     for child in list(root):
         is_style_sheet = child.tag == _DEFS and [one.tag for one in child] == [f"{{{_SVG}}}style"]
@@ -50,7 +50,7 @@ def compact(svg: str) -> str:
 
 
 def _used_ids(root: Element) -> dict[str, str]:
-    """Returns the ids that something refers to, each with a short one."""
+    """Returns the ids that are referenced, each with a short one."""
 
     def used() -> Iterator[str]:
         for element in root.iter():
@@ -81,8 +81,8 @@ def _shorten(element: Element, used: dict[str, str]) -> None:
         element.set(key, re.sub(r"url\(#([^)]+)\)", lambda m: f"url(#{used[m[1]]})", value))
     if element.get("transform", "").startswith("rotate(-0 "):
         del element.attrib["transform"]
-    # Between elements there is nothing but indentation. Characters are kept wherever they stand:
-    # mathematical labels have theirs in a <tspan> for each character.
+    # Text between elements is only indentation. Text within elements is kept: in mathematical
+    # labels each character has a <tspan>.
     if element.text and not element.text.strip():
         element.text = None
     if element.tail and not element.tail.strip():
@@ -90,7 +90,7 @@ def _shorten(element: Element, used: dict[str, str]) -> None:
 
 
 def _share_markers(root: Element) -> None:
-    """One definition of a marker for all colors: the color is that of its use."""
+    """Defines a marker once for all colors: each use states the color."""
     first: dict[tuple[str | None, str | None], str] = {}
     same: dict[str, str] = {}
     for parent in list(root.iter(_G)):
@@ -108,7 +108,7 @@ def _share_markers(root: Element) -> None:
 
 
 def _rounded(text: str) -> str:
-    """To a hundredth of a point; of lines with many corners, which fill a file, to a tenth."""
+    """Rounds to a hundredth of a point, or to a tenth in lines with many corners."""
     digits = 1 if text.count("L") > _MANY_CORNERS else 2
 
     def shorter(number: re.Match[str]) -> str:
@@ -119,7 +119,7 @@ def _rounded(text: str) -> str:
 
 
 def _unwrap(parent: Element) -> None:
-    """Groups that say nothing go; markers of one style have it from their group."""
+    """Removes groups without attributes, and moves the style of equal markers to their group."""
     for child in list(parent):
         _unwrap(child)
         if child.tag == _G and not child.attrib and child.find(_TITLE) is None:
@@ -128,7 +128,7 @@ def _unwrap(parent: Element) -> None:
             for offset, inner in enumerate(list(child)):
                 parent.insert(place + offset, inner)
         elif child.tag == _G and not child.attrib and len(child) == 2 and child[1].tag == _G:
-            inner = child[1]  # the title goes into the group that it is about
+            inner = child[1]  # the title moves to the group that it describes
             child.remove(inner)
             child.attrib.update(inner.attrib)
             child.extend(list(inner))

@@ -1,4 +1,4 @@
-"""Times and ratios as scenes and images get finer: small multiples of what was measured."""
+"""Times and ratios as scenes and images get finer, as small multiples."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import astuple, dataclass
@@ -19,9 +19,9 @@ from beambench_report.run.panels import (
 )
 
 _MIN_SIZES = 5
-"""A line needs as many sizes to show how a time grows."""
+"""The fewest sizes that show how a time grows."""
 _MOST_LINES = 3
-"""Of panels, so that a figure is no taller than a page."""
+"""The most rows of panels, so that a figure is no taller than a page."""
 _PANEL_HEIGHT = 2.5  # inches
 _EMBREE, _TILE = "Embree's fastest mode", "tile-beam"
 _STRUCTURES = {_EMBREE: "embree", _TILE: "tile-beam"}
@@ -58,7 +58,7 @@ PIXELS = Axis(
 
 
 def growth(found: Sequence[Pairing], axis: Axis) -> list[Plot]:
-    """Figures of the lines that have sizes enough: a row of two panels for each."""
+    """Returns the figures of the lines with enough sizes: a row of two panels for each."""
     lines: dict[str, list[Pairing]] = {}
     for pair in sorted(found, key=axis.size):
         lines.setdefault(axis.line(pair), []).append(pair)
@@ -147,7 +147,7 @@ def _draw_line(
     look: Look,
     commits: Sequence[str],
 ) -> None:
-    """Points with their intervals, joined; those of the newest commit are filled."""
+    """Draws points with their intervals, joined; those of the newest commit are filled."""
     sizes = [axis.size(pair) for pair in own]
     panel.plot(sizes, [value for value, *_ in figures], color=look.color, linewidth=1.1, zorder=2)
     for size, (_, low, high) in zip(sizes, figures, strict=True):
@@ -176,7 +176,7 @@ def _name_sizes(panel: Axes, own: Sequence[Pairing], axis: Axis) -> None:
 
 
 def _in_short(count: int) -> str:
-    """`16 k`, `1 M`, `10 M`."""
+    """Formats a number: `16 k`, `1 M`, `10 M`."""
     if count >= 999_500:
         return f"{count / 1e6:.0f} M"
     return f"{count / 1e3:.0f} k" if count >= 1000 else str(count)

@@ -25,7 +25,7 @@ Row = dict[str, object]
 
 @dataclass(frozen=True)
 class Trace:
-    """A contender's times for the same rays, in ms, and what it ran on."""
+    """A contender's times for the same rays, in ms, and the machine and settings."""
 
     contender: str
     first: Median
@@ -38,14 +38,14 @@ class Trace:
 
 @dataclass(frozen=True)
 class Pairing:
-    """Both contenders on the same rays, in either order of a list, each at its fastest.
+    """Both contenders on the same rays, each with its faster order of a list.
 
     Ratios are Embree's time over that of tile beams, without builds. Times of whole pictures are
     without shading.
     """
 
     kind: str
-    """Of the rays."""
+    """The kind of rays."""
     scene: str
     camera: str
     primitives: int
@@ -53,9 +53,9 @@ class Pairing:
     rays: int
     samples: int
     isa: str
-    """What both are limited to: `best`, or the parameter isa."""
+    """The instruction set that both are limited to: `best`, or the parameter isa."""
     is_culled: bool
-    """Did tile beams leave out the backs of solids? Embree is not told that surfaces are closed."""
+    """Did tile beams skip the backs of solids? Embree does not know which surfaces are closed."""
     modes: tuple[str, ...]
     """Embree's modes with correct hits, of which the fastest counts."""
     tile: Trace
@@ -70,16 +70,16 @@ class Pairing:
 
     @property
     def image(self) -> tuple:
-        """Rays that were traced, and the instruction set."""
+        """Returns the key: the rays that were traced, and the instruction set."""
         return (self.kind, self.scene, self.camera, self.resolution, self.samples, self.isa)
 
 
 def pairings(runs: Iterable[Run]) -> list[Pairing]:
-    """All rays that both traced with correct hits, in the order of the rows.
+    """Returns all rays that both traced with correct hits, in the order of the rows.
 
-    With and without the backs of solids they are two pairings; of several runs that measured one
-    of these, the newest counts. Raises Problem for runs of several machines, whose ratios one
-    table must not mix.
+    Rays with and without the backs of solids form two pairings; if several runs measured one of
+    these, the newest counts. Raises Problem for runs of several machines, whose ratios must not be
+    mixed in one table.
     """
     found: dict[tuple, Pairing] = {}
     for run in runs:
@@ -97,14 +97,14 @@ def pairings(runs: Iterable[Run]) -> list[Pairing]:
 
 
 def headlines(found: Iterable[Pairing]) -> list[Pairing]:
-    """One pairing for each image: with the backs of solids drawn where that was measured."""
+    """Returns one pairing for each image: with the backs of solids drawn, if that was measured."""
     every = list(found)
     drawn = {one.image for one in every if not one.is_culled}
     return [one for one in every if not one.is_culled or one.image not in drawn]
 
 
 def in_one_way(found: Iterable[Pairing], size: Callable[[Pairing], int]) -> list[Pairing]:
-    """The pairings with the backs of solids, or those without, whichever have more sizes."""
+    """Returns the pairings with the backs of solids or those without, whichever have more sizes."""
     drawn, culled = ([one for one in found if one.is_culled is way] for way in (False, True))
     return culled if len(set(map(size, culled))) > len(set(map(size, drawn))) else drawn
 
@@ -127,7 +127,7 @@ def _pairings_of(run: Run) -> list[Pairing]:
 
 
 def _image(row: Row) -> tuple:
-    """Facts that both must have in common."""
+    """Returns the facts that both must share."""
     names = ("kind", "scene", "camera", "width", "height", "samples", "machine_id", "run_id")
     own = parameter_items(row["parameters"])
     return (*(row[name] for name in names), own.get("isa", "best"))
@@ -171,7 +171,7 @@ def _is_culled(row: Row) -> bool:
 
 
 def _ratios(mode: Row, row: Row, files: Mapping[Identity, CellFile]) -> tuple[Ratio, Ratio | None]:
-    """Ratios of first and of second traces, paired by rounds where single repetitions are there."""
+    """Returns the ratios of first and second traces, paired by rounds if possible."""
     ratio, second = None, None
     over, under = files.get(identity(mode)), files.get(identity(row))
     if over and under:
@@ -184,12 +184,12 @@ def _ratios(mode: Row, row: Row, files: Mapping[Identity, CellFile]) -> tuple[Ra
 
 
 def _shading(row: Row) -> float:
-    """What a picture's traces have in common, in ms: none of any structure's work."""
+    """Returns the time in ms that all traces of a picture share, without any structure's work."""
     return float(row["harness_ms"]) if row["kind"] == PICTURE else 0.0
 
 
 def mode_name(row: Row) -> str:
-    """Embree's mode and flags in a row, and whether its list was sorted."""
+    """Returns Embree's mode and flags in a row, and whether its list was sorted."""
     own = parameter_items(row["parameters"])
     mode = own.get("mode", "single")
     robust = ", robust" if own.get("robust") == "true" else ""

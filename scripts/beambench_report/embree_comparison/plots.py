@@ -28,7 +28,7 @@ _TALLEST = 8.2  # inches of panels in one figure
 # The same for a resolution in every figure; the color is that of tile-beam, whose speed is drawn.
 _MARKERS = {"80x50": "v", "160x100": "s", SMALL: "o", MIDDLE: "D", LARGE: "^"}
 _COLOR = structure_color("tile-beam")
-_TARGET_HEIGHT = 0.4  # of the tick of a target, in lines, to each side
+_TARGET_HEIGHT = 0.4  # half the height of a target's tick, in lines
 _TICKS = (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100)
 _READING = (
     "First traces after a build. Line: 95% confidence interval; hollow: too few repetitions for "
@@ -38,7 +38,7 @@ _Panel = tuple[Group, Sequence[Pairing]]
 
 
 def plots(found: Sequence[Pairing]) -> list[Plot]:
-    """Those for which the images suffice."""
+    """Returns the figures for which there are enough images."""
     single = [pair for pair in found if pair.samples == 1]
     drawn = [
         plot
@@ -50,7 +50,7 @@ def plots(found: Sequence[Pairing]) -> list[Plot]:
 
 
 def _ratios(isa: str, found: Sequence[Pairing]) -> list[Plot]:
-    """Divides whole groups among as few figures as fit on a page each."""
+    """Distributes whole groups over as few figures as possible, each of at most a page."""
     panels = []
     for group in groups():
         own = [pair for pair in found if group.holds(pair)]
@@ -61,7 +61,7 @@ def _ratios(isa: str, found: Sequence[Pairing]) -> list[Plot]:
 
 
 def _by_page(panels: Iterable[_Panel]) -> list[list[_Panel]]:
-    """Each panel on the first page that has a place for it."""
+    """Puts each panel on the first page with room for it."""
     pages: list[list[_Panel]] = []
     for panel in panels:
         for page in pages:
@@ -80,9 +80,9 @@ def _height(panel: _Panel) -> float:
 
 
 def _figure(stem: str, isa: str, shown: Sequence[_Panel]) -> Plot:
-    """One panel per group, row per scene, marker per resolution with the tick of its target.
+    """Draws a panel per group, a row per scene, and a marker per resolution with its target's tick.
 
-    The ticks stand in the line of their marker, so that none hides another one.
+    Each tick is on the line of its marker, so that none hides another.
     """
     heights = [_height(panel) for panel in shown]
     figure, panels = new_figure(sum(heights) + 0.3, len(shown), height_ratios=heights)
@@ -158,5 +158,5 @@ def _legend(figure: Figure, resolutions: Sequence[str]) -> None:
 
 
 def _resolutions(found: Sequence[Pairing]) -> list[str]:
-    """Those that there are, the coarsest first."""
+    """Returns the resolutions that exist, the coarsest first."""
     return [size for size in _MARKERS if any(pair.resolution == size for pair in found)]

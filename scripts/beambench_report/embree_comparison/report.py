@@ -59,9 +59,9 @@ _DECIDED = (
 
 
 def comparison(runs: Sequence[Path], file: Path | None = None) -> list[Path] | str:
-    """The report on some runs: its text, or the files written, FILE.md and plots beside it.
+    """Writes the report on some runs: returns its text, or the files, FILE.md and its plots.
 
-    Raises Problem where a run cannot be read, or none has both contenders.
+    Raises Problem if a run cannot be read, or none has both contenders.
     """
     found = pairings(read_run(run) for run in runs)
     if not found:
@@ -79,7 +79,7 @@ def comparison(runs: Sequence[Path], file: Path | None = None) -> list[Path] | s
 
 
 def as_markdown(found: Sequence[Pairing], plots: Sequence[str] = ()) -> str:
-    """The report; `plots` are the files of its figures."""
+    """Returns the report; `plots` are the files of its figures."""
     paired = [one.ratio.paired for one in found]
     how = _PAIRED if all(paired) else _SOME_PAIRED if any(paired) else _NOT_PAIRED
     intervals = (
@@ -97,7 +97,7 @@ def as_markdown(found: Sequence[Pairing], plots: Sequence[str] = ()) -> str:
 
 
 def _advantages(found: Sequence[Pairing]) -> str:
-    """Returns who has SIMD, tuned parameters, sorted rays and closed solids."""
+    """Returns which side has SIMD, tuned parameters, sorted rays and closed solids."""
     simd = {bool(trace.isa) for one in found for trace in (one.tile, one.embree)}
     modes = [mode for one in found for mode in one.modes]
     most = max(len(one.modes) for one in found)
@@ -134,7 +134,7 @@ def _of_isa(isa: str, found: Sequence[Pairing]) -> Iterable[str]:
 
 
 def _instruction_sets(tile: str, embree: str) -> str:
-    """Highway calls AVX-512 AVX3, Embree AVX512."""
+    """Returns Embree's name of an instruction set: Highway calls AVX512 AVX3."""
     ours, theirs = (
         "AVX-512" if name.startswith(("AVX3", "AVX512")) else name or "?" for name in (tile, embree)
     )
@@ -205,7 +205,9 @@ def _text(ratio: Ratio, target: float | None = None) -> str:
 
 
 def _beside(value: float, target: float | None) -> str:
-    """Three digits, or enough to show on which side of the target: 2.504 for 2.5, not 2.50."""
+    """Formats with three digits, or enough to show on which side of the target it is: 2.504 for
+    2.5.
+    """
     text = number(value)
     digits = 3
     while target is not None and digits < 9 and float(text.replace(",", "")) == target != value:

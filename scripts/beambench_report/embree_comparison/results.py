@@ -1,4 +1,4 @@
-"""The ratios of each group of scenes beside their targets, and the means."""
+"""The ratios of each group of scenes with their targets, and the means."""
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -11,20 +11,20 @@ from beambench_report.embree_comparison.targets import Group, groups, part_of_ta
 
 @dataclass(frozen=True)
 class Result:
-    """A ratio, or the geometric mean of several, beside its target."""
+    """A ratio, or the geometric mean of several, with its target."""
 
     ratio: Ratio
     target: float | None = None
-    """None where there is none, or a mean lacks a scene."""
+    """The target; None if there is none or a mean lacks a scene."""
     is_culled: bool = False
-    """Was only `tile-beam` without the backs of solids measured?"""
+    """Was `tile-beam` only measured without the backs of solids?"""
     scenes: int = 1
 
     @property
     def outcome(self) -> str:
-        """`met`, `missed` or `open`; empty without a target.
+        """Returns `met`, `missed` or `open`; empty without a target.
 
-        A ratio that needs closed solids can miss a target, but not meet it.
+        A ratio that relies on closed solids can miss a target, but not meet it.
         """
         if self.target is None:
             return ""
@@ -34,22 +34,22 @@ class Result:
 
 @dataclass(frozen=True)
 class GroupResults:
-    """The results of one group; those of one scene, and means, by resolution."""
+    """The results of one group: those of single scenes, and means, by resolution."""
 
     group: Group
     sizes: tuple[str, ...]
     scenes: Mapping[str, Mapping[str, Result]]
-    """By the titles of the scenes."""
+    """The results by title of scene."""
     means: Mapping[str, Result]
-    """Of the first traces of several scenes."""
+    """The means of the first traces over the scenes."""
     second: Mapping[str, Result]
-    """The same of second traces."""
+    """The means of the second traces."""
     culled: Mapping[str, Result]
-    """The same of first traces without the backs of solids, where `means` has them: extra."""
+    """The means of first traces without the backs of solids, if `means` has them."""
 
 
 def outcome(ratio: Ratio, target: float) -> str:
-    """`met`, `missed`, or `open` where the interval holds the target or there is none."""
+    """Returns `met`, `missed`, or `open` if the interval contains the target or is missing."""
     if ratio.interval is None:
         return "open"
     low, high = ratio.interval
@@ -118,9 +118,9 @@ def _means(
     ratio_of: Callable[[Pairing], Ratio | None],
     targets: Mapping[str, float] | None = None,
 ) -> dict[str, Result]:
-    """Returns the geometric mean at each resolution, of the scenes with backs where there are any.
+    """Returns the geometric mean at each resolution, over the scenes with backs if there are any.
 
-    A mean of some scenes only has no target.
+    A mean without some of the scenes has no target.
     """
     means = {}
     for size in group.targets if len(group.scenes) > 1 else ():

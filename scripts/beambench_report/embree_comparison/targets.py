@@ -17,31 +17,34 @@ SPHERES_ARE_WEAK = (
 
 @dataclass(frozen=True)
 class Group:
-    """Scenes that have one target at each resolution. A scene is in one group of a kind of rays."""
+    """Scenes that share a target at each resolution.
+
+    A scene is in one group for each kind of rays.
+    """
 
     title: str
     scenes: Mapping[str, str]
     """The title of each scene by its name in records."""
     targets: Mapping[str, float]
-    """By resolution: the ratio that each scene should reach."""
+    """The ratio that each scene should reach, by resolution."""
     mean_targets: Mapping[str, float]
-    """The same of the geometric mean of all scenes; empty where none is set."""
+    """The same for the geometric mean of all scenes; empty if none is set."""
     note: str = ""
     kind: str = PRIMARY
-    """Of the rays."""
+    """The kind of rays."""
 
     def holds(self, one: Pairing) -> bool:
-        """Does this have a target here?"""
+        """Is there a target for this?"""
         return one.kind == self.kind and one.scene in self.scenes and one.resolution in self.targets
 
 
 def part_of_targets(isa: str) -> float:
-    """Half of the targets holds where both are limited to an instruction set below the best."""
+    """Half of the targets applies if both are limited to an instruction set below the best."""
     return 1.0 if isa == "best" else _HELD_TO_LESS
 
 
 def groups() -> list[Group]:
-    """The targets, in order. `escena1`, of the thesis, has the targets of the spheres."""
+    """The targets, in order. `escena1` of the thesis has the targets of the spheres."""
     return [
         Group(
             "Scenes of triangles",
@@ -100,7 +103,7 @@ def groups() -> list[Group]:
 
 
 def _of_pencils() -> list[Group]:
-    """Rays through one point that is not the eye, and pictures, which have them."""
+    """Rays through one point other than the eye, and pictures, which contain such rays."""
     return [
         Group(
             "Shadow rays, scenes of triangles",

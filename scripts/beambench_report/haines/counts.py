@@ -11,22 +11,22 @@ from beambench_report.havran.census import census_of
 PUBLISHED = ROOT / "results/haines/tests.csv"
 KINDS = ("polygon", "sphere", "cone", "box")
 CONTENDERS = ("goldsmith-salmon:order=given", "goldsmith-salmon:order=shuffled")
-"""He does not state the order in which he inserts primitives."""
+"""The two orders of insertion: Haines does not state his."""
 
 _PUBLISHED_COLUMNS = ("scene", "kind", "tests")
 _COLUMNS = ("contender", *_PUBLISHED_COLUMNS)
 
 Tests = dict[str, dict[str, float]]
-"""By scene, then by kind."""
+"""Counts by scene, then by kind."""
 
 
 def published_tests() -> Tests:
-    """His counts."""
+    """Returns Haines's counts."""
     return _by_scene(read_table(PUBLISHED, _PUBLISHED_COLUMNS, "it is part of the repository"))
 
 
 def read_tests(path: Path) -> dict[str, Tests]:
-    """Ours, by contender. Raises Problem where the file is missing or is none."""
+    """Returns our counts, by contender. Raises Problem if the file is missing or malformed."""
     rows = read_table(path, _COLUMNS, "run `python -m beambench_report haines DIR`")
     return {str(name): _by_scene(group) for name, group in rows.groupby("contender", sort=False)}
 

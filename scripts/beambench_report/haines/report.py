@@ -1,4 +1,4 @@
-"""Writes our tests beside Haines's as one page."""
+"""Writes a page that compares our tests with Haines's."""
 
 from pathlib import Path
 

@@ -12,7 +12,7 @@ SCENES = {
     "tetra": "tetra:n=6",
     "tree": "tree:n=11",
 }
-# His octrees: the scene's own box, objects by their bounding box, a leaf at one object.
+# Havran's octrees: the scene's own box, objects by their bounding box, a leaf at one object.
 _OCTREE = "root=box,assign=bbox,max_objects=1"
 _STRUCTURES = {
     "Glassner 1984, center": f"glassner:{_OCTREE}",
@@ -22,11 +22,11 @@ _STRUCTURES = {
     "Gargantini and Atkinson 1993, cost-driven planes": f"gargantini:{_OCTREE},planes=cost",
 }
 STRUCTURES = tuple(_STRUCTURES)
-"""Those that are measured again, by his names."""
+"""The structures that are measured again, by Havran's names."""
 
 
 def contender_of(structure: str, setting: str) -> str:
-    """Our structure with its parameters: his root is at depth 0, ours at level 1."""
+    """Returns our structure with its parameters: his root is at depth 0, ours at level 1."""
     word, _, depth = setting.partition(" ")
     if word != "depth" or not depth.isdecimal():
         raise Problem(f"the setting '{setting}' of {structure} is none of ours: expected 'depth N'")

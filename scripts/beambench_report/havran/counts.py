@@ -1,4 +1,4 @@
-"""Counts of structures on scenes: what Havran published, and ours in the same form."""
+"""Counts of structures on scenes: those published by Havran, and ours in the same form."""
 
 from pathlib import Path
 
@@ -17,7 +17,7 @@ CASE = ["structure", "scene", "setting"]
 def read_counts(path: Path) -> pd.DataFrame:
     """Reads a file of counts: a row for each case, a column for each quantity.
 
-    Raises Problem where the file is missing or is none.
+    Raises Problem if the file is missing or malformed.
     """
     remedy = "run `python -m beambench_report havran measure DIR`"
     rows = read_table(path, (*CASE, "quantity", "value"), remedy)
@@ -25,7 +25,9 @@ def read_counts(path: Path) -> pd.DataFrame:
 
 
 def quantities_of(census: Census) -> dict[str, float]:
-    """His quantities; steps and tests are as he counts them (results/havran/README.md)."""
+    """Returns Havran's quantities, with steps and tests by his definitions
+    (results/havran/README.md).
+    """
     size, work = census["size"], census["work"]
     rays = work["rays"]
     return {
@@ -41,7 +43,7 @@ def quantities_of(census: Census) -> dict[str, float]:
 
 
 def measure(folder: Path, program: Path, scenes: list[str]) -> Path:
-    """Counts on these scenes into FOLDER/counts.csv; skips what FOLDER/census has already."""
+    """Writes counts on these scenes to FOLDER/counts.csv; skips those that FOLDER/census has."""
     folder.joinpath("census").mkdir(parents=True, exist_ok=True)
     cases = [
         case

@@ -1,4 +1,4 @@
-"""Ours beside the published: ratios, and whether structures are in the same order, on one page."""
+"""Compares our counts with the published ones on one page: ratios, and the order of structures."""
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
@@ -19,9 +19,9 @@ WORK = ["N_IT", "N_TS", "N_ETS", "N_EETS"]
 WITHIN = 0.05
 """A difference up to this needs no explanation."""
 APART = 0.02
-"""Structures whose counts differ by less than this have no order: they are the same."""
+"""Structures whose counts differ by less than this are equal, without an order."""
 _UNLIKE = "gears"
-"""His is another scene: results/havran/README.md."""
+"""Havran's scene differs from ours: results/havran/README.md."""
 _HEAD = """# Havran's octrees, measured again
 
 Counts of five octrees on the seven SPD scenes and lattice: 513x513 rays through the corners of
@@ -39,14 +39,14 @@ def write_report(folder: Path) -> Path:
 
 
 def ratios(ours: pd.DataFrame, his: pd.DataFrame) -> pd.DataFrame:
-    """Returns ours over his, of all common cases; NaN where a count is 0."""
+    """Returns our counts over his, for all common cases; NaN if a count is 0."""
     return (ours / his).where((ours > 0) & (his > 0))[SIZES + WORK].reset_index()
 
 
 def order(ours: pd.DataFrame, his: pd.DataFrame, quantity: str) -> pd.DataFrame:
-    """Returns each two structures, on one scene with one setting, that his counts put in an order.
+    """Returns all pairs of structures, on one scene with one setting, that his counts put in order.
 
-    The columns `ours` and `his` have the sign of the difference, 0 where counts are the same.
+    The columns `ours` and `his` have the sign of the difference, 0 for equal counts.
     """
     counts = {"ours": ours[quantity], "his": his[quantity]}
     both = pd.concat(counts, axis="columns", join="inner").reset_index()

@@ -1,6 +1,6 @@
-"""The rows of results.csv, packed small, for the table that the browser sorts and filters.
+"""The rows of results.csv in compact form, for the table that the browser sorts and filters.
 
-Texts are numbers into a list of the texts there are; figures are rounded to what a table shows; a
+Texts are indices into a list of all texts; figures are rounded to the precision of a table; a
 column with one value in all rows is stored once.
 """
 
@@ -51,7 +51,7 @@ class AllCells:
 
 
 def pack(run: Run, own: Mapping[str, Column] | None = None) -> AllCells:
-    """Packs every column of a run that holds anything; `own` are columns that no record has."""
+    """Packs every column of a run that is not empty; `own` are columns that no record has."""
     own = own or {}
     rows = run.rows
     sizes = rows["width"].map("{:.0f}x".format) + rows["height"].map("{:.0f}".format)
@@ -111,7 +111,7 @@ def _pack_texts(series: pd.Series) -> dict:
 
 
 def _pack_figures(series: pd.Series) -> dict:
-    """Whole numbers are kept whole, others get some digits; null where nothing was measured."""
+    """Formats a value: whole numbers exactly, others with some digits; null if not measured."""
     values = series.to_numpy(float)
     finite = np.isfinite(values)
     known = values[finite]

@@ -1,4 +1,4 @@
-"""The work of a ray, as structures count it: small multiples of their counters."""
+"""The work per ray: small multiples of the structures' counters."""
 
 from collections.abc import Sequence
 
@@ -32,7 +32,7 @@ _ROOM = TALLEST - 1.1  # for panels, beside heading and caption
 
 
 def counters(measured: Measured) -> list[Plot]:
-    """The figures of all views for which anything was counted; whole pictures have two."""
+    """Returns the figures of all views with any counters; whole pictures have two."""
     run = measured.run
     plots = []
     for view, stem in file_stems(run.views).items():
@@ -57,7 +57,7 @@ def counters(measured: Measured) -> list[Plot]:
 
 
 def counters_in_common(rows: pd.DataFrame, names: Sequence[str]) -> list[str]:
-    """Those that at least two contenders have, and that are not 0 for all of them."""
+    """Returns the counters that at least two contenders have, unless they are 0 for all."""
     return [
         name for name in names if rows[name].notna().sum() > 1 and (rows[name].fillna(0) != 0).any()
     ]

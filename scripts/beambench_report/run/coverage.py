@@ -1,4 +1,4 @@
-"""Do the prediction intervals of one run hold for another one of the same sweep?"""
+"""Do the prediction intervals of one run hold for another run of the same sweep?"""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -23,19 +23,19 @@ class Coverage:
     count: int
 
     def __str__(self) -> str:
-        """The line of a table."""
+        """Formats a line of the table."""
         share = f"{100 * self.within / self.count:5.1f}%" if self.count else "    -"
         return f"{self.what:<52} {self.within:>5} of {self.count:>5}  {share}"
 
 
 def write_coverage(first: Path, second: Path) -> str:
-    """The table of two runs in folders, as text."""
+    """Returns the table of two runs in folders, as text."""
     runs = [(read_run(folder), read_analysis(folder)) for folder in (first, second)]
     return describe(coverage(*runs), (runs[0][1], runs[1][1]))
 
 
 def coverage(first: tuple[Run, Analysis], second: tuple[Run, Analysis]) -> list[Coverage]:
-    """Compares times and ratios both ways. Raises Problem where nothing can be compared."""
+    """Compares times and ratios both ways. Raises Problem if nothing can be compared."""
     found = []
     for name, (one, other) in (
         ("of the second run within the first's intervals", (first, second)),
@@ -52,7 +52,7 @@ def coverage(first: tuple[Run, Analysis], second: tuple[Run, Analysis]) -> list[
 
 
 def describe(found: list[Coverage], analyses: tuple[Analysis, Analysis]) -> str:
-    """The table, and what each run says of its machine."""
+    """Returns the table, and what each run reports on its machine."""
     lines = [str(one) for one in found]
     for name, analysis in zip(("first", "second"), analyses, strict=True):
         reasons = "; ".join(analysis.reasons_for_care) or "nothing speaks against its times"
@@ -80,7 +80,7 @@ def _times(run: Run, _: Analysis) -> dict[Identity, _Interval]:
 
 
 def _ratios(_: Run, analysis: Analysis) -> dict[tuple[str, str], _Interval]:
-    """Of each contender to the fastest, where that is the same one in both runs."""
+    """Returns each contender's ratio to the fastest, if both runs have the same fastest one."""
     return {
         (f"{view.view} {view.size} {_first(view.ranked)}", one.contender): interval
         for view in analysis.views

@@ -1,4 +1,4 @@
-"""Break-even as lines that cross, what a ray costs with its share of the build; and as a table."""
+"""Break-even plots and table: the cost of a ray with its share of the build."""
 
 import itertools
 from math import isfinite
@@ -44,7 +44,7 @@ _READING = (
 
 
 def crossings(measured: Measured) -> list[Plot]:
-    """The figures of all views in which two contenders have times."""
+    """Returns the figures of all views in which two contenders have times."""
     found = {view: _contenders(measured, view) for view in measured.run.views}
     several = [view for view, rows in found.items() if len(rows) > 1]
     parts = parts_by_kind(measured.run.rows, several, "break-even", _MOST_PANELS)
@@ -55,12 +55,12 @@ def crossings(measured: Measured) -> list[Plot]:
 
 
 def cost_of_a_ray(build_ms: float, ns_per_ray: float, rays: np.ndarray) -> np.ndarray:
-    """The time in ns, with its share of the build."""
+    """Returns the time in ns, with its share of the build."""
     return 1e6 * build_ms / rays + ns_per_ray
 
 
 def _contenders(measured: Measured, view: str) -> pd.DataFrame:
-    """The fastest first; null, which finds nothing, is left out."""
+    """Returns the fastest first, without null, which finds nothing."""
     rows = measured.finest(view).dropna(subset=["build_ms_median"])
     rows = rows[rows["structure"] != "null"]
     # Exhaustive builds nothing and loses everywhere: beside others only.
@@ -157,7 +157,7 @@ def _mark_crossings(panel: Axes, rows: pd.DataFrame) -> None:
 
 
 def overtakes(rows: pd.DataFrame) -> list[tuple[float, str]]:
-    """Numbers of rays from which the first row is ahead of another one; the last at the end."""
+    """Returns the ray counts where the first row overtakes another one, the last one at the end."""
     first = rows.iloc[0]
     found = []
     for _, other in rows.iloc[1:].iterrows():
@@ -170,12 +170,12 @@ def overtakes(rows: pd.DataFrame) -> list[tuple[float, str]]:
 
 
 def rays_in_words(rays: float) -> str:
-    """A number of rays: 250, 10.0 k, 3.2 M."""
+    """Formats a number of rays: 250, 10.0 k, 3.2 M."""
     return EngFormatter(places=None if rays < 1000 else 1, sep=" ")(round(rays))
 
 
 def break_even_table(run: Run) -> pd.DataFrame:
-    """The break-even of every ordered pair of contenders of every view but null."""
+    """Returns the break-even of every ordered pair of contenders of every view, without null."""
     records = []
     for title in run.views:
         rows = run.view(title)
@@ -198,7 +198,7 @@ def break_even_table(run: Run) -> pd.DataFrame:
 
 
 Cost = tuple[float, float]
-"""Of a contender: ms to build, ns a ray."""
+"""Returns a contender's ms to build and ns per ray."""
 
 
 def _cost(row: pd.Series) -> Cost:
@@ -206,7 +206,7 @@ def _cost(row: pd.Series) -> Cost:
 
 
 def break_even(mine: Cost, other: Cost) -> tuple[float | None, str]:
-    """The number of rays, if there is one, and the same in words."""
+    """Returns the ray count, if there is one, and a description in words."""
     since, until = break_even_rays(*mine, *other), break_even_rays(*other, *mine)
     if since == 0:
         return None, "at once"

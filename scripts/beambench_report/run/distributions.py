@@ -26,7 +26,7 @@ _EXPLANATION = (
 
 
 def distributions(measured: Measured) -> list[Plot]:
-    """Returns a figure for each view of which two contenders have two repetitions."""
+    """Returns a figure for each view in which two contenders have two repetitions."""
     plots = []
     for view, stem in file_stems(measured.run.views).items():
         rows = measured.finest(view)
@@ -89,14 +89,14 @@ def _distributions(measured: Measured, view: str, stem: str, rows: pd.DataFrame)
 
 
 def thinned(values: Sequence[float], most: int) -> list[float]:
-    """At most `most` of the sorted values, evenly spread, with both ends."""
+    """Returns at most `most` of the sorted values, evenly spread, with both ends."""
     if len(values) <= most:
         return list(values)
     return [values[round(place)] for place in np.linspace(0, len(values) - 1, most)]
 
 
 def _reach(rows: pd.DataFrame) -> float:
-    """Returns percent: a little beyond most repetitions, so that outliers do not flatten all."""
+    """Returns the percentage that the axis covers: most repetitions, but not the outliers."""
     off = [abs(100 * (ns / row["ns"] - 1)) for _, row in rows.iterrows() for ns in row["repeated"]]
     usual = float(np.quantile(off, 0.97))
     return min(_FARTHEST, max(1.0, 1.3 * usual))
@@ -139,5 +139,5 @@ def _draw_row(
 
 
 def _jitter(count: int) -> np.ndarray:
-    """Returns the same for every run: what lies beside each other must not be hidden."""
+    """Returns fixed random offsets, the same for every run, that keep neighboring dots apart."""
     return ((np.arange(count) * 0.618) % 1 - 0.5) * 0.5

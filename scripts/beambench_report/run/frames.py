@@ -1,4 +1,4 @@
-"""Scenes that move: what each frame costs, and what an update costs the rays of later frames."""
+"""Scenes that move: the cost of each frame, and of an update for the rays of later frames."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -38,16 +38,16 @@ class FrameLine:
     """A contender over the frames of a scene."""
 
     name: str
-    """Without `update`."""
+    """The contender without `update`."""
     structure: str
     contender: str
     is_updated: bool
     points: tuple[tuple[int, float], ...]
-    """Frame, and milliseconds of the whole frame; ascending."""
+    """Frame numbers, ascending, and milliseconds of the whole frame."""
 
     @property
     def label(self) -> str:
-        """Text at the end of the line."""
+        """The text at the end of the line."""
         return f"{brief_name(self.name)}, updated" if self.is_updated else brief_name(self.name)
 
 
@@ -98,7 +98,7 @@ def _lines(rows: pd.DataFrame) -> Iterable[FrameLine]:
 
 
 def frames(measured: Measured) -> list[Plot]:
-    """Returns a figure for each kind of rays; of many scenes, several."""
+    """Returns a figure for each kind of rays; for many scenes, several."""
     views = moving_views(measured)
     kinds = file_stems(dict.fromkeys(view.ray_kind for view in views))
     plots = []
@@ -185,7 +185,7 @@ def _draw_ratios(panel: Axes, view: MovingView) -> list[tuple[float, float, str,
     places = [one.frame for series in view.series for one in series.frames]
     ratios = [one.trace_ratio.value for series in view.series for one in series.frames]
     panel.plot([min(places, default=0), max(places, default=1)], [1, 1], color=SOFT, linewidth=0.8)
-    # Not that of the intervals, of which few blocks have wide ones.
+    # Without the intervals, which are wide if there are few blocks.
     low, high = min(ratios, default=1), max(ratios, default=1)
     panel.set_ylim(
         min(low, 1) - 0.15 * (high - low) - 0.1, max(high, 1) + 0.15 * (high - low) + 0.1

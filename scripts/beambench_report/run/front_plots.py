@@ -44,9 +44,9 @@ _LABEL_STEP = 7.6  # points
 
 
 def write_fronts(directory: Path) -> list[Path]:
-    """Writes DIRECTORY/plots/fronts-*.svg and .png. Raises Problem where there is nothing to draw.
+    """Writes DIRECTORY/plots/fronts-*.svg and .png. Raises Problem if there is nothing to draw.
 
-    A figure for each kind of rays; of many scenes, several.
+    There is a figure for each kind of rays; for many scenes, several.
     """
     measured = read_measured(directory)
     found = fronts(measured.analysis)
@@ -93,7 +93,7 @@ def _name(one: Standing) -> str:
 
 
 def _name_members(panel: Axes, front: Front) -> list[Bbox]:
-    """Names the front, mostly in a column at the left; returns the boxes of names and points."""
+    """Labels the front, mostly in a column at the left; returns the boxes of names and points."""
     scale = 72 / panel.figure.dpi
     left = min(one.ns_per_ray for one in front.view.ranked)
     right = max(one.ns_per_ray for one in front.view.ranked)

@@ -1,4 +1,4 @@
-"""Build or trace: the Pareto front of a view, and from how many rays each of it is the best choice.
+"""The Pareto front of a view by build and trace, and the ray counts where each member is best.
 
 Build times and times of a ray are those of the analysis of the run.
 """
@@ -15,33 +15,33 @@ class Choice:
     """A contender that is the best for some number of rays, its build included."""
 
     rays: float
-    """The number from which on it is; 0 for the first one."""
+    """The ray count from which it is best; 0 for the first one."""
     standing: Standing
 
 
 @dataclass(frozen=True)
 class Front:
-    """The contenders of a view of which none other is both built and traced in less time."""
+    """The contenders of a view that no other one beats in both build and trace."""
 
     view: Standings
     members: tuple[Standing, ...]
-    """By the build, the shortest first."""
+    """The members by build time, the shortest first."""
     choices: tuple[Choice, ...]
-    """Those of them that are ever the best choice, by the number of rays."""
+    """The members that are ever the best choice, by the number of rays."""
 
     @property
     def scene(self) -> str:
-        """The view without its rays."""
+        """Returns the view without its rays."""
         return self.view.subject.removesuffix(f", {self.view.ray_kind} rays")
 
     @property
     def others(self) -> tuple[Standing, ...]:
-        """The contenders that are not on the front."""
+        """Returns the contenders that are not on the front."""
         return tuple(one for one in self.view.ranked if one not in self.members)
 
     @property
     def never(self) -> tuple[Standing, ...]:
-        """The members that are the best choice for no number of rays."""
+        """Returns the members that are not the best choice for any number of rays."""
         chosen = [choice.standing for choice in self.choices]
         return tuple(one for one in self.members if one not in chosen)
 
@@ -57,10 +57,9 @@ def fronts(analysis: Analysis) -> list[Front]:
 
 
 def pareto_front(points: Sequence[tuple[float, float]]) -> list[int]:
-    """Returns the points that no other one beats in one coordinate and equals in the other; by the
-    first.
+    """Returns the points that no other point dominates, ordered by the first coordinate.
 
-    Of points in the same place, the first.
+    Of points in the same place, it returns the first.
     """
     front: list[int] = []
     for index in sorted(range(len(points)), key=lambda i: points[i]):
@@ -78,7 +77,7 @@ def front_of(standings: Sequence[Standing]) -> tuple[Standing, ...]:
 def choices_of(front: Sequence[Standing]) -> tuple[Choice, ...]:
     """Returns the contenders that are the best for some number of rays, by that number.
 
-    After each comes the one that overtakes it first, and of those that do so at once the fastest.
+    Each is followed by the first one to overtake it; of several at once, by the fastest.
     """
     choices = [Choice(0.0, front[0])]
     while later := front[front.index(choices[-1].standing) + 1 :]:

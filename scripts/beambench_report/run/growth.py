@@ -23,7 +23,7 @@ _COLUMNS = ("generator", "parameter", "size", "primitives", "bytes", "seconds", 
 def write_growth(files: list[Path], output: Path | None = None) -> list[Path]:
     """Draws memory and time over the primitives, a line for each file's generator.
 
-    Writes PNG and SVG; beside the first file and named like it, if `output` is not given.
+    Writes PNG and SVG, by default beside the first file and named like it.
     """
     tables = [read_growth(file) for file in files]
     target = (output or files[0]).with_suffix("")
@@ -32,7 +32,7 @@ def write_growth(files: list[Path], output: Path | None = None) -> list[Path]:
 
 
 def read_growth(file: Path) -> pd.DataFrame:
-    """Returns the rows of one file; raises Problem where it is not what beambench writes."""
+    """Returns the rows of one file. Raises Problem if beambench did not write it."""
     rows = read_table(file, _COLUMNS, "write it with: beambench scene NAME --growth --csv")
     if rows.empty:
         raise Problem(f"{file}: it has no rows")

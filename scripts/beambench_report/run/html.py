@@ -1,4 +1,4 @@
-"""What all HTML pages share: templates, and images that bring their own bytes."""
+"""Templates and embedded images of all HTML pages."""
 
 import base64
 import io
@@ -30,7 +30,7 @@ _TYPES = {".png": "image/png", ".svg": "image/svg+xml"}
 
 @cache  # a template is compiled once for many pages
 def environment(*own: Path) -> Environment:
-    """Templates of the folders `own`, before those that all pages share."""
+    """Returns templates of the folders `own`, before those that all pages share."""
     folders = [*own, TEMPLATES]
     made = Environment(
         loader=FileSystemLoader(folders),
@@ -40,7 +40,7 @@ def environment(*own: Path) -> Environment:
         lstrip_blocks=True,
     )
 
-    # Style and scripts are not templates: their braces are their own.
+    # Style and scripts are not templates: their braces are literal.
     def raw(name: str) -> Markup:
         path = next(folder / name for folder in folders if (folder / name).exists())
         return Markup(path.read_text("utf-8"))
@@ -68,7 +68,7 @@ _THUMBNAIL = (640, 480)  # pixels, at most: a page shows pictures at half of tha
 
 
 def thumbnail_uri(path: Path) -> str:
-    """A picture as an address, no larger than a page shows it; the file itself is unchanged."""
+    """Returns a picture as a data address, no larger than shown; the file itself is unchanged."""
     try:
         small = Image.open(path).convert("RGB")
     except OSError as error:
@@ -80,6 +80,6 @@ def thumbnail_uri(path: Path) -> str:
 
 
 def data_uri(path: Path) -> str:
-    """The bytes of an image as an address."""
+    """Returns the bytes of an image as a data address."""
     coded = base64.b64encode(path.read_bytes()).decode("ascii")
     return f"data:{_TYPES[path.suffix]};base64,{coded}"

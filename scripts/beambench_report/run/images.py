@@ -1,4 +1,4 @@
-"""The images of a page: the pictures and the plots of a run's folder."""
+"""The images of a page: the pictures and the plots in a run's folder."""
 
 import json
 from collections.abc import Iterable, Sequence
@@ -15,17 +15,17 @@ from beambench_report.run.plots import KINDS, Kind, draw, without_figure
 
 @dataclass(frozen=True)
 class Image:
-    """An image that is part of the page: a picture by its address, or a plot by its element."""
+    """An image embedded in the page: a picture by its address, or a plot by its element."""
 
     caption: str
     subject: str
-    """The scene (of a picture) or the view (of a plot) it belongs to; empty: the whole run."""
+    """The scene of a picture or the view of a plot; empty for the whole run."""
     uri: str = ""
     svg: str = ""
 
 
 def read_pictures(directory: Path, scenes: Iterable[str]) -> list[Image]:
-    """The pictures of DIRECTORY/pictures: `<scene>.png` and `<scene>-<what it shows>.png`."""
+    """Returns the pictures of DIRECTORY/pictures: `<scene>.png` and `<scene>-<content>.png`."""
     stems = {stem: scene for scene, stem in file_stems(dict.fromkeys(scenes)).items()}
     images = []
     for path in sorted(directory.glob("pictures/*.png"), key=lambda path: path.stem):
@@ -43,13 +43,13 @@ class Figures:
 
     images: tuple[Image, ...]
     missing: tuple[Kind, ...]
-    """The kinds that the record does not suffice for."""
+    """The kinds that the record lacks data for."""
     undrawn: tuple[Kind, ...] = ()
-    """The kinds that were not wanted on this page."""
+    """The kinds that were not requested on this page."""
 
 
 def figures_of(measured: Measured, kinds: Sequence[Kind] = KINDS) -> Figures:
-    """The plots of the run's folder; where it has none, those of these kinds, drawn here."""
+    """Returns the plots of the run's folder; without any, draws those of these kinds."""
     found = read_plots(measured.run.directory)
     if found is not None:
         return Figures(tuple(found.values()), tuple(without_figure(found)))
@@ -63,7 +63,7 @@ def figures_of(measured: Measured, kinds: Sequence[Kind] = KINDS) -> Figures:
 
 
 def read_plots(directory: Path) -> dict[str, Image] | None:
-    """The plots of DIRECTORY/plots by stem; None unless all that the index lists is there."""
+    """Returns the plots of DIRECTORY/plots by stem; None unless all in the index exist."""
     folder = directory / "plots"
     try:
         return {
@@ -76,4 +76,4 @@ def read_plots(directory: Path) -> dict[str, Image] | None:
             for stem in [Path(entry["stem"]).name]
         }
     except (OSError, ValueError, KeyError, TypeError):
-        return None  # none, some of them, or of another version
+        return None  # missing, incomplete, or of another version

@@ -1,4 +1,4 @@
-"""A plot as part of an HTML page: in the page's colors, light or dark, and with ids of its own."""
+"""A plot within an HTML page: in the page's colors, light or dark, and with unique ids."""
 
 import re
 

@@ -1,4 +1,4 @@
-"""Describes a run at the head of its page: what was traced, how much, and what references are."""
+"""Introduces a run at the head of its page: what was traced, how much, and the references."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -15,12 +15,12 @@ _PRIMITIVES = {
     "points": "spheres",
     "callbacks": "cones or spheres seen from the inside",
 }
-"""By the types in which Embree holds them (column `library_geometry`)."""
+"""Names by the types in which Embree holds them (column `library_geometry`)."""
 
 
 @dataclass(frozen=True)
 class Tile:
-    """A figure, and words for it; `term` names the glossary's entry of the first of them."""
+    """A figure with its words; `term` is the glossary's entry for the first of them."""
 
     figure: str
     words: str
@@ -29,7 +29,7 @@ class Tile:
 
 
 def tiles(run: Run, overheads: Sequence[Overhead]) -> list[Tile]:
-    """A few figures that say how large the run was and how well it could measure."""
+    """Returns a few figures on how large the run was and how well it could measure."""
     of_references = run.rows["structure"].isin(REFERENCES)
     references = list(dict.fromkeys(run.rows.loc[of_references, "contender"]))
     counted = {
@@ -49,8 +49,8 @@ def tiles(run: Run, overheads: Sequence[Overhead]) -> list[Tile]:
 
 
 def headline(analysis: Analysis) -> list[str]:
-    """Names the fastest contender and its margin: for each kind of rays, over all its views."""
-    # The order of contenders that one process measured is no claim.
+    """Names the fastest contender and its margin, for each kind of rays, over all its views."""
+    # In records of one process, the order of contenders is not a claim.
     verb = "is the fastest" if analysis.has_blocks else "takes the least time"
     sentences = [_over_views(kind, verb) for kind in analysis.means if kind.views > 1]
     if not sentences and len(analysis.views) == 1:
@@ -93,7 +93,7 @@ def _times(factor: float) -> str:
 
 
 def traced(rows: pd.DataFrame) -> str:
-    """`Primary rays · 320x200, 640x480 · 1 sample per pixel · 1 thread`."""
+    """Returns `Primary rays · 320x200, 640x480 · 1 sample per pixel · 1 thread`."""
     sized = rows.sort_values("rays").drop_duplicates(["width", "height"])
     sizes = [size_of(row) for _, row in sized.iterrows()]
     if len(sizes) > _MOST_SIZES:
@@ -111,7 +111,7 @@ def traced(rows: pd.DataFrame) -> str:
 
 
 def kinds_of_primitives(rows: pd.DataFrame) -> str:
-    """Kinds of a scene's primitives, where Embree's rows state them; else empty."""
+    """Returns the kinds of a scene's primitives, if Embree's rows state them; else empty."""
     if "library_geometry" not in rows:
         return ""
     types = {one for text in rows["library_geometry"] for one in str(text).split("+")}
@@ -128,7 +128,7 @@ _BY_SIMD = {"image-simd": "made", "list-packed": "read"}
 
 
 def about_references(rows: pd.DataFrame) -> list[str]:
-    """Explains the references, and for whom the time of `null` is not a lower limit."""
+    """Explains the references, and for which contenders the time of `null` is not a lower limit."""
     paths = rows["query_path"] if "query_path" in rows else pd.Series("", index=rows.index)
     is_null = rows["structure"] == "null"
     own = set(paths[is_null])
@@ -165,7 +165,7 @@ def _counts(column: pd.Series, word: str, after: str = "") -> str:
 
 
 def _listed(words: Iterable[str]) -> str:
-    """`a`, `a and b`, `a, b and c`."""
+    """Joins words: `a`, `a and b`, `a, b and c`."""
     *first, last = [*words] or [""]
     return f"{', '.join(first)} and {last}" if first else last
 

@@ -1,4 +1,4 @@
-"""Names or numbers beside points, so that none covers another one, or a point."""
+"""Names or numbers beside points that cover neither each other nor a point."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -35,12 +35,12 @@ def place_labels(
     colors: Sequence[str] = (),
     taken: Sequence[Bbox] = (),
 ) -> set[int] | None:
-    """Writes beside each point its name, or its number where the name does not fit.
+    """Writes beside each point its name, or its number if the name does not fit.
 
-    Labels do not overlap. Returns the points that have numbers; None if even these crowd, in
-    which case nothing is written. Labels are clear of the lines if possible, and have the color of
-    their place in `colors`, if given. The boxes `taken`, in pixels, stay free. The layout must be
-    settled.
+    Labels do not overlap. Returns the points that have numbers; None if even these are too crowded,
+    in which case nothing is written. Labels avoid the lines if possible, and have the color at
+    their position in `colors`, if given. The boxes `taken`, in pixels, stay free. The layout must
+    be settled.
     """
     room = _Room(panel, points, lines, taken)
     places: dict[int, _Place] = {}
@@ -72,7 +72,7 @@ def place_labels(
 
 
 class _Room:
-    """The room for labels of a panel's points."""
+    """The space for labels of a panel's points."""
 
     def __init__(
         self,
@@ -96,7 +96,7 @@ class _Room:
         ]
 
     def places(self, index: int, text: str, others: Mapping[int, _Place]) -> Iterator[_Place]:
-        """Yields places where the text has room beside its point, other points and labels."""
+        """Yields places where the text is clear of its point, other points and labels."""
         taken = [*self._points, *self._taken, *(other.box for other in others.values())]
         width, height, _ = self._renderer.get_text_width_height_descent(text, self._font, False)
         for offset in _offsets():
@@ -105,13 +105,13 @@ class _Room:
                 yield _Place(text, offset, box)
 
     def is_clear(self, place: _Place, index: int) -> bool:
-        """Does it seem to be the label of no other point?"""
+        """Is it clear that the label belongs to this point?"""
         away = [_distance(center, place.box) for center in self.centers]
         own = away.pop(index) + _NEARER * self._scale
         return min(away, default=inf) >= own
 
     def best(self, places: Sequence[_Place]) -> _Place:
-        """Returns the first of the places that is off the lines; the first, where none is."""
+        """Returns the first place that is off the lines; without one, the first of all."""
         off = (one for one in places if not any(map(one.box.overlaps, self._crossed)))
         return next(off, places[0])
 
@@ -152,7 +152,7 @@ def _distance(point: tuple[float, float], box: Bbox) -> float:
 
 
 def _along(corners: Sequence[tuple[float, float]], scale: float) -> list[Bbox]:
-    """Small boxes along a line; of its upright and level parts, one each."""
+    """Returns small boxes along a line; one each for its vertical and horizontal parts."""
     boxes = []
     for (x0, y0), (x1, y1) in pairwise(corners):
         steps = max(1, ceil(min(abs(x1 - x0), abs(y1 - y0)) / (_STEP * scale)))
@@ -171,7 +171,7 @@ def _is_inside(box: Bbox, frame: Bbox) -> bool:
 
 
 def spread(places: Sequence[float], low: float, high: float, step: float) -> list[float]:
-    """Moves ascending places at least `step` apart, between low and high; closer if need be."""
+    """Moves ascending places at least `step` apart between low and high; closer if necessary."""
     step = min(step, (high - low) / max(1, len(places) - 1))
     upward = list(accumulate(places, lambda before, place: max(place, before + step)))
     downward = list(accumulate(reversed(places), lambda after, place: min(place, after - step)))

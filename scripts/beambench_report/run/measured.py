@@ -25,27 +25,28 @@ from beambench_report.base.records import REFERENCES, Run, finest_rays, read_run
 
 @dataclass(frozen=True)
 class Measured:
-    """A run and the repetitions of its cells, where they are at hand."""
+    """A run and the repetitions of its cells, as far as they exist."""
 
     run: Run
     files: Mapping[Identity, CellFile]
 
     @cached_property
     def looks(self) -> dict[str, Look]:
-        """The look of every contender."""
+        """Returns the look of every contender."""
         return looks(self.run.rows)
 
     @cached_property
     def analysis(self) -> Analysis:
-        """The conclusions from the run."""
+        """Returns the conclusions from the run."""
         return read_analysis(self.run.directory)
 
     @cached_property
     def timed(self) -> pd.DataFrame:
-        """The rows whose times count, and what one ray took: ns, its 95% interval, repetitions.
+        """Returns the rows whose times count, with the ns per ray, its 95% interval and
+        repetitions.
 
-        Columns added: `ns`, `ns_low`, `ns_high` (nan without an interval), `repeated` (the
-        ns of every repetition) and `is_reference`.
+        Columns added: `ns`, `ns_low`, `ns_high` (nan without an interval), `repeated` (the ns of
+        every repetition) and `is_reference`.
         """
         rows = self.run.rows
         rows = rows[rows["timed"] & (rows["trace_ms"] > 0) & (rows["rays"] > 0)]
@@ -57,7 +58,7 @@ class Measured:
         return rows.join(added).assign(is_reference=rows["structure"].isin(REFERENCES))
 
     def finest(self, view: str) -> pd.DataFrame:
-        """The timed rows of a view at their `finest_rays`, the fastest first."""
+        """Returns the timed rows of a view at their `finest_rays`, the fastest first."""
         rows = self.timed[self.timed["view"] == view]
         return rows[rows["rays"] == finest_rays(rows)].sort_values("ns", kind="stable")
 
@@ -74,23 +75,23 @@ class Measured:
 
 
 def read_measured(directory: Path) -> Measured:
-    """A run's folder."""
+    """Reads a run's folder."""
     return Measured(read_run(directory), read_cell_files(directory))
 
 
 def ns_in_words(row: pd.Series) -> str:
-    """One cell as hover titles say it: `35.1 ns per ray (34.9 to 35.4)`."""
+    """Formats one cell for hover titles: `35.1 ns per ray (34.9 to 35.4)`."""
     interval = "" if pd.isna(row["ns_low"]) else between(row["ns_low"], row["ns_high"])
     return f"{number(row['ns'])} ns per ray{interval}"
 
 
 def between(low: float, high: float) -> str:
-    """The ends of an interval, in brackets behind a value."""
+    """Formats the ends of an interval, in brackets behind a value."""
     return f" ({number(low)} to {number(high)})"
 
 
 def by_kind(rows: pd.DataFrame, views: Iterable[str]) -> dict[str, list[str]]:
-    """The views that differ only in what is looked at, by what all of them have in common."""
+    """Groups the views that differ only in what is seen, by their common properties."""
     groups: dict[str, list[str]] = {}
     for view in views:
         first = rows[rows["view"] == view].iloc[0]
@@ -102,7 +103,7 @@ def by_kind(rows: pd.DataFrame, views: Iterable[str]) -> dict[str, list[str]]:
 
 
 def short_title(rows: pd.DataFrame, view: str) -> str:
-    """A view beside others of its kind: its scene; where there are several, camera and machine."""
+    """Returns a short title of a view: its scene; if ambiguous, with camera and machine."""
     own = rows[rows["view"] == view].iloc[0]
     parts = [own["scene"]]
     if rows.loc[rows["scene"] == own["scene"], "camera"].nunique() > 1:

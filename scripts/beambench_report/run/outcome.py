@@ -1,4 +1,4 @@
-"""What a page shows first of the cells whose hits are wrong."""
+"""The summary of wrong hits at the top of a page."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from beambench_report.base.cell_files import CellFile, Example, Identity, identity
 from beambench_report.base.records import ERROR, FAULTLESS_VERDICTS, Run, size_of
 
-# More wrong cells than this have one cause, not many.
+# More wrong cells than this usually share one cause.
 _MOST_SHOWN = 40
 
 _MEANINGS = {
@@ -35,9 +35,9 @@ class Faults:
     """The wrong cells of a run."""
 
     faults: tuple[Fault, ...]
-    """The first of what was wrong."""
+    """The first groups of wrong cells."""
     unshown: int
-    """How many wrong cells are in the table of all cells only."""
+    """The number of wrong cells that only the table of all cells shows."""
 
 
 def faults_of(run: Run, files: Mapping[Identity, CellFile]) -> Faults:

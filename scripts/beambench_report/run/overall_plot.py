@@ -1,4 +1,4 @@
-"""All contenders over all views of one kind of rays: who is how many times the fastest."""
+"""All contenders over all views of one kind of rays, as multiples of the fastest."""
 
 from collections import defaultdict
 
@@ -25,7 +25,7 @@ _EXPLANATION = (
 
 
 def overalls(measured: Measured) -> list[Plot]:
-    """A figure for each kind of rays of which two contenders have times."""
+    """Returns a figure for each kind of rays in which two contenders have times."""
     found = [one for one in measured.analysis.means if len(one.means) > 1]
     stems = file_stems(one.ray_kind for one in found)
     return [
@@ -133,7 +133,7 @@ def _write_values(panel: Axes, place: float, mean: Mean, views: int, *, is_best:
 
 
 def _beside(panel: Axes, right: float, place: float, text: str, **style: object) -> None:
-    """Writes in a column right of the panel."""
+    """Writes in a column to the right of the panel."""
     panel.annotate(
         text,
         (1, place),

@@ -1,4 +1,4 @@
-"""The page of a run: one HTML file that holds everything and loads nothing from a network."""
+"""The page of a run: one HTML file that contains everything and needs no network."""
 
 import shlex
 from collections.abc import Mapping, Sequence
@@ -36,13 +36,13 @@ from beambench_report.run.tables import Table, compare, ratio_field, view_table,
 
 @dataclass(frozen=True)
 class View:
-    """Content of one view; the first table is that of the finest resolution."""
+    """The content of one view; the first table is that of the finest resolution."""
 
     title: str
     anchor: str
     primitives: int
     kinds_of_primitives: str
-    """Empty where the record does not state it."""
+    """The machine; empty if the record does not state it."""
     pictures: tuple[Image, ...]
     plots: tuple[Image, ...]
     tables: tuple[Table, ...]
@@ -98,9 +98,9 @@ PAGE = "report.html"
 
 
 def write_page(directory: Path, reference: str | None = None) -> list[Path]:
-    """Writes DIRECTORY/report.html from what the folder of a run holds.
+    """Writes DIRECTORY/report.html from the folder of a run.
 
-    Ratios are to the contender named `reference`, or to one that suits (see `choose_reference`).
+    Ratios are to the contender named `reference`, or to one chosen by `choose_reference`.
     """
     return [write_text(directory / PAGE, render(read_run(directory), reference))]
 
@@ -108,7 +108,7 @@ def write_page(directory: Path, reference: str | None = None) -> list[Path]:
 def render(
     run: Run, wanted_reference: str | None = None, drawn_kinds: Sequence[Kind] = KINDS
 ) -> str:
-    """The text of the page; `drawn_kinds` of figures are drawn where the folder has no plots."""
+    """Returns the page; figures of `drawn_kinds` are drawn if the folder has no plots."""
     manifest = read_manifest(run.directory) or Manifest()
     files = read_cell_files(run.directory)
     reference = choose_reference(run, wanted_reference)

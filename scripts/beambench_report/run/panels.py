@@ -24,7 +24,7 @@ MOST_LINES = 24
 MOST_ROWS = 60
 """Contenders that a figure with a row for each can show."""
 WIDE_RANGE = 20
-"""An axis is logarithmic where its largest value is more than this many times its least."""
+"""An axis is logarithmic if its largest value exceeds the smallest by more than this factor."""
 
 _LEGEND_LINE = 0.165  # inches
 _LEGEND_CHARACTER = 0.066  # inches
@@ -104,7 +104,7 @@ def _handle(look: Look, *, with_line: bool) -> Line2D:
 def finish(
     figure: Figure, heading: str, rows: pd.DataFrame, explanation: str, *, times: bool = True
 ) -> Figure:
-    """Writes heading and caption, and settles the layout once, so that it is not done twice."""
+    """Writes heading and caption, and settles the layout only once."""
     lines = textwrap.wrap(heading, 92)
     figure.suptitle("\n".join(lines), x=0.01, ha="left", weight="bold", fontsize=10)
     width, height = figure.get_size_inches()
@@ -128,12 +128,12 @@ def plot_of_views(
 
 
 def set_title(panel: Axes, title: str, width: int = 38) -> None:
-    """The title of one of several panels."""
+    """Returns the title of one of several panels."""
     panel.set_title(textwrap.fill(title, width, break_on_hyphens=False), fontsize=8.5)
 
 
 def scale_axis(panel: Axes, which: str, values: Iterable[float], ticks: int = 9) -> bool:
-    """Makes an axis, "x" or "y", logarithmic where the values need it; returns whether it is."""
+    """Makes an axis, "x" or "y", logarithmic if the values need it; returns whether it is."""
     above = [value for value in values if value > 0]
     is_wide = bool(above) and max(above) > WIDE_RANGE * min(above)
     panel.set(**{f"{which}scale": "log" if is_wide else "linear"})

@@ -26,7 +26,7 @@ from beambench_report.run.sheet_layout import (
     label,
 )
 
-# Clips 1% of the pixels at most and lifts dark pictures.
+# Clips at most 1% of the pixels and brightens dark pictures.
 _EXPOSURE = ("--exposure", "auto")
 
 _RENDERER = "embree"
@@ -56,7 +56,7 @@ def write_pictures(directory: Path, beambench: Path) -> list[Path]:
 
 
 def _heatmap_structure(run: Run, scene: str) -> str | None:
-    """Returns the structure's first variant that was right on this scene, as `--accel` takes it."""
+    """Returns the structure's first variant that was correct on this scene, as for `--accel`."""
     rows = run.rows[
         (run.rows["scene"] == scene)
         & (run.rows["structure"] == _HEATMAP_STRUCTURE)
@@ -87,7 +87,7 @@ _VIEWS = {
 
 @dataclass(frozen=True)
 class Group:
-    """Scenes that stand together, under a heading where there are several groups."""
+    """Scenes of one group, under a heading if there are several groups."""
 
     heading: str
     scenes: tuple[str, ...]
@@ -121,7 +121,7 @@ DEFAULT_GROUPS = (
 
 
 def write_contact_sheet(output: Path, beambench: Path, scenes: list[str] | None = None) -> Path:
-    """Renders the scenes, those of DEFAULT_GROUPS if none are given, and writes one PNG of them."""
+    """Renders the scenes (default: those of DEFAULT_GROUPS) and writes them as one PNG."""
     if output.suffix != ".png":
         raise Problem(f"{output}: a contact sheet is a .png")
     if not output.parent.is_dir():
@@ -197,7 +197,7 @@ def _draw(rows: list[Row]) -> Figure:
 def _draw_picture(
     figure: Figure, picture: Picture, across: tuple[int, int], down: tuple[int, int]
 ) -> None:
-    """Between the edges left and right, top and bottom, in pixels."""
+    """Draws between the edges left and right, top and bottom, in pixels."""
     whole = figure.get_figheight() * _DPI
     (left, right), (top, bottom) = across, down
     place = (left / WIDTH, 1 - bottom / whole, (right - left) / WIDTH, (bottom - top) / whole)
@@ -207,7 +207,7 @@ def _draw_picture(
 
 
 def _write(figure: Figure, left: float, top: float, text: str, size: float, weight: str) -> None:
-    """Writes a line below and right of a point, its size in pixels."""
+    """Writes a line below and to the right of a point, in a size in pixels."""
     figure.text(
         left / WIDTH,
         1 - top / (figure.get_figheight() * _DPI),

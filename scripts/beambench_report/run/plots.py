@@ -1,4 +1,4 @@
-"""The plots of a run: who is fastest, at which price, from how many rays on, and how surely."""
+"""The plots of a run: who is fastest, at what price, from how many rays on, and how surely."""
 
 import json
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -23,7 +23,7 @@ from beambench_report.run.trade_offs import trade_offs
 
 @dataclass(frozen=True)
 class Kind:
-    """One kind of figure: what draws it, how it is called, and what it needs to be drawn."""
+    """One kind of figure: the function that draws it, its name, and the data it needs."""
 
     draw: Callable[[Measured], list[Plot]]
     name: str
@@ -43,13 +43,13 @@ KINDS = (
 
 
 def draw(measured: Measured, kinds: Sequence[Kind] = KINDS) -> Iterator[Plot]:
-    """The figures of these kinds; they must be saved within `house_style`, too."""
+    """Returns the figures of these kinds; they must also be saved within `house_style`."""
     for kind in kinds:
         yield from kind.draw(measured)
 
 
 def without_figure(stems: Iterable[str], kinds: Sequence[Kind] = KINDS) -> list[Kind]:
-    """The kinds without a figure among those of these stems."""
+    """Returns the kinds without a figure among those of these stems."""
     known = tuple(stems)
     return [kind for kind in kinds if not any(stem.startswith(kind.name) for stem in known)]
 
@@ -57,7 +57,7 @@ def without_figure(stems: Iterable[str], kinds: Sequence[Kind] = KINDS) -> list[
 def write_plots(directory: Path, kinds: Sequence[Kind] = KINDS) -> list[Path]:
     """Fills DIRECTORY/plots from DIRECTORY/results.csv: PNG, SVG, a table, README and index.
 
-    Draws `kinds` alone. What an earlier call drew and this one does not goes away.
+    Only `kinds` are drawn. Plots of an earlier call that are not drawn again are removed.
     """
     measured = read_measured(directory)
     folder = directory / "plots"
@@ -79,7 +79,7 @@ def write_plots(directory: Path, kinds: Sequence[Kind] = KINDS) -> list[Path]:
 
 
 def _remove_former(folder: Path, stems: set[str]) -> None:
-    """The figures that the index there lists and that were not drawn again."""
+    """Returns the figures in the existing index that were not drawn again."""
     try:
         former = {entry["stem"] for entry in load_json(folder / PLOT_INDEX)}
     except (OSError, ValueError, TypeError, KeyError):

@@ -1,7 +1,7 @@
-"""Every contender of a run over one of them, or over the best of a structure, view by view.
+"""Every contender of a run relative to one of them, or to the best of a structure, view by view.
 
-For runs that compare programs over a few scenes: a row for each contender, a column for each scene,
-and the geometric mean over the scenes. Lists of rays are those in the order in which they are made.
+It suits runs that compare programs over a few scenes: a row for each contender, a column for each
+scene, and the geometric mean over the scenes. Only lists in their original order count.
 """
 
 from pathlib import Path
@@ -18,10 +18,10 @@ _TIME = "trace_net_ms_median"
 
 
 def write_ratios(run: Path, base: str, output: Path | None = None) -> str | list[Path]:
-    """The table as Markdown: a text to be printed, or the file that was written.
+    """Returns the table as Markdown, or the file that was written.
 
-    `base` is a contender, as plots call it, or a structure: then it is, in each view, that of its
-    contenders with correct hits that is fastest. Raises Problem when the run has neither.
+    `base` is a contender, as plots name it, or a structure: then in each view its fastest contender
+    with correct hits is the base. Raises Problem if the run has neither.
     """
     text = _text(read_run(run).rows, base)
     return [write_text(output, text)] if output else text
@@ -74,7 +74,7 @@ def _text(rows: pd.DataFrame, base: str) -> str:
 
 
 def _ratios(correct: pd.DataFrame, base: str) -> pd.DataFrame:
-    """The rows with `ratio`."""
+    """Returns the rows with `ratio`."""
     of_base = correct[(correct["contender"] == base) | (correct["structure"] == base)]
     if of_base.empty:
         names = ", ".join(sorted({*correct["contender"], *correct["structure"]}))

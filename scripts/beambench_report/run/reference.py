@@ -1,4 +1,4 @@
-"""What a page's ratios are to: the contender that others are compared with."""
+"""Chooses the reference: the contender to which the ratios of a page relate."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -22,11 +22,11 @@ class Compared:
 
 
 def choose_reference(run: Run, wanted: str | None = None) -> str | None:
-    """The contender that others are compared with: correct in the most views.
+    """Returns the reference: the contender with correct hits in the most views.
 
-    Of equals Embree's, and of these the one that traces a ray in the least time, by the geometric
-    mean; without Embree the first. None where no contender has correct hits. Raises Problem for a
-    name the run does not have.
+    Among equals, Embree's contenders come first, and of these the one with the least geometric mean
+    of trace times; without Embree, the first. None if no contender has correct hits. Raises Problem
+    for a name that the run does not have.
     """
     right = run.rows[run.rows["timed"] & (run.rows["verdict"] == OK)]
     contenders = list(dict.fromkeys(right["contender"]))
@@ -45,7 +45,7 @@ def choose_reference(run: Run, wanted: str | None = None) -> str | None:
 
 
 def why_reference(reference: str, wanted: str | None) -> str:
-    """Why the others are compared with it, as the end of a sentence."""
+    """Returns why it is the reference, as the end of a sentence."""
     if wanted is not None:
         return "as --reference wants it"
     if _is_embree(reference):
@@ -58,7 +58,7 @@ def _is_embree(contender: str) -> bool:
 
 
 def _chosen(wanted: str, contenders: list[str]) -> str:
-    """The contender of that name, or the only one of that structure."""
+    """Returns the contender of that name, or the only one of that structure."""
     if wanted in contenders:
         return wanted
     variants = [name for name in contenders if name.split()[0] == wanted]
@@ -73,7 +73,7 @@ def _chosen(wanted: str, contenders: list[str]) -> str:
 def compared(
     run: Run, view: str, reference: str | None, files: Mapping[Identity, CellFile]
 ) -> list[Compared]:
-    """A view at each of its resolutions: the `finest_rays` first, then by the number of rays."""
+    """Returns a view at each resolution: the `finest_rays` first, then by the number of rays."""
     rows = run.view(view)
     finest = finest_rays(rows)
     groups = [(key[0], own) for key, own in rows.groupby(["rays", "width", "height"])]

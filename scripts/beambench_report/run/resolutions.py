@@ -31,7 +31,7 @@ _APART = 0.2  # of the axis, between two sizes that are named
 
 
 def resolutions(measured: Measured) -> list[Plot]:
-    """Returns the figures of all views with times at two resolutions at least."""
+    """Returns the figures of all views with times at two or more resolutions."""
     timed = measured.timed
     sizes = timed.groupby(["view", "contender"])["rays"].nunique()
     several = sizes[sizes > 1].index.get_level_values("view")
@@ -42,7 +42,7 @@ def resolutions(measured: Measured) -> list[Plot]:
 
 def _resolutions(measured: Measured, kind: str, views: Sequence[str], stem: str) -> Plot:
     rows = measured.timed[measured.timed["view"].isin(views)]
-    # The fastest first, by their last place over the views.
+    # The fastest first, by their worst rank over the views.
     fastest = rows.sort_values("ns").drop_duplicates("contender")
     place = fastest.groupby("structure").cumcount()
     shown = fastest[place < _SHOWN_VARIANTS].head(_MOST_LINES)

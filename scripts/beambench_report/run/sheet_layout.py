@@ -23,7 +23,7 @@ _LONGEST_ROW = 6  # pictures
 
 @dataclass(frozen=True)
 class Picture:
-    """One scene's, with what its label says of it."""
+    """The picture of one scene, with the text of its label."""
 
     scene: str
     counts: str
@@ -31,13 +31,13 @@ class Picture:
 
     @property
     def aspect(self) -> float:
-        """Width over height."""
+        """Returns the width over the height."""
         return self.pixels.shape[1] / self.pixels.shape[0]
 
 
 @dataclass(frozen=True)
 class Row:
-    """Pictures of one height, under each its name and its counts."""
+    """Pictures of one height, each with its name and counts below it."""
 
     heading: str
     pictures: list[Picture]
@@ -45,12 +45,12 @@ class Row:
 
     @property
     def height(self) -> float:
-        """The height with heading, labels and the space below."""
+        """Returns the height with heading, labels and the space below."""
         lines = max(len(label(picture, self.picture_height)) for picture in self.pictures)
         return (HEADING if self.heading else 0) + self.picture_height + LINE * lines + 2 * GAP
 
     def edges(self) -> list[tuple[int, int]]:
-        """Left and right edge of each picture."""
+        """Returns the left and right edge of each picture."""
         edges = []
         left = float(MARGIN)
         for picture in self.pictures:
@@ -61,9 +61,9 @@ class Row:
 
 
 def even_rows(heading: str, pictures: list[Picture]) -> list[Row]:
-    """Returns as few rows as possible, of about equal numbers of pictures; each fills the width.
+    """Returns as few rows as possible, with about equal numbers of pictures; each fills the width.
 
-    A few pictures, which would be too high for that, leave room beside them.
+    A few pictures, which would become too high, leave space beside them.
     """
     count = math.ceil(len(pictures) / _LONGEST_ROW)
     ends = [math.ceil(len(pictures) * number / count) for number in range(count + 1)]
@@ -82,7 +82,7 @@ def _space(row: list[Picture]) -> float:
 
 
 def label(picture: Picture, height: float) -> list[tuple[str, str]]:
-    """Returns the lines under a picture that is so high, each with its weight."""
+    """Returns the lines under a picture of this height, each with its weight."""
     letters = max(12, int(height * picture.aspect / _LETTER))
     name = [(line, "bold") for line in textwrap.wrap(picture.scene, letters - 1)]
     return name + [(line, "normal") for line in textwrap.wrap(picture.counts, letters)]

@@ -1,4 +1,4 @@
-"""How a parameter that a run sweeps changes who is faster: ratios at equal values of it."""
+"""How a swept parameter changes who is faster: ratios at equal values of it."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -31,22 +31,22 @@ _COLUMNS = 3
 _MOST_PANELS = 12
 _PANEL_HEIGHT = 1.85  # inches
 _LEAST_VALUES = 2
-"""Of a parameter, that a line needs."""
+"""The fewest values of a parameter for a line."""
 
 
 @dataclass(frozen=True)
 class _Sweep:
-    """The parameter that several structures sweep, and those of their variants in it."""
+    """The parameter that several structures sweep, and their variants that have it."""
 
     parameter: str
     base: str
     """A structure that sweeps nothing else; others are compared with it at the same value."""
     rows: pd.DataFrame
-    """The timed ones, with the columns `value` and `line`, the contender without the parameter."""
+    """The timed rows, with the columns `value` and `line`, the contender without the parameter."""
 
 
 def swept(measured: Measured) -> list[Plot]:
-    """A figure for each kind of rays, of the parameter that most structures sweep."""
+    """Returns a figure for each kind of rays, of the parameter that most structures sweep."""
     sweep = _sweep(measured.timed)
     if sweep is None:
         return []
@@ -149,7 +149,7 @@ _Line = list[tuple[float, Ratio]]
 def _rows_of_panels(
     panels: Mapping[Axes, tuple[tuple[str, float], Mapping[str, _Line]]], columns: int
 ) -> list[dict[Axes, Mapping[str, _Line]]]:
-    """The panels by resolution where each of those fills whole rows; otherwise all of them."""
+    """Returns the panels by resolution if each of those fills whole rows; otherwise all of them."""
     parts: dict[float, dict[Axes, Mapping[str, _Line]]] = {}
     for panel, ((_, rays), own) in panels.items():
         parts.setdefault(rays, {})[panel] = own
@@ -159,7 +159,7 @@ def _rows_of_panels(
 
 
 def _share_scale(panels: Mapping[Axes, Mapping[str, _Line]]) -> None:
-    """One vertical axis for all panels of a resolution: those of others differ by far more."""
+    """Gives panels of a resolution one vertical axis: other resolutions differ by far more."""
     values = [ratio.value for own in panels.values() for line in own.values() for _, ratio in line]
     for panel in panels:
         if scale_axis(panel, "y", values):
@@ -171,7 +171,7 @@ def _share_scale(panels: Mapping[Axes, Mapping[str, _Line]]) -> None:
 
 
 def _lines(measured: Measured, sweep: _Sweep, rows: pd.DataFrame) -> dict[str, _Line]:
-    """Lines of one image that have enough values, as ratios to the base."""
+    """Returns the lines of one image that have enough values, as ratios to the base."""
     bases = {row["value"]: row for _, row in rows[rows["structure"] == sweep.base].iterrows()}
     found: dict[str, _Line] = {}
     for name, own in rows[rows["structure"] != sweep.base].groupby("line", sort=False):
@@ -186,7 +186,7 @@ def _lines(measured: Measured, sweep: _Sweep, rows: pd.DataFrame) -> dict[str, _
 
 
 def _looks(rows: pd.DataFrame) -> Mapping[str, Look]:
-    """One for each line: the color of its structure, the marker of its place in that."""
+    """Returns a look for each line: the color of its structure, and a marker by its position."""
     return {
         name: variant_look(structure, index)
         for structure, own in rows.groupby("structure", sort=False)

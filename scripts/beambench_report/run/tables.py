@@ -27,7 +27,7 @@ class Heading:
 
 @dataclass(frozen=True)
 class Field:
-    """A field: what is read, what it sorts by, and smaller words behind it."""
+    """A field: its text, its sort key, and smaller words behind it."""
 
     text: str
     value: float | str | None
@@ -39,14 +39,14 @@ class Line:
     """A contender's line; the shares are those of its bar, 1 being the whole width."""
 
     contender: str
-    """Its label; where it is tuned, with the parameters that stand for it."""
+    """The contender's label; if it is tuned, with the parameters that represent it."""
     color: str
     verdict: str
     fields: tuple[Field, ...]
     anchor: str = ""
-    """Of its row among all cells."""
+    """The number of its row among all cells."""
     is_reference: bool = False
-    """Is it `null` or `exhaustive`, which stand apart?"""
+    """Is it `null` or `exhaustive`, which are listed apart?"""
     build_share: float = 0.0
     trace_share: float = 0.0
     off_the_scale: bool = False
@@ -54,7 +54,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Table:
-    """Headings and lines; lines beyond what a page can show are counted only."""
+    """Headings and lines; lines beyond what a page can show are only counted."""
 
     caption: str
     headings: tuple[Heading, ...]
@@ -66,7 +66,7 @@ class Table:
 
 MISSING = Field("–", None)  # noqa: RUF001
 _MOST_LINES = 60
-_FAR = 12  # a time this many times the median one would flatten the others' bars
+_FAR = 12  # a time this many times the median would flatten the others' bars
 
 
 def view_table(
@@ -76,7 +76,7 @@ def view_table(
     reference: str | None,
     left_out: tuple[tuple[str, str], ...] = (),
 ) -> Table:
-    """Times and memory, the quickest first; then those without times; references last."""
+    """Returns times and memory, the fastest first, then those without times, references last."""
     ordered = _in_order(rows)
     headings = (
         Heading("trace", "ns per ray", "trace_ms"),
@@ -100,7 +100,7 @@ def view_table(
 
 
 def work_table(caption: str, rows: pd.DataFrame, counters: list[str]) -> Table | None:
-    """Counters per ray; None where nothing was counted."""
+    """Returns counters per ray; None if nothing was counted."""
     counters = [name for name in counters if rows[name].notna().any() and (rows[name] != 0).any()]
     counted = rows[rows[counters].notna().any(axis=1)] if counters else rows.iloc[:0]
     if counted.empty:
@@ -116,7 +116,7 @@ def work_table(caption: str, rows: pd.DataFrame, counters: list[str]) -> Table |
 
 
 def _in_order(rows: pd.DataFrame) -> pd.DataFrame:
-    """The quickest trace first, references last."""
+    """Returns the rows by trace time, the fastest first, references last."""
     times = rows["trace_ms"].where(rows["timed"])
     keys = pd.DataFrame({"reference": rows["structure"].isin(REFERENCES), "time": times})
     return rows.loc[keys.sort_values(["reference", "time"], kind="stable").index]
@@ -134,17 +134,17 @@ def _bare_line(row: pd.Series, fields: tuple[Field, ...]) -> Line:
 
 
 def cell_anchor(row: Mapping[str, object]) -> str:
-    """The name by which a link opens one cell; templates/cells.js makes the same."""
+    """Returns the name by which a link opens one cell; templates/cells.js makes the same."""
     words = f"{row['view']} {size_of(row)} {row['contender']}"
     return "cell-" + re.sub(r"[^a-z0-9]+", "-", words.lower()).strip("-")
 
 
 def ratio_field(ratio: Ratio | None) -> Field:
-    """A ratio with its interval; one that is not paired says so."""
+    """Formats a ratio with its interval; an unpaired one is marked."""
     if ratio is None:
         return MISSING
     note = ""
-    if ratio.interval and ratio.low != ratio.high:  # as those of the fastest to itself
+    if ratio.interval and ratio.low != ratio.high:  # such as that of the fastest to itself
         note = f"{number(ratio.low)} to {number(ratio.high)}"
         note += "" if ratio.paired else ", not paired"
     return Field(number(ratio.value), ratio.value, note)
@@ -199,12 +199,12 @@ def _scale(totals: pd.Series) -> float:
     return near.max() if len(near) > 0 and near.max() > 0 else 1.0
 
 
-_DEEPEST = 4.0  # doublings at which the shade is full
+_DEEPEST = 4.0  # doublings at which the shade is darkest
 
 
 @dataclass(frozen=True)
 class Mark:
-    """A field of the overview, shaded by how far it is from the reference."""
+    """A field of the overview, shaded by its ratio to the reference."""
 
     field: Field
     verdict: str
@@ -214,16 +214,16 @@ class Mark:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Contenders down, views across."""
+    """A table with a row for each contender and a column for each view."""
 
     reference: str
     views: tuple[str, ...]
     lines: tuple[tuple[str, str, tuple[Mark, ...]], ...]
-    """Contender, its color, its marks in the order of the views."""
+    """A contender, its color, and its marks in the order of the views."""
 
 
 def compare(reference: str, finest: Mapping[str, Compared]) -> Comparison:
-    """The overview of all views, each at its highest resolution."""
+    """Returns the overview of all views, each at its highest resolution."""
     structures: dict[str, str] = {}
     verdicts: dict[tuple[str, str], str] = {}
     for view, shown in finest.items():

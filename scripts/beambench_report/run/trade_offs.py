@@ -43,7 +43,7 @@ def _trade_off(
     measured: Measured, view: str, stem: str, rows: pd.DataFrame, costs: list[str]
 ) -> Plot:
     contenders = list(rows["contender"])
-    # A legend shifts the panels a little: the second time another contender may need a number.
+    # A legend shifts the panels slightly, so the second time another contender may need a number.
     figure, numbered = _figure(measured, view, rows, costs, [])
     if numbered:
         figure, others = _figure(measured, view, rows, costs, numbered)
@@ -55,7 +55,7 @@ def _trade_off(
 def _figure(
     measured: Measured, view: str, rows: pd.DataFrame, costs: list[str], numbered: list[str]
 ) -> tuple[Figure, list[str]]:
-    """Returns the figure with a legend of those `numbered`, and who has no name at all points."""
+    """Returns the figure with a legend of those `numbered`, and the unlabeled contenders."""
     numbers = {contender: str(place) for place, contender in enumerate(numbered, 1)}
     legend = {f"{number}  {name}": measured.looks[name] for name, number in numbers.items()}
     figure, panels = panels_with_legend(len(costs), len(costs), 3.5, legend, with_lines=False)
@@ -86,7 +86,7 @@ def _draw(
     scale_axis(panel, "x", rows["ns"])
     is_log = scale_axis(panel, "y", rows[cost])
     least = rows.loc[rows[cost] > 0, cost].min()
-    # A logarithmic axis has no place for what is free: it lies at the lower end, and says so.
+    # A logarithmic axis has no place for zero cost, which is drawn at the lower end with a note.
     rows = rows.assign(cost=rows[cost].clip(lower=least / 3) if is_log else rows[cost])
     panel.margins(0.14)
     for _, row in rows.iterrows():

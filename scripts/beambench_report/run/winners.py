@@ -1,9 +1,9 @@
-"""Finds which structure wins where: each with its own best parameters, view by view.
+"""Finds which structure wins where, each with its own best parameters, view by view.
 
-Beside the analysis of a run, which ranks every contender, a structure counts once here: with the
-parameters, and the order of the rays, that give it the least trace time in the view. Whether it is
-tied with the fastest is decided as there, by `Ratio.rank`. Where a ratio has no interval, because a
-cell was repeated too seldom, the times decide.
+The analysis of a run ranks every contender. Here a structure counts once, with the parameters and
+the order of the rays that give it the least trace time in the view. Ties with the fastest are
+decided by `Ratio.rank`, as in the analysis. If a ratio has no interval, because a cell was repeated
+too seldom, the times decide.
 """
 
 from collections import Counter
@@ -33,7 +33,7 @@ class Race:
 
     @property
     def tied(self) -> list[str]:
-        """The fastest structure, and those that may be as fast."""
+        """Returns the fastest structure, and those that may be as fast."""
         return list(self.ranked.loc[self.ranked["is_tied"], "structure"])
 
     @property
@@ -43,7 +43,7 @@ class Race:
 
     @property
     def words(self) -> str:
-        """The winners, and what comes behind them: `sah-bvh; 1.31 kd-tree`."""
+        """Formats the winners and the next structure: `sah-bvh; 1.31 kd-tree`."""
         tied = self.tied
         others = self.ranked[~self.ranked["structure"].isin(tied)]
         text = ", ".join(f"`{name}`" for name in tied)
@@ -55,7 +55,7 @@ class Race:
 
 
 def races(rows: pd.DataFrame, files: Mapping[Identity, CellFile]) -> list[Race]:
-    """Of all views and kinds of rays, in the order of the rows."""
+    """Returns the winners of all views and kinds of rays, in the order of the rows."""
     timed = contenders_with_times(rows)
     timed = timed[~timed["structure"].isin(REFERENCES)]
     found = []
@@ -68,8 +68,8 @@ def races(rows: pd.DataFrame, files: Mapping[Identity, CellFile]) -> list[Race]:
 def with_ratios(rows: pd.DataFrame, files: Mapping[Identity, CellFile]) -> pd.DataFrame:
     """Returns the rows of one view, the fastest first, compared with it.
 
-    `ratio` is that of the trace times, as in the plots. `is_tied` is true of the fastest, and of
-    those of the `rank` "tied".
+    `ratio` is that of the trace times, as in the plots. `is_tied` is true for the fastest, and for
+    those with the `rank` "tied".
     """
     ranked = rows.sort_values("trace_ms")
     fastest = ranked.iloc[0]
@@ -82,7 +82,7 @@ def with_ratios(rows: pd.DataFrame, files: Mapping[Identity, CellFile]) -> pd.Da
 
 
 def write_winners(run: Path, output: Path | None = None) -> str | list[Path]:
-    """The tables as Markdown: a text to be printed, or the file that was written."""
+    """Returns the tables as Markdown, or the file that was written."""
     found = races(read_run(run).rows, read_cell_files(run))
     if not found:
         raise Problem(f"{run}: no structure has times; a run with correct hits is needed")

@@ -1,4 +1,4 @@
-"""Best against best: each contender with the parameters that suit the view best."""
+"""Best against best: each contender with its best parameters for the view."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -14,10 +14,10 @@ class Choice:
 
     cell: Cell | None
     parameters: str
-    """Those that were tried with several values."""
+    """The parameters that were tried with several values."""
     tried: int
     is_edge: bool = False
-    """Its level or its grid is the lowest or highest tried: a better one may lie beyond."""
+    """Is its level or grid the lowest or highest tried? A better one may lie beyond."""
     ratio: Measured | None = None
     """Its time over that of the first contender's best."""
 
@@ -41,7 +41,7 @@ class BestTable:
 
 
 def best_table(part: PrintedPart, cells: Cells) -> BestTable | None:
-    """Returns the table of resolutions at which some contender had a choice; None if none had."""
+    """Returns the table of resolutions at which any contender had a choice; None without any."""
     structures = [*part.structures, *REFERENCES]
     resolutions = [
         resolution
@@ -100,15 +100,15 @@ def _is_edge(best: Cell, timed: Sequence[Cell]) -> bool:
 
 
 def _has(cell: Cell, values: dict[str, str]) -> bool:
-    """Has a cell these values of the parameters that its version had?"""
+    """Does a cell have these values of the parameters that its version had?"""
     return all(cell.parameters.get(name, value) == value for name, value in values.items())
 
 
 def _pools(structure: str) -> list[tuple[str, dict[str, str]]]:
-    """Returns the forms of a contender: the thesis's own, and the best where we have others.
+    """Returns the forms of a contender: the thesis's own, and the best if we have others.
 
-    The thesis's beams hand nothing over and test samples one by one; its hierarchy places
-    objects beside terminal nodes.
+    The thesis's beams do not hand over and test samples one by one; its hierarchy places objects
+    beside terminal nodes.
     """
     title = contender_title(structure)
     if structure == "beam":
@@ -123,7 +123,7 @@ def _pools(structure: str) -> list[tuple[str, dict[str, str]]]:
 
 
 def _is_second_pass(part: PrintedPart, cells: Cells, resolution: str) -> bool:
-    """Was anything but the thesis's own parameters tried here?"""
+    """Were any parameters other than the thesis's own tried here?"""
     own = {row.setting(part.scene, resolution) for row in part.rows}
     return any(
         cell.setting not in own

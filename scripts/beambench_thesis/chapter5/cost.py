@@ -36,7 +36,7 @@ class Observation:
 
 @dataclass(frozen=True)
 class Term:
-    """A count, and the thesis's name of what one of them costs, if it has one."""
+    """A count, and the thesis's name for its cost, if it has one."""
 
     words: str
     symbol: str = ""
@@ -44,15 +44,15 @@ class Term:
 
 @dataclass(frozen=True)
 class Formula:
-    """A time as a sum of counts, each times a cost of its own."""
+    """A time as a sum of counts, each multiplied by a cost."""
 
     title: str
     time: str
-    """What it predicts."""
+    """The quantity that it predicts."""
     terms: tuple[Term, ...]
     observe: Callable[[Iterable[Cell]], list[Observation]]
     unit: str = "ms"
-    """Of its figure."""
+    """The title of its figure."""
 
 
 @dataclass(frozen=True)
@@ -62,17 +62,17 @@ class Fit:
     formula: Formula
     observations: tuple[Observation, ...]
     coefficients: tuple[Measured, ...]
-    """Their intervals are (nan, nan) with too few scenes."""
+    """The 95% intervals, (nan, nan) with too few scenes."""
     predicted: tuple[float, ...]
     r_squared: float
     errors: tuple[float, ...]
     """|predicted - measured| / measured."""
     cross_validation_errors: tuple[float, ...]
-    """The same, each scene predicted by the fit to all others; empty with too few scenes."""
+    """The same with each scene predicted by the fit to all others; empty with too few scenes."""
 
     @property
     def scenes(self) -> int:
-        """The number of scenes that the cells come from."""
+        """Returns the number of scenes that the cells come from."""
         return len({observation.cell.scene for observation in self.observations})
 
 
@@ -141,7 +141,7 @@ def sums_of_auto() -> tuple[Formula, Formula, Formula]:
 def fit_costs(
     counts: np.ndarray, times: np.ndarray, weights: np.ndarray | None = None
 ) -> np.ndarray:
-    """Returns nonnegative costs of least squared relative error; each cell counts by its weight."""
+    """Returns nonnegative costs with the least squared relative error; cells are weighted."""
     shares = counts / times[:, None]
     lengths = np.sqrt((shares**2).sum(axis=0))  # counts differ by orders of magnitude
     scale = np.where(lengths > 0, lengths, 1.0)
@@ -150,7 +150,7 @@ def fit_costs(
 
 
 def r_squared(measured: np.ndarray, predicted: np.ndarray) -> float:
-    """Returns the part of the variance that the prediction explains."""
+    """Returns the share of the variance that the prediction explains."""
     spread = float(np.sum((measured - measured.mean()) ** 2))
     return 1.0 - float(np.sum((measured - predicted) ** 2)) / spread if spread > 0 else 1.0
 
@@ -188,7 +188,7 @@ def _errors(predicted: np.ndarray, times: np.ndarray) -> tuple[float, ...]:
     return tuple(map(float, np.abs(predicted - times) / times))
 
 
-# What the formulas observe in a cell
+# Observations of the formulas in a cell
 
 
 def _usable(cells: Iterable[Cell], *structures: str) -> Iterable[Cell]:
@@ -229,7 +229,8 @@ def _beams(cells: Iterable[Cell]) -> list[Observation]:
     walks: dict[tuple[object, ...], tuple[float, float]] = {}
     for cell in _usable(cells, "samet"):
         if walk := _walk(cell):
-            # A ray's work hardly depends on how many there are: another resolution's will do.
+            # A ray's work hardly depends on the number of rays, so another resolution's count is
+            # used.
             walks[_octree(cell)] = walks[*_octree(cell), cell.rays] = walk
     found = []
     for cell in _usable(cells, "beam"):
@@ -252,7 +253,7 @@ def _walk(cell: Cell) -> tuple[float, float] | None:
 
 
 def _octree(cell: Cell) -> tuple[object, ...]:
-    """Returns scene and octree; root and assignment are the thesis's in all usable cells."""
+    """Returns scene and octree; all usable cells have the thesis's root and assignment."""
     given = cell.parameters
     return cell.scene, given.get("max_level"), given.get("max_objects"), given.get("pad")
 
@@ -265,7 +266,7 @@ _NANOSECONDS = {"ms": 1e-6, "ns per ray": 1.0}
 
 
 def draw_fits(stem: str, fits: Sequence[Fit]) -> Plot:
-    """Draws a panel for each formula, a point for each cell; on the line, predictions are exact."""
+    """Draws a panel for each formula and a point for each cell; the line is exact prediction."""
     figure, panels = new_figure(_HEIGHTS[len(fits)], 1, len(fits))
     for panel, one in zip(panels, fits, strict=True):
         scale = _NANOSECONDS[one.formula.unit]

@@ -1,6 +1,6 @@
 """Facts that the report adds to the sweeps: counts printed by single commands of beambench.
 
-`gather_facts` runs the commands and keeps what they print in folders beside the runs; each section
+`gather_facts` runs the commands and stores their output in folders beside the runs; each section
 reads one of these folders.
 """
 
@@ -27,7 +27,7 @@ Read = TypeVar("Read")
 
 
 def _read(path: Path, take: Callable[[dict], Read]) -> Read | None:
-    """Returns what `take` finds in a file; None where the file is missing or has other contents."""
+    """Returns the result of `take` on a file; None if the file is missing or malformed."""
     try:
         return take(load_json(path))
     except (OSError, ValueError, KeyError, TypeError):
@@ -45,7 +45,7 @@ def scene_file(directory: Path, scene: str) -> Path:
 
 
 def scenes_section(directory: Path) -> Section | None:
-    """Returns table 5.1 with our counts; None where no scene was counted."""
+    """Returns table 5.1 with our counts; None if no scene was counted."""
     printed = read_published("scenes.csv").to_dict("records")
     counted = {row["scene"]: _read(scene_file(directory, row["scene"]), _counts) for row in printed}
     if not any(counted.values()):
@@ -79,7 +79,7 @@ def _counts(source: dict) -> dict[str, int]:
     return {kind: int(source[kind]) for kind in _KINDS}
 
 
-# How often rays and beams visit the nodes of an octree, by level: the thesis's reason for 6
+# How often rays and beams visit the nodes of an octree, by level: the thesis's argument for level 6
 
 VISITED_SCENES = ("maceta", "delfines")
 VISITED = "beam:max_level=8,max_objects=0"
@@ -98,7 +98,7 @@ def visits_file(directory: Path, scene: str) -> Path:
 
 
 def visits_section(directory: Path) -> Section | None:
-    """Returns a table for each scene; None where no visits were counted."""
+    """Returns a table for each scene; None if no visits were counted."""
     read = {scene: _read(visits_file(directory, scene), _visits) for scene in VISITED_SCENES}
     known = {scene: found for scene, found in read.items() if found is not None}
     if not known:
@@ -132,7 +132,7 @@ def _visits_table(scene: str, rays: int, levels: pd.DataFrame) -> SectionTable:
 
 
 def _visits_finding(scene: str, rays: int, levels: pd.DataFrame) -> str:
-    """Returns a sentence on how visits fall around level 6."""
+    """Returns a sentence on how visits decrease around level 6."""
     before, six, after = levels["rays"].reindex([_SIX - 1, _SIX, _SIX + 1])
     if not before + six + after > 0:  # a level is missing
         return ""
@@ -155,13 +155,13 @@ class Turn:
     """The movement of a camera around the point that it looks at."""
 
     azimuth: float
-    """Degrees around the z axis, beside where it was."""
+    """Degrees around the z axis, relative to the original camera."""
     elevation: float
     """Degrees above the horizon."""
     distance: float
-    """Over what it was."""
+    """The distance relative to the original."""
     angle: float
-    """Of view, in degrees."""
+    """The angle of view in degrees."""
 
 
 TURN = Turn(azimuth=29.6, elevation=4.0, distance=1.34, angle=9.74)
@@ -173,7 +173,7 @@ def view_file(directory: Path, *, turned: bool, objects: int) -> Path:
 
 
 def camera_section(directory: Path) -> Section | None:
-    """Returns exit pixels from both cameras and the thesis's; None where they were not counted."""
+    """Returns exit pixels from both cameras and the thesis's; None if they were not counted."""
     pixels = {
         (turned, objects): _read(view_file(directory, turned=turned, objects=objects), _exit_pixels)
         for turned in (False, True)
@@ -234,7 +234,7 @@ class Fact:
 
 
 def facts(directory: Path) -> list[Fact]:
-    """Returns all facts except those of the turned camera, which need a scene file of their own."""
+    """Returns all facts except those of the turned camera, which need a separate scene file."""
     scenes = tuple(primitives_by_scene())
     census = (
         "census",
@@ -254,7 +254,7 @@ def facts(directory: Path) -> list[Fact]:
 
 
 def gather_facts(directory: Path, beambench: Path) -> list[str]:
-    """Makes the missing files; returns a sentence for each that could not be made."""
+    """Creates the missing files; returns a sentence for each failure."""
     failed = _make(facts(directory), beambench)
     if all(fact.path.exists() for fact in _views(directory, TURNED_SCENE, turned=True)):
         return failed
@@ -272,7 +272,7 @@ def gather_facts(directory: Path, beambench: Path) -> list[str]:
 def turn_camera(scene: str, camera: dict, turn: Turn) -> str:
     """Returns the text of an NFF scene with its camera turned around the point that it looks at.
 
-    Raises ValueError where the text has no camera of its own.
+    Raises ValueError if the text has no camera.
     """
     at, eye = camera["at"], camera["from"]
     away = [e - a for e, a in zip(eye, at, strict=True)]

@@ -27,16 +27,16 @@ class GridBeamRow:
     rays: Cell
     """Single rays through the same grids."""
     octree: Cell | None
-    """Of beams through octrees, the one with the least time."""
+    """The fastest beams through octrees."""
 
     @property
     def ratio(self) -> float:
-        """The trace time of single rays over that of beams."""
+        """Returns the trace time of single rays over that of beams."""
         return self.rays.trace / self.beams.trace
 
     @property
     def octree_ratio(self) -> float | None:
-        """The total time with the octree over the total time with the grids."""
+        """Returns the total time with the octree over the total time with the grids."""
         if self.octree is None:
             return None
         return _whole(self.octree) / _whole(self.beams)
@@ -62,7 +62,7 @@ def grid_beam_rows(cells: Iterable[Cell]) -> list[GridBeamRow]:
 
 
 def grid_beams_section(cells: Iterable[Cell]) -> Section | None:
-    """Returns the section, scene by scene; None where nothing was measured."""
+    """Returns the section, scene by scene; None if nothing was measured."""
     rows = grid_beam_rows(cells)
     if not rows:
         return None

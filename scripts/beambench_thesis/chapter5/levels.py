@@ -30,7 +30,7 @@ from beambench_thesis.paper.section import (
 )
 
 TARGET = 0.10
-"""A loss below it is a good choice; nine of ten should be."""
+"""A choice with a smaller loss is good; 90% should be."""
 _TARGET_SHARE = 0.9
 _AUTO = "auto"
 _WORST = 5
@@ -42,16 +42,16 @@ class LevelChoice:
 
     auto: Cell
     fixed: dict[int, Cell]
-    """By level, the lowest first; at least two."""
+    """The cells by level, the lowest first; at least two."""
 
     @property
     def level(self) -> int | None:
-        """The level of the deepest leaf that the choice led to."""
+        """The level of the deepest leaf that resulted from the choice."""
         return None if pd.isna(self.auto.depth) else int(self.auto.depth)
 
     @cached_property
     def best(self) -> int:
-        """The fixed level that was the fastest."""
+        """Returns the fastest fixed level."""
         return min(self.fixed, key=lambda level: self._comparable(self.fixed[level]))
 
     @property
@@ -61,17 +61,17 @@ class LevelChoice:
 
     @property
     def loss(self) -> float:
-        """Time of auto, the choosing included, over that of the best level, less 1."""
+        """Returns the time of auto, the choosing included, over that of the best level, minus 1."""
         return self._over_best(self.auto)
 
     @property
     def chosen(self) -> Cell | None:
-        """The cell of the fixed level that was chosen, where it was measured."""
+        """Returns the cell of the fixed level that was chosen, if it was measured."""
         return None if self.level is None else self.fixed.get(self.level)
 
     @property
     def loss_of_level(self) -> float | None:
-        """The loss of the level itself, without the cost of choosing it."""
+        """Returns the loss of the level itself, without the cost of choosing it."""
         return None if self.chosen is None else self._over_best(self.chosen)
 
     def _over_best(self, cell: Cell) -> float:
@@ -90,28 +90,30 @@ class Losses:
 
     @property
     def good(self) -> int:
-        """The number of choices that lose less than the target."""
+        """Returns the number of choices that lose less than the target."""
         return sum(choice.loss < TARGET for choice in self.choices)
 
     @property
     def good_levels(self) -> tuple[int, int]:
-        """The numbers of chosen levels that lose less than the target, and that were measured."""
+        """Returns the number of chosen levels that lose less than the target, and of all measured
+        ones.
+        """
         losses = [own for choice in self.choices if (own := choice.loss_of_level) is not None]
         return sum(loss < TARGET for loss in losses), len(losses)
 
     @property
     def share(self) -> float:
-        """The share of choices that lose less than the target."""
+        """Returns the share of choices that lose less than the target."""
         return self.good / len(self.choices)
 
     @property
     def median(self) -> float:
-        """The median loss."""
+        """Returns the median loss."""
         return median(choice.loss for choice in self.choices)
 
     @property
     def worst(self) -> list[LevelChoice]:
-        """The five that lose the most."""
+        """Returns the five largest losses."""
         return sorted(self.choices, key=lambda choice: -choice.loss)[:_WORST]
 
 
@@ -218,7 +220,7 @@ def _legend(figure: Figure, sizes: Sequence[str]) -> None:
     legend_below(figure, len(sizes) + 1, handles=[*shapes, own])
 
 
-# The section of the report, also as a file of its own
+# The section of the report, also written as a separate file
 
 STEM = "level-choice"
 _WORDS = (
@@ -237,7 +239,7 @@ _CAPTION = (
 
 
 def levels_section(cells: Iterable[Cell]) -> Section | None:
-    """Returns the choices and their losses; None where none was measured."""
+    """Returns the choices and their losses; None if none was measured."""
     choices = level_choices(cells)
     if not choices:
         return None
@@ -267,7 +269,7 @@ def levels_section(cells: Iterable[Cell]) -> Section | None:
 def levels_of_runs(runs: Sequence[Path], file: Path | None = None) -> list[Path] | str:
     """Returns the section on some runs as text, or writes FILE.md and its figure.
 
-    Raises Problem where a run cannot be read, or none holds a choice.
+    Raises Problem if a run cannot be read, or none has a choice.
     """
     cells: list[Cell] = []
     for run in runs:

@@ -20,16 +20,16 @@ class MirrorRun:
     structure: str
     resolution: str
     mirrors: int
-    """That are visible."""
+    """The number of visible mirrors."""
     samples: int
     different: int
-    """Hits that beams and rays do not have in common."""
+    """The number of hits that differ between beams and rays."""
     rays_ms: float
     beams_ms: float
 
     @property
     def ratio(self) -> float:
-        """The time of single rays over that of beams."""
+        """Returns the time of single rays over that of beams."""
         return self.rays_ms / self.beams_ms
 
 
@@ -45,7 +45,7 @@ def read_mirrors(files: Iterable[Path]) -> tuple[list[MirrorRun], list[str]]:
 
 
 def mirrors_section(runs: Sequence[MirrorRun]) -> Section | None:
-    """Returns the section, scene by scene; None where there is nothing."""
+    """Returns the section, scene by scene; None without any."""
     if not runs:
         return None
     words = (

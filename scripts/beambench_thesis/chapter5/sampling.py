@@ -38,10 +38,10 @@ class Point:
     method: str
     setting: str
     rays: float
-    """Per pixel."""
+    """Samples per pixel."""
     milliseconds: float
     error: float
-    """RMS error on a 0-255 scale, against 64 samples per pixel."""
+    """The RMS error on a 0-255 scale, against 64 samples per pixel."""
 
 
 @dataclass(frozen=True)
@@ -57,18 +57,20 @@ class Comparison:
 
     @property
     def title(self) -> str:
-        """Scene and resolution, and the structure unless it is `beam`."""
+        """Returns scene and resolution, and the structure unless it is `beam`."""
         own = "" if self.structure == "beam" else f", {self.structure}"
         return f"{title_of(self.scene)}, {self.resolution}{own}"
 
     @property
     def methods(self) -> list[str]:
-        """The methods, each once, in the order of the file."""
+        """Returns the methods, each once, in the order of the file."""
         return list(dict.fromkeys(point.method for point in self.points))
 
     @property
     def thesis(self) -> Point | None:
-        """The thesis's setting, where it was tried: five samples wherever a beam does not leave."""
+        """Returns the thesis's setting, if it was tried: five samples wherever a beam does not
+        leave.
+        """
         own = (UNIFORM, "5")
         return next((point for point in self.points if (point.method, point.setting) == own), None)
 
@@ -78,15 +80,19 @@ class Comparison:
         return sorted(points, key=lambda point: point.milliseconds)
 
     def time_at_error(self, method: str, error: float) -> float | None:
-        """Returns the milliseconds in which a method reaches an error, interpolated between two
-        settings on logarithmic axes; None outside the range that was tried.
+        """Returns the milliseconds in which a method reaches an error; None outside the tested
+        range.
+
+        It is interpolated between two settings on logarithmic axes.
         """
         return _between([(point.error, point.milliseconds) for point in self.of(method)], error)
 
     def reached(self, method: str, error: float) -> tuple[float, bool] | None:
-        """Returns the least time in which a method reaches at most this error, and whether that
-        error is exact (interpolated) rather than the smaller one of a measured setting. None where
-        every setting has a larger error.
+        """Returns the least time in which a method reaches at most this error, and whether it is
+        exact.
+
+        It is exact if interpolated, and not if it is that of a measured setting with a smaller
+        error. None if every setting has a larger error.
         """
         crossing = self.time_at_error(method, error)
         settings = [point.milliseconds for point in self.of(method) if point.error <= error]
@@ -95,14 +101,14 @@ class Comparison:
         return (min(settings), False) if settings else None
 
     def error_at_time(self, method: str, milliseconds: float) -> float | None:
-        """Returns the error that a method reaches in a time; None outside the tried range."""
+        """Returns the error that a method reaches in a time; None outside the tested range."""
         return _between(
             [(point.milliseconds, point.error) for point in self.of(method)], milliseconds
         )
 
 
 def read_comparison(path: Path) -> Comparison:
-    """Reads a file. Raises Problem where it is not output of `beambench sampling --json`."""
+    """Reads a file. Raises Problem if it is not output of `beambench sampling --json`."""
     try:
         source = load_json(path)
         points = tuple(_point(entry) for entry in source["results"])
@@ -230,7 +236,7 @@ def _name_settings(panel: Axes, lines: Mapping[str, Sequence[Point]], ringed: Po
             return
 
 
-# The section of the report, also as files of its own
+# The section of the report, also written as separate files
 
 _WORDS = (
     "The thesis takes five samples in every pixel of a beam that ends at an occupied leaf, and "
@@ -248,7 +254,7 @@ _CAPTION = (
 
 
 def sampling_section(comparisons: Sequence[Comparison]) -> Section | None:
-    """Returns the section, scene by scene; None where there is nothing."""
+    """Returns the section, scene by scene; None without any."""
     if not comparisons:
         return None
     stems = file_stems(f"sampling {comparison.title}" for comparison in comparisons).values()

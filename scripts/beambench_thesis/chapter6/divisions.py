@@ -23,7 +23,7 @@ _SHOWN = (8, 15, 32, 64, 128, 256, 512, 1024)
 def _divided(simulations: pd.DataFrame) -> pd.DataFrame:
     """Returns runs of the thesis's scenes on switched networks: static divisions and their rivals.
 
-    Empty where no division was simulated.
+    Empty if no division was simulated.
     """
     rows = switched(rows_with(simulations, options=_COMPARED, machines=EQUAL_MACHINES))
     rows = rows[rows["scene"].ne(LARGE) & (rows["consumers"] + 1).isin(_SHOWN)]
@@ -80,7 +80,7 @@ def divisions_sections(
     recorded: Mapping[tuple[str, str], Recorded],
     shown: Mapping[str, str],
 ) -> str:
-    """Returns both sections of the page; empty where nothing was simulated for them."""
+    """Returns both sections of the page; empty if nothing was simulated for them."""
     divided, large = _divided(simulations), _large(simulations)
     values: dict[str, object] = {}
     if not large.empty:

@@ -1,4 +1,4 @@
-"""The clusters that are simulated, and how much slower the thesis's machines were."""
+"""The simulated clusters, and how much slower the thesis's machines were."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Network:
     latency_seconds: float
 
     def arguments(self) -> list[str]:
-        """Arguments of the simulator."""
+        """Returns arguments of the simulator."""
         bandwidth, latency = self.bytes_per_second, self.latency_seconds
         return options(network=self.kind, bandwidth=bandwidth, latency=latency)
 
@@ -41,7 +41,7 @@ class Messages:
     look_seconds: float
 
     def arguments(self) -> list[str]:
-        """Arguments of the simulator."""
+        """Returns arguments of the simulator."""
         return options(**asdict(self))
 
     def times(self, factor: float) -> Messages:
@@ -56,7 +56,8 @@ MODERN = Network("switched 10 Gbit/s", "switched", 1.15e9, 1e-5)
 MESSAGES_OF_1999 = Messages(7e-5, 1.5e-8, 2e-5)
 MESSAGES_OF_TODAY = Messages(1e-6, 1e-10, 2e-7)
 
-# The thesis sends pixels, not samples: places and a color, in 8 bytes or so; 5 samples make one.
+# The thesis sends pixels, not samples: a position and a color in about 8 bytes; 5 samples make one
+# pixel.
 BYTES_PER_SAMPLE_OF_1999 = 8 / 5
 
 
@@ -78,7 +79,7 @@ class Recorded:
 
 @dataclass(frozen=True)
 class Slowness:
-    """Factors over the times of the recording machine."""
+    """The slowness of machines as factors of the times of the recording machine."""
 
     build: float
     walk: float

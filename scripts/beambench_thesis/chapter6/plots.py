@@ -17,7 +17,7 @@ IDEAL = {"color": "#777777", "linewidth": 0.8, "linestyle": (0, (1, 2)), "zorder
 
 
 def cluster_plots(simulations: pd.DataFrame, processes: pd.DataFrame) -> list[Plot]:
-    """Returns all figures that the tables have rows for."""
+    """Returns all figures for which the tables have rows."""
     equal = rows_with(simulations, machines=EQUAL_MACHINES)
     thesis = rows_with(equal, options=THESIS_OPTIONS, era=OLD, consumers=range(STATIONS))
     plots = []

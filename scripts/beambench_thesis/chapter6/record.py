@@ -19,8 +19,8 @@ from beambench_thesis.chapter6.page import rendered
 SCENES = ("gato-bill", "torre-eiffel")
 LARGE = "tetra:n=8"
 BEAMS, BLOCKS, ROWS, WINDOWS, TILES = WORKS = ("beams", "blocks", "rows", "windows", "tiles")
-# How each kind of work is recorded. Tiles are recorded one by one, and their results are kept by
-# whoever traces them, which the times include.
+# How each kind of work is recorded. Tiles are recorded one by one, and whoever traces them keeps
+# their results, which the times include.
 _RECORDED_WITH: dict[str, tuple[str, ...]] = {
     BEAMS: ("--work", "beams"),
     BLOCKS: ("--work", "blocks"),
@@ -43,13 +43,13 @@ _SETTINGS: tuple[tuple[str, int, tuple[str, ...]], ...] = (
     ("1 consumer, the producer consumes, too", 2, ("--producer-consumes",)),
 )
 
-# Open MPI refuses to start as root, or more processes than cores, unless it is allowed to.
+# Unless allowed, Open MPI refuses to run as root or to start more processes than cores.
 ENVIRONMENT = {
     "OMPI_ALLOW_RUN_AS_ROOT": "1",
     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
     "OMPI_MCA_rmaps_base_oversubscribe": "1",
     "OMPI_MCA_hwloc_base_binding_policy": "none",
-    # The same for version 5, whose launcher has names of its own.
+    # The same for version 5, whose launcher has different names.
     "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
     "PRTE_MCA_hwloc_default_binding_policy": "none",
 }
@@ -67,7 +67,7 @@ class Picture:
     works: tuple[str, ...] = WORKS
 
     def arguments(self) -> list[str]:
-        """Arguments of beambench-cluster."""
+        """Returns arguments of beambench-cluster."""
         size = f"{self.width}x{self.height}"
         given = options(accel=self.structure, resolution=size, samples=self.samples)
         return [self.scene, *given]
@@ -76,10 +76,10 @@ class Picture:
 def record(folder: Path, program: Path, pictures: list[Picture], repeats: int) -> list[Path]:
     """Writes FOLDER/tasks/SCENE-WORK.csv and FOLDER/recorded.json.
 
-    The costs of a task are the medians of the repeats; everything else is the same in all of them.
+    The costs of a task are the medians of the repeats; everything else is equal in all of them.
     """
     (folder / "tasks").mkdir(parents=True, exist_ok=True)
-    (folder / "answers.jsonl").unlink(missing_ok=True)  # of simulations with other costs
+    (folder / "answers.jsonl").unlink(missing_ok=True)  # results of simulations with other costs
     written, sums = [], {}
     for picture in pictures:
         for work in picture.works:
@@ -112,7 +112,7 @@ def tasks_file(folder: Path, scene: str, work: str) -> Path:
 
 
 def read_recorded(folder: Path) -> dict[tuple[str, str], Recorded]:
-    """Returns totals by scene and kind of work. Raises Problem where nothing was recorded."""
+    """Returns totals by scene and kind of work. Raises Problem if nothing was recorded."""
     path = folder / "recorded.json"
     try:
         sums = load_json(path)
@@ -133,7 +133,7 @@ def read_recorded(folder: Path) -> dict[tuple[str, str], Recorded]:
 def measure(folder: Path, program: Path, pictures: list[Picture], repeats: int) -> list[Path]:
     """Writes FOLDER/measured.csv: each setting for each picture, seconds as medians of repeats.
 
-    Raises Problem where mpirun is missing, a run fails, or two runs have other pictures.
+    Raises Problem if mpirun is missing, a run fails, or two runs have different pictures.
     """
     rows = []
     for picture in pictures:
@@ -174,7 +174,7 @@ def measure(folder: Path, program: Path, pictures: list[Picture], repeats: int) 
 
 
 def measured_section(folder: Path) -> str | None:
-    """Returns the page's section on this machine; None where nothing was measured."""
+    """Returns the page's section on this machine; None if nothing was measured."""
     if not (folder / MEASURED).is_file():
         return None
     rows = unguarded(pd.read_csv(folder / MEASURED, keep_default_na=False))
@@ -215,7 +215,7 @@ def _record_once(program: Path, picture: Picture, work: str) -> tuple[pd.DataFra
 
 
 def _medians(runs: list[pd.DataFrame]) -> pd.DataFrame:
-    """Returns one table of medians. Raises Problem where two runs have different tasks."""
+    """Returns one table of medians. Raises Problem if two runs have different tasks."""
     first = runs[0]
     for other in runs[1:]:
         if not other.drop(columns=_COSTS).equals(first.drop(columns=_COSTS)):

@@ -21,7 +21,7 @@ _OF_SIMULATIONS = (
     "accept_seconds speed_up efficiency efficiency_of_consumers producer_busy "
     "messages_from_producer bytes_from_producer messages_to_producer bytes_to_producer"
 ).split()
-# Of the consumers, which are not listed where they are many.
+# The consumers' columns; many consumers are not listed.
 _PROFILE = ["busy_mean", "busy_max"]
 _OF_PROCESSES = (
     "simulation process role tasks samples busy_seconds wait_seconds last_seconds"
@@ -36,20 +36,20 @@ def is_cluster_folder(folder: Path) -> bool:
 
 
 def read_simulations(folder: Path) -> pd.DataFrame:
-    """Reads a table. Raises Problem where it is missing or lacks a column."""
+    """Reads a table. Raises Problem if it is missing or lacks a column."""
     return read_table(folder / SIMULATIONS, _OF_SIMULATIONS, _REMEDY, {"era": str})
 
 
 def read_processes(folder: Path) -> pd.DataFrame:
-    """Reads a table. Raises Problem where it is missing or lacks a column."""
+    """Reads a table. Raises Problem if it is missing or lacks a column."""
     return read_table(folder / PROCESSES, _OF_PROCESSES, _REMEDY)
 
 
 def write_results(folder: Path, results: list[dict[str, object]]) -> list[Path]:
     """Writes both tables from the simulator's output, each result with its setting.
 
-    Speedup and efficiency follow the thesis's formulas 6.1 and 6.2; the efficiency is given with
-    the producer counted and without.
+    Speedup and efficiency follow the thesis's formulas 6.1 and 6.2; the efficiency is stated with
+    and without the producer.
     """
     rows = pd.DataFrame(results).assign(simulation=range(1, len(results) + 1))
     rows["speed_up"] = rows["sequential_seconds"] / rows["seconds"]
@@ -92,7 +92,7 @@ def pivot(
     """Returns a Markdown table with a row for each value of `by`.
 
     `heads` are the values of the column `across` with their headings, `names` the headings of `by`
-    where these are not the columns' names.
+    if these differ from the columns' names.
     """
     lines = []
     for key, group in rows.groupby(list(by), sort=False):

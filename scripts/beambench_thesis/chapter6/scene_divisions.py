@@ -33,9 +33,9 @@ _COLUMNS = ("division", *COLUMNS, "busy_share")
 def simulate_scene_divisions(
     folder: Path, program: Path, resolution: str, repeats: int, most: int
 ) -> list[Path]:
-    """Writes FOLDER/scene-divisions.csv. The speedup is relative to one part of the same scene.
+    """Writes FOLDER/scene-divisions.csv, with speedups relative to one part of the same scene.
 
-    Earlier results are reused. Raises Problem where parts give another picture than the whole.
+    Earlier results are reused. Raises Problem if parts produce a different picture than the whole.
     """
     runs = Runs(folder / "scene-divisions-answers.jsonl", program, resolution, repeats)
     for divided in SCENES:

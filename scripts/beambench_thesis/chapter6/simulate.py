@@ -47,7 +47,7 @@ MACHINES_OF = {OLD: "1999, 100 Mbit/s", TODAY: "today, 10 Gbit/s"}
 STATIONS = 15
 MANY = tuple(2**power - 1 for power in range(4, 11))  # 16 to 1,024 processes, the producer's one
 
-# What the thesis left for others to try, each against its own scheme.
+# Ideas that the thesis left for future work, each against its own scheme.
 OPTIONS: dict[str, tuple[str, ...]] = {
     THESIS_OPTIONS: (),
     "8 beams a message": ("--batch", "8"),
@@ -57,7 +57,7 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "producer consumes": ("--producer-consumes",),
 }
 # The static divisions of section 2.3.2.1, and tiles whose beams the consumers make themselves. All
-# but tiles trace individual rays.
+# except tiles trace individual rays.
 DIVISIONS: dict[str, tuple[str, ...]] = {
     "contiguous rows": ("--division", "contiguous"),
     "interlaced rows": ("--division", "interlaced"),
@@ -65,7 +65,7 @@ DIVISIONS: dict[str, tuple[str, ...]] = {
     "windows by pre-pass": ("--division", "equal-cost"),
     "tiles": ("--division", "falling", "--stored"),
 }
-# Of the large picture: where its results go, and messages that are there before they are needed.
+# For the large picture: the destination of its results, and messages sent before they are needed.
 LARGE_OPTIONS: dict[str, tuple[str, ...]] = {
     "producer's beams": (),
     "tiles, results sent": ("--division", "falling", "--sample-bytes", "8"),
@@ -102,9 +102,9 @@ class Simulation:
     options: str = THESIS_OPTIONS
     machines: str = EQUAL_MACHINES
     own_messages: bool = False
-    """Results as our program sends them, 8 bytes a sample, not the thesis's pixels."""
+    """Are results as our program sends them, 8 bytes a sample, instead of the thesis's pixels?"""
     constant_is: str = AS_OURS
-    """How the thesis's seconds that do not grow with the rays are divided (calibration.py)."""
+    """How to divide those seconds of the thesis that do not grow with the rays (machines.py)."""
 
     @property
     def work(self) -> str:
@@ -112,7 +112,7 @@ class Simulation:
         return _WORK.get(self.options, BEAMS)
 
     def arguments(self) -> list[str]:
-        """Arguments of the simulator that do not depend on recordings."""
+        """Returns arguments of the simulator that do not depend on recordings."""
         pixels = self.era == OLD and not self.own_messages and self.work != TILES
         return [
             *options(consumers=self.consumers),
@@ -191,22 +191,21 @@ class ResultCache:
         for line in path.read_text("utf-8").splitlines() if path.is_file() else []:
             try:
                 entry = json.loads(line)
-            except ValueError:  # it was cut off
+            except ValueError:  # the last line was cut off
                 continue
             self._known[tuple(entry["arguments"])] = entry["answer"]
 
     def result(self, key: list[str], command: list[str]) -> dict[str, object]:
-        """Returns the result stored under `key`, or computes it by the command; callable from any
-        thread.
+        """Returns the result stored under `key`, or computes it by the command, from any thread.
 
-        Raises Problem where the simulator is not there, or fails.
+        Raises Problem if the simulator is missing or fails.
         """
         if tuple(key) not in self._known:
             name = Path(command[0]).name
             printed = output_of(command, remedy=f"build {name} first (it needs libsimgrid-dev)")
             result = json.loads(printed)
             with self._writing, self._path.open("a", encoding="utf-8") as file:
-                # A line of its own, whatever was cut off before.
+                # On a new line, since the previous one may have been cut off.
                 file.write("\n" + json.dumps({"arguments": key, "answer": result}))
                 self._known[tuple(key)] = result
         return self._known[tuple(key)]
@@ -215,7 +214,7 @@ class ResultCache:
 def simulate(folder: Path, program: Path, plan: Sequence[Simulation], jobs: int = 1) -> list[Path]:
     """Writes FOLDER/simulations.csv and processes.csv from the recordings there.
 
-    Runs `jobs` simulations at a time. Earlier results are reused: FOLDER/answers.jsonl has them.
+    Runs `jobs` simulations at a time. Earlier results in FOLDER/answers.jsonl are reused.
     """
     recorded = read_recorded(folder)
     cache = ResultCache(folder / "answers.jsonl")
@@ -227,13 +226,13 @@ def simulate(folder: Path, program: Path, plan: Sequence[Simulation], jobs: int 
                 print(f"\r{number} of {len(plan)} simulations", end="", file=sys.stderr, flush=True)
                 results.append(each.result())
         finally:
-            pool.shutdown(cancel_futures=True)  # where one failed, the others are not begun
+            pool.shutdown(cancel_futures=True)  # after a failure, the others are not started
     print(file=sys.stderr)
     return write_results(folder, results)
 
 
 def slowness_of(recorded: dict[tuple[str, str], Recorded], constant_is: str = AS_OURS) -> Slowness:
-    """Returns the slowness, from the scene whose seconds the thesis states."""
+    """Returns the slowness, from the scene for which the thesis states seconds."""
     known = recorded.get((TRACED, BEAMS))
     if known is None:
         raise Problem(f"{TRACED} was not recorded, by which machines of 1999 are calibrated")
@@ -260,7 +259,7 @@ def _simulate(
     result = cache.result(
         [tasks.name, *arguments], [str(program), "cluster", str(tasks), *arguments]
     )
-    # Whatever is distributed, it is compared with the sequential beam tracer.
+    # Everything distributed is compared with the sequential beam tracer.
     beams = recorded[simulation.scene, BEAMS]
     sequential = (
         beams.build_seconds * slow.build

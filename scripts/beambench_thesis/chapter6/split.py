@@ -1,7 +1,7 @@
 """A divided scene (`--split`) on simulated clusters: growth of time, traffic and memory with parts.
 
 The scene is really traced during the simulation, so the times of one run depend on the state of
-this machine: medians of several runs are kept. Machines of 1999 are as in the other simulations
+this machine: medians of several runs are stored. Machines of 1999 are as in the other simulations
 (`machines.py`).
 """
 
@@ -36,7 +36,7 @@ PARTS = (1, 2, 4, 8, 16, 32, 64)
 
 
 class Divided(NamedTuple):
-    """A scene and the octree that suits it."""
+    """A scene and an octree that suits it."""
 
     scene: str
     structure: str
@@ -57,15 +57,15 @@ def _largest(quantity: str) -> Callable[[dict], float]:
     return lambda run: max(process[quantity] for process in run["processes"])
 
 
-# What the tables have of a run, the median of several. Seconds of the processor are this machine's,
-# sums over all processes.
+# Columns of the tables, medians of several runs. Processor seconds are this machine's, summed over
+# all processes.
 _OF_RUN: dict[str, Callable[[dict], object]] = {
     "processes": lambda run: len(run["processes"]),
-    # Simulated: since the last process was ready, to the picture.
+    # Simulated: from when the last process is ready until the picture is complete.
     "traced_seconds": lambda run: run["traced_seconds"],
-    # What a process is busy tracing on average, of what the busiest is.
+    # Mean tracing time of the processes, relative to the busiest one.
     "balance": lambda run: _sum("busy")(run) / len(run["processes"]) / _largest("busy")(run),
-    # To divide the scene and build a part: the processes' median.
+    # Time to divide the scene and build a part: the median over processes.
     "build_seconds": lambda run: median(process["build_seconds"] for process in run["processes"]),
     "walk_cpu_seconds": _sum("walk_seconds"),
     "test_cpu_seconds": _sum("test_seconds"),
@@ -79,14 +79,14 @@ _OF_RUN: dict[str, Callable[[dict], object]] = {
     "largest_bytes": _largest("bytes"),  # scene and octree of the largest part
     "result_hash": lambda run: run["result_hash"],
 }
-# The speedup is of tracing. Building is short and measured once a process: of many, the longest is
-# chance.
+# The speedup is of tracing. Each process builds and measures only once, so the longest build of
+# many is chance.
 _SETTING = ("era", "scene", "structure", "resolution", "processes", "traced_seconds")
 COLUMNS = tuple(dict.fromkeys((*_SETTING, "speed_up", "efficiency", *_OF_RUN)))
 
 
 class Runs:
-    """Runs of the simulator on divided scenes; a file keeps the results for later calls."""
+    """Runs the simulator on divided scenes; a file stores the results for later calls."""
 
     def __init__(self, file: Path, program: Path, resolution: str, repeats: int) -> None:
         """Reads the file."""
@@ -107,7 +107,7 @@ class Runs:
             for repeat in range(self._repeats)
         ]
         run = sorted(runs, key=lambda run: run["traced_seconds"])[len(runs) // 2]
-        # What a process is busy on average, of the traced seconds.
+        # Mean busy time of the processes, relative to the traced seconds.
         share = _sum("busy")(run) / len(run["processes"]) / run["traced_seconds"]
         setting = {"division": division, "era": era, "resolution": self._resolution}
         figures = {name: figure(run) for name, figure in _OF_RUN.items()}
@@ -116,7 +116,7 @@ class Runs:
     def write(self, path: Path, columns: tuple[str, ...]) -> list[Path]:
         """Writes a table; speedups are relative to the first run of the same era and scene.
 
-        Raises Problem where runs of a scene have different pictures.
+        Raises Problem if runs of a scene have different pictures.
         """
         print(file=sys.stderr)
         rows = pd.DataFrame(self._rows, columns=list(columns))
@@ -135,10 +135,10 @@ class Runs:
 def simulate_split(
     folder: Path, program: Path, resolution: str, repeats: int, most: int
 ) -> list[Path]:
-    """Writes FOLDER/split.csv; machines of 1999 follow from the recordings there.
+    """Writes FOLDER/split.csv; the slowness of machines of 1999 follows from the recordings there.
 
-    Earlier results are reused: FOLDER/split-answers.jsonl has them. Raises Problem where parts give
-    another picture than the whole.
+    Earlier results in FOLDER/split-answers.jsonl are reused. Raises Problem if parts produce a
+    different picture than the whole.
     """
     slow_by_era = {OLD: slowness_of(read_recorded(folder)), TODAY: NONE}
     runs = Runs(folder / "split-answers.jsonl", program, resolution, repeats)
@@ -150,7 +150,7 @@ def simulate_split(
 
 
 def read_divided(path: Path, columns: tuple[str, ...]) -> pd.DataFrame | None:
-    """Returns the table; None where there is none. Raises Problem where it lacks a column."""
+    """Returns the table; None if it is missing. Raises Problem if it lacks a column."""
     if not path.is_file():
         return None
     remedy = "write it with: python -m beambench_thesis cluster split DIR"
@@ -229,7 +229,7 @@ def share_of_memory(group: pd.DataFrame) -> pd.Series:
 
 
 def work_of(rows: pd.DataFrame) -> pd.Series:
-    """Returns the processor time of tracing, of what the first row takes."""
+    """Returns the processor time of tracing, relative to the first row."""
     work = rows["walk_cpu_seconds"] + rows["test_cpu_seconds"] + rows["take_cpu_seconds"]
     return work / work.iloc[0]
 

@@ -1,10 +1,10 @@
 """The rules: the measurements by which each claim of the thesis's chapter 5 holds.
 
-A rule gives one check for each cell of a table that it looks at; `verdict.py` makes one verdict of
-them. Thresholds stand in words beside each rule. Seconds contain the building of the structure, and
-all structures have the thesis's parameters: level 6, no objects in a leaf that is not as deep, 32
-voxels per axis, filled lazily, objects inserted into the hierarchy as given and as section 4.3
-describes, Kay and Kajiya's queue, no handover.
+A rule returns one check for each cell of a table; `verdict.py` combines them into one verdict. Each
+rule's docstring states its thresholds. Seconds include building the structure, and all structures
+have the thesis's parameters: level 6, no objects in a leaf above the deepest level, 32 voxels per
+axis, filled lazily, objects inserted into the hierarchy as given and as section 4.3 describes, Kay
+and Kajiya's queue, no handover.
 """
 
 from dataclasses import replace

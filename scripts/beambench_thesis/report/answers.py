@@ -49,21 +49,21 @@ def _beams_against(one: JudgedClaim, others: str) -> str:
         return _NOT_MEASURED
     none_opposes = all(check.outcome is not Outcome.NO for check in counted(one.ours.checks))
     open_but_yes = one.ours.verdict is Verdict.UNDECIDED and none_opposes
-    begins = "As far as it is decided, yes" if open_but_yes else _WORDS[one.ours.verdict]
+    begins = "Where decided, yes" if open_but_yes else _WORDS[one.ours.verdict]
     return (
-        f"{begins}: at 1280x1024 {others} take "
-        f"{effect(one.claim, one.ours)} as long as the beams, building included, and longer in "
-        f"{agreeing(one.ours)} comparisons; in the thesis {effect(one.claim, one.thesis)}."
+        f"{begins}: at 1280x1024, build included, {others} take "
+        f"{effect(one.claim, one.ours)} as long as the beams and are slower in "
+        f"{agreeing(one.ours)} comparisons; in the thesis, {effect(one.claim, one.thesis)}."
     )
 
 
 def _beside(low: JudgedClaim, best: JudgedClaim) -> str:
-    """Returns what belongs to that answer: at low resolution, and at the rays' own best level."""
+    """Returns further verdicts: at low resolution, and at the single rays' own best level."""
     if low.ours.verdict not in _WORDS or best.ours.verdict not in _WORDS:
         return ""
     return (
         f" That single rays can win at 320x200 is {low.ours.verdict.value}; that beams win at high "
-        f"resolution against single rays at their own best level is {best.ours.verdict.value}."
+        f"resolution even against single rays at their best level is {best.ours.verdict.value}."
     )
 
 
@@ -83,9 +83,9 @@ def _efficiency(one: JudgedClaim | None) -> str:
         for cell, check, at in known
     ]
     return (
-        f"Our simulation over gato-bill has its best efficiency, {' or '.join(parts)}; the thesis "
-        f"0.75 with 11. Of what the thesis says of the efficiency {agreeing(one.ours)} comparisons "
-        "agree."
+        f"In our simulation over gato-bill, the best efficiency is {' or '.join(parts)}; in the "
+        f"thesis, 0.75 with 11. Its statements on efficiency agree in {agreeing(one.ours)} "
+        "comparisons."
     )
 
 
