@@ -357,7 +357,10 @@ def beams_win_at_high_resolution(e: Evidence) -> list[Check]:
 
 
 def _rays_before_beams(e: Evidence, scene: str, resolution: str = "") -> Check:
-    """Is the better of Samet and Samet-Net quicker than the beams? By default at the coarsest."""
+    """Is the better of Samet and Samet-Net faster than the beams?
+
+    By default at the coarsest resolution.
+    """
     resolution = resolution or e.coarsest
     return below(
         f"{scene} {resolution}", best_ray(e, scene, resolution), e.time(scene, "beam", resolution)

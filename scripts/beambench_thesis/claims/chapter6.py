@@ -174,15 +174,15 @@ UNEQUAL_MACHINES = {
 """Kinds of 14 consumers: their name in simulations.csv, and their speed over that of equal ones."""
 
 STATIONS = 15
-_ALIKE = 0.01  # a maximum this flat has no one place
+_ALIKE = 0.01  # so flat a maximum has no definite position
 _SATURATED = 0.9
-_MANY = 4 * STATIONS  # who does not saturate the producer by then does so later than the other
+_MANY = 4 * STATIONS  # not saturated by then: later than the other
 
 
 def cluster_evidence(folder: Path) -> ClusterEvidence:
     """Returns the figures of all scenes and networks that the thesis's program ran on.
 
-    Raises Problem where the folder cannot be read.
+    Raises Problem if the folder cannot be read.
     """
     simulations, processes = read_simulations(folder), read_processes(folder)
     thesis = rows_with(simulations, options=THESIS_OPTIONS, machines=EQUAL_MACHINES, era="1999")
@@ -246,7 +246,7 @@ def _bottleneck(group: pd.DataFrame) -> dict[str, Measured]:
 
 
 def _slowdowns(group: pd.DataFrame, unequal: pd.DataFrame) -> dict[str, Measured]:
-    """Returns what unequal machines lose; nothing where they were not simulated."""
+    """Returns the losses of unequal machines; empty if they were not simulated."""
     equal = rows_with(group, consumers=STATIONS - 1)["seconds"]
     figures = {}
     for kind, (machines, capacity) in UNEQUAL_MACHINES.items():

@@ -1,4 +1,4 @@
-"""Comparisons that rules are made of; straight lines and cost formulas by least squares."""
+"""Comparisons from which rules are built; straight lines and cost formulas by least squares."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,14 +15,14 @@ from beambench_thesis.paper.evidence import LEVEL, Evidence, Measured, smallest,
 
 @dataclass(frozen=True)
 class Line:
-    """Least squares through points whose heights have intervals."""
+    """A least-squares line through points whose heights have intervals."""
 
     slope: Measured
-    """Errors of the heights combined as independent ones."""
+    """Errors of the heights, combined as independent ones."""
     intercept: float
     r_squared: float
     within_intervals: bool
-    """Does the line pass through every interval, so that nothing speaks against it?"""
+    """Does the line pass through every interval, so that the data are consistent with it?"""
 
 
 def fit_line(places: Sequence[float], heights: Sequence[Measured]) -> Line:
@@ -45,7 +45,7 @@ def fit_line(places: Sequence[float], heights: Sequence[Measured]) -> Line:
     )
 
 
-_WIDTH = 1.96  # of a 95% interval to either side, in standard deviations of a normal distribution
+_WIDTH = 1.96  # half the width of a 95% interval, in standard deviations of a normal distribution
 _DRAWS = 400
 _SEED = 1999
 
@@ -55,7 +55,10 @@ SAMETS = ("samet", "samet-net")
 def beats(
     e: Evidence, scene: str, winner: str, other: str, resolution: str = "", factor: float = 1
 ) -> Check:
-    """Is one structure quicker than another, by `factor` or more? By default at the finest."""
+    """Is one structure faster than another, by `factor` or more?
+
+    By default at the finest resolution.
+    """
     resolution = resolution or e.finest
     twice = f", by {factor:g}" if factor > 1 else ""
     return below(
@@ -67,7 +70,7 @@ def beats(
 
 
 def best_ray(e: Evidence, scene: str, resolution: str) -> Measured | None:
-    """Returns the better of Samet and Samet-Net, where both were timed."""
+    """Returns the better of Samet and Samet-Net, if both were timed."""
     known = [e.time(scene, contender, resolution) for contender in SAMETS]
     times = [time for time in known if time is not None]
     return smallest(times) if len(times) == len(SAMETS) else None
@@ -144,7 +147,7 @@ def most(cell: str, shares: dict[str, Measured | None], bound: float, of: int) -
 
 
 def any_of(cell: str, checks: Sequence[Check]) -> Check:
-    """Does at least one of several cells say yes?"""
+    """Does at least one of several cells agree?"""
     outcomes = {check.outcome for check in checks}
     figures = ", ".join(f"{check.cell}: {check.figures}" for check in checks if check.figures)
     for outcome in (Outcome.MISSING, Outcome.YES, Outcome.UNDECIDED):
@@ -160,7 +163,7 @@ def seconds_per_beam(e: Evidence, level: int) -> Measured | None:
 
 
 def formula(e: Evidence, task: str, quantities: tuple[str, ...]) -> list[Check]:
-    """Is the time of a task a sum of counts, each times a cost? Needs ten cells or more."""
+    """Is the time of a task a sum of counts, each multiplied by a cost? Needs ten cells or more."""
     seconds, counts = [], []
     for scene, level, resolution in e.beam_cells:
         time = e.worked(f"seconds_{task}", scene, resolution, level=level)
@@ -181,13 +184,13 @@ def formula(e: Evidence, task: str, quantities: tuple[str, ...]) -> list[Check]:
 def _fit(seconds: Sequence[Measured], counts: np.ndarray) -> tuple[Measured, Measured]:
     """Returns R2 and median error of a fit, with the intervals that follow from those of the times.
 
-    The fit is repeated with times that are off as their intervals allow (propagation of
-    distributions, JCGM 101:2008). Such times have their errors twice, which fits worse, as times
-    without errors would fit better: so the interval reaches as far either way.
+    The fit is repeated with times varied as their intervals allow (propagation of distributions,
+    JCGM 101:2008). Such times contain their errors twice and fit worse, by as much as times without
+    errors would fit better, so the interval is symmetric.
     """
     times = np.array([time.value for time in seconds])
     widths = np.array([log(time.high / time.value) / _WIDTH for time in seconds])
-    # Plain least squares, as the rule was committed: a cost may be negative.
+    # Plain least squares, as in the committed rule: a cost may be negative.
     scaled = counts / np.maximum(counts.max(axis=0), 1e-300)
 
     def quality(times: np.ndarray) -> tuple[float, float]:
@@ -204,10 +207,11 @@ def _fit(seconds: Sequence[Measured], counts: np.ndarray) -> tuple[Measured, Mea
 
 
 def best_grid(scene: str, sweep: dict[int, Measured], printed: int) -> list[Check]:
-    """Is some grid of the sweep quicker than the coarsest and than the finest, and is the best one
-    within a factor of 1.5 of the printed number of cells? Needs five grids or more.
+    """Is the best grid of the sweep an inner one, near the printed number of cells?
 
-    The interval of the best grid contains all grids that may be as quick.
+    It must be faster than the coarsest and the finest grid, and within a factor of 1.5 of the
+    printed number of cells. Needs five grids or more. The interval of the best grid contains all
+    grids that may be as fast.
     """
     inside, place = f"{scene}, a best grid inside the sweep", f"{scene}, best cells per axis"
     if len(sweep) < 5:

@@ -212,7 +212,7 @@ def shadow_cache_gains_from_beams(e: Evidence) -> list[Check]:
 
 
 def _gain(e: Evidence, scene: str, resolution: str = "", samples: int = 1) -> Measured | None:
-    """Returns Samet's time over the beams'."""
+    """Returns Samet's time over the beams' time."""
     return ratio_of(
         e.time(scene, "samet", resolution, samples=samples),
         e.time(scene, "beam", resolution, samples=samples),
@@ -220,7 +220,7 @@ def _gain(e: Evidence, scene: str, resolution: str = "", samples: int = 1) -> Me
 
 
 def _leaving(e: Evidence, scene: str) -> Measured | None:
-    """Returns the part of the pixels that belong to exit beams at the highest resolution."""
+    """Returns the share of the pixels that belong to exit beams at the highest resolution."""
     pixels = e.count("exit_pixels", scene)
     return pixels.times(1 / rays(e.finest)) if pixels is not None else None
 

@@ -1,4 +1,4 @@
-"""Every claim judged by the thesis's own figures and by a run's, and the table of them."""
+"""Judges every claim by the thesis's own figures and by those of runs, and tabulates them."""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -50,9 +50,9 @@ class JudgedClaim:
     thesis: Finding
     ours: Finding
     variants: tuple[Finding, ...] = ()
-    """Ours over perturbed scenes, one for each variant of all of them."""
+    """Our findings over perturbed scenes, one for each variant of all scenes."""
     deeper: Finding | None = None
-    """Ours by the other reading of the thesis's levels."""
+    """Our finding by the other reading of the thesis's levels."""
 
 
 def judge(claim: Claim, evidence: Evidence) -> Finding:
@@ -68,10 +68,10 @@ def judge_ours(claim: Claim, evidence: Evidence) -> Finding:
 
 
 TESTED = (Verdict.SUPPORTED, Verdict.MIXED, Verdict.CONTRADICTED, Verdict.UNDECIDED)
-"""The verdicts on claims of which every comparison was measured."""
+"""The verdicts on claims all of whose comparisons were measured."""
 
 SWEPT_CLAIMS = (*CLAIMS, *PROSE_CLAIMS)
-"""Those that runs of sweeps and a census decide."""
+"""The claims that runs of sweeps and a census decide."""
 
 ALL_CLAIMS = (*CLAIMS, *CLUSTER_CLAIMS, *PROSE_CLAIMS)
 
@@ -84,8 +84,8 @@ def judge_claims(
 ) -> list[JudgedClaim]:
     """Judges the claims by runs of sweeps, a folder of censuses and a simulated cluster.
 
-    Without them ours are not tested. `variants` are of perturbed scenes, `deeper` of octrees by the
-    other reading of the thesis's levels. Raises Problem where one cannot be read.
+    Without runs, our side is not tested. `variants` are of perturbed scenes, `deeper` of octrees by
+    the other reading of the thesis's levels. Raises Problem if a folder cannot be read.
     """
     clusters = [run for run in runs if is_cluster_folder(run)]
     censuses = [run for run in runs if is_census_folder(run)]
@@ -113,7 +113,7 @@ def judge_claims(
 
 
 def by_question(claims: Sequence[JudgedClaim]) -> list[tuple[str, list[JudgedClaim]]]:
-    """Returns the claims by the questions that they answer; no question without a claim."""
+    """Returns the claims by the questions that they answer, without questions that have none."""
     asked = [
         (question.value, [one for one in claims if one.claim.question is question])
         for question in Question
@@ -134,7 +134,7 @@ def claims_as_markdown(claims: Sequence[JudgedClaim]) -> str:
 
 
 def heads_of(claims: Sequence[JudgedClaim]) -> tuple[str, ...]:
-    """Returns the heads of the table of claims; what was measured for no claim has no column."""
+    """Returns the heads of the table of claims, without columns for which nothing was measured."""
     varied = any(one.variants for one in claims)
     deeper = any(one.deeper for one in claims)
     return (
@@ -168,7 +168,7 @@ def row_of(one: JudgedClaim, heads: Sequence[str]) -> tuple[str, ...]:
 
 
 def effects(one: JudgedClaim) -> tuple[str, str]:
-    """Returns the thesis's effect and ours; of a claim that is a list of figures, ours over its."""
+    """Returns the thesis's effect and ours; for a list of figures, our ratio to it."""
     if not one.claim.is_figures:
         return effect(one.claim, one.thesis) or DASH, effect(one.claim, one.ours) or DASH
     printed = {check.cell: check.value for check in counted(one.thesis.checks) if check.value}
@@ -182,8 +182,9 @@ def effects(one: JudgedClaim) -> tuple[str, str]:
 
 
 def effect(claim: Claim, finding: Finding) -> str:
-    """Returns the geometric mean of the ratios that a claim is about, or the median of its figures,
-    with the least and the greatest; empty if nothing was measured, or nothing of one kind.
+    """Returns the geometric mean of a claim's ratios or the median of its figures, with the range.
+
+    It is empty if nothing was measured, or nothing of one kind.
     """
     known = [check for check in counted(finding.checks) if check.outcome is not Outcome.MISSING]
     ratios = [check.ratio for check in known if check.ratio is not None and check.ratio > 0]
@@ -209,7 +210,7 @@ def agreeing(finding: Finding) -> str:
 
 
 def variants_that_agree(one: JudgedClaim) -> str:
-    """Returns `7 of 8`: the variants that support a claim, of those that test it."""
+    """Returns `7 of 8`: the number of variants that support a claim, of those that test it."""
     number_of = Counter(found.verdict for found in one.variants if found.verdict in TESTED)
     if not number_of:
         return DASH
@@ -253,7 +254,7 @@ def cells_of(one: JudgedClaim) -> list[tuple[str, Check, Check]]:
 
 
 def rule_in_words(one: JudgedClaim) -> str:
-    """Returns how the claim's rule judges, with its limits."""
+    """Returns the explanation of the claim's rule, with its thresholds."""
     return " ".join((one.claim.rule.__doc__ or "").split())
 
 

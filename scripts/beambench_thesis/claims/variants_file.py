@@ -1,6 +1,6 @@
 """The verdicts over perturbed scenes and deeper octrees, in a small table beside the report.
 
-It stands for the runs that they came from where those are not kept, as in results/published.
+The table replaces the runs that it was made from if these are not kept, as in results/published.
 """
 
 import csv
@@ -37,7 +37,7 @@ def write_variants(claims: Sequence[JudgedClaim], path: Path) -> Path:
 def with_variants(claims: Sequence[JudgedClaim], path: Path) -> list[JudgedClaim]:
     """Returns the claims with the verdicts of such a table, if there is one.
 
-    Raises Problem where a verdict is unknown.
+    Raises Problem if a verdict is unknown.
     """
     if not path.is_file():
         return list(claims)

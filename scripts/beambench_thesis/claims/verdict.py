@@ -12,7 +12,7 @@ from beambench_thesis.paper.evidence import Evidence, Measured
 
 
 class Question(Enum):
-    """What a reader asks, by which the report groups the claims."""
+    """The questions of readers, by which the report groups the claims."""
 
     BEAMS_OR_RAYS = "Do beams beat single rays through the same octree?"
     OTHER_STRUCTURES = "Do they beat other structures?"
@@ -44,27 +44,27 @@ class Verdict(Enum):
 
 @dataclass(frozen=True)
 class Check:
-    """One cell of a claim: where, its outcome, and the figures behind it."""
+    """One cell of a claim: its place, its outcome, and its figures."""
 
     cell: str
     outcome: Outcome
     figures: str = ""
     ratio: float | None = None
-    """What should be the larger figure over what should be the smaller one, if two are compared."""
+    """If two figures are compared, the one that should be larger over the other."""
     value: float | None = None
     """The figure that should lie between two bounds, if there is one."""
     aside: bool = False
-    """Worth knowing beside the claim, but not a part of it: no verdict depends on it."""
+    """Additional information on the claim, which does not affect its verdict."""
     is_paired: bool | None = None
-    """Are both figures of the same blocks? None where they were not both measured."""
+    """Are both figures from the same blocks? None if they were not both measured."""
 
 
 def below(cell: str, smaller: Measured | None, larger: Measured | None, factor: float = 1) -> Check:
     """Is one figure below the other, by `factor` or more?
 
-    Times of the same blocks are ranked by their ratio, as contenders are. Of others, the interval
-    of the difference decides. Figures that are surely equal within MARGIN give no. An exact figure
-    that meets the factor to the digit gives yes.
+    Times of the same blocks are ranked by their ratio, as contenders are; otherwise the interval of
+    the difference decides. Figures that are surely equal within MARGIN mean no. An exact figure
+    that exactly meets the factor means yes.
     """
     if smaller is None or larger is None:
         return Check(cell, Outcome.MISSING)
@@ -88,7 +88,10 @@ def below(cell: str, smaller: Measured | None, larger: Measured | None, factor: 
 
 
 def _by_rank(up: Ratio, down: Ratio) -> Outcome | None:
-    """Is the one of the ratio `up` behind the one of its inverse? None where they are tied."""
+    """Is the contender with the ratio `up` behind the one with its inverse?
+
+    None if they are tied.
+    """
     slower = max(up, down, key=lambda ratio: ratio.value)
     if slower.rank == "behind":
         return Outcome.YES if slower is up else Outcome.NO
@@ -96,10 +99,10 @@ def _by_rank(up: Ratio, down: Ratio) -> Outcome | None:
 
 
 def _blocks_to_decide(paired: Ratio) -> str:
-    """Returns how many times as many blocks would decide, the spread being the same.
+    """Returns the factor by which more blocks would decide, if the spread stays the same.
 
-    An interval shrinks by the root of the number of blocks, until it either no longer contains 1 or
-    lies within MARGIN of it, whichever is nearer.
+    The interval shrinks with the square root of the number of blocks, until it either excludes 1 or
+    lies within MARGIN of it, whichever takes fewer.
     """
     half = (paired.high - paired.low) / 2
     away = abs(paired.value - 1)
@@ -108,7 +111,10 @@ def _blocks_to_decide(paired: Ratio) -> str:
 
 
 def _by_difference(bound: Measured, larger: Measured, may_meet: bool) -> Outcome | None:
-    """Is it above the bound, or if exact, does it meet it? None where they are surely equal."""
+    """Is it above the bound or, if exact, equal to it?
+
+    None if they are surely equal within MARGIN.
+    """
     gap = larger - bound
     if gap.low > 0 or (gap.low == gap.high == 0 and may_meet):
         return Outcome.YES
@@ -118,7 +124,7 @@ def _by_difference(bound: Measured, larger: Measured, may_meet: bool) -> Outcome
 
 
 def _are_alike(one: Measured, other: Measured) -> bool:
-    """Are they tied by the ratio of independent figures? Bounds are never alike."""
+    """Are they tied by the ratio of independent figures? Exact bounds never are."""
     is_bound = any(figure.low == figure.high for figure in (one, other))
     if is_bound or min(one.low, other.low) <= 0:
         return False
@@ -128,7 +134,7 @@ def _are_alike(one: Measured, other: Measured) -> bool:
 
 
 def between(cell: str, figure: Measured | None, low: float, high: float, unit: str = "") -> Check:
-    """Does a figure lie between two bounds? Undecided where its interval contains a bound."""
+    """Does a figure lie between two bounds? Undecided if its interval contains a bound."""
     if figure is None:
         return Check(cell, Outcome.MISSING)
     if low <= figure.low and figure.high <= high:
@@ -154,9 +160,9 @@ def counted(checks: Sequence[Check]) -> list[Check]:
 def verdict_of(checks: Sequence[Check]) -> Verdict:
     """Combines all cells into one verdict.
 
-    A claim is supported if every cell says yes, contradicted if most say no, and mixed otherwise.
-    If a cell is missing, the claim is not tested. Undecided cells may be yes or no: the verdict
-    stands if it is the same in every case.
+    A claim is supported if every cell agrees, contradicted if most disagree, and mixed otherwise.
+    If a cell is missing, the claim is not tested. Undecided cells may go either way: there is a
+    verdict if it is the same in every case.
     """
     number = Counter(check.outcome for check in counted(checks))
     if not number or number[Outcome.MISSING]:
@@ -175,7 +181,7 @@ def _verdict_by(opposite: int, cells: int) -> Verdict:
 def former_verdict(checks: Sequence[Check]) -> str:
     """Returns the verdict in the words of version 0.2, which had no word for contradictions.
 
-    There any mixture of cells was "holds in part".
+    It called any mixture of cells "holds in part".
     """
     outcomes = {check.outcome for check in counted(checks)}
     if not outcomes or Outcome.MISSING in outcomes:
@@ -200,9 +206,9 @@ class Claim:
     question: Question
     rule: Rule
     is_figures: bool
-    """The claim is a list of figures, which are bound to agree with themselves."""
+    """The claim is a list of figures, which agree with themselves by definition."""
     quantity: str | None = "times"
-    """The unit of its effect; None where its comparisons have no common one."""
+    """The unit of its effect; None if its comparisons have no common unit."""
     untestable: str = ""
     """Why no stand-in can test it, in one sentence; its cells are shown nevertheless."""
 

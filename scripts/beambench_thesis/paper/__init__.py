@@ -1,1 +1,1 @@
-"""The thesis's figures as printed, and measured runs in the same terms."""
+"""The thesis's figures as printed, and measured runs in the same form."""

@@ -1,4 +1,4 @@
-"""The cells of a folder of runs, each with the row of results.csv that it comes from."""
+"""The cells of a folder of runs, each with its row of results.csv."""
 
 from __future__ import annotations
 
@@ -30,10 +30,10 @@ class Cell:
     """One row of one run."""
 
     number: int
-    """Its place in the report's list of rows."""
+    """Its position in the report's list of rows."""
     run: str
     line: int
-    """Of the run's results.csv, the head being line 1."""
+    """The line in the run's results.csv; the header is line 1."""
     name: str
     scene: str
     structure: str
@@ -44,11 +44,11 @@ class Cell:
     verdict: str
     repetitions: int
     setting: Setting | None
-    """Its setting in the thesis; None where the thesis has no such parameters."""
+    """Its setting in the thesis; None if the thesis has no such parameters."""
     time: Measured | None
-    """Seconds, building included; None where the hits are not correct."""
+    """Seconds, building included; None if the hits are not correct."""
     build: float
-    """Seconds, too."""
+    """Seconds of building."""
     trace: float
     megacycles: float
     memory: float
@@ -70,11 +70,11 @@ class Cells:
     runs: tuple[Path, ...]
     cells: tuple[Cell, ...]
     unread: tuple[str, ...] = ()
-    """Why a run could not be read, one sentence each."""
+    """Why runs could not be read, one sentence each."""
 
     @property
     def wrong(self) -> list[Cell]:
-        """The cells without times."""
+        """Returns the cells without times."""
         return [cell for cell in self.cells if cell.time is None]
 
     def at(self, setting: Setting) -> Cell | None:
@@ -104,7 +104,7 @@ class Cells:
 
 
 def read_cells(directory: Path, names: Iterable[str]) -> Cells:
-    """Reads the runs DIRECTORY/NAME; empty ones are left out."""
+    """Reads the runs DIRECTORY/NAME, without empty ones."""
     runs, cells, unread = [], [], []
     for name in names:
         folder = directory / name
@@ -124,14 +124,16 @@ def read_cells(directory: Path, names: Iterable[str]) -> Cells:
 
 
 def resolutions_of(cells: Iterable[Cell]) -> list[str]:
-    """Returns the thesis's resolutions that some cell has, the coarsest first."""
+    """Returns the thesis's resolutions that any cell has, the coarsest first."""
     there = {cell.resolution for cell in cells}
     return [resolution for resolution in RESOLUTIONS if resolution in there]
 
 
 def comparable(cells: Sequence[Cell]) -> Callable[[Cell], float]:
-    """Returns the measure by which these cells are compared, building included: clock cycles if all
-    cells have them, because two runs may have met two clock rates; seconds otherwise.
+    """Returns the measure by which these cells are compared, building included.
+
+    It is clock cycles if all cells have them, because two runs may have had two clock rates, and
+    seconds otherwise.
     """
     if all(pd.notna(cell.megacycles) for cell in cells):
         return attrgetter("megacycles")

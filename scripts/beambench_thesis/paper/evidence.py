@@ -1,4 +1,4 @@
-"""Evidence that rules are applied to, in one form for the thesis's figures and for a run's."""
+"""Evidence for the rules, in one form for the thesis's figures and for those of runs."""
 
 from __future__ import annotations
 
@@ -18,16 +18,17 @@ from beambench_report.base.published import RESOLUTIONS, read_published
 class Blocks:
     """The time of a cell in each block, building included.
 
-    A block is a process that measured the contenders of one view; over all views and runs each has
-    a number of its own.
+    A block is a process that measured the contenders of one view; its number is unique over all
+    views and runs.
     """
 
     ms: Mapping[int, float]
 
     def over(self, other: Blocks, factor: float = 1) -> Ratio | None:
-        """Returns the paired ratio to another time times a factor, with its confidence interval.
+        """Returns the paired ratio to another time multiplied by a factor, with a confidence
+        interval.
 
-        None where they have fewer than two blocks in common.
+        None if they have fewer than two blocks in common.
         """
         under = {block: factor * ms for block, ms in other.ms.items()}
         ratio = block_ratio(self.ms, under)
@@ -39,12 +40,12 @@ NO_BLOCKS = Blocks({})
 
 @dataclass(frozen=True)
 class Measured:
-    """A positive figure and its 95% prediction interval; a counted or printed one has itself.
+    """A positive figure and its 95% prediction interval, which is the figure itself if it is exact.
 
-    Without an interval, both ends are NaN. Figures of the same `blocks` are paired. Others are
-    measured independently of one another, so their errors are combined as independent ones are: by
-    the root of the sum of their squares (propagation of uncertainty, JCGM 100:2008, section 5.1.2),
-    each side of the interval for itself.
+    Without an interval, both ends are NaN. Figures of the same `blocks` are paired. Others were
+    measured independently, so their errors are combined as independent ones: as the root of the sum
+    of their squares (propagation of uncertainty, JCGM 100:2008, section 5.1.2), separately for each
+    side of the interval.
     """
 
     value: float
@@ -58,10 +59,10 @@ class Measured:
         return cls(value, value, value)
 
     def __truediv__(self, other: Measured) -> Measured:
-        """Returns the ratio, paired where it can be.
+        """Returns the ratio, paired if possible.
 
-        Where a figure may be zero, which has no logarithm, from the smallest to the largest ratio
-        that the intervals allow.
+        If a figure may be zero, which has no logarithm, the interval extends from the smallest to
+        the largest possible ratio.
         """
         if paired := self.blocks.over(other.blocks):
             return Measured(paired.value, paired.predicted_low, paired.predicted_high)
@@ -84,7 +85,7 @@ class Measured:
 
 
 def share(part: Measured, rest: Measured) -> Measured:
-    """Part of the whole that `part` and `rest` make."""
+    """Returns the share of `part` in the sum of `part` and `rest`."""
     if min(part.value, rest.value) <= 0:
         return Measured(
             part.value / (part.value + rest.value),
@@ -98,8 +99,7 @@ def share(part: Measured, rest: Measured) -> Measured:
 def smallest(figures: Sequence[Measured]) -> Measured:
     """Returns the least figure: its true value is at most the least upper end.
 
-    If all were measured together, it is paired as the one of the least value, as the fastest of a
-    view is.
+    If all were measured together, it is paired like the figure with the least value.
     """
     least = min(figures, key=lambda one: one.value)
     together = all(one.blocks.over(least.blocks) for one in figures)
@@ -124,7 +124,7 @@ def total(figures: Sequence[Measured]) -> Measured:
 
 
 def rows_with(rows: pd.DataFrame, **values: object) -> pd.DataFrame:
-    """Returns the rows that have these values in their columns, or one value of a collection."""
+    """Returns the rows that have these values, or one value of a collection, in their columns."""
     for name, value in values.items():
         rows = rows[rows[name].isin([value] if isinstance(value, str | int) else value)]
     return rows
@@ -161,7 +161,7 @@ class ClusterEvidence:
 
     @property
     def networks(self) -> list[str]:
-        """The networks with figures."""
+        """Returns the networks with figures."""
         return list(dict.fromkeys(self.figures["network"]))
 
     def figure(self, quantity: str, scene: str, network: str) -> Measured | None:
@@ -176,8 +176,8 @@ class ClusterEvidence:
 NO_CLUSTER = ClusterEvidence(pd.DataFrame(columns=list(FIGURES)))
 
 
-# What every row is about. `level` and `objects` are the octree's max_level and max_objects, `cells`
-# the grid's voxels along an axis; 0 stands where a structure has no such thing.
+# The subject of every row. `level` and `objects` are the octree's max_level and max_objects,
+# `cells` the grid's voxels along an axis; 0 if a structure lacks the parameter.
 SETTING = ("scene", "contender", "level", "objects", "cells", "resolution", "samples")
 TIMES = ("table", *SETTING, "seconds", "low", "high")
 WORK = (*SETTING, "quantity", "value", "low", "high")
@@ -188,7 +188,7 @@ OCTREES = ("scene", "level", "objects", "occupied_leaves", "exit_pixels")
 # own insertion weighs at every level.
 HIERARCHY = "goldsmith-salmon"
 PAPER_HIERARCHY = "goldsmith-salmon, insert=everywhere"
-# Traversed as graphic 4.2 does, in the order of the children, instead of Kay and Kajiya's (4.1).
+# Traversed in the order of the children (graphic 4.2), instead of Kay and Kajiya's (4.1).
 PLAIN_HIERARCHY = "goldsmith-salmon, queue=stack"
 
 # Whole pictures, whose rays a census counts by kind.
@@ -200,7 +200,7 @@ ON_OCTREES = ("beam", "samet", "samet-net")
 LEVEL, OBJECTS, CELLS = 6, 0, 32
 
 Setting = tuple[str | int, ...]
-"""In the order of SETTING."""
+"""Values in the order of SETTING."""
 
 
 def setting(
@@ -213,7 +213,7 @@ def setting(
     cells: int = CELLS,
     samples: int = 1,
 ) -> Setting:
-    """Returns a setting as a key: 0 stands where the contender has no such parameter."""
+    """Returns a setting as a key: 0 if the contender lacks the parameter."""
     level, objects = (level, objects) if contender in ON_OCTREES else (0, 0)
     cells = cells if contender == "voxel-grid" else 0
     return (scene, contender, level, objects, cells, resolution, samples)
@@ -239,17 +239,17 @@ class Evidence:
 
     @property
     def coarsest(self) -> str:
-        """The lowest resolution: 320x200 wherever the thesis's are complete."""
+        """Returns the lowest resolution: 320x200 if the thesis's are complete."""
         return self.resolutions[0]
 
     @property
     def finest(self) -> str:
-        """The highest resolution: 1280x1024 wherever the thesis's are complete."""
+        """Returns the highest resolution: 1280x1024 if the thesis's are complete."""
         return self.resolutions[-1]
 
     @property
     def finer(self) -> tuple[str, ...]:
-        """All resolutions but the lowest."""
+        """Returns all resolutions except the lowest."""
         return self.resolutions[1:]
 
     def time(
@@ -317,13 +317,13 @@ class Evidence:
 
     @property
     def beam_cells(self) -> list[tuple[str, int, str]]:
-        """Scene, level and resolution of every cell whose beams were counted."""
+        """Returns scene, level and resolution of every cell whose beams were counted."""
         keys = [key[1:] for key in self._work if key[2] == "beam"]
         return list(dict.fromkeys((key[0], key[2], key[3]) for key in keys))
 
     @cached_property
     def _times(self) -> dict[Setting, Measured]:
-        """The times by setting. Where two tables print the same cell, they agree."""
+        """Returns the times by setting. Tables that print the same cell agree."""
         times = _figures_by(self.times.drop_duplicates(list(SETTING)), SETTING, "seconds")
         return {
             at: replace(time, blocks=self.blocks.get(at, NO_BLOCKS)) for at, time in times.items()
@@ -366,9 +366,9 @@ NOTHING = Evidence(
 )
 
 
-# What the thesis calls beams and non-terminal beams are those that its constructor made, and those
-# of them that were cut: a beam that lies wholly inside the next leaf is only placed there
-# (section 4.4.2, `PasaPor`; graphic 3.4).
+# The thesis's beams are those that its constructor made, and its non-terminal beams those of them
+# that were cut: a beam that lies wholly inside the next leaf is only placed there (section 4.4.2,
+# `PasaPor`; graphic 3.4).
 _MADE_BY_CUTTING = {"beams": "beams_made", "beams_nonterminal": "beams_divided"}
 
 
@@ -376,7 +376,7 @@ _MADE_BY_CUTTING = {"beams": "beams_made", "beams_nonterminal": "beams_divided"}
 def published_evidence() -> Evidence:
     """Returns tables 5.2 to 5.8 and the figures in the text.
 
-    The thesis gives no intervals: what it prints counts as exact.
+    The thesis has no intervals: its figures count as exact.
     """
     times = read_published("times.csv")
     grids = times["algorithm"].eq("voxel-grid") * CELLS
@@ -439,6 +439,6 @@ def _cluster(text: pd.DataFrame) -> ClusterEvidence:
 
 
 def _resolution(rows: pd.DataFrame) -> pd.Series:
-    """Returns `320x200`, or an empty string where a figure has no resolution."""
+    """Returns `320x200`, or an empty string if a figure has no resolution."""
     width, height = (rows[side].astype("Int64").astype(str) for side in ("width", "height"))
     return (width + "x" + height).where(rows["width"].notna(), "")

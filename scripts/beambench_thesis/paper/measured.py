@@ -40,11 +40,12 @@ from beambench_thesis.paper.evidence import (
     share,
 )
 
-# What the thesis did where it varied nothing. A row with another value of these is of a contender
-# that the claims do not speak of. Level, objects and voxels are settings of their own.
+# The thesis's settings where it varied nothing. Rows with other values belong to contenders that
+# the claims do not concern. Level, objects and voxels are separate settings.
 _OCTREE = {"root": "cube", "assign": "surface"}
 _THESIS = {
-    # Its beams test the samples of a leaf as rays are tested; SIMD is another idea (leaf=simd).
+    # The thesis's beams test the samples of a leaf as rays are tested; SIMD is our addition
+    # (leaf=simd).
     "beam": _OCTREE
     | {"handover": "0", "continue": "rays", "share_corners": "false", "leaf": "exact"},
     "samet": _OCTREE | {"outside": "0"},
@@ -53,8 +54,8 @@ _THESIS = {
     HIERARCHY: {"order": "given"},
 }
 
-# Between two runs the virtual machine's clock was up to 14% apart (results/published/README.md).
-# So far a task of beams may be off that was measured too seldom to have an interval of its own.
+# Between two runs the virtual machine's clock differed by up to 14% (results/published/README.md).
+# A task of beams that was measured too seldom to have an interval may be off by as much.
 UNKNOWN_SPREAD = 0.15
 
 _HIERARCHIES = {
@@ -62,14 +63,14 @@ _HIERARCHIES = {
     ("everywhere", "heap"): PAPER_HIERARCHY,
     ("terminal", "stack"): PLAIN_HIERARCHY,
 }
-"""By where objects are inserted, and by the order of traversal."""
+"""Variants of the hierarchy, by insertion and by order of traversal."""
 
-# What the counting pass of another run differs by in one task over the others. Found by repeating a
-# sweep of 84 cells twice on a disturbed machine: 95% of these ratios were found again within 16% to
-# 20%, 95% of the seconds of the pass only within 37% to 50%.
+# The variation of one task relative to the others between counting passes of two runs. Found by
+# repeating a sweep of 84 cells twice on a disturbed machine: 95% of these ratios were found again
+# within 16% to 20%, 95% of the seconds of the pass only within 37% to 50%.
 SPREAD_OF_PARTS = 0.17
 
-# What another process differs by, its memory lying elsewhere (kBetweenRuns of the harness).
+# The variation between processes, whose memory layouts differ (kBetweenRuns of the harness).
 BETWEEN_RUNS = 0.015
 
 _TASKS = ("nonterminal", "occupied", "leaving")
@@ -82,8 +83,8 @@ def measured_evidence(
 ) -> Evidence:
     """Returns the correct rows of one or more runs that have the thesis's scenes and contenders.
 
-    If several runs measured a cell, the repetitions of all count. Raises Problem where a run cannot
-    be read, or has rows of several machines.
+    If several runs measured a cell, the repetitions of all count. Raises Problem if a run cannot be
+    read or has rows of several machines.
     """
     runs = [read_run(directory) for directory in directories]
     if not runs:
@@ -91,7 +92,7 @@ def measured_evidence(
     for run in runs:
         require_one_machine(run.rows, run.directory)
     every = [_compared(rows) for rows in with_fastest(runs)]
-    # One clock for all runs: what they differ by in cycles, they differ by in these seconds.
+    # One clock rate for all runs, so that differences in cycles become differences in seconds.
     cycles, ms = (
         pd.concat(rows[f"total_{name}_median"] for rows in every) for name in ("mcycles", "ms")
     )
@@ -101,7 +102,8 @@ def measured_evidence(
         pd.concat([getattr(part, name) for part in parts], ignore_index=True)
         for name in ("times", "work", "octrees")
     )
-    # In the counting passes of two runs the tasks took other parts of the time: the first's stand.
+    # The tasks' shares of the time differ between the counting passes of two runs: the first run's
+    # count.
     is_time = work["quantity"].str.startswith("seconds_").astype(bool)
     once = ~work.duplicated([*SETTING, "quantity"])
     return Evidence(
@@ -203,8 +205,8 @@ def _cells_per_axis(resolution: str) -> str:
 def seconds_of(row: dict[str, object]) -> dict[str, float]:
     """Returns seconds, building included, with the interval for the figure of a repeated run.
 
-    They are those of the fastest repetitions (base/fastest.py), or the median of all where these
-    are not known.
+    They are those of the fastest repetitions (base/fastest.py), or the median of all if these are
+    unknown.
     """
     fastest = _number(row, "fastest_ms")
     return _seconds_by(row, "total_ms", 1e3) if isnan(fastest) else _fastest(row, fastest / 1e3)
@@ -217,7 +219,7 @@ def _at_clock(row: dict[str, object], gigahertz: float) -> dict[str, float]:
         return _fastest(row, fastest / (1e3 * gigahertz))
     if pd.notna(_number(row, "total_mcycles_ci_low")):
         return _seconds_by(row, "total_mcycles", 1e3 * gigahertz)
-    # Older rows have no interval of the cycles: that of the milliseconds is no narrower.
+    # Older rows have no interval for the cycles: that of the milliseconds is at least as wide.
     cycles, own = _number(row, "total_mcycles_median"), _number(row, "total_ms_median")
     scale = cycles / gigahertz / own
     return {name: seconds * scale for name, seconds in seconds_of(row).items()}
@@ -232,7 +234,7 @@ def _fastest(row: dict[str, object], seconds: float) -> dict[str, float]:
 def error_between_runs(error: float) -> float:
     """Returns the relative difference to expect from the fastest repetitions of another process.
 
-    NaN where those of this process are not known.
+    NaN if those of this process are not known.
     """
     return hypot(error, BETWEEN_RUNS)
 
@@ -264,7 +266,7 @@ def _work(row: dict[str, object], setting: dict[str, object]) -> list[dict[str, 
         if name.endswith(COUNTER_SUFFIX)
     }
     own = {name: count for name, count in counts.items() if not name.endswith("_ns")}
-    # Beams do not depend on the resolution (C09 asks whether): one count stands for all.
+    # Beams should not depend on the resolution (C09 tests this), so one count represents all.
     every = {name: figure.value for name, figure in _exact(counts).items() if name in _BEAM_COUNTS}
     whole = {name: round(count) for name, count in every.items()}
     tasks = {task: counts.get(f"beams_{task}_ns", nan) / 1e9 for task in _TASKS}
@@ -276,9 +278,9 @@ def _work(row: dict[str, object], setting: dict[str, object]) -> list[dict[str, 
 
 
 def _seconds_of_tasks(row: dict[str, object], counted: dict[str, float]) -> dict[str, Measured]:
-    """Returns each task's part of the least time of a trace, and the building.
+    """Returns each task's share of the least time of a trace, and the building.
 
-    The parts are those of the counting pass. Its seconds are not used: the pass is made once, and
+    The shares are those of the counting pass. Its seconds are not used: the pass is made once, and
     other work on the machine can slow one cell by half and spare another, but it slows most tasks
     of a cell alike.
     """
@@ -300,7 +302,7 @@ def _seconds_of_tasks(row: dict[str, object], counted: dict[str, float]) -> dict
 
 
 def _exact(figures: dict[str, float]) -> dict[str, Measured]:
-    """Returns the known ones of some figures that were counted."""
+    """Returns those of the counted figures that are known."""
     return {name: Measured.exact(value) for name, value in figures.items() if pd.notna(value)}
 
 
@@ -324,7 +326,7 @@ def _number(row: dict[str, object], name: str) -> float:
 
 
 ORDERS = ("scan", "beams")
-"""In which pixels are shaded; a file each."""
+"""The orders in which pixels are shaded, with a file each."""
 
 
 def is_census_folder(folder: Path) -> bool:
@@ -340,7 +342,7 @@ def census_file(folder: Path, order: str) -> Path:
 def census_work(folder: Path) -> pd.DataFrame:
     """Returns rows of `evidence.WORK`: rays by kind, and the hidden shadow rays found by the cache.
 
-    Raises Problem where a file is not what `beambench census --json` prints.
+    Raises Problem if a file is not output of `beambench census --json`.
     """
     rows: list[dict[str, object]] = []
     for order in ORDERS:

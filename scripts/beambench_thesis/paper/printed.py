@@ -21,7 +21,7 @@ _NAMES = {
     "voxel-grid": "voxel grid (Matriz Voxel)",
     "goldsmith-salmon": "hierarchy (Bounding Box)",
 }
-# Other scenes are called by their names, capitalized.
+# Other scenes have their names, capitalized.
 _SCENES = {
     "escena1": "Escena 1",
     "escena2": "Escena 2",
@@ -63,17 +63,17 @@ class PrintedPart:
 
     @property
     def title(self) -> str:
-        """`(a) Maceta`."""
+        """Returns `(a) Maceta`."""
         return f"({self.letter}) {scene_title(self.scene)}"
 
     @property
     def structures(self) -> list[str]:
-        """The structures of its rows, each once."""
+        """Returns the structures of its rows, each once."""
         return list(dict.fromkeys(row.structure for row in self.rows))
 
     @property
     def base(self) -> float | None:
-        """Seconds of the first row at 320x200, to which shapes are compared."""
+        """Returns the seconds of the first row at 320x200, to which shapes are relative."""
         return self.rows[0].seconds.get(RESOLUTIONS[0])
 
 
@@ -144,7 +144,7 @@ def thesis_seconds(seconds: float | None) -> str:
 
 
 def interval(figure: Measured, factor: float = 1e3, unit: str = " ms") -> str:
-    """Returns `43.1 to 45.0 ms`, or a dash where there is none."""
+    """Returns `43.1 to 45.0 ms`, or a dash without an interval."""
     if isnan(figure.low):
         return DASH
     return f"{number(factor * figure.low)} to {number(factor * figure.high)}{unit}"

@@ -12,22 +12,22 @@ from beambench_thesis.paper.cells import Cell
 
 @dataclass(frozen=True)
 class Field:
-    """An entry of a table, and the row of the file behind it."""
+    """An entry of a table, and the row of the file that it comes from."""
 
     text: str
     cell: Cell | None = None
     value: float | None = None
-    """What it sorts by, where that is not the text."""
+    """The sort key, if it is not the text."""
 
 
 @dataclass(frozen=True)
 class SectionTable:
-    """A table of fields; a long one is folded, for looking up rather than reading."""
+    """A table of fields; a long one is folded, since it is for looking up."""
 
     title: str
     heads: tuple[str, ...]
     words: int
-    """The number of columns that contain words; those behind them contain figures."""
+    """The number of columns that contain words; the ones after them contain figures."""
     rows: tuple[tuple[Field, ...], ...]
     is_long: bool = False
 
@@ -68,7 +68,7 @@ def section_table(
 
 
 def write_section(section: Section, file: Path, **options: object) -> list[Path]:
-    """Writes the section as a FILE.md of its own, with its plots."""
+    """Writes the section as a separate FILE.md, with its plots."""
     text = section_as_markdown(section, level=1, folder="", **options)
     paths = [write_text(file, text)]
     with house_style():

@@ -1,4 +1,4 @@
-"""Drawing of the thesis's figures and ours on one axis, to compare shapes."""
+"""Draws the thesis's figures and ours on one axis, to compare shapes."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -27,7 +27,7 @@ class Points:
     is_joined: bool = True
     """Is a line drawn through the points?"""
     color: str = ""
-    """If not given, the structure's."""
+    """The color; by default the structure's."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ class FigureData:
     title: str
     panels: tuple[Panel, ...]
     across: str
-    """What the horizontal axis says."""
+    """The label of the horizontal axis."""
     caption: str
     ticks: tuple[float, ...] = ()
     is_log: bool = False

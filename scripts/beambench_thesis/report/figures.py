@@ -30,19 +30,19 @@ Line = list[tuple[float, Measured]]
 
 
 def measured(cells: Cells, keys: Iterable[Setting]) -> Line:
-    """Returns our seconds, where there are any."""
+    """Returns our seconds, if there are any."""
     found = ((key, cells.at(key)) for key in keys)
     return [(place(key), cell.time) for key, cell in found if cell and cell.time]
 
 
 def seconds_printed(keys: Iterable[Setting]) -> Line:
-    """Returns the thesis's seconds, where some table has them."""
+    """Returns the thesis's seconds, if some table has them."""
     found = ((key, published_evidence().at(key)) for key in keys)
     return [(place(key), seconds) for key, seconds in found if seconds]
 
 
 def place(key: Setting) -> float:
-    """Returns ten thousands of rays at one sample per pixel, as the thesis counts them."""
+    """Returns tens of thousands of rays at one sample per pixel, as the thesis counts them."""
     return rays(str(key[_RESOLUTION])) / 1e4
 
 
@@ -181,7 +181,7 @@ def _grid(scene: str, count: int) -> list[tuple]:
 
 
 def _timed(cells: Cells, scene: str, structure: str, resolution: str) -> list[Cell]:
-    """Returns the cells with times and with parameters of the thesis; of grids, lazy ones."""
+    """Returns the timed cells with the thesis's parameters; among grids, the lazy ones."""
     found = cells.of(scene, structure, resolution)
     return [cell for cell in found if cell.setting is not None and cell.time is not None]
 

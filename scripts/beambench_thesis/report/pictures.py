@@ -28,7 +28,7 @@ class Division:
 
     @property
     def title(self) -> str:
-        """`Maceta, level 6, 10 objects`."""
+        """Returns `Maceta, level 6, 10 objects`."""
         return f"{scene_title(self.scene)}, level {self.level}, {self.objects} objects"
 
 

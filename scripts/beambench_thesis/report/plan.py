@@ -14,7 +14,7 @@ from beambench_report.base.published import rays
 
 @dataclass(frozen=True)
 class Table:
-    """A table of the thesis; in its `best` sweeps each contender's best parameters are sought."""
+    """A table of the thesis; its `best` sweeps look for each contender's best parameters."""
 
     number: str
     title: str
@@ -83,7 +83,8 @@ FIGURES = (
     Figure("5.18", ("others-large", "best-others-large", "best-grids", "grids")),
 )
 
-# In the order in which they are run: what the thesis did first, last what the fewest claims need.
+# In the order in which they are run: the thesis's own sweeps first, those needed by the fewest
+# claims last.
 SWEEPS = tuple(
     "synthetic division octree others-small others-large quality samples best-octree shallow "
     "best-others-large best-grids grids best-synthetic best-division best-others-small".split()
@@ -92,11 +93,12 @@ SWEEPS = tuple(
 FOLDER = ROOT / "harness/measure/sweeps/thesis"
 
 LEVELS = "levels"
-"""The sweep that tests max_level=auto; its file lies in the folder above FOLDER."""
+"""The sweep that tests max_level=auto; its file is in the folder above FOLDER."""
 
 LOW_RESOLUTIONS = ("320x200", "640x480")
-"""At which quick runs and variants of the scenes are measured: the least from which claims follow
-that are about changes with the resolution."""
+"""The resolutions of quick runs and variants: the fewest for claims about changes with the
+resolution.
+"""
 
 _QUICK_REPETITIONS = {"minimum": 1, "maximum": 3}
 _QUICK_SECONDS_PER_CELL = 0.25
@@ -144,7 +146,7 @@ class Sweep:
         ]
 
     def _is_excluded(self, scene: str, structure: str, resolution: str, samples: int) -> bool:
-        """Evaluates the conditions that the thesis's sweeps use: not `primitives_above`."""
+        """Evaluates the conditions of the thesis's sweeps, without `primitives_above`."""
         own = {"scene": scene, "structure": structure}
         return any(
             all(entry.get(name, value) == value for name, value in own.items())
@@ -167,7 +169,7 @@ class Sweep:
 
 
 def read_sweep(name: str, folder: Path = FOLDER) -> Sweep:
-    """Reads FOLDER/NAME.json. Raises Problem where there is none."""
+    """Reads FOLDER/NAME.json. Raises Problem if it is missing."""
     path = folder / f"{name}.json"
     source = read_json(path)
     if source is None:
@@ -215,8 +217,8 @@ def variant_sweeps(number: int) -> tuple[Sweep, ...]:
 def deeper_sweeps() -> tuple[Sweep, ...]:
     """Returns the sweeps by the other reading of the thesis's levels, at low resolutions.
 
-    In section 5.4 a level-5 octree has 2^5 cells along an axis, where elsewhere it has 2^4
-    (claims.md): each level is one deeper than `max_level` counts it.
+    In section 5.4 a level-5 octree has 2^5 cells along an axis, but elsewhere 2^4 (claims.md): each
+    level is one deeper than `max_level` counts it.
     """
     return tuple(_deeper(read_sweep(name)) for name in _VARIED)
 
@@ -234,7 +236,7 @@ def _varied(sweep: Sweep, number: int) -> Sweep:
 
 
 def _claimed(sweep: Sweep) -> list[str | dict[str, Any]]:
-    """Returns the contenders that claims are about."""
+    """Returns the contenders that the claims are about."""
     return [_with_exact_leaves(one) for one in sweep.source["structures"] if one not in _UNCLAIMED]
 
 
@@ -249,7 +251,7 @@ def _at_low_resolutions(sweep: Sweep, name: str, **more: object) -> Sweep:
 
 
 def _with_exact_leaves(structure: str | dict[str, Any]) -> str | dict[str, Any]:
-    """Returns a contender without the leaf tests by SIMD that are measured beside the thesis's."""
+    """Returns a contender without the SIMD leaf tests that are measured beside the thesis's."""
     if isinstance(structure, str) or "leaf" not in structure["parameters"]:
         return structure
     return structure | {"parameters": structure["parameters"] | {"leaf": "exact"}}
@@ -280,7 +282,7 @@ class Plan:
     variants: tuple[tuple[Sweep, ...], ...] = ()
     """The sweeps of perturbed scenes, variant by variant."""
     deeper: tuple[Sweep, ...] = ()
-    """Those by the other reading of the thesis's levels."""
+    """The sweeps by the other reading of the thesis's levels."""
 
     @property
     def every_sweep(self) -> tuple[Sweep, ...]:
@@ -304,7 +306,8 @@ def make_plan(
 ) -> Plan:
     """Returns the plan for some tables and figures, or for all. Raises Problem for an unknown one.
 
-    `with_levels` adds the sweep that tests max_level=auto, `variants` so many of perturbed scenes.
+    `with_levels` adds the sweep that tests max_level=auto, `variants` that number of perturbed
+    scenes.
     """
     known_tables, known_figures = [t.number for t in TABLES], [f.number for f in FIGURES]
     for kind, given, known in (("table", tables, known_tables), ("figure", figures, known_figures)):
@@ -347,7 +350,7 @@ def add_variants(plan: Plan, number: int) -> Plan:
 
 
 def keep_plan(plan: Plan, directory: Path) -> None:
-    """Writes DIRECTORY/thesis.json, from which a run that was cut off is resumed."""
+    """Writes DIRECTORY/thesis.json, from which an interrupted run is resumed."""
     document = {
         "tables": plan.tables,
         "figures": plan.figures,
@@ -368,7 +371,7 @@ def _restored(kept: Sequence[dict[str, Any]]) -> tuple[Sweep, ...]:
 
 
 def read_plan(directory: Path) -> Plan:
-    """Reads what `keep_plan` wrote. Raises Problem where that cannot be read."""
+    """Reads the file written by `keep_plan`. Raises Problem if it cannot be read."""
     path = directory / _PLAN
     try:
         source = load_json(path)
@@ -391,5 +394,5 @@ def read_plan(directory: Path) -> Plan:
 
 
 def _figures_of(sweeps: Set[str]) -> list[str]:
-    """Returns the figures that need no other sweeps, so cost nothing more."""
+    """Returns the figures that need no further sweeps, so cost nothing more."""
     return [figure.number for figure in FIGURES if sweeps >= set(figure.sweeps)]

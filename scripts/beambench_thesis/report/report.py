@@ -1,4 +1,4 @@
-"""Gathering the report from the runs of a folder, and its sentences."""
+"""Gathers the report from the runs of a folder, with its sentences."""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -40,9 +40,9 @@ from beambench_thesis.report.runner import state_of
 from beambench_thesis.report.tables import PartTable, WorkTable, fill, work_of_lines
 
 SAMPLING = "sampling"
-"""The folder of what `beambench sampling SCENE --json` printed."""
+"""The folder with output of `beambench sampling SCENE --json`."""
 MIRRORS = "mirrors"
-"""The folder of what `beambench mirrors SCENE --json` printed."""
+"""The folder with output of `beambench mirrors SCENE --json`."""
 CLUSTER = "cluster"
 """The folder of the simulated cluster, beside that of the report."""
 GRID_BEAMS = "grid-beams"
@@ -75,13 +75,13 @@ class RunSummary:
 
     @property
     def wrong(self) -> int:
-        """Cells without times."""
+        """Number of cells without times."""
         return sum(cell.time is None for cell in self.cells)
 
 
 @dataclass(frozen=True)
 class Report:
-    """Everything that a report states, in any format."""
+    """The contents of a report in any format."""
 
     directory: Path
     plan: Plan
@@ -91,7 +91,7 @@ class Report:
     pictures: tuple[PictureFigure, ...]
     claims: tuple[JudgedClaim, ...]
     sections: tuple[Section, ...]
-    """What goes beyond the thesis's own tables and figures."""
+    """Sections beyond the thesis's own tables and figures."""
     runs: tuple[RunSummary, ...]
 
 
@@ -99,7 +99,7 @@ def gather(directory: Path, plan: Plan, beambench: Path | None = None) -> Report
     """Reads the runs; parts that were not measured are left out and listed."""
     sweeps = [*plan.sweeps, *_extra_sweeps(directory, plan)]
     every = read_cells(directory, (sweep.name for sweep in sweeps))
-    # None of the cells of tables, figures and claims is of LEVELS.
+    # LEVELS has no cells of tables, figures and claims.
     cells = every.without(LEVELS)
     sections, unread = sections_of(directory, every)
     pictures = ()
@@ -127,7 +127,7 @@ def gather(directory: Path, plan: Plan, beambench: Path | None = None) -> Report
 def _judged(
     directory: Path, plan: Plan, runs: Sequence[Path], with_clusters: bool
 ) -> list[JudgedClaim]:
-    """Judges the claims by the runs, and by those of variants or the table that stands for them."""
+    """Judges the claims by the runs, and by variants or the table that replaces them."""
     claims = judge_claims(
         runs,
         ALL_CLAIMS if with_clusters else SWEPT_CLAIMS,
@@ -176,7 +176,7 @@ def sections_of(directory: Path, cells: Cells) -> tuple[list[Section], list[str]
 
 
 def _extra_sweeps(directory: Path, plan: Plan) -> list[Sweep]:
-    """Returns the sweep of levels, if it was run into DIRECTORY/levels without being planned."""
+    """Returns the sweep of levels, if it was run in DIRECTORY/levels without being planned."""
     if any(sweep.name == LEVELS for sweep in plan.sweeps):
         return []
     try:
@@ -212,7 +212,7 @@ def _summary(directory: Path, sweep: Sweep, cells: Cells) -> RunSummary:
     )
 
 
-# What the report says in words, the same in Markdown and on the page
+# The report's texts, the same in Markdown and on the page
 
 TABLE_WORDS = (
     "Beside the thesis's seconds (a Pentium of 350 MHz, 1999) stand our milliseconds; seconds of "
@@ -300,9 +300,9 @@ OTHER_SYSTEMS = (
         "purpose is scenes that move, and the thesis's scenes do not.",
     ),
 )
-"""What chapter 2 surveys and nobody measures here: a name, and the rest of a sentence."""
+"""Systems surveyed in chapter 2 that are not measured here: a name, and the rest of a sentence."""
 FIRST_FIGURES = ("5.7", "5.8", "5.12", "5.16")
-"""Those that show the thesis and ours side by side; the others are among the details."""
+"""The figures that show the thesis and ours side by side; the others are among the details."""
 BEST_WORDS = (
     "Each contender with those of its parameters that made it fastest, building included, in "
     "brackets its time over that of the first row and the interval of that ratio."
@@ -319,7 +319,7 @@ def headline(report: Report) -> str:
 
 
 def notice(report: Report) -> str:
-    """Returns warnings for the reader; empty where everything was measured in full."""
+    """Returns warnings for the reader; empty if everything was measured completely."""
     sentences = []
     if any(run.state != "finished" for run in report.runs):
         sentences.append("Not everything that was planned is there (see Runs).")
@@ -346,7 +346,7 @@ def verdict_counts(report: Report) -> str:
 
 
 def undecided(report: Report) -> list[str]:
-    """Returns a sentence for each undecided claim: which cells, and what would decide them."""
+    """Returns a sentence for each undecided claim: the cells, and what would decide them."""
     return [
         f"{one.claim.says} ({one.claim.name}): {named(one.ours, Outcome.UNDECIDED)}"
         for one in report.claims

@@ -1,4 +1,4 @@
-"""Runs the sweeps of a plan one after the other, each in a folder of its own."""
+"""Runs the sweeps of a plan one after the other, each in a separate folder."""
 
 import json
 from dataclasses import dataclass
@@ -18,21 +18,21 @@ class Outcome:
     """The outcome of the runs."""
 
     not_right: tuple[str, ...]
-    """Sweeps in which some structure had wrong hits."""
+    """Sweeps in which a structure had wrong hits."""
     not_made: tuple[str, ...]
     """Sweeps that could not be run."""
     interrupted: bool = False
 
     @property
     def exit_code(self) -> int:
-        """The exit code: 2 where something could not be run, 1 where a hit was wrong."""
+        """Returns the exit code: 2 if something could not be run, 1 if a hit was wrong."""
         if self.interrupted:
             return 130
         return 2 if self.not_made else 1 if self.not_right else 0
 
 
 def run_sweeps(plan: Plan, directory: Path, beambench: Path) -> Outcome:
-    """Runs sweeps that are not finished. If one cannot be run, the others still are."""
+    """Runs the unfinished sweeps. If one cannot be run, the others still are."""
     not_right, not_made = [], []
     for number, sweep in enumerate(plan.every_sweep, 1):
         where = f"run {number} of {len(plan.every_sweep)}: {sweep.name}"

@@ -19,11 +19,13 @@ from beambench_thesis.paper.printed import (
 from beambench_thesis.paper.section import Field
 
 Reasons = Callable[[str], str]
-"""Why there is nothing at a resolution, if there is nothing."""
+"""Why there is nothing at a resolution, if so."""
 
 _WITHOUT_TERMINAL = {"order": "given", "queue": "heap", "insert": "everywhere"}
-"""The thesis's hierarchy but for the insertion, which is the one of Goldsmith and Salmon's paper.
-It is an extra beside the thesis's, which places objects beside terminal nodes alone (4.3)."""
+"""The thesis's hierarchy with Goldsmith and Salmon's own insertion.
+
+It is shown in addition to the thesis's, which only places objects beside terminal nodes (4.3).
+"""
 
 
 @dataclass(frozen=True)
@@ -95,7 +97,7 @@ def _not_printed(
         found = (
             cell
             for cell in cells.of(part.scene, structure, resolution)
-            # Runs before the parameter `insert` lack it: they inserted everywhere.
+            # Older runs lack the parameter `insert`: they inserted everywhere.
             if all(cell.parameters.get(name, value) == value for name, value in wanted.items())
         )
         ours[resolution] = next(found, None)

@@ -59,7 +59,7 @@ class Written:
     cells: int
     wrong: int
     notice: str
-    """What a reader must know before reading it; nothing where all was measured in full."""
+    """Warnings for the reader; empty if everything was measured completely."""
 
 
 _TEMPLATES = Path(__file__).with_name("templates")
@@ -84,7 +84,7 @@ def write_report(directory: Path, plan: Plan, beambench: Path | None = None) -> 
 
 
 def _write_rows(cells: Cells, path: Path) -> Path:
-    """Writes the row numbers that figures have in the report, and the file's row behind each."""
+    """Writes the row numbers of figures in the report, with the file's row for each."""
 
     def write(pending: Path) -> None:
         with pending.open("w", newline="", encoding="utf-8") as file:
