@@ -137,9 +137,9 @@ def as_markdown(known: Dictionary) -> str:
         f"Schema version {known.schema_version}. A row is a cell of a sweep: one structure with "
         "one set of parameters, tracing one set of rays. The file is UTF-8 with one header row "
         "and quotes as in RFC 4180. An empty field was not measured; `null` is a structure's name. "
-        "A text that a spreadsheet would take for a formula (it begins with `=`, `+`, `-` or `@`) "
-        "has an apostrophe before it, and so has one that begins with an apostrophe. In the names "
-        "of files, `\\x1b` is a byte that cannot be printed, and two backslashes are one."
+        "A text that begins with `=`, `+`, `-` or `@`, which a spreadsheet would take for a formula, "
+        "or with an apostrophe is preceded by an apostrophe. In file names, `\\x1b` is an "
+        "unprintable byte, and two backslashes stand for one."
     )
     lines = [
         "# The columns of results.csv",
@@ -166,8 +166,9 @@ def as_markdown(known: Dictionary) -> str:
         "",
         "## Counters of single structures",
         "",
-        "As `beambench list --counters` prints them. Each is a column, `<counter>_per_ray`; times",
-        "`rays` it is the count. Those of the beams: [accel/beam](../accel/beam/README.md).",
+        "They are printed by `beambench list --counters`. Each has a column, `<counter>_per_ray`;",
+        "multiplied by `rays` it is the count. [accel/beam](../accel/beam/README.md) explains those",
+        "of the beams.",
         "",
         *markdown_table(("structure", "counter", "meaning"), counters),
     ]

@@ -62,8 +62,8 @@ def _beside(low: JudgedClaim, best: JudgedClaim) -> str:
     if low.ours.verdict not in _WORDS or best.ours.verdict not in _WORDS:
         return ""
     return (
-        f" That single rays can win at 320x200 is {low.ours.verdict.value}; that beams win at high "
-        f"resolution even against single rays at their best level is {best.ours.verdict.value}."
+        f" Single rays can win at 320x200: {low.ours.verdict.value}. At high resolution beams win "
+        f"even against single rays at their best level: {best.ours.verdict.value}."
     )
 
 
@@ -79,13 +79,12 @@ def _efficiency(one: JudgedClaim | None) -> str:
     if one is None or not known:
         return f"{_NOT_MEASURED} It is simulated by `python -m beambench_thesis cluster`."
     parts = [
-        f"{number(check.value or 0)} with {at.value:.0f} processors ({cell.split(', ')[1]})"
+        f"{number(check.value or 0)} with {at.value:.0f} ({cell.split(', ')[1]})"
         for cell, check, at in known
     ]
     return (
-        f"In our simulation over gato-bill, the best efficiency is {' or '.join(parts)}; in the "
-        f"thesis, 0.75 with 11. Its statements on efficiency agree in {agreeing(one.ours)} "
-        "comparisons."
+        f"The best efficiency over gato-bill by the number of processors: {' or '.join(parts)}; in "
+        f"the thesis, 0.75 with 11. {agreeing(one.ours)} comparisons agree."
     )
 
 
