@@ -5,8 +5,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-# What is no statement of a measurement: expressions, code, targets of links, comments, and what
-# kind of interval it is.
+# Not measurements: expressions, code, targets of links, comments, and confidence levels of
+# intervals.
 _COMPUTED = re.compile(
     r"\{\{.*?\}\}|\{%.*?%\}|\{#.*?#\}|```.*?```|``.*?``|`[^`\n]*`|\]\([^)]*\)|<!--.*?-->"
     r"|95%\s(?:prediction\s|confidence\s)?intervals?"

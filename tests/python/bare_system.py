@@ -14,7 +14,7 @@ import pytest
 REPOSITORY = Path(__file__).resolve().parents[2]
 _BASES = REPOSITORY / "build/bare"
 _CACHE = _BASES / "cache"
-"""Root's caches in all systems, among them that of the compiler."""
+"""Root's caches, shared by all systems, among them that of the compiler."""
 _OWN_MOUNTS = ("unshare", "--mount", "--pid", "--fork")
 _ENTER = """
 mkdir --parents "$1/root/.cache" "$2" &&
@@ -28,12 +28,12 @@ exec chroot "$system" su --shell /bin/sh "$user" --command 'cd "$0" && exec "$@"
 
 
 class BareSystem:
-    """A system of its own: what is changed in it is seen by nobody else."""
+    """A separate system: changes in it affect nothing else."""
 
     def __init__(self, suite: str, packages: str, folder: Path) -> None:
-        """Copies a suite of Debian with these packages, which is made the first time (a minute).
+        """Copies a suite of Debian with these packages, which takes a minute the first time.
 
-        Skips the test where that is impossible.
+        Skips the test if that is impossible.
         """
         if os.geteuid() != 0 or not shutil.which("debootstrap"):
             pytest.skip("only root with debootstrap can make a bare system")
@@ -54,11 +54,11 @@ class BareSystem:
         self.folder = folder
 
     def path(self, inside: str) -> Path:
-        """Returns where a file of the system is for programs outside of it."""
+        """Returns the path of a file of the system for programs outside it."""
         return self.folder / inside.lstrip("/")
 
     def copy_repository(self, folder: str) -> None:
-        """Copies what git knows of this working tree into a folder of the system."""
+        """Copies the files known to git in this working tree into a folder of the system."""
         self.path(folder).mkdir(parents=True, exist_ok=True)
         subprocess.run(
             "git ls-files -z --cached --others --exclude-standard "
@@ -76,7 +76,7 @@ class BareSystem:
         user: str = "root",
         environment: Mapping[str, str] | None = None,
     ) -> str:
-        """Runs a command inside; returns its output. Fails the test where the command fails."""
+        """Runs a command inside; returns its output. Fails the test if the command fails."""
         done = subprocess.run(
             [*_OWN_MOUNTS, "sh", "-c", _ENTER, "sh", self.folder, _CACHE, folder, user, *command],
             env={"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "LC_ALL": "C.UTF-8"}

@@ -1,4 +1,4 @@
-"""The steps of a Dockerfile, replayed in bare systems where no container engine is."""
+"""The steps of a Dockerfile, replayed in bare systems where there is no container engine."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from bare_system import REPOSITORY, BareSystem
 
 @dataclass
 class Stage:
-    """A stage whose steps were made."""
+    """A stage whose steps have been executed."""
 
     system: BareSystem
     folder: str = "/"
@@ -22,7 +22,7 @@ class Stage:
     entry: tuple[str, ...] = ()
 
     def run(self, *arguments: str) -> str:
-        """Runs the entry point as the user of the image does, which a volume lets write."""
+        """Runs the entry point as the image's user, whom a volume allows to write."""
         return self.system.run(*self.entry, *arguments, folder=self.folder, user=self.user)
 
 
@@ -36,7 +36,7 @@ def instructions(text: str) -> Iterator[tuple[str, str]]:
 
 
 def replay(dockerfile: Path, make: Callable[[str], BareSystem]) -> Stage:
-    """Makes every stage in a system of the suite that `make` is given; returns the last one."""
+    """Builds every stage in a system that `make` returns for its suite; returns the last one."""
     stages: dict[str, Stage] = {}
     stage = None
     for name, rest in instructions(dockerfile.read_text("utf-8")):
@@ -67,7 +67,10 @@ def replay(dockerfile: Path, make: Callable[[str], BareSystem]) -> Stage:
 
 
 def _copy(stage: Stage, words: str, stages: dict[str, Stage]) -> None:
-    """COPY [--from=STAGE] SOURCE... TARGET; from the repository, only what git knows."""
+    """Executes COPY [--from=STAGE] SOURCE...
+
+    TARGET; from the repository, only files known to git.
+    """
     *sources, target = words.split()
     into = stage.system.path(str(Path(stage.folder) / target))
     into.mkdir(parents=True, exist_ok=True)

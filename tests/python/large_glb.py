@@ -18,7 +18,7 @@ _FLOAT, _UNSIGNED = 5126, 5125  # glTF's numbers of component types
 
 
 def height_field(squares: int) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices, (n, 3) float32, and triangles, (m, 3) uint32."""
+    """Returns vertices, (n, 3) float32, and triangles, (m, 3) uint32."""
     along = np.linspace(-1, 1, squares + 1, dtype=np.float32)
     x, z = np.meshgrid(along, along)
     y = 0.08 * np.sin(9 * x) * np.cos(7 * z) + 0.004 * np.sin(300 * x + 200 * z)

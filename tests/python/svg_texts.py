@@ -20,15 +20,15 @@ _POINT = f"{_NUMBER} {_NUMBER}"
 _RECTANGLE = re.compile(f"M{_POINT}L{_POINT}L{_POINT}L{_POINT}z")
 _PAPER = "fill:#ffffff"
 _TICK_BAND, _SLANTED_BAND = 20.0, 48.0
-"""Points between a panel and its tick labels, at most; slanted ones are taller."""
+"""The most points between a panel and its tick labels; slanted ones are taller."""
 _LABEL_BAND = 75.0
-"""Points between a panel and the label of its horizontal axis, at most."""
+"""The most points between a panel and the label of its horizontal axis."""
 _BESIDE = 9.0
-"""Points by which a tick label may stand beside the end of its axis."""
+"""The most points by which a tick label may be beyond the end of its axis."""
 _LEGEND_GAP, _LEGEND_LINE = 30.0, 6.0
-"""Points between the end of a sample in a legend and its text, along and across the line."""
+"""The most points between a sample in a legend and its text, along and across the line."""
 _NEAR = 2.0
-"""Points by which places that are the same may differ."""
+"""The most points by which equal positions may differ."""
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ class Panel:
 
 
 def missing_in(folder: Path) -> dict[str, list[str]]:
-    """Returns what the plots of a folder lack, by name; raises ValueError if it has no plot."""
+    """Returns the defects of a folder's plots, by name; raises ValueError if it has no plot."""
     plots = sorted(folder.rglob("*.svg"))
     if not plots:
         raise ValueError(f"{folder}: there is no SVG file")

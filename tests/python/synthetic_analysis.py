@@ -1,4 +1,4 @@
-"""The analysis.json of runs that never happened: what beambench makes of a log of their rows."""
+"""The analysis.json of invented runs, as beambench makes it from a log of their rows."""
 
 from __future__ import annotations
 

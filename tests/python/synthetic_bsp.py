@@ -81,7 +81,7 @@ def square(x: float) -> list[Point]:
 
 
 def arch(top: float) -> list[Point]:
-    """Control points of 3 x 3, a quarter of a pipe; those at y = 0 are always the same."""
+    """Returns 3 x 3 control points, a quarter of a pipe; those at y = 0 are always the same."""
     return [
         (x, y, z)
         for y in (0.0, 4.0, 8.0)

@@ -74,7 +74,7 @@ def write_nights(
 def write_night(
     home: Home, night: int, random: np.random.Generator, plant: Plant, *, blocks: int = BLOCKS
 ) -> Path:
-    """Writes one completed run; without blocks as it was before them."""
+    """Writes one finished run, in blocks or as it was before blocks."""
     run_id = f"2026{1 + night // 28:02d}{1 + night % 28:02d}T030000Z"
     folder = home.folder / run_id
     folder.mkdir(parents=True)
@@ -116,12 +116,12 @@ def _timed(row: Row, factor: float) -> Row:
 
 
 def is_time(name: str, row: Row) -> bool:
-    """Is this a time of the row?"""
+    """Is this member of the row a time?"""
     return ("_ms" in name or "_mcycles_" in name) and row[name] != ""
 
 
 def _repetitions(row: Row, noise: np.ndarray) -> list[dict[str, float]]:
-    """Returns one for each block, whose geometric mean is the row's time."""
+    """Returns one for each block, with the row's time as their geometric mean."""
     parts = [(name, float(row[f"{name}_ms_median"])) for name in ("build", "trace")]
     return [
         {"round": block, "block": block, "position": 0}

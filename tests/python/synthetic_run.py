@@ -128,7 +128,7 @@ def write_manifest(folder: Path, **changes: object) -> None:
 
 
 def _analyze(folder: Path) -> None:
-    """Writes the analysis, which depends on all other files; a table with a fault has none."""
+    """Writes the analysis, which depends on all other files; a faulty table has none."""
     with suppress(FileNotFoundError, IndexError, KeyError, ValueError):
         write_analysis(folder)
 

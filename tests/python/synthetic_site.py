@@ -20,7 +20,7 @@ def write_small_run(
     scene: str = "escena1",
     cells: bool = False,
 ) -> Path:
-    """One scene at one resolution; `factor` slows samet down, `cells` writes their files."""
+    """Writes a run of one scene and resolution; `factor` slows samet, `cells` adds cell files."""
     time = f"2026-{1 + place // 28:02d}-{1 + place % 28:02d}T03:00:00Z"
     run_id = f"{time.replace('-', '').replace(':', '')}-{sweep}-{machine}"
     rows = []
@@ -60,7 +60,7 @@ def write_small_run(
 
 
 def break_run(folder: Path) -> Path:
-    """Turns a record into one of another version."""
+    """Writes a run whose record cannot be read."""
     folder.mkdir(parents=True)
     (folder / "results.csv").write_text("no,columns\n1,2\n")
     (folder / "manifest.json").write_text(json.dumps({"run_id": "broken"}))

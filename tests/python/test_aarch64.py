@@ -22,7 +22,7 @@ def test_help_is_printed_and_other_arguments_are_refused() -> None:
 
 @pytest.mark.full
 def test_the_tests_pass_under_emulation(tmp_path: Path) -> None:
-    """In a system of its own, so that this one's apt knows no second architecture afterwards."""
+    """Runs in a separate system, so that this one's apt does not keep a second architecture."""
     system = BareSystem("bookworm", "", tmp_path / "system")
     system.copy_repository("/root/beambench")
     system.run("scripts/aarch64", folder="/root/beambench")

@@ -323,7 +323,7 @@ def test_kills_lose_nothing(record: Record, kind: str, monkeypatch: pytest.Monke
 
 
 def faulty_program(folder: Path) -> Path:
-    """Its runs end at once, and hold the same cell twice unless nothing interrupted them."""
+    """Each run ends at once, and has the same cell twice unless it is interrupted."""
     path = folder / "beambench"
     path.write_text(
         "#!/bin/sh\n"

@@ -23,12 +23,12 @@ from synthetic_run import synthetic_rows, write_repeated_cell, write_run
 
 YES, NO, UNDECIDED, MISSING = Outcome
 
-# What slows a block down is in the times of all of its contenders: by half, from block to block.
+# A disturbance of a block slows all of its contenders: by up to half.
 COMMON = [Random(5).uniform(1, 1.5) for _ in range(8)]
 
 
 def timed(factor: float, noise: float = 0.002, first: int = 0) -> Measured:
-    """Returns a time of eight blocks, whose own interval is as wide as their common noise."""
+    """Returns a time of eight blocks, whose interval is as wide as their common noise."""
     own = {
         first + block: common * factor * (1 + noise * (-1) ** block)
         for block, common in enumerate(COMMON)
@@ -78,7 +78,7 @@ def test_a_factor_is_met_by_the_ratio_of_blocks(larger: float, outcome: Outcome)
 
 
 def test_times_of_other_blocks_are_not_paired() -> None:
-    """Blocks of another view, or of another run, are other processes."""
+    """Blocks of another view or of another run are different processes."""
     found = below("cell", timed(1), timed(1.06, first=8))
     assert (found.outcome, found.is_paired) == (UNDECIDED, False)
     one_in_common = below("cell", timed(1), timed(1.06, first=7))

@@ -259,7 +259,7 @@ def test_a_sweep_s_lines_leave_out_what_is_at_its_default(tmp_path: Path) -> Non
     assert len(lines) == 4
     assert any("tetra:n=1/default/8x8/1/primary/samet:max_level=3: " in line for line in lines)
     assert any("escena1/default/8x8/1/primary/sah-bvh: " in line for line in lines)
-    # A repetition that others disturbed is made again.
+    # A disturbed repetition is repeated.
     assert all(re.search(r"ok after \d repetitions? in 1 block \(", line) for line in lines), lines
     assert not any(word in line for line in lines for word in ("spheres=", "max_leaf="))
     assert "4 cells, all verified" in done.stderr
@@ -298,7 +298,7 @@ def test_a_renamed_option_works_with_a_warning() -> None:
 
 
 def test_the_hint_to_resume_can_be_pasted(tmp_path: Path) -> None:
-    """Called as the user did: by a path, from another folder, without the program on the PATH."""
+    """Calls it as the user did: by a path, from another folder, without the program on the PATH."""
     sweep = {
         "name": "s",
         "scenes": ["tetra:n=4"],
@@ -644,7 +644,7 @@ def test_a_census_tells_what_faint_rays_save_and_cost() -> None:
         assert result["too_faint"] > 0
     assert rays(much) < rays(little) < rays(whole)
     assert 0 < little["error"] < much["error"] < 20
-    # A share that no ray can be below leaves nothing out.
+    # No ray is below this share, so nothing is left out.
     assert scene("--min-weight", "1e-9")["error"] == 0
     text = output_of("census", "mount:n=3", "--resolution", "64x64", "--min-weight", "0.01")
     for word in ["too faint", "of the rays", "error"]:

@@ -84,7 +84,7 @@ def test_a_cluster_of_one_takes_the_sum(tmp_path: Path) -> None:
 def test_short_tasks_take_their_time(tmp_path: Path) -> None:
     path = tasks(tmp_path / "t.csv", [4e-7] * 1000, walk=2e-7)
     run = simulated(path, "--consumers", "0", "--look-seconds", "3e-7")
-    # Traversal, work, 1e-5 to accept each, and a look between them.
+    # Traversal, work, 1e-5 to accept each, and a check in between.
     assert run["seconds"] > 1000 * (2e-7 + 4e-7 + 1e-5 + 3e-7)
     assert run["seconds"] == pytest.approx(1000 * 1.09e-5, rel=0.05)
 

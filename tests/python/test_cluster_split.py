@@ -118,7 +118,7 @@ def test_its_light_is_that_of_one_process(tmp_path: Path, scene: str) -> None:
         assert record["rays"]["shadow"] > 0
         # The whole scene is on process 0 alone, once.
         assert record["shading_bytes"] == record["whole_scene_bytes"]
-        # Rays were sent and received, and answers of 12 bytes.
+        # Rays were sent and received, and results of 12 bytes.
         received = sum(light["rays_in"]["bytes"] for light in lights)
         answered = sum(light["answers_out"] for light in lights)
         assert sum(light["out"]["bytes"] for light in lights) == received + 12 * answered

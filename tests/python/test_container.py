@@ -35,7 +35,7 @@ def test_the_replayed_image_measures_and_draws_as_its_user(tmp_path: Path) -> No
 
     image = replay(DOCKERFILE, make)
     assert "uid=0" not in image.system.run("id", folder="/", user=image.user)
-    image.system.run("chown", image.user, image.folder)  # as a volume of the user's is
+    image.system.run("chown", image.user, image.folder)  # like a volume of the user's
     assert "samet" in image.run("time", "tetra", "--accel", "samet,embree", "--seconds", "1")
     image.run("render", "tetra:n=1", "--resolution", "8x8", "-o", "a.png")
     assert image.system.path(image.folder + "/a.png").stat().st_uid != 0

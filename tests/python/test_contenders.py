@@ -1,4 +1,4 @@
-"""Contenders in other languages: the C interface in shared objects, and programs of their own."""
+"""Contenders in other languages: the C interface in shared objects, and separate programs."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ def test_a_structure_of_the_c_interface_is_timed(in_c: Path, tmp_path: Path) -> 
     assert float(row["trace_ms_median"]) > 0
 
 
-# What a faulty table or function leads to
+# The effects of a faulty table or function
 
 BROKEN = """
 #include <beambench/contender.h>
@@ -201,7 +201,7 @@ def test_times_of_a_program_are_marked(tmp_path: Path) -> None:
 
 
 def test_times_of_a_program_are_its_own(tmp_path: Path) -> None:
-    """It sleeps longer than it says, and every ray misses, as those of this picture do."""
+    """Sleeps longer than it reports, and every ray misses, as in this picture."""
     file = program(
         tmp_path,
         """\

@@ -20,7 +20,7 @@ HINT = "say what it means in scripts/beambench_report/columns.json"
 
 @pytest.fixture(scope="module")
 def real_columns(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
-    """The header of a results.csv that beambench wrote."""
+    """The header of a results.csv written by beambench."""
     if not BINARY.exists():
         pytest.skip("beambench is not built; run scripts/setup")
     folder = tmp_path_factory.mktemp("real")

@@ -119,7 +119,7 @@ def test_other_input_cut_by_an_input_error_is_refused(
 
 def test_a_scene_that_does_not_fit_into_the_memory_is_refused(tmp_path: Path) -> None:
     file = tmp_path / "large.nff"
-    with file.open("wb") as large:  # blanks between the spheres, most of them a hole of the file
+    with file.open("wb") as large:  # spaces between the spheres, most of them in a hole of the file
         large.write(b"s 0 0 0 1\n")
         large.seek(3 << 30)
         large.write(b"\ns 3 0 0 1\n")
@@ -215,14 +215,14 @@ def test_output_to_a_named_pipe_reaches_its_reader(
     plain = tmp_path / "plain" / name
     plain.parent.mkdir()
     assert beambench(*command, plain).returncode == 0
-    if name not in ("a.exr", "a.json"):  # these hold a time
+    if name not in ("a.exr", "a.json"):  # these contain a time
         assert read == [plain.read_bytes()]
     else:
         assert len(read[0]) > 100
 
 
 def device_node(path: Path, minor: int) -> Path:
-    """Creates a memory device in the test's folder: a fault would replace the system's."""
+    """Creates a memory device in the test's folder: a bug would replace the system's own."""
     try:
         os.mknod(path, 0o666 | stat.S_IFCHR, os.makedev(1, minor))
         path.open("w").close()
@@ -248,7 +248,7 @@ def test_output_to_a_full_device_is_reported(tmp_path: Path) -> None:
 
 
 def test_output_to_the_standard_output_comes_behind_what_is_printed(tmp_path: Path) -> None:
-    link = tmp_path / "stdout.json"  # as /dev/stdout is one
+    link = tmp_path / "stdout.json"  # like /dev/stdout
     link.symlink_to("/proc/self/fd/1")
     done = beambench(*VERIFY, link)
     assert done.returncode == 0, done.stderr

@@ -66,7 +66,7 @@ def imports(scripts: Path) -> list[Import]:
                 if node.level:
                     inside = importing.split(".") + ["__init__"] * (file.name == "__init__.py")
                     base = ".".join([*inside[: -node.level], *([base] if base else [])])
-                # A name may be a module of its own: `from beambench_report.run import page`.
+                # A name may itself be a module: `from beambench_report.run import page`.
                 names = [
                     whole if (whole := f"{base}.{alias.name}") in files else base
                     for alias in node.names

@@ -117,7 +117,7 @@ def test_modules_include_only_what_stands_before_them() -> None:
 
 
 def box_of(file: str) -> str:
-    """The box of the module picture in harness/README.md that a file belongs to."""
+    """Returns the box in the module diagram of harness/README.md that a file belongs to."""
     module = module_of(file)
     assert module is not None
     if module in ("scenes/base", "accel/core") or module.startswith("harness/"):
@@ -128,7 +128,7 @@ def box_of(file: str) -> str:
 
 
 def arrows(edges: dict[str, set[str]]) -> set[tuple[str, str]]:
-    """The edges of a graph without a circle that do not follow from others."""
+    """Returns the edges of an acyclic graph that do not follow from others."""
 
     def reached(box: str) -> set[str]:
         return set().union(*({after} | reached(after) for after in edges.get(box, set())), set())

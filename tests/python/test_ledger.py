@@ -217,7 +217,7 @@ THESIS = {
     ),
 }
 
-# Figures that the thesis states besides its claims, or that follow from it.
+# Figures that the thesis states in addition to its claims, or that follow from it.
 BESIDE = {
     "C11": YES,  # the part of the time that grows with the rays leaves room for the claim
     "C12": NO,  # a non-terminal beam of maceta costs 5.8 times as much at level 7 as at level 6
@@ -444,7 +444,7 @@ def test_other_work_that_lengthens_the_counting_pass_changes_no_time_of_a_task(
 
 
 def test_of_several_runs_the_repetitions_of_a_cell_count_together(tmp_path: Path) -> None:
-    """The first run was disturbed in all of its repetitions; the second alone had too few."""
+    """The first run was disturbed in all of its repetitions; the second had too few of its own."""
     row = row_of("beam", BEAM, **MEDIANS)
     first = write_repeated(tmp_path / "first", row, [(ms * 1.5, ghz) for ms, ghz in QUIET])
     second = write_repeated(tmp_path / "second", row, QUIET[:3])

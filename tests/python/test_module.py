@@ -312,7 +312,7 @@ def test_results_own_their_memory(balls: bb.Scene, rays: NDArray[np.float32]) ->
     del hits, structure
     gc.collect()
     assert np.array_equal(kept, expected)
-    kept[:] = 0  # the hits of one call are nobody else's
+    kept[:] = 0  # the hits of one call belong to nobody else
     assert ids.max() > 0
 
 

@@ -1,4 +1,4 @@
-"""Scenes that move, as a user types them."""
+"""Scenes that move, on the command line."""
 
 from __future__ import annotations
 

@@ -175,7 +175,7 @@ def test_calibration_finds_what_is_large_and_counts_what_is_false() -> None:
     effort = Effort(precision=0.001, trials=36)
     told = calibrate(noise(), 40, (0.001, 0.05), effort, report=progress.append)
     assert told.alarms == 0
-    # None in 40 nights is at most 3.69 with 97.5% (Poisson).
+    # None in 40 nights means at most 3.69 with 97.5% confidence (Poisson).
     assert (told.alarms_low, told.alarms_high) == pytest.approx((0, 3.689), abs=1e-3)
     assert [(one.found, one.trials) for one in told.power] == [(0.0, 36), (1.0, 36)]
     assert told.power[0].low == 0.0

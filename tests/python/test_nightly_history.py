@@ -1,4 +1,4 @@
-"""The history of nights: written whole or not at all, rebuilt from CSVs, locked during a run."""
+"""The history of nights: written atomically, rebuilt from CSVs, locked during a run."""
 
 from __future__ import annotations
 

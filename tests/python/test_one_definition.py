@@ -1,8 +1,8 @@
 """The one definition rule: no two types of the program share a name.
 
-A type that is defined twice, differently, in one program is undefined behavior that no compiler
-reports: the linker keeps one of the two sets of inline functions. Types in anonymous namespaces
-belong to their file alone.
+Two different definitions of a type in one program are undefined behavior that no compiler reports:
+the linker keeps one of the two sets of inline functions. Types in anonymous namespaces belong only
+to their file.
 """
 
 from __future__ import annotations

@@ -103,8 +103,8 @@ def test_no_traversal_of_the_template_calls_through_a_pointer(template: Path) ->
             timed[name] = function
     for query in ("::closest_hits(", "::any_hits(", "::closest_of_image("):
         assert any(query in name for name in timed)
-    # An image ends with that of the std::function by which its rows are handed to threads, which
-    # calls the function's manager (operation 3).
+    # An image ends like the std::function that hands its rows to threads: by calling the function's
+    # manager (operation 3).
     manager = re.compile(r"\bmov +\$0x3,%edx\n(?:.*\bmov .*\n){1,2}.*\bcall +\*%rax")
     for name, code in timed.items():
         assert not re.search(r"\bcall\s+\*", manager.sub("", code)), name

@@ -1,8 +1,8 @@
 """The compiled traversals prefetch the memory that they need next.
 
-GCC treats a function that only prefetches as one without effect and removes calls to it, unless it
-has been inlined before: the loops of tiles and pencils once had no prefetch left, and an image of a
-million triangles took far longer.
+GCC treats a function that only prefetches as having no effect and removes calls to it, unless it
+has been inlined before. The loops of tiles and pencils once lost all prefetches in this way, and an
+image of a million triangles took far longer.
 """
 
 from __future__ import annotations

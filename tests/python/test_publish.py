@@ -49,7 +49,7 @@ needs_binary = pytest.mark.skipif(not BINARY.exists(), reason="beambench is not 
 
 
 def given(**own: object) -> Namespace:
-    """Returns options of scripts/publish; those that are not given are as usual."""
+    """Returns options of scripts/publish, with defaults for those that are not given."""
     usual = {"tinybvh": None, "madmann91_bvh": None, "debian_13": None, "only": []}
     return Namespace(**{**usual, "beambench": BINARY, **own})
 

@@ -114,7 +114,7 @@ def test_implausible_speedups_are_marked_and_left_out_of_ranges() -> None:
 
 
 def test_every_published_table_of_results_is_that_of_a_run() -> None:
-    """The site lists all others as unreadable."""
+    """The site lists any other table as unreadable."""
     tables = sorted(PUBLISHED.rglob("results.csv"))
     assert len(tables) > 50
     for table in tables:

@@ -74,7 +74,7 @@ def test_the_finding_of_the_root_readme(repository: Path, published: Path) -> No
 
 
 def test_the_table_of_programs_has_the_sums_of_its_rows(published: Path) -> None:
-    """Its page has no template."""
+    """This page has no template."""
     sums: dict[str, dict[str, list[int]]] = {}
     with (published / "programs/summary.csv").open(encoding="utf-8") as table:
         for row in csv.DictReader(table):
@@ -102,7 +102,8 @@ def test_the_findings_are_one_page(published: Path) -> None:
 
 
 MOST_BYTES = 24_000_000
-"""Of all that is published, a second run of the thesis included: it is in every clone."""
+"""The limit for everything published, including a second run of the thesis: it is in every clone.
+"""
 
 
 def test_what_is_published_is_small(published: Path) -> None:

@@ -114,7 +114,7 @@ def test_a_wanted_reference_that_is_not_there_is_refused(run_folder: Path) -> No
 
 
 def test_rounds_are_paired(tmp_path: Path) -> None:
-    """A moment in which all were ten times slower must not affect the ratio."""
+    """A moment in which everything was ten times slower must not affect the ratio."""
     rows = [row for row in synthetic_rows() if row["structure"] in ("embree", "samet")]
     folder = write_run(tmp_path, rows)
     slowness = {turn: 10.0 if turn in (1, 2, 5) else 1.0 for turn in range(8)}

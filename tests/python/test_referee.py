@@ -1,4 +1,4 @@
-"""The referee's table: exact arithmetic of its own, rows by family, and the whole command."""
+"""The referee's table: independent exact arithmetic, rows by family, and the whole command."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The program refuses what it would otherwise ignore, and suggests what was meant."""
+"""The program refuses what it would otherwise ignore, and makes suggestions."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def test_interrupting_a_command_that_verify_runs_ends_with_130(tmp_path: Path) -
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-        start_new_session=True,  # a group of its own, as a shell gives it
+        start_new_session=True,  # a separate group, as a shell creates
     )
     ends = time.monotonic() + 60
     while not (tmp_path / "begun").exists():

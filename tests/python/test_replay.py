@@ -1,4 +1,4 @@
-"""Examining one ray again, and pictures of differences."""
+"""Replaying one ray, and pictures of differences."""
 
 from __future__ import annotations
 

@@ -21,7 +21,7 @@ from synthetic_run import synthetic_rows, write_run
 
 MACHINES = ("0123456789abcdef", "fedcba9876543210")
 SLOWER = 10.0
-"""How much longer everything takes on the second machine."""
+"""The factor by which everything takes longer on the second machine."""
 
 
 def on_two_machines() -> list[dict[str, object]]:

@@ -415,7 +415,7 @@ def test_each_process_of_a_job_measures_its_shard(tmp_path: Path) -> None:
 
 
 def test_a_job_array_is_submitted_merged_and_resumed(tmp_path: Path) -> None:
-    """Uses a Slurm that runs each task at once; the real one is in scripts/README.md."""
+    """Uses a Slurm that runs each task at once; the real one is described in scripts/README.md."""
     tools = tmp_path / "bin"
     tools.mkdir()
     (tools / "sbatch").write_text(

@@ -48,7 +48,7 @@ def entry(folder: Path) -> Entry:
 
 @pytest.fixture(scope="module")
 def runs(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Two sweeps, two machines, one run that is there twice, and one that is broken."""
+    """Two sweeps, two machines, one duplicate run, and one broken run."""
     folder = tmp_path_factory.mktemp("runs")
     for place in range(3):
         write_small_run(folder / f"deep/er/{place}", place, factor=1 + 0.5 * place, cells=True)

@@ -104,7 +104,7 @@ def test_known_costs_come_back() -> None:
 
 
 def test_a_cost_that_would_be_negative_is_zero_and_the_others_make_the_best_of_it() -> None:
-    # With one term alone, the least sum of (a x / t - 1)^2 is at sum(x/t) / sum((x/t)^2).
+    # With one term, the least sum of (a x / t - 1)^2 is at sum(x/t) / sum((x/t)^2).
     counts = np.array([[1.0, 1.0], [1.0, 2.0], [1.0, 3.0]])
     times = np.array([3.0, 2.0, 1.0])  # decreasing: the second cost would be -1
     shares = counts[:, 0] / times

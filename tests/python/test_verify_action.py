@@ -1,4 +1,4 @@
-"""The GitHub action around `verify --kit`: its steps run here, by its three worked examples."""
+"""The GitHub action for `verify --kit`: the three worked examples run its steps here."""
 
 from __future__ import annotations
 
@@ -22,7 +22,9 @@ PATHS = f"{BINARY.resolve().parent}{os.pathsep}{Path(sys.executable).parent}{os.
 
 
 def inputs(example: Path) -> dict[str, str]:
-    """Returns what the example passes to the action, by the action's names in the environment."""
+    """Returns the inputs that the example passes to the action, by the names of their environment
+    variables.
+    """
     found = re.search(r"verify-hits\n        with:\n((?:          .*\n)+)", example.read_text())
     assert found is not None
     pairs = (line.split(":", 1) for line in found[1].splitlines())
@@ -37,7 +39,7 @@ def run_step(folder: Path, **given: str) -> subprocess.CompletedProcess[str]:
 
 
 def prepare(folder: Path, language: str) -> None:
-    """Puts the user's project where the example's steps find it, and runs them."""
+    """Puts the user's project where the example's steps expect it, and runs them."""
     (folder / "beambench").symlink_to(REPOSITORY)
     if language == "c":
         shutil.copy(SOURCES / "c/mine.c", folder)

@@ -1,4 +1,4 @@
-"""Hits of any program, verified on the command line: files, commands, kits."""
+"""Verifying the hits of any program on the command line: files, commands, kits."""
 
 from __future__ import annotations
 
@@ -426,7 +426,7 @@ def family_rows(text: str) -> list[tuple[str, str]]:
 
 
 def test_a_program_may_decline_a_query_by_exit_code_77(kit: Path) -> None:
-    """Half of the cases are unsupported, and what is supported decides."""
+    """Half of the cases are unsupported, and the supported ones decide."""
     command = "head -2 {rays} | grep -aq '\"any\"' && exit 77; " + HITS_COMMAND
     done = beambench("verify", "--kit", kit / "kit", "--command", command)
     assert done.returncode == 0, done.stdout + done.stderr
@@ -455,7 +455,7 @@ def test_a_program_that_fails_in_some_cases_is_run_over_the_others(kit: Path) ->
 
 
 def test_a_closed_mesh_must_not_leak(kit: Path, tmp_path: Path) -> None:
-    """A miss at an edge is a graze elsewhere, and no fault."""
+    """A miss at an edge is a graze elsewhere, and not an error."""
     small = shutil.copytree(kit / "kit", tmp_path / "kit")
     index = json.loads((small / "kit.json").read_text())
     index["cases"] = [

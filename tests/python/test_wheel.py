@@ -16,8 +16,10 @@ LIMIT = 35_000_000
 PYTHON_OF_SUITE = {"bookworm": "3.11", "trixie": "3.13"}
 TAGS = "manylinux2014 manylinux_2_27 manylinux_2_28 manylinux_2_34 manylinux_2_35".split()
 SECONDS = 60
-"""The most that the first results may take, the installation included. It is time of the processor,
-because other tests may run at the same time."""
+"""The limit for the time to the first results, including the installation.
+
+It is processor time, because other tests may run at the same time.
+"""
 
 OWN_HITS = """
 import numpy as np
@@ -93,7 +95,7 @@ def test_a_wheel_is_small_and_has_the_licenses_of_its_libraries(wheels: Path, na
 
 
 def processor_seconds() -> float:
-    """Returns the time of the processor that all ended processes took."""
+    """Returns the processor time of all ended processes."""
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     return used.ru_utime + used.ru_stime
 

@@ -63,7 +63,7 @@ def test_a_structure_counts_with_its_better_order_of_rays(tmp_path: Path) -> Non
 
 
 def test_ratios_of_blocks_may_be_undecided(tmp_path: Path) -> None:
-    """A ratio of blocks is a tie only where it is equivalent within 3%."""
+    """A ratio of blocks is a tie only if it is equivalent within 3%."""
     run = read_run(a_run(tmp_path, {("samet", ""): (11, 9, 12), ("sah-bvh", ""): (10, 9, 11)}))
     blocks = {"sah-bvh": [9.8, 10, 10.2, 10], "samet": [10, 11, 11.5, 10.2]}
     files = {

@@ -1,4 +1,4 @@
-"""The work of a call in Python, counted, so that it is the same on every machine, however busy."""
+"""Counts the Python calls of some work, which are the same on every machine, however busy."""
 
 from __future__ import annotations
 

@@ -137,8 +137,8 @@ def as_markdown(known: Dictionary) -> str:
         f"Schema version {known.schema_version}. A row is a cell of a sweep: one structure with "
         "one set of parameters, tracing one set of rays. The file is UTF-8 with one header row "
         "and quotes as in RFC 4180. An empty field was not measured; `null` is a structure's name. "
-        "A text that begins with `=`, `+`, `-` or `@`, which a spreadsheet would take for a formula, "
-        "or with an apostrophe is preceded by an apostrophe. In file names, `\\x1b` is an "
+        "A text that begins with `=`, `+`, `-` or `@`, which a spreadsheet would take for a "
+        "formula, or with an apostrophe is preceded by an apostrophe. In file names, `\\x1b` is an "
         "unprintable byte, and two backslashes stand for one."
     )
     lines = [
@@ -167,8 +167,8 @@ def as_markdown(known: Dictionary) -> str:
         "## Counters of single structures",
         "",
         "They are printed by `beambench list --counters`. Each has a column, `<counter>_per_ray`;",
-        "multiplied by `rays` it is the count. [accel/beam](../accel/beam/README.md) explains those",
-        "of the beams.",
+        "multiplied by `rays` it is the count. [accel/beam](../accel/beam/README.md) explains the",
+        "counters of the beams.",
         "",
         *markdown_table(("structure", "counter", "meaning"), counters),
     ]
