@@ -114,9 +114,16 @@ class Browser:
         assert "exceptionDetails" not in reply, reply["exceptionDetails"]
         return reply["result"].get("value")
 
+    def scroll_to(self, selector: str) -> None:
+        """Scrolls to an element: tables sort from when they were seen."""
+        self.evaluate(
+            f"document.querySelector({selector!r}).scrollIntoView({{behavior: 'instant'}})"
+        )
+        self.settle()
+
     def settle(self) -> None:
-        """Waits until timers that have run out did their work: tables are sorted by one."""
-        waiting = "new Promise(done => setTimeout(done, 20))"
+        """Waits until a frame was drawn and timers did their work: tables depend on both."""
+        waiting = "new Promise(done => requestAnimationFrame(() => setTimeout(done, 50)))"
         self.call("Runtime.evaluate", expression=waiting, awaitPromise=True)
 
     def press(self, key: str, code: int, text: str = "") -> None:

@@ -31,6 +31,14 @@ def page(full_run: Path) -> Path:
     return write_page(full_run)[0]
 
 
+@pytest.fixture
+def opened(chromium: Browser, page: Path) -> Browser:
+    """The browser with the page freshly opened, at the table of all cells."""
+    chromium.open(page)
+    chromium.scroll_to(CELLS)
+    return chromium
+
+
 def column(browser: Browser, table: str, place: int) -> list[str]:
     """Returns the texts of one column of a table, from top to bottom."""
     return browser.evaluate(COLUMN.format(table, place))
@@ -53,6 +61,7 @@ def shown(browser: Browser) -> str:
 
 def press_heading(browser: Browser, table: str, place: int) -> None:
     """Sorts by a column, counted from 1."""
+    browser.scroll_to(table)
     browser.evaluate(
         f"document.querySelector('{table} th:nth-child({place}) .dt-column-order').click()"
     )
@@ -86,6 +95,7 @@ def test_complaints_and_requests_would_be_noticed(chromium: Browser, tmp_path: P
 
 def test_a_heading_sorts_a_table_of_a_view(opened: Browser) -> None:
     table = "#view-escena1 > .wide table"
+    opened.scroll_to(table)
     before = column(opened, table, 0)
     reference = "\nreference"
     assert before[0] == "embree"
@@ -232,6 +242,7 @@ def test_texts_of_a_record_are_no_code(chromium: Browser, tmp_path: Path) -> Non
     evil = "a&b <img src=x onerror=console.error(1)>"
     rows = [{**row, "scene": row["scene"].replace("escena1", evil)} for row in synthetic_rows()]
     chromium.open(write_page(write_run(tmp_path, rows))[0])
+    chromium.scroll_to(CELLS)
     type_filter(chromium, "onerror")
     open_filter(chromium, 2)
     assert evil in column(chromium, CELLS, 1)[0]

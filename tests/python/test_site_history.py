@@ -238,6 +238,7 @@ def test_mismatches_are_shown_with_their_differences(opened: Browser) -> None:
 def test_the_index_sorts_and_filters(chromium: Browser, home: Home) -> None:
     chromium.open(home.page)
     table = "#runs-table"
+    chromium.scroll_to(table)
     dates = ["2026-01-03 03:00", "2026-01-02 03:00", "2026-01-01 03:00"]
     assert column(chromium, table, 0) == dates
     chromium.evaluate(f"document.querySelector('{table} th .dt-column-order').click()")
@@ -256,6 +257,7 @@ def test_two_runs_sort_and_filter(chromium: Browser, home: Home) -> None:
     [page] = (home.site / "compare").glob("20260102*-vs-*.html")
     chromium.open(page)
     table = "#cells-table"
+    chromium.scroll_to(table)
     chromium.evaluate(f"document.querySelector('{table} th:nth-child(5) .dt-column-order').click()")
     chromium.settle()
     shares = [float(text.split("%")[0]) for text in column(chromium, table, 4) if text != "–"]  # noqa: RUF001

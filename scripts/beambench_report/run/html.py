@@ -51,9 +51,17 @@ def environment(*own: Path) -> Environment:
     made.globals["without_library"] = "" if scripts else _WITHOUT_LIBRARY
     made.filters["duration"] = duration_in_words
     made.filters["number"] = number
+    made.filters["order"] = _order
     made.filters["slug"] = lambda text: "-".join(re.findall(r"[a-z0-9]+", str(text).lower()))
     made.filters["as_script_data"] = Markup  # `pack` has escaped what would end a script
     return made
+
+
+def _order(value: float | str | None) -> str:
+    """Returns what tables are sorted by; nothing for what was not measured."""
+    if value is None or value != value:
+        return ""
+    return value if isinstance(value, str) else f"{value:.6g}"
 
 
 def _library(names: Sequence[str]) -> Markup:

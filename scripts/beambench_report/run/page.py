@@ -1,5 +1,6 @@
 """The page of a run: one HTML file that contains everything and needs no network."""
 
+import re
 import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -118,7 +119,7 @@ def render(
     figures = figures_of(measured, drawn_kinds)
     pictures = read_pictures(run.directory, run.rows["scene"])
     analysis = measured.analysis
-    return (
+    page = (
         environment()
         .get_template("page.html.j2")
         .render(
@@ -151,3 +152,4 @@ def render(
             dictionary=dictionary(),
         )
     )
+    return re.sub(r"\n +<", "\n<", page)  # a tenth of the page would be indentation

@@ -47,7 +47,7 @@
     heads.append(...columns.map(() => Object.assign(document.createElement("th"), { scope: "col" })));
     table.tHead.replaceChildren(heads);
     table.tBodies[0].replaceChildren();
-    const made = makeTable(table, {
+    const api = makeTable(table, {
       columns: columns.map(definition),
       data: Array.from({ length: rows }, (_, row) => [row]),
       paging: true, searching: true, info: true, pageLength: 25, lengthMenu: [25, 100, 500],
@@ -56,7 +56,7 @@
         topStart: "info", topEnd: { paging: { type: "simple" } }, bottomStart: null, bottomEnd: null,
       },
     });
-    made.columns().every(function () {
+    api.columns().every(function () {
       const { meaning, unit } = columns[this.index()];
       this.header().title = unit ? `${meaning} (${unit})` : meaning;
     });
@@ -65,22 +65,26 @@
     groups.addEventListener("submit", (event) => event.preventDefault());
     groups.addEventListener("input", ({ target }) => {
       const own = columns.flatMap((column, place) => (column.group === target.value && !column.first ? [place] : []));
-      made.columns(own).visible(target.checked);
+      api.columns(own).visible(target.checked);
     });
     // In the address, so that a link or a reload keeps it.
-    made.on("search", () => {
-      const asked = made.search().trim();
+    api.on("search", () => {
+      const asked = api.search().trim();
       const place = asked ? `#filter=${encodeURIComponent(asked)}` : "";
       if (place || location.hash.startsWith("#filter=")) history.replaceState(null, "", place || "#cells");
     });
-    return made;
+    return api;
   };
-  const cells = window.DataTable ? makeCells() : null;
+  let made = null;
+  const cells = () => (made ??= makeCells());
+  if (window.DataTable) whenSeen(document.getElementById("cells-table"), cells);
 
   /** What the address asks for: a filter, or one cell. */
   const open = () => {
     const wanted = decodeURIComponent(location.hash.slice(1));
-    if (wanted.startsWith("filter=") && cells && cells.search() !== wanted.slice(7)) cells.search(wanted.slice(7)).draw();
+    if (wanted.startsWith("filter=") && window.DataTable && cells().search() !== wanted.slice(7)) {
+      cells().search(wanted.slice(7)).draw();
+    }
     const box = document.getElementById("one-cell");
     box.hidden = !wanted.startsWith("cell-");
     if (box.hidden) return;

@@ -39,9 +39,10 @@ const makeSortable = (table) => {
   const columnDefs = [...table.tHead.rows[0].cells].map((head, targets) => {
     if (head.dataset.orderable === "false") return { targets, searchable: false };
     const cells = rows.map((row) => row.cells[targets]);
-    const isFigure = cells.some((cell) => "order" in cell.dataset);
+    const orders = cells.map((cell) => cell.dataset.order).filter((order) => order !== undefined);
+    const isFigure = orders.length > 0 && !orders.some((order) => Number.isNaN(Number(order)));
     const type = isFigure ? { type: "num-last" } : {};
-    if (isFigure) for (const cell of cells) cell.dataset.order ??= "";
+    if (orders.length > 0) for (const cell of cells) cell.dataset.order ??= "";
     if (example === undefined) return { targets, ...type };
     const texts = cells.map((cell) => cell.textContent.trim().replace(/\s+/g, " "));
     cells.forEach((cell, row) => (cell.dataset.search = escaped((isFigure && cell.dataset.order) || texts[row])));
@@ -52,7 +53,17 @@ const makeSortable = (table) => {
     columnDefs, searching: true, info: true, layout: { topStart: search, topEnd: "info", bottomStart: null, bottomEnd: null },
   });
 };
-if (window.DataTable) document.querySelectorAll("table.sortable").forEach(makeSortable);
+
+/** Calls `make` when the element is about to be seen: a page may have hundreds of tables. */
+const whenSeen = (element, make) => {
+  const observer = new IntersectionObserver((entries) => {
+    if (!entries.some((entry) => entry.isIntersecting)) return;
+    observer.disconnect();
+    make(element);
+  }, { rootMargin: "50%" });
+  observer.observe(element);
+};
+if (window.DataTable) for (const table of document.querySelectorAll("table.sortable")) whenSeen(table, makeSortable);
 
 // On paper nothing can be opened.
 (() => {
