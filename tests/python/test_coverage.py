@@ -1,4 +1,4 @@
-"""Whether prediction intervals hold for a second run: counted both ways, and by the script."""
+"""Whether prediction intervals hold for a second run, in both directions, and the script."""
 
 import json
 import subprocess

@@ -47,7 +47,7 @@ class Target:
 
 
 def targets_in(folder: Path) -> list[Target]:
-    """Returns the targets that were built. Raises Problem where there is none."""
+    """Returns the targets that were built. Raises Problem if there is none."""
     programs = sorted(path for path in folder.glob("fuzz_*") if os.access(path, os.X_OK))
     if not programs:
         raise Problem(f"{folder}: there is no fuzz target; scripts/setup fuzz builds them")

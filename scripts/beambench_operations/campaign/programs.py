@@ -46,7 +46,7 @@ class Program:
     def __init__(
         self, command: Sequence[str | Path], cwd: Path | None, env: Mapping[str, str]
     ) -> None:
-        """Starts the program. Raises Problem where it cannot be run."""
+        """Starts the program. Raises Problem if it cannot be run."""
         self._output, self._errors = TemporaryFile(), TemporaryFile()  # noqa: SIM115
         try:
             self._process = subprocess.Popen(

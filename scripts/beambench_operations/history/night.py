@@ -58,7 +58,7 @@ class Night:
 
 
 def night_of(run: Run) -> Night:
-    """Reads a night from a run. Raises Problem where its rows are not those of one run."""
+    """Reads a night from a run. Raises Problem if its rows are not those of one run."""
     rows = run.rows
     _require_one_run(run)
     references = references_of(rows)

@@ -110,7 +110,7 @@ class History:
     """An open history file. Every change is one transaction, stored completely or not at all."""
 
     def __init__(self, path: Path) -> None:
-        """Opens or creates the file. Raises Problem where it is not a history of this version."""
+        """Opens or creates the file. Raises Problem if it is not a history of this version."""
         self.path = path
         path.parent.mkdir(parents=True, exist_ok=True)
         self._base = sqlite3.connect(path, timeout=30, isolation_level=None)
@@ -189,7 +189,7 @@ class History:
             "FROM pragma_application_id, pragma_user_version"
         ).fetchone()
         if application == version == tables == 0:
-            # One script, one transaction: a history whose tables are half there is never seen.
+            # One script in one transaction, so that no process sees only some of the tables.
             self._base.executescript(
                 f"BEGIN; PRAGMA application_id = {APPLICATION_ID};"
                 f"PRAGMA user_version = {SCHEMA_VERSION}; {TABLES} COMMIT;"

@@ -42,7 +42,7 @@ def _knows(beambench: Path, scene: str) -> bool:
 
 
 def plugins_for(given: Options) -> list[Path]:
-    """Builds the adapters of the libraries. Raises Problem where that fails."""
+    """Builds the adapters of the libraries. Raises Problem if that fails."""
     if not (given.tinybvh and given.madmann91_bvh):
         return []
     say("Building the adapters of the libraries")

@@ -116,7 +116,7 @@ class Plan:
 
 
 def read_plan(path: Path = PLAN) -> Plan:
-    """Reads the plan. Raises Problem where the file is not a plan."""
+    """Reads the plan. Raises Problem if the file is not a plan."""
     try:
         source = load_json(path)
         return Plan(tuple(map(_folder, source["folders"])), source["most_minutes"])

@@ -60,7 +60,7 @@ class Provenance:
 def preflight(beambench: Path) -> Provenance:
     """Runs a cell that takes a second, and reads the provenance from its manifest.
 
-    Raises Problem where the program cannot be run.
+    Raises Problem if the program cannot be run.
     """
     with tempfile.TemporaryDirectory() as folder:
         sweep, run = Path(folder) / "preflight.json", Path(folder) / "run"
@@ -113,5 +113,5 @@ def same_sources(one: str, other: str, root: Path = ROOT) -> bool:
 
 
 def git(*arguments: str, root: Path = ROOT) -> str:
-    """Returns the output of git. Raises Problem where it fails."""
+    """Returns the output of git. Raises Problem if it fails."""
     return output_of(["git", "-C", str(root), *arguments], remedy="install git").strip()

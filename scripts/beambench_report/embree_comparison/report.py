@@ -20,41 +20,42 @@ from beambench_report.embree_comparison.targets import part_of_targets
 
 _COMPARED = (
     "`tile-beam` is a frustum rasterizer: it draws what one point sees, and is compared with "
-    "Embree, a general ray tracer, on the one thing that both do. A ratio is the time in which "
-    "the fastest Embree mode with correct hits traces some rays over the time of `tile-beam`, both "
-    "in one run, on one thread, both writing their answers into the same kind of buffer, by the "
-    "same rays. Shadow rays and rays from mirrors are lists in which those of a light or a mirror "
-    "are marked as a pencil; both get the same list."
+    "Embree, a general ray tracer, on their common task. A ratio is the time of the fastest Embree "
+    "mode with correct hits divided by the time of `tile-beam` for the same rays, in one run, on "
+    "one thread, with the hits written to the same kind of buffer. Shadow rays and rays from "
+    "mirrors are lists in which the rays of a light or a mirror are marked as a pencil; both get "
+    "the same list."
 )
 _CULLED = (
-    "**Backs of solids.** `tile-beam` can prove while it builds which triangles form solids, and "
-    "leave out their backs, which no eye outside can see. Embree is not told that surfaces are "
-    "closed, so the comparison is the one without it (`backface_culling=false`), where that was "
-    "measured. Ratios marked `backs left out` are of `backface_culling=true` alone; they can miss "
-    "a target, but not meet it. In the last table, all of a row without the first ratio is of it."
+    "**Backs of solids.** `tile-beam` can find out during the build which triangles form solids, "
+    "and skip their backs, which are invisible from outside. Embree does not know which surfaces "
+    "are closed, so the comparison is without this option (`backface_culling=false`), if that was "
+    "measured. Ratios marked `backs left out` only exist for `backface_culling=true`; they can "
+    "miss a target, but not meet it. In the last table, a row without the first ratio consists of "
+    "such figures."
 )
 _TRACES = (
-    "**Which trace.** The ratios in the tables, and the targets, are of the first trace after a "
-    "build. Those of a second trace of the same structure are in the last table, and their "
-    "geometric mean is below each of the others. Building is in neither; its times are in the last "
-    "table."
+    "**Which trace.** The ratios in the tables, and the targets, are for the first trace after a "
+    "build. The last table also has the ratios of a second trace of the same structure, and the "
+    "tables of groups have their geometric mean. Neither includes the build, whose times are in "
+    "the last table."
 )
 _PAIRED = (
-    "The contenders take turns, and the ratio is made of their two times in one block or, in "
-    "records of one process, in one round (paired). "
+    "The contenders take turns, and each ratio is that of their times in one block or, in records "
+    "of one process, in one round (paired). "
 )
 _NOT_PAIRED = (
-    "The single repetitions of these runs are not here, so the intervals are made of those of both "
-    "times (not paired), as a rule wider than paired ones. "
+    "The single repetitions of these runs are missing, so the intervals combine those of both "
+    "times (not paired); they are usually wider than paired ones. "
 )
 _SOME_PAIRED = (
-    "Where a run has its single repetitions, the ratio is made of the two times in one block or "
-    "round; otherwise it is of the medians. "
+    "If a run has its single repetitions, each ratio is that of the two times in one block or "
+    "round; otherwise it is that of the medians. "
 )
 _DECIDED = (
-    "Behind each ratio stands its target, which is `met` or `missed` when the whole interval lies "
-    "on one side of it, otherwise `open`; without an interval it is `open`. A geometric mean has "
-    "an interval where each of its scenes has one, and a target where each scene was measured."
+    "Each ratio is followed by its target, which is `met` or `missed` if the whole interval lies "
+    "on one side of it, and otherwise `open`; without an interval it is `open`. A geometric mean "
+    "has an interval if each of its scenes has one, and a target if each scene was measured."
 )
 
 

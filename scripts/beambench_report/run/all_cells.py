@@ -35,7 +35,7 @@ _NAMES = {
 
 @dataclass(frozen=True)
 class AllCells:
-    """The packed rows as JSON, what is not in there, and what is shown without JavaScript."""
+    """The packed rows as JSON, the omitted columns, and the rows shown without JavaScript."""
 
     rows: int
     packed: str
@@ -100,7 +100,7 @@ def _written(column: dict, row: int) -> str:
 
 
 def _unknown(series: pd.Series) -> Column:
-    """Returns a newer beambench may add columns."""
+    """Returns the entry of a column without one: a newer beambench may add columns."""
     kind = "number" if is_numeric_dtype(series) else "text"
     return Column(str(series.name), "", kind, "", "Not in the data dictionary.", "")
 

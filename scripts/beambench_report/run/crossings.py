@@ -63,7 +63,7 @@ def _contenders(measured: Measured, view: str) -> pd.DataFrame:
     """Returns the fastest first, without null, which finds nothing."""
     rows = measured.finest(view).dropna(subset=["build_ms_median"])
     rows = rows[rows["structure"] != "null"]
-    # Exhaustive builds nothing and loses everywhere: beside others only.
+    # Exhaustive builds nothing and is slow everywhere: it is only drawn with others.
     if rows["is_reference"].all():
         return rows.iloc[:0]
     shown = leaders(rows) | set(rows["contender"].head(_MOST_LINES - len(leaders(rows))))

@@ -53,7 +53,7 @@ def environment(*own: Path) -> Environment:
     made.filters["number"] = number
     made.filters["order"] = _order
     made.filters["slug"] = lambda text: "-".join(re.findall(r"[a-z0-9]+", str(text).lower()))
-    made.filters["as_script_data"] = Markup  # `pack` has escaped what would end a script
+    made.filters["as_script_data"] = Markup  # `pack` has escaped anything that would end a script
     return made
 
 
@@ -65,7 +65,7 @@ def _order(value: float | str | None) -> str:
 
 
 def _library(names: Sequence[str]) -> Markup:
-    """Files of DataTables, joined; empty where it was not fetched."""
+    """Files of DataTables, joined; empty if it was not fetched."""
     paths = [_LIBRARY / name for name in names]
     if not all(path.is_file() for path in paths):
         return Markup()

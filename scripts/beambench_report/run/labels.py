@@ -198,7 +198,7 @@ def share_for_names(names: Iterable[str], width: float) -> float:
 
 
 def name_ends(panel: Axes, ends: Sequence[End], size: float = _SIZE) -> None:
-    """Writes the names at the right of the lines' ends, apart from one another.
+    """Writes the names to the right of the lines' ends, without overlaps.
 
     The layout must be settled.
     """

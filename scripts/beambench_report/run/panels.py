@@ -18,11 +18,11 @@ from beambench_report.base.records import Run
 from beambench_report.run.measured import by_kind, short_title
 
 TALLEST = 1.38 * PAGE_WIDTH
-"""In inches; what is wanted is 1.4, and matplotlib rounds to pixels."""
+"""The greatest height in inches: 1.4 times the width, less a margin for rounding to pixels."""
 MOST_LINES = 24
-"""Contenders that a figure with a line for each can show."""
+"""The most contenders in a figure with a line for each."""
 MOST_ROWS = 60
-"""Contenders that a figure with a row for each can show."""
+"""The most contenders in a figure with a row for each."""
 WIDE_RANGE = 20
 """An axis is logarithmic if its largest value exceeds the smallest by more than this factor."""
 
@@ -152,7 +152,7 @@ def scale_axis(panel: Axes, which: str, values: Iterable[float], ticks: int = 9)
 
 
 def hide_repeated_labels(panels: Sequence[Axes], columns: int, is_shared: str = "xy") -> None:
-    """Hides labels in panels, except at the left and at the lower end; ticks of shared axes."""
+    """Hides labels in panels except at the left and the lower end, and ticks of shared axes."""
     for place, panel in enumerate(panels):
         if place % columns:
             panel.set_ylabel("")

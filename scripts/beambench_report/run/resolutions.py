@@ -24,7 +24,7 @@ from beambench_report.run.panels import (
 
 _MOST_PANELS = 6
 _SHOWN_VARIANTS = 2
-"""Of a structure: lines of one color hide one another."""
+"""The most contenders of a structure: lines of one color hide one another."""
 _MOST_LINES = 12
 _PANEL_WIDTHS = (6.3, 3.0)  # inches, of figures of one and of two columns
 _APART = 0.2  # of the axis, between two sizes that are named
@@ -109,7 +109,7 @@ def _draw_line(panel: Axes, line: pd.DataFrame, look: Look) -> End:
 
 
 def _name_sizes(panel: Axes, sizes: dict[str, float], share: float) -> None:
-    """Names those that do not stand too close to the last one that was named.
+    """Labels the sizes that are not too close to the last labeled one.
 
     The names of lines take that share of the panel, at the right.
     """

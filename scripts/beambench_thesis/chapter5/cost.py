@@ -304,16 +304,16 @@ def draw_fits(stem: str, fits: Sequence[Fit]) -> Plot:
 
 
 _WORDS = (
-    "Section 5.3.3 gives the time of the beams as two sums of counts, each times a cost of its "
-    "own. Both are fitted here to every cell of beams with the thesis's parameters, whatever its "
+    "Section 5.3.3 expresses the time of the beams by two sums of counts, each multiplied by a "
+    "cost. Both are fitted here to every cell of beams with the thesis's parameters, whatever its "
     "scene, level, resolution and samples, by least squares of the relative error and without "
-    "negative costs; counts and times are of the counting pass, which takes the time of each beam "
-    "by itself. Intervals are of 95%, from a thousand samples of the scenes with replacement: they "
-    "show how far a cost depends on which scenes were measured. A cost of 0 means that the other "
+    "negative costs. Counts and times are those of the counting pass, which times each beam "
+    "separately. The 95% intervals come from a thousand samples of the scenes with replacement: "
+    "they show how much a cost depends on the choice of scenes. A cost of 0 means that the other "
     "terms predict the times as well without it.",
-    "The sums below them are those by which max_level=auto weighs the levels. Their costs are the "
-    "constants of accel/octree/choose_octree.cpp and accel/beam/beam_cost.cpp; they are fitted to "
-    "the timed passes.",
+    "The sums below them are those by which max_level=auto compares the levels. Their costs are "
+    "the constants of accel/octree/choose_octree.cpp and accel/beam/beam_cost.cpp; they are fitted "
+    "to the timed passes.",
 )
 _CAPTION = (
     "Every point is a cell; on the line, the counts predict its time exactly, and in the gray band "
@@ -322,7 +322,7 @@ _CAPTION = (
 
 
 def cost_section(cells: Iterable[Cell]) -> Section | None:
-    """Returns the fits and their figures; None where nothing can be fitted."""
+    """Returns the fits and their figures; None if nothing can be fitted."""
     cells = list(cells)
     thesis, sums = _fits(thesis_formulas(), cells), _fits(sums_of_auto(), cells)
     fits = [*thesis, *sums]

@@ -86,9 +86,9 @@ VISITED = "beam:max_level=8,max_objects=0"
 _SIX = 6
 _VISITS_WORDS = (
     "Section 5.3.1 takes level 6 from McNeill et al. (1992): from the sixth level on, a ray is "
-    "very unlikely to visit a given node, so that beams would have few rays. Counted here over "
-    "octrees of level 8: nodes that rays pass through up to their first hit, each ray by itself, "
-    "and leaves that beams come to. Deeper leaves exist only around the surfaces."
+    "very unlikely to visit a given node, so beams would have few rays. The table counts, over "
+    "octrees of level 8, the nodes that single rays pass through up to their first hit, and the "
+    "leaves that beams reach. Deeper leaves exist only around the surfaces."
 )
 
 

@@ -9,13 +9,13 @@ from beambench_thesis.paper.printed import milliseconds, scene_title
 from beambench_thesis.paper.section import Section, section_table
 
 _WORDS = (
-    "The thesis proposes to take beams through other structures than the octree, hierarchies of "
-    "grids among them (section 7.3). Here `grid-beam` does: a beam passes the empty voxels of the "
-    "scene's grid and, where a voxel refers to many primitives, those of the grid in it (Jevans "
-    "and Wyvill 1989). Beams with few samples become single rays. The hits are those of single "
-    "rays, bit for bit. The table has the time of a trace, without building, by single rays and "
-    "by beams through the same grids, and the whole time, building included, of the fastest "
-    "measured octree with beams beside that of the grids."
+    "The thesis proposes beams through structures other than the octree, such as hierarchies of "
+    "grids (section 7.3). This is implemented by `grid-beam`: a beam passes the empty voxels of "
+    "the scene's grid and, where a voxel refers to many primitives, those of the grid inside it "
+    "(Jevans and Wyvill 1989). Beams with few samples become single rays. The hits are those of "
+    "single rays, bit for bit. The table has the trace times of single rays and of beams through "
+    "the same grids, and the total times, building included, of beams through the fastest measured "
+    "octree and through the grids."
 )
 
 

@@ -225,16 +225,16 @@ def _legend(figure: Figure, sizes: Sequence[str]) -> None:
 STEM = "level-choice"
 _WORDS = (
     "With max_level=auto, samet and beam choose the octree's level from a few rays, the camera and "
-    "the resolution, by sums of counts like those of section 5.3.3. Each choice stands beside the "
-    "best of the fixed levels that were measured for the same scene and resolution. The loss is "
-    "its time, building and choosing included, over that of the best level, less 1; beside it is "
-    "what the chosen level loses by itself, without the cost of choosing it. Times are compared in "
-    "clock cycles, where they were counted. A loss below zero is a cell faster than every fixed "
-    "level, by chance or by a level that was not measured."
+    "the resolution, by sums of counts like those of section 5.3.3. Each choice is compared with "
+    "the best of the fixed levels that were measured for the same scene and resolution. The loss "
+    "is its time, building and choosing included, divided by that of the best level, minus 1; the "
+    "level's own loss is without the cost of choosing. Times are compared in clock cycles if these "
+    "were counted. A loss below zero means that the cell is faster than every fixed level, by "
+    "chance or by a level that was not measured."
 )
 _CAPTION = (
-    "Filled: with the choosing; hollow: the chosen level by itself, where it was measured. Gray: a "
-    "loss of more than a tenth. The axis is linear to 10% and logarithmic beyond."
+    "Filled: with the choosing; hollow: only the chosen level, if it was measured. Gray: a loss of "
+    "more than a tenth. The axis is linear to 10% and logarithmic beyond."
 )
 
 

@@ -49,11 +49,11 @@ def mirrors_section(runs: Sequence[MirrorRun]) -> Section | None:
     if not runs:
         return None
     words = (
-        "All rays that a planar mirror sends on seem to come from one point, the mirror image of "
+        "All rays reflected by a planar mirror seem to come from one point, the mirror image of "
         "the eye (Heckbert and Hanrahan 1984). The thesis proposes to trace them as beams (section "
-        "7.3). Here `beam` does, in whole pictures (`render --shade whitted --accel beam`) as in "
-        "this table: the time of single rays over that of beams, through the same octree. The hits "
-        "are those of single rays, bit for bit."
+        "7.3). `beam` does this in whole pictures (`render --shade whitted --accel beam`) and in "
+        "this table, which has the time of single rays relative to that of beams through the same "
+        "octree. The hits are those of single rays, bit for bit."
     )
     ordered = sorted(runs, key=lambda run: (run.scene, rays(run.resolution), run.structure))
     rows = [

@@ -240,12 +240,13 @@ def _name_settings(panel: Axes, lines: Mapping[str, Sequence[Point]], ringed: Po
 
 _WORDS = (
     "The thesis takes five samples in every pixel of a beam that ends at an occupied leaf, and "
-    "leaves it to future work to let the leaf choose how many. Here it does: 1, 5 or 25 by the "
-    "primitives of the leaf over its width in pixels (object-space). Beside it stand the same "
-    "number in every such pixel (uniform) and more where a pixel differs from its neighbors "
-    "(image-space). An error is the RMS difference, on a 0-255 scale, to the picture of 64 samples "
-    "per pixel in preview shading; a time is that of tracing and of choosing. Two numbers as a "
-    "setting are the values from which on a pixel gets 5 and 25 samples.",
+    "leaves choosing their number by the leaf to future work. This is implemented here: 1, 5 or 25 "
+    "samples, by the number of primitives of the leaf over its width in pixels (object-space). It "
+    "is compared with the same number in every such pixel (uniform), and with more samples where a "
+    "pixel differs from its neighbors (image-space). An error is the RMS difference, on a 0-255 "
+    "scale, from the picture of 64 samples per pixel in preview shading; a time includes tracing "
+    "and choosing. A setting of two numbers states the values from which a pixel gets 5 and 25 "
+    "samples.",
 )
 _CAPTION = (
     "Every point is a setting, whose values stand beside it. Further left is faster, further down "

@@ -143,9 +143,7 @@ def producer_saturates_first(e: Evidence, network: str) -> list[Check]:
     quantity="of their speed",
 )
 def serves_unequal_machines(e: Evidence) -> list[Check]:
-    """At least 0.9 of the speed that these consumers have is used, compared with equal ones, on
-    each network where they were simulated.
-    """
+    """On each simulated network they use at least 0.9 of their speed, compared with equal ones."""
 
     def used(scene: str, kind: str, network: str) -> Measured | None:
         return ratio_of(

@@ -121,7 +121,7 @@ def leaving_is_never_critical(e: Evidence) -> list[Check]:
 @PROSE_CLAIMS.claim(
     "C29",
     "5.4.1",
-    "What Samet-Net gains over Samet, and the beams over both, grows with the resolution.",
+    "The gain of Samet-Net over Samet, and of the beams over both, grows with the resolution.",
     Question.BEAMS_OR_RAYS,
     quantity=None,
 )
@@ -228,14 +228,15 @@ def _leaving(e: Evidence, scene: str) -> Measured | None:
 @PROSE_CLAIMS.claim(
     "C32",
     "7.2.3",
-    "What beams gain comes basically from those that leave the scene without meeting an occupied "
-    "leaf.",
+    "Basically, the gain of beams comes from those that leave the scene without meeting an "
+    "occupied leaf.",
     Question.BEAMS_OR_RAYS,
     quantity="of what is saved",
 )
 def gains_come_from_exit_beams(e: Evidence) -> list[Check]:
-    """Basically means at least half: of the time that beams save over Samet's rays, in each of the
-    six scenes, the pixels of exit beams, traced as Samet's rays of mean cost, account for so much.
+    """In each of the six scenes, exit beams account for at least half of the time that is saved.
+
+    The saving is that of beams over Samet's rays; a pixel of an exit beam saves a ray of mean cost.
     """
 
     def share_of_gain(scene: str) -> Measured | None:
@@ -256,15 +257,13 @@ def gains_come_from_exit_beams(e: Evidence) -> list[Check]:
 @PROSE_CLAIMS.claim(
     "C33",
     "7.2.3",
-    "What beams gain grows with the free space of the scene, through which many beams pass without "
-    "meeting an occupied leaf.",
+    "The gain of beams grows with the free space of the scene, through which many beams pass "
+    "without meeting an occupied leaf.",
     Question.BEAMS_OR_RAYS,
     quantity="times the gain",
 )
 def gains_grow_with_free_space(e: Evidence) -> list[Check]:
-    """Of each two of the six scenes, the one with more pixels in exit beams gains more over Samet's
-    rays.
-    """
+    """In each pair of the six scenes, the one with more pixels in exit beams gains more."""
     shares = {scene: _leaving(e, scene) for scene in ON_OCTREES}
     known = {scene: share.value for scene, share in shares.items() if share is not None}
     if len(known) < len(shares):
@@ -283,7 +282,7 @@ def gains_grow_with_free_space(e: Evidence) -> list[Check]:
 @PROSE_CLAIMS.claim(
     "C34",
     "7.2.4",
-    "What beams gain over single rays grows with the samples per pixel.",
+    "The gain of beams over single rays grows with the samples per pixel.",
     Question.BEAMS_OR_RAYS,
     quantity="times the gain",
 )
@@ -308,7 +307,7 @@ def gains_grow_with_the_samples(e: Evidence) -> list[Check]:
     quantity="times the loss",
 )
 def beams_mind_the_level_less(e: Evidence) -> list[Check]:
-    """From the best to the worst of levels 5 to 7 at 1280x1024, times of the beams grow less."""
+    """The beams' time grows less from the best to the worst of levels 5 to 7 at 1280x1024."""
 
     def spread(scene: str, contender: str) -> Measured | None:
         by_level = e.times_by("level", scene, contender)

@@ -215,10 +215,10 @@ def _summary(directory: Path, sweep: Sweep, cells: Cells) -> RunSummary:
 # The report's texts, the same in Markdown and on the page
 
 TABLE_WORDS = (
-    "Beside the thesis's seconds (a Pentium of 350 MHz, 1999) stand our milliseconds; seconds of "
-    "so different machines are not to be compared. What compares are the shapes, in brackets: each "
-    "time over that of the same part's first row at 320x200, the thesis's and ours. Times contain "
-    "the building of the structure, as the thesis's do; our part of it stands behind the total. "
+    "The tables have the thesis's seconds (a Pentium of 350 MHz, 1999) and our milliseconds, which "
+    "cannot be compared, because the machines differ too much. The shapes in brackets can: each "
+    "time relative to the first row of the same part at 320x200, the thesis's and ours. Times "
+    "include building the structure, as in the thesis; our build time follows the total. "
     "Parameters are the thesis's: octrees of level 6 unless the table says otherwise, 32 voxels "
     "per axis filled lazily, objects inserted as given beside terminal nodes (insert=terminal), "
     "Kay and Kajiya's queue, no handover. Rows marked (of today) or (Goldsmith and Salmon 1987) "
@@ -233,19 +233,19 @@ def claim_words(claims: Sequence[JudgedClaim]) -> str:
 
 
 _CLAIM_WORDS = (
-    "Each claim is a rule that makes comparisons, for each scene and resolution that the claim is "
+    "Each claim is a rule that makes comparisons for each scene and resolution that the claim is "
     "about. Supported: every comparison agrees; contradicted: most say the opposite; mixed: in "
     "between; undecided: it depends on differences that chance may explain, or that were measured "
-    "too seldom; not testable: it rests on something of which the thesis says nothing. The effect "
-    "is the geometric mean over the comparisons of what should be larger over what should be "
-    "smaller, or the median of a figure; in brackets the least and the greatest of them, not an "
-    "interval. "
+    "too seldom; not testable: it depends on something that the thesis does not state. The effect "
+    "is the geometric mean, over the comparisons, of the quantity that should be larger divided by "
+    "the one that should be smaller, or the median of a figure; the minimum and maximum in "
+    "brackets are not an interval. "
 )
 _VARIED_WORDS = (
-    "Variants are perturbed scenes: other seeds, cameras and places of objects, judged at 320x200 "
-    "and 640x480 alone, so that what the thesis says of 1280x1024 is judged there at 640x480. "
-    "Levels read otherwise: one line of section 5.4 seems to count levels from one less, so each "
-    "octree is one level deeper, at these resolutions, too. "
+    "Variants are perturbed scenes with other seeds, cameras and places of objects. They are "
+    "judged only at 320x200 and 640x480, so statements on 1280x1024 are judged at 640x480. Levels "
+    "read otherwise: one line of section 5.4 seems to count levels from one less, so each octree "
+    "is one level deeper, at the same resolutions. "
 )
 _RANKING_WORDS = (
     "Beams test the samples of a leaf one by one, as single rays are tested, without SIMD. Times "
@@ -257,55 +257,55 @@ _RANKING_WORDS = (
     "part'."
 )
 STAND_IN_WORDS = (
-    "The files of the thesis's scenes are lost. Ours have the same names and numbers of "
-    "primitives and follow the thesis's descriptions. What the thesis prints of the lost objects "
-    "themselves, such as the number of maceta's beams and the sizes of hierarchies, is compared "
-    "and need not agree. The thesis's test of a cube and a polygon (section 3.3) is exact and puts "
-    "the same objects into each leaf as ours (tests/accel/thesis_overlap_test.cpp). Until commit "
-    "7811fb1 bola-espacial, delfines and maceta had been modeled after figures and sentences that "
-    "they then tested; they now follow the thesis's descriptions alone."
+    "The files of the thesis's scenes are lost. Ours have the same names and numbers of primitives "
+    "and follow the thesis's descriptions. Figures of the lost objects themselves, such as the "
+    "number of maceta's beams and the sizes of hierarchies, are compared but need not agree. The "
+    "thesis's test of a cube and a polygon (section 3.3) is exact and puts the same objects into "
+    "each leaf as ours (tests/accel/thesis_overlap_test.cpp). Until commit 7811fb1 bola-espacial, "
+    "delfines and maceta were modeled after figures and sentences that they then tested; now they "
+    "only follow the thesis's descriptions."
 )
 OTHER_SYSTEMS = (
     (
         "Cones (Amanatides 1984, Kirk 1987)",
-        "are rays that widen and find how much of a cone objects cover, so that one ray gives a "
-        "smooth edge or a penumbra; their result is an estimate of coverage, and no hit that could "
-        "be verified.",
+        "are rays that widen and determine how much of a cone is covered by objects, so that one "
+        "ray yields a smooth edge or a penumbra; the result is an estimate of coverage, not a hit "
+        "that could be verified.",
     ),
     (
         "Paraxial pencils (Shinya, Takahashi and Naito 1987)",
-        "follow the rays near an axial ray by a matrix, and take the picture from this "
-        "approximation; beams through glass use their linear view of neighboring rays here, with "
-        "the hits of the rays themselves.",
+        "follow the rays near an axial ray by a matrix, and compute the picture from this "
+        "approximation; here, beams through glass use the linear approximation of neighboring "
+        "rays, but the hits of the rays themselves.",
     ),
     (
         "Coherent rays in cylinders (Speer and others 1986)",
-        "go where their neighbors went as long as they stay in a cylinder that nothing else "
-        "enters; section 2.2.1.2 already says that they cost more than single rays.",
+        "follow their neighbors as long as they stay in a cylinder that nothing else enters; "
+        "section 2.2.1.2 already says that they cost more than single rays.",
     ),
     (
         "Ray coherence (Ohta and Maekawa 1987)",
-        "lists for each object what rays from it meet in each direction; the lists grow with the "
-        "square of the objects, and ray classification, which is measured, keeps such lists for "
-        "the rays that occur.",
+        "lists for each object the objects that rays from it meet in each direction; the lists "
+        "grow with the square of the number of objects, and ray classification, which is measured, "
+        "keeps such lists for the rays that occur.",
     ),
     (
         "Octrees above bounding volumes (Scherson and Caspary 1987)",
         "end an octree early and put hierarchies of volumes into its leaves; both halves are "
-        "measured, and the thesis does not say where one should give way to the other.",
+        "measured, and the thesis does not say where to switch from one to the other.",
     ),
     (
         "Hierarchies from octrees (Glassner 1988)",
-        "take the nodes of an octree over space and time for volumes that do not overlap; their "
-        "purpose is scenes that move, and the thesis's scenes do not.",
+        "use the nodes of an octree over space and time as volumes that do not overlap; they are "
+        "meant for scenes that move, and the thesis's scenes do not move.",
     ),
 )
 """Systems surveyed in chapter 2 that are not measured here: a name, and the rest of a sentence."""
 FIRST_FIGURES = ("5.7", "5.8", "5.12", "5.16")
 """The figures that show the thesis and ours side by side; the others are among the details."""
 BEST_WORDS = (
-    "Each contender with those of its parameters that made it fastest, building included, in "
-    "brackets its time over that of the first row and the interval of that ratio."
+    "Each contender with its fastest parameters, building included. In brackets: its time relative "
+    "to the first row, and the interval of that ratio."
 )
 
 

@@ -127,7 +127,7 @@ def _options(file: Path) -> dict[str, Any]:
 
 
 def _with_parameters(file: Path) -> pd.DataFrame:
-    """Returns the rows with a column for each parameter; empty where a structure lacks it."""
+    """Returns the rows with a column for each parameter; empty if a structure lacks it."""
     rows = pd.read_csv(file)
     chosen = pd.DataFrame(rows["parameters"].map(parameter_items).tolist(), rows.index)
     return rows.join(chosen.fillna(""))

@@ -23,7 +23,7 @@ class Cells:
     """
 
     def __init__(self, folder: Path) -> None:
-        """Raises Problem where FOLDER/results.csv cannot be read."""
+        """Raises Problem if FOLDER/results.csv cannot be read."""
         self.folder = folder
         rows = read_run(folder).rows
         sizes = rows["width"].map("{:.0f}".format) + "x" + rows["height"].map("{:.0f}".format)

@@ -53,7 +53,7 @@ def figures(folder: Path) -> dict[str, Any]:
 
 
 def _one(table: pd.DataFrame, values: dict[str, object], file: Path) -> pd.Series:
-    """Returns the only row with these values. Raises Problem where there is none, or several."""
+    """Returns the only row with these values. Raises Problem if there is none, or several."""
     for name, value in values.items():
         table = table[table[name] == value]
     if len(table) != 1:
