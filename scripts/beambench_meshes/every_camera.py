@@ -2,9 +2,8 @@
 
 usage: PYTHONPATH=scripts python -m beambench_meshes.every_camera PROGRAM OUTPUT.csv
 
-PROGRAM is beambench. Cameras are those of the recipe, or else those that are fitted to the mesh. A
-row for each mesh, camera, kind of rays and structure, as
-`beambench verify --json` states it.
+PROGRAM is beambench. Cameras are those of the recipe, or else fitted to the mesh. The output has a
+row for each mesh, camera, kind of rays and structure, as in `beambench verify --json`.
 """
 
 from __future__ import annotations

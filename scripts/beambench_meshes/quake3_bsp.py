@@ -2,12 +2,12 @@
 
 usage: .venv/bin/python -m beambench_meshes.quake3_bsp ARCHIVE.pk3 maps/NAME.bsp OUTPUT.obj
 
-Prints what was converted and left out, and where players start, as cameras for an entry of
+Prints counts of converted and omitted faces, and the starts of players as cameras for an entry of
 registered/NAME.json. Coordinates stay those of the map: z is up, and a person's eyes are 50 units
-above the floor. A map's faces are polygons and triangle meshes, given by mesh indices that count
-from the face's first vertex, curved patches, and billboards. Left out are billboards; the sky, so
-that rays leave an open level as they should; and what is marked as not drawn: where a compiler made
-triangles of curved patches, it kept the patches as well, so marked, for collisions.
+above the floor. A map's faces are polygons and triangle meshes, with mesh indices that count from
+the face's first vertex, curved patches, and billboards. Billboards are omitted, and so is the sky,
+so that rays can leave an open level, and faces marked as not drawn: a compiler that triangulates
+curved patches keeps the patches, with this mark, for collisions.
 """
 
 from __future__ import annotations

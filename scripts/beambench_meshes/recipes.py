@@ -1,9 +1,9 @@
-"""The meshes that scripts/meshes fetches: where they come from, what they hold, how they are seen.
+"""The meshes that scripts/meshes fetches: their sources, contents and cameras.
 
-To add one, add a recipe, and its row to the tables in scripts/README.md. `triangles` is what the
-file in the package holds, counted apart from the converter; `sha256` is that of the very files that
-are read, as versions of a package differ in other files, too. Cameras of a map stand at starts of
-its players, as `.venv/bin/python -m beambench_meshes.quake3_bsp` prints them.
+To add one, add a recipe, and its row to the tables in scripts/README.md. `triangles` is the number
+in the package's file, counted independently of the converter; `sha256` is that of the file that is
+read, since versions of a package may differ only in other files. Cameras of a map are at starts of
+its players, as printed by `.venv/bin/python -m beambench_meshes.quake3_bsp`.
 """
 
 from __future__ import annotations
@@ -75,7 +75,7 @@ class Recipe:
     sources: tuple[Source, ...]
     conversion: str = AS_IT_IS
     level: int = LEVEL  # of a map's curved patches
-    up: str = ""  # if not given, what is usual in the format
+    up: str = ""  # default: that of the format
     front: str = ""
     cameras: tuple[Camera, ...] = ()
     lights: tuple[Point, ...] = ()

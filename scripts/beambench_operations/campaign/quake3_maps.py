@@ -3,8 +3,8 @@
 usage: .venv/bin/python -m beambench_operations.campaign.quake3_maps FILE
        .venv/bin/python -m beambench_operations.campaign.quake3_maps SECONDS SEED FAULTS FOLDER...
 
-Converts one file; or mutated ones of those folders for some time, writes each that fails in a new
-way into the folder FAULTS, and prints how many there were.
+Converts one file; or, for some time, mutated files of those folders. Writes each that fails in a
+new way to the folder FAULTS, and prints their number.
 """
 
 import hashlib

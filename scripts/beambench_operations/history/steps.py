@@ -8,7 +8,7 @@ A step is reported when
   error against Student's t, with Holm's correction over all series of the night;
 - the block bootstrap's 95% interval of the shift lies above `tolerance`.
 
-What this comes to in false alarms and missed slow-downs is measured, not derived, by
+The rates of false alarms and missed slowdowns are measured, not derived, by
 nightly/calibration.py.
 """
 
@@ -64,7 +64,7 @@ class Step:
 Tested = TypeVar("Tested")
 """Anything with a `p_value`."""
 
-_LEAST_NOISE = 0.002  # a series may look quieter than any clock is
+_LEAST_NOISE = 0.002  # a short series may seem quieter than any clock
 _BLOCK = 3
 _RESAMPLES = 2000
 

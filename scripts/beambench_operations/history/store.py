@@ -5,15 +5,14 @@ cells       what was measured: the columns that identify a row of results.csv
 inputs      hashes of scene and rays; nights with other hashes are not comparable
 work        counters per ray as JSON, sorted by name; they repeat from night to night, so kept once
 figures     a row for each cell of each night; NULL is not measured, or not verified
-alarms      what a night raised an alarm about, kept so that no later night does so again
+alarms      the alarms of each night, stored so that no later night repeats them
 
-`machine_id` of a night is the column's, with the processor behind it where the run's manifest names
-it: a series holds nights of one machine only.
+`machine_id` of a night is the column's, followed by the processor if the run's manifest names it: a
+series only contains nights of one machine.
 
-`ratio` is the total (build and trace) over that of the contender `reference` of the same run and
-the same rays: the geometric mean of the ratios of the blocks; `error` is the standard error of its
-logarithm. A night that was not measured `in_blocks` has quotients of medians, which are shown and
-never compared.
+`ratio` is the total (build and trace) relative to the contender `reference` of the same run and
+rays, the geometric mean over the blocks; `error` is the standard error of its logarithm. A night
+that was not measured `in_blocks` has ratios of medians, which are shown but never compared.
 """
 
 import json

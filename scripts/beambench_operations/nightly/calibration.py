@@ -1,8 +1,8 @@
-"""Finds how often pure noise raises a false alarm, and which slow-downs are found.
+"""Finds how often pure noise raises a false alarm, and which slowdowns are found.
 
-Noise is taken from repeated runs of one sweep by one program: groups of consecutive runs are put
-one after another (block bootstrap), all contenders of a scene together, since they share a
-reference. Nights are then tested one by one, each with those before it, as `scripts/nightly` does.
+Noise is taken from repeated runs of one sweep by one program: groups of consecutive runs are
+concatenated (block bootstrap), for all contenders of a scene together, since they share a
+reference. Nights are then tested one by one with their predecessors, as by `scripts/nightly`.
 """
 
 import json
@@ -65,7 +65,7 @@ class Power:
         """Returns the result as a sentence."""
         when = "" if self.nights_until is None else f", after {self.nights_until:.0f} nights"
         return (
-            f"A slow-down by {self.slowdown:.1%} was found and named in {self.found:.1%} of "
+            f"A slowdown by {self.slowdown:.1%} was found and named in {self.found:.1%} of "
             f"{self.trials} trials (95% confidence interval {self.low:.1%} to {self.high:.1%})"
             f"{when}."
         )

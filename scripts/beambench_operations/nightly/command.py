@@ -57,7 +57,7 @@ def add_nightly_command(commands: Commands) -> None:
         parts,
         "calibrate",
         _calibrate,
-        help="count the false alarms of pure noise and find the least slow-down seen",
+        help="count the false alarms of pure noise and find the least slowdown seen",
     )
     for command in (run, add, rebuilding, page, pruning, calibration):
         command("--home", type=_home, default=_home(HOME), metavar="DIR")

@@ -1,19 +1,19 @@
 """Two commits of this machine, measured in turns: what scripts/compare runs once both are built.
 
-The history needs a dozen nights to separate a slow-down from noise. Two programs that take turns
-on one machine need minutes: each turn gives a pair of times that the machine treated alike, the
-means over the blocks of two runs, and pairs are averaged as blocks are (`block_ratio`). The
-order is A B, B A, A B, ..., each first as often as the other, so that neither a drift of the
-machine nor the place within a turn favors one of them.
+The history needs a dozen nights to separate a slowdown from noise. Two programs that take turns
+on one machine need minutes. Each turn yields a pair of times measured under the same conditions,
+the means over the blocks of two runs, and pairs are averaged like blocks (`block_ratio`). The
+order is A B, B A, A B, ..., so that each is first equally often, and neither a drift of the
+machine nor the order within a turn favors one of them.
 
-The cells of a turn are not independent: they share a process and a moment of the machine (the same
-program against itself, twice 12 turns beside builds: a mean correlation of 0.28 and 0.23 between
-cells, and no effect of the place within a turn, -1.9% and +0.5%). Most ratios, or all, may thus lie
-on one side of 1 by chance, and some intervals exclude 1 together. Cells are therefore tested
-together, by Holm's correction, and the ratio of all of them is made turn by turn.
+The cells of a turn are not independent: they share a process and a moment of the machine. (The
+same program against itself, twice 12 turns during builds: a mean correlation of 0.28 and 0.23
+between cells, and no effect of the order within a turn, -1.9% and +0.5%.) So most or all ratios may
+lie on one side of 1 by chance, and several intervals may exclude 1 together. Therefore cells are
+tested together, by Holm's correction, and the ratio of all of them is formed turn by turn.
 
-TOLERANCE is not the margin of 3% within which two contenders of one run rank as equal. There, a
-small difference would order what nobody needs to have ordered; here, one program is the other's
+TOLERANCE is smaller than the margin of 3% within which two contenders of one run rank as equal.
+Within a run, nobody needs an order of nearly equal contenders; here, one program is the other's
 successor, and small losses add up.
 """
 
@@ -122,7 +122,7 @@ class Outcome:
             return ""
         widest = max(open_cells, key=lambda cell: cell.ratio.high)
         return (
-            f" For {len(open_cells)} of them a slow-down by more than {TOLERANCE:.0%} is not ruled "
+            f" For {len(open_cells)} of them a slowdown by more than {TOLERANCE:.0%} is not ruled "
             f"out: the widest interval reaches {widest.ratio.high - 1:+.1%} ({widest.title}). "
             "More turns narrow it."
         )

@@ -1,11 +1,11 @@
 """Writes the site: plain files with relative links, for any static host or none.
 
 index.html                 all runs
-runs/<name>/index.html     the page of each run, and data.js, what comparisons need of it
+runs/<name>/index.html     the page of each run; data.js has its data for comparisons
 compare/<a>-vs-<b>.html    a run and the one before it; index.html: any two of a sweep
 history/<name>.html        the runs of one sweep on one machine
-gallery/index.html         pages of `beambench explain`, where a program to write them is given
-site.json                  the files of the site, so that the next one removes what has gone
+gallery/index.html         pages of `beambench explain`, if the program to write them is given
+site.json                  the files of the site, so that the next version can remove old ones
 """
 
 import json

@@ -115,7 +115,7 @@ def _name_sizes(panel: Axes, sizes: dict[str, float], share: float) -> None:
     """
     least, most = min(sizes.values()), max(sizes.values())
     extent = log10(most / least)
-    # A tenth of the rest is on both sides.
+    # A tenth of the remaining width is left free on each side.
     panel.set_xlim(
         least / 10 ** (0.1 * extent), most * 10 ** ((0.1 + 1.2 * share / (1 - share)) * extent)
     )

@@ -19,7 +19,7 @@ from beambench_thesis.paper.evidence import Measured
 from beambench_thesis.paper.section import Section, SectionFigure, SectionTable, section_table
 
 MIN_CELLS = 10
-_MIN_NANOSECONDS = 1e5  # of a shorter time, no count explains the part of cold caches and the clock
+_MIN_NANOSECONDS = 1e5  # below this, cold caches and the clock dominate, which no count explains
 _MIN_SCENES = 3  # from which on scenes can be resampled, or one be left out
 _DRAWS = 1000
 _SEED = 1999

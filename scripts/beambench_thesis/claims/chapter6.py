@@ -1,10 +1,9 @@
 """The rules of chapter 6: the measurements on the simulated cluster by which its claims hold.
 
-Written and committed before the cluster was simulated for the first time. The thesis says that its
-network is an Ethernet and that there were 15 processors, but not whether its `p` counts the
-producer. Its efficiency rises with p at first, which is possible only if the producer, which traces
-no beams of the consumers, is counted: so p counts it here. The rules are applied to each simulated
-network.
+They were committed before the first simulation of the cluster. The thesis says that its network is
+an Ethernet and that there were 15 processors, but not whether its `p` counts the producer. Its
+efficiency first rises with p, which is only possible if the producer, which does not trace beams,
+is counted: therefore p counts it here. The rules are applied to each simulated network.
 """
 
 from collections.abc import Callable

@@ -11,7 +11,7 @@ from beambench_report.run.winners import races
 
 _KINDS = ("primary", "shadow", "diffuse")
 _NOT_OLDER = ("embree", "tile-beam", "sah-bvh", "kd-tree", "beam", "grid-beam")
-"""Structures of today, and beams, which do not trace rays one by one."""
+"""Modern structures, and beams, which do not trace rays one by one."""
 
 
 def figures(folder: Path) -> dict[str, Any]:
