@@ -74,6 +74,7 @@ def _figure(
             own,
             [numbers.get(contender, _ANY_NUMBER) for contender in own],
             [line],
+            [measured.looks[contender].color for contender in own],
         )
         unnamed |= set(own) if found is None else {own[index] for index in found}
     return figure, [contender for contender in rows["contender"] if contender in unnamed]
