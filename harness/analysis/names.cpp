@@ -1,6 +1,7 @@
 #include "harness/analysis/names.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <string_view>
@@ -14,6 +15,16 @@
 
 namespace beambench::analysis {
 namespace {
+
+/// The flags that change which hits are found, with their defaults: whether edges are watertight,
+/// and whether the backs of closed solids are left out. A name states any other value.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kFlagsOfHits{
+    {{"robust", "true"}, {"backface_culling", "false"}}};
+
+bool changes_hits(const std::string& name, const std::string& value) {
+  return std::ranges::any_of(
+      kFlagsOfHits, [&](const auto& flag) { return flag.first == name && flag.second != value; });
+}
 
 using Parameters = std::vector<std::pair<std::string, std::string>>;
 
@@ -67,7 +78,7 @@ struct Differences {
       label += fmt::format(" (best of {})", cell.parameter_sets);
     } else {
       for (const auto& [name, value] : parameters_of(cell)) {
-        if (structures.at(cell.structure).differ_in(name, value)) {
+        if (structures.at(cell.structure).differ_in(name, value) || changes_hits(name, value)) {
           label += fmt::format(" {}={}", name, value);
         }
       }

@@ -21,8 +21,9 @@ struct NamedCell {
 
 /// The names of a cell among others.
 struct Names {
-  /// The structure, with the parameters by which its variants differ and the order of the rays
-  /// where that varies; tuned, `embree (best of 8)`.
+  /// The structure, with the parameters by which its variants differ, `robust=false` and
+  /// `backface_culling=true`, which change hits, and the order of the rays where that varies;
+  /// tuned, `embree (best of 8)`.
   std::string contender;
   std::string subject;  ///< the scene, with camera, samples and kind of rays where it varies
   std::string view;     ///< the same with the machine: what is compared

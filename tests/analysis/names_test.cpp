@@ -32,6 +32,18 @@ TEST(Names, AParameterThatOnlySomeVariantsHaveIsShown) {
             (std::vector<std::string>{"embree mode=single", "embree mode=packet width=8"}));
 }
 
+TEST(Names, AFlagThatChangesHitsIsShownWhereEveryVariantHasIt) {
+  EXPECT_EQ(contenders({cell("embree", "mode=single,robust=false"),
+                        cell("embree", "mode=packet16,robust=false"),
+                        cell("tile-beam", "max_leaf=32,backface_culling=true")}),
+            (std::vector<std::string>{"embree mode=single robust=false",
+                                      "embree mode=packet16 robust=false",
+                                      "tile-beam backface_culling=true"}));
+  EXPECT_EQ(
+      contenders({cell("embree", "robust=true"), cell("tile-beam", "backface_culling=false")}),
+      (std::vector<std::string>{"embree", "tile-beam"}));
+}
+
 /// The views of two cells that differ in one member.
 template <class Value>
 std::vector<std::string> views(Value NamedCell::*member, const Value& first, const Value& second) {

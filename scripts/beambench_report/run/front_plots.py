@@ -34,8 +34,9 @@ _PANEL_HEIGHT = 2.9  # inches
 _READING = (
     "The lower and the further left, the better. The line joins the Pareto front: no other "
     "contender is both built and traced in less time. Filled: the best choice for some number of "
-    "rays, its build included; hollow: for none. Builders without a structure: of sah-bvh. "
-    "Other names are left out where there is no room."
+    "rays, its build included; hollow: for none. Builders without a structure: of sah-bvh; "
+    "embree: not watertight (robust=false) where its name does not say robust. Other names are "
+    "left out where there is no room."
 )
 _ROOM = 0.75  # of the extent of the logarithms of trace times, for names at the left
 _NAMED_LEFT = 0.5  # of the same extent: points further right have their names beside them
@@ -89,7 +90,7 @@ def _figure(measured: Measured, kind: str, found: Sequence[Front]) -> Figure:
 
 
 def _name(one: Standing) -> str:
-    return brief_name(one.name).removeprefix("sah-bvh ")
+    return brief_name(one.name).removeprefix("sah-bvh ").removesuffix(" robust=false")
 
 
 def _name_members(panel: Axes, front: Front) -> list[Bbox]:

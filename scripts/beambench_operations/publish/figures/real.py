@@ -39,6 +39,7 @@ def figures(folder: Path) -> dict[str, Any]:
         "wins": {kind: own["wins"] for kind, own in means.items()},
         "embree": embree,
         "watertight": _WATERTIGHT,
+        "tile_beam": next(name for name in others if name.split()[0] == "tile-beam"),
         "others": sorted(others, key=lambda name: means[kinds[0]]["mean"][name]),
         "few": float((cells.rows["repetitions"] < 6).mean()),
         "cameras": _cameras(folder / "cameras.csv"),
