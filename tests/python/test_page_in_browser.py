@@ -281,9 +281,23 @@ def test_tables_are_shown_without_the_library(
     assert not chromium.evaluate("document.getElementById('one-cell').hidden")
 
 
-def test_it_fits_a_narrow_screen(chromium: Browser, page: Path) -> None:
-    chromium.open(page, width=400)
-    assert chromium.evaluate("document.documentElement.scrollWidth") <= 400
+@pytest.mark.parametrize("width", [400, 1400])
+def test_it_fits_the_screen_with_all_tables_prepared(
+    chromium: Browser, page: Path, width: int
+) -> None:
+    chromium.open(page, width=width)
+    chromium.evaluate("document.querySelectorAll('details').forEach(one => one.open = true)")
+    tables = chromium.evaluate("document.querySelectorAll('table.sortable').length")
+    for place in range(tables):
+        chromium.evaluate(
+            f"document.querySelectorAll('table.sortable')[{place}].scrollIntoView("
+            "{behavior: 'instant'})"
+        )
+        chromium.settle()
+    chromium.scroll_to(CELLS)
+    assert chromium.evaluate("DataTable.tables().length") == tables + 1
+    assert chromium.evaluate("document.documentElement.scrollWidth") <= width
+    assert chromium.complaints == []
 
 
 def test_it_prints_with_everything_opened(opened: Browser, tmp_path: Path) -> None:
