@@ -16,8 +16,8 @@ namespace beambench::accel {
 
 /// The arguments of a query besides its rays.
 struct QueryContext {
-  /// The query adds its work to these. Null in timed code, which counts nothing: a structure has
-  /// two instantiations of its traversal.
+  /// Counters that the query adds its work to. Null in timed code, which counts nothing: a
+  /// structure instantiates its traversal twice.
   WorkCounters* counters = nullptr;
   /// The maximum number of threads that share the rays of an image or of a batch (`thread_count`;
   /// 0: the default number). A structure may use fewer. Hits and counters do not depend on the
@@ -33,7 +33,7 @@ struct QueryContext {
 /// and the paths of an inspector from one traversal of single rays; a wrapper derives from
 /// `ForwardingAccelerator` (forwarding_accelerator.hpp).
 ///
-/// Plug-ins hide their symbols, but derive from the one class that is in the program.
+/// Visible by default: plug-ins hide their symbols but must derive from the program's class.
 class [[gnu::visibility("default")]] Accelerator {
  public:
   Accelerator() = default;
@@ -42,24 +42,24 @@ class [[gnu::visibility("default")]] Accelerator {
   virtual ~Accelerator() = default;
 
   /// Finds the closest hit of each ray in [t_min, t_max]; ties go to the lowest primitive id.
-  /// `hits` has the size of the source, and the shape of an image. Throws where the structure
-  /// cannot trace the rays now, such as an InputError where a limit is exceeded on demand.
+  /// `hits` has the size of the source and, for an image, its shape. Throws if the structure cannot
+  /// trace the rays now; for example, InputError if building on demand exceeds a limit.
   virtual void closest_hits(const RaySource& rays, const HitSpan& hits, const QueryContext& context)
       const = 0;
-  /// Finds for each ray whether there is a hit in [t_min, t_max]: 1 or 0. `hits` has the size of
-  /// the source. Throws like `closest_hits`.
+  /// Finds whether each ray has a hit in [t_min, t_max]: 1 or 0. `hits` has the size of the source.
+  /// Throws like `closest_hits`.
   virtual void any_hits(const RaySource& rays, std::span<std::uint8_t> hits,
                         const QueryContext& context) const = 0;
-  /// Returns the current sizes of the structure: queries may divide it further.
+  /// Returns the current sizes of the structure, which queries may divide further.
   virtual Statistics statistics() const = 0;
 
-  /// Returns the object that shows paths, cells and beams; null where the structure shows nothing.
-  /// It lives as long as the structure.
+  /// Returns the object that shows paths, cells and beams; null if the structure has none. The
+  /// object lives as long as the structure.
   virtual const Inspector* inspector() const { return nullptr; }
 
   /// Adapts the structure to its scene after coordinates have changed in place: `scene` is the one
-  /// over which it was built, with the same primitives. No query may run meanwhile. Returns false,
-  /// having done nothing, where the structure must be built anew.
+  /// it was built over, with the same primitives. No query may run meanwhile. Returns false,
+  /// without any change, if the structure must be rebuilt.
   virtual bool update(const scenes::Scene& /*scene*/) { return false; }
 
   /// Runs `closest_hits` for one ray.

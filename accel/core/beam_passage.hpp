@@ -1,5 +1,5 @@
 #pragma once
-// A beam in a leaf, for the path of a sample.
+// A beam in a leaf, a step on the path of a sample.
 
 #include <cstdint>
 #include <optional>
@@ -27,13 +27,13 @@ struct PlaneOrder {
 /// A beam in a leaf. A beam that continues undivided is the same beam in the next leaf.
 struct BeamPassage {
   BeamKind kind = BeamKind::kNonTerminal;
-  std::uint32_t node = 0;  ///< the leaf it enters; of a leaving beam the one it comes from
-  int level = 0;           ///< of that leaf, the root being level 1
-  Box cell{};              ///< that leaf, in scene units
+  std::uint32_t node = 0;               ///< the leaf entered; for a leaving beam, the last leaf
+  int level = 0;                        ///< of that leaf, the root being level 1
+  Box cell{};                           ///< that leaf, in scene units
   std::optional<CrossedPlane> entered;  ///< the leaf's face; nothing if the camera is in the leaf
   std::vector<glm::dvec2> corners;      ///< of its outline, in pixels from the top left
   std::vector<PlaneOrder> cuts;  ///< new since the last passage; none: it continued undivided
-  std::uint64_t samples = 0;     ///< of the image, in it
+  std::uint64_t samples = 0;     ///< number of the image's samples in the beam
 };
 
 }  // namespace beambench::accel

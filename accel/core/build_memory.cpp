@@ -13,11 +13,11 @@
 namespace beambench::accel {
 namespace {
 
-/// The maximum number of bytes that any build is known to take per primitive, where no list is
-/// longer than its cap.
+/// The largest number of bytes per primitive that any build is known to take when no list exceeds
+/// its cap.
 constexpr std::uint64_t kMaxBytesPerPrimitive = 2048;
 
-/// Below this, an allocator's reserve exceeds the memory to be measured.
+/// Below this, the allocator's reserve exceeds the memory being measured.
 constexpr std::size_t kMinPrimitives = std::size_t{1} << 17U;
 
 /// Returns every `stride`-th run of primitives: neighbors in a mesh stay together, so that they
@@ -42,14 +42,14 @@ std::optional<std::uint64_t> predicted_build_bytes(const StructureChoice& choice
     return peak_memory_growth([&] { choice.info().build(part, choice.parameters(), workload); });
   };
   try {
-    measure(part_of(scene, 64));  // what a first build prepares once, such as threads
+    measure(part_of(scene, 64));  // one-time work of a first build, such as starting threads
     const scenes::Scene part = part_of(scene, 8);
     const auto bytes = measure(part);
     if (!bytes) return std::nullopt;
     const double share =
         static_cast<double>(scene.primitives.size()) / static_cast<double>(part.primitives.size());
     return static_cast<std::uint64_t>(share * static_cast<double>(*bytes));
-  } catch (const InputError&) {  // a cap is exceeded: the build itself will say so better
+  } catch (const InputError&) {  // a cap is exceeded; the build itself reports it better
     return std::nullopt;
   }
 }
@@ -62,7 +62,7 @@ void require_build_memory(const StructureChoice& choice, const scenes::Scene& sc
   const auto needed = predicted_build_bytes(choice, scene, workload);
   if (!needed || *needed <= *available) return;
   throw InputError(fmt::format(
-      "'{}' over the {} primitives of '{}' would take some {:.2f} GiB of memory (predicted from a "
+      "'{}' over the {} primitives of '{}' would take about {:.2f} GiB of memory (predicted from a "
       "build over an eighth of them), but {:.2f} GiB are available; choose another structure, "
       "close other programs, or state in BEAMBENCH_MEMORY what may be used",
       choice.short_label(), scene.primitives.size(), scene.name,

@@ -9,17 +9,17 @@
 
 namespace beambench::accel {
 
-/// Predicts the number of bytes by which a build raises the memory of this process at its peak.
-/// Measures a build over an eighth of the primitives, in runs that are evenly spread, and
-/// multiplies. Meshes of 2 to 8 million triangles took 0.7 to 1.1 times the prediction. Returns
-/// nothing where that build is refused, or where the system does not report its memory.
+/// Predicts by how many bytes a build raises this process's memory at its peak. Measures a build
+/// over an eighth of the primitives, taken in evenly spaced runs, and scales the result. Meshes of
+/// 2 to 8 million triangles took 0.7 to 1.1 times the prediction. Returns nothing if that build is
+/// refused or the system does not report its memory.
 std::optional<std::uint64_t> predicted_build_bytes(const StructureChoice& choice,
                                                    const scenes::Scene& scene,
                                                    const Workload& workload);
 
 /// Throws InputError, with the figures, when a build is expected to take more memory than is
-/// available (`available_memory`). Predicts only for scenes so large that this is conceivable; for
-/// others the check costs nothing.
+/// available (`available_memory`). Predicts only for scenes large enough for this to be possible;
+/// for others the check is free.
 void require_build_memory(const StructureChoice& choice, const scenes::Scene& scene,
                           const Workload& workload);
 

@@ -18,15 +18,15 @@
 
 namespace beambench::accel {
 
-/// The result of a ray-primitive test for a miss: a NaN, so that it neither precedes nor equals any
-/// t. (An optional<float> would be passed through memory in two halves, which cost more than the
-/// tests themselves.)
+/// The result of a ray-primitive test that misses: a NaN, which neither precedes nor equals any t.
+/// (An optional<float> would be passed through memory in two halves, which cost more than the test
+/// itself.)
 inline constexpr float kMiss = std::numeric_limits<float>::quiet_NaN();
 inline bool is_hit(float t) { return t == t; }
 
-/// Returns the axis along which a direction is longest; the last among equals.
+/// Returns the axis along which a direction is longest; the last one of equals.
 inline std::size_t longest_axis(const glm::vec3& direction) {
-  // By table: directions of secondary rays mislead a processor's prediction of branches.
+  // A table, because the directions of secondary rays defeat branch prediction.
   static constexpr std::array<std::uint8_t, 8> kAxes{2, 2, 2, 0, 1, 2, 1, 0};
   const glm::vec3 size = glm::abs(direction);
   return kAxes[std::size_t{size.x > size.y} + 2 * std::size_t{size.x > size.z} +
@@ -68,11 +68,12 @@ struct CanonicalRay {
 
   float accept(double t) const { return accel::accept(t, t_min, t_max); }
 
-  /// Returns a point's place beside the ray: relative to the origin and sheared along the main axis
-  /// so that the ray becomes that axis (Woop, Benthin and Wald, "Watertight Ray/Triangle
+  /// Returns a point's position in the ray's frame: relative to the origin and sheared along the
+  /// main axis so that the ray becomes that axis (Woop, Benthin and Wald, "Watertight Ray/Triangle
   /// Intersection", 2013).
   glm::dvec2 beside(const glm::vec3& point) const {
-    // By address: glm's operator[] is a chain of branches, which cost 5% of a trace of triangles.
+    // Through a pointer: glm's operator[] is a chain of branches, which cost 5% of a trace of
+    // triangles.
     const float* place = glm::value_ptr(point);
     const double* from = glm::value_ptr(origin);
     const double along = place[main_axis] - from[main_axis];
@@ -84,14 +85,14 @@ struct CanonicalRay {
   glm::dvec3 direction;
   float t_min;
   float t_max;
-  int main_axis;                 ///< in which the direction is largest
+  int main_axis;                 ///< the one along which the direction is longest
   std::array<int, 2> side_axis;  ///< the other two
   std::array<double, 2> shear;   ///< direction on the side axes over that on the main axis
 };
 
-/// A root t of a surface's equation f(t) = 0 on a ray. Next to the origin, relative to `scale`, the
-/// root's digits have cancelled, but a ray that begins on the surface must find t = 0: the root is
-/// then -f(0) / f'(0). `at_origin` returns f(0) and f'(0) / 2.
+/// Returns a root t of a surface's equation f(t) = 0 on a ray. Close to the origin, relative to
+/// `scale`, the root has lost its digits to cancellation, but a ray that begins on the surface must
+/// find t = 0: the root is then -f(0) / f'(0). `at_origin` returns f(0) and f'(0) / 2.
 template <class AtOrigin>
 double root_near_origin(double t, double scale, AtOrigin at_origin) {
   if (std::abs(t) > 0x1p-40 * scale) return t;

@@ -9,7 +9,7 @@ namespace {
 /// Returns the cell that contains a coordinate: the last one whose lower boundary is not above it.
 std::int32_t cell_of(const CellGrid& grid, int axis, double coordinate) {
   const std::int32_t last = grid.cells[axis] - 1;
-  // A guess to round-off; `plane` decides.
+  // A guess that may be off by rounding; `plane` decides.
   const double guess = (coordinate - grid.lower[axis]) / grid.cell[axis];
   auto index = static_cast<std::int32_t>(std::clamp(guess, 0.0, static_cast<double>(last)));
   while (index > 0 && grid.plane(axis, index) > coordinate) --index;

@@ -1,5 +1,5 @@
 #pragma once
-// A box cut into equal cells, by integer coordinates: under an octree, or a grid of voxels.
+// A box divided into equal cells with integer coordinates; the basis of octrees and voxel grids.
 
 #include <array>
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace beambench::accel {
 
-/// A box cut into `cells` equal cells along each axis. Everything that needs a cell's boundary
-/// calls `plane`, so that neighbors get the same number.
+/// A box divided into `cells` equal cells along each axis. All code that needs a cell's boundary
+/// calls `plane`, so that neighbors agree on the number.
 struct CellGrid {
   glm::dvec3 lower{0.0};
   glm::dvec3 cell{1.0};  ///< size of a cell
@@ -21,7 +21,7 @@ struct CellGrid {
   /// Returns the coordinate of the boundary below cell `index` (0 ... cells) on an axis.
   double plane(int axis, std::int32_t index) const { return lower[axis] + cell[axis] * index; }
 
-  /// Returns the box of `size` cells along each axis, the first of them at `corner`.
+  /// Returns the box that spans `size` cells along each axis, starting at `corner`.
   Box box(const glm::ivec3& corner, const glm::ivec3& size) const {
     Box result{};
     for (int axis = 0; axis < 3; ++axis) {
@@ -36,7 +36,7 @@ struct CellGrid {
 };
 
 /// Makes a grid over a box of `size` around the middle of `bounds`, `margin` wider on every side;
-/// the grid of the unit cube when there is nothing to bound.
+/// the grid of the unit cube if `bounds` is empty.
 CellGrid make_cell_grid(const scenes::Bounds& bounds, const glm::dvec3& size,
                         const glm::dvec3& margin, const glm::ivec3& cells);
 
@@ -51,7 +51,7 @@ struct CellRange {
   }
 };
 
-/// Returns the closed cells that bounds, widened by the tolerance, overlap.
+/// Returns the closed cells that overlap the bounds, widened by the tolerance.
 CellRange cell_range(const CellGrid& grid, const scenes::Bounds& bounds, double tolerance);
 
 }  // namespace beambench::accel

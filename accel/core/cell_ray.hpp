@@ -11,9 +11,9 @@
 
 namespace beambench::accel {
 
-/// Derives everything about a ray and the planes of a grid from one function, `plane_t`, so that
-/// a cell's exit and its neighbor's entry are the same number and no cell is skipped or visited
-/// twice. A ray parallel to an axis always stays on one side of that axis' planes.
+/// A ray in a grid. Everything is derived from one function, `plane_t`, so that a cell's exit t and
+/// its neighbor's entry t are the same number and no cell is skipped or visited twice. A ray
+/// parallel to an axis always stays on one side of that axis' planes.
 class CellRay {
  public:
   CellRay(const CellGrid& grid, const Ray& ray) : grid_(&grid) {
@@ -26,18 +26,18 @@ class CellRay {
     }
   }
 
-  /// +1, -1 or 0: the direction in which the ray crosses the planes of the axis.
+  /// Returns the direction in which the ray crosses the planes of an axis: +1, -1 or 0.
   int step(int axis) const { return step_[static_cast<std::size_t>(axis)]; }
 
-  /// Returns the t at which the ray crosses a plane; monotonic in `index`. Must not be called for
-  /// axes with step 0.
+  /// Returns the t at which the ray crosses a plane; monotonic in `index`. The axis must not have
+  /// step 0.
   [[gnu::always_inline]] double plane_t(int axis, std::int32_t index) const {
     const auto slot = static_cast<std::size_t>(axis);
     return (grid_->plane(axis, index) - origin_[slot]) * inverse_[slot];
   }
 
-  /// Returns whether at parameter t the ray is on the upper side of a plane. On the plane itself it
-  /// is on the side toward which it moves.
+  /// Returns whether the ray at t is on the upper side of a plane. On the plane itself it counts as
+  /// on the side that it moves toward.
   [[gnu::always_inline]] bool above(int axis, std::int32_t index, double t) const {
     switch (step(axis)) {
       case 1:
@@ -69,11 +69,11 @@ class CellRay {
     return exit_t(axis, corner, size[axis]);
   }
 
-  /// Returns the cell along an axis that contains the ray at t, a t in the grid.
+  /// Returns the cell along an axis that contains the ray at t, which must be in the grid.
   std::int32_t cell_at(int axis, double t) const {
     const auto slot = static_cast<std::size_t>(axis);
     const std::int32_t last = grid_->cells[axis] - 1;
-    // A guess to round-off; `above` decides.
+    // A guess that may be off by rounding; `above` decides.
     const double guess =
         (origin_[slot] + t * direction_[slot] - grid_->lower[axis]) / grid_->cell[axis];
     auto index = static_cast<std::int32_t>(std::clamp(guess, 0.0, static_cast<double>(last)));
@@ -82,14 +82,14 @@ class CellRay {
     return index;
   }
 
-  /// Returns the difference in t between one plane of an axis and the next; infinite when the ray
-  /// is parallel to them.
+  /// Returns the difference in t between consecutive planes of an axis; infinite when the ray is
+  /// parallel to them.
   double delta_t(int axis) const {
     return grid_->cell[axis] * std::abs(inverse_[static_cast<std::size_t>(axis)]);
   }
 
-  /// Returns the t from which the ray is in the grid, but not before t_min (rounded down, because a
-  /// hit's t may round up to t_min); infinite when it never enters the grid.
+  /// Returns the t at which the ray enters the grid, at least t_min (rounded down, because a hit's
+  /// t may round up to t_min); infinite if it misses the grid.
   double enter(float t_min) const {
     double first = std::nextafter(t_min, -kInfinity);
     constexpr double kNever = std::numeric_limits<double>::infinity();

@@ -1,5 +1,5 @@
 #pragma once
-// Tests the references of the cells along a ray: the part that octrees and grids have in common.
+// Tests the references of the cells along a ray; shared by octrees and grids.
 
 #include <optional>
 #include <span>
@@ -9,18 +9,18 @@
 
 namespace beambench::accel {
 
-/// Tests every reference, even one that an earlier cell of the ray had.
+/// Tests every reference, even of primitives already tested in an earlier cell.
 struct NoMailboxes {
   NoMailboxes() = default;
   explicit NoMailboxes(std::size_t /*primitives*/) {}
   static constexpr bool is_first(scenes::PrimitiveId) { return true; }
 };
 
-/// Tests the references of a cell, the primitives that overlap it when widened by
-/// `overlap_tolerance`, for hits nearer than the closest so far. Returns whether the closest hit
-/// lies before the ray's exit from the cell, strictly: a hit at the exit's own rounded t may lie
-/// behind it and have a lower id. `mailboxes.is_first(id)` is called once for every reference; it
-/// may be false only where the primitive was tested against this ray before.
+/// Tests the references of a cell (the primitives that overlap it when widened by
+/// `overlap_tolerance`) for hits nearer than the closest so far. Returns whether the closest hit
+/// lies strictly before the ray's exit from the cell: another hit whose t rounds to the exit's t
+/// may lie beyond the exit and have a lower id. `mailboxes.is_first(id)` is called once for every
+/// reference; it may be false only if the primitive was already tested against this ray.
 template <class Counting, class Mailboxes = const NoMailboxes&>
 bool test_references(const scenes::Scene& scene, std::span<const scenes::PrimitiveId> references,
                      double exit_t, Counting& counting, ClosestHit& closest,

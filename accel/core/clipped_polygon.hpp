@@ -15,8 +15,8 @@
 
 namespace beambench::accel {
 
-/// A convex polygon during clipping. Each of the six planes adds at most one corner to those of a
-/// triangle; if rounding made it cross a plane several times, at most half of the corners.
+/// A convex polygon during clipping. Each of the six planes adds at most one corner to a triangle's
+/// three; if rounding makes it cross a plane several times, at most half of its corners.
 struct ClippedPolygon {
   std::array<glm::dvec3, 28> corners;
   std::size_t count = 0;
@@ -65,8 +65,8 @@ inline void clip(const ClippedPolygon& polygon, int axis, double plane, double s
   }
 }
 
-/// Returns the part of a triangle that lies in a closed box: exact, to the rounding of double
-/// (Sutherland and Hodgman, "Reentrant Polygon Clipping", 1974). Without corners if there is none.
+/// Returns the part of a triangle that lies in a closed box, exact up to double rounding
+/// (Sutherland and Hodgman, "Reentrant Polygon Clipping", 1974); no corners if there is none.
 inline ClippedPolygon clipped_triangle(const scenes::Scene& scene, const scenes::Triangle& triangle,
                                        const Box& box) {
   std::array<ClippedPolygon, 2> polygons;

@@ -18,7 +18,7 @@ namespace beambench::accel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The numbers of the lanes of each mask of eight, four bits each, the first lowest.
+/// The lane indices of each eight-bit mask, four bits each, the first lowest.
 inline constexpr std::array<std::uint32_t, 256> kLanesOfMask = [] {
   std::array<std::uint32_t, 256> lanes{};
   for (std::uint32_t mask = 0; mask < 256; ++mask) {
@@ -32,9 +32,9 @@ inline constexpr std::array<std::uint32_t, 256> kLanesOfMask = [] {
   return lanes;
 }();
 
-/// Returns the values of the lanes of a mask in sequence, followed by unspecified values; for lanes
-/// of four bytes. Highway's Compress is one instruction on AVX-512; elsewhere Highway 1.0.3
-/// compiled by GCC copies its table of 1 KiB to the stack each time, which took a third of all
+/// Returns the values in the lanes of a mask consecutively, followed by unspecified values; for
+/// four-byte lanes. Highway's Compress is one instruction on AVX-512. Elsewhere, Highway 1.0.3
+/// compiled by GCC copies its 1 KiB table to the stack each time, which took a third of the total
 /// time.
 template <class D>
 HWY_INLINE hn::Vec<D> compress([[maybe_unused]] D d, hn::Vec<D> values, hn::Mask<D> mask) {

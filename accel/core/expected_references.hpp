@@ -1,5 +1,5 @@
 #pragma once
-// Estimates the references of a tree, before it is made, from a few of its nodes.
+// Estimates the references of a tree from a few of its nodes before it is built.
 
 #include <algorithm>
 #include <cstddef>
@@ -12,21 +12,21 @@
 
 namespace beambench::accel {
 
-/// The numbers of references that a tree is expected to have.
+/// The expected numbers of references of a tree.
 struct ExpectedReferences {
   double leaves = 0.0;  ///< of all leaves
-  double lists = 0.0;   ///< of all nodes but the root
+  double lists = 0.0;   ///< of all nodes except the root
 };
 
-/// Estimates the references of a tree from a random sample of its nodes, level by level: of more
-/// than 128 nodes of a level, about 128 are sampled with a probability proportional to their
-/// references, and are weighted accordingly; fewer, but not fewer than 4, where these have more
-/// than 16384 references, so that nodes that nothing divides take no more time than others. The
-/// estimate is unbiased (Knuth, "Estimating the efficiency of backtrack programs", Mathematics of
-/// Computation 29(129), 1975, who samples one node of each level; more of them have less variance).
-/// The levels above the first that is sampled are the same in all estimates, and are divided once.
-/// `Node` has `size()`, its references; `divide(node)` returns those children of a node that refer
-/// to something, or nullopt where it is a leaf.
+/// Estimates the references of a tree from a random sample of its nodes, level by level. If a level
+/// has more than 128 nodes, about 128 are sampled with a probability proportional to their
+/// references and weighted accordingly. Fewer, but at least 4, are sampled if these have more than
+/// 16384 references, so that nodes that do not divide well do not take longer. The estimate is
+/// unbiased (Knuth, "Estimating the efficiency of backtrack programs", Mathematics of Computation
+/// 29(129), 1975, samples one node per level; more nodes reduce the variance). The levels above the
+/// first sampled one are the same in all estimates and are divided once. `Node::size()` is its
+/// number of references; `divide(node)` returns a node's children that have references, or nullopt
+/// for a leaf.
 template <class Node, class Divide>
 class ReferenceEstimate {
  public:
@@ -49,7 +49,7 @@ class ReferenceEstimate {
  private:
   struct Kept {
     Node node;
-    double weight;  ///< what each of its references stands for
+    double weight;  ///< the number of references that each one represents
     double references() const { return weight * static_cast<double>(node.size()); }
   };
   struct Level {
@@ -62,7 +62,7 @@ class ReferenceEstimate {
       listed += kept.node.size();
       nodes.push_back(std::move(kept));
     }
-    /// The number of nodes that are enough.
+    /// Returns how many nodes suffice.
     std::size_t sampled_nodes() const {
       constexpr std::size_t kReferences = std::size_t{1} << 14U;
       return std::clamp<std::size_t>(kReferences * nodes.size() / std::max<std::size_t>(listed, 1),
@@ -71,7 +71,7 @@ class ReferenceEstimate {
     bool is_to_be_sampled() const { return nodes.size() > sampled_nodes(); }
   };
 
-  /// The level below; adds what the nodes refer to.
+  /// Returns the level below; adds the references of its nodes to `expected`.
   Level below(const Level& level, ExpectedReferences& expected) {
     Level next;
     for (const Kept& kept : level.nodes) {
@@ -86,7 +86,7 @@ class ReferenceEstimate {
     return next;
   }
 
-  /// Keeps the nodes of references at equal distances, the first at random (systematic sampling).
+  /// Keeps the nodes of references at equal steps from a random first one (systematic sampling).
   static Level sample(const Level& level, Random& random) {
     Level sampled;
     const double distance = level.references / static_cast<double>(level.sampled_nodes());
@@ -104,16 +104,16 @@ class ReferenceEstimate {
 
   Divide divide_;
   ExpectedReferences above_;  ///< of the levels above `first_`
-  Level first_;               ///< the first that is sampled; none where that is not needed
+  Level first_;               ///< the first that is sampled; empty if none needs sampling
 };
 
 /// Returns whether the expected value of a nonnegative estimate exceeds `most`. A false positive
-/// has a probability below one in a million, whatever the distribution: where the expected value is
-/// `most` or less, so is that of the product of estimates / most 1 or less after each of them, and
-/// that the product ever exceeds 2^20 has a probability below 2^-20 (Ville's inequality; Shafer,
-/// "Testing by betting", Journal of the Royal Statistical Society A 184(2), 2021). Estimates of
-/// twice the limit decide after 20 of them, and less than 1.42 times the limit is not detected. The
-/// random numbers are the same each time; where the limit is kept, one or a few estimates are made.
+/// has a probability below one in a million, whatever the distribution: if the expected value is at
+/// most `most`, the running product of estimate / most has an expected value of at most 1, and the
+/// probability that it ever exceeds 2^20 is below 2^-20 (Ville's inequality; Shafer, "Testing by
+/// betting", Journal of the Royal Statistical Society A 184(2), 2021). If the estimates are twice
+/// the limit, 20 of them decide; less than 1.42 times the limit is not detected. The random numbers
+/// are the same each time. Within the limit, one or a few estimates are made.
 template <class Estimate>
 bool surely_more_than(std::uint64_t most, Estimate estimate) {
   constexpr int kMaxEstimates = 40;
@@ -127,8 +127,8 @@ bool surely_more_than(std::uint64_t most, Estimate estimate) {
   return false;
 }
 
-/// Returns a random part of a list: one of each `stride` neighbors, so that each member of the list
-/// is in it with a probability of at most 1 / stride.
+/// Returns a random subset of a list, one of each `stride` neighbors, so that it contains each
+/// member with a probability of at most 1 / stride.
 template <class T>
 struct RandomPart {
   static constexpr std::size_t kMembers = 16;
@@ -144,14 +144,14 @@ struct RandomPart {
   std::vector<T> members;
 };
 
-/// Predicts whether a tree over a list will have more than `most` references, if its nodes are
-/// divided at fixed planes as long as they refer to more than a given number of members. Longer
-/// lists do not take longer: `references(members, random)` estimates the references of a tree over
-/// a random part of the list. That tree is the whole one, except that some branches end earlier. So
-/// each member has at least as many references in the whole tree (or nearly: a leaf may refer to it
-/// where smaller cells are found not to hold it), and those of the part times `stride` are not
-/// expected to exceed those of all. False for short lists, which are quickly divided, and possibly
-/// where few members have most of the references.
+/// Predicts whether a tree over a list will have more than `most` references if its nodes are
+/// divided at fixed planes while they refer to more than a given number of members. Longer lists do
+/// not take longer: `references(members, random)` estimates the references of a tree over a random
+/// subset of the list. That tree is the full one, except that some branches end earlier. So each
+/// member has at least as many references in the full tree (or nearly: a leaf may refer to a member
+/// that is in none of its smaller cells), and the references of the subset times `stride` are not
+/// expected to exceed the total. Returns false for short lists, which are quickly divided, and
+/// possibly where a few members have most of the references.
 template <class T, class References>
 bool part_surely_exceeds(std::uint64_t most, const std::vector<T>& list, References references) {
   constexpr std::size_t kShort = 4096;

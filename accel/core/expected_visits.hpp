@@ -12,9 +12,10 @@
 namespace beambench::accel {
 
 /// The surface area heuristic's estimate (Goldsmith and Salmon 1987; MacDonald and Booth 1990): a
-/// random line that meets the scene's box meets a convex cell in it with the ratio of their surface
-/// areas. Summed over the cells of a structure, this is the number of interior nodes and leaves
-/// that such a line meets and of references that it tests, if it never ends at a hit.
+/// random line that meets the scene's box meets a convex cell in it with a probability equal to the
+/// ratio of their surface areas. Summed over the cells of a structure, this is the expected number
+/// of interior nodes and leaves that such a line meets and of references that it tests, if it never
+/// ends at a hit.
 class ExpectedVisits {
  public:
   ExpectedVisits() = default;  ///< of an empty scene
@@ -22,7 +23,7 @@ class ExpectedVisits {
       : scene_{glm::dvec3(scene.lower), glm::dvec3(scene.upper)} {}
 
   void add_node(const Box& cell) { nodes_ += area(cell); }
-  /// `tests`: references of the leaf.
+  /// Adds a leaf; `tests` is its number of references.
   void add_leaf(const Box& cell, std::size_t tests) {
     const double inside = area(cell);
     leaves_ += inside;
@@ -31,8 +32,8 @@ class ExpectedVisits {
   void add_node(const scenes::Bounds& cell) { add_node(boxed(cell)); }
   void add_leaf(const scenes::Bounds& cell, std::size_t tests) { add_leaf(boxed(cell), tests); }
 
-  /// Adds `sah_nodes`, `sah_leaves` and `sah_tests`; nothing where the scene is empty or its box
-  /// has no area.
+  /// Adds `sah_nodes`, `sah_leaves` and `sah_tests`; nothing if the scene is empty or its box has
+  /// no area.
   void append_to(Statistics& statistics) const {
     const double whole = area(scene_);
     if (!(whole > 0.0)) return;

@@ -10,10 +10,10 @@
 namespace beambench::accel {
 
 #if defined(__SSE2__)
-/// The bits that flush subnormal results to zero and read subnormal operands as zero; 0 on a
-/// processor whose control word is not known here.
+/// The bits that flush subnormal results to zero and treat subnormal operands as zero; 0 on a
+/// processor whose control word is unknown.
 inline constexpr std::uint32_t kFlushSubnormals = 0x8040;
-/// The word of a new thread: rounds to nearest, exceptions masked.
+/// The control word of a new thread: round to nearest, exceptions masked.
 inline constexpr std::uint32_t kInitialFloatMode = 0x1F80;
 /// Returns the calling thread's control word.
 inline std::uint32_t float_mode() { return _mm_getcsr(); }

@@ -1,5 +1,5 @@
 #pragma once
-// A structure that stands between another one and its callers.
+// A wrapper around another structure.
 
 #include <cstdint>
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace beambench::accel {
 
-/// Forwards everything to another structure. A wrapper overrides what it changes, and calls these
-/// functions for the rest.
+/// Forwards everything to another structure. A wrapper overrides what it changes and inherits the
+/// rest.
 class ForwardingAccelerator : public Accelerator {
  public:
   /// The structure must outlive this.

@@ -9,8 +9,8 @@
 
 namespace beambench::accel {
 
-/// Stores the t of its hit and the primitive hit for each sample of each pixel; a miss is t =
-/// infinity and kNoPrimitive. Samples of one pixel are neighbors; pixels go row by row from the top
+/// Stores for each sample of each pixel the t of its hit and the primitive hit; a miss is t =
+/// infinity and kNoPrimitive. Samples of one pixel are adjacent; pixels go row by row from the top
 /// left. The hits of a list of rays are an image of one row.
 class HitBuffer {
  public:
@@ -44,8 +44,8 @@ class HitBuffer {
     return Hit{t_[index], primitive_[index]};
   }
 
-  /// The raw arrays, for structures that write whole packets. They begin with a cache line, so
-  /// that lines can be written past the caches, without reading them.
+  /// The raw arrays, for structures that write whole packets. They begin at a cache line, so that
+  /// streaming stores can bypass the caches.
   float* t() { return t_.data(); }
   const float* t() const { return t_.data(); }
   scenes::PrimitiveId* primitive() { return primitive_.data(); }
@@ -61,11 +61,11 @@ class HitBuffer {
   LargePageVector<scenes::PrimitiveId> primitive_;
 };
 
-/// The place to which a query writes closest hits: a view of a HitBuffer or of one hit, which must
+/// The destination of a query's closest hits: a view of a HitBuffer or of one hit, which must
 /// outlive it.
 class HitSpan {
  public:
-  // Implicit, so that a query is given the buffer itself.
+  // Implicit, so that a query accepts the buffer itself.
   HitSpan(HitBuffer& buffer)
       : t_(buffer.t()),
         primitive_(buffer.primitive()),
@@ -80,7 +80,7 @@ class HitSpan {
   HitSpan(float* t, scenes::PrimitiveId* primitive, std::size_t count)
       : t_(t), primitive_(primitive), width_(static_cast<int>(count)), height_(1), samples_(1) {}
 
-  /// Returns the hits [first, first + count) as those of a list.
+  /// Returns a view of the hits [first, first + count) of a list.
   HitSpan part(std::size_t first, std::size_t count) const {
     HitSpan part(*this);
     part.t_ += first;
@@ -98,7 +98,7 @@ class HitSpan {
            static_cast<std::size_t>(samples_);
   }
 
-  /// Returns the same index as a HitBuffer.
+  /// Returns the same index as `HitBuffer::index`.
   std::size_t index(int x, int y, int sample) const {
     return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
             static_cast<std::size_t>(x)) *

@@ -1,5 +1,5 @@
 #pragma once
-// What structures that trace images only have in common.
+// The common part of structures that trace only images.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,8 +11,7 @@
 
 namespace beambench::accel {
 
-/// A structure that is registered without single rays and batches. Whether there is a hit follows
-/// from the closest one.
+/// A structure registered without single rays and batches. Any hits are derived from closest hits.
 class ImageAccelerator : public Accelerator {
  public:
   void any_hits(const RaySource& rays, std::span<std::uint8_t> hits,
@@ -24,10 +23,10 @@ class ImageAccelerator : public Accelerator {
   }
 
  protected:
-  /// `name` is the structure's, for errors; it must outlive the structure.
+  /// `name` is the structure's name in errors; it must outlive the structure.
   explicit ImageAccelerator(const char* name) : name_(name) {}
 
-  /// Returns the image of a query. Throws UnsupportedError where it has none.
+  /// Returns the image of a query. Throws UnsupportedError if it is not one of an image.
   const PrimaryRays& image_of(const RaySource& rays) const {
     if (const PrimaryRays* image = rays.image()) return *image;
     throw UnsupportedError("'" + std::string(name_) +

@@ -19,50 +19,50 @@ namespace beambench::accel {
 
 /// The traversal path of a sample of an image.
 struct SampleSteps {
-  std::vector<BeamPassage> beams;  ///< that contain it, from the first to the one it ends in
-  std::vector<TraceStep> steps;    ///< where references were tested, with each test
+  std::vector<BeamPassage> beams;  ///< that contain the sample, from the first to the last
+  std::vector<TraceStep> steps;    ///< cells whose references were tested, with each test
 };
 
 /// A node of a hierarchy, numbered as `TraceStep::index`.
 struct NodeFacts {
-  std::size_t parent;        ///< stands before it; of the root itself
+  std::size_t parent;        ///< listed before the node; the root's is itself
   bool is_leaf;              ///< otherwise an interior node
   std::uint64_t references;  ///< of a leaf
 };
 
 /// The optional part of the contract of a structure. Each method has a default for structures that
-/// lack the feature. Nothing is timed; calls are const and safe from several threads.
+/// lack the feature. Calls are never timed; they are const and safe from several threads.
 class [[gnu::visibility("default")]] Inspector {
  public:
   Inspector() = default;
   Inspector(const Inspector&) = delete;
   Inspector& operator=(const Inspector&) = delete;
 
-  /// Returns the traversal path of a single ray, step by step; empty where none is recorded.
+  /// Returns the traversal path of a single ray, step by step; empty if none is recorded.
   virtual std::vector<TraceStep> path(const Ray&) const { return {}; }
-  /// Returns the path of a sample of an image, as a query of the whole image traces it: with the
-  /// beams that contain it, where the structure has beams; otherwise as a single ray. x, y: a pixel
-  /// of the image, (0, 0) the top left one; `sample` of that pixel.
+  /// Returns the path of a sample of an image as a query of the whole image traces it: with the
+  /// beams that contain it if the structure has beams; otherwise as a single ray. (x, y) is the
+  /// pixel, (0, 0) at the top left; `sample` is its number in the pixel.
   virtual SampleSteps path(const PrimaryRays& image, int x, int y, int sample) const {
     return {{}, path(image.ray(x, y, sample))};
   }
 
-  /// Returns the cells that hold references; empty where the structure has no cells.
+  /// Returns the cells that hold references; empty if the structure has no cells.
   virtual std::vector<Cell> occupied_cells() const { return {}; }
-  /// Returns all nodes, the root first; empty where steps do not number them.
+  /// Returns all nodes, the root first; empty if trace steps do not number them.
   virtual std::vector<NodeFacts> nodes() const { return {}; }
 
-  /// Returns the beams of an image in the order in which they are traced; nothing where the
-  /// structure has none.
+  /// Returns the beams of an image in the order in which they are traced; nothing if the structure
+  /// has none.
   virtual std::optional<std::vector<BeamOutline>> beams(const PrimaryRays&) const {
     return std::nullopt;
   }
-  /// Returns the place of each ray of an image when `closest_hits` traces it, or of each ray of a
-  /// batch when `any_hits` does; empty where the structure has no blocks of rays.
+  /// Returns the place of each ray of an image as `closest_hits` traces it, or of a batch as
+  /// `any_hits` does; empty if the structure has no blocks of rays.
   virtual std::vector<BeamPlace> places(const RaySource&) const { return {}; }
 
  protected:
-  /// Owned by its structure.
+  /// Protected: an inspector is owned by its structure.
   ~Inspector() = default;
 };
 

@@ -5,7 +5,7 @@
 
 namespace beambench::accel {
 
-/// Returns the inspector of a structure, or one that shows nothing where it has none.
+/// Returns the inspector of a structure, or one that shows nothing if it has none.
 inline const Inspector& inspector_of(const Accelerator& structure) {
   static const struct Nothing final : Inspector {
   } nothing;

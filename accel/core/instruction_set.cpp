@@ -10,7 +10,7 @@ namespace {
 
 std::int64_t all_of(const std::string& isa) {
 #if HWY_ARCH_X86
-  // The better a target, the lower its bit: AVX-512 comes in several below AVX2.
+  // The better a target, the lower its bit: several bits below AVX2's are variants of AVX-512.
   if (isa == "avx512") return HWY_AVX2 - 1;
   if (isa == "avx2") return HWY_AVX2;
   if (isa == "sse4") return HWY_SSE4;

@@ -42,7 +42,7 @@ inline float intersect(const CanonicalRay& ray, const scenes::Scene& scene,
   return kMiss;
 }
 
-/// The nearest hit so far: `ray.t_max` is its t, so that farther primitives are not accepted.
+/// The nearest hit so far: `ray.t_max` is its t, so that farther hits are not accepted.
 struct ClosestHit {
   explicit ClosestHit(const Ray& query) : ray(query) {}
 
@@ -53,7 +53,7 @@ struct ClosestHit {
     keep(t, id);
     return t;
   }
-  /// Keeps what a canonical test with `ray` found, or kMiss, when it precedes the best.
+  /// Keeps the result of a canonical test with `ray`, a t or kMiss, if it precedes the best.
   void keep(float t, scenes::PrimitiveId id) {
     if (t < ray.t_max || (t == ray.t_max && id < primitive)) {
       ray.t_max = t;

@@ -24,15 +24,15 @@ struct Linear {
 };
 
 /// Returns the smallest t in the ray's interval at which it meets the lateral surface of the cone
-/// frustum or cylinder (no caps); of a cone seen from the inside only, the smallest at which it
-/// leaves. With m = o + t d - middle and the axis parameter s(t) = m . axis / |axis|^2, the surface
-/// is
+/// frustum or cylinder (no caps); for a cone seen only from the inside, the smallest t at which the
+/// ray leaves it. With m = o + t d - middle and the axis parameter s(t) = m . axis / |axis|^2, the
+/// surface is
 /// |m - s axis| = r_middle + s (r_apex - r_base) for s in [-1/2, 1/2]: squared, a quadratic in t.
-/// The origin is first moved to the point of the ray closest to the axis' middle, so that distant
-/// cones do not cancel: closest when heights are stretched until the surface is nowhere flatter
-/// than 45 degrees, so that neither do flat ones. Near the tip the quadratic is ill-conditioned:
-/// its roots are improved by a step of Newton's method on the equation before squaring, and one
-/// whose point is still farther than kHitSlack from the surface is not a hit.
+/// The origin is first moved to the point of the ray closest to the middle of the axis, which
+/// avoids cancellation for distant cones. For flat cones too: "closest" is measured with heights
+/// stretched until the surface is nowhere flatter than 45 degrees. Near the tip the quadratic is
+/// ill-conditioned: a step of Newton's method on the unsquared equation improves its roots, and a
+/// root whose point is still farther than kHitSlack from the surface is not a hit.
 inline float intersect_cone(const CanonicalRay& ray, const scenes::Cone& cone) {
   const glm::dvec3 base(cone.base);
   const glm::dvec3 axis = glm::dvec3(cone.apex) - base;
@@ -45,7 +45,7 @@ inline float intersect_cone(const CanonicalRay& ray, const scenes::Cone& cone) {
                               glm::dot(ray.direction, axis) / axis_squared};
   const Linear<glm::dvec3> across{from_middle - axis * height.value,
                                   ray.direction - axis * height.slope};
-  // The point closest to the middle; its height is written so that nothing cancels.
+  // The point closest to the middle; its height is written to avoid cancellation.
   const double stretched = std::max(axis_squared, taper * taper);
   const double spread = glm::dot(across.slope, across.slope);
   const double drift = glm::dot(across.value, across.slope);
@@ -64,7 +64,7 @@ inline float intersect_cone(const CanonicalRay& ray, const scenes::Cone& cone) {
   if (discriminant < 0.0) return kMiss;
   const double q = -(b + std::copysign(std::sqrt(discriminant), b));
   std::array<double, 2> roots{
-      q / a, c / q};  // a or q may be 0: that root is infinite or NaN, and not taken
+      q / a, c / q};  // a or q may be 0: that root is infinite or NaN and is rejected
 
   const auto off_surface = [&](double t) { return glm::length(radial.at(t)) - radius.at(t); };
   for (double& root : roots) {

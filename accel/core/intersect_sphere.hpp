@@ -10,11 +10,12 @@
 
 namespace beambench::accel {
 
-/// Returns the smallest t in the ray's interval at which it meets the (hollow) sphere; of a sphere
-/// seen from the inside only, the t at which it leaves. The discriminant is taken from the vector
-/// between the center and the ray's closest point, which does not cancel for small or distant
-/// spheres (Haines et al., "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems,
-/// 2019); the point at t is then within some ulps of its distance from the surface.
+/// Returns the smallest t in the ray's interval at which it meets the (hollow) sphere; for a sphere
+/// seen only from the inside, the t at which the ray leaves it. The discriminant is taken from the
+/// vector between the center and the ray's closest point, which does not cancel for small or
+/// distant spheres (Haines et al., "Precision Improvements for Ray/Sphere Intersection", Ray
+/// Tracing Gems, 2019); the point at t then lies within a few ulps (of its distance) of the
+/// surface.
 inline float intersect_sphere(const CanonicalRay& ray, const scenes::Sphere& sphere) {
   const glm::dvec3 from_center = ray.origin - glm::dvec3(sphere.center);
   const double inverse = 1.0 / glm::dot(ray.direction, ray.direction);

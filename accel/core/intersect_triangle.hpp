@@ -15,8 +15,8 @@ namespace beambench::accel {
 
 /// Returns whether the point, computed on the triangle's plane, is within kHitSlack x `reach` of
 /// the triangle. A ray almost parallel to the plane can pass the edge tests and still meet the
-/// plane far outside: their rounding error is divided by the cosine of incidence. The box excludes
-/// points beyond an acute corner, which the three edges alone do not.
+/// plane far outside, because their rounding error is divided by the cosine of incidence. The box
+/// excludes points beyond an acute corner, which the three edges alone do not.
 inline bool near_triangle(const glm::dvec3& point, const std::array<glm::dvec3, 3>& corners,
                           const glm::dvec3& normal, double reach) {
   const double slack = kHitSlack * reach;
@@ -34,10 +34,10 @@ inline bool near_triangle(const glm::dvec3& point, const std::array<glm::dvec3, 
   return true;
 }
 
-/// Returns the t at which the ray meets the closed triangle, seen from both sides, if it lies in
-/// the ray's interval; otherwise kMiss. Seen along the ray, the signs of the areas that the ray
-/// spans with the three edges decide (Woop, Benthin and Wald 2013, in double). A corner has one
-/// place beside the ray, and an area changes its sign exactly when its edge is turned round, so two
+/// Returns the t at which the ray meets the closed, two-sided triangle if it lies in the ray's
+/// interval; otherwise kMiss. The signs of the areas that the ray spans with the three edges decide
+/// (Woop, Benthin and Wald 2013, in double). A corner's position in the ray's frame is computed the
+/// same way for every triangle, and reversing an edge changes exactly the sign of its area, so two
 /// triangles that share an edge leave no gap (-ffp-contract=off is needed for this). A ray in the
 /// triangle's plane misses.
 inline float intersect_triangle(const CanonicalRay& ray, const glm::vec3& v0, const glm::vec3& v1,

@@ -1,5 +1,5 @@
-// The canonical ray-triangle test of several rays, each with its own triangle, by SIMD: the same
-// operations in the same order as intersect_triangle, so that results are the same bits.
+// The canonical ray-triangle test for several pairs of a ray and a triangle by SIMD: the same
+// operations in the same order as intersect_triangle, so that the results are bit-identical.
 
 #if defined(ACCEL_CORE_INTERSECT_TRIANGLES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_CORE_INTERSECT_TRIANGLES_INL
@@ -24,7 +24,7 @@ using DoubleTag = hn::CappedTag<double, 8>;
 using Doubles = hn::Vec<DoubleTag>;
 inline constexpr std::size_t kDoubleLanes = hn::MaxLanes(DoubleTag());
 
-/// Pairs of a ray and a triangle, as many as there are lanes of double.
+/// Pairs of a ray and a triangle, one for each lane of doubles.
 struct RayTrianglePairs {
   using Tag = hn::Rebind<float, DoubleTag>;
   struct Point {
@@ -39,7 +39,7 @@ struct DoublePoint {
   Doubles x, y, z;
 };
 
-// Not a friend defined in the class: GCC compiles those without the instruction set.
+// Not a friend defined in the class: GCC compiles those without the target's instruction set.
 HWY_INLINE DoublePoint operator-(const DoublePoint& a, const DoublePoint& b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
@@ -77,7 +77,7 @@ HWY_INLINE hn::Mask<DoubleTag> near_triangles(const DoublePoint& point,
   return hn::Not(far);
 }
 
-/// The numbers of the pairs in double.
+/// The pairs' numbers in double.
 struct DoublePairs {
   explicit HWY_INLINE DoublePairs(const RayTrianglePairs& pairs)
       : origin(widened(pairs.origin)),
@@ -100,19 +100,18 @@ struct DoublePairs {
   Doubles t;      ///< of the triangles' planes
 };
 
-/// Returns t as intersect_triangle computes it where it accepts, not yet rounded and for any
-/// interval.
+/// Returns t as intersect_triangle computes it for a hit, not yet rounded and for any interval.
 HWY_INLINE Doubles distances_along_rays(const RayTrianglePairs& pairs) {
   return DoublePairs(pairs).t;
 }
 
-/// Sets `t` likewise, or to NaN for a miss: `accept` decides about the interval.
+/// Sets `t` likewise, or to NaN for a miss; `accept` then checks the interval.
 HWY_INLINE void intersect_triangles(const RayTrianglePairs& pairs, double* t) {
   const DoubleTag d;
   const DoublePairs in_double(pairs);
   const auto& [origin, direction, corners, normal, along, found] = in_double;
 
-  // The main axis (`longest_axis`), which is another one in each lane.
+  // The main axis (`longest_axis`), which can differ in each lane.
   const DoublePoint size{hn::Abs(direction.x), hn::Abs(direction.y), hn::Abs(direction.z)};
   const auto x_beats_y = hn::Gt(size.x, size.y);
   const auto is_x = hn::And(x_beats_y, hn::Gt(size.x, size.z));

@@ -22,7 +22,7 @@ namespace beambench::accel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Sixteen lanes where the registers have them, otherwise several registers of fewer.
+/// Sixteen lanes if a register has that many; otherwise several registers with fewer.
 using Tag = hn::CappedTag<float, 16>;
 using Floats = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
@@ -37,7 +37,7 @@ HWY_INLINE Floats all(float value) { return hn::Set(Tag(), value); }
 HWY_INLINE Floats load(const float* from) { return hn::Load(Tag(), from); }
 HWY_INLINE void store(Floats values, float* to) { hn::Store(values, Tag(), to); }
 
-/// A word as large as a mask in memory, so that it can be forwarded between registers.
+/// A word as large as a mask in memory, so that a store can be forwarded to a load.
 using MaskWord = std::conditional_t<(kLanes > 8), std::uint16_t, std::uint8_t>;
 static_assert(kLanes <= 8 || std::endian::native == std::endian::little);
 
@@ -51,23 +51,23 @@ HWY_INLINE Mask mask_of(LaneBits bits) {
   return hn::LoadMaskBits(Tag(), reinterpret_cast<const std::uint8_t*>(&word));
 }
 
-/// Stores the values of the lanes of `mask` consecutively, and arbitrary values behind them: there
-/// must be room for a whole register. Returns their number. Compressing directly to memory, as
-/// Highway's CompressStore does on AVX-512, is slow on some processors (AMD's Zen 4).
+/// Stores the values in the lanes of `mask` consecutively, followed by arbitrary values: there must
+/// be room for a whole register. Returns their number. Compressing directly to memory, as Highway's
+/// CompressStore does on AVX-512, is slow on some processors (AMD Zen 4).
 template <class D>
 HWY_INLINE std::size_t compress_store(D d, hn::Vec<D> values, hn::Mask<D> mask, hn::TFromD<D>* to) {
   hn::StoreU(compress(d, values, mask), d, to);
   return hn::CountTrue(d, mask);
 }
 
-/// Returns 1 / values, to within two roundings; infinity for 0, and 0 for infinity.
+/// Returns 1 / values, accurate to two roundings; infinity for 0 and 0 for infinity.
 template <class D>
 HWY_INLINE hn::Vec<D> reciprocal(D d, hn::Vec<D> values) {
-#if HWY_MAX_BYTES == 64  // one of Newton's steps is faster than a division
+#if HWY_MAX_BYTES == 64  // a Newton step is faster than a division
   const auto about = hn::ApproximateReciprocal(values);
   const auto rest = hn::NegMulAdd(about, values, hn::Set(d, 1.0F));
-  // The first guess is exact where it or the value is 0 or infinite. The rest is then NaN or -inf,
-  // which no comparison with -1 holds for; of all others it is nearly 0.
+  // The first guess is exact if it or the value is 0 or infinite. The rest is then NaN or -inf and
+  // fails the comparison with -1; otherwise it is nearly 0.
   return hn::IfThenElse(hn::Gt(rest, hn::Set(d, -1.0F)), hn::MulAdd(about, rest, about), about);
 #else
   return hn::Div(hn::Set(d, 1.0F), values);
@@ -75,7 +75,7 @@ HWY_INLINE hn::Vec<D> reciprocal(D d, hn::Vec<D> values) {
 }
 HWY_INLINE Floats reciprocal(Floats values) { return reciprocal(Tag(), values); }
 
-/// Calls `test(lane)` for the first lane of each register and joins the masks it returns.
+/// Calls `test(lane)` for the first lane of each register and combines the masks it returns.
 template <class Test>
 HWY_INLINE LaneBits for_each_register(Test test) {
   LaneBits bits = 0;

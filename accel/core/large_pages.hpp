@@ -1,5 +1,5 @@
 #pragma once
-// Memory in pages of two megabytes.
+// Memory in 2 MiB pages.
 
 #include <cstddef>
 #include <new>
@@ -9,10 +9,10 @@
 
 namespace beambench::accel {
 
-/// Allocates arrays of many megabytes with scattered accesses: with pages of 4 KiB most accesses
-/// miss the translation cache, and the first touch of a page costs more than writing its contents.
-/// Linux provides pages of 2 MiB on request ("madvise"); where it does not, these are ordinary
-/// pages. Memory always begins with a cache line.
+/// Allocates arrays of many megabytes with scattered accesses: with 4 KiB pages most accesses miss
+/// the TLB, and the first touch of a page costs more than writing its contents. Linux provides 2
+/// MiB pages on request ("madvise"); otherwise these are ordinary pages. The memory always begins
+/// at a cache line.
 template <class T>
 struct LargePages {
   using value_type = T;
@@ -27,7 +27,7 @@ struct LargePages {
     const std::size_t bytes = count * sizeof(T);
     void* const memory = ::operator new(bytes, alignment(bytes));
 #if defined(MADV_HUGEPAGE)
-    // A request: a refusal changes no result.
+    // Only a request: if it is refused, results are the same.
     if (bytes >= kPage) static_cast<void>(::madvise(memory, bytes, MADV_HUGEPAGE));
 #endif
     return static_cast<T*>(memory);

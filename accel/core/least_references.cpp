@@ -15,7 +15,7 @@ namespace {
 
 double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
 
-/// Returns the areas that the largest triangle of a polygon projects to along each axis.
+/// Returns the projected areas, along each axis, of a polygon's largest triangle.
 glm::dvec3 projected_areas(const scenes::Scene& scene, const scenes::Polygon& polygon,
                            const glm::dvec3& faces) {
   glm::dvec3 most(0.0);
@@ -30,9 +30,9 @@ glm::dvec3 projected_areas(const scenes::Scene& scene, const scenes::Polygon& po
   return most;
 }
 
-/// Returns a lower bound of the same areas for the lateral surface of a cone. Along an axis, the
-/// section through the cone's own axis is visible, except what may be seen through both open ends;
-/// or the ring between the ends.
+/// Returns a lower bound of the projected areas of a cone's lateral surface. Along an axis, one
+/// sees either the section through the cone's own axis, minus what shows through both open ends, or
+/// the ring between the ends.
 glm::dvec3 projected_areas(const scenes::Cone& cone) {
   const glm::dvec3 along = glm::dvec3(cone.apex) - glm::dvec3(cone.base);
   const double length = glm::length(along);
@@ -49,8 +49,8 @@ glm::dvec3 projected_areas(const scenes::Cone& cone) {
   return areas;
 }
 
-/// Returns lower bounds of the areas that a primitive's surface projects to along each axis;
-/// `faces` are those of a cell, across each axis.
+/// Returns lower bounds of the projected areas of a primitive's surface along each axis; `faces`
+/// are the areas of a cell's faces, across each axis.
 glm::dvec3 projected_areas(const scenes::Scene& scene, scenes::PrimitiveId id,
                            const glm::dvec3& faces) {
   const scenes::Primitive& primitive = scene.primitives[id];
@@ -67,9 +67,10 @@ glm::dvec3 projected_areas(const scenes::Scene& scene, scenes::PrimitiveId id,
   return glm::dvec3(0.0);
 }
 
-/// Returns a lower bound of the number of cell edges that a sphere crosses: twice each line along
-/// an axis that lies no nearer to its edge, seen along that axis, than half a cell's diagonal.
-/// Where a line is longer in the sphere than a cell, it crosses two edges, each once.
+/// Returns a lower bound of the number of cell edges that a sphere crosses: two for each grid line
+/// that, seen along its axis, lies at least half a cell's diagonal inside the sphere's outline.
+/// Such a line is longer in the sphere than a cell, so the sphere crosses two of its edges, each
+/// once.
 double crossed_edges(const scenes::Sphere& sphere, const glm::dvec3& cell,
                      const glm::dvec3& faces) {
   double edges = 0.0;
@@ -84,15 +85,14 @@ double crossed_edges(const scenes::Sphere& sphere, const glm::dvec3& cell,
 }
 
 /// The minimum number of cells per crossed edge. A sphere that crosses an edge once overlaps the
-/// four cells around it, and of one cell it crosses at most six edges: the corners lie on a sphere
-/// of their own, so that those inside are cut off by a plane, and a plane crosses at most six
-/// edges.
+/// four cells around it, and it crosses at most six edges of one cell: a cell's corners lie on a
+/// sphere, so a plane separates those inside, and a plane crosses at most six edges.
 constexpr double kCellsPerCrossedEdge = 4.0 / 6.0;
 
 }  // namespace
 
 double least_cells(const scenes::Scene& scene, scenes::PrimitiveId id, const glm::dvec3& cell) {
-  constexpr double kRounding = 1.0 - 1e-6;  // of floats and of the box, amply
+  constexpr double kRounding = 1.0 - 1e-6;  // of floats and of the box, with ample margin
   const glm::dvec3 faces{cell.y * cell.z, cell.z * cell.x, cell.x * cell.y};
   const glm::dvec3 extent(scenes::primitive_bounds(scene, id).extent());
   double most =
@@ -113,8 +113,8 @@ double least_references(const scenes::Scene& scene, const CellGrid& grid) {
   return references;
 }
 
-// So many references for each primitive that computing their minimum number takes negligible time;
-// small scenes have made the first of them in some milliseconds.
+// With this many references per primitive, computing the lower bound takes negligible time; small
+// scenes make that many in a few milliseconds.
 ReferenceLimit::ReferenceLimit(std::uint64_t most, const scenes::Scene& scene,
                                std::function<bool()> will_exceed)
     : most_(most),

@@ -1,5 +1,5 @@
 #pragma once
-// Predicts the references of a structure while they are made, so that too many are refused early.
+// Predicts the references of a structure during its build, so that too many are refused early.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,10 +12,10 @@
 
 namespace beambench::accel {
 
-/// Returns a lower bound of how many cells of that size, of a grid that holds the primitive, its
-/// surface overlaps: at least one, at least as many as cover the area that it projects to along an
-/// axis, as many as its box is long, and for a sphere, as many as lie around the edges of cells
-/// that it crosses.
+/// Returns a lower bound of the number of cells of that size, in a grid that contains the
+/// primitive, that its surface overlaps. It is the largest of: one; the number that covers its
+/// projected area along an axis; the length of its box in cells; and, for a sphere, the number of
+/// cells around the cell edges that it crosses.
 double least_cells(const scenes::Scene& scene, scenes::PrimitiveId id, const glm::dvec3& cell);
 
 /// Returns a lower bound of the references of all cells of a grid over the whole scene: the sum of
@@ -23,28 +23,28 @@ double least_cells(const scenes::Scene& scene, scenes::PrimitiveId id, const glm
 /// more.
 double least_references(const scenes::Scene& scene, const CellGrid& grid);
 
-/// Watches the references of a structure while they are made.
+/// Limits the references of a structure during its build.
 class ReferenceLimit {
  public:
   /// Allows at most `most`.
   explicit ReferenceLimit(std::uint64_t most) : most_(most), next_(most) {}
-  /// Allows at most `most`. As soon as there are many references for each primitive, `will_exceed`
-  /// is called once to predict whether there will be more, so that an excessive build ends there;
-  /// scenes of small primitives never pay for it. It must not return true for a build within the
-  /// limit.
+  /// Allows at most `most`. Once there are many references per primitive, `will_exceed` is called
+  /// once to predict whether the limit will be exceeded, so that an excessive build ends early;
+  /// scenes of small primitives never pay for the call. It must not return true for a build within
+  /// the limit.
   ReferenceLimit(std::uint64_t most, const scenes::Scene& scene, std::function<bool()> will_exceed);
-  /// Allows at most `most`, over all finest cells of a grid over the whole scene:
-  /// `least_references` of them are certain. Scene and grid outlive it.
+  /// Allows at most `most` in the finest cells of a grid over the whole scene, which will have at
+  /// least `least_references`. Scene and grid must outlive it.
   ReferenceLimit(std::uint64_t most, const scenes::Scene& scene, const CellGrid& grid);
 
-  /// Returns whether there will be more than the limit, now that `made` have been made.
+  /// Returns whether the limit will be exceeded, given that `made` references exist.
   bool exceeded(std::uint64_t made) { return made > next_ && is_too_much(made); }
 
  private:
   bool is_too_much(std::uint64_t made);
 
   std::uint64_t most_;
-  std::uint64_t next_;  ///< beyond which the next question is decided
+  std::uint64_t next_;  ///< number of references at which to check again
   std::function<bool()> will_exceed_;
 };
 

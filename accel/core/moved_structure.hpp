@@ -1,5 +1,5 @@
 #pragma once
-// A structure that has followed its scene from the first frame.
+// A structure built over the first frame of its scene and then updated.
 
 #include <memory>
 
@@ -11,30 +11,30 @@
 
 namespace beambench::accel {
 
-/// A structure with the scene below it, which moves.
+/// A structure and the moving scene that it is built over.
 struct MovingStructure {
   const scenes::Scene* target;            ///< the scene in its present frame
   std::unique_ptr<scenes::Scene> moving;  ///< null where the scene does not move
   std::unique_ptr<Accelerator> built;
 };
 
-/// Returns a copy of a scene's first frame, to be moved; null where the scene does not move.
+/// Returns a copy of a scene's first frame, to be moved; null if the scene is static.
 std::unique_ptr<scenes::Scene> copy_first_frame(const scenes::Scene& scene);
 
-/// A structure that is built over the first frame of a scene and then updated to the frame that the
-/// scene is in. Over a scene that does not move, it is updated to the same coordinates.
+/// A structure built over the first frame of a scene and then updated to the scene's current frame.
+/// For a static scene, it is updated to the same coordinates.
 class MovedStructure : private MovingStructure, public ForwardingAccelerator, public BoxHierarchy {
  public:
   /// Builds `choice` over the first frame of a scene, which must outlive it, without the checks of
-  /// `StructureChoice::build`. `moving` is that of `copy_first_frame`.
+  /// `StructureChoice::build`. `moving` is the result of `copy_first_frame`.
   MovedStructure(const StructureChoice& choice, const scenes::Scene& scene,
                  std::unique_ptr<scenes::Scene> moving, const Workload& workload);
 
-  /// Gives the scene below the structure the coordinates of the present frame.
+  /// Moves the structure's scene to the coordinates of the current frame.
   void place();
   /// Describes the structure, if it is a hierarchy.
   void describe(TreeQuality& tree) const override;
-  /// Updates the structure to them. Throws UnsupportedError where it must be built anew.
+  /// Updates the structure to them. Throws UnsupportedError if it must be rebuilt.
   void update();
 };
 

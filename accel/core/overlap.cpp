@@ -130,7 +130,8 @@ bool cone_overlaps(const scenes::Cone& cone, const Box& box, double tolerance) {
     const double distance = glm::length(point - (base + unit_axis * height));
     const double taper = (static_cast<double>(cone.apex_radius) - cone.base_radius) / length;
     const double radius = cone.base_radius + height * taper;
-    // The distance to a slanted surface is less than that within the disc; widen by the slope.
+    // The distance to a slanted surface is less than the distance within the disc; widen by the
+    // slope.
     const double margin = tolerance * (1.0 + std::abs(taper));
     all_below = all_below && height < -tolerance;
     all_above = all_above && height > length + tolerance;
@@ -141,7 +142,7 @@ bool cone_overlaps(const scenes::Cone& cone, const Box& box, double tolerance) {
 
 namespace {
 
-/// Rounding of the axis tests relative to the products they are made of, amply.
+/// Rounding error of the axis tests relative to their products, with ample margin.
 constexpr double kRounding = 0x1p-48;
 
 /// Returns one bit for each of the box's 6 face, 12 edge and 8 corner planes that the point is

@@ -15,34 +15,33 @@ struct Box {
   glm::dvec3 upper;
 };
 
-/// Returns whether the surface comes within `tolerance` of the box. Never false when it does; where
-/// noted, also true slightly beyond. The box is solid, the primitive hollow: a box wholly inside a
-/// sphere does not overlap it.
+/// Returns whether the surface comes within `tolerance` of the box. Conservative where noted: true
+/// for some surfaces slightly farther away, but never false for one within. The box is solid, the
+/// primitive hollow: a box entirely inside a sphere does not overlap it.
 bool surface_overlaps(const scenes::Scene& scene, scenes::PrimitiveId id, const Box& box,
                       double tolerance);
 
-/// Returns whether two primitives have the same surface, number by number, and so overlap the same
-/// boxes. False for the same surface in another form, such as a polygon that begins at another
-/// corner.
+/// Returns whether two primitives have the same surface, number for number, and so overlap the same
+/// boxes. False for the same surface in another form, such as a polygon listed from another corner.
 bool same_surface(const scenes::Scene& scene, scenes::PrimitiveId a, scenes::PrimitiveId b);
 
-/// Exact, by interval evaluation of |x - c|^2 - r^2 over the box (Ratschek and Rokne, "Test for
-/// intersection between box and sphere", 1994; Arvo, Graphics Gems, 1990).
+/// Tests a sphere; exact, by interval evaluation of |x - c|^2 - r^2 over the box (Ratschek and
+/// Rokne, "Test for intersection between box and sphere", 1994; Arvo, Graphics Gems, 1990).
 bool sphere_overlaps(const scenes::Sphere& sphere, const Box& box, double tolerance);
 
-/// Exact except for the widening at corners. The polygon's corners are first tested against the 6
-/// face, 12 edge and 8 corner planes of the box (Voorhies, Graphics Gems III, 1992; as outcodes:
-/// Green and Hatch, Graphics Gems V, 1995); the rest is decided triangle by triangle of its
-/// surface, so that concave polygons need no special case.
+/// Tests a polygon; exact except for the widening at corners. The polygon's corners are first
+/// tested against the 6 face, 12 edge and 8 corner planes of the box (Voorhies, Graphics Gems III,
+/// 1992; as outcodes: Green and Hatch, Graphics Gems V, 1995); the rest is decided triangle by
+/// triangle of its surface, so that concave polygons need no special case.
 bool polygon_overlaps(const scenes::Scene& scene, const scenes::Polygon& polygon, const Box& box,
                       double tolerance);
 
-/// Exact except for the widening at corners, by the 13 separating axes of box and triangle
-/// (Akenine-Möller, "Fast 3D triangle-box overlap testing", 2001).
+/// Tests a triangle; exact except for the widening at corners, by the 13 separating axes of box and
+/// triangle (Akenine-Möller, "Fast 3D triangle-box overlap testing", 2001).
 bool triangle_overlaps(const std::array<glm::dvec3, 3>& corners, const Box& box, double tolerance);
 
-/// Conservative: the box of the end discs, the planes of the ends, the distance to the axis and,
-/// inside, the corners against the solid cone.
+/// Tests a cone; conservative: against the box of the end discs, the planes of the ends, the
+/// distance to the axis and, for boxes inside, the corners against the solid cone.
 bool cone_overlaps(const scenes::Cone& cone, const Box& box, double tolerance);
 
 }  // namespace beambench::accel

@@ -22,7 +22,7 @@ inline float next_above(float value) {
 inline scenes::Bounds padded(const scenes::Bounds& bounds, double tolerance) {
   scenes::Bounds wider;
   for (int axis = 0; axis < 3; ++axis) {
-    // One more float outward covers the rounding of the difference and of its conversion.
+    // One float further outward covers the rounding of the difference and of its conversion.
     const auto lower = static_cast<float>(bounds.lower[axis] - tolerance);
     const auto upper = static_cast<float>(bounds.upper[axis] + tolerance);
     wider.lower[axis] = -next_above(-lower);
@@ -31,7 +31,7 @@ inline scenes::Bounds padded(const scenes::Bounds& bounds, double tolerance) {
   return wider;
 }
 
-/// Returns for each primitive a box that contains every point at which a canonical test may hit it,
+/// Returns a box for each primitive that contains every point at which a canonical test may hit it,
 /// before t is rounded (tolerance.hpp).
 inline std::vector<scenes::Bounds> padded_primitive_bounds(const scenes::Scene& scene) {
   const double tolerance = overlap_tolerance(scene);

@@ -1,5 +1,5 @@
 #pragma once
-// Selects which of Highway's targets a kernel runs on, where it is not always the best.
+// Selects the Highway target that a kernel runs on, which is not always the best one.
 
 #include <cstdint>
 #include <type_traits>
@@ -8,11 +8,11 @@
 
 namespace beambench::accel {
 
-/// Returns the entry of a HWY_DISPATCH_TABLE for the best of `targets` (of `targets_of`) that this
-/// machine has. HWY_DYNAMIC_DISPATCH would read a global variable.
+/// Returns the entry of a HWY_DISPATCH_TABLE for the best of `targets` (from `targets_of`) that
+/// this machine supports. HWY_DYNAMIC_DISPATCH would read a global variable.
 template <class Table>
 auto pick_target(const Table& table, std::int64_t targets) {
-  if constexpr (std::extent_v<Table> == 1) {  // compiled for one target alone
+  if constexpr (std::extent_v<Table> == 1) {  // compiled for a single target
     return table[0];
   } else {
     hwy::ChosenTarget chosen;

@@ -13,8 +13,7 @@
 
 namespace beambench::accel {
 
-/// Returns the direction in which a mirror of this unit normal reflects `incoming`; lengths are
-/// kept.
+/// Returns the reflection of `incoming` in a mirror with this unit normal; its length is kept.
 inline glm::dvec3 mirrored(const glm::dvec3& incoming, const glm::dvec3& normal) {
   return incoming - 2.0 * glm::dot(incoming, normal) * normal;
 }
@@ -25,26 +24,27 @@ inline glm::dvec3 mirrored(const glm::dvec3& incoming, const glm::dvec3& normal)
 /// by row. Throws InputError for other counts.
 std::vector<glm::dvec2> sample_offsets(int samples);
 
-/// The rays of an image, made on demand. Directions satisfy forward . d = 1 before rounding, so t
-/// is view depth. They are computed in double and each component is rounded once to float.
+/// The rays of an image, computed on demand. Directions satisfy forward . d = 1 before rounding, so
+/// t is view depth. They are computed in double and each component is rounded once to float.
 class PrimaryRays {
  public:
   /// Throws InputError when width or height is not in 1 ... 16384 or samples has no pattern.
   PrimaryRays(const scenes::Camera& camera, int width, int height, int samples);
 
   /// Returns the rays of the same samples behind a mirror, the plane through `point` with a unit
-  /// `normal`: those of the virtual eye, the mirror image of the eye (Heckbert and Hanrahan, "Beam
-  /// tracing polygonal objects", SIGGRAPH 1984). A ray's t continues from where the real ray met
-  /// the mirror. The eye is rounded to float.
+  /// `normal`. They start from the virtual eye, the mirror image of the eye (Heckbert and Hanrahan,
+  /// "Beam tracing polygonal objects", SIGGRAPH 1984). A ray's t continues from where the real ray
+  /// met the mirror. The eye is rounded to float.
   PrimaryRays mirrored(const glm::dvec3& point, const glm::dvec3& normal) const;
 
-  /// Returns rays of the same samples in other directions, which are given up to a common factor:
-  /// that of the image's top left corner, and the vectors from there across the image and down.
+  /// Returns rays of the same samples in other directions, which are defined up to a common factor
+  /// by the direction of the image's top left corner and the vectors from there across the image
+  /// and down.
   PrimaryRays with_directions(const glm::dvec3& top_left, const glm::dvec3& across,
                               const glm::dvec3& all_down) const;
 
-  /// Returns the rays through the corners of these pixels, one each, as an image that is one larger
-  /// in width and height.
+  /// Returns the rays through the corners of these pixels, one for each, as an image that is one
+  /// pixel wider and higher.
   PrimaryRays at_corners() const;
 
   int width() const { return width_; }
@@ -72,8 +72,7 @@ class PrimaryRays {
       }
     }
   }
-  /// Returns the ray through a point of the image plane in pixel units, (0, 0) being its top left
-  /// corner.
+  /// Returns the ray through a point of the image plane in pixels; (0, 0) is the top left corner.
   Ray ray_at(double px, double py) const {
     Ray ray;
     ray.origin = eye_;

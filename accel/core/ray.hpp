@@ -12,13 +12,12 @@ namespace beambench::accel {
 
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// The minimum length of the longest component of a direction. With smaller ones, the other
-/// components soon become too small for a normal float and lose digits, or count as 0 where
-/// denormals do.
+/// The minimum length of the longest component of a direction. In shorter directions, the other
+/// components soon become subnormal and lose digits, or count as 0 where subnormals are flushed.
 inline constexpr float kShortestDirection = 1e-30F;
 
 /// The points origin + t * direction with t in the interval of `in_interval`. The direction need
-/// not have unit length; t counts in its units (for primary rays: view depth).
+/// not have unit length; t is in units of its length (view depth for primary rays).
 struct Ray {
   glm::vec3 origin{0.0F};
   float t_min = 0.0F;
@@ -26,10 +25,10 @@ struct Ray {
   float t_max = kInfinity;
 };
 
-/// The rule for the ends of a ray, the same for structures, oracle, exact search and hits files: a
-/// hit counts if its t, rounded once to float, is finite and lies in the closed interval
-/// [t_min, t_max]. So a ray whose t_max is the t of its own hit has that hit; a t beyond the
-/// largest float is not a hit, whatever t_max is.
+/// Returns whether t is in the ray's interval; the same rule for structures, oracle, exact search
+/// and hits files. A hit counts if its t, rounded once to float, is finite and lies in the closed
+/// interval [t_min, t_max]. So a ray whose t_max is the t of its own hit still has that hit; a t
+/// beyond the largest float is never a hit.
 inline bool in_interval(const Ray& ray, float t) {
   return t >= ray.t_min && t <= ray.t_max && t <= std::numeric_limits<float>::max();
 }
@@ -37,8 +36,8 @@ inline bool in_interval(const Ray& ray, double t) {
   return in_interval(ray, static_cast<float>(t));
 }
 
-/// Where a ray meets a primitive first. `t` was computed in double and rounded once; it is finite,
-/// and a zero is +0.
+/// The first point at which a ray meets a primitive. `t` was computed in double and rounded once;
+/// it is finite, and a zero is +0.
 struct Hit {
   float t;
   scenes::PrimitiveId primitive;
@@ -46,8 +45,8 @@ struct Hit {
   friend bool operator==(const Hit&, const Hit&) = default;
 };
 
-/// The order of hits: the nearer first, at equal t the lower primitive id. This makes "the closest
-/// hit" one hit, whatever the order in which primitives are tested.
+/// Orders hits: the nearer first; at equal t, the lower primitive id. This makes "the closest hit"
+/// unique, whatever the order in which primitives are tested.
 constexpr bool precedes(const Hit& a, const Hit& b) {
   return a.t < b.t || (a.t == b.t && a.primitive < b.primitive);
 }

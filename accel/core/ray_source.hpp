@@ -9,11 +9,11 @@
 
 namespace beambench::accel {
 
-/// One ray, an image or a batch. A view: what it is made from must outlive it, as an argument does
-/// the call. Results are numbered from 0; those of an image as `HitBuffer` numbers its samples.
+/// A view of one ray, an image or a batch, which must outlive it, as an argument outlives a call.
+/// Results are numbered from 0; those of an image as `HitBuffer` numbers its samples.
 class RaySource {
  public:
-  // Implicit, so that a query is given what it is to trace.
+  // Implicit, so that a query accepts each of them directly.
   RaySource(const Ray& ray) : ray_(&ray) {}
   RaySource(const PrimaryRays& image) : image_(&image) {}
   RaySource(const RayBatch& batch) : batch_(&batch) {}
@@ -23,7 +23,7 @@ class RaySource {
   const PrimaryRays* image() const { return image_; }
   const RayBatch* batch() const { return batch_; }
 
-  /// The number of rays.
+  /// Returns the number of rays.
   std::size_t size() const {
     if (image_ != nullptr) return image_->count();
     return batch_ != nullptr ? batch_->rays.size() : 1;

@@ -1,5 +1,5 @@
 #pragma once
-// The registry: structure names with parameters to built structures.
+// The registry, which maps structure names and parameters to structures.
 
 #include <cstddef>
 #include <functional>
@@ -19,39 +19,40 @@ namespace beambench::accel {
 
 /// The way in which a structure's hits are verified.
 enum class Conformance {
-  kBitExact,   ///< equal to `exhaustive` bit for bit, id and t
-  kTolerance,  ///< arithmetic of its own: classified by the differ
-  kBaseline    ///< returns misses by design (`null`), and nothing else
+  kBitExact,   ///< id and t equal those of `exhaustive` bit for bit
+  kTolerance,  ///< different arithmetic: hits are classified by the differ
+  kBaseline    ///< returns only misses by design (`null`)
 };
 
-/// The purpose of a structure, as far as it is known; structures choose `auto` parameters by it. It
-/// changes no hit.
+/// The expected use of a structure, as far as it is known; determines `auto` parameters, but never
+/// hits.
 struct Workload {
-  scenes::Camera camera;  ///< of the primary rays, or of those that secondary rays start from
-  std::size_t rays;       ///< their approximate number
+  scenes::Camera camera;  ///< of the primary rays, or of those that spawn the secondary rays
+  std::size_t rays;       ///< approximate number of rays
   int threads = 1;        ///< for tracing an image; 0: see `thread_count`
-  bool has_lists = true;  ///< false if images are traced, and nothing else
+  bool has_lists = true;  ///< false if only images are traced
 };
 
-/// Returns the workload to assume where none is known: 640x480 rays from the scene's first camera.
+/// Returns the workload to assume when none is known: 640x480 rays from the scene's first camera.
 inline Workload usual_workload(const scenes::Scene& scene) {
   constexpr std::size_t kUsual = 640UL * 480UL;
   return {scene.cameras.front(), kUsual, 1};
 }
 
-/// One structure as the user sees it in `beambench list`.
+/// A structure as `beambench list` shows it to the user.
 struct StructureInfo {
   std::string name;
-  std::string summary;  ///< one sentence with the source in the literature
+  std::string summary;  ///< one sentence that cites the source in the literature
   Conformance conformance;
   std::vector<ParameterInfo> parameters;
-  /// Builds it over a scene that outlives it, for a workload. Throws InputError when the parameters
-  /// do not suit the scene (a cap is exceeded); the message names the parameter to change.
+  /// Builds the structure over a scene, which must outlive it, for a workload. Throws InputError if
+  /// the parameters do not suit the scene (a cap is exceeded); the message names the parameter to
+  /// change.
   std::function<std::unique_ptr<Accelerator>(const scenes::Scene&, const Parameters&,
                                              const Workload&)>
       build;
-  Support support{};     ///< the rays and primitives that it takes
-  std::string origin{};  ///< the file of the plug-in that it comes from; empty: built in
+  Support support{};     ///< supported rays and primitives
+  std::string origin{};  ///< the plug-in's file; empty if built in
 };
 
 /// A structure chosen by the user, with checked parameters: `samet:max_level=6`.
@@ -62,20 +63,20 @@ class StructureChoice {
 
   const StructureInfo& info() const { return *info_; }
   const Parameters& parameters() const { return parameters_; }
-  /// `samet:max_level=6,max_objects=0,...` with every parameter.
+  /// Returns the label with every parameter: `samet:max_level=6,max_objects=0,...`.
   std::string label() const { return parameters_.label(); }
-  /// The name and the parameters that are not at their defaults.
+  /// Returns the name with the parameters that are not at their defaults.
   std::string short_label() const { return parameters_.short_label(); }
 
-  /// Returns whether it is built over a scene's first frame, and updated (`update_parameter`).
+  /// Returns whether it is built over a scene's first frame and then updated (`update_parameter`).
   bool updates() const;
 
-  /// Builds the structure; one that `updates()` is a MovedStructure. Throws UnsupportedError over
-  /// primitives that it does not support; InputError also when it is expected to take more memory
-  /// than is available (`require_build_memory`); std::logic_error when it ignores a parameter it
-  /// was given.
+  /// Builds the structure; a MovedStructure if `updates()`. Throws UnsupportedError if it does not
+  /// support the scene's primitives; InputError also if it is expected to take more memory than is
+  /// available (`require_build_memory`); std::logic_error if it does not read a parameter that was
+  /// set.
   std::unique_ptr<Accelerator> build(const scenes::Scene& scene, const Workload& workload) const;
-  /// Builds it for the usual workload.
+  /// Builds the structure for the usual workload.
   std::unique_ptr<Accelerator> build(const scenes::Scene& scene) const;
 
  private:
@@ -83,9 +84,9 @@ class StructureChoice {
   Parameters parameters_;
 };
 
-/// Returns the parameter of a structure that can be updated (`Accelerator::update`), a flag: over a
-/// scene that has moved it is then built over the first frame and updated to the present one, in
-/// place of being built anew.
+/// Returns the flag `update` of structures that can be updated (`Accelerator::update`). With it, a
+/// structure over a scene that has moved is built over the first frame and updated to the current
+/// one instead of being rebuilt.
 ParameterInfo update_parameter();
 
 /// The meaning of a counter; printed by `beambench list --counters`.
@@ -94,7 +95,7 @@ struct CounterInfo {
   std::string meaning;  ///< one sentence
 };
 
-/// Returns the counters of every structure, in the order of `Counter`.
+/// Returns the counters that all structures share, in the order of `Counter`.
 std::span<const CounterInfo> common_counters();
 
 class Registry {
@@ -102,7 +103,7 @@ class Registry {
   void add(StructureInfo info);
   /// Registers the counters that a structure has besides `common_counters()`.
   void describe_counters(const std::string& structure, std::vector<CounterInfo> counters);
-  /// Returns nothing for a structure without counters of its own.
+  /// Returns the counters registered for a structure; empty if there are none.
   std::span<const CounterInfo> own_counters(const std::string& structure) const;
 
   /// Returns the structures in the order of registration.
@@ -110,13 +111,14 @@ class Registry {
   /// Chooses a structure. Throws InputError for an unknown name (with the nearest valid name and
   /// all valid ones) or parameter.
   StructureChoice choose(const Spec& spec) const;
-  /// Chooses a structure; `all` is every structure with its defaults. Throws like `choose`.
+  /// Chooses a structure, or for `all` every structure with its defaults. Throws like `choose`.
   std::vector<StructureChoice> choose_all(const Spec& spec) const;
   /// Reads a comma-separated list as typed after --accel.
   std::vector<StructureChoice> choose_list(std::string_view text) const;
 
  private:
-  /// Refuses a parameter that other structures have, and names them. Leaves others to `Parameters`.
+  /// Refuses a parameter that only other structures have, and names them. Other unknown parameters
+  /// are left to `Parameters`.
   void require_own_parameter(const StructureInfo& structure, const std::string& name) const;
 
   std::vector<StructureInfo> structures_;
@@ -126,8 +128,8 @@ class Registry {
 /// Returns all structures of this program: the built-in ones, then those of plug-ins.
 const Registry& registry();
 
-/// Adds the structures of a plug-in, which were validated (harness/plugin/validation.hpp), to
-/// `registry()`. Must be called before the first choice is made: choices point into the registry.
+/// Adds the structures of a plug-in, already validated (harness/plugin/validation.hpp), to
+/// `registry()`. Must be called before the first choice: choices point into the registry.
 void register_plugin_structures(std::vector<StructureInfo> structures);
 
 }  // namespace beambench::accel

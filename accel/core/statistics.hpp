@@ -1,5 +1,5 @@
 #pragma once
-// Statistics that a structure reports after it was built.
+// Statistics that a structure reports after its build.
 
 #include <algorithm>
 #include <cstdint>
@@ -11,15 +11,15 @@
 
 namespace beambench::accel {
 
-/// The way in which a structure receives the rays of an image (`Accelerator::closest_hits`): making
-/// them and storing the hits is the harness's own share of a trace.
+/// The way in which a structure receives the rays of an image (`Accelerator::closest_hits`):
+/// generating them and storing the hits is the harness's share of a trace.
 enum class ImageRays : std::uint8_t {
   kSingle,  ///< one by one, from `PrimaryRays::ray`
-  kSimd,    ///< in packets made (of a list: filled) by SIMD, hits stored by SIMD
-  kOwn      ///< makes samples of its own, or needs no rays: the harness has no share
+  kSimd,    ///< in packets generated (lists: gathered) by SIMD; hits stored by SIMD
+  kOwn      ///< generates its own samples or needs no rays: the harness has no share
 };
 
-/// Sizes of a built structure; 0 where a family has no such thing.
+/// Sizes of a built structure; 0 if a family has no such quantity.
 struct Statistics {
   std::uint64_t nodes = 0;         ///< interior nodes and leaves
   std::uint64_t leaves = 0;        ///< empty ones included
@@ -27,19 +27,19 @@ struct Statistics {
   std::uint64_t references = 0;    ///< entries in the leaves' lists of primitives
   std::uint64_t depth = 0;         ///< levels of the deepest leaf, the root being level 1
   std::uint64_t bytes = 0;         ///< memory the structure holds, without the scene
-  /// Whether its queries use SIMD, and which: the instruction set that they selected ("AVX2").
-  /// Empty: none, they are scalar code, compiled for what the build's flags allow.
+  /// The SIMD instruction set that its queries selected ("AVX2"). Empty if they are scalar code,
+  /// compiled for what the build's flags allow.
   std::string instruction_set;
   ImageRays image_rays = ImageRays::kSingle;
-  /// The types in which a library holds the primitives, joined by '+'; empty where they are tested
-  /// by the project's own functions (accel/core/intersect.hpp).
+  /// The library's geometry types that hold the primitives, joined by '+'; empty if the project's
+  /// own functions test them (accel/core/intersect.hpp).
   std::string library_geometry;
-  /// The library whose code traces, and its version: "Embree 3.13.5"; empty: the project's own
-  /// code.
+  /// The library that traces the rays, with its version: "Embree 3.13.5"; empty for the project's
+  /// own code.
   std::string library_version;
-  std::vector<std::pair<std::string, double>> more;  ///< what the family adds, by name
+  std::vector<std::pair<std::string, double>> more;  ///< figures that the family adds, by name
 
-  /// Returns a figure of `more`; nothing where the family does not add it.
+  /// Returns a figure of `more`; nothing if the family does not add it.
   std::optional<double> figure(std::string_view name) const {
     const auto found = std::ranges::find(more, name, &std::pair<std::string, double>::first);
     return found == more.end() ? std::nullopt : std::optional(found->second);

@@ -6,7 +6,7 @@
 
 namespace beambench::accel {
 
-/// The ray sources and the kinds of primitives that a structure takes. Where it lacks one that is
+/// The ray sources and the kinds of primitives that a structure supports. If it lacks one that is
 /// requested, records have the verdict `unsupported`: neither a time nor an error.
 struct Support {
   bool single_rays = true;
@@ -16,7 +16,7 @@ struct Support {
   bool cones = true;
   bool polygons = true;
 
-  /// Returns whether it takes each kind of primitive in the scene.
+  /// Returns whether it supports every kind of primitive in the scene.
   bool includes(const scenes::Scene& scene) const {
     return (spheres || scene.spheres.empty()) && (cones || scene.cones.empty()) &&
            (polygons || scene.polygons.empty());
@@ -25,7 +25,7 @@ struct Support {
   friend bool operator==(const Support&, const Support&) = default;
 };
 
-/// Thrown where a structure does not support its input (`Support`).
+/// Thrown if a structure does not support its input (`Support`).
 class UnsupportedError : public InputError {
  public:
   using InputError::InputError;

@@ -24,7 +24,7 @@ void on_threads(int threads, const std::function<void()>& work) {
       tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
                                   std::max(allowed, static_cast<std::size_t>(count)));
-  // A new arena takes over the floating-point mode of the thread that creates it.
+  // A new arena inherits the floating-point mode of the thread that creates it.
   tbb::task_arena arena(count);
   arena.execute(work);
 }
@@ -32,7 +32,7 @@ void on_threads(int threads, const std::function<void()>& work) {
 void on_default_threads(const std::function<void()>& work) {
   const int count = thread_count(0);
   if (count >= tbb::info::default_concurrency()) return work();
-  // Not a global_control: of several the least counts, so that no work could request more.
+  // Not a global_control: the lowest of several applies, so work could not request more threads.
   tbb::task_arena arena(count);
   arena.execute(work);
 }

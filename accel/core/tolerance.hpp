@@ -1,6 +1,6 @@
 #pragma once
-// How far a computed hit may lie from its primitive, by how much overlaps are widened for it, and
-// the distances from surfaces and lights at which rays begin and end.
+// How far a computed hit may lie from its primitive, how much overlaps are widened for this, and
+// how far from surfaces and lights rays begin and end.
 
 #include <algorithm>
 #include <cmath>
@@ -14,21 +14,21 @@ namespace beambench::accel {
 
 /// The numeric contract in one number.
 ///
-/// A canonical ray-primitive test computes t in double; before it is rounded to float the point
+/// A canonical ray-primitive test computes t in double; before it is rounded to float, the point
 /// origin + t * direction lies within `kHitSlack` x (distance to the farthest point involved) of
-/// its primitive: the tests reject what does not (`intersect_*.hpp`). An eye within 8 scene sizes
-/// is at most 10 diagonals from any primitive, and 2 x 10 x 2^-35 < 2^-30 (2: beside a corner).
+/// its primitive: the tests reject all other points (`intersect_*.hpp`). An eye within 8 scene
+/// sizes is at most 10 diagonals from any primitive, and 2 x 10 x 2^-35 < 2^-30 (2: beside a
+/// corner).
 ///
-/// Overlaps of cells and boxes with primitives are therefore widened by 2^-30 diagonals, plus what
-/// double arithmetic loses on coordinates far from the origin. A traversal in double then finds the
-/// primitive in the cell that holds the point of its unrounded t. Rounding to float is monotonic:
-/// a traversal may stop at a cell when the best rounded t is strictly less than the cell's
-/// *rounded* exit t, for a hit beyond the exit cannot round below it, and one that rounds to the
-/// same t as the best (a tie, which goes to the lowest id) is still tested.
+/// Overlaps of cells and boxes with primitives are therefore widened by 2^-30 diagonals, plus the
+/// rounding error of double arithmetic on coordinates far from the origin. A traversal in double
+/// then finds the primitive in the cell that holds the point of its unrounded t. Rounding to float
+/// is monotonic: a traversal may stop at a cell when the best rounded t is strictly less than the
+/// cell's *rounded* exit t, because a hit beyond the exit cannot round below it, and one that
+/// rounds to the same t as the best (a tie, which goes to the lowest id) is still tested.
 inline constexpr double kHitSlack = 0x1p-35;
 
-/// The amount by which box-primitive overlaps over this scene are widened on every side, in scene
-/// units.
+/// Returns how far box-primitive overlaps in this scene are widened on every side, in scene units.
 inline double overlap_tolerance(const scenes::Scene& scene) {
   if (scene.bounds.empty()) return 0.0;
   const glm::dvec3 lower(scene.bounds.lower);
@@ -38,37 +38,38 @@ inline double overlap_tolerance(const scenes::Scene& scene) {
   return 0x1p-30 * glm::length(upper - lower) + 0x1p-48 * coordinate;
 }
 
-/// u, the unit in which points on a ray are compared: 2^-24 x (largest |coordinate| of the point +
-/// distance of the ray's origin from the origin of the coordinates). Floats cannot place the point
-/// much better. Only ray and point matter, so a large primitive elsewhere blurs nothing.
+/// Returns u, the unit in which points on a ray are compared: 2^-24 x (largest |coordinate| of the
+/// point + distance of the ray's origin from the origin of the coordinates). Floats cannot locate
+/// the point much more precisely. Only ray and point matter, so a large primitive elsewhere has no
+/// effect.
 inline double float_unit(const glm::dvec3& origin, const glm::dvec3& point) {
   const glm::dvec3 size = glm::abs(point);
   return 0x1p-24 * (std::max({size.x, size.y, size.z}) + glm::length(origin));
 }
 
 /// The number of u within which two points count as one (K): about four times the worst residual
-/// that Embree's float kernels showed.
+/// observed in Embree's float kernels.
 inline constexpr double kUnits = 16.0;
 
-/// The distance from a surface, along its normal, at which rays begin where a ray from `origin` met
-/// it at `point`; also that before a light at `point` at which its shadow rays end. It is four
-/// times the length within which the differ cannot distinguish points.
+/// Returns how far from a surface, along its normal, rays begin after a ray from `origin` met it at
+/// `point`; also how far before a light at `point` its shadow rays end. It is four times the
+/// distance within which the differ cannot distinguish points.
 inline double surface_lift(const glm::dvec3& origin, const glm::dvec3& point) {
   return 4.0 * kUnits * float_unit(origin, point);
 }
 
-/// The distance from a planar mirror at which the rays begin that it reflects. Rays from one point
-/// then still come from one point, the virtual eye moved by this length. `polygons` are the bounds
-/// of the mirror's polygons.
+/// Returns how far from a planar mirror the reflected rays begin. Rays from one point then still
+/// come from one point, the virtual eye moved by this distance. `polygons` are the bounds of the
+/// mirror's polygons.
 inline double mirror_lift(const scenes::Bounds& polygons) {
   if (polygons.empty()) return 0.0;
   const glm::dvec3 farthest(glm::max(glm::abs(polygons.lower), glm::abs(polygons.upper)));
   return surface_lift(farthest, farthest);
 }
 
-/// The t_max of a ray from `origin` whose direction leads to the light: it ends a little before the
-/// light, so that a surface on which the light lies does not hide it. 0 where that would be before
-/// the origin.
+/// Returns the t_max of a ray from `origin` whose direction is the vector to the light: the ray
+/// ends slightly before the light, so that a surface on which the light lies does not hide it. 0 if
+/// that would be before the origin.
 inline float t_before_light(const glm::dvec3& origin, const glm::dvec3& light) {
   const double distance = glm::distance(origin, light);
   return static_cast<float>(std::max(1.0 - surface_lift(origin, light) / distance, 0.0));

@@ -13,20 +13,20 @@
 
 namespace beambench::accel {
 
-/// A ray-primitive test and its result. The test accepts hits up to the best one so far only:
-/// beyond it a primitive is missed.
+/// A ray-primitive test and its result. The test accepts only hits up to the best one so far; a
+/// primitive beyond it counts as missed.
 struct TestedPrimitive {
   scenes::PrimitiveId primitive;
   float t;  ///< kMiss (canonical_ray.hpp) where the test found nothing
 };
 
-/// A place that the ray entered: a cell, a node, a leaf.
+/// A cell, node or leaf that the ray entered.
 struct TraceStep {
-  std::string_view place = "scene";  ///< what it is, in the family's word: "leaf"
+  std::string_view place = "scene";  ///< the family's word for it, such as "leaf"
   std::uint64_t index = 0;           ///< its number in the structure
-  int level = 0;                     ///< the root being level 1; 0 where there are no levels
+  int level = 0;                     ///< the root being level 1; 0 if there are no levels
   std::optional<Box> box{};
-  double t_enter = 0.0;  ///< where the ray is in it, as the traversal computed it
+  double t_enter = 0.0;  ///< the ray's interval in it, as the traversal computed it
   double t_exit = 0.0;
   std::vector<TestedPrimitive> tests{};  ///< in the order they were made
 };

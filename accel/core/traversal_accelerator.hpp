@@ -1,5 +1,5 @@
 #pragma once
-// Derives the whole contract of a structure from one traversal, written once.
+// Derives a structure's whole contract from a single traversal.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,16 +14,15 @@
 
 namespace beambench::accel {
 
-/// Implements `Accelerator` for a structure that writes each query once, as a template over the
-/// policy (`NoCounting`, `WorkCounters` or `StepRecorder`; see NoCounting for what it is called
-/// with):
+/// Implements `Accelerator` for a structure that defines each query once, as a template over the
+/// policy (`NoCounting`, `WorkCounters` or `StepRecorder`; `NoCounting` describes its calls):
 ///
 ///     template <class Counting> std::optional<Hit> find_closest(const Ray&, Counting&) const;
 ///     template <class Counting> bool find_any(const Ray&, Counting&) const;
 ///
-/// A loop over rays calls these directly: no virtual call inside a traversal or between two rays.
+/// A loop over rays calls these directly, without virtual calls in a traversal or between rays.
 ///
-/// The structure is its own inspector, which shows the paths of rays; it may override more of
+/// The structure is its own inspector and shows the paths of rays; it may override more of
 /// `Inspector`.
 template <class Structure>
 class TraversalAccelerator : public Accelerator, public Inspector {

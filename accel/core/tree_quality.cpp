@@ -58,7 +58,7 @@ double area_of(const scenes::Scene& scene, scenes::PrimitiveId id) {
 }
 
 /// Calls `put(share, angle)` for evenly distributed points of a surface of revolution: the share of
-/// the surface up to the point, and an angle that grows by the golden angle.
+/// the surface up to the point, and an angle that advances by the golden angle.
 template <class Put>
 void for_each_point(const Put& put) {
   const double golden = std::numbers::pi * (3.0 - std::sqrt(5.0));
@@ -79,7 +79,7 @@ std::vector<glm::dvec3> points_of(const scenes::Sphere& sphere) {
   return points;
 }
 
-/// A circle's share of the surface is proportional to its radius.
+/// The area per unit of height is proportional to the radius.
 std::vector<glm::dvec3> points_of(const scenes::Cone& cone) {
   const glm::dvec3 base(cone.base);
   const glm::dvec3 axis = glm::dvec3(cone.apex) - base;
@@ -148,13 +148,12 @@ bool meets(const scenes::Bounds& a, const scenes::Bounds& b) {
 /// The overlap of one primitive with the nodes of a hierarchy.
 class Overlap {
  public:
-  /// `places`: of the primitive in the list of all leaves' primitives, ascending.
+  /// `places` are the primitive's positions in the list of all leaves' primitives, ascending.
   Overlap(std::span<const TreeQuality::Entry> entries, std::span<const std::size_t> places,
           const Surface& surface, const scenes::Bounds& bounds)
       : entries_(entries), places_(places), surface_(surface), bounds_(bounds) {}
 
-  /// Returns the sum over all nodes that the primitive is not below of their cost times the area
-  /// inside.
+  /// Returns the sum of cost x area inside over all nodes that the primitive is not below.
   double weighted_area() const {
     double sum = 0.0;
     for (std::uint32_t node = 0; node < entries_.size();) {
@@ -184,7 +183,7 @@ class Overlap {
   scenes::Bounds bounds_;
 };
 
-/// A primitive that stands for `weight` of its size.
+/// A primitive that represents `weight` of its size.
 struct Sample {
   scenes::PrimitiveId id;
   double weight;
@@ -238,7 +237,7 @@ double TreeQuality::sah_cost() const {
 }
 
 double TreeQuality::epo(const scenes::Scene& scene) const {
-  // The places of each primitive: those of id are [ends[id], ends[id + 1]).
+  // The positions of each primitive: those of id are [ends[id], ends[id + 1]).
   std::vector<std::size_t> ends(scene.primitives.size() + 1, 0);
   for (const scenes::PrimitiveId id : primitives_) ++ends[id + 1];
   std::partial_sum(ends.begin(), ends.end(), ends.begin());

@@ -1,5 +1,5 @@
 #pragma once
-// How good a hierarchy of boxes is expected to be for rays, in one model for all structures.
+// Estimates the quality of a hierarchy of boxes by one cost model for all structures.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,11 +13,11 @@
 namespace beambench::accel {
 
 /// Computes two figures of a hierarchy, by the cost model of Aila, Karras and Laine ("On quality
-/// metrics of bounding volume hierarchies", 2013): 0.6 for each child of an interior node, whose
-/// box is tested, hence their 1.2 for a binary node, and 1 for each primitive of a leaf.
+/// metrics of bounding volume hierarchies", 2013): 0.6 for testing the box of each child of an
+/// interior node (hence their 1.2 for a binary node) and 1 for each primitive of a leaf.
 /// - `sah_cost`: the costs of all nodes, weighted by their areas over that of the root;
-/// - `epo` (end-point overlap): the costs of all nodes, weighted by the share of the surface that
-///   lies in their boxes, but is not of the primitives below them.
+/// - `epo` (end-point overlap): the costs of all nodes, weighted by the share of the scene's
+///   surface that lies in their boxes but does not belong to the primitives below them.
 ///
 /// The hierarchy is described from the root down: `open` a node, describe its children or add the
 /// primitives of a leaf, `close` it.
@@ -29,9 +29,9 @@ class TreeQuality {
 
   bool empty() const { return entries_.empty(); }
   double sah_cost() const;
-  /// Returns an exact result for polygons in scenes of at most `kMostSamples` primitives. In larger
-  /// scenes as many are drawn, at equal steps of the sum of their areas. The surfaces of spheres
-  /// and cones are `kSolidPoints` points.
+  /// Returns the end-point overlap, exact for polygons in scenes of at most `kMostSamples`
+  /// primitives. In larger scenes, that many are sampled at equal steps of their cumulative area.
+  /// The surfaces of spheres and cones are represented by `kSolidPoints` points.
   double epo(const scenes::Scene& scene) const;
 
   static constexpr std::size_t kMostSamples = 4096;
@@ -40,10 +40,10 @@ class TreeQuality {
   /// A node in preorder.
   struct Entry {
     scenes::Bounds box;
-    std::uint32_t end = 0;       ///< index just behind all below it
+    std::uint32_t end = 0;       ///< index just past its subtree
     std::uint32_t children = 0;  ///< 0 for a leaf
-    std::size_t first = 0;       ///< the subtree's first place in the list of primitives
-    std::size_t last = 0;        ///< just behind its last
+    std::size_t first = 0;       ///< the subtree's first position in the list of primitives
+    std::size_t last = 0;        ///< just past its last
 
     double cost() const;
   };
@@ -56,7 +56,7 @@ class TreeQuality {
   std::vector<scenes::PrimitiveId> primitives_;
 };
 
-/// A structure that is a hierarchy of boxes. An `Accelerator` derives from it, too.
+/// A structure that is a hierarchy of boxes; a second base class beside `Accelerator`.
 class BoxHierarchy {
  public:
   BoxHierarchy() = default;
@@ -64,12 +64,12 @@ class BoxHierarchy {
   BoxHierarchy& operator=(const BoxHierarchy&) = delete;
   virtual ~BoxHierarchy() = default;
 
-  /// Describes all nodes; none where there are none.
+  /// Describes all nodes, if any.
   virtual void describe(TreeQuality& tree) const = 0;
 };
 
 /// Adds `sah_cost` and `epo` to the statistics of a structure over `scene` if it is a
-/// `BoxHierarchy`. Takes up to a second for a million primitives, so `statistics()` leaves it out.
+/// `BoxHierarchy`. Takes up to a second for a million primitives, so `statistics()` omits them.
 void append_quality(const Accelerator& structure, const scenes::Scene& scene,
                     Statistics& statistics);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Memory in pages of two megabytes that is not set to zero first.
+// Memory in 2 MiB pages that is not initialized.
 
 #include <new>
 #include <utility>
@@ -9,8 +9,8 @@
 
 namespace beambench::accel {
 
-/// Allocates like LargePages, for arrays that are filled right after `resize`, which leaves new
-/// elements as they are.
+/// Allocates like LargePages, for arrays that are filled right after `resize`; new elements are
+/// left uninitialized.
 template <class T>
 struct UnsetLargePages : LargePages<T> {
   UnsetLargePages() = default;

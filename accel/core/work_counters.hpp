@@ -12,7 +12,7 @@
 
 namespace beambench::accel {
 
-/// The counters that mean the same in every family of structures.
+/// The counters with the same meaning in every family of structures.
 enum class Counter : std::size_t {
   kTraversalSteps,  ///< cells or nodes entered by a ray, leaves included
   kLeaves,          ///< leaves entered, empty ones included
@@ -32,8 +32,8 @@ inline constexpr std::array<std::string_view, 3> kTestNames{"sphere_tests", "con
 
 /// The policy of timed code: nothing is counted, no step recorded. A traversal calls its policy
 /// - for each piece of work it does (`add`; for ray-primitive tests `add_tests`),
-/// - for each place it enters (`enter`): `make()` returns the `TraceStep`; only the policy that
-///   needs it calls it (`StepRecorder`),
+/// - for each place it enters (`enter`): `make()` returns the `TraceStep` and is called only by
+///   `StepRecorder`,
 /// - for each ray-primitive test in that place, with its t or kMiss (`tested`).
 struct NoCounting {
   static constexpr void add(Counter, std::uint64_t = 1) {}
@@ -45,7 +45,7 @@ struct NoCounting {
   static constexpr void tested(scenes::PrimitiveId, float) {}
 };
 
-/// The policy of the counting pass. A family adds counters of its own by name.
+/// The policy of the counting pass. A family adds its own counters by name.
 class WorkCounters {
  public:
   template <class Make>
@@ -57,8 +57,8 @@ class WorkCounters {
   }
   void add(std::string_view name, std::uint64_t amount = 1);
   void add(const WorkCounters& other);
-  /// Counts ray-primitive tests of one kind: `Counter::kPrimitiveTests`, split. Triangles of
-  /// polygons are tests of polygons.
+  /// Counts ray-primitive tests of one kind, as parts of `Counter::kPrimitiveTests`. Tests of a
+  /// polygon's triangles count as tests of polygons.
   void add_tests(scenes::PrimitiveKind kind, std::uint64_t amount = 1) {
     add(Counter::kPrimitiveTests, amount);
     const auto index = static_cast<std::size_t>(kind);
@@ -67,7 +67,7 @@ class WorkCounters {
 
   std::uint64_t get(Counter counter) const { return standard_[static_cast<std::size_t>(counter)]; }
   /// Returns all counters by name: the standard ones, then the family's own; `sphere_tests`,
-  /// `cone_tests` and `polygon_tests` where there were tests and all were counted by kind.
+  /// `cone_tests` and `polygon_tests` if there were tests and all were counted by kind.
   std::map<std::string, std::uint64_t, std::less<>> by_name() const;
 
  private:
@@ -76,7 +76,8 @@ class WorkCounters {
   std::map<std::string, std::uint64_t, std::less<>> own_;
 };
 
-/// Calls `query(counting)` with the policy for `counters`: itself, or NoCounting where it is null.
+/// Calls `query(counting)` with the policy for `counters`: `*counters`, or NoCounting if it is
+/// null.
 template <class Query>
 decltype(auto) with_counting(WorkCounters* counters, const Query& query) {
   if (counters != nullptr) [[unlikely]] {
