@@ -13,20 +13,21 @@
 
 namespace beambench::accel::beam {
 
-/// Rays of the beam cross `first` before `second`. `line` is its image, negative inside.
+/// A cut: the beam's rays cross `first` before `second`. `line` is the cut's image, negative
+/// inside.
 struct BeamCut {
   Crossing first;
   Crossing second;
   ImageLine line;
 };
 
-/// The pyramid from the eye through a convex polygon (thesis, section 3.2), where it enters a leaf.
+/// The pyramid from the eye through a convex polygon (thesis, section 3.2), as it enters a leaf.
 ///
 /// The cuts alone decide which samples belong to the beam, by comparing numbers that every beam
 /// computes in the same way for a ray (`crosses_before`). `outline` covers all of these samples.
-/// Cuts that are not near the outline hold for all its samples and are dropped. So there are about
-/// as many cuts as the outline has edges, and as in the thesis, the cost of a beam does not depend
-/// on the resolution.
+/// Cuts that are not near the outline hold for all its samples and are dropped. There are thus
+/// about as many cuts as the outline has edges and, as in the thesis, the cost of a beam does not
+/// depend on the resolution.
 struct Beam {
   std::uint32_t node;  ///< the leaf, its index in the octree
   std::int32_t size;   ///< finest cells along the leaf's edges
@@ -34,13 +35,13 @@ struct Beam {
   ImagePolygon outline;
   FixedVector<BeamCut, 56> cuts;
 
-  /// Returns whether there are too many cuts for one more division, which adds up to 5 for the exit
-  /// and 2 per level for the neighbors.
+  /// Returns whether there are too many cuts for one more division, which adds up to 5 cuts for the
+  /// exit and 2 per level for the neighbors.
   bool crowded() const { return cuts.size() > 20; }
 };
 
-/// Returns the part of a beam on the inner side of all `cuts`: the clipped outline, and those of
-/// the old and new cuts that are near the new outline. If nothing is left, the outline is empty.
+/// Returns the part of a beam on the inner side of all `cuts`: the clipped outline, with the old
+/// and new cuts that are near it. If nothing is left, the outline is empty.
 Beam part_of(const Beam& beam, std::span<const BeamCut> cuts);
 
 }  // namespace beambench::accel::beam

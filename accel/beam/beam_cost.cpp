@@ -12,15 +12,15 @@ namespace {
 constexpr int kWindows = 8;  // per row and per column
 
 /// The ratio of a window's side to that of its part of the image: chosen for four beams per
-/// thousand rays, so that counting takes about a hundredth of tracing.
+/// thousand rays, so that counting takes about 1% of the tracing time.
 double window_size(double rays, double beams) {
   return std::clamp(std::sqrt(0.004 * rays / std::max(1.0, beams)), 1.0 / 32.0, 1.0 / 4.0);
 }
 
-/// A window somewhere in its part of the image: not in the middle, which may show the middle planes
-/// of a scene edge-on.
+/// A window in its part of the image, but not in the middle, which may show the scene's middle
+/// planes edge-on.
 ImagePolygon window(int column, int row, double size) {
-  // Kronecker's sequence of the plastic number: evenly distributed in both directions.
+  // Kronecker sequence of the plastic number: evenly distributed in both directions.
   const double number = row * kWindows + column + 1.0;
   const double across = std::fmod(number * 0.7548776662466927, 1.0);
   const double down = std::fmod(number * 0.5698402909980532, 1.0);
@@ -36,10 +36,10 @@ ImagePolygon window(int column, int row, double size) {
 }
 
 /// Returns whether the window's left or lower edge cuts a beam. Such a beam is not counted; all
-/// others that reach into the window are. So each beam, whatever its size, is counted with the
-/// probability of the window's share of the image (Gundersen's unbiased counting frame: "Notes on
-/// the estimation of the numerical density of arbitrary profiles: the edge effect", Journal of
-/// Microscopy 111(2), 1977).
+/// others that overlap the window are. So each beam, whatever its size, is counted with a
+/// probability equal to the window's share of the image (Gundersen's unbiased counting frame:
+/// "Notes on the estimation of the numerical density of arbitrary profiles: the edge effect",
+/// Journal of Microscopy 111(2), 1977).
 bool forbidden(const ImagePolygon& outline, const ImagePolygon& window) {
   constexpr double kNear = 1e-9;
   for (const glm::dvec2& corner : outline) {

@@ -6,8 +6,8 @@
 namespace beambench::accel::beam {
 
 /// Estimates how many beams of a camera meet an empty leaf and how many end at an occupied one.
-/// Traces beams through windows spread over the image, which are small if many beams are `expected`
-/// for few rays; the estimate is unbiased. No sample is traced.
+/// Traces beams through windows spread over the image; the windows are small if `expected` is large
+/// relative to the number of rays. The estimate is unbiased. No sample is traced.
 void count_beams(const octree::Octree& octree, const Workload& workload,
                  const octree::OctreeWork& expected, octree::OctreeWork& work);
 

@@ -21,8 +21,8 @@ inline void count_parts(std::uint64_t parts, BeamQueue& queue) {
   }
 }
 
-/// Calls `visit(part, above)` for the parts of a beam that cross a face, as all its rays do, below
-/// and above a plane of another axis.
+/// Calls `visit(part, above)` for the parts of a beam that cross a face below and above a plane of
+/// another axis. All rays of the beam must cross the face.
 template <class Visit>
 void halve(const EyeView& view, const Crossing& face, int axis, std::int32_t index,
            const Beam& beam, BeamQueue& queue, Visit visit) {
@@ -59,7 +59,7 @@ inline Beam part_entering(const EyeView& view, const Crossing& face, const Beam&
     const int axis = (face.axis + other) % 3;
     const Crossing lower = view.crossing_of(axis, 0);
     const Crossing upper = view.crossing_of(axis, view.grid().cells[axis]);
-    // A ray that crosses the face is beyond the planes that it crossed before.
+    // A ray that crosses the face is beyond the planes that it has already crossed.
     borders.push_back(lower.side > 0 ? cut_between(view, lower, face)
                                      : cut_between(view, face, lower));
     borders.push_back(upper.side > 0 ? cut_between(view, face, upper)
@@ -72,8 +72,8 @@ inline Beam part_entering(const EyeView& view, const Crossing& face, const Beam&
 /// The faces through which a beam leaves its leaf, and the lines on the image between them.
 ///
 /// The thesis finds the exit directions by the zones of the main face's plane and, in its conflict
-/// corners, by a second plane (section 3.5.1). Comparing the faces two by two is the same for all
-/// zones. Each line is made once and serves the faces on both of its sides.
+/// corners, by a second plane (section 3.5.1). Comparing the faces in pairs works the same way in
+/// all zones. Each line is computed once and used for the faces on both of its sides.
 class Exits {
  public:
   Exits(const EyeView& view, const Beam& beam) {
@@ -101,9 +101,9 @@ class Exits {
   }
 
  private:
-  /// Adds a face unless another face leaves it no more than a sliver of the beam, and removes the
-  /// faces to which it leaves no more. One of two compared faces always remains, so the remaining
-  /// faces divide all samples among them.
+  /// Adds a face unless another face leaves it at most a sliver of the beam, and removes the faces
+  /// to which it leaves at most a sliver. One of two compared faces always remains, so the
+  /// remaining faces divide all samples among them.
   void add(const EyeView& view, const Beam& beam, const Crossing& face) {
     std::array<ImageLine, 6> lines{};
     for (std::size_t i = 0; i < faces_.size();) {

@@ -11,11 +11,11 @@
 
 namespace beambench::accel::beam {
 
-/// The way in which samples are tested in an occupied leaf; the hits are the same.
+/// How samples are tested in an occupied leaf; the hits are the same.
 enum class LeafTest : std::uint8_t {
-  kSimd,    ///< against the images of primitives, a register of samples at once
+  kSimd,    ///< against the images of primitives, a register of samples at a time
   kScalar,  ///< against the images, one sample at a time
-  kExact    ///< by the canonical test only, as in structures that trace rays alone; no images
+  kExact    ///< by the canonical test only, as in structures that trace single rays; no images
 };
 
 /// Returns the kernels that test images; null if the test uses none.
@@ -24,14 +24,14 @@ const ProbeKernels* kernels_of(LeafTest leaf);
 /// (`Statistics::instruction_set`).
 std::string instruction_set_of(LeafTest leaf);
 
-/// The treatment of a beam's samples, whatever cells the beam passes through.
+/// How a beam's samples are treated, whatever cells the beam passes through.
 struct BeamRules {
   std::int64_t handover = 0;       ///< beams with fewer samples become individual rays
   bool share_corners = false;      ///< samples in the corners of pixels are shared between pixels
   bool continue_with_rays = true;  ///< behind an occupied leaf: rays (thesis), or the beam again
   LeafTest leaf = LeafTest::kSimd;
 
-  /// The parameters `handover`, `continue`, `share_corners` and `leaf`, and reading their values.
+  /// Returns the parameters `handover`, `continue`, `share_corners` and `leaf`.
   static std::vector<ParameterInfo> parameters(const BeamRules& defaults);
   static BeamRules from(const Parameters& parameters);
 };

@@ -17,8 +17,8 @@
 
 namespace beambench::accel::beam {
 
-/// Returns 1 for each sample of a buffer that needs no tracing, if that matters: some samples are
-/// not wanted, or beams continue behind occupied leaves. Otherwise empty.
+/// Returns 1 for each sample of a buffer that needs no tracing, if some samples are not wanted or
+/// beams continue behind occupied leaves. Otherwise empty.
 template <class Sight>
 std::vector<std::uint8_t> finished_samples(const BeamRules& rules, const Sight& sight,
                                            const HitSpan& buffer) {
@@ -29,13 +29,14 @@ std::vector<std::uint8_t> finished_samples(const BeamRules& rules, const Sight& 
 
 /// Finds the samples of beams and traces them (thesis, section 3.6), for one image. Beams are
 /// independent, so several painters, in threads or processes, can fill one image. They can share
-/// its buffer: two beams have no sample in common, unless one descends from the other. `Cells` are
+/// its buffer: two beams have no samples in common unless one descends from the other. `Cells` are
 /// the cells that beams pass through.
 template <class Watch, class Sight, class Cells = OctreeCells>
 class BeamPainter {
  public:
   /// `cells` belong to the scene. All arguments except `cells` and `rules` must outlive the
-  /// painter. The buffer begins as background, `finished` as `finished_samples`.
+  /// painter. The buffer must initially be background, and `finished` the result of
+  /// `finished_samples`.
   BeamPainter(const scenes::Scene& scene, const Cells& cells, const BeamRules& rules,
               const EyeView& view, const PrimaryRays& rays, const Sight& sight,
               const HitSpan& buffer, std::span<std::uint8_t> finished, Watch& watch)
@@ -127,8 +128,8 @@ class BeamPainter {
     return true;
   }
 
-  /// Traces a ray on its own behind a leaf, which it leaves at `exit_t` (thesis, section 3.6.2);
-  /// from its beginning, if that lies behind the leaf.
+  /// Traces a single ray behind a leaf, from `exit_t`, where it leaves the leaf (thesis, section
+  /// 3.6.2), or from its origin if that lies behind the leaf.
   void follow(const Beam& beam, const CellRay& cell_ray, double exit_t, LeafBatch::Sample& sample) {
     if (exit_t < sample.ray.t_min) {
       if (const auto hit = cells_.find_closest(sample.ray, counting_)) {
@@ -160,8 +161,8 @@ class BeamPainter {
     }
   }
 
-  /// Fills the batch with the beam's unfinished samples and calls `visit()`, as often as needed for
-  /// all of them.
+  /// Fills the batch with the beam's unfinished samples and calls `visit()`, repeatedly until all
+  /// are processed.
   template <class Visit>
   void for_each_batch(const Beam& beam, Visit visit) {
     batch_.clear();
@@ -182,7 +183,7 @@ class BeamPainter {
     return finished;
   }
 
-  /// Restores the hit that a sample found in leaves passed by its beam.
+  /// Restores the hit that a sample found in earlier leaves of its beam.
   void resume(LeafBatch::Sample& sample) const {
     for_each_index(sample, [&](std::size_t index) {
       if (const auto hit = buffer_.get(index)) sample.closest.keep(hit->t, hit->primitive);

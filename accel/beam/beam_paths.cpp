@@ -30,8 +30,8 @@ class Entry {
   Entry(const EyeView& view, const Crossing& face, BeamQueue& queue)
       : view_(&view), face_(face), queue_(&queue) {}
 
-  /// Divides a beam that enters the cursor's node by the face among the node's leaves there
-  /// (thesis, section 3.5.2.3) and appends them.
+  /// Divides a beam that enters the cursor's node through the face among the node's leaves at that
+  /// face (thesis, section 3.5.2.3) and appends the parts.
   void divide(const octree::OctreeCursor& cursor, const Beam& beam) const {
     if (beam.outline.empty()) return;
     if (const auto kind = met_in(cursor, *queue_)) {
@@ -107,8 +107,8 @@ Crossing nearest_plane(const octree::Octree& octree, const EyeView& view, int ax
           static_cast<std::int16_t>(axis), static_cast<std::int16_t>(side)};
 }
 
-/// Begins a beam, divided by the planes beside the eye, from this axis on. Rays along such a plane
-/// may be on its other side than the eye, and are in none of the parts.
+/// Begins a beam, divided by the planes next to the eye, from this axis on. Rays along such a plane
+/// may be on the side opposite the eye; they are in none of the parts.
 void begin_beside_planes(const octree::Octree& octree, const EyeView& view, int axis,
                          const Beam& screen, BeamQueue& queue) {
   if (screen.outline.empty()) return;

@@ -1,6 +1,6 @@
 #pragma once
 // Beams through the octree: where they begin, how they continue behind an empty leaf, and the stack
-// of waiting beams.
+// of pending beams.
 
 #include <algorithm>
 #include <cstddef>
@@ -19,8 +19,8 @@ struct BeamStep {
   Beam beam;
 };
 
-/// A stack of beams. Corners and cuts of all beams are stored in one array each, so that a beam
-/// takes no more memory than it needs, without its own allocation.
+/// A stack of beams. The corners and cuts of all beams are stored in one array each, so that a beam
+/// takes only the memory it needs and no separate allocation.
 class BeamStack {
  public:
   bool empty() const { return entries_.empty(); }
@@ -34,7 +34,7 @@ class BeamStack {
     cuts_.insert(cuts_.end(), beam.cuts.begin(), beam.cuts.end());
   }
 
-  /// Removes the last beam. Must not be called when empty.
+  /// Removes the last beam. The stack must not be empty.
   void pop(BeamStep& step) {
     const Entry entry = entries_.back();
     entries_.pop_back();
@@ -46,8 +46,8 @@ class BeamStack {
     take(cuts_, entry.cuts, step.beam.cuts);
   }
 
-  /// Removes the half that was pushed first: the beams nearest to the camera, with the most work
-  /// behind them.
+  /// Removes the half that was pushed first: the beams nearest to the camera, which have the most
+  /// work ahead of them.
   BeamStack take_older_half() {
     const auto half = static_cast<std::ptrdiff_t>(entries_.size() / 2);
     std::ptrdiff_t corners = 0;
@@ -91,19 +91,19 @@ class BeamStack {
   std::vector<BeamCut> cuts_;
 };
 
-/// Takes the beams that enter leaves of other parts if the octree is a part of a larger one.
+/// Receives the beams that enter leaves of other parts if the octree is part of a larger one.
 class BeamBorder {
  public:
   BeamBorder() = default;
   BeamBorder(const BeamBorder&) = delete;
   BeamBorder& operator=(const BeamBorder&) = delete;
   virtual ~BeamBorder() = default;
-  /// Handles a beam that enters a leaf through a face. Returns whether it is taken, so that it does
-  /// not wait here.
+  /// Handles a beam that enters a leaf through a face. Returns whether it is taken; if so, it is
+  /// not queued here.
   virtual bool takes(std::uint32_t leaf, const Crossing& face, const Beam& beam) = 0;
 };
 
-/// The nodes that beams pass as if they were empty leaves, whatever their size: they hold nothing
+/// The nodes, of any size, that beams pass as if they were empty leaves, because they hold nothing
 /// that the beams' rays could hit.
 class PassedNodes {
  public:
@@ -114,7 +114,7 @@ class PassedNodes {
   virtual bool has(const octree::OctreeCursor& node) const = 0;
 };
 
-/// Waiting beams, and the work of finding them.
+/// Pending beams, and counts of the work of finding them.
 ///
 /// The thesis counts a beam when one is created: at the beginning, and for each part of a beam that
 /// is cut. A beam that continues undivided is the same beam in another leaf (section 4.4.2:
@@ -123,19 +123,19 @@ struct BeamQueue {
   BeamStack waiting;
   std::uint64_t clips = 0;
   std::uint64_t neighbor_searches = 0;
-  std::uint64_t appended = 0;           ///< to `waiting`, or taken at the border
-  std::uint64_t made = 0;               ///< those at the beginning, and the parts of divided beams
+  std::uint64_t appended = 0;           ///< beams appended to `waiting` or taken at the border
+  std::uint64_t made = 0;               ///< initial beams, and the parts of divided beams
   std::uint64_t divided = 0;            ///< beams that continued in several parts
-  std::uint64_t passed_whole = 0;       ///< continued undivided: into one leaf, or out of the root
+  std::uint64_t passed_whole = 0;       ///< continued undivided into a leaf or out of the root
   BeamBorder* border = nullptr;         ///< if there is one
   const PassedNodes* passed = nullptr;  ///< if there are any
 };
 
 /// Appends the beams at which tracing begins (thesis, section 3.4), through a convex `part` of the
-/// image: all of it is `view.screen()`. From outside: for each face of the root that faces the
-/// camera, the part clipped to it, divided among the leaves behind it. From inside: the part itself
-/// in the leaf that contains the camera. Samples that belong to no beam miss the root, or run along
-/// a plane of the grid that nearby rays may pass on the other side of the eye.
+/// image; `view.screen()` is the whole image. From outside the root: for each face of the root that
+/// faces the camera, the part clipped to the face, divided among the leaves behind it. From inside:
+/// the part itself in the leaf that contains the camera. Samples that belong to no beam miss the
+/// root, or run along a plane of the grid that nearby rays may cross on the other side of the eye.
 void begin_beams(const octree::Octree& octree, const EyeView& view, const ImagePolygon& part,
                  BeamQueue& queue);
 

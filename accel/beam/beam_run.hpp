@@ -1,5 +1,5 @@
 #pragma once
-// Traces an image by beams, whatever cells they pass through.
+// Traces an image by beams through any kind of cells.
 
 #include <algorithm>
 #include <cstdint>
@@ -48,7 +48,7 @@ class BeamRun {
 
   BeamStack& waiting() { return queue_.waiting; }
 
-  /// Traces beams until none waits. Before each beam, `share(waiting)` may remove some.
+  /// Traces beams until none is pending. Before each beam, `share(waiting)` may remove some.
   template <class Share>
   void work(Share share) {
     BeamStep step;

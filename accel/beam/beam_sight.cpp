@@ -12,11 +12,11 @@ namespace {
 
 using glm::dvec3;
 
-/// A beam with fewer samples becomes single rays. An image's own beams never do by the thesis's
-/// rule, but a part of a mirror is covered by few samples: 500 were found in 8,000 beams. The
-/// fastest value of 0, 4, 8, 16, 32 and 64 over ajedrez, closed-room and habitacion.
+/// A beam with fewer samples becomes single rays. By the thesis's rule, beams of the image itself
+/// never do, but part of a mirror is covered by few samples: 8,000 beams had only 500. This was the
+/// fastest value of 0, 4, 8, 16, 32 and 64 on ajedrez, closed-room and habitacion.
 constexpr std::int64_t kSmallBeam = 8;
-/// The maximum number of pixels per ray of the pencil: in a sparser part, the buffers cost too
+/// The maximum number of pixels per ray of the pencil; for sparser parts, the buffers cost too
 /// much.
 constexpr std::size_t kSparsest = 64;
 
@@ -104,7 +104,7 @@ void BehindPlane::take_rays(const DriftingView& view, double limit) {
     glm::ivec2& end = ends[static_cast<std::size_t>(at.y)];
     end = {std::min(end.x, at.x), std::max(end.y, at.x)};
   }
-  // Samples are found to a rounding, and to a small part of a pixel (`SampleScan`).
+  // Samples are located up to rounding and a small fraction of a pixel (`SampleScan`).
   const double loss = 4.0 * direction_rounding(*view_) +
                       1e-5 * (glm::length(view_->right()) + glm::length(view_->down()));
   nearby_.deviation += loss;
@@ -124,8 +124,8 @@ void BehindPlane::take_rays(const DriftingView& view, double limit) {
   part_ = cover(corners);
 }
 
-/// Takes the plane through three origins that are far apart and below all others; if not all rays
-/// rise from that plane, the plane across the view.
+/// Takes a plane through three origins that are far apart, with all others above it; if not all
+/// rays rise from that plane, takes the plane across the view.
 void BehindPlane::find_plane() {
   const auto farthest = [&](auto distance) {
     dvec3 best(0.0);
@@ -151,8 +151,8 @@ void BehindPlane::find_plane() {
   limit_ = std::numeric_limits<double>::infinity();
   for_each_taken(
       [&](const Ray& ray) { limit_ = std::min(limit_, glm::dot(normal_, dvec3(ray.origin))); });
-  // More than the distance by which hits may lie beside their primitives, far less than that by
-  // which rays begin beside surfaces.
+  // Larger than the distance of a computed hit from its primitive, far smaller than the distance
+  // from surfaces at which rays begin.
   limit_ -= 16.0 * overlap_tolerance(*scene_);
 }
 

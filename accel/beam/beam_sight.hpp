@@ -22,7 +22,7 @@ namespace beambench::accel::beam {
 
 /// The policy of an image: all samples, starting at the eye.
 struct WholeImage {
-  /// Whether samples of beams that leave the root must be recorded as finished.
+  /// Whether samples of leaving beams must be recorded as finished.
   static constexpr bool kRecordsLeaving = false;
 
   static EyeView view(const CellGrid& grid, const PrimaryRays& rays) { return {grid, rays}; }
@@ -43,26 +43,25 @@ struct WholeImage {
   }
 };
 
-/// The policy of rays that begin at a plane, which reflects or refracts them, as samples of an
-/// image that is seen from behind it (Heckbert and Hanrahan, "Beam tracing polygonal objects",
-/// SIGGRAPH 1984; thesis, section 7.3).
+/// The policy of rays that begin at a plane that reflects or refracts them, as samples of an image
+/// seen from behind it (Heckbert and Hanrahan, "Beam tracing polygonal objects", SIGGRAPH 1984;
+/// thesis, section 7.3).
 ///
-/// Beams are divided as seen from one eye, but the rays are those of a list, whose lines pass
-/// beside it (`NearbyRays`). So the parts of a beam overlap as far as that may matter, and each ray
+/// Beams are divided as seen from one eye, but the rays are those of a list, whose lines pass near
+/// the eye (`NearbyRays`). So the parts of a beam overlap by as much as that requires, and each ray
 /// decides which part it belongs to. Objects behind the plane of the rays' origins do not divide
 /// beams: nodes that hold nothing in front of it, such as those of a mirror, are passed.
 class BehindPlane : public PassedNodes {
  public:
   static constexpr bool kRecordsLeaving = true;
 
-  /// The minimum number of rays; fewer are traced singly. In parts of 64x64 pixels at 640x480, 128
-  /// to 255 rays take 0.92 (ajedrez) to 1.5 times as long singly as in beams, 64 to 127 rays 0.58
-  /// to 1.4 times.
+  /// The minimum number of rays; fewer are traced singly. In parts of 64x64 pixels at 640x480,
+  /// tracing 128 to 255 rays singly takes 0.92 (ajedrez) to 1.5 times as long as in beams, and 64
+  /// to 127 rays 0.58 to 1.4 times.
   static constexpr std::size_t kFewest = 128;
 
-  /// Takes rays, with the samples from which they came, seen as in `view`: from an eye that may
-  /// drift. Rays that deviate by more than `limit` pixels are left out. All arguments must outlive
-  /// this object.
+  /// Takes rays, the samples they came from, and the view of them from an eye that may drift. Rays
+  /// that deviate by more than `limit` pixels are left out. All arguments must outlive this object.
   BehindPlane(std::span<const Ray> rays, std::span<const std::uint32_t> samples,
               const DriftingView& view, double limit, const scenes::Scene& scene,
               const octree::Octree& octree);
@@ -70,7 +69,7 @@ class BehindPlane : public PassedNodes {
   /// Returns a buffer for the smallest part of the image that contains all samples.
   HitBuffer buffer() const { return {size_.x, size_.y, view_->samples()}; }
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  /// For each ray, its place in the buffer, or kNone if it is left out.
+  /// Returns the place of each ray in the buffer, or kNone if it is left out.
   std::span<const std::uint32_t> places() const { return places_; }
   const PrimaryRays& image() const { return *view_; }
 
@@ -78,20 +77,20 @@ class BehindPlane : public PassedNodes {
     return {grid, rays, nearby_};
   }
   const ImagePolygon& part(const EyeView&) const { return part_; }
-  /// Each sample has its own ray, including those in the corners of pixels.
+  /// Returns the lattices of the samples; each sample has its own ray, even at pixel corners.
   std::vector<SampleLattice> lattices(const PrimaryRays& rays, bool share_corners) const;
-  /// Returns 1 for each place of the buffer that no ray has.
+  /// Returns 1 for each place of the buffer without a ray.
   std::vector<std::uint8_t> finished() const;
-  /// Returns some minimum even if the option is 0.
+  /// Returns a positive minimum even if the option is 0.
   static std::int64_t handover(const BeamRules& rules);
-  /// Returns the ray of a sample; the image's own where the list has none.
+  /// Returns the ray of a sample; the image's own if the list has none.
   Ray ray_of(const SampleScan& scan, const SampleLattice& lattice, int x, int y) const {
     const std::uint32_t ray = ray_at_[index_of(x, y, lattice)];
     return ray == kNone ? scan.ray(lattice, x, y) : rays_[ray];
   }
   SampleRay ray(const SampleScan&, const SampleLattice& lattice, int x, int y) const;
   const PassedNodes* passed() const { return this; }
-  /// Returns whether everything in a node is behind the plane of the rays' origins.
+  /// Returns whether all contents of a node are behind the plane of the rays' origins.
   bool has(const octree::OctreeCursor& node) const override;
 
  private:
@@ -127,7 +126,7 @@ class BehindPlane : public PassedNodes {
   std::vector<std::uint32_t> ray_at_;  ///< the ray of each place, or kNone
   ImagePolygon part_;
   NearbyRays nearby_{};
-  /// All rays are where dot(normal_, point) > limit_.
+  /// All rays lie where dot(normal_, point) > limit_.
   glm::dvec3 normal_{0.0};
   double limit_ = 0.0;
 };

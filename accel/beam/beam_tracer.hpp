@@ -20,26 +20,26 @@ namespace beambench::accel::beam {
 /// Beams of primary rays through an octree (González López, thesis 1999, chapters 3 and 4): in
 /// empty leaves the beams continue, divided by the faces and the leaves behind them; at an occupied
 /// leaf the samples of a beam become rays; samples that leave the root are background without a
-/// ray. Samet's traversal of the same octree traces individually the rays that pass an occupied
-/// leaf, and all rays that do not come from an image through planes alone.
+/// ray. Samet's traversal of the same octree traces individual rays: those that pass an occupied
+/// leaf, and all rays that do not come from an image via planes only.
 class BeamTracer : public octree::Samet {
  public:
   BeamTracer(const scenes::Scene& scene, const BeamOptions& options)
       : BeamTracer(scene, octree::Octree(scene, options.octree), options) {}
-  /// Makes a tracer over an existing octree.
+  /// Creates a tracer over an existing octree.
   BeamTracer(const scenes::Scene& scene, octree::Octree octree, const BeamOptions& options)
       : octree::Samet(scene, std::move(octree)), scene_(&scene), options_(options) {}
 
   const scenes::Scene& scene() const { return *scene_; }
   const BeamOptions& options() const { return options_; }
 
-  /// Traces an image in beams, which are shared among the context's threads: two have no sample in
-  /// common, unless one descends from the other. In a batch, traces what planes reflect and refract
-  /// in beams (`BehindPlane`), and all other rays one by one.
+  /// Traces an image in beams, which are shared among the context's threads: two have no samples in
+  /// common unless one descends from the other. In a batch, traces rays that planes reflect or
+  /// refract in beams (`BehindPlane`) and all other rays one by one.
   void closest_hits(const RaySource& rays, const HitSpan& hits,
                     const QueryContext& context) const override;
 
-  /// Samples become rays only at occupied leaves, so that not all of an image's rays are made.
+  /// Samples become rays only at occupied leaves, so not all of an image's rays are generated.
   Statistics statistics() const override {
     Statistics statistics = octree::Samet::statistics();
     statistics.image_rays = ImageRays::kOwn;
@@ -79,8 +79,8 @@ void BeamTracer::trace_watched(const PrimaryRays& rays, const HitSpan& buffer, W
   BeamRun<Watch, WholeImage>(*scene_, *this, options_, rays, sight, buffer, finished, watch)();
 }
 
-/// Builds the beam tracer that a choice names, as `StructureChoice::build`. Throws InputError also
-/// where the choice is another structure.
+/// Builds the beam tracer that a choice names, like `StructureChoice::build`. Also throws
+/// InputError if the choice is another structure.
 std::unique_ptr<BeamTracer> build_beam_tracer(const StructureChoice& choice,
                                               const scenes::Scene& scene, const Workload& workload);
 

@@ -28,17 +28,17 @@ enum class RayReason {
 
 /// The policy of timed code. A tracer reports to its policy
 /// - each beam and what it enters, before it is processed (`met`),
-/// - each sample when its beam has decided it or made it a ray (`painted`: its places in the hit
-///   buffer; samples of leaving beams only if `kPaintsLeaving`, since the buffer holds the
-///   background already),
+/// - each sample when its beam has decided it or turned it into a ray (`painted`: its places in the
+///   hit buffer; samples of leaving beams only if `kPaintsLeaving`, since the buffer already holds
+///   the background),
 /// - how many samples left the root (`left`) or were tested in a leaf (`tested`) with a beam, and
 ///   each that continues as a ray (`handed_over`),
 /// - that no beam is being processed until the next is met (`resting`),
-/// - each leaf that a single ray enters, at t: does it belong to another process (`leaves_part`)?
-///   There the ray ends, and `painted` follows with the best hit so far,
-/// - at the end, the work of dividing beams (`divided`), and that it is the end (`finished`),
-/// and gets from it the policy of individual rays (`rays`) and the samples of the image that the
-/// last beam met is to have (`chosen`).
+/// - each leaf that a single ray enters, at t; if it belongs to another process (`leaves_part`),
+///   the ray ends there, and `painted` follows with the best hit so far,
+/// - at the end, the work of dividing beams (`divided`) and the end itself (`finished`), and takes
+///   from it the policy of individual rays (`rays`) and the samples that the last beam met should
+///   have (`chosen`).
 struct NoBeamWatch {
   static constexpr bool kPaintsLeaving = false;
   static std::span<const SampleLattice> chosen(std::span<const SampleLattice> all) { return all; }
@@ -64,7 +64,7 @@ class OutlineBeamWatch : public NoBeamWatch {
     for (const glm::dvec2& corner : beam.outline) outline.corners.push_back(corner * pixels_);
   }
   void painted(std::size_t place) { outlines_.back().samples.push_back(place); }
-  /// A beam finds its samples lattice by lattice, and those that hit before the others.
+  /// Sorts each beam's samples: beams report them lattice by lattice, hits first.
   void finished() {
     for (BeamOutline& outline : outlines_) std::ranges::sort(outline.samples);
   }
@@ -91,7 +91,7 @@ class CountingBeamWatch {
     edges_ += beam.outline.size();
   }
   static constexpr void painted(std::size_t) {}
-  /// The number of samples of a leaving beam.
+  /// Counts the samples of a leaving beam.
   void left(std::uint64_t samples) { left_ += samples; }
   void tested(std::uint64_t samples) { tested_ += samples; }
   static constexpr bool leaves_part(const octree::OctreeNode&, double) { return false; }
@@ -107,7 +107,7 @@ class CountingBeamWatch {
     divided_ += queue.divided;
     passed_whole_ += queue.passed_whole;
   }
-  /// The image is done: the sums are added to the counters.
+  /// Adds the sums to the counters when the image is done.
   void finished();
   WorkCounters& rays() const { return *counters_; }
 

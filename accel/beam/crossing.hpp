@@ -1,6 +1,6 @@
 #pragma once
-// Determines which plane of the cell grid a ray from the eye crosses first: beams are divided by
-// this alone.
+// Determines which plane of the cell grid a ray from the eye crosses first; only this divides
+// beams.
 
 #include <algorithm>
 #include <array>
@@ -26,9 +26,9 @@ struct Crossing {
 };
 
 /// Returns whether the ray makes crossing `a` before `b`. A crossing that the ray does not make
-/// comes last. At the same t the lower axis is first, so that the crossings of a ray have a total
-/// order and every division of beams by them is a partition, however close to an edge or a vertex a
-/// ray passes.
+/// comes last. At equal t the lower axis is first, so that the crossings of a ray are totally
+/// ordered and every division of beams by them is a partition, however close a ray passes to an
+/// edge or vertex.
 inline bool crosses_before(const CellRay& ray, const Crossing& a, const Crossing& b) {
   const auto t = [&](const Crossing& crossing) {
     return ray.step(crossing.axis) == crossing.side ? ray.plane_t(crossing.axis, crossing.index)
@@ -40,23 +40,23 @@ inline bool crosses_before(const CellRay& ray, const Crossing& a, const Crossing
   return a.axis != b.axis ? a.axis < b.axis : a.side < b.side;
 }
 
-/// The minimum width of a part, in the units of `ImageLine`; the rays of a narrower one stay with
-/// the neighboring part. They deviate by at most 10 scene diagonals x 2^-39, far less than overlaps
-/// are widened by (`tolerance.hpp`), so no hit is lost, and rays that run exactly in a cell's face
-/// do not divide beams into slivers.
+/// The minimum width of a part, in the units of `ImageLine`; the rays of a narrower part stay with
+/// the neighboring part. They deviate by at most 10 scene diagonals x 2^-39, far less than the
+/// widening of overlaps (`tolerance.hpp`), so no hit is lost, and rays that lie exactly in a cell's
+/// face do not divide beams into slivers.
 inline constexpr double kSliver = 0x1p-39;
 
-/// Returns how far rounding a ray's direction to float may move it, in units of view depth 1.
+/// Returns how far rounding to float may move a ray's direction, at view depth 1.
 double direction_rounding(const PrimaryRays& rays);
 
-/// Rays that are nearly those of an image. The lines of rays that a planar mirror reflects pass its
-/// virtual eye, up to the rounding of their numbers. Those of rays that a plane refracts have no
-/// common point; but their courses change steadily from place to place (Shinya, Takahashi and
-/// Naito, "Principles and applications of pencil tracing", SIGGRAPH 1987), so the line of a sample
-/// passes near eye + drift * (its place - center).
+/// Rays that are nearly those of an image. The lines of rays reflected by a planar mirror pass
+/// through its virtual eye, up to rounding. Those of rays refracted by a plane have no common
+/// point, but they change smoothly across the image (Shinya, Takahashi and Naito, "Principles and
+/// applications of pencil tracing", SIGGRAPH 1987), so the line of a sample passes near eye + drift
+/// * (its place - center).
 ///
-/// A point of a ray deviates from the place of its sample by an angle, which is stated as a length
-/// at view depth 1. Other lengths are those of the scene.
+/// A point of a ray deviates from the place of its sample by an angle, expressed as a length at
+/// view depth 1. Other lengths are in scene units.
 struct NearbyRays {
   glm::dvec3 eye;
   glm::dvec2 center{0.0};  ///< a place on the image
@@ -64,7 +64,7 @@ struct NearbyRays {
   std::array<glm::dvec3, 2> drift{};
   double deviation = 0.0;           ///< its maximum, seen from the drifting eye
   double deviation_from_eye = 0.0;  ///< its maximum, seen from `eye`
-  double beside_eye = 0.0;  ///< the maximum distance at which the lines pass `eye`; not < drifted
+  double beside_eye = 0.0;  ///< the maximum distance of the lines from `eye`; at least `drifted`
   double drifted = 0.0;     ///< the maximum distance of the drifting eye from `eye`
   double radius = 0.0;      ///< the maximum distance of a place from `center`, at view depth 1
   double nearest = 0.0;     ///< the minimum view depth at which a ray begins
@@ -73,22 +73,22 @@ struct NearbyRays {
 /// The planes of a grid as seen from the camera.
 class EyeView {
  public:
-  /// The view for the rays of the image themselves, which all pass through the eye.
+  /// Views the rays of the image themselves, which all pass through the eye.
   EyeView(const CellGrid& grid, const PrimaryRays& rays);
-  /// The view for nearby rays in their place.
+  /// Views nearby rays instead.
   EyeView(const CellGrid& grid, const PrimaryRays& rays, const NearbyRays& nearby);
 
   const CellGrid& grid() const { return *grid_; }
   double eye(int axis) const { return eye_[static_cast<std::size_t>(axis)]; }
   glm::dvec3 eye() const { return {eye_[0], eye_[1], eye_[2]}; }
 
-  /// `direction_rounding` of the image's rays.
+  /// Returns `direction_rounding` of the image's rays.
   double rounding() const { return rounding_; }
-  /// The maximum deviation of the direction from the eye to any point of a ray from its sample's
+  /// Returns the maximum deviation, seen from the eye, of any point of a ray from its sample's
   /// place.
   double deviation() const { return nearby_ ? nearby_->deviation_from_eye : rounding_; }
-  /// Returns whether lines may pass the eye on the other side of a plane. If so, its crossing at
-  /// the eye is uncertain.
+  /// Returns whether the lines may pass the eye on the other side of a plane. If so, the crossing
+  /// of that plane at the eye is uncertain.
   bool eye_is_beside(const Crossing& crossing) const {
     return nearby_ && std::abs(distance(crossing)) <= 1.25 * nearby_->beside_eye;
   }
@@ -101,19 +101,19 @@ class EyeView {
   double distance(const Crossing& crossing) const {
     return crossing.side * (grid_->plane(crossing.axis, crossing.index) - eye(crossing.axis));
   }
-  /// Returns the crossing of a plane by the rays that do cross it.
+  /// Returns the crossing of a plane, for the rays that do cross it.
   Crossing crossing_of(int axis, std::int32_t index) const {
     const bool beyond = grid_->plane(axis, index) >= eye(axis);
     return {index, static_cast<std::int16_t>(axis), static_cast<std::int16_t>(beyond ? 1 : -1)};
   }
 
-  /// The line on the image between the rays that cross `a` first (negative) and those that cross
-  /// `b` first: the image of the edge that the two planes share, as a plane through it and the eye.
-  /// If a ray crosses neither, the sign is meaningless. Neither distance is negative.
+  /// Returns the line on the image between the rays that cross `a` first (negative) and those that
+  /// cross `b` first: the image of the edge shared by the two planes, as a plane through it and the
+  /// eye. If a ray crosses neither, the sign is meaningless. Neither distance may be negative.
   ///
   /// For nearby rays the line is moved outward, so that its negative side covers all rays that
-  /// cross `a` first and `b` behind their origins. The band is twice as wide, so that all rays
-  /// beyond it cross `a` first.
+  /// cross `a` first and `b` behind their origins. Its band is twice as wide, so that all rays
+  /// beyond the band cross `a` first.
   ImageLine line_before(const Crossing& a, const Crossing& b) const {
     const double distance_a = distance(a);
     const double distance_b = distance(b);
@@ -127,7 +127,7 @@ class EyeView {
     const ImageLine line{to_b.x - to_a.x, to_b.y - to_a.y, to_b.constant - to_a.constant, 0.0};
     return nearby_ ? moved_outward(line, a, b, size) : line;
   }
-  /// `line_before(b, a)` from `line_before(a, b)`.
+  /// Returns `line_before(b, a)`, given `line_before(a, b)`.
   static ImageLine other_side(const ImageLine& line) {
     return {-line.x, -line.y, -line.constant - line.band, line.band};
   }
@@ -136,7 +136,7 @@ class EyeView {
   static bool all_before(const ImageLine& line, const LineRange& range) {
     return range.high <= kSliver - line.band;
   }
-  /// Returns whether they all cross `b` first.
+  /// Returns whether all rays cross `b` first.
   static bool all_behind(const LineRange& range) { return range.low >= -kSliver; }
   /// Returns a line that is negative for the nearby rays in the direction of the crossing that, if
   /// the eye is beside its plane, cross it before their origins.
@@ -147,7 +147,7 @@ class EyeView {
   }
 
  private:
-  /// Returns the line for nearby rays.
+  /// Returns the line adapted to nearby rays.
   ImageLine moved_outward(ImageLine line, const Crossing& a, const Crossing& b, double size) const;
   /// Returns `factor` times the speed of rays in the direction of a crossing.
   ImageLine along(const Crossing& crossing, double factor) const {
@@ -159,7 +159,7 @@ class EyeView {
 
   const CellGrid* grid_;
   std::array<double, 3> eye_;
-  /// Each component of the direction through a point of the image, at view depth 1.
+  /// The components of the direction through a point of the image, at view depth 1.
   std::array<ImageLine, 3> direction_;
   double rounding_ = 0.0;
   std::optional<NearbyRays> nearby_;  ///< nothing for the rays of the image themselves

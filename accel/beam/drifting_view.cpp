@@ -33,7 +33,7 @@ struct Linear {
   Value at(const dvec2& place) const { return constant + across * place.x + down * place.y; }
 };
 
-/// Linear functions that are closest to values at given places.
+/// Fits linear functions to values at given places by least squares.
 class Regression {
  public:
   explicit Regression(std::span<const dvec2> places) : places_(places) {
@@ -49,7 +49,7 @@ class Regression {
   /// Returns whether the places are not all near one line.
   bool is_regular() const { return is_regular_; }
 
-  /// Returns the function closest to `value(i)` at the i-th place.
+  /// Returns the best fit to `value(i)` at the i-th place.
   template <class Value, class Of>
   Linear<Value> of(Of value) const {
     std::array<Value, 3> sums{Value(0.0), Value(0.0), Value(0.0)};
@@ -71,7 +71,7 @@ class Regression {
   bool is_regular_;
 };
 
-/// Returns the point closest to the rays' lines, a long way behind them where they are parallel.
+/// Returns the point closest to the rays' lines; for parallel lines, a point far behind them.
 dvec3 nearest_to_lines(std::span<const Ray> rays, const dvec3& ahead) {
   constexpr double kFaint = 1e-9;
   constexpr double kFar = 1e4;
@@ -93,9 +93,9 @@ dvec3 nearest_to_lines(std::span<const Ray> rays, const dvec3& ahead) {
   return glm::inverse(sums) * sum;
 }
 
-/// Returns the directions of an image that is closest to those of rays: a projective function of
-/// the place, up to a factor. Each direction s satisfies s (1 + tilt . p) = constant + ... , so
-/// that the tilt is the solution of two equations, and the rest is linear.
+/// Returns the directions of an image that best fit those of rays: a projective function of the
+/// place, up to a factor. Each direction s satisfies s (1 + tilt . p) = constant + ... , so the
+/// tilt is the solution of two equations, and the rest is linear.
 Linear<dvec3> projective_directions(std::span<const Ray> rays, std::span<const dvec2> places,
                                     const Regression& regression, const dvec3& ahead) {
   std::vector<dvec3> flat(rays.size());  // at view depth 1 as seen along `ahead`

@@ -56,8 +56,8 @@ struct ImageLine {
   double x;
   double y;
   double constant;
-  /// The width of the values, [-band, 0], at which a sample may be on either side, because its ray
-  /// runs beside the line through the eye (`NearbyRays`).
+  /// The width of the interval [-band, 0] of values at which a sample may be on either side,
+  /// because its ray does not pass exactly through the eye (`NearbyRays`).
   double band;
 
   double at(const glm::dvec2& point) const { return x * point.x + y * point.y + constant; }
@@ -83,9 +83,9 @@ inline LineRange range_over(const ImagePolygon& polygon, const ImageLine& line) 
   return range;
 }
 
-/// The part of a polygon, which has corners, where the line is at most `slack` (Sutherland and
-/// Hodgman, "Reentrant polygon clipping", CACM 17(1), 1974; one line per call). Without space for
-/// another corner, the whole polygon is returned, which covers more than necessary.
+/// Returns the part of a nonempty polygon where the line is at most `slack` (Sutherland and
+/// Hodgman, "Reentrant polygon clipping", CACM 17(1), 1974; one line per call). If there is no
+/// space for another corner, returns the whole polygon, which covers more than necessary.
 inline ImagePolygon clip(const ImagePolygon& polygon, const ImageLine& line, double slack) {
   ImagePolygon part;
   glm::dvec2 last = polygon[polygon.size() - 1];

@@ -45,14 +45,14 @@ class LeafBatch {
   bool full() const { return samples_.size() == SampleBatch::kCapacity; }
   std::span<Sample> samples() { return samples_; }
 
-  /// Must not be called when full.
+  /// Adds a sample. The batch must not be full.
   Sample& add(const SampleLattice& lattice, int x, int y, const SampleRay& ray) {
     return samples_.emplace_back(lattice, x, y, ray);
   }
   void clear() { samples_.clear(); }
 
-  /// Tests all samples against the references by the canonical test, each sample in turn as in the
-  /// leaves of structures that trace rays alone.
+  /// Tests all samples against the references by the canonical test, one sample after another, as
+  /// structures that trace single rays do.
   template <class Counting>
   void test(const scenes::Scene& scene, std::span<const scenes::PrimitiveId> references,
             Counting& counting) {

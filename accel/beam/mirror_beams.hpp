@@ -26,7 +26,8 @@ struct MirrorView {
   Pencil pencil() const { return {0, rays.size(), apex, false, &image}; }
 };
 
-/// Returns the rays that a mirror reflects, from the hits of an image. Nothing if no ray hits it.
+/// Returns the rays that a mirror reflects, from the hits of an image. Returns nothing if no ray
+/// hits it.
 std::optional<MirrorView> view_in(const scenes::PlanarSurface& mirror, const PrimaryRays& rays,
                                   const HitBuffer& hits);
 

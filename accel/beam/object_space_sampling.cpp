@@ -10,7 +10,8 @@ namespace beambench::accel::beam {
 namespace {
 
 constexpr std::array<int, 1> kOne{12};
-/// No two in one row or column: an edge along the rows or columns meets five samples, not three.
+/// No two in one row or column: an edge along a row or column meets five different positions, not
+/// three.
 constexpr std::array<int, 5> kFive{1, 9, 12, 15, 23};
 constexpr std::array<int, 25> kAll = [] {
   std::array<int, 25> all{};
@@ -18,7 +19,7 @@ constexpr std::array<int, 25> kAll = [] {
   return all;
 }();
 
-/// Chooses the lattices of each beam's samples according to the leaf where it ends.
+/// Chooses the lattices of each beam's samples by the leaf where the beam ends.
 class ChoosingWatch : public NoBeamWatch {
  public:
   ChoosingWatch(const BeamTracer& tracer, const PrimaryRays& rays, const SamplingDensity& density,

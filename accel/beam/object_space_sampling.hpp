@@ -13,10 +13,10 @@
 namespace beambench::accel::beam {
 
 /// The thesis (section 5.3.2) gives no samples to pixels of leaving beams and the same number to
-/// all others, and proposes to let the leaf at which a beam ends choose the number, as is done
-/// here. A leaf with `n` references that is `w` pixels wide (its depth and its distance) shows an
-/// estimated n edges of length w in w x w pixels: n / w edges per pixel. From the thresholds `few`
-/// and `many` on, its pixels get more samples.
+/// all others. It proposes that the leaf at which a beam ends determine the number, which this
+/// implements. A leaf with `n` references that is `w` pixels wide (depending on its depth and
+/// distance) shows an estimated n edges of length w in w x w pixels: n / w edges per pixel. At the
+/// thresholds `few` and `many`, its pixels get more samples.
 struct SamplingDensity {
   double few = 0.15;   ///< threshold in edges per pixel for 5 samples instead of 1
   double many = 0.60;  ///< threshold in edges per pixel for 25 samples
@@ -26,19 +26,19 @@ struct SamplingDensity {
 struct SparseSamples {
   /// 25 samples per pixel; those that were not taken are misses.
   HitBuffer hits;
-  /// For each place in `hits`: 0 if no sample was taken, else the number of samples, 1, 5 or 25,
-  /// that a pixel gets in the leaf that took it. A sample represents 1/number of its pixel; the
-  /// rest of the pixel is background.
+  /// For each place in `hits`: 0 if no sample was taken; otherwise the number of samples per pixel,
+  /// 1, 5 or 25, of the leaf that took it. A sample represents 1/number of its pixel; the rest of
+  /// the pixel is background.
   std::vector<std::uint8_t> number;
 
   /// Returns the number of samples taken, without those of leaving beams.
   std::size_t taken() const;
 };
 
-/// The numbers of samples from which leaves choose, in increasing order.
+/// The numbers of samples that leaves choose from, in increasing order.
 inline constexpr std::array<int, 3> kSampleNumbers{1, 5, 25};
 
-/// Returns the index of the number for a value: the second from `few` on, the third from `many` on.
+/// Returns the index of the number of samples for a value: 1 from `few` on, 2 from `many` on.
 constexpr std::size_t sample_choice(double value, double few, double many) {
   return value >= many ? 2 : value >= few ? 1 : 0;
 }

@@ -13,8 +13,7 @@
 
 namespace beambench::accel::beam {
 
-/// The interface through which beams see the cells; cells of other structures have the same
-/// functions.
+/// The interface between beams and cells; cells of other structures have the same functions.
 class OctreeCells {
  public:
   /// `tracer` must outlive it.
@@ -35,7 +34,7 @@ class OctreeCells {
     return octree().references(octree().nodes()[beam.node]);
   }
 
-  /// Traces a ray behind the beam's cell, which it leaves at t. `watch` may end it where another
+  /// Traces a ray behind the beam's cell, which it leaves at t. `watch` may end it if another
   /// process takes over.
   template <class Counting, class Watch>
   [[gnu::always_inline]] void follow(const scenes::Scene& scene, const Beam& beam, const Ray& ray,
@@ -53,7 +52,7 @@ class OctreeCells {
     best = closest;
   }
 
-  /// Traces a ray from its beginning.
+  /// Traces a ray from its origin.
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
     return tracer_->find_closest(ray, counting);

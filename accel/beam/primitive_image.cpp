@@ -11,14 +11,14 @@
 namespace beambench::accel::beam {
 namespace {
 
-/// The error of a sum of three products in float, relative to the sum of their sizes: coefficients
-/// and places rounded once each, three more roundings.
+/// The error of a sum of three products in float, relative to the sum of their magnitudes:
+/// coefficients and places rounded once each, and three more roundings.
 constexpr double kFloatLoss = 0x1p-21;
 
 constexpr std::size_t kPage = 1024;
 constexpr std::uint32_t kNotMade = std::numeric_limits<std::uint32_t>::max();
 
-/// An image that every sample passes.
+/// An image that no sample fails.
 constexpr TriangleImage kAnywhere{{{{0.0F, 0.0F, 1.0F}, {0.0F, 0.0F, 1.0F}, {0.0F, 0.0F, 1.0F}}},
                                   {0.0F, 0.0F, std::numeric_limits<float>::infinity()}};
 constexpr SphereImage kAnywhereRound{0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 1.0F};
@@ -100,7 +100,7 @@ TriangleImage PrimitiveImages::image_of_triangle(
     image.edges[i] = widened_line(normal * (inward / glm::length(normal)));
   }
   const glm::dvec3 plane = glm::cross(corners[1] - corners[0], corners[2] - corners[0]) / volume;
-  if (!(glm::length(plane) < 1e30)) return kAnywhere;  // too near for float
+  if (!(glm::length(plane) < 1e30)) return kAnywhere;  // too close for float
   image.inverse_t = widened_line(plane);
   return image;
 }
@@ -110,18 +110,18 @@ SphereImage PrimitiveImages::image_of_sphere(const scenes::Sphere& sphere) const
   const double depth = glm::dot(center, forward_);
   const double distance = glm::length(center);
   const double radius = std::abs(static_cast<double>(sphere.radius));
-  // Around the eye, beside or behind it: its outline is no ellipse, or a very long one.
+  // Around, next to or behind the eye: its outline is not an ellipse, or a very long one.
   if (!(depth > 0.1 * distance) || !(radius < 0.9 * distance)) return kAnywhereRound;
 
   const glm::dvec3 middle = center / depth;  // view depth 1, as all directions
-  // The steps to the right and down need not be perpendicular.
+  // The steps right and down need not be perpendicular.
   const glm::dmat2 steps(glm::dot(right_, right_), glm::dot(right_, down_), glm::dot(right_, down_),
                          glm::dot(down_, down_));
   const glm::dvec3 offset = middle - top_left_;
   const glm::dvec2 place =
       glm::inverse(steps) * glm::dvec2(glm::dot(offset, right_), glm::dot(offset, down_));
-  // A sample's place relative to the center's is rounded in float, its direction as well: enlarge
-  // the sphere by both.
+  // A sample's place relative to the center and its direction are rounded to float: enlarge the
+  // sphere by both errors.
   const double slip = deviation_ + 0x1p-22 * ((std::abs(place.x) + size_.x) * glm::length(right_) +
                                               (std::abs(place.y) + size_.y) * glm::length(down_));
   const double shift = 4.0 * slip * distance;

@@ -24,8 +24,8 @@ struct PixelLine {
 };
 
 /// A triangle's edges, nonnegative for samples that may hit it, and 1 / view depth of its plane, at
-/// least that of any hit. All are widened by the possible effects of float arithmetic and of the
-/// deviation of rays, so that they reject no hit of the canonical test.
+/// least that of any hit. All are widened by the error of float arithmetic and the deviation of
+/// rays, so that they reject no hit of the canonical test.
 struct TriangleImage {
   std::array<PixelLine, 3> edges;
   PixelLine inverse_t;
@@ -51,7 +51,7 @@ struct SampleBatch {
 
   alignas(64) std::array<float, kCapacity> x;  ///< place in pixels
   alignas(64) std::array<float, kCapacity> y;
-  /// Slightly less than 1 / view depth of the closest hit; 0 before there is one.
+  /// Slightly less than 1 / view depth of the closest hit; 0 until there is one.
   alignas(64) std::array<float, kCapacity> inverse_t;
   std::size_t size = 0;
 };
@@ -74,7 +74,7 @@ struct ProbeKernels {
   std::int64_t target;  ///< Highway's, for which they are compiled
 };
 
-/// Returns the kernels for the best instruction set of this machine that Highway supports.
+/// Returns the kernels for this machine's best instruction set that Highway supports.
 const ProbeKernels& simd_probe_kernels();
 /// Returns kernels that test one sample at a time, with the same results.
 const ProbeKernels& scalar_probe_kernels();
@@ -101,12 +101,12 @@ class PrimitiveImages {
   glm::dvec3 down_;
   glm::dvec2 size_;   ///< of the image, in pixels
   double deviation_;  ///< of a ray's points from its sample's place, as seen from the eye
-  /// Returns the place of a primitive's first image in the array of its kind; kNotMade before it is
+  /// Returns the place of a primitive's first image in the array of its kind; kNotMade until it is
   /// made.
   std::uint32_t& place_of(scenes::PrimitiveId id);
 
-  /// The places in pages of many primitives, each empty until one of them is met, so that the cost
-  /// of a small part of an image does not depend on the number of primitives.
+  /// The places, in pages of many primitives. A page is empty until one of its primitives is met,
+  /// so that the cost of a small part of an image does not depend on the number of primitives.
   std::vector<std::vector<std::uint32_t>> places_;
   std::vector<TriangleImage> triangles_;
   std::vector<SphereImage> spheres_;

@@ -4,7 +4,7 @@
 
 #include "accel/beam/primitive_image.hpp"
 
-// Highway includes this file once more for each instruction set.
+// Highway includes this file again for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "accel/beam/probe_kernels.cpp"
 #include <hwy/foreach_target.h>
@@ -17,11 +17,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// The number of samples that a register holds.
 using AllLanes = hn::CappedTag<float, 16>;
-/// One sample at a time: scalar code, whose arithmetic is that of `AllLanes`, fused operations
-/// included. So both let the same samples pass.
+/// One sample at a time: scalar code with the arithmetic of `AllLanes`, including fused operations,
+/// so that the same samples pass.
 using OneLane = hn::CappedTag<float, 1>;
 
-/// Joins the masks that `test(x, y, inverse_t)` returns for each register of samples.
+/// Combines the masks that `test(x, y, inverse_t)` returns for each register of samples.
 template <class Tag, class Test>
 SampleMask for_each_register(const SampleBatch& batch, Test test) {
   const Tag tag;

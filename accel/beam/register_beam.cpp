@@ -39,7 +39,7 @@ std::unique_ptr<BeamTracer> build_beam_tracer(const StructureChoice& choice,
     throw InputError(fmt::format(
         "'{}' traces no beams; give --accel beam, with or without parameters", choice.info().name));
   }
-  // The type that is registered below under this name, which no plug-in can take.
+  // The type registered below under this name, which plug-ins cannot use.
   return std::unique_ptr<BeamTracer>(
       static_cast<BeamTracer*>(choice.build(scene, workload).release()));
 }

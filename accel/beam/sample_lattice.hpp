@@ -1,5 +1,5 @@
 #pragma once
-// The samples of an image as regular lattices, one for each place within a pixel.
+// The samples of an image as regular lattices, one for each position within a pixel.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace beambench::accel::beam {
 /// One sample of every pixel: those at (x, y) + `offset`, x < width, y < height, from `begin` on. A
 /// sample's hit belongs to one place of a hit buffer, or to several when pixels share it.
 struct SampleLattice {
-  /// The sample of pixel (x - left, y - up).
+  /// The place of pixel (x - left, y - up).
   struct Place {
     int left;
     int up;

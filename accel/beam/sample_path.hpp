@@ -11,15 +11,14 @@ namespace beambench::accel::beam {
 
 /// The traversal path of a sample.
 struct SamplePath {
-  std::vector<BeamPassage> beams;   ///< first to last one; empty if the ray misses the root
+  std::vector<BeamPassage> beams;   ///< first to last; empty if the ray misses the root
   std::vector<TraceStep> steps;     ///< leaves whose references were tested, with each test
   std::optional<RayReason> reason;  ///< why it became an individual ray; nothing if it did not
   std::optional<Hit> hit;
 };
 
-/// Follows one sample in the same way as `BeamTracer::closest_hits`: the same beams, the same
-/// tests. Beams that do not contain the sample are also divided, but none of their samples is
-/// traced.
+/// Follows one sample exactly as `BeamTracer::closest_hits` does: the same beams, the same tests.
+/// Beams that do not contain the sample are also divided, but their samples are not traced.
 SamplePath path_of_sample(const BeamTracer& tracer, const PrimaryRays& rays, int x, int y,
                           int sample);
 

@@ -17,8 +17,8 @@
 
 namespace beambench::accel::beam {
 
-/// Each thread traces beams from its own stack, and turns half of it into a task whenever many
-/// wait.
+/// Each thread traces beams from its own stack, and turns half of it into a task whenever many are
+/// pending.
 template <class Watch, class Cells = OctreeCells>
 class SharedBeamRun {
  public:
@@ -44,7 +44,7 @@ class SharedBeamRun {
   }
 
  private:
-  /// The number of waiting beams from which on half of them are worth a task.
+  /// The minimum number of pending beams for which half of them are worth a task.
   static constexpr std::size_t kMany = 16;
 
   /// The state of one thread.
@@ -84,7 +84,7 @@ class SharedBeamRun {
   tbb::task_group tasks_;
 };
 
-/// Traces an image in beams. The context's threads share them.
+/// Traces an image in beams, which the context's threads share.
 template <class Cells>
 void trace_image_in_beams(const scenes::Scene& scene, const Cells& cells, const BeamRules& rules,
                           const PrimaryRays& rays, const HitSpan& hits,

@@ -1,4 +1,4 @@
-// Lists of rays: what planes reflect and refract is traced in beams, all other rays one by one.
+// Lists of rays: rays that planes reflect and refract are traced in beams, all others one by one.
 
 #include <algorithm>
 #include <cmath>
@@ -17,11 +17,11 @@
 namespace beambench::accel::beam {
 namespace {
 
-/// Reflected rays deviate from those of a virtual eye by roundings. In pixels.
+/// Reflected rays deviate from those of a virtual eye only by rounding. In pixels.
 constexpr double kMostOfMirrors = 0.25;
 /// Refracted rays are divided into parts of the image until they deviate from a view of their part
-/// by less than this angle, half a pixel, as far as there are enough rays. Over aquarium and prism,
-/// 0.25 to 1 takes equally long.
+/// by less than this angle, half a pixel, or there are too few rays. On aquarium and prism, values
+/// from 0.25 to 1 take equally long.
 constexpr double kDivided = 0.5;
 /// Refracted rays that deviate by more pixels from the view of their part are left out.
 constexpr double kMostOfGlass = 2.0;
@@ -89,7 +89,7 @@ class BatchRun {
     trace_part(indices);
   }
 
-  /// Traces a part of the image, or divides it where one view does not fit all of its rays.
+  /// Traces a part of the image, or divides it if one view does not fit all of its rays.
   void trace_part(Indices part) {
     if (!suits(part.size())) return trace_each(part);
     const std::optional<DriftingView> view = view_of(part);
@@ -139,14 +139,14 @@ class BatchRun {
   /// Returns an odd step through a part, so that it does not stay in one column of the image.
   static std::size_t step_of(Indices part) { return (part.size() / kFitted) | 1U; }
 
-  /// Returns whether the rays of the part deviate little, as far as some of them show.
+  /// Returns whether the rays of the part deviate little, judging by some of them.
   bool fits(const DriftingView& view, Indices part) const {
     const double most = kDivided * view.pixel();
     const std::size_t step = step_of(part);
     for (std::size_t i = step / 2; i < part.size(); i += step) {
       const Course course =
           view.course_of(batch_->rays[part[i]], place_in(view.image, batch_->samples[part[i]]));
-      // The second term is what a line leaves out of the conic that it stands for.
+      // The second term is the part of the conic that its line omits.
       const double deviation =
           course.deviation + course.drifted * course.from_center / course.start;
       if (!(deviation < most)) return false;
@@ -173,7 +173,7 @@ class BatchRun {
     return first[axis] == last[axis] ? 0 : static_cast<std::size_t>(half - part.begin());
   }
 
-  /// Traces the rays behind a plane in beams, and those that are in none alone. `index_of(i)` is
+  /// Traces the rays behind a plane in beams, and rays that are in no beam singly. `index_of(i)` is
   /// the index in the batch of the i-th ray.
   template <class IndexOf>
   void trace_behind(const BehindPlane& plane, IndexOf index_of) {

@@ -18,7 +18,7 @@ inline Quad quad_of(float value) { return Quad{value, value, value, value}; }
 inline Quad smaller(Quad a, Quad b) { return a < b ? a : b; }
 inline Quad larger(Quad a, Quad b) { return a > b ? a : b; }
 
-/// A box; an empty one holds nothing.
+/// A box, possibly empty.
 struct QuadBox {
   Quad lower;
   Quad upper;
@@ -50,7 +50,7 @@ class BuildItem {
   std::uint32_t index() const { return std::bit_cast<std::uint32_t>(box_.upper[3]); }
   /// Returns twice the center, which saves a multiplication.
   Quad center() const {
-    // The bits of an index are a denormal number, with which arithmetic would be slow.
+    // The bits of an index are a subnormal number, which would slow down arithmetic.
     constexpr IntQuad kCoordinates{-1, -1, -1, 0};
     return box_.lower + std::bit_cast<Quad>(std::bit_cast<IntQuad>(box_.upper) & kCoordinates);
   }

@@ -72,8 +72,8 @@ class Builder {
     return sum_up(begin, end, [] { return BuildExtent(); });
   }
 
-  /// Sums up items, starting with the result of `nothing()`, in parallel if requested: minima,
-  /// maxima and counts do not depend on the order.
+  /// Accumulates items, starting from `nothing()`, in parallel if requested: minima, maxima and
+  /// counts do not depend on the order.
   template <class Nothing>
   std::invoke_result_t<Nothing> sum_up(std::size_t begin, std::size_t end,
                                        const Nothing& nothing) const {
@@ -111,8 +111,7 @@ class Builder {
     return Halves{middle, measure(pending.begin, middle), measure(middle, pending.end)};
   }
 
-  /// Works from both ends to the middle, like std::partition, but sums up the extents at the same
-  /// time.
+  /// Works from both ends to the middle, like std::partition, but also accumulates the extents.
   Halves partition(const Pending& pending, const Binning& binning, const ObjectSplit& split) {
     Halves halves{pending.begin, {}, {}};
     std::size_t end = pending.end;
@@ -144,7 +143,7 @@ class Builder {
     return best;
   }
 
-  /// Copies the nodes in use, siblings together and each pair's children behind it.
+  /// Copies the nodes in use, with siblings together and each pair's children after it.
   void compact(BinaryBvh& bvh) const {
     struct Copied {
       std::uint32_t node;

@@ -14,7 +14,7 @@ struct BvhOptions {
   std::uint32_t max_leaf = 8;    ///< maximum number of items in a leaf
   std::uint32_t block_size = 8;  ///< items tested at once: a leaf of n costs ceil(n / block_size)
   float node_cost = 1.0F;        ///< of a node, relative to the test of a block of items
-  bool parallel = false;         ///< on all cores; the result is the same
+  bool parallel = false;         ///< use all cores; the result is the same
 };
 
 /// A node of a binary hierarchy: interior (its children are `first` and `first + 1`) or a leaf
@@ -29,31 +29,32 @@ struct BvhNode {
 
 struct BinaryBvh {
   std::vector<BvhNode> nodes;        ///< the root first, children after their parent; may be empty
-  std::vector<std::uint32_t> items;  ///< indices, leaf by leaf; each once unless splits divide it
-  std::uint32_t depth = 0;           ///< nodes on the longest path to a leaf, leaf included
+  std::vector<std::uint32_t> items;  ///< indices, leaf by leaf; each once unless a split divides it
+  std::uint32_t depth = 0;           ///< nodes on the longest path to a leaf, including the leaf
 };
 
 /// The maximum number of nodes from the root to a leaf, whatever the boxes are.
 inline constexpr std::uint32_t kMaxBvhDepth = 96;
 
-/// Top-down splits at the best of up to 32 bins along each of the three axes (Wald, "On fast
-/// construction of SAH-based bounding volume hierarchies", 2007). Boxes whose centers
-/// coincide, and those below a depth that only contrived input reaches, are split in the middle.
+/// Builds top-down, splitting at the best of up to 32 bins along each of the three axes (Wald, "On
+/// fast construction of SAH-based bounding volume hierarchies", 2007). Boxes whose centers
+/// coincide, and those below a depth that only contrived input reaches, are split in half.
 BinaryBvh build_bvh(std::span<const scenes::Bounds> boxes, const BvhOptions& options);
 
-/// Builds a hierarchy below each leaf, from its items: leaves may then be smaller, and what is
-/// above remains. A leaf remains where its descendants would be deeper than kMaxBvhDepth.
+/// Builds a hierarchy from the items of each leaf, so that leaves may become smaller; the nodes
+/// above are unchanged. A leaf stays undivided if its descendants would be deeper than
+/// kMaxBvhDepth.
 void divide_leaves(BinaryBvh& bvh, std::span<const scenes::Bounds> boxes,
                    const BvhOptions& options);
 
-/// Returns the expected number of node visits and block tests of a ray that meets the root,
-/// weighted according to the options: the cost that the builder minimizes.
+/// Returns the expected number of node visits and block tests for a ray that meets the root,
+/// weighted by the options: the cost that the builder minimizes.
 double sah_cost(const BinaryBvh& bvh, const BvhOptions& options);
 
 /// Collects the nodes that become the children of `node` in a hierarchy of `width` children per
-/// node: its own two, of which the interior one with the largest area is replaced by its children
-/// while there is room. Writes to `children` (of size `width`) and returns their number. `node`
-/// must be interior.
+/// node: starting from its own two, replaces the interior node with the largest area by its
+/// children while there is room. Writes to `children` (of size `width`) and returns their number.
+/// `node` must be interior.
 std::size_t gather_children(const BinaryBvh& bvh, std::uint32_t node,
                             std::span<std::uint32_t> children);
 

@@ -65,7 +65,7 @@ class Layout {
     }
   }
 
-  /// Not recursive: what is below may be as deep as it has leaves.
+  /// Not recursive: a subtree may be as deep as its number of leaves.
   std::vector<std::uint32_t> leaves_below(std::uint32_t root) const {
     std::vector<std::uint32_t> leaves;
     std::vector<std::uint32_t> waiting{root};
@@ -108,7 +108,7 @@ void merge_leaves(BinaryBvh& bvh, const BvhOptions& options) {
   const auto cost = [&](const BvhNode& leaf) {
     return static_cast<float>(half_area(leaf.box)) * leaf_cost(leaf.count, options);
   };
-  // Children stand behind their parents.
+  // Children come after their parents.
   for (std::size_t i = bvh.nodes.size(); i-- > 0;) {
     BvhNode& node = bvh.nodes[i];
     if (node.is_leaf()) continue;

@@ -25,7 +25,7 @@ std::optional<Box> clipped_triangle_bounds(const scenes::Scene& scene,
   return common(polygon.bounds(), box);
 }
 
-/// Returns the part of the ball: along an axis it extends as far as at the points of the box's
+/// Returns the bounds of the ball's part: along an axis, its extent at the points of the box's
 /// other two sides that are nearest to the center.
 std::optional<Box> clipped_sphere(const scenes::Sphere& sphere, const Box& box) {
   if (!sphere_overlaps(sphere, box, 0.0)) return std::nullopt;

@@ -9,13 +9,13 @@
 namespace beambench::accel::bvh {
 
 /// Returns the bounds, within `box`, of the part of a piece's surface that lies in a closed box;
-/// nothing if there is none. Exact, to the rounding of double, for triangles, which are clipped by
-/// the box's planes (Sutherland and Hodgman, "Reentrant Polygon Clipping", 1974). Conservative for
+/// nothing if there is none. Exact up to double rounding for triangles, which are clipped by the
+/// box's planes (Sutherland and Hodgman, "Reentrant Polygon Clipping", 1974). Conservative for
 /// spheres, treated as balls, and for cones, treated as their boxes.
 std::optional<Box> clipped_bounds(const scenes::Scene& scene, const PrimitivePart& piece,
                                   const Box& box);
 
-/// Returns the same for the piece's whole box.
+/// Returns the intersection of the box with the piece's whole box.
 std::optional<Box> whole_bounds(const scenes::Scene& scene, const PrimitivePart& piece,
                                 const Box& box);
 

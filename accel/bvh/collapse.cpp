@@ -9,7 +9,7 @@ namespace beambench::accel::bvh {
 
 Collapse::Collapse(const BinaryBvh& bvh, const CollapseCosts& costs)
     : bvh_(bvh), plans_(bvh.nodes.size()) {
-  // Children stand behind their parents.
+  // Children come after their parents.
   for (auto node = static_cast<std::uint32_t>(plans_.size()); node-- > 0;) plan(node, costs);
 }
 
@@ -57,8 +57,8 @@ void Collapse::plan(std::uint32_t node, const CollapseCosts& costs) {
 
 std::size_t Collapse::children_of(std::uint32_t node,
                                   std::array<std::uint32_t, kBvhLanes>& children) const {
-  // Not `plan.roots`, which may say that one root costs no more. Of two children without area, or
-  // at the root, more roots can be as cheap.
+  // Not `plan.roots`, which may state that one root costs no more. With two children without area,
+  // or at the root, more roots can be equally cheap.
   std::size_t count = 0;
   const std::uint32_t left = bvh_.nodes[node].first;
   std::size_t in_left = 1;

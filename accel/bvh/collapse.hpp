@@ -11,7 +11,8 @@
 
 namespace beambench::accel::bvh {
 
-/// What a visit costs a stream of rays: of a node, and of a leaf, by the number of its primitives.
+/// The costs, for a stream of rays, of visiting a node and of visiting a leaf, by its number of
+/// primitives.
 struct CollapseCosts {
   float node = 1.0F;
   float leaf = 0.4F;
@@ -19,16 +20,16 @@ struct CollapseCosts {
   std::uint32_t max_leaf = 8;
 };
 
-/// Finds the wide hierarchy of the least expected cost by dynamic programming (Wald, Benthin and
+/// Finds the wide hierarchy with the lowest expected cost by dynamic programming (Wald, Benthin and
 /// Boulos, "Getting rid of packets", 2008, section 3.2; Ylitie, Karras and Laine, "Efficient
-/// incoherent ray traversal on GPUs through compressed wide BVHs", 2017, section 3.1): the least
-/// cost of a subtree as a forest of at most k roots is that of both its children with k roots
-/// divided between them. Items of a subtree must stand together, as those of our builders do.
+/// incoherent ray traversal on GPUs through compressed wide BVHs", 2017, section 3.1): the lowest
+/// cost of a subtree as a forest of at most k roots is that of its two children with the k roots
+/// divided between them. Items of a subtree must be contiguous, as they are from our builders.
 class Collapse {
  public:
   Collapse(const BinaryBvh& bvh, const CollapseCosts& costs);
 
-  /// Returns whether all below a node becomes one leaf.
+  /// Returns whether the subtree of a node becomes one leaf.
   bool is_leaf(std::uint32_t node) const { return plans_[node].is_leaf; }
   std::uint32_t first_item(std::uint32_t node) const { return plans_[node].first; }
   std::uint32_t item_count(std::uint32_t node) const { return plans_[node].count; }
@@ -37,9 +38,9 @@ class Collapse {
 
  private:
   struct Plan {
-    std::array<float, kBvhLanes> cost;          ///< least, as at most i + 1 roots
-    std::array<std::uint8_t, kBvhLanes> roots;  ///< of these in the left child; 0: one root
-    std::uint32_t first;                        ///< items below
+    std::array<float, kBvhLanes> cost;          ///< lowest cost with at most i + 1 roots
+    std::array<std::uint8_t, kBvhLanes> roots;  ///< of these, in the left child; 0: one root
+    std::uint32_t first;                        ///< first item of the subtree
     std::uint32_t count;
     bool is_leaf;
   };

@@ -99,7 +99,7 @@ Statistics GoldsmithSalmon::statistics() const {
 }
 
 void GoldsmithSalmon::describe(TreeQuality& tree) const {
-  std::vector<std::uint32_t> ends;  // of the volumes that are open
+  std::vector<std::uint32_t> ends;  // ends of the open volumes
   for (std::uint32_t i = 0; i < hierarchy_.entries.size(); ++i) {
     for (; !ends.empty() && ends.back() == i; ends.pop_back()) tree.close();
     const HierarchyEntry& entry = hierarchy_.entries[i];

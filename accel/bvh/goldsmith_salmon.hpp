@@ -40,8 +40,8 @@ struct Farther {
   bool operator()(const MetEntry& a, const MetEntry& b) const { return a.enter > b.enter; }
 };
 
-/// The entries that a ray has yet to visit, nearest first across the whole hierarchy: the priority
-/// queue of Kay and Kajiya (1986; thesis, graphic 4.1).
+/// The entries that a ray still has to visit, nearest first across the whole hierarchy: the
+/// priority queue of Kay and Kajiya (1986; thesis, graphic 4.1).
 class NearestFirstQueue {
  public:
   explicit NearestFirstQueue(std::pmr::memory_resource* memory) : entries_(memory) {
@@ -53,7 +53,7 @@ class NearestFirstQueue {
     entries_.push_back(entry);
     std::push_heap(entries_.begin(), entries_.end(), Farther{});
   }
-  /// All entries in the queue are at least as far as the one returned.
+  /// All entries in the queue are at least as far away as the one returned.
   static constexpr bool kOrdered = true;
   MetEntry pop() {
     std::pop_heap(entries_.begin(), entries_.end(), Farther{});
@@ -63,14 +63,14 @@ class NearestFirstQueue {
   }
   void end_of_siblings() {}
 
-  /// More entries than most rays ever have waiting at a time.
+  /// More entries than most rays ever have pending at a time.
   static constexpr std::size_t kUsual = 128;
 
  private:
   std::pmr::vector<MetEntry> entries_;
 };
 
-/// The same in depth-first order: nearest first among the children of one volume.
+/// The same entries in depth-first order: nearest first among the children of one volume.
 class OrderedStack {
  public:
   explicit OrderedStack(std::pmr::memory_resource* memory) : entries_(memory) {
@@ -98,9 +98,9 @@ class OrderedStack {
 };
 
 /// A hierarchy built by Goldsmith and Salmon's insertion, traversed with Kay and Kajiya's queue for
-/// the closest hit and by plain depth-first search for any hit. Volumes and objects both have a
-/// box, which is tested before they are entered. With `Insertion::kTerminal` it is the hierarchy of
-/// the thesis (sections 4.3 and 5.4.2).
+/// the closest hit and by plain depth-first search for any hit. Volumes and objects each have a
+/// box, which is tested before they are entered. With `Insertion::kTerminal`, this is the hierarchy
+/// of the thesis (sections 4.3 and 5.4.2).
 class GoldsmithSalmon : public TraversalAccelerator<GoldsmithSalmon>, public BoxHierarchy {
  public:
   GoldsmithSalmon(const scenes::Scene& scene, const GoldsmithSalmonOptions& options);

@@ -24,22 +24,22 @@ struct Volume {
   std::uint32_t children = 0;          ///< volumes and objects
   std::uint32_t first_volume = kNone;  ///< of the list of its children, linked by `next`
   std::uint32_t next = kNone;
-  /// Objects with less than half the volume's area on insertion, and the others. A new volume for a
-  /// pair of an object and a child with at least half the area costs more than one more child: so
+  /// Objects with less than half the volume's area on insertion, and the others. Pairing an object
+  /// with a child of at least half the area in a new volume costs more than adding a child, so
   /// thousands of large objects in one place are skipped.
   std::array<ObjectList, 2> objects{};
 };
 
-/// A place for an object and its cost.
+/// A candidate place for an object, and its cost.
 struct Choice {
   enum class Kind { kChild, kBesideObject, kBesideVolume };
 
   double cost = kNever;
   Kind kind = Kind::kChild;
-  std::uint32_t volume = 0;      ///< that gets the child, or by or in which the new volume is put
-  std::uint32_t list = 0;        ///< of kBesideObject: the partner's list,
+  std::uint32_t volume = 0;      ///< that gets the child, or where the new volume goes
+  std::uint32_t list = 0;        ///< for kBesideObject: the partner's list,
   std::uint32_t before = kNone;  ///< and the object before it in that list
-  std::size_t depth = 0;         ///< volumes on the path that grow
+  std::size_t depth = 0;         ///< number of volumes on the path that grow
 };
 
 class Inserter {
@@ -101,7 +101,7 @@ class Inserter {
     Choice best;
     std::uint32_t index = 0;
     double area = area_with_object(volumes_[0].box);  // of the volume with the object
-    double inherited = 0.0;                           // cost of the growth of the volumes above
+    double inherited = 0.0;                           // cost of enlarging the volumes above
     while (true) {
       const Volume& volume = volumes_[index];
       const auto offer = [&](double cost, Choice::Kind kind, std::size_t depth) {
@@ -119,7 +119,7 @@ class Inserter {
     }
   }
 
-  /// Weighs the pairs of the object with each object of the volume.
+  /// Evaluates the pairs of the object with each object of the volume.
   void offer_objects(std::uint32_t index, double inherited, Choice& best) {
     const Volume& volume = volumes_[index];
     for (std::uint32_t list = 0; list < volume.objects.size(); ++list) {
@@ -152,14 +152,15 @@ class Inserter {
         area = below;
         continue;
       }
-      // The growth of the volumes on the path is the same in both cases.
+      // The volumes on the path grow equally in both cases.
       if (terminal.cost < area) return terminal;
       return {.cost = area, .kind = Choice::Kind::kChild, .volume = index, .depth = path_.size()};
     }
   }
 
-  /// Finds the object of a volume whose pair with the new object grows least, if it grows by less
-  /// than `growth`, or equally to an area less than `area`; otherwise the cost is kNever.
+  /// Finds the object of a volume whose box grows least when paired with the new object, if it
+  /// grows by less than `growth`, or by as much but to an area below `area`; otherwise the cost is
+  /// kNever.
   Choice least_growing_object(std::uint32_t index, double growth, double area) {
     Choice best;
     for (std::uint32_t list = 0; list < volumes_[index].objects.size(); ++list) {
@@ -177,7 +178,8 @@ class Inserter {
     return best;
   }
 
-  /// Returns the child volume whose area grows least, the smallest of several; sets its new area.
+  /// Returns the child volume whose area grows least (of several, the smallest) and sets its new
+  /// area.
   std::uint32_t least_growing(const Volume& volume, double& area) {
     std::uint32_t best = kNone;
     double least = kNever;
@@ -212,7 +214,7 @@ class Inserter {
         break;
       }
       case Choice::Kind::kBesideVolume: {
-        // The new volume takes the old one's number, and with it its place in the parent's list.
+        // The new volume takes over the old one's number and thus its place in the parent's list.
         const Volume old = volumes_[choice.volume];
         const std::uint32_t moved = add_volume(old.box);
         volumes_[choice.volume] = volumes_[moved];

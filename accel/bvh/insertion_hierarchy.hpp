@@ -14,7 +14,7 @@ namespace beambench::accel::bvh {
 /// One entry of a hierarchy: a bounding volume, or an object with its own box.
 struct HierarchyEntry {
   scenes::Bounds box;
-  std::uint32_t end;              ///< index just behind this entry and everything below it
+  std::uint32_t end;              ///< index just past this entry's subtree
   scenes::PrimitiveId primitive;  ///< kNoPrimitive for a volume
 
   bool is_volume() const { return primitive == scenes::kNoPrimitive; }
@@ -26,25 +26,26 @@ struct InsertionHierarchy {
   std::vector<HierarchyEntry> entries;
   std::uint64_t volumes = 0;
   std::uint64_t depth = 0;          ///< volumes on the longest path down
-  std::uint64_t widest = 0;         ///< most children of a volume
+  std::uint64_t widest = 0;         ///< maximum number of children of a volume
   double cost = 0.0;                ///< see hierarchy_cost
   std::uint64_t boxes_weighed = 0;  ///< unions of boxes whose area the build computed
 };
 
-/// Returns the expected number of tests of a ray that meets the root: the sum over volumes of k A /
-/// A_root, where k is the number of direct children and A the surface area (Goldsmith and Salmon
+/// Returns the expected number of tests for a ray that meets the root: the sum over volumes of k A
+/// / A_root, where k is the number of direct children and A the surface area (Goldsmith and Salmon
 /// 1987; thesis, 4.3).
 double hierarchy_cost(std::span<const HierarchyEntry> entries);
 
-/// Where an object may be placed on its path down, which always enters the child that grows least.
+/// Where an object may be placed on its path down; the path always enters the child that grows
+/// least.
 enum class Insertion {
   /// Wherever on the path it raises the cost least (Goldsmith and Salmon, "Automatic Creation of
-  /// Object Hierarchies for Ray Tracing", 1987). With k children, the area A, and the area A'
-  /// including the object, three choices are weighed at every volume:
+  /// Object Hierarchies for Ray Tracing", 1987). With k children, area A, and area A' including the
+  /// object, three choices are compared at every volume:
   /// - the object becomes one more child of the volume: (k + 1) A' - k A;
   /// - object and a child of the volume become the two children of a new volume in that child's
   ///   place: k (A' - A) for the volume and 2 A'' for the new one;
-  /// - the object goes further down: k (A' - A), and the cost there.
+  /// - the object goes further down: k (A' - A) plus the cost there.
   kEverywhere,
   /// Only at the end of the path, as described in the thesis (section 4.3). A terminal node is an
   /// object with its box: there, either the object becomes another child of the terminal node's
@@ -53,8 +54,8 @@ enum class Insertion {
   kTerminal
 };
 
-/// Inserts the objects one by one in the given order. Nothing is moved afterward. `boxes[i]` is the
-/// box of primitive i.
+/// Inserts the objects one by one in the given order, without moving any afterward. `boxes[i]` is
+/// the box of primitive i.
 InsertionHierarchy build_by_insertion(std::span<const scenes::Bounds> boxes,
                                       std::span<const scenes::PrimitiveId> order,
                                       Insertion insertion);

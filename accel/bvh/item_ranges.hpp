@@ -1,5 +1,5 @@
 #pragma once
-// Cuts items into ranges that threads work on.
+// Divides items into ranges for threads.
 
 #include <algorithm>
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace beambench::accel::bvh {
 
-/// Returns a context whose tasks compute in the calling thread's floating-point mode: the default
-/// is that of the thread that was the first to use TBB, in which tiny areas may be 0.
+/// Returns a context whose tasks compute in the calling thread's floating-point mode. The default
+/// is the mode of the first thread that used TBB, in which tiny areas may be 0.
 inline tbb::task_group_context calling_mode() {
   return tbb::task_group_context(
       tbb::task_group_context::bound,

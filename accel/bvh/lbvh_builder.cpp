@@ -50,8 +50,8 @@ class LbvhBuilder {
     float cost = 0.0F;           ///< of the root, as `add` returns it
   };
 
-  /// Ranges of equal codes are at most 30 levels deep, and divided in halves from there on: deeper
-  /// than `kMaxBvhDepth` is impossible.
+  /// Ranges of equal codes are at most 30 levels deep and are halved from there on, so
+  /// `kMaxBvhDepth` cannot be exceeded.
   std::size_t middle_of(const Range& range) const {
     const std::uint32_t first = code_of(keys_[range.begin]);
     const std::uint32_t differing = first ^ code_of(keys_[range.end - 1]);
@@ -65,7 +65,7 @@ class LbvhBuilder {
     return static_cast<std::size_t>(found - begin);
   }
 
-  /// Builds the subtrees of ranges that are small enough for one task. `add` then takes them.
+  /// Builds the subtrees of ranges that are small enough for one task; `add` then uses them.
   void build_parts() {
     std::vector<Range> ranges;
     std::vector<std::uint32_t> depths;
@@ -94,8 +94,8 @@ class LbvhBuilder {
     collect_parts({middle, range.end}, depth + 1, ranges, depths);
   }
 
-  /// Makes `node` of a range, and nodes for all below it. Returns the cost, not divided by the area
-  /// of the root.
+  /// Makes `node` and its subtree from a range. Returns the cost, not divided by the area of the
+  /// root.
   float add(Subtree& tree, std::uint32_t node, const Range& range, std::uint32_t depth) {
     if (range.count() < kParallelItems && taken_ < parts_.size()) {
       return take(tree, node, parts_[taken_++]);
@@ -106,7 +106,7 @@ class LbvhBuilder {
       tree.depth = std::max(tree.depth, depth);
       return static_cast<float>(half_area(box)) * leaf_cost(count, options_);
     };
-    // Leaves that cost no more than the node alone need no look at what would be below.
+    // If a leaf costs no more than the node alone, its subtree need not be considered.
     const bool may_be_leaf = count <= options_.max_leaf;
     if (count == 1 || (may_be_leaf && leaf_cost(count, options_) <= options_.node_cost)) {
       scenes::Bounds box;

@@ -9,8 +9,8 @@ namespace beambench::accel::bvh {
 
 /// Sorts boxes by the Morton codes of their centers and divides ranges at the highest bit that
 /// differs (Lauterbach, Garland, Sengupta, Luebke and Manocha, "Fast BVH construction on GPUs",
-/// 2009). A range of equal codes is divided in the middle. What is below a node becomes a leaf
-/// where that costs no more.
+/// 2009). A range of equal codes is divided in half. A subtree becomes a leaf if that costs no
+/// more.
 BinaryBvh build_lbvh(std::span<const scenes::Bounds> boxes, const BvhOptions& options);
 
 }  // namespace beambench::accel::bvh

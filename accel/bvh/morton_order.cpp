@@ -56,7 +56,7 @@ class MortonGrid {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto at = static_cast<std::uint32_t>(cell[axis]);
       code |= spread_[axis][0][at & 255U] | spread_[axis][1][at >> 8U & 255U];
-      if (at >> 16U == 0) continue;  // as in all but flat scenes
+      if (at >> 16U == 0) continue;  // as in all scenes that are not flat
       code |= spread_[axis][2][at >> 16U & 255U] | spread_[axis][3][at >> 24U];
     }
     return code;
@@ -72,7 +72,7 @@ class MortonGrid {
   std::array<std::array<std::array<std::uint32_t, 256>, 4>, 3> spread_{};
 };
 
-/// Sorts by ten bits of the code, without changing the order of equal ones.
+/// Sorts by ten bits of the code; the sort is stable.
 void sort_by_digit(std::span<const MortonKey> from, std::span<MortonKey> to, unsigned shift,
                    const ItemRanges& ranges) {
   constexpr std::size_t kDigits = 1024;

@@ -18,7 +18,7 @@ inline std::uint32_t index_of(MortonKey key) { return static_cast<std::uint32_t>
 /// Returns a key for each box, sorted. Codes have 30 bits. Each bit halves the cell's longest side
 /// (Vinkler, Bittner and Havran, "Extended Morton codes for high performance bounding volume
 /// hierarchy construction", 2017), so that a flat scene is not divided across its thickness.
-/// `parallel`: on all cores; the result is the same.
+/// `parallel`: use all cores; the result is the same.
 UnsetLargePageVector<MortonKey> morton_order(std::span<const scenes::Bounds> boxes, bool parallel);
 
 }  // namespace beambench::accel::bvh

@@ -13,10 +13,9 @@
 
 namespace beambench::accel::bvh {
 
-/// Nodes at this depth and below are split in the middle, because 2^32 items then need 32 more
-/// levels.
+/// Nodes at this depth and below are split in half, since 2^32 items can then need 32 more levels.
 inline constexpr std::uint32_t kDeepestSahSplit = kMaxBvhDepth - 34;
-/// Below this many items, tasks cost more than they save.
+/// With fewer items, tasks cost more than they save.
 inline constexpr std::size_t kParallelItems = 4096;
 
 /// Maps centers to bins, on all axes.
@@ -25,7 +24,7 @@ class Binning {
   static constexpr std::size_t kMaxBins = 32;
 
   Binning(const QuadBox& centers, std::size_t items) : lower_(centers.lower), scale_{} {
-    // A few items need fewer bins: their sums would cost more than the items.
+    // Few items need fewer bins: summing the bins would cost more than the items.
     count_ = std::min(kMaxBins, 8 + items / 16);
     last_ = quad_of(static_cast<float>(count_ - 1));
     const glm::vec3 extent = centers.bounds().extent();
@@ -61,7 +60,7 @@ struct Bin {
   }
 };
 
-/// The sums of items by bins: as many as the binning has, on each axis.
+/// The sums of items in each bin, on each axis.
 class Bins {
  public:
   explicit Bins(const Binning& binning) : binning_(&binning) {
@@ -96,7 +95,7 @@ class Bins {
 /// Items in a bin below `bin` go left.
 struct ObjectSplit {
   float cost = std::numeric_limits<float>::infinity();
-  int axis = -1;  ///< none is worth it, or possible
+  int axis = -1;  ///< -1: no split is worthwhile or possible
   std::int32_t bin = 0;
 };
 

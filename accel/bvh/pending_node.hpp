@@ -1,5 +1,5 @@
 #pragma once
-// A node that a builder from the root down has yet to make.
+// A node that a top-down builder has yet to make.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace beambench::accel::bvh {
 
-/// A node to be made of the items [begin, end). Nodes below it are taken from `free` on, where
+/// A node to be made of the items [begin, end). Its descendants are numbered from `free` on, where
 /// there is space for the maximum, so that the number of a node does not depend on the task that
 /// builds it.
 struct PendingNode {
@@ -19,7 +19,7 @@ struct PendingNode {
   std::uint32_t depth;
 
   std::size_t count() const { return end - begin; }
-  /// The children, of the items before `middle` and of those from there on.
+  /// Returns the child with the items before `middle`.
   PendingNode left(std::size_t middle) const { return {free, free + 2, begin, middle, depth + 1}; }
   PendingNode right(std::size_t middle) const {
     const std::size_t left_nodes = 2 * (middle - begin) - 2;  // below the left, at most

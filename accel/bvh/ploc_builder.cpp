@@ -22,16 +22,15 @@ namespace {
 
 static_assert(kPlocRadius % 4 == 0, "neighbors are weighed four at a time");
 
-/// Neighbors are merged in a round in which fewer than one cluster in so many would merge.
+/// If fewer than one cluster in this many would merge in a round, neighbors are merged instead.
 constexpr std::size_t kFewMerge = 32;
 
-/// A cluster's choice: the area of the common box in the upper half, in the lower the exclusive or
-/// of both places. Pairs of equal area are thus ordered so that of many equal boxes all merge, and
-/// the pair with the least key always does.
+/// A cluster's choice: the area of the common box in the upper half, the exclusive or of both
+/// positions in the lower. This orders pairs of equal area so that many equal boxes all merge, and
+/// the pair with the lowest key always does.
 using Choice = std::uint64_t;
 
-/// The clusters of a round. Coordinates are in arrays of their own, for SIMD, with room behind them
-/// for a register.
+/// The clusters of a round. Coordinates are in separate arrays for SIMD, padded by a register.
 struct Clusters {
   std::array<LargePageVector<float>, 6> planes;  ///< lower x, y, z; upper x, y, z
   UnsetLargePageVector<std::uint32_t> first;     ///< as in a BvhNode
@@ -110,7 +109,7 @@ class PlocBuilder {
             [&](std::size_t, std::size_t begin, std::size_t end) { choose(clusters, begin, end); });
   }
 
-  /// Weighs each pair once, or twice if its clusters are in different ranges.
+  /// Evaluates each pair once, or twice if its clusters are in different ranges.
   void choose(const Clusters& clusters, std::size_t begin, std::size_t end) {
     std::fill(choices_.begin() + static_cast<std::ptrdiff_t>(begin),
               choices_.begin() + static_cast<std::ptrdiff_t>(end),
@@ -152,13 +151,13 @@ class PlocBuilder {
     return choices_[other] == choices_[i] ? other : i;
   }
 
-  /// Numbers of clusters and nodes that one range leaves behind.
+  /// The numbers of clusters and nodes that one range leaves.
   struct Left {
     std::size_t clusters = 0;
     std::size_t nodes = 0;
   };
 
-  /// Counts what each range leaves behind, and returns the sum.
+  /// Counts the clusters and nodes that each range leaves, and returns the sum.
   Left count(const Clusters& now, const ItemRanges& ranges, std::vector<Left>& places) const {
     ranges.for_each([&](std::size_t range, std::size_t begin, std::size_t end) {
       Left left;
@@ -178,8 +177,8 @@ class PlocBuilder {
     return sum;
   }
 
-  /// Lets neighbors merge, whatever they chose. Of boxes within boxes, only one pair would merge in
-  /// a round, and rounds would be as many as boxes.
+  /// Merges neighbors, whatever they chose. For nested boxes, only one pair would merge per round,
+  /// and there would be as many rounds as boxes.
   void pair_neighbors(std::size_t clusters) {
     for (std::size_t i = 0; i < clusters; ++i) choices_[i] = (i ^ 1U) < clusters ? 1 : 0;
   }
@@ -218,11 +217,11 @@ class PlocBuilder {
     return leaf_pays(a.count + b.count, united(a.box, b.box), cost(a) + cost(b), options_);
   }
 
-  /// Puts the children at `at.nodes`, or makes them one leaf.
+  /// Stores the children at `at.nodes`, or merges them into one leaf.
   BvhNode merged(const BvhNode& a, const BvhNode& b, Left& at) {
     const scenes::Bounds box = united(a.box, b.box);
     if (becomes_leaf(a, b)) {
-      // Each ring of items is opened behind its last one: those of b follow those of a.
+      // Each ring of items is cut after its last one; the items of b follow those of a.
       std::swap(next_item_[a.first], next_item_[b.first]);
       return {box, b.first, a.count + b.count};
     }

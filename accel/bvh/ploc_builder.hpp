@@ -1,5 +1,5 @@
 #pragma once
-// Builds from the leaves up: neighbors along a Morton curve merge.
+// Builds bottom-up: neighbors along a Morton curve merge.
 
 #include <span>
 
@@ -8,14 +8,14 @@
 namespace beambench::accel::bvh {
 
 /// Parallel locally-ordered clustering (Meister and Bittner, "Parallel locally-ordered clustering
-/// for bounding volume hierarchy construction", 2018). Clusters stand in Morton order, at first one
-/// for each box. In each round a cluster finds, among those up to `kPlocRadius` places away, the
-/// one with which the common box has the least area, and merges with it if each is the other's
-/// choice. Two leaves that merge become one where that costs no more.
+/// for bounding volume hierarchy construction", 2018). Clusters are in Morton order, initially one
+/// for each box. In each round a cluster finds, among those up to `kPlocRadius` positions away, the
+/// one whose common box with it has the least area, and they merge if the choice is mutual. Two
+/// merging leaves become one if that costs no more.
 BinaryBvh build_ploc(std::span<const scenes::Bounds> boxes, const BvhOptions& options);
 
-/// The original has 16; 8 cost 1% in quality (Benthin and others, "PLOC++", 2022), and half of the
-/// time.
+/// The original has 16; 8 costs 1% in quality (Benthin and others, "PLOC++", 2022) and takes half
+/// the time.
 inline constexpr std::size_t kPlocRadius = 8;
 
 }  // namespace beambench::accel::bvh

@@ -44,7 +44,7 @@ void append_blocks(const scenes::Scene& scene, std::span<const PrimitivePart> pi
         scenes::PrimitiveKind::kCone}) {
     PrimitiveBlock* block = nullptr;
     for (const PrimitivePart& piece : pieces) {
-      // Looking up the kind would be a cache miss for each triangle.
+      // Looking up the kind would cost a cache miss for each triangle.
       if (!only_polygons && scene.primitives[piece.primitive].kind != kind) continue;
       if (block == nullptr || block->count == kBvhLanes) {
         const std::uint32_t first = blocks.empty() ? 0 : blocks.back().first + blocks.back().count;

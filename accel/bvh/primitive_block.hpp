@@ -12,19 +12,19 @@
 
 namespace beambench::accel::bvh {
 
-/// Children of a node and primitives of a block, each a lane of a SIMD register.
+/// The number of children of a node and of primitives of a block, each in a SIMD lane.
 inline constexpr std::size_t kBvhLanes = 8;
 
 /// Up to eight primitives of one kind.
 struct alignas(64) PrimitiveBlock {
-  /// Triangles (kind kPolygon): the coordinates of three corners, corner by corner. Spheres: those
-  /// of the center, and the radius. Cones: nothing.
+  /// Triangles (kind kPolygon): the coordinates of three corners, corner by corner. Spheres: the
+  /// center's coordinates and the radius. Cones: nothing.
   std::array<std::array<float, kBvhLanes>, 9> coordinates;
   std::array<scenes::PrimitiveId, kBvhLanes> primitives;  ///< the polygons of triangles
   std::array<std::uint32_t, kBvhLanes> parts;             ///< as `PrimitivePart::index`
   scenes::PrimitiveKind kind;
   std::uint32_t count;
-  std::uint32_t first;  ///< the primitives in the blocks before it
+  std::uint32_t first;  ///< number of primitives in the blocks before it
   float leaf_extent;    ///< the longest side of the boxes of the leaf's pieces
 
   glm::vec3 corner(std::size_t which, std::size_t lane) const {
@@ -51,7 +51,8 @@ inline void copy_coordinates(const scenes::Scene& scene, std::size_t lane, Primi
   }
 }
 
-/// Appends the blocks of one leaf: of one kind each, kind by kind, pieces in the order given.
+/// Appends the blocks of one leaf. Each block has one kind, kind after kind; pieces keep their
+/// order.
 void append_blocks(const scenes::Scene& scene, std::span<const PrimitivePart> pieces,
                    LargePageVector<PrimitiveBlock>& blocks);
 

@@ -16,7 +16,7 @@ struct PrimitivePart {
   std::uint32_t index;  ///< into the scene's triangles, spheres or cones
 };
 
-/// Returns the parts of all primitives, in increasing id.
+/// Returns the parts of all primitives, in order of id.
 std::vector<PrimitivePart> collect_parts(const scenes::Scene& scene);
 
 /// Returns the box of a part, not widened.

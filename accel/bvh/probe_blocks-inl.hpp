@@ -27,7 +27,7 @@ namespace beambench::accel::bvh::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Eight lanes where the registers have them, otherwise several registers of fewer.
+/// Eight lanes if a register has that many; otherwise several registers with fewer.
 using Tag = hn::CappedTag<float, kBvhLanes>;
 using Floats = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
@@ -35,7 +35,7 @@ using Mask = hn::Mask<Tag>;
 /// One bit per lane.
 using LaneBits = std::uint32_t;
 
-/// Calls `test(lane)` for the first lane of each register and joins the masks it returns.
+/// Calls `test(lane)` for the first lane of each register and combines the masks it returns.
 template <class Test>
 LaneBits test_registers(Test test) {
   const Tag tag;
@@ -92,8 +92,8 @@ inline LaneBits probe_triangles(const PrimitiveBlock& block, const ProbeRay& ray
     const Mask near_it = hn::And(surrounds, in_time);
     if (hn::AllFalse(tag, near_it)) return near_it;
 
-    // Most rays begin on a triangle, which passes the tests above. If its plane is certainly met
-    // behind the origin, it need not be confirmed (probe_ray.hpp).
+    // Most rays begin on a triangle, which passes the tests above. If the ray certainly meets its
+    // plane behind the origin, it need not be confirmed (probe_ray.hpp).
     struct Vector {
       Floats x, y, z;
     };
@@ -120,7 +120,7 @@ inline LaneBits probe_triangles(const PrimitiveBlock& block, const ProbeRay& ray
     const Floats error = hn::MulAdd(
         hn::Mul(size(e), size(f)),
         hn::MulAdd(size(to_a), hn::Set(tag, 0x1p-20F), hn::Set(tag, 0x1p-9F * ray.rounding)),
-        hn::Set(tag, 0x1p-120F));  // products that underflow, or are flushed to zero
+        hn::Set(tag, 0x1p-120F));  // products that underflow or are flushed to zero
     const Floats total = hn::Add(hn::Add(u, v), w);
     const Floats side = hn::Mul(hn::Mul(total, per_t), volume);  // has the sign of -t
     const Mask sure = hn::And(hn::Gt(hn::Abs(total), hn::Set(tag, 4.0F * margin)),
@@ -199,8 +199,8 @@ void count_probes(Counting& counting, const PrimitiveBlock& block, LaneBits pass
 }
 
 /// Tests the blocks of a leaf. `confirm(counting, block, lane)` runs the canonical test of possible
-/// hits before `confirm.t_max`, may lower that, and returns true to end; in that case this function
-/// returns true, too.
+/// hits before `confirm.t_max`, may lower that, and returns true to stop; this function then
+/// returns true as well.
 template <class Counting, class Confirm>
 HWY_INLINE bool test_blocks(std::span<const PrimitiveBlock> blocks, const ProbeRay& ray,
                             Counting& counting, Confirm& confirm) {
@@ -215,9 +215,9 @@ HWY_INLINE bool test_blocks(std::span<const PrimitiveBlock> blocks, const ProbeR
   return false;
 }
 
-// Many rays need no canonical test, so the canonical ray is made for the first one.
+// Many rays need no canonical test, so the canonical ray is created for the first test.
 
-/// Keeps the closest confirmed hit; its t is the least `t_max`.
+/// Keeps the closest confirmed hit; `t_max` is its t.
 class ConfirmClosest {
  public:
   ConfirmClosest(const scenes::Scene& scene, const Ray& ray)
@@ -242,7 +242,7 @@ class ConfirmClosest {
   std::optional<ClosestHit> best_;
 };
 
-/// Ends at the first hit.
+/// Stops at the first hit.
 class ConfirmAny {
  public:
   ConfirmAny(const scenes::Scene& scene, const Ray& ray)

@@ -31,24 +31,24 @@ namespace beambench::accel::bvh {
 /// box's face, where nothing can be hit.
 ///
 /// **Triangles.** Corners are moved by the origin and sheared so that the ray becomes an axis (as
-/// CanonicalRay::beside does). A sheared coordinate is wrong by at most 7 e R. Let s be at least
-/// the longest side of the box of any triangle of the leaf. If a ray hits one of them, its corners
-/// are within s of the hit along each axis: sheared, they are at most P = 2 s + 20 e R. The areas
-/// a.x b.y - a.y b.x are then wrong by at most 4 P 7eR + 2 (7eR)^2 + 4 e P^2, which 40 e R (P + 12
-/// e R) exceeds (P <= 2 R). Depths along the main axis are wrong by 3 e R, and the canonical hit is
+/// CanonicalRay::beside does). A sheared coordinate is off by at most 7 e R. Let s be at least the
+/// longest side of the box of any triangle of the leaf. If a ray hits one of them, its corners are
+/// within s of the hit along each axis: sheared, they are at most P = 2 s + 20 e R. The areas a.x
+/// b.y - a.y b.x are then wrong by at most 4 P 7eR + 2 (7eR)^2 + 4 e P^2, which 40 e R (P + 12 e R)
+/// exceeds (P <= 2 R). Depths along the main axis are wrong by 3 e R, and the canonical hit is
 /// within 2^-10 e R x 20 of its triangle: 5 e R over |direction| covers both.
 ///
 /// **Triangles behind the origin.** Let o be the origin, a a corner, e1 and e2 the edges from it,
 /// and |x| the sum of the sizes of x's components. The canonical test has t = V / N, with the
 /// volume V = (a - o).(e1 x e2) and N = direction.(e1 x e2). With d, the direction along the main
-/// axis, and D, the sum of the sheared areas, N = -d D: the shear keeps volumes, and the axes are
-/// in cyclic order. So t < 0 where V D / d > 0, if both signs are certain:
+/// axis, and D, the sum of the sheared areas, N = -d D: the shear preserves volumes, and the axes
+/// are in cyclic order. So t < 0 where V D / d > 0, if both signs are certain:
 /// - V in float is wrong by at most 8 e |a - o| |e1| |e2|: three differences, each with a relative
 ///   error of e, and five more roundings. 16 e is allowed, and 2^-120 for products that underflow.
 /// - D is wrong by 3 m and the rounding of its sums, m being the bound of the areas' error. Beyond
 ///   4 m its sign is right, and it is nearly m or more.
 ///
-/// They are then the canonical test's signs, too: in double V is wrong by 2^-50 |a - o| |e1| |e2|,
+/// They are then also the canonical test's signs: in double V is wrong by 2^-50 |a - o| |e1| |e2|,
 /// and N by 2^-50 |direction| |e1| |e2| <= 2^-44 |d| R s, while |d| m > 2^-18 |d| R s. The hit's
 /// computed point does not matter, because that test only rejects more. One case remains: a
 /// negative t that underflows is -0, which t_min = 0 accepts. Another 2^-33 R |e1| |e2| is
@@ -58,8 +58,8 @@ namespace beambench::accel::bvh {
 /// 21 e R: 32 e R is added to the radius, and as much to the depth of the sphere.
 class ProbeRay {
  public:
-  /// Requires factors and margins of ordinary size: the square of the largest direction component
-  /// must neither vanish nor overflow.
+  /// Returns whether factors and margins have ordinary sizes: the square of the largest direction
+  /// component must neither vanish nor overflow.
   static bool can_probe(const Ray& ray) {
     const glm::vec3 size = glm::abs(ray.direction);
     const float largest = std::max({size.x, size.y, size.z});
@@ -89,8 +89,8 @@ class ProbeRay {
     depth_margin = 5.0F * rounding * std::abs(inverse[main_axis]);
   }
 
-  /// Returns the possible error of the areas of triangles in a leaf whose box has that longest
-  /// side.
+  /// Returns the error bound of the areas of triangles in a leaf, given the longest side of their
+  /// boxes.
   float area_margin(float leaf_extent) const {
     return 40.0F * rounding * (2.0F * leaf_extent + 32.0F * rounding);
   }
@@ -103,7 +103,7 @@ class ProbeRay {
   std::array<float, 3> direction;
   float t_min;
   std::array<float, 3> inverse;
-  std::array<float, 3> far_inverse;     ///< enlarged by kWider, to the largest float at most
+  std::array<float, 3> far_inverse;     ///< enlarged by kWider, but finite
   std::array<std::size_t, 3> near_row;  ///< of WideNode::planes, for each axis
   std::array<std::size_t, 3> far_row;
   std::size_t octant = 0;  ///< of WideNode::orders

@@ -14,7 +14,7 @@
 namespace beambench::accel::bvh {
 namespace {
 
-/// Copies the coordinates of a block's primitives from the scene, and returns their box, not
+/// Copies the coordinates of a block's primitives from the scene and returns their box, not
 /// widened. `extent` grows to the longest side of a triangle's box.
 QuadBox refill(PrimitiveBlock& block, const scenes::Scene& scene, float& extent) {
   QuadBox box = QuadBox::empty();
@@ -54,7 +54,7 @@ scenes::Bounds refill_leaf(WideBvh& bvh, const scenes::Scene& scene, ChildRefere
 void refit(InsertionHierarchy& hierarchy, const scenes::Scene& scene) {
   const double tolerance = overlap_tolerance(scene);
   auto& entries = hierarchy.entries;
-  for (std::size_t i = entries.size(); i-- > 0;) {  // what is below an entry follows it
+  for (std::size_t i = entries.size(); i-- > 0;) {  // an entry's subtree follows it
     HierarchyEntry& entry = entries[i];
     if (!entry.is_volume()) {
       entry.box = padded(scenes::primitive_bounds(scene, entry.primitive), tolerance);
@@ -94,7 +94,7 @@ void refit(WideBvh& bvh, const scenes::Scene& scene, bool parallel) {
   } else {
     refill_leaves(0, bvh.nodes.size());
   }
-  for (std::size_t i = bvh.nodes.size(); i-- > 0;) {  // children stand behind their parents
+  for (std::size_t i = bvh.nodes.size(); i-- > 0;) {  // children come after their parents
     WideNode& node = bvh.nodes[i];
     for (std::size_t lane = 0, count = node.count(); lane < count; ++lane) {
       const ChildReference child = node.children[lane];

@@ -17,19 +17,19 @@ namespace beambench::accel::bvh {
 namespace {
 
 constexpr int kMaxRounds = 30;
-/// The share of all nodes whose places are looked for in a round.
+/// The share of all nodes for which a round searches places.
 constexpr double kShare = 0.3;
 /// A round that reduces the areas of interior nodes by less than this share is the last.
 constexpr double kLeastGain = 0.0005;
 
-/// Where a node is to go: it becomes the sibling of `to`.
+/// A planned move: the node becomes the sibling of `to`.
 struct Move {
   std::uint32_t from = 0;
   std::uint32_t to = 0;
   double gain = 0.0;  ///< of area
 };
 
-/// Siblings stay together: a pair of places is that of a node and its sibling, whatever is in it.
+/// The tree. Siblings stay together: a pair of slots always holds a node and its sibling.
 class Reinsertion {
  public:
   Reinsertion(std::vector<BvhNode>& nodes, bool parallel)
@@ -59,7 +59,7 @@ class Reinsertion {
     parents_[nodes_[node].first] = parents_[nodes_[node].first + 1] = node;
   }
 
-  /// Returns by how much the areas of interior nodes have become less.
+  /// Returns by how much the areas of interior nodes have decreased.
   double make_round() {
     std::vector<Move> moves;
     for (const std::uint32_t node : largest_nodes()) moves.push_back({node});
@@ -106,14 +106,14 @@ class Reinsertion {
     return nodes;
   }
 
-  /// A place below which to look: what is gained if the new parent's area were nothing.
+  /// A subtree to search, with the gain if the new parent had no area.
   struct Candidate {
     double gain;
     std::uint32_t node;
   };
 
-  /// Looks in the subtrees of all siblings on the path to the root, leaving out those where even a
-  /// new parent as small as the node itself would gain less than the best place so far.
+  /// Searches the subtrees of all siblings on the path to the root, except those where even a new
+  /// parent as small as the node itself would gain less than the best place so far.
   Move best_move(std::uint32_t from, std::vector<Candidate>& waiting) const {
     Move best{from};
     const scenes::Bounds& box = nodes_[from].box;
@@ -162,7 +162,7 @@ class Reinsertion {
     return 0.0;
   }
 
-  /// Moves a node. Returns by how much the areas of interior nodes have become less.
+  /// Moves a node. Returns by how much the areas of interior nodes have decreased.
   double moved(std::uint32_t from, std::uint32_t to) {
     const std::uint32_t parent = parents_[from];
     const std::uint32_t sibling = sibling_of(from);
@@ -203,11 +203,11 @@ class Reinsertion {
 }  // namespace
 
 void reinsert(BinaryBvh& bvh, bool parallel) {
-  if (bvh.nodes.size() < 7) return;  // fewer than four leaves: there is no other place
+  if (bvh.nodes.size() < 7) return;  // fewer than four leaves: no other place exists
   std::vector<BvhNode> nodes = bvh.nodes;
   Reinsertion(nodes, parallel).run();
   BinaryBvh better = laid_out(nodes, bvh.items);
-  // Where subtrees became too deep, dividing them anew may have cost more than was gained.
+  // If subtrees became too deep, rebuilding them may have cost more than was gained.
   if (sah_cost(better, {}) <= sah_cost(bvh, {})) bvh = std::move(better);
 }
 

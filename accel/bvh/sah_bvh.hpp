@@ -15,13 +15,13 @@
 namespace beambench::accel::bvh {
 
 struct SahBvhOptions : WideBvhOptions {
-  bool streams = true;  ///< lists of rays go down together (stream_walk-inl.hpp)
+  bool streams = true;  ///< trace lists of rays as streams (stream_walk-inl.hpp)
 };
 
-/// A SAH hierarchy of eight children per node, traversed by SIMD in single
-/// precision (Wald, Benthin and Boulos, "Getting rid of packets", 2008). The float tests only
-/// reject; candidates that pass are confirmed by the canonical test, so the hits are those of every
-/// other classic structure, on every instruction set.
+/// A SAH hierarchy with eight children per node, traversed by SIMD in single precision (Wald,
+/// Benthin and Boulos, "Getting rid of packets", 2008). The float tests only reject; candidates
+/// that pass are confirmed by the canonical test, so the hits equal those of every other classic
+/// structure on every instruction set.
 class SahBvh : public TraversalAccelerator<SahBvh>, public BoxHierarchy {
  public:
   static std::vector<ParameterInfo> parameters();
@@ -32,7 +32,7 @@ class SahBvh : public TraversalAccelerator<SahBvh>, public BoxHierarchy {
          std::int64_t targets = targets_of("best"));
 
   const WideBvh& bvh() const { return bvh_; }
-  /// The instruction set in use, as Highway calls it: "AVX2".
+  /// Returns Highway's name of the instruction set in use, such as "AVX2".
   const char* instruction_set() const;
   Statistics statistics() const override;
   void describe(TreeQuality& tree) const override;

@@ -12,7 +12,7 @@
 #include "accel/core/pick_target.hpp"
 #include "accel/core/slab_ray.hpp"
 
-// Highway includes this file once more for each instruction set.
+// Highway includes this file again for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "accel/bvh/sah_kernels.cpp"
 #include <hwy/foreach_target.h>
@@ -53,10 +53,10 @@ HWY_INLINE LaneBits meet_children(const WideNode& node, const ProbeRay& ray, flo
   });
 }
 
-/// The entries still to be visited, the next on top, with the t at which the ray enters them.
+/// The stack of pending entries, the next on top, each with the t at which the ray enters it.
 class WaitingStack {
  public:
-  /// Takes the next entry that is entered before `limit`; false if there is none.
+  /// Pops the next entry that is entered before `limit`; returns false if there is none.
   HWY_INLINE bool pop(float limit, ChildReference& next) {
     while (size_ > 0) {
       --size_;
@@ -68,8 +68,8 @@ class WaitingStack {
     return false;
   }
 
-  /// Pushes all of the children except one, and returns that one: the nearer of two; of more, the
-  /// nearest along the octant's diagonal.
+  /// Pushes all children except one, and returns that one: the nearer of two; of more, the nearest
+  /// along the octant's diagonal.
   HWY_INLINE ChildReference push_but_nearest(const WideNode& node, LaneBits met, std::size_t octant,
                                              const float* enter_t) {
     const LaneBits rest = met & (met - 1);
@@ -87,14 +87,14 @@ class WaitingStack {
     return ChildReference::from_bits(references_[--size_]);
   }
 
-  /// Takes the next entry; false if there is none.
+  /// Pops the next entry; returns false if there is none.
   HWY_INLINE bool pop_any(ChildReference& next) {
     if (size_ == 0) return false;
     next = ChildReference::from_bits(references_[--size_]);
     return true;
   }
 
-  /// Pushes all of the children except the last, and returns that one. Must not be used with `pop`.
+  /// Pushes all children except the last, and returns that one. Must not be used with `pop`.
   HWY_INLINE ChildReference push_but_last(const WideNode& node, LaneBits met) {
     const auto last = static_cast<std::size_t>(std::bit_width(met) - 1);
     const LaneBits rest = met ^ LaneBits { 1 } << last;
@@ -149,7 +149,7 @@ class WaitingStack {
     }
   }
 
-  /// Each node on the longest path leaves at most seven children waiting, and a whole register is
+  /// Each node on the longest path leaves at most seven children pending, and a whole register is
   /// stored above them.
   static constexpr std::size_t kRoom = kMaxBvhDepth * (kBvhLanes - 1) + 1 + kBvhLanes;
 
@@ -214,7 +214,7 @@ void count_step(Counting& counting, const WideBvh& bvh, const scenes::Scene& sce
 }
 
 /// Traverses the hierarchy, nearest child first for a closest hit, and returns the result of
-/// `Confirm`. Everything is inlined: otherwise GCC makes calls for each node, with the ray in
+/// `Confirm`. Everything is inlined: otherwise GCC calls a function for each node, with the ray in
 /// memory, which takes 10% longer.
 template <bool kAny, class Confirm, class Counting>
 HWY_FLATTEN auto traverse(const WideBvh& bvh, const scenes::Scene& scene, const Ray& ray,

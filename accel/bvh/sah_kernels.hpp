@@ -28,8 +28,8 @@ struct SahKernels : SahQueries<NoCounting>, SahQueries<WorkCounters>, SahQueries
   }
 };
 
-/// Returns the kernels for the best instruction set that this machine has among Highway's targets
-/// `targets`, as given by `targets_of`.
+/// Returns the kernels for this machine's best instruction set among the Highway targets `targets`,
+/// as returned by `targets_of`.
 const SahKernels& sah_kernels_for(std::int64_t targets);
 
 }  // namespace beambench::accel::bvh

@@ -50,12 +50,12 @@ class AxisBins {
   /// Returns false if the box is flat, or so thin that planes coincide.
   bool divides() const { return std::isfinite(scale_) && plane(1) > lower_ && scale_ > 0.0F; }
   std::size_t count() const { return count_; }
-  /// Returns the beginning of bin `bin`; for `count()`, the end of the last bin.
+  /// Returns the start of bin `bin`; for `count()`, the end of the last bin.
   float plane(std::size_t bin) const {
     if (bin == count_) return upper_;
     return lower_ + (upper_ - lower_) * (static_cast<float>(bin) / static_cast<float>(count_));
   }
-  /// Returns the bin of a coordinate in the box: planes of bins below it are at most the
+  /// Returns the bin of a coordinate in the box; the planes of lower bins are at most the
   /// coordinate.
   std::size_t bin(float coordinate) const {
     const float place = std::max((coordinate - lower_) * scale_, 0.0F);
@@ -74,7 +74,7 @@ class AxisBins {
 
 struct SpatialSplit {
   float cost = std::numeric_limits<float>::infinity();
-  int axis = -1;  ///< none is possible
+  int axis = -1;  ///< -1: no split is possible
   float plane = 0.0F;
   QuadBox left_box;  ///< of the parts on either side
   QuadBox right_box;
@@ -187,7 +187,7 @@ class SpatialBuilder {
     return Division{{references.begin(), middle}, {middle, references.end()}};
   }
 
-  /// Section 4.5. Also true if centers cannot be divided.
+  /// Returns whether to try planes (section 4.5); also true if centers cannot be divided.
   bool children_overlap(const Bins& bins, const Binning& binning, const ObjectSplit& split) const {
     if (split.axis < 0) return true;
     const auto axis = static_cast<std::size_t>(split.axis);
@@ -200,7 +200,7 @@ class SpatialBuilder {
     return area(common) > kMinOverlap * root_area_;
   }
 
-  /// Returns the part of a reference between two planes; nothing if its piece has none there.
+  /// Returns the part of a reference between two planes; nothing if the piece has no part there.
   std::optional<QuadBox> part(const BuildItem& reference, int axis, float from, float to) const {
     const scenes::Bounds box = reference.box().bounds();
     Box between{glm::dvec3(box.lower), glm::dvec3(box.upper)};
@@ -210,8 +210,8 @@ class SpatialBuilder {
     if (!found) return std::nullopt;
     QuadBox part = reference.box();
     for (int i = 0; i < 3; ++i) {
-      // One float outward, but not beyond the reference's own box; beside a coordinate of 0, where
-      // floats are finer than the clipping's error, the boxes' padding covers that.
+      // One float outward, but not beyond the reference's own box. Near a coordinate of 0, where
+      // floats are finer than the clipping error, the padding of boxes covers that error.
       part.lower[i] = std::max(-next_above(-static_cast<float>(found->lower[i])), box.lower[i]);
       part.upper[i] = std::min(next_above(static_cast<float>(found->upper[i])), box.upper[i]);
     }
@@ -219,8 +219,8 @@ class SpatialBuilder {
   }
 
   /// Calls `visit` with boxes of a reference's parts in the bins [first, last]. For triangles, they
-  /// are found from the points where their edges cross planes, ignoring earlier planes: good enough
-  /// for estimating costs, and several times faster.
+  /// follow from the points where the edges cross planes, ignoring earlier planes: good enough to
+  /// estimate costs, and several times faster.
   template <class Visit>
   void cut(const BuildItem& reference, int axis, const AxisBins& bins, std::size_t first,
            std::size_t last, Visit visit) const {
@@ -263,8 +263,8 @@ class SpatialBuilder {
     }
   }
 
-  /// Section 4.2: references are cut at the planes of bins; a bin counts the references that begin
-  /// and those that end in it.
+  /// Finds the best plane (section 4.2): references are cut at the planes of bins; a bin counts the
+  /// references that begin and those that end in it.
   SpatialSplit best_spatial_split(const References& references, const scenes::Bounds& box) const {
     SpatialSplit best;
     for (int axis = 0; axis < 3; ++axis) {
@@ -337,13 +337,13 @@ class SpatialBuilder {
     const std::size_t both = division.left.size() + division.right.size();
     if (division.left.empty() || division.right.empty()) return std::nullopt;
     if (both > references.size() + spare) return std::nullopt;
-    // Neither nearer to an end nor smaller.
+    // No nearer to an end and no smaller.
     if (both == 2 * references.size()) return std::nullopt;
     return division;
   }
 
-  /// Section 4.4, which weighs by references, not by blocks: chooses both parts, or the whole on
-  /// one side if that costs less. `split` has the current boxes and counts of both sides, including
+  /// Chooses both parts, or the whole on one side if that costs less (section 4.4, which weighs by
+  /// references, not by blocks). `split` has the current boxes and counts of both sides, including
   /// earlier decisions.
   static void divide_reference(const BuildItem& reference, const std::optional<QuadBox>& left,
                                const std::optional<QuadBox>& right, SpatialSplit& split,
@@ -388,7 +388,7 @@ class SpatialBuilder {
   double root_area_ = 0.0;
 };
 
-/// Copies the tree: siblings together, each pair's children behind it.
+/// Copies the tree: siblings together, each pair's children after it.
 BinaryBvh flatten(const TreeNode& root, double tolerance) {
   struct Copied {
     const TreeNode* from;

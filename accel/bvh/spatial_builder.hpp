@@ -9,16 +9,15 @@
 
 namespace beambench::accel::bvh {
 
-/// The builder of Stich, Friedrich and Dietrich ("Spatial Splits in Bounding Volume Hierarchies",
-/// 2009): if the children of the best division by centers (that of `build_bvh`) overlap by more
-/// than 1e-5 of the root's surface (section 4.5), planes are tried as well. A piece on both sides
-/// of the plane is referred to by both children, each time with the box of its part there, unless
-/// the cost is less with the whole of it on one side (section 4.4).
+/// Builds by the method of Stich, Friedrich and Dietrich ("Spatial Splits in Bounding Volume
+/// Hierarchies", 2009): if the children of the best division by centers (that of `build_bvh`)
+/// overlap by more than 1e-5 of the root's surface (section 4.5), planes are tried as well. Both
+/// children refer to a piece on both sides of the plane, each with the box of its part, unless it
+/// costs less to keep the whole piece on one side (section 4.4).
 ///
-/// `items` has the indices of pieces, of which there are at most twice as many entries as pieces.
-/// Boxes are those of the parts, widened by `tolerance` (scene units): every point of a piece is in
-/// the box of a leaf that refers to it. The result is the same with and without
-/// `options.parallel`.
+/// `items` holds indices of pieces, at most twice as many as there are pieces. Boxes are those of
+/// the parts, widened by `tolerance` (scene units): every point of a piece is in the box of a leaf
+/// that refers to it. The result is the same with and without `options.parallel`.
 BinaryBvh build_spatial_bvh(const scenes::Scene& scene, std::span<const PrimitivePart> pieces,
                             double tolerance, const BvhOptions& options);
 

@@ -1,5 +1,5 @@
-// The hits of a stream: found in float where that is certain, decided by the canonical tests
-// elsewhere, for the instruction set being compiled.
+// The hits of a stream: found in float if certain, otherwise decided by the canonical tests, for
+// the instruction set being compiled.
 
 #if defined(ACCEL_BVH_STREAM_HITS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_BVH_STREAM_HITS_INL
@@ -34,12 +34,12 @@ HWY_INLINE void prefetch_lines(const Object& object) {
   for (std::size_t at = 0; at < sizeof(Object); at += 64) hwy::Prefetch(bytes + at);
 }
 
-/// A hit of a triangle that is certain in float (`TriangleLanes`) ends its ray, or shortens it. In
-/// the end t is computed as the canonical test does, once for each ray, several rays at once. Hits
-/// that are possible, but not certain, and certain ones that may be as near as the nearest, are
-/// doubts, which the canonical test decides.
+/// A hit of a triangle that is certain in float (`TriangleLanes`) ends its ray, or shortens it. At
+/// the end, t is computed as in the canonical test, once per ray, for several rays at a time. Hits
+/// that are possible but not certain, and certain ones that may tie with the nearest, are doubts,
+/// which the canonical test decides.
 ///
-/// Rays are named by the places of their rows, which hold the t_max that remains.
+/// Rays are identified by the offsets of their rows, which hold the remaining t_max.
 template <bool kAny, class Counting>
 class StreamHits {
  public:
@@ -68,7 +68,7 @@ class StreamHits {
     row(place).t_max = kEnded;
   }
 
-  /// Keeps a certain hit before `t_high`. Of two that may be equally near, one becomes a doubt.
+  /// Keeps a certain hit before `t_high`. Of two that may tie, one becomes a doubt.
   HWY_INLINE void keep(std::uint32_t place, const StreamHit& hit, float t_high) requires(!kAny) {
     Ray& ray = row(place);
     StreamHit& nearest = hits_[ray_at(place)];
@@ -94,11 +94,11 @@ class StreamHits {
     if (is_hit(t)) write(i, t, id);
   }
 
-  /// Decides all doubts, and computes t of all certain hits.
+  /// Decides all doubts and computes t of all certain hits.
   HWY_NOINLINE void finish() {
     decide_doubts();
     if constexpr (!kAny) {
-      // The last ones may be written twice: there are as many rays as lanes at least.
+      // The last ones may be written twice: there are at least as many rays as lanes.
       const std::size_t last = stream_.rays.size() - kDoubleLanes;
       for (std::size_t i = 0; i < last; i += kDoubleLanes) write_certain(i);
       write_certain(last);
@@ -131,8 +131,8 @@ class StreamHits {
     doubts_.clear();
   }
 
-  /// Writes the certain hits of as many rays as there are lanes, from `first` on, where they
-  /// precede those that are written already.
+  /// Writes the certain hits of one ray per lane, from `first` on, if they precede those already
+  /// written.
   HWY_INLINE void write_certain(std::size_t first) {
     alignas(64) std::array<std::uint32_t, kDoubleLanes> numbers;
     std::uint64_t hits = 0;
@@ -149,7 +149,7 @@ class StreamHits {
     const RayTrianglePairs pairs =
         paired([&](std::size_t lane) { return first + lane; },
                [&](std::size_t lane) { return numbers[lane]; }, polygons);
-    // As `accept` rounds it.
+    // Rounded as in `accept`.
     const auto t = hn::Add(hn::DemoteTo(floats, distances_along_rays(pairs)), hn::Zero(floats));
     const auto polygon = hn::BitCast(words, polygons);
     const auto old_t = hn::LoadU(floats, stream_.t + first);

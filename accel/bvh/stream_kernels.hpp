@@ -13,9 +13,9 @@
 
 namespace beambench::accel::bvh {
 
-/// Rays that go down the hierarchy together, and the places of their results.
+/// Rays that traverse the hierarchy together, and the destinations of their results.
 struct Stream {
-  /// The maximum number of rays: their rows, lists and hits then stay in a core's caches.
+  /// The maximum number of rays, so that their rows, lists and hits stay in a core's caches.
   static constexpr std::size_t kMostRays = std::size_t{1} << 15U;
 
   const WideBvh& bvh;
@@ -28,8 +28,8 @@ struct Stream {
   std::uint8_t* any = nullptr;
 };
 
-/// Both queries under one counting policy. They append to `left` the rays that they do not trace,
-/// which must be traced alone. Must not be used for empty hierarchies.
+/// Both queries under one counting policy. They append to `left` the rays that they cannot trace,
+/// which must be traced singly. Must not be used for empty hierarchies.
 template <class Counting>
 struct StreamQueries {
   using Query = void (*)(const Stream&, std::vector<std::uint32_t>& left, Counting&);
@@ -44,8 +44,8 @@ struct StreamKernels : StreamQueries<NoCounting>, StreamQueries<WorkCounters> {
   }
 };
 
-/// Returns the kernels for the best instruction set that this machine has among Highway's targets
-/// `targets`, as given by `targets_of`.
+/// Returns the kernels for this machine's best instruction set among the Highway targets `targets`,
+/// as returned by `targets_of`.
 const StreamKernels& stream_kernels_for(std::int64_t targets);
 
 }  // namespace beambench::accel::bvh

@@ -10,12 +10,12 @@
 
 namespace beambench::accel::bvh {
 
-/// Stands for no triangle; others are numbered as `StreamTree::triangles`.
+/// The number for "no triangle"; others are indices into `StreamTree::triangles`.
 inline constexpr std::uint32_t kNoTriangle = ~std::uint32_t{0};
 
 /// The nearest triangle that a ray certainly hits.
 struct StreamHit {
-  float t_low = kInfinity;  ///< the hit is not before it
+  float t_low = kInfinity;  ///< lower bound of the hit's t
   std::uint32_t triangle = kNoTriangle;
 };
 
@@ -25,22 +25,22 @@ struct StreamPair {
   std::uint32_t triangle;
 };
 
-/// Kept by its thread from one stream to the next, because memory that is new costs as much as the
+/// Each thread keeps this from one stream to the next, because new memory costs as much as the
 /// traversal.
 struct StreamMemory {
-  /// The most rays of a packet, and the entries that may be written behind a list's end.
+  /// The maximum number of rays in a packet, and the entries that may be written past a list's end.
   static constexpr std::size_t kPacket = 16;
-  /// A node's lists take eight entries for each of its rays, and the nodes above it have their own:
-  /// mostly less than half of these. Lists for which no room is left go on in packets.
+  /// A node's lists take eight entries for each of its rays; all entries of the nodes above it
+  /// usually need less than half of these. Lists for which there is no room continue as packets.
   static constexpr std::size_t kEntriesPerRay = 32;
 
-  LargePageVector<Ray> rows;             ///< t_max: before which a hit would count
-  LargePageVector<std::uint32_t> lists;  ///< of places of rows, in bytes
+  LargePageVector<Ray> rows;             ///< t_max: only nearer hits count
+  LargePageVector<std::uint32_t> lists;  ///< offsets of rows, in bytes
   LargePageVector<StreamHit> hits;       ///< of each ray
   std::vector<StreamPair> doubts;        ///< to be tested
 
-  /// The entries of `lists` that a stream may use: not all that an earlier one needed, so that its
-  /// counters do not depend on it.
+  /// Returns how many entries of `lists` a stream may use; not all that an earlier stream needed,
+  /// so that counters do not depend on it.
   static constexpr std::size_t entries_for(std::size_t rays) {
     return kEntriesPerRay * (rays + 4 * kPacket);
   }

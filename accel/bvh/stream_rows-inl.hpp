@@ -1,5 +1,5 @@
-// The rays of a stream: copied for it, and loaded into lanes from scattered places, for the
-// instruction set being compiled.
+// Copies the rays of a stream, and loads them into lanes from scattered places, for the instruction
+// set being compiled.
 
 #if defined(ACCEL_BVH_STREAM_ROWS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_BVH_STREAM_ROWS_INL
@@ -29,12 +29,12 @@ namespace beambench::accel::bvh::HWY_NAMESPACE {
 /// The places of a stream's rays, relative to the tree's center.
 struct RowsExtent {
   glm::vec3 middle;  ///< the mean of origins
-  glm::vec3 lower;   ///< the box about the rays from origin to end, if requested
+  glm::vec3 lower;   ///< the box of the rays from origin to end, if requested
   glm::vec3 upper;
 };
 
-/// Copies rays for a stream: without zeros in directions, with finite ends. Those that no stream
-/// can trace (stream_tests-inl.hpp) end before they begin, and are appended to `left`.
+/// Copies rays for a stream, without zeros in directions and with finite ends. Rays that no stream
+/// can trace (stream_tests-inl.hpp) get an empty interval and are appended to `left`.
 template <bool kWithBox>
 RowsExtent fill_rows(std::span<const Ray> rays, const StreamTree& tree, Ray* rows,
                      std::vector<std::uint32_t>& left) {
@@ -79,7 +79,7 @@ RowsExtent fill_rows(std::span<const Ray> rays, const StreamTree& tree, Ray* row
   }
   const Quad mean = sum / quad_of(static_cast<float>(std::max(count, std::size_t{1})));
   RowsExtent extent{{mean[0], mean[1], mean[2]}, {}, {}};
-  // The ends are rounded; where that is far from the scene, it does not matter.
+  // The ends are rounded; far from the scene, this does not matter.
   const Quad wider = quad_of(0x1p-18F * tree.half_size);
   const scenes::Bounds bounds = QuadBox{box.lower - wider, box.upper + wider}.bounds();
   extent.lower = bounds.lower;
@@ -90,7 +90,7 @@ RowsExtent fill_rows(std::span<const Ray> rays, const StreamTree& tree, Ray* row
 // A ray is two rows of four floats: origin and t_min, direction and t_max.
 static_assert(sizeof(Ray) == 8 * sizeof(float));
 
-// Lists name rays by the places of their rows, in bytes.
+// Lists identify rays by the offsets of their rows, in bytes.
 
 inline std::uint32_t place_of(std::size_t i) { return static_cast<std::uint32_t>(i * sizeof(Ray)); }
 inline std::size_t ray_at(std::uint32_t place) { return place / sizeof(Ray); }

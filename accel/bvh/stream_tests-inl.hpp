@@ -23,10 +23,10 @@ using namespace accel::HWY_NAMESPACE;
 
 // Let e = 2^-24 (a rounding's relative error), S = StreamTree::half_size, o and d the origin and
 // the direction of a ray, and R = |o - center| + S, which is at least the distance along any axis
-// from the origin to any place in the scene. Norms of o and R are those of the largest component,
-// |d| is the sum of the components' sizes. Rays in streams satisfy `can_stream`: |o - center| <= 4
-// S, and the largest component of d is in [2^-20, 2^20]; components below 1e-18 were replaced by
-// that, which moves no point in the scene by more than 2^-36 R.
+// from the origin to any place in the scene. Norms of o and R are maximum norms; |d| is the sum of
+// the components' absolute values. Rays in streams satisfy `can_stream`: |o - center| <= 4 S, and
+// the largest component of d is in [2^-20, 2^20]; components below 1e-18 were replaced by that,
+// which moves no point in the scene by more than 2^-36 R.
 
 /// Three coordinates in lanes.
 template <class D>
@@ -36,7 +36,7 @@ struct Triple {
   hn::Vec<D> z;
 };
 
-/// Returns the sum of the components' sizes.
+/// Returns the sum of the components' absolute values.
 template <class D>
 HWY_INLINE hn::Vec<D> size_of(const Triple<D>& v) {
   return hn::Add(hn::Add(hn::Abs(v.x), hn::Abs(v.y)), hn::Abs(v.z));
@@ -52,7 +52,7 @@ HWY_INLINE Triple<D> difference(const Triple<D>& a, const Triple<D>& b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
 
-/// Returns 1 / values, wrong by at most 5 e: NaN for 0.
+/// Returns 1 / values with an error of at most 5 e; NaN for 0.
 template <class D>
 HWY_INLINE hn::Vec<D> inverse_of(D d, hn::Vec<D> values) {
 #if HWY_TARGET == HWY_SCALAR

@@ -14,11 +14,11 @@
 namespace beambench::accel::bvh {
 namespace {
 
-/// The least size of a triangle where errors are estimated, so that products of floats that
-/// underflow are among the errors.
+/// The minimum size of a triangle in error estimates, so that they cover float products that
+/// underflow.
 constexpr double kLeastSize = 0x1p-60;
 
-/// The share of the tree's size by which boxes are widened.
+/// Boxes are widened by this share of the tree's size.
 constexpr double kSlack = 0x1p-18;
 
 StreamNode stream_node(const WideNode& from, const StreamTree& tree) {
@@ -86,7 +86,7 @@ void put_triangles(const PrimitiveBlock& block, LargePageVector<WholeTriangle>& 
 StreamTree build_stream_tree(const WideBvh& bvh, bool parallel, StreamTree memory) {
   StreamTree tree = std::move(memory);
   if (bvh.empty()) return {};
-  // The root's box: that of the scene's bounds is less by the padding.
+  // The root's box, since the scene's bounds lack the padding.
   scenes::Bounds bounds = bvh.scene_bounds;
   if (!bvh.root.is_leaf()) bounds.include(bvh.nodes[bvh.root.node_index()].bounds());
   tree.center = glm::vec3(0.5 * (glm::dvec3(bounds.lower) + glm::dvec3(bounds.upper)));

@@ -1,5 +1,5 @@
 #pragma once
-// What streams of rays need of the wide hierarchy in a form of their own.
+// The data of the wide hierarchy in the form that streams of rays use.
 
 #include <array>
 #include <cstddef>
@@ -12,19 +12,20 @@
 
 namespace beambench::accel::bvh {
 
-/// The boxes of a node's children as centers and halves of their sizes: the slab test then needs no
-/// sign of a direction, so that rays of all octants share a list. Centers are relative to that of
-/// the tree, and halves widened by what float arithmetic may lose (stream_tests-inl.hpp).
+/// The boxes of a node's children as centers and half sizes: the slab test then does not depend on
+/// the signs of directions, so that rays of all octants share a list. Centers are relative to the
+/// tree's center, and half sizes are widened by the error of float arithmetic
+/// (stream_tests-inl.hpp).
 struct alignas(64) StreamNode {
   std::array<std::array<float, kBvhLanes>, 3> center;  ///< x, y, z
-  std::array<std::array<float, kBvhLanes>, 3> half;    ///< of missing children: no ray meets them
+  std::array<std::array<float, kBvhLanes>, 3> half;    ///< no ray meets missing children
   std::array<ChildReference, kBvhLanes> children;
   std::uint32_t count;
 };
 static_assert(sizeof(StreamNode) == 256);
 
-/// A PrimitiveBlock as streams test it (stream_tests-inl.hpp). The numbers of triangles are those
-/// of the canonical test in double, rounded once. Of solids: only what is not in lanes.
+/// A PrimitiveBlock as streams test it (stream_tests-inl.hpp). The numbers for triangles are those
+/// of the canonical test in double, rounded once. Solids have only what is not in lanes.
 struct alignas(64) StreamBlock {
   std::array<std::array<float, kBvhLanes>, 3> a;       ///< x, y, z
   std::array<std::array<float, kBvhLanes>, 3> from_c;  ///< a - c
@@ -38,7 +39,7 @@ struct alignas(64) StreamBlock {
 };
 static_assert(sizeof(StreamBlock) == 448);
 
-/// A triangle for the canonical test, in one or two cache lines. Other primitives have zeros.
+/// A triangle for the canonical test, in one or two cache lines. For other primitives, zeros.
 struct alignas(16) WholeTriangle {
   glm::vec3 a;
   scenes::PrimitiveId polygon;
@@ -64,7 +65,8 @@ struct StreamTree {
   }
 };
 
-/// `parallel`: on all cores; the result is the same. `memory`: a tree whose arrays are used again.
+/// Builds the tree. `parallel`: use all cores; the result is the same. `memory`: a tree whose
+/// arrays are reused.
 StreamTree build_stream_tree(const WideBvh& bvh, bool parallel, StreamTree memory = {});
 
 }  // namespace beambench::accel::bvh

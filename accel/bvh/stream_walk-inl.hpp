@@ -38,8 +38,8 @@ HWY_INLINE LaneBits lane_bits(hn::Mask<LaneTag> mask) {
   return stored[0];
 }
 
-/// Calls `test(lane)` for the first lane of each register of children or triangles, and joins the
-/// masks it returns.
+/// Calls `test(lane)` for the first lane of each register of children or triangles, and combines
+/// the masks it returns.
 template <class Test>
 HWY_INLINE LaneBits test_lanes(Test test) {
   LaneBits bits = 0;
@@ -55,17 +55,18 @@ HWY_INLINE void for_each_bit(LaneBits bits, Visit visit) {
   for (; bits != 0; bits &= bits - 1) visit(static_cast<std::size_t>(std::countr_zero(bits)));
 }
 
-/// Sends the rays of a stream down the hierarchy together: a list of rays for each child of a node.
+/// Traverses the hierarchy with all rays of a stream together: a list of rays for each child of a
+/// node.
 ///
-/// Rays in a list have nothing in common but that they meet a box, so the list's rays are tested
-/// against a box with rays in lanes, none of which is idle, and no branch depends on the outcome
-/// (Tsakok, "Faster incoherent rays: Multi-BVH ray stream tracing", 2009). Children are visited in
-/// one order for all rays (Barringer and Akenine-Moeller, "Dynamic ray stream traversal", 2014,
-/// keep an order for each ray, as Fuetterling and others, "Efficient ray tracing kernels for modern
-/// CPU architectures", 2015, do for each octant): by their distances from the mean origin.
+/// Rays in a list have only one thing in common: they meet the same box. They are tested against a
+/// box with one ray per lane, without idle lanes, and no branch depends on the outcome (Tsakok,
+/// "Faster incoherent rays: Multi-BVH ray stream tracing", 2009). Children are visited in one order
+/// for all rays, by their distances from the mean origin. (Barringer and Akenine-Moeller, "Dynamic
+/// ray stream traversal", 2014, keep an order for each ray; Fuetterling and others, "Efficient ray
+/// tracing kernels for modern CPU architectures", 2015, for each octant.)
 ///
-/// A list of `kPacket` rays or fewer stays in registers, with masks in place of lists; one of
-/// `kFew` or fewer goes on ray by ray, with boxes and triangles in lanes.
+/// A list of `kPacket` rays or fewer stays in registers, with masks instead of lists; one of `kFew`
+/// or fewer continues ray by ray, with boxes and triangles in lanes.
 template <bool kAny, class Counting>
 class StreamWalk {
  public:
@@ -91,14 +92,14 @@ class StreamWalk {
   static constexpr std::size_t kPacket = StreamMemory::kPacket;
   static constexpr std::size_t kFew = 2;
 
-  /// The entries for a list of at most `count` rays.
+  /// Returns the number of entries for a list of at most `count` rays.
   static std::size_t stride_of(std::size_t count) {
     return (count + kPacket - 1) / kPacket * kPacket + kPacket;
   }
   Ray& row(std::uint32_t place) const { return row_at(rows_, place); }
 
-  /// Visits a child with the rays that meet its box, which are at least one. `free`: where lists
-  /// may be made.
+  /// Visits a child with the rays that meet its box, of which there is at least one. `free`: where
+  /// new lists may be stored.
   void visit(ChildReference at, std::uint32_t* list, std::size_t count, std::uint32_t* free) {
     // Lanes beyond the end read a valid ray.
     std::fill_n(list + count, kPacket, list[0]);
@@ -158,8 +159,8 @@ class StreamWalk {
     }
   }
 
-  /// Returns the children that the box about all rays meets. Only rays for any hits mostly end near
-  /// their origins.
+  /// Returns the children that overlap the box of all rays. Used only for any hits, whose rays
+  /// mostly end near their origins.
   HWY_INLINE LaneBits children_near(const StreamNode& node) const {
     if constexpr (!kAny) return ~LaneBits{0};
     const LaneTag tag;
@@ -185,8 +186,7 @@ class StreamWalk {
     return slabs.meet(box(node.center), box(node.half), rays.t_min, rays.t_max, enter);
   }
 
-  /// Returns the children in the order of their distances from the mean origin; for any hits, as
-  /// they are.
+  /// Returns the children in order of distance from the mean origin; for any hits, in stored order.
   HWY_INLINE std::array<std::uint8_t, kBvhLanes> order_of(const StreamNode& node) const {
     std::array<std::uint8_t, kBvhLanes> order{0, 1, 2, 3, 4, 5, 6, 7};
     if constexpr (kAny) return order;
@@ -202,12 +202,12 @@ class StreamWalk {
                             hn::Set(tag, extent_.middle[static_cast<int>(axis)])));
         const auto from_box =
             hn::Max(hn::Sub(from_center, hn::Load(tag, &node.half[axis][lane])), hn::Zero(tag));
-        // Boxes around the mean are at distance 0: of these the one with the nearest center.
+        // Boxes that contain the mean are at distance 0 and are ordered by the distance of their
+        // centers.
         distance = hn::MulAdd(from_box, from_box, distance);
         distance = hn::MulAdd(hn::Mul(from_center, hn::Set(tag, 1e-4F)), from_center, distance);
       }
-      // Floats that are not negative are ordered as their bits are; the last three make them
-      // distinct.
+      // Nonnegative floats are ordered like their bits; the last three bits make them distinct.
       const auto key = hn::Or(hn::And(hn::BitCast(ints, distance), hn::Set(ints, ~7)),
                               hn::Iota(ints, static_cast<std::int32_t>(lane)));
       hn::Store(key, ints, &keys[lane]);
@@ -236,8 +236,8 @@ class StreamWalk {
     }
   }
 
-  /// Tests the primitives of a leaf against rays in lanes, and shortens the rays that hit in their
-  /// rows and in `rays`.
+  /// Tests the primitives of a leaf against rays in lanes, and shortens rays that hit, both in
+  /// their rows and in `rays`.
   HWY_INLINE void test_leaf(ChildReference at, LaneRays<Tag>& rays, Mask active,
                             const std::uint32_t* places) {
     for (std::uint32_t i = 0; i < at.block_count(); ++i) {
@@ -299,7 +299,7 @@ class StreamWalk {
     }
   }
 
-  /// Tests spheres and cones, and decides possible hits at once: of a cone, all.
+  /// Tests spheres and cones and decides possible hits at once; for a cone, every ray is one.
   HWY_INLINE void test_solids(const PrimitiveBlock& block, LaneRays<Tag>& rays, Mask active,
                               const std::uint32_t* places) {
     const bool are_spheres = block.kind == scenes::PrimitiveKind::kSphere;
@@ -325,7 +325,7 @@ class StreamWalk {
     return load(t_max.data());
   }
 
-  /// Rays that stay in registers.
+  /// A list of rays that stays in registers.
   struct Packet {
     alignas(64) std::array<std::uint32_t, 2 * kPacket> places;
     std::array<LaneRays<Tag>, kPacket / kLanes> rays;
@@ -405,7 +405,7 @@ class StreamWalk {
     }
   }
 
-  /// Sends one ray on alone, nearest child first.
+  /// Traces one ray on singly, nearest child first.
   HWY_NOINLINE void visit_alone(ChildReference at, std::uint32_t place) {
     Ray& ray = row(place);
     if (!(ray.t_min <= ray.t_max)) return;
@@ -556,7 +556,7 @@ class StreamWalk {
     }
   }
 
-  /// Each node on the longest path leaves at most seven children waiting.
+  /// Each node on the longest path leaves at most seven children pending.
   static constexpr std::size_t kRoom = kMaxBvhDepth * (kBvhLanes - 1) + 1;
 
   const Stream& stream_;

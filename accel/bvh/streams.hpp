@@ -1,5 +1,5 @@
 #pragma once
-// Lists of rays that go down a wide hierarchy together.
+// Lists of rays that traverse a wide hierarchy together.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,16 +12,16 @@
 
 namespace beambench::accel::bvh {
 
-/// Returns what the counters of streams count, for `Registry::describe_counters`.
+/// Returns the descriptions of the stream counters, for `Registry::describe_counters`.
 std::vector<CounterInfo> stream_counters();
 
-/// A hierarchy over a scene, and the kernels that send streams down it. What it refers to must
-/// outlive it.
+/// A hierarchy over a scene, and the kernels that traverse it by streams. All referenced objects
+/// must outlive it.
 struct Streams {
-  /// The number of rays from which on a list is a stream.
+  /// The minimum number of rays for a list to be traced as streams.
   static constexpr std::size_t kLeast = 320;
 
-  /// Returns the number of streams that a list is divided into. They are equal parts, whatever the
+  /// Returns the number of streams that a list is divided into. They have equal sizes, whatever the
   /// number of threads, so that neither hits nor counters depend on it.
   static constexpr std::size_t parts(std::size_t rays) {
     return (rays + Stream::kMostRays - 1) / Stream::kMostRays;
@@ -36,7 +36,7 @@ struct Streams {
   const scenes::Scene& scene;
   const StreamKernels& kernels;
 
-  /// Writes the closest hits of one part's rays. Calls `trace_alone(i)` for each of them that the
+  /// Writes the closest hits of one part's rays. Calls `trace_alone(i)` for each ray that the
   /// stream did not decide.
   template <class Counting, class TraceAlone>
   void closest_hits(std::span<const Ray> rays, const HitSpan& hits, Counting& counting,
@@ -47,7 +47,8 @@ struct Streams {
     trace(kernels.queries<Counting>().closest, stream, counting, trace_alone);
   }
 
-  /// Writes 1 for each ray of a part that hits anything, and 0 for the others; likewise.
+  /// Writes 1 for each ray of a part that hits anything and 0 for the others; uses `trace_alone`
+  /// likewise.
   template <class Counting, class TraceAlone>
   void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> hits, Counting& counting,
                 const TraceAlone& trace_alone) const {

@@ -48,7 +48,7 @@ class SweepBuilder {
     float cost = std::numeric_limits<float>::infinity();
     std::size_t axis = 0;
     std::size_t middle = 0;   ///< where the right child's items begin
-    std::size_t balance = 0;  ///< items of the smaller child
+    std::size_t balance = 0;  ///< number of items of the smaller child
   };
 
   void sort_along(std::size_t axis) {
@@ -90,7 +90,7 @@ class SweepBuilder {
     }
   }
 
-  /// Moves the left child's items to the front, in all orders. Returns where the right child's
+  /// Moves the left child's items to the front in all orders. Returns where the right child's items
   /// begin; the end for a leaf.
   std::size_t divide(const PendingNode& pending, const scenes::Bounds& box) {
     if (pending.count() == 1) return pending.end;
@@ -149,9 +149,9 @@ class SweepBuilder {
   BvhOptions options_;
   LargePageVector<QuadBox> boxes_;
   std::array<std::vector<std::uint32_t>, 3> order_;  ///< of items, by center along each axis
-  std::vector<std::uint8_t> is_left_;                ///< of each item: to which child it goes
+  std::vector<std::uint8_t> is_left_;                ///< whether an item goes left
   std::vector<std::uint32_t> spare_;
-  std::vector<float> costs_;  ///< of the items from i on as a child
+  std::vector<float> costs_;  ///< costs of a child with the items from i on
   LargePageVector<BvhNode> nodes_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// The reference for the quality of splits: all of them are tried.
+// The reference for the quality of splits: tries every split.
 
 #include <span>
 
@@ -7,12 +7,11 @@
 
 namespace beambench::accel::bvh {
 
-/// Divides a node's items, sorted by their centers along each of the three axes, at the place where
-/// the cost by the surface area heuristic is least, of all places (MacDonald and Booth, "Heuristics
-/// for ray tracing using space subdivision", 1990; Wald, Boulos and Shirley, "Ray tracing
-/// deformable scenes using dynamic bounding volume hierarchies", 2007). Items are sorted once;
-/// divisions keep their order. Of places that cost the same, the one nearest to the middle is
-/// taken.
+/// Sorts a node's items by their centers along each of the three axes and splits them at the
+/// position with the lowest SAH cost of all positions (MacDonald and Booth, "Heuristics for ray
+/// tracing using space subdivision", 1990; Wald, Boulos and Shirley, "Ray tracing deformable scenes
+/// using dynamic bounding volume hierarchies", 2007). Items are sorted once; splits keep their
+/// order. Of positions with equal costs, the one nearest to the middle is taken.
 BinaryBvh build_sweep_bvh(std::span<const scenes::Bounds> boxes, const BvhOptions& options);
 
 }  // namespace beambench::accel::bvh

@@ -22,8 +22,8 @@
 namespace beambench::accel::bvh {
 namespace {
 
-/// The cost of a binary node that the collapse may remove, relative to the test of a primitive: a
-/// third of a wide node's, since three levels become one (CollapseCosts).
+/// The cost of a binary node that the collapse may remove, relative to testing a primitive: a third
+/// of a wide node's cost, since three levels become one (CollapseCosts).
 constexpr float kNodeInPrimitives = 3.0F;
 
 /// Returns the options of a builder whose leaves are small, because they will be merged.
@@ -33,7 +33,7 @@ BvhOptions before_collapse(BvhOptions options) {
   return options;
 }
 
-/// Turns the binary hierarchy over a scene's parts into the wide one.
+/// Converts the binary hierarchy over a scene's parts into the wide one.
 class WideBvhBuilder {
  public:
   WideBvhBuilder(const scenes::Scene& scene, std::vector<PrimitivePart> parts, BinaryBvh binary)
@@ -56,8 +56,8 @@ class WideBvhBuilder {
   }
 
  private:
-  /// Makes room for a hierarchy as it is over triangles alone, so that it need not be copied while
-  /// it grows.
+  /// Reserves space for a typical hierarchy over triangles only, so that it is not copied as it
+  /// grows.
   void reserve() {
     if (collapse_) return;
     std::size_t blocks = 0;
@@ -130,13 +130,13 @@ class WideBvhBuilder {
     return order;
   }
 
-  /// Makes a leaf of parts in increasing id.
+  /// Makes a leaf of parts in order of id.
   ChildReference make_leaf(const scenes::Bounds& box, std::uint32_t first, std::uint32_t count) {
     ++wide_.leaves;
     const auto first_block = static_cast<std::uint32_t>(wide_.blocks.size());
     auto items = std::span(binary_.items).subspan(first, count);
     std::sort(items.begin(), items.end());
-    // Pieces of a part that was divided may be together again.
+    // Pieces of a divided part may end up in the same leaf.
     items = items.first(
         static_cast<std::size_t>(std::unique(items.begin(), items.end()) - items.begin()));
     wide_.references += items.size();
@@ -184,7 +184,7 @@ BinaryBvh build_binary_bvh(const scenes::Scene& scene, std::span<const Primitive
 
 WideBvh build_wide_bvh(const scenes::Scene& scene, const WideBvhOptions& options) {
   const bool collapses = options.collapse == BvhCollapse::kCost;
-  // Reinsertion has more to move where leaves are small, and they can be merged afterward.
+  // Reinsertion can move more if leaves are small, and they can be merged afterward.
   const bool has_small_leaves = collapses || options.reinsertion;
   const BvhOptions splits = has_small_leaves ? before_collapse(options.splits) : options.splits;
   std::vector<PrimitivePart> parts = collect_parts(scene);

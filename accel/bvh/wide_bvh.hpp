@@ -16,7 +16,7 @@
 
 namespace beambench::accel::bvh {
 
-/// The location of a child: a node, or a leaf, which is a run of blocks.
+/// A reference to a child: a node, or a leaf, which is a run of blocks.
 class ChildReference {
  public:
   static constexpr std::uint32_t kMaxBlocks = 15;            ///< in a leaf
@@ -46,8 +46,8 @@ class ChildReference {
 struct alignas(64) WideNode {
   std::array<std::array<float, kBvhLanes>, 6> planes;  ///< lower x, y, z; upper x, y, z
   std::array<ChildReference, kBvhLanes> children;
-  /// For each octant of directions (bit a: backward along axis a), the lanes ordered from the child
-  /// farthest along the octant to the nearest, three bits for each.
+  /// For each octant of directions (bit a: backward along axis a), the lanes in order from the
+  /// farthest child along the octant to the nearest, three bits each.
   std::array<std::uint32_t, 8> orders;
 
   std::uint32_t count() const {
@@ -82,12 +82,12 @@ struct WideBvh {
   LargePageVector<PrimitiveBlock> blocks;
   ChildReference root;
   scenes::Bounds scene_bounds;
-  std::uint32_t depth = 0;  ///< nodes on the longest path to a leaf, leaf included
+  std::uint32_t depth = 0;  ///< nodes on the longest path to a leaf, including the leaf
   std::uint64_t leaves = 0;
   std::uint64_t references = 0;  ///< to triangles, spheres and cones
   ExpectedVisits visits;
   double cost = 0.0;      ///< of the binary hierarchy it was made from: see sah_cost
-  bool is_refit = false;  ///< `visits` and `cost` are those of the boxes that it was built with
+  bool is_refit = false;  ///< `visits` and `cost` are those of the original boxes
 
   bool empty() const { return blocks.empty(); }
 };
@@ -97,27 +97,27 @@ enum class BvhBuilder : std::uint8_t {
   kPloc,    ///< `build_ploc`
   kBinned,  ///< `build_bvh`
   kSweep,   ///< `build_sweep_bvh`
-  kSpatial  ///< `build_spatial_bvh`: pieces may be divided among leaves, unlike by the others
+  kSpatial  ///< `build_spatial_bvh`: unlike the others, may divide pieces among leaves
 };
 
 enum class BvhCollapse : std::uint8_t {
-  kArea,  ///< `gather_children`: the children with the largest areas give way to their own
-  kCost   ///< `Collapse`: the least cost for streams
+  kArea,  ///< `gather_children`: replaces the children with the largest areas by theirs
+  kCost   ///< `Collapse`: the lowest cost for streams
 };
 
 struct WideBvhOptions {
   BvhOptions splits;
   BvhBuilder builder = BvhBuilder::kBinned;
   BvhCollapse collapse = BvhCollapse::kArea;
-  bool reinsertion = false;  ///< `reinsert` what the builder returns
+  bool reinsertion = false;  ///< apply `reinsert` to the builder's result
 };
 
 /// Throws InputError if the scene needs more than ChildReference::kBlockIndices blocks.
 WideBvh build_wide_bvh(const scenes::Scene& scene, const WideBvhOptions& options);
 
 /// Makes a wide hierarchy for streams from a binary one over a scene's parts (`collect_parts`) and
-/// their boxes, which another structure has built for leaves of its own: these are divided, and
-/// `Collapse` chooses nodes and leaves. Throws like build_wide_bvh.
+/// their boxes, built by another structure with its own leaves: these are divided, and `Collapse`
+/// chooses nodes and leaves. Throws like build_wide_bvh.
 WideBvh widen_for_streams(const scenes::Scene& scene, std::vector<PrimitivePart> parts,
                           std::span<const scenes::Bounds> boxes, BinaryBvh binary, bool parallel);
 
