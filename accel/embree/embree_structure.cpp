@@ -12,7 +12,7 @@
 namespace beambench::accel::embree {
 namespace {
 
-/// The queries that are flagged as coherent.
+/// Which queries are flagged as coherent.
 enum class Coherence { kAuto, kAll, kNone };
 
 Coherence parse_coherence(const std::string& name) {
@@ -20,9 +20,9 @@ Coherence parse_coherence(const std::string& name) {
   return name == "false" ? Coherence::kNone : Coherence::kAuto;
 }
 
-/// Differs from the contract where Embree does: among hits at one place it may return any, not the
-/// one with the lowest id, and without `robust` a triangle is hit only at t > t_min, not at t_min
-/// itself. No work is counted, because Embree reports none.
+/// Deviates from the contract where Embree does: of several hits at one point it may return any,
+/// not the one with the lowest id, and without `robust` a triangle is hit only at t > t_min, not at
+/// t_min itself. No work is counted, because Embree reports none.
 class EmbreeStructure : public Accelerator {
  public:
   EmbreeStructure(const scenes::Scene& scene, RTCBuildQuality quality, bool robust,
@@ -61,7 +61,7 @@ class EmbreeStructure : public Accelerator {
     });
   }
 
-  /// Only where the scene was announced as one that moves.
+  /// Works only if the structure was built for a moving scene.
   bool update(const scenes::Scene& scene) override {
     if (moves_) scene_.update(scene);
     return moves_;
@@ -82,8 +82,8 @@ class EmbreeStructure : public Accelerator {
   }
 
  private:
-  /// Calls `trace(first, count)` for a list of rays: whole on one thread, or for parts that are
-  /// whole packets and streams.
+  /// Calls `trace(first, count)` for a list of rays: once on one thread, or for parts that consist
+  /// of whole packets and streams.
   template <class Trace>
   static void for_parts(std::size_t rays, int threads, const Trace& trace) {
     constexpr std::size_t kPart = 4096;

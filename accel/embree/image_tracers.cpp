@@ -6,7 +6,7 @@
 
 #include "accel/core/pick_target.hpp"
 
-// Highway includes this file once more for each instruction set.
+// Highway includes this file again for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "accel/embree/image_tracers.cpp"
 #include <hwy/foreach_target.h>
@@ -50,8 +50,9 @@ class Block {
     }
   }
 
-  /// Sets the rest for the block whose left column of pixels is `x`. As Embree requires, `valid` is
-  /// -1 for each lane on the image and 0 for the others, which get an empty interval.
+  /// Sets the remaining values for the block whose left column of pixels is `x`. As Embree
+  /// requires, `valid` is -1 for each lane on the image and 0 for the others, which get an empty
+  /// interval.
   void aim(int x, Query& query, int* valid) const {
     const Floats floats;
     const hn::RebindToSigned<Floats> numbers;
@@ -130,7 +131,7 @@ class Block {
       const auto down = hn::Load(doubles, &down_[static_cast<std::size_t>(axis)][first]);
       return hn::DemoteTo(rounded, hn::Add(across, down));
     };
-    // In one piece, as Embree loads it: so the load need not wait for two stores to be done.
+    // Stored in one piece, as Embree loads it, so that the load does not wait for two stores.
     // `Combine` is found by its arguments' namespace, since the scalar target has none.
     if constexpr (hn::MaxLanes(Doubles()) == hn::MaxLanes(Floats())) {
       return some(lane);
@@ -262,7 +263,7 @@ void trace_nothing(const OwnerTable& owners, const PrimaryRays& rays, const Band
   constexpr int kLanes = 16;
   trace_blocks<kLanes>(owners, rays, band, buffer,
                        [](Packet<kLanes>::Query& query, const int* valid) {
-                         // Makes the compiler assume that the result depends on all of it.
+                         // Makes the compiler assume that the whole query is used.
                          asm volatile("" : "+m"(query) : "r"(valid) : "memory");
                        });
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Traces whole images with Embree. Rays are made and hits are written by SIMD, compiled for several
-// instruction sets, so that Embree is measured and not the making of its rays.
+// Traces whole images with Embree. Rays are generated and hits are written by SIMD, compiled for
+// several instruction sets, so that measurements show Embree and not the generation of its rays.
 
 #include <cstdint>
 
@@ -16,8 +16,8 @@ struct Band {
   int bottom;
 };
 
-/// The size of the tiles in which an image is traced, so that the part of the scene needed for a
-/// tile stays in the caches.
+/// The size of the tiles in which an image is traced; the part of the scene needed for a tile stays
+/// in the caches.
 inline constexpr int kTile = 16;
 
 /// Returns the number of rows of tiles in an image.
@@ -35,16 +35,16 @@ struct ImageTracers {
   Trace packet4;
   Trace packet8;
   Trace packet16;
-  /// A tile's rays at once, in packets as wide as the instruction set's registers, the only ones
-  /// that Embree need not copy first; nullptr in Embree 4.
+  /// All rays of a tile at once, in packets as wide as the instruction set's registers: Embree has
+  /// to copy all others first. nullptr in Embree 4.
   Trace stream;
-  /// Makes the rays in packets of 16 and stores a miss for each, without a query.
+  /// Generates the rays in packets of 16 and stores a miss for each, without a query.
   void (*untraced)(const OwnerTable& owners, const PrimaryRays& rays, const Band& band,
                    const HitSpan& buffer);
   std::int64_t target;  ///< HWY_TARGET: hwy::TargetName gives its name
 };
 
-/// Returns the tracers for the best of Highway's `targets` that this machine has.
+/// Returns the tracers for the best of Highway's `targets` that this machine supports.
 const ImageTracers& image_tracers(std::int64_t targets);
 
 }  // namespace beambench::accel::embree

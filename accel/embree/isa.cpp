@@ -58,7 +58,7 @@ std::vector<std::string> words_before(const std::string& text, std::string_view 
   return words;
 }
 
-/// Returns the best of our instruction sets that the machine has; nullptr if it has none of them.
+/// Returns the best of our instruction sets that the machine supports; nullptr if none.
 const Isa* best_of_machine() {
   const auto has = [](const Isa& isa) {
     try {

@@ -1,6 +1,6 @@
 #pragma once
-// The loaded Embree: its version and instruction set. The latter is not a device property and only
-// appears in the output of a verbose device.
+// The loaded Embree: its version and instruction set. The instruction set is not a device property;
+// it appears only in the output of a verbose device.
 
 #include <string>
 #include <string_view>
@@ -18,14 +18,14 @@ std::string device_config(const std::string& isa, int threads = 1);
 /// of a verbose device: "AVX512"; "unknown" if the text has none.
 std::string widest_target(const std::string& printed);
 
-/// Returns the instruction set that Embree uses when restricted to `isa`. Found once for each
-/// value, with a verbose device that prints on std::cout: no other thread may write there at the
-/// same time.
+/// Returns the instruction set that Embree uses when restricted to `isa`. Determined once for each
+/// value by a verbose device that prints on std::cout: no other thread may write there at the same
+/// time.
 std::string isa_in_use(const std::string& isa);
 
-/// Throws InputError if the machine lacks `isa`, or if Embree restricted to it does not use it; for
-/// "best", if Embree uses less than the machine has, because ratios to it would then favor the
-/// other structures.
+/// Throws InputError if the machine lacks `isa`, or if Embree restricted to `isa` does not use it;
+/// for "best", if Embree uses less than the machine supports, because ratios to Embree would then
+/// favor the other structures.
 void require_isa(const std::string& isa);
 
 }  // namespace beambench::accel::embree

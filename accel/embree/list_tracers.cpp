@@ -7,7 +7,7 @@
 
 #include "accel/core/pick_target.hpp"
 
-// Highway includes this file once more for each instruction set.
+// Highway includes this file again for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "accel/embree/list_tracers.cpp"
 #include <hwy/foreach_target.h>
@@ -48,8 +48,8 @@ void fill_lanes(const Ray* rays, Rays& out) {
       out.tfar[i] = rays[i].t_max;
     }
   } else {
-    // A ray is origin, t_min, direction, t_max: eight floats. By fours: origins in the even lanes
-    // and directions in the odd ones, of half as many rays as there are lanes.
+    // A ray is origin, t_min, direction, t_max: eight floats. In groups of four floats: origins in
+    // the even lanes and directions in the odd ones, for half as many rays as lanes.
     static_assert(sizeof(Ray) == 8 * sizeof(float));
     for (std::size_t lane = 0; lane < N; lane += hn::Lanes(floats)) {
       const float* const first = &rays[lane].origin.x;
@@ -94,7 +94,7 @@ void aim(const Ray* rays, Query& query) {
   std::ranges::fill(query.hit.geomID, RTC_INVALID_GEOMETRY_ID);
 }
 
-/// Writes the hits of a packet into a buffer; misses are at infinity, wherever their rays end.
+/// Writes the hits of a packet to a buffer; misses are at infinity, wherever their rays end.
 template <int N, class Query>
 HWY_INLINE void write(const OwnerTable& table, const Query& query, std::size_t first,
                       std::size_t count, const HitSpan& buffer) {
@@ -185,7 +185,8 @@ constexpr int kStreamLanes =
     std::max(4, static_cast<int>(hn::MaxLanes(hn::CappedTag<float, 16>())));
 constexpr std::size_t kStream = 256;
 
-/// Traces a list stream by stream: `trace(queries)` at once, then `store(query, first, count)`.
+/// Traces a list stream by stream: `trace(queries)` for a whole stream, then `store(query, first,
+/// count)`.
 template <class Query, class Aim, class Trace, class Store>
 void trace_streams(std::span<const Ray> rays, std::vector<Query>& queries, Aim aim, Trace trace,
                    Store store) {
@@ -242,7 +243,7 @@ constexpr ListMode kStreams{nullptr, nullptr};
 
 void untraced_closest(const OwnerTable& owners, std::span<const Ray> rays, const HitSpan& buffer) {
   closest_hits_by_packets<16>(owners, rays, buffer, [](const int* valid, auto& query) {
-    // Makes the compiler assume that the result depends on all of it.
+    // Makes the compiler assume that the whole query is used.
     asm volatile("" : "+m"(query) : "r"(valid) : "memory");
   });
 }

@@ -1,6 +1,6 @@
 #pragma once
 // Traces lists of rays with Embree. Packets are filled and results are stored by SIMD, compiled for
-// several instruction sets, so that Embree is measured and not the packing of its rays.
+// several instruction sets, so that measurements show Embree and not the packing of its rays.
 
 #include <cstdint>
 #include <span>
@@ -26,8 +26,8 @@ struct ListTracers {
   ListMode packet4;
   ListMode packet8;
   ListMode packet16;
-  /// 256 rays at a time, in packets as wide as the instruction set's registers, the only ones that
-  /// Embree need not copy first; nullptr in Embree 4.
+  /// 256 rays at a time, in packets as wide as the instruction set's registers: Embree has to copy
+  /// all others first. nullptr in Embree 4.
   ListMode stream;
   /// Fill packets of 16 and store a miss for each ray, without a query.
   void (*untraced_closest)(const OwnerTable& owners, std::span<const Ray> rays,
@@ -35,7 +35,7 @@ struct ListTracers {
   void (*untraced_any)(std::span<const Ray> rays, std::span<std::uint8_t> answers);
 };
 
-/// Returns the tracers for the best of Highway's `targets` that this machine has.
+/// Returns the tracers for the best of Highway's `targets` that this machine supports.
 const ListTracers& list_tracers(std::int64_t targets);
 
 }  // namespace beambench::accel::embree

@@ -15,8 +15,8 @@
 namespace beambench::accel::embree {
 namespace {
 
-/// Makes a new buffer of `count` elements to be filled. A scene's own array cannot be shared,
-/// because Embree reads 16 bytes at every vertex, and the last element may end a page.
+/// Creates a buffer of `count` elements to be filled. A scene's own array cannot be shared, because
+/// Embree reads 16 bytes at every vertex, and the last element may be at the end of a page.
 template <class Element>
 Element* new_buffer(const GeometryHandle& geometry, RTCBufferType type, RTCFormat format,
                     std::size_t count) {
@@ -30,8 +30,7 @@ bool is_count(const std::vector<scenes::PrimitiveId>& ids) {
   return std::ranges::all_of(ids, [&](scenes::PrimitiveId id) { return id == expected++; });
 }
 
-/// Gives a ray a direction of unit length. Its t are multiplied by the former length, which is
-/// returned.
+/// Normalizes a ray's direction. Its t are multiplied by the former length, which is returned.
 float make_unit(RTCRay& ray) {
   const float length = glm::length(glm::vec3(ray.dir_x, ray.dir_y, ray.dir_z));
   ray.dir_x /= length;
@@ -112,7 +111,7 @@ GeometryHandle NativeScene::make_triangles(const scenes::Scene& scene) {
                                                scene.vertices.size());
   device_.check("building over " + scene.name);
   std::memcpy(vertices, scene.vertices.data(), scene.vertices.size() * sizeof(glm::vec3));
-  // A triangle's indices precede its owner, so that this array can be shared.
+  // A triangle's indices come before its owner, so that this array can be shared.
   rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                              scene.triangles.data(), 0, sizeof(scenes::Triangle),
                              scene.triangles.size());

@@ -20,7 +20,7 @@ namespace beambench::accel::embree {
 /// The ids of the geometries in Embree.
 enum GeometryId : unsigned { kTriangles, kSpheres, kCurves, kUser, kGeometryCount };
 
-/// The owners of Embree's primitives: the scene's primitives.
+/// The owners of Embree's primitives, which are the scene's primitives.
 struct OwnerTable {
   /// The scene's ids of the geometries' primitives, one geometry after the other.
   std::vector<scenes::PrimitiveId> ids;
@@ -32,7 +32,7 @@ struct OwnerTable {
 /// A scene in Embree: polygons are triangles (the scene's own triangulation), hollow spheres are
 /// sphere points, cones are optionally linear curves, and the rest is user geometry. It has its own
 /// device with one build thread, so that build times are comparable with those of single-threaded
-/// builds and memory is counted exactly. Making the device is part of the build: 0.05 ms.
+/// builds and memory is counted exactly. Creating the device, 0.05 ms, is part of the build.
 class NativeScene {
  public:
   /// `isa` is a value of `isa_parameter`; `cones` selects the cones that Embree's curves test.

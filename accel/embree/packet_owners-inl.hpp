@@ -1,5 +1,5 @@
-// The owners of a packet's hits. Compiled for each of Highway's targets: the file that includes
-// this is included several times.
+// The owners of a packet's hits. Compiled for each of Highway's targets: the including file is
+// included several times.
 
 #if defined(BEAMBENCH_EMBREE_PACKET_OWNERS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef BEAMBENCH_EMBREE_PACKET_OWNERS_INL

@@ -15,7 +15,7 @@ struct TraceMode {
   ListMode ListTracers::*list;
 };
 
-/// Returns the modes of the Embree version used in the build, the simplest first.
+/// Returns the modes that the build's Embree version has, the simplest first.
 std::span<const TraceMode> trace_modes();
 
 }  // namespace beambench::accel::embree

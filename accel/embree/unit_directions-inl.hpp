@@ -1,5 +1,5 @@
 // Directions of unit length, for Embree's cone curves. Compiled for each of Highway's targets: the
-// file that includes this is included several times.
+// including file is included several times.
 
 #if defined(BEAMBENCH_EMBREE_UNIT_DIRECTIONS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef BEAMBENCH_EMBREE_UNIT_DIRECTIONS_INL
@@ -20,7 +20,7 @@ namespace beambench::accel::embree::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Gives the N rays of a packet directions of unit length, and restores their t afterwards.
+/// Normalizes the directions of a packet's N rays, and restores their t afterward.
 template <int N>
 class UnitDirections {
  public:
@@ -40,8 +40,8 @@ class UnitDirections {
     });
   }
 
-  /// Converts t to the units of the original directions; -infinity, with which Embree marks
-  /// occluded rays, stays.
+  /// Converts t to the units of the original directions; -infinity, which marks occluded rays in
+  /// Embree, is kept.
   template <class Rays>
   void restore_t(Rays& rays) const {
     for_lanes([&](auto floats, std::size_t lane) {
@@ -72,7 +72,7 @@ HWY_INLINE void trace_packet(const NativeScene& scene, Rays& rays, Trace trace) 
   unit.restore_t(rays);
 }
 
-/// Does the same for the first `count` of many packets, whose rays are `rays_of(packet)`.
+/// Does the same for the first `count` packets, whose rays are `rays_of(packet)`.
 template <int N, class Packets, class RaysOf, class Trace>
 void trace_packets_at_once(const NativeScene& scene, Packets& packets, unsigned count,
                            RaysOf rays_of, Trace trace) {

@@ -9,8 +9,8 @@
 namespace beambench::accel::embree {
 namespace {
 
-/// Embree's float boxes must hold at any distance from the camera up to this many scene sizes, the
-/// limit up to which structures are exact (accel/core/tolerance.hpp).
+/// Embree's float boxes must be valid for cameras up to this many scene sizes away, the limit up to
+/// which structures are exact (accel/core/tolerance.hpp).
 constexpr double kCameraDistance = 8.0;
 
 Ray ray_of(RTCRayN* rays, unsigned n, unsigned i) {

@@ -1,6 +1,6 @@
 #pragma once
-// Primitives for which Embree has no type, as user geometry: spheres that are seen from the inside
-// only, and cones, which are open at both ends, unless they are treated as curves.
+// Primitives for which Embree has no type, as user geometry: spheres seen only from the inside, and
+// cones, which are open at both ends, unless they are represented as curves.
 
 #include <vector>
 
@@ -24,9 +24,9 @@ class UserGeometry {
 
   /// The ids by the primitive number that Embree reports.
   const std::vector<scenes::PrimitiveId>& ids() const { return ids_; }
-  /// Makes a geometry over the primitives, not yet committed; they must outlive it.
+  /// Creates a geometry over the primitives, which must outlive it; it is not yet committed.
   GeometryHandle make(RTCDevice device);
-  /// Takes the padding of boxes from the scene's present bounds.
+  /// Computes the padding of boxes from the scene's current bounds.
   void measure(const scenes::Scene& scene);
 
  private:

@@ -40,8 +40,8 @@ inline void intersect_any(const int* valid, RTCScene scene, Context& context, RT
   rtcOccluded16(valid, scene, &context, &rays);
 }
 
-/// Traces a stream of packets (RTCRayHit4, 8 or 16) in one call; rays with tfar < tnear are left
-/// out.
+/// Traces a stream of packets (RTCRayHit4, 8 or 16) in one call; rays with tfar < tnear are
+/// skipped.
 template <class Packet>
 void intersect_stream(RTCScene scene, Context& context, Packet* packets, unsigned count) {
   constexpr unsigned kLanes = sizeof(packets->ray.tfar) / sizeof(float);

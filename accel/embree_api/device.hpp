@@ -12,12 +12,12 @@
 
 namespace beambench::accel::embree {
 
-/// An Embree device that records Embree's errors and memory use. Embree calls back from inside C
-/// functions and from its own threads, through which no exception can pass: errors are kept until
-/// `check`.
+/// An Embree device that records Embree's errors and memory use. Embree calls back from C functions
+/// and from its own threads, which exceptions cannot cross: errors are kept until `check`.
 class Device {
  public:
-  /// `config` as for rtcNewDevice: "threads=1". Throws std::runtime_error if Embree refuses.
+  /// Creates a device; `config` is passed to rtcNewDevice, for example "threads=1". Throws
+  /// std::runtime_error if Embree refuses.
   explicit Device(const char* config);
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;

@@ -12,7 +12,7 @@ class Exhaustive : public TraversalAccelerator<Exhaustive> {
   explicit Exhaustive(const scenes::Scene& scene) : scene_(&scene) {}
 
   Statistics statistics() const override { return {}; }
-  /// Nothing was built, so there is nothing to adapt.
+  /// Nothing is built, so there is nothing to update.
   bool update(const scenes::Scene& scene) override {
     scene_ = &scene;
     return true;

@@ -5,12 +5,12 @@
 
 namespace beambench::accel::grid {
 
-/// The part of a primitive that must reach into the voxel: its surface, or only its bounding box,
-/// as in many published counts (Havran and Sixta, "Comparison of hierarchical grids", Ray Tracing
-/// News 12(1), 1999).
+/// The part of a primitive that must overlap the voxel: its surface, or only its bounding box, as
+/// in many published counts (Havran and Sixta, "Comparison of hierarchical grids", Ray Tracing News
+/// 12(1), 1999).
 enum class Assign { kSurface, kBounds };
 
-/// The parameter `assign`.
+/// Returns the parameter `assign`.
 inline ParameterInfo assign_parameter() {
   return choice_parameter("assign", "surface", {"surface", "bbox"},
                           "what must reach into a voxel for a reference: the primitive's surface, "

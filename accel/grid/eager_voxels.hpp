@@ -12,8 +12,8 @@
 
 namespace beambench::accel::grid {
 
-/// The primitives whose surface (or box, by `Assign`) reaches into each closed voxel, widened by
-/// `overlap_tolerance`, in increasing id: one list after the other.
+/// The primitives whose surface (or box, depending on `Assign`) overlaps each closed voxel, widened
+/// by `overlap_tolerance`, in order of id: one list after another.
 class EagerVoxels {
  public:
   /// Throws InputError naming `max_references` if the lists exceed it.

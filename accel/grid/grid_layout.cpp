@@ -46,9 +46,8 @@ glm::ivec3 cubic_cells(const glm::dvec3& size, double wanted, int most) {
   return cells;
 }
 
-/// Returns an upper estimate of the references in a grid of `cells`: a surface reaches into the
-/// voxels of its bounds or, if those are many, into about twice as many as on the sides of its
-/// bounds.
+/// Returns an upper estimate of the references in a grid of `cells`: a surface overlaps the voxels
+/// of its bounds or, if those are many, about twice as many as on the sides of its bounds.
 double estimated_references(const scenes::Scene& scene, const glm::dvec3& size,
                             const glm::ivec3& cells, Assign assign) {
   const glm::dvec3 voxels_per_unit = glm::dvec3(cells) / glm::max(size, glm::dvec3(1e-300));

@@ -14,7 +14,7 @@
 
 namespace beambench::accel::grid {
 
-/// Voxels as cubic as they can be, or the same number of them along each axis.
+/// Voxels as cubic as possible, or the same number along each axis.
 enum class Shape { kCubic, kEqual };
 
 /// The layout of any structure with a grid over the scene's box.
@@ -27,12 +27,13 @@ struct GridLayout {
   std::uint64_t max_references = 50'000'000;
 };
 
-/// Returns the numbers of voxels per axis, about `wanted` in all, over a box of `size`; at most
-/// `most` per axis. With cubic voxels, an axis too short for one such voxel has one, and the others
-/// have more.
+/// Returns the number of voxels along each axis of a box of `size`, about `wanted` in total and at
+/// most `most` per axis. With cubic voxels, an axis too short for one such voxel has one, and the
+/// others have more.
 glm::ivec3 cells_by_number(const glm::dvec3& size, double wanted, Shape shape, int most);
 
-/// Returns the grid over the scene's own box. Throws InputError naming `max_voxels` if it has more.
+/// Returns the grid over the scene's box. Throws an InputError that names `max_voxels` if it has
+/// more.
 CellGrid make_voxel_grid(const scenes::Scene& scene, const GridLayout& layout);
 
 /// Throws the InputError for a grid whose voxels refer to more than `max_references` primitives.

@@ -14,13 +14,13 @@
 
 namespace beambench::accel::grid {
 
-/// The grid of the thesis: nothing is built in advance. The first ray that enters a voxel has every
-/// primitive of the scene tested for overlap with it, beginning with the primitive's range of
-/// voxels. The lists are those of `EagerVoxels` (that of a cone may be longer: its overlap test is
-/// conservative).
+/// The grid of the thesis: nothing is built in advance. When the first ray enters a voxel, every
+/// primitive of the scene is tested for overlap with it, beginning with the primitive's range of
+/// voxels. The lists are those of `EagerVoxels`, except that more cones may be listed: their
+/// overlap test is conservative.
 ///
 /// Several threads may query at once. A thread that finds no list builds one and publishes it by
-/// compare-exchange; the second thread to do so discards its own, which is the same.
+/// compare-exchange; a second thread to do so discards its own, identical list.
 class LazyVoxels {
  public:
   LazyVoxels(const scenes::Scene& scene, const CellGrid& grid, std::uint64_t max_references,
@@ -29,7 +29,7 @@ class LazyVoxels {
   LazyVoxels& operator=(const LazyVoxels&) = delete;
   ~LazyVoxels();
 
-  /// Throws InputError naming `max_references` if the lists made so far exceed it.
+  /// Throws an InputError that names `max_references` if the lists made so far exceed it.
   std::span<const scenes::PrimitiveId> references(std::size_t voxel) const {
     const List* list = lists_[voxel].load(std::memory_order_acquire);
     if (list == nullptr) list = &publish(voxel, evaluate(voxel));
@@ -60,7 +60,7 @@ class LazyVoxels {
   std::vector<CellRange> ranges_;  ///< by primitive
   /// Shared by all empty voxels, which are the majority.
   const List empty_;
-  // Mutable: any query would have added the same. The lists are owned.
+  // Mutable: every query would add the same. The lists are owned.
   mutable std::vector<std::atomic<const List*>> lists_;
   mutable std::atomic<std::uint64_t> references_made_{0};
 };

@@ -14,9 +14,9 @@ namespace beambench::accel::grid {
 /// for ray tracing CSG modelled scenes", 1987; Amanatides and Woo, 1987): each primitive remembers
 /// the last ray it was tested against.
 ///
-/// The boxes belong to the thread, because queries are const and come from several threads at once.
-/// Every ray of a thread has a unique number across structures, so entries of other structures are
-/// harmless.
+/// The boxes belong to the thread, because queries are const and may run in several threads at
+/// once. Each ray of a thread has a number that is unique across structures, so entries of other
+/// structures are harmless.
 class Mailboxes {
  public:
   explicit Mailboxes(std::size_t primitives) : scratch_(of_this_thread()) {

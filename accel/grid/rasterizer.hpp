@@ -1,5 +1,5 @@
 #pragma once
-// Finds the voxels into which primitives reach.
+// Finds the voxels that primitives overlap.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,8 +16,8 @@
 
 namespace beambench::accel::grid {
 
-/// Finds the closed voxels, widened by `overlap_tolerance`, that a primitive reaches into; called
-/// for one primitive after the other. `grid` may cover only a part of the scene.
+/// Finds the closed voxels, widened by `overlap_tolerance`, that a primitive overlaps; called for
+/// one primitive after another. `grid` may cover only part of the scene.
 class Rasterizer {
  public:
   /// Scene and grid must outlive this object.
@@ -25,7 +25,7 @@ class Rasterizer {
       : scene_(&scene), grid_(&grid), assign_(assign), tolerance_(overlap_tolerance(scene)) {}
 
   /// Calls `emit(voxel)` with the index of each voxel until it returns false; returns whether it
-  /// never did. If the grid covers only a part of the scene, the primitive must reach into it.
+  /// never did. If the grid covers only part of the scene, the primitive must overlap it.
   template <class Emit>
   bool for_each_voxel(scenes::PrimitiveId id, Emit emit) const {
     const scenes::Bounds bounds = scenes::primitive_bounds(*scene_, id);
@@ -52,10 +52,10 @@ class Rasterizer {
     return true;
   }
 
-  /// Halves a block of voxels into which the primitive is known to reach, down to a few that are
-  /// tested one by one: the cost of a large primitive depends on its surface, not on the
-  /// surrounding volume. `all`: the primitive is known to reach into each voxel. This is true for a
-  /// row of voxels that contains the whole primitive, because its surface is connected.
+  /// Halves a block of voxels that the primitive is known to overlap, down to a few that are tested
+  /// one by one: the cost of a large primitive depends on its surface, not on the surrounding
+  /// volume. `all`: the primitive is known to overlap each voxel. This is true for a row of voxels
+  /// that contains the whole primitive, because its surface is connected.
   template <class Emit>
   bool split(scenes::PrimitiveId id, const glm::ivec3& corner, const glm::ivec3& size, bool all,
              Emit& emit) const {

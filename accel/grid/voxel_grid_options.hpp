@@ -1,5 +1,5 @@
 #pragma once
-// Options for making and filling a uniform grid of voxels.
+// Options for laying out and filling a uniform grid of voxels.
 
 #include <vector>
 

@@ -67,7 +67,7 @@ struct WalkRay {
   float t_max;
 };
 
-/// A part of a ray; empty if its end is before its beginning.
+/// A part of a ray; empty if its end is before its start.
 struct WalkInterval {
   double enter;
   double exit;
@@ -95,20 +95,19 @@ inline WalkInterval interval_inside(const CellGrid& grid, const WalkRay& ray) {
   return inside;
 }
 
-/// Calls `visit(index, enter_t, exit_t)` for the voxels that the ray passes through in a part of it
-/// inside the grid, until it returns true; returns whether it did (Amanatides and Woo, "A fast
-/// voxel traversal algorithm for ray tracing", Eurographics 1987). The voxel is stepped by
-/// integers, and for each axis the t of the next plane (their tMax) grows by a constant (their
-/// tDelta). The axis is chosen by branches: while they are predicted correctly, the comparisons of
-/// the next step need not wait for those of this one.
+/// Calls `visit(index, enter_t, exit_t)` for the voxels along a part of the ray inside the grid,
+/// until it returns true; returns whether it did (Amanatides and Woo, "A fast voxel traversal
+/// algorithm for ray tracing", Eurographics 1987). Voxels are stepped by integers, and for each
+/// axis the t of the next plane (their tMax) grows by a constant (their tDelta). The axis is chosen
+/// by branches: while they are predicted correctly, the comparisons of the next step need not wait
+/// for those of this one.
 ///
-/// The sums are not exact, but no hit is lost. The intervals between the computed t follow each
-/// other without a gap, the first begins with the part and the last ends with it, so a hit's t lies
-/// in the interval of one voxel. After n additions tMax is off by less than 2 n 2^-53 of the
-/// largest t in the grid; times the direction, and with an eye within 8 scene sizes
-/// (accel/core/tolerance.hpp: 10 diagonals), the point lies at most 2 x 2^12 x 2^-53 x 10 < 2^-36
-/// diagonals outside its voxel. Overlaps are widened by 2^-30 diagonals, of which the canonical
-/// tests use less than 0.63.
+/// The sums are not exact, but no hit is lost. The intervals between the computed t are contiguous
+/// and cover the whole part, so a hit's t lies in the interval of one voxel. After n additions tMax
+/// is off by less than 2 n 2^-53 of the largest t in the grid; times the direction, and with an eye
+/// within 8 scene sizes (accel/core/tolerance.hpp: 10 diagonals), the point lies at most 2 x 2^12 x
+/// 2^-53 x 10 < 2^-36 diagonals outside its voxel. Overlaps are widened by 2^-30 diagonals, of
+/// which the canonical tests use less than 0.63.
 template <class Visit>
 bool walk_part(const WalkGrid& grid, const WalkRay& ray, const WalkInterval& part, Visit visit) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -142,7 +141,7 @@ bool walk_part(const WalkGrid& grid, const WalkRay& ray, const WalkInterval& par
   double next_x = next_t[0];
   double next_y = next_t[1];
   double next_z = next_t[2];
-  /// Visits the voxel and crosses the plane at `next`; returns whether the walk continues.
+  /// Visit the voxel and cross the plane at `next`; true if the walk continues.
   bool stopped = false;
   const auto pass = [&](double& next, std::size_t axis) __attribute__((always_inline)) {
     const double exit_t = std::min(next, part.exit);

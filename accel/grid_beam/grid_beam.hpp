@@ -28,7 +28,7 @@ class GridBeam : public GridCells::Tracer {
   void closest_hits(const RaySource& rays, const HitSpan& hits,
                     const QueryContext& context) const override;
   std::optional<std::vector<BeamOutline>> beams(const PrimaryRays& rays) const override;
-  /// Samples become rays only at occupied voxels, so that not all of an image's rays are made.
+  /// Samples become rays only at occupied voxels, so not all of an image's rays are generated.
   Statistics statistics() const override;
 
   const GridLattice& lattice() const { return lattice_; }

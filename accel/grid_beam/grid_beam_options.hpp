@@ -13,7 +13,8 @@ struct GridBeamOptions {
   beam::BeamRules rules;
   hierarchical_grid::HierarchicalGridOptions grid;
 
-  /// The hierarchy is made with `Inner::kPowers`, and its rays have mailboxes.
+  /// Returns the parameters. The hierarchy is built with `Inner::kPowers`, and its rays use
+  /// mailboxes.
   static std::vector<ParameterInfo> parameters();
   static GridBeamOptions from(const Parameters& parameters);
 };

@@ -74,8 +74,8 @@ class Entry {
     return layer;
   }
 
-  /// Returns the voxels behind the face of a cell, or the one that is larger, searching down from
-  /// the top grid.
+  /// Returns the voxels behind the face of a cell, or the single larger voxel there, searching down
+  /// from the top grid.
   Layer behind(const glm::ivec3& corner, std::int32_t size) const {
     glm::ivec3 at = corner;  // a finest cell behind the face
     at[face_.axis] = face_.side > 0 ? face_.index : face_.index - 1;
@@ -126,7 +126,7 @@ void begin_inside(const GridHierarchy& hierarchy, const GridLattice& lattice, co
     const GridPlace& place = lattice.place(number);
     glm::ivec3 at(0);
     for (int axis = 0; axis < 3; ++axis) {
-      // As everywhere, the planes of the lattice decide.
+      // As elsewhere, the planes of the lattice decide.
       while (at[axis] + 1 < grid.place().cells[axis] &&
              lattice.cells().plane(axis, place.corner[axis] + place.size * (at[axis] + 1)) <=
                  view.eye(axis)) {

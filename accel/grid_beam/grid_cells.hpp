@@ -16,7 +16,7 @@
 namespace beambench::accel::grid_beam {
 
 /// The counterpart of `beam::OctreeCells`: a beam's cell is an undivided voxel, and its node is the
-/// number of that voxel.
+/// index of that voxel.
 class GridCells {
  public:
   using Tracer = hierarchical_grid::HierarchicalGrid<grid::Mailboxes>;
@@ -27,8 +27,9 @@ class GridCells {
 
   /// The grid whose planes contain the faces of all voxels.
   const CellGrid& grid() const { return lattice_->cells(); }
-  /// Pushes the first beams (thesis, section 3.4). From outside: for each visible face of the top
-  /// grid, divided among the voxels behind it. From inside: in the voxel that contains the eye.
+  /// Pushes the first beams (thesis, section 3.4). From outside: one for each visible face of the
+  /// top grid, divided among the voxels behind it. From inside: one in the voxel that contains the
+  /// eye.
   void begin(const beam::EyeView& view, const beam::ImagePolygon& part,
              beam::BeamQueue& queue) const;
   /// Pushes the parts of a beam behind its voxel: divided among the faces through which its rays
@@ -52,7 +53,7 @@ class GridCells {
         .from(t);
   }
 
-  /// Traces a ray from its beginning.
+  /// Traces a ray from its origin.
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
     return tracer_->find_closest(ray, counting);

@@ -19,11 +19,11 @@ struct GridPlace {
 
 /// If each divided voxel is divided into a power of two along each axis, the planes of all grids
 /// are planes of one lattice, like those of an octree. Beams are divided by planes, which they
-/// identify by numbers of that lattice, so that a plane has the same number for neighbors of any
-/// size.
+/// identify by their indices in that lattice, so that a plane has the same index for neighbors of
+/// any size.
 class GridLattice {
  public:
-  /// Makes the lattice of a hierarchy with `Inner::kPowers`.
+  /// Creates the lattice of a hierarchy built with `Inner::kPowers`.
   explicit GridLattice(const hierarchical_grid::GridHierarchy& hierarchy);
 
   const CellGrid& cells() const { return cells_; }

@@ -18,7 +18,7 @@
 
 namespace beambench::accel::hierarchical_grid {
 
-/// A voxel in four bytes: empty, the place of its references, or the number of the grid in it.
+/// A voxel in four bytes: empty, the position of its references, or the number of the grid in it.
 class Voxel {
  public:
   Voxel() = default;
@@ -28,7 +28,7 @@ class Voxel {
   bool is_empty() const { return word_ == 0; }
   bool is_divided() const { return (word_ & kGrid) != 0; }
   std::uint32_t grid() const { return word_ & ~kGrid; }  ///< of a divided voxel
-  /// For a voxel with references: the place of their number, which precedes them. Never 0.
+  /// For a voxel with references: the position of their count, which precedes them. Never 0.
   std::uint32_t first() const { return word_; }
 
  private:
@@ -50,13 +50,13 @@ struct NestedGrid {
 /// Jevans and Wyvill, "Adaptive voxel subdivision for ray tracing" (Graphics Interface 1989): a
 /// grid over the scene, and in each voxel that refers to more than `max_objects` primitives another
 /// grid, down to `max_level`. An undivided voxel refers to each primitive whose surface (or box)
-/// reaches into it, closed and widened by `overlap_tolerance`, in increasing id.
+/// overlaps it, closed and widened by `overlap_tolerance`, in order of id.
 class GridHierarchy {
  public:
-  /// Throws InputError naming `max_voxels` if the top grid has more, and `max_references` if its
-  /// voxels refer to more. If the grids in the voxels of a grid would bring the total above
-  /// `max_voxels`, none of them is made. A voxel whose grid would bring the total above
-  /// `max_references` is not divided; with `divide=always`, it is an InputError.
+  /// Throws an InputError that names `max_voxels` if the top grid has more, or `max_references` if
+  /// its voxels have more references. If the grids in the voxels of a grid would bring the total
+  /// above `max_voxels`, none of them is made. A voxel whose grid would bring the total above
+  /// `max_references` is not divided; with `divide=always`, this is an InputError.
   GridHierarchy(const scenes::Scene& scene, const HierarchicalGridOptions& options);
 
   std::span<const NestedGrid> grids() const { return grids_; }
@@ -79,7 +79,7 @@ class GridHierarchy {
   scenes::Bounds scene_bounds_;
   std::vector<NestedGrid> grids_;  ///< the scene's first
   std::vector<Voxel> voxels_;
-  /// Lists preceded by their lengths; the first is that of all empty voxels.
+  /// Lists preceded by their lengths; all empty voxels use the first list.
   std::vector<scenes::PrimitiveId> references_{0};
 };
 

@@ -1,4 +1,4 @@
-// Makes grids in the voxels of grids, from the scene's grid down.
+// Builds grids in the voxels of grids, from the scene's grid down.
 
 #include <algorithm>
 #include <array>
@@ -28,8 +28,8 @@ struct Division {
   glm::ivec3 cells;
 };
 
-/// Memory used while the voxels of one grid are made. The grids of a level are made one after the
-/// other, so each level needs it once.
+/// Memory used while the voxels of one grid are made. The grids of a level are made one after
+/// another, so each level needs only one.
 struct Scratch {
   std::vector<grid::VoxelReference> found;
   std::vector<std::uint32_t> first;
@@ -132,7 +132,7 @@ class GridHierarchyBuilder {
     const CellGrid place = grid_in(box, division.cells);
     const int level = grid.level + 1;
     const bool always = options_.divide == HierarchicalGridOptions::Divide::kAlways;
-    // The number for which those of all current voxels stay below the limit.
+    // The number of references per voxel that keeps all current voxels below the limit.
     const std::uint64_t room = options_.max_references - references_ + primitives.size();
     const std::uint64_t most = always ? room : std::min(room, worthwhile(place, primitives.size()));
     if ((!always && sample_exceeds(place, primitives, most)) ||
@@ -147,8 +147,8 @@ class GridHierarchyBuilder {
     return Voxel::with_grid(inner);
   }
 
-  /// Returns whether a sample of many primitives shows that all will have more references than
-  /// that, so that no time is lost on heaps that no grid separates.
+  /// Returns whether a sample of many primitives shows that they will have more references than
+  /// this, so that no time is lost on clusters that no grid separates.
   bool sample_exceeds(const CellGrid& place, std::span<const scenes::PrimitiveId> primitives,
                       std::uint64_t most) const {
     constexpr std::size_t kSample = 64;
@@ -164,7 +164,7 @@ class GridHierarchyBuilder {
     return false;
   }
 
-  /// Returns the maximum number of references with which a grid in a voxel of that many primitives
+  /// Returns the maximum number of references for which a grid in a voxel of this many primitives
   /// still saves time.
   static std::uint64_t worthwhile(const CellGrid& place, std::size_t primitives) {
     // The expected number of visits to one of the voxels by a ray through the box (MacDonald and

@@ -16,9 +16,9 @@ namespace beambench::accel::hierarchical_grid {
 /// traversed from the t at which the ray enters it to the t at which the ray leaves it (Jevans and
 /// Wyvill 1989).
 ///
-/// No hit is lost by rounding, as `walk_part` shows for one grid. If a point of a voxel's interval
-/// is outside the voxel, it is equally far outside the adjacent voxel of the inner grid, so the
-/// distances do not add up over the levels.
+/// Rounding loses no hit, as `walk_part` shows for one grid. If a point of a voxel's interval is
+/// outside the voxel, it is equally far outside the adjacent voxel of the inner grid, so the
+/// distances do not add up across levels.
 template <class Counting, class Visit>
 class GridWalk {
  public:
@@ -55,7 +55,7 @@ class GridWalk {
         });
   }
 
-  /// Kept out of the loop, which is short.
+  /// Kept out of the loop to keep it short.
   [[gnu::noinline]] bool test(Voxel voxel, double exit_t) {
     return visit_(hierarchy_->references(voxel), exit_t);
   }

@@ -1,4 +1,5 @@
-// Builds a kd-tree from the root down: events are sorted once, then handed down in order.
+// Builds a kd-tree from the root down: events are sorted once, then passed to the children in
+// order.
 
 #include <algorithm>
 #include <array>
@@ -25,7 +26,7 @@
 namespace beambench::accel::kd_tree {
 namespace {
 
-/// The largest float below a number, the smallest float above one.
+/// Return the largest float below a number and the smallest float above it.
 float float_below(double value) {
   const auto rounded = static_cast<float>(value);
   return rounded < value ? rounded : -next_above(-rounded);
@@ -34,17 +35,17 @@ float float_above(double value) { return -float_below(-value); }
 
 /// A plane, and its expected cost.
 struct Split {
-  int axis = -1;  ///< none
+  int axis = -1;  ///< no axis
   float plane = 0.0F;
   double cost = std::numeric_limits<double>::infinity();
 };
 
 /// The build in O(n log n) of Wald and Havran (2006, section 4.3). For each axis, one array holds
-/// the events of the current node and of the waiting upper children, so nothing is allocated for a
-/// node: its lower child takes its place, and its upper child goes to the end.
+/// the events of the current node and of the pending upper children, so no memory is allocated per
+/// node: its lower child replaces it, and its upper child goes to the end.
 ///
 /// An item begins at the largest float below its box widened by the tolerance, and ends at the
-/// smallest float above that. It reaches below a plane if it begins below the plane, and above it
+/// smallest float above that. It extends below a plane if it begins below the plane, and above it
 /// if it ends above.
 class Builder {
  public:
@@ -85,7 +86,7 @@ class Builder {
   }
 
  private:
-  /// A node to be made, and its items: two events each, from `first_event` on in each list.
+  /// A node to be made, with its items: two events each, from `first_event` on in each list.
   struct Pending {
     std::uint32_t node;
     std::size_t first_event;
@@ -154,7 +155,8 @@ class Builder {
     end_ = above.first_event;
   }
 
-  /// Makes a builder for estimates over some of another builder's items, with its root and depth.
+  /// Creates a builder for estimates over some of another builder's items, with the same root and
+  /// depth.
   Builder(const Builder& whole, std::vector<bvh::PrimitivePart> pieces)
       : scene_(whole.scene_),
         options_(whole.options_),
@@ -167,7 +169,7 @@ class Builder {
     tree_.root = whole.tree_.root;
   }
 
-  /// Returns an estimate of the references made with this builder: waiting nodes are divided.
+  /// Returns an estimate of the references made with this builder by dividing pending nodes.
   auto estimate() {
     struct Node {
       Pending place;
@@ -203,8 +205,8 @@ class Builder {
     return ReferenceEstimate(taken(root()), divide);
   }
 
-  /// Throws if a small part of the items shows that there will be too many references (with planes
-  /// in the middle).
+  /// Throws if a small part of the items shows that there will be too many references (for spatial
+  /// median planes).
   void require_few_references() const {
     if (options_.builder != KdTreeOptions::Builder::kMedian) return;
     const bool exceeds = part_surely_exceeds(
@@ -232,8 +234,8 @@ class Builder {
     return best;
   }
 
-  /// Returns the middle of one axis after the other (Kaplan, "Space-tracing: a constant time
-  /// ray-tracer", 1985); none if floats are too coarse.
+  /// Returns the middle of each axis in turn (Kaplan, "Space-tracing: a constant time ray-tracer",
+  /// 1985); none if floats are too coarse.
   static Split median(const Pending& pending) {
     const int axis = pending.splits % 3;
     const double lower = pending.cell.lower[axis];
@@ -260,7 +262,7 @@ class Builder {
     }
   }
 
-  /// Hands the items of a node down to its children, and returns these.
+  /// Distributes the items of a node to its children, and returns them.
   std::array<Pending, 2> distribute(const Pending& pending, const Split& split,
                                     const KdNode& node) {
     Pending below{node.children(), pending.first_event, 0, pending.splits + 1,
@@ -309,7 +311,7 @@ class Builder {
     SplitEvent* to_below = first;
     SplitEvent* const first_above = list(axis, end_);
     SplitEvent* to_above = first_above;
-    // Each event is written to both, which is cheaper than predicting its destination.
+    // Each event is written to both, which is cheaper than a branch on its destination.
     for (const SplitEvent event : list(axis, pending)) {
       const std::uint8_t side = sides_[event.item()];
       *to_below = event;
@@ -321,14 +323,14 @@ class Builder {
             static_cast<std::size_t>(to_above - first_above)};
   }
 
-  /// Adds the events of an item's part in a cell; none if it does not reach into the cell.
+  /// Adds the events of an item's part in a cell; none if the item does not overlap the cell.
   void clip_into(std::uint32_t item, const scenes::Bounds& cell, EventLists& lists) const {
     const Box wider{glm::dvec3(cell.lower) - tolerance_, glm::dvec3(cell.upper) + tolerance_};
     const auto part = options_.clip ? bvh::clipped_bounds(scene_, pieces_[item], wider)
                                     : bvh::whole_bounds(scene_, pieces_[item], wider);
     if (!part) return;
     for (int axis = 0; axis < 3; ++axis) {
-      // Within the cell, so that planes in it are met in order; and not empty, even if the part is
+      // Within the cell, so that its planes are swept in order; and not empty, even if the part is
       // only in the margin.
       const float lower = std::clamp(float_below(part->lower[axis] - tolerance_), cell.lower[axis],
                                      float_below(cell.upper[axis]));

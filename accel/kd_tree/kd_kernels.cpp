@@ -9,7 +9,7 @@
 
 #include "accel/kd_tree/kd_ray.hpp"
 
-// Highway includes this file once more for each instruction set.
+// Highway includes this file again for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "accel/kd_tree/kd_kernels.cpp"
 #include <hwy/foreach_target.h>
@@ -26,7 +26,7 @@ namespace probes = bvh::HWY_NAMESPACE;
 /// dissertation, 2000, appendix C), which stores only the exit from a far child: its entry is the
 /// exit from the previous cell. Returns the result of `Confirm`.
 ///
-/// A child that the ray meets only at one t, in the plane, is skipped, because any hit there is
+/// A child that the ray meets at a single t, in the plane, is skipped, because any hit there is
 /// also within the tolerance of the other child.
 template <class Confirm, class Counting>
 HWY_FLATTEN auto traverse(const KdTree& tree, const scenes::Scene& scene, const Ray& ray,

@@ -28,7 +28,7 @@ struct KdKernels : KdQueries<NoCounting>, KdQueries<WorkCounters>, KdQueries<Ste
   }
 };
 
-/// Returns the kernels for the best instruction set of this machine that Highway supports.
+/// Returns the kernels for this machine's best instruction set that Highway supports.
 const KdKernels& best_kd_kernels();
 
 }  // namespace beambench::accel::kd_tree

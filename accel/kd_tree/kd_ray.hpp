@@ -12,12 +12,13 @@
 
 namespace beambench::accel::kd_tree {
 
-/// Derives everything about a ray and planes from one function, `plane_t`, in double, so that a
-/// cell's exit and its neighbor's entry are the same number and no cell is skipped.
+/// A ray and the planes that it crosses. Everything is derived from one function, `plane_t`, in
+/// double, so that a cell's exit and its neighbor's entry are the same number and no cell is
+/// skipped.
 ///
-/// The rounding of plane / direction - origin / direction is that of origin / direction: the ray at
+/// plane / direction - origin / direction has the rounding error of origin / direction: the ray at
 /// that t is off the plane by 2^-53 of the origin's coordinate, which is within the tolerance of
-/// cells. Each traversal step then waits for one instruction instead of two.
+/// cells. In return, each traversal step waits for one instruction instead of two.
 class KdRay {
  public:
   /// The ray's part inside a box, including its ends.
@@ -30,8 +31,8 @@ class KdRay {
 
   explicit KdRay(const Ray& ray) {
     // Replaces infinity, which would cause a NaN, for a ray parallel to the plane: the t of planes
-    // beside it are then beyond all others. A plane that contains the ray counts as beside it, or
-    // is crossed at 0: either is correct, because cells overlap by the tolerance.
+    // beside the ray are then beyond all others. A plane that contains the ray counts as beside it
+    // or is crossed at 0; either is correct, because cells overlap by the tolerance.
     constexpr double kParallel = 1e250;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto at = static_cast<int>(axis);
@@ -46,7 +47,7 @@ class KdRay {
     return std::fma(double{plane}, inverse_[axis], offset_[axis]);
   }
 
-  /// Returns the child of a split across the axis from which the ray comes: 0 below the plane, 1
+  /// Returns the child that the ray comes from, for a split across the axis: 0 below the plane, 1
   /// above.
   [[gnu::always_inline]] std::uint32_t first_child(std::size_t axis) const {
     return backward_ >> axis & 1U;

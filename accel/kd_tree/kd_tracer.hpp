@@ -13,8 +13,8 @@
 namespace beambench::accel::kd_tree {
 
 /// A kd-tree, traversed in double; the primitives of a leaf are tested in blocks by SIMD in single
-/// precision, as `sah-bvh` does, which only rejects. Candidates that pass are confirmed by the
-/// canonical test, so the hits are those of every other classic structure, on every instruction
+/// precision, as in `sah-bvh`; these tests only reject. Candidates that pass are confirmed by the
+/// canonical test, so the hits equal those of every other classic structure on every instruction
 /// set.
 class KdTracer : public TraversalAccelerator<KdTracer> {
  public:
@@ -22,7 +22,7 @@ class KdTracer : public TraversalAccelerator<KdTracer> {
       : scene_(&scene), tree_(build_kd_tree(scene, options)), kernels_(&best_kd_kernels()) {}
 
   const KdTree& tree() const { return tree_; }
-  /// The instruction set in use, as Highway calls it: "AVX2".
+  /// Returns Highway's name of the instruction set in use, such as "AVX2".
   const char* instruction_set() const;
   Statistics statistics() const override;
   std::vector<Cell> occupied_cells() const override;

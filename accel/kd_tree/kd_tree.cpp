@@ -21,7 +21,7 @@ KdPlace place_of(const KdTree& tree, std::uint32_t node) {
     const KdNode& parent = tree.nodes[at];
     const std::uint32_t lower = parent.children();
     const std::uint32_t upper = lower + 1;
-    // Everything below the upper child comes after everything below the lower one.
+    // The upper child's subtree comes after the lower one's.
     const bool is_below_upper = node == upper || (node > upper && !tree.nodes[upper].is_leaf() &&
                                                   node >= tree.nodes[upper].children());
     place.cell = is_below_upper ? upper_cell(place.cell, parent) : lower_cell(place.cell, parent);

@@ -51,8 +51,8 @@ class KdNode {
   std::uint32_t other_;  ///< the plane, or the first block
 };
 
-/// Built over triangles of polygons, spheres and cones. A leaf refers to each whose surface reaches
-/// into its closed cell, widened by `overlap_tolerance`, in increasing id (kind by kind).
+/// Built over triangles of polygons, spheres and cones. A leaf refers to each one whose surface
+/// overlaps its closed cell, widened by `overlap_tolerance`, in order of id (kind by kind).
 ///
 /// Nodes are in one array: the root, a gap, then pairs of siblings, all pairs below the lower of
 /// two siblings before those below the upper one.
@@ -64,7 +64,7 @@ struct KdTree {
   std::uint64_t leaves = 0;
   std::uint64_t empty_leaves = 0;
   std::uint64_t references = 0;
-  std::uint32_t depth = 0;  ///< nodes on the longest path to a leaf, leaf included
+  std::uint32_t depth = 0;  ///< nodes on the longest path to a leaf, including the leaf
   /// The cost defined by `bvh::sah_cost`: the expected number of interior nodes visited and blocks
   /// tested by a ray that meets the root.
   double cost = 0.0;
@@ -73,21 +73,21 @@ struct KdTree {
   bool empty() const { return blocks.empty(); }
 };
 
-/// Throws InputError naming `max_references` if the leaves refer to more, or if there are more than
-/// KdNode::kNodes nodes, or more pieces than an event can number.
+/// Throws an InputError that names `max_references` if the leaves have more references; also if
+/// there are more than KdNode::kNodes nodes or more pieces than an event can number.
 KdTree build_kd_tree(const scenes::Scene& scene, const KdTreeOptions& options);
 
 /// Return the children's cells: parts of `cell`, divided by the plane of an interior node.
 scenes::Bounds lower_cell(const scenes::Bounds& cell, const KdNode& node);
 scenes::Bounds upper_cell(const scenes::Bounds& cell, const KdNode& node);
 
-/// The place of a node.
+/// The location of a node.
 struct KdPlace {
   scenes::Bounds cell;
   int level;  ///< the root has level 1
 };
 
-/// Finds a node's place on the way down from the root.
+/// Finds a node's location by descending from the root.
 KdPlace place_of(const KdTree& tree, std::uint32_t node);
 
 /// Calls `visit(leaf, place)` for all leaves, in the order of their nodes' pairs.

@@ -10,7 +10,7 @@
 
 namespace beambench::accel::kd_tree {
 
-/// The maximum number of splits on the way from the root to a leaf; a traversal's stack has this
+/// The maximum number of splits on the path from the root to a leaf; a traversal's stack has this
 /// many entries.
 inline constexpr int kMaxSplits = 64;
 
@@ -22,19 +22,19 @@ struct KdTreeOptions {
   double intersection_cost = 0.4;  ///< of testing a block of up to eight primitives
   double empty_bonus = 0.2;        ///< fraction by which cutting off empty space is cheaper
   std::optional<int> max_depth;    ///< splits above a leaf; nothing: by the number of primitives
-  std::uint32_t max_objects = 1;   ///< a node with more may be split
+  std::uint32_t max_objects = 1;   ///< nodes with more may be split
   bool clip = true;                ///< by a primitive's part in a cell, not by its whole box
   std::optional<std::uint64_t> max_references;  ///< nothing: by the number of primitives
 
   static std::vector<ParameterInfo> parameters();
   static KdTreeOptions from(const Parameters& parameters);
 
-  /// Returns `max_depth`, or its default: for the heuristic 8 + 1.3 log2(n) (Pharr and Humphreys,
-  /// "Physically Based Rendering", 2004; the form is Havran's), for the spatial median 15, which
-  /// gives the cells of the thesis's octree of level 6.
+  /// Returns `max_depth` or its default: for the heuristic, 8 + 1.3 log2(n) (Pharr and Humphreys,
+  /// "Physically Based Rendering", 2004; the form is Havran's); for the spatial median, 15, which
+  /// results in the cells of the thesis's octree of level 6.
   int depth_for(std::size_t primitives) const;
-  /// Returns `max_references`, or its default: 10 million, or 8 per primitive if that is more. A
-  /// mesh has fewer than two per triangle.
+  /// Returns `max_references`, or its default: 10 million, or 8 per primitive if that is more.
+  /// Meshes have fewer than two per triangle.
   std::uint64_t references_for(std::size_t primitives) const;
 };
 

@@ -30,12 +30,12 @@ class PlaneCost {
 
   /// Returns whether the plane cuts the cell in two.
   bool is_inside(float plane) const { return lower_ < plane && plane < upper_; }
-  /// Returns the cost of a leaf of `items` items for rays that meet it.
+  /// Returns the cost of a leaf with `items` items for rays that meet it.
   static double leaf(std::uint32_t items, const KdTreeOptions& options) {
     return options.intersection_cost * blocks(items);
   }
-  /// Returns the cost for a ray that meets the cell if `below` and `above` items reach to the sides
-  /// of the plane.
+  /// Returns the cost for a ray that meets the cell if `below` and `above` items extend to the
+  /// respective sides of the plane.
   double operator()(float plane, std::uint32_t below, std::uint32_t above) const {
     const double cost = traversal_ + blocks(below) * (ends_ + (double{plane} - lower_) * along_) +
                         blocks(above) * (ends_ + (upper_ - double{plane}) * along_);

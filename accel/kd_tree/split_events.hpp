@@ -1,5 +1,5 @@
 #pragma once
-// The places where primitives begin and end along an axis: the candidates for splitting planes.
+// The positions where primitives begin and end along an axis: the candidates for splitting planes.
 
 #include <bit>
 #include <cstddef>

@@ -29,7 +29,7 @@ class BoxCursor {
   /// Returns the planes between the children, as finest cells. Must not be called for a leaf.
   glm::ivec3 split() const { return octree_->split_of(node()); }
 
-  /// Goes down to a child by its number (x + 2 y + 4 z). Must not be called for a leaf.
+  /// Descends to a child by its number (x + 2 y + 4 z). Must not be called for a leaf.
   void enter(std::uint32_t octant) {
     cell_ = cell_.child(split(), octant);
     index_ = node().first + octant;

@@ -22,7 +22,7 @@ struct Trial {
   OctreeWork work;
 };
 
-/// Returns the typical work of the level before the first, where nothing was counted.
+/// Returns the typical work of the level before the first, which was not counted.
 OctreeWork usual_work_before(const OctreeWork& first) {
   OctreeWork before = first;
   before.nodes /= 8.0;
@@ -70,7 +70,7 @@ class LevelSearch {
     constexpr double kMargin = 0.5;        // the extrapolated number may be wrong
     constexpr double kWorthTrying = 0.95;  // trying costs something
     return options_.max_level < kLastLevel &&
-           best.octree.deepest_level() == options_.max_level &&  // or nothing is left to split
+           best.octree.deepest_level() == options_.max_level &&  // or nothing remains to be split
            next.references < kMargin * static_cast<double>(options_.max_references) &&
            cost(next) < kWorthTrying * cost(best.work);
   }
@@ -102,18 +102,18 @@ Octree choose_octree(const scenes::Scene& scene, const OctreeOptions& options,
 namespace {
 
 /// Returns the factor by which a number grew from one level to the next, clamped to [lowest,
-/// highest]; `lowest` if it was 0 before.
+/// highest]; `lowest` if it was 0.
 double growth(double before, double now, double lowest, double highest) {
   return before > 0.0 ? std::clamp(now / before, lowest, highest) : lowest;
 }
 
-/// The grid of rays over the image, and a stride that reaches all of them in a scattered order.
+/// The grid of rays over the image, and a stride that visits all of them in scattered order.
 constexpr int kColumns = 32;
 constexpr int kRows = 16;
 constexpr int kStride = 197;
 
-/// Returns whether enough rays have been counted. Counting must take less than a hundredth of the
-/// work of all rays, and rays through a coarse octree are long.
+/// Returns whether enough rays have been counted. Counting must take less than 1% of the work of
+/// all rays, and rays through a coarse octree are long.
 bool enough(int rays, const WorkCounters& counters, const Workload& workload) {
   constexpr int kMinRays = 32;
   return rays >= kMinRays &&
@@ -162,11 +162,10 @@ OctreeWork extrapolate(const OctreeWork& before, const OctreeWork& now) {
   next.nodes *= growth(before.nodes, now.nodes, 1.0, 8.0);
   next.references *= growth(before.references, now.references, 1.0, 8.0);
   next.steps += std::max(0.0, now.steps - before.steps);
-  // A cell of half the size has at least half the tests for surfaces larger than it.
+  // A cell of half the size has at least half the tests, for surfaces larger than the cell.
   next.tests *= growth(before.tests, now.tests, 0.25, 1.0);
   // With twice the cells along an axis, the edges of cells cross on the image at least four times
-  // as often, and eight times where all cells are divided; at the next level growth is mostly
-  // smaller.
+  // as often, or eight times if all cells are divided; growth is mostly smaller at the next level.
   next.nonterminal *= 0.65 * growth(before.nonterminal, now.nonterminal, 7.0, 10.0);
   next.occupied *= 0.7 * growth(before.occupied, now.occupied, 4.5, 6.0);
   return next;

@@ -1,5 +1,5 @@
 #pragma once
-// `max_level=auto`: finds the octree of the level that is expected to be the fastest.
+// `max_level=auto`: finds the octree level that is expected to be the fastest.
 
 #include <functional>
 
@@ -16,12 +16,12 @@ struct OctreeWork {
   double steps;              ///< traversal steps per ray
   double tests;              ///< ray-primitive tests per ray
   double hit_share;          ///< share of the rays that enter an occupied leaf
-  double nonterminal = 0.0;  ///< beams of the image (not a ray) that meet an empty leaf
+  double nonterminal = 0.0;  ///< beams (per image) that meet an empty leaf
   double occupied = 0.0;     ///< beams that end at an occupied leaf
 };
 
-/// Counts the work of individual rays on a grid of 32 x 16 rays over the camera's image, or of some
-/// of them if rays take much work.
+/// Counts the work of individual rays on a grid of 32 x 16 over the camera's image, or of some of
+/// them if rays are expensive.
 OctreeWork count_work(const scenes::Scene& scene, const Octree& octree, const Workload& workload);
 
 /// Extrapolates the work of the next level from this level's and the one before.
@@ -32,15 +32,15 @@ OctreeWork extrapolate(const OctreeWork& before, const OctreeWork& now);
 /// ratios affect the level with the smallest sum.
 double samet_trace_cost(const OctreeWork& work);
 
-/// Counts what `count_work` does not; `expected` is an estimate of the result, all zero at first.
+/// Counts work that `count_work` does not; `expected` is an estimate of the result, initially zero.
 using CountMore =
     std::function<void(const Octree& octree, const OctreeWork& expected, OctreeWork& work)>;
 /// Returns nanoseconds of tracing.
 using TraceCost = std::function<double(const OctreeWork& work)>;
 
-/// Returns the octree of `options`, where `max_level` may be automatic: levels are tried from 3 on,
-/// each octree made from the one before, as long as building and tracing the next one are expected
-/// to cost less. Throws as `Octree`; if the level is automatic, however, the search ends before
+/// Returns the octree for `options`, whose `max_level` may be automatic: levels are tried from 3
+/// on, each octree built from the previous one, as long as building and tracing the next one are
+/// expected to cost less. Throws like `Octree`, but an automatic search ends before
 /// `max_references` is exceeded.
 Octree choose_octree(const scenes::Scene& scene, const OctreeOptions& options,
                      const Workload& workload, const TraceCost& trace_cost,

@@ -1,5 +1,5 @@
 #pragma once
-// Chooses planes between a node's children with the least heuristic cost.
+// Chooses the planes between a node's children with the lowest heuristic cost.
 
 #include <span>
 
@@ -15,10 +15,10 @@ namespace beambench::accel::octree {
 /// The Visual Computer 6(3), 1990): a plane costs the areas of its two sides, each times the number
 /// of objects there, and the best plane lies between the spatial median and the object median.
 /// Whang and others ("Octree-R: an adaptive octree for efficient ray tracing", IEEE TVCG 1(4),
-/// 1995) choose the plane of each axis in this way. As in Havran's measurements (1999), 10 evenly
+/// 1995) choose the plane of each axis this way. As in Havran's measurements (1999), 10 evenly
 /// spaced positions between the medians are tried; of equal costs, the one nearest to the spatial
-/// median is taken. The object median is that of the centers of the objects' boxes, clipped by the
-/// node.
+/// median is taken. The object median is the median of the centers of the objects' boxes, clipped
+/// by the node.
 ///
 /// `ranges` has the cells of every primitive of the scene; `primitives` are those of the node.
 glm::ivec3 cost_planes(const CellGrid& grid, const glm::ivec3& corner, const glm::ivec3& size,

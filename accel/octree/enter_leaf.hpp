@@ -33,7 +33,7 @@ template <class Cursor>
 }
 
 /// Counts and records that the ray is in the cursor's leaf from t to `exit_t`. Steps are not
-/// counted here, because traversals differ in the number of steps to find the leaf.
+/// counted here, because traversals take different numbers of steps to find the leaf.
 template <class Cursor, class Counting>
 [[gnu::always_inline]] inline void enter_leaf(const Cursor& cursor, const Ray& ray, double t,
                                               double exit_t, const typename Cursor::Tree& octree,

@@ -13,8 +13,8 @@
 
 namespace beambench::accel::octree {
 
-/// Each for octrees with central planes, with arbitrary planes, and, with planes of either kind,
-/// divided on demand, and with nodes found by their names.
+/// Each traversal exists for octrees with central planes, with arbitrary planes and, with either
+/// kind of planes, for octrees divided on demand and for hashed ones.
 ///
 /// Glassner's traversal (IEEE CG&A 4(10), 1984).
 using Glassner = OctreeTracer<RootSearch<OctreeCursor>>;

@@ -6,7 +6,7 @@ namespace beambench::accel::octree {
 
 HashedOctree::HashedOctree(Octree octree)
     : octree_(std::move(octree)),
-      // At most half of the slots are taken, so that few names meet in one.
+      // At most half of the slots are occupied, so that collisions are rare.
       mask_(std::bit_ceil(2 * octree_.nodes().size()) - 1),
       shift_(64 - std::countr_one(mask_)),
       names_(mask_ + 1),

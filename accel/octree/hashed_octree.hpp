@@ -19,11 +19,11 @@
 namespace beambench::accel::octree {
 
 /// The linear octree of the thesis (section 2.2.2): a node has no links. Its name is the sequence
-/// of the numbers of the children on the way from the root, as octal digits after a 1 (Gargantini,
-/// "An effective way to represent quadtrees", CACM 25(12), 1982), and a hash table leads from names
-/// to nodes, as in Glassner ("Space subdivision for fast ray tracing", IEEE CG&A 4(10), 1984). Here
-/// the table has interior nodes, too, so that a search ends at a leaf. The nodes are those of
-/// `Octree`: their links remain, unused, and count in the bytes.
+/// of child numbers on the path from the root, as octal digits after a 1 (Gargantini, "An effective
+/// way to represent quadtrees", CACM 25(12), 1982), and a hash table maps names to nodes, as in
+/// Glassner ("Space subdivision for fast ray tracing", IEEE CG&A 4(10), 1984). Here the table also
+/// contains interior nodes, so that a search ends at a leaf. The nodes are those of `Octree`: their
+/// links remain, unused, and count in the bytes.
 class HashedOctree {
  public:
   static constexpr std::uint64_t kRootName = 1;
@@ -36,7 +36,7 @@ class HashedOctree {
   std::span<const scenes::PrimitiveId> references(const OctreeNode& leaf) const {
     return octree_.references(leaf);
   }
-  /// Returns the number of a node, which must exist, in `Octree::nodes`.
+  /// Returns the index in `Octree::nodes` of a node, which must exist.
   std::uint32_t number_of(std::uint64_t name) const {
     std::size_t slot = slot_of(name);
     while (names_[slot] != name) slot = (slot + 1) & mask_;
@@ -61,7 +61,7 @@ class HashedOctree {
   Octree octree_;
   std::size_t mask_;
   int shift_;
-  std::vector<std::uint64_t> names_;  ///< 0 where a slot is free
+  std::vector<std::uint64_t> names_;  ///< 0 for a free slot
   std::vector<std::uint32_t> numbers_;
 };
 
@@ -85,7 +85,7 @@ class HashedCursor {
   /// Returns the planes between the children, as finest cells. Must not be called for a leaf.
   glm::ivec3 split() const { return octree_->split_of(node(), cell_); }
 
-  /// Goes down to a child by its number (x + 2 y + 4 z). Must not be called for a leaf.
+  /// Descends to a child by its number (x + 2 y + 4 z). Must not be called for a leaf.
   void enter(std::uint32_t octant) {
     cell_ = cell_.child(split(), octant);
     name_ = 8 * name_ + octant;

@@ -17,7 +17,7 @@
 
 namespace beambench::accel::octree {
 
-/// A counter: planes between finest cells that rays cross.
+/// A counter of planes between finest cells that rays cross.
 inline constexpr std::string_view kPlaneSteps = "plane_steps";
 inline constexpr std::string_view kPlaneStepsMeaning =
     "planes between the octree's finest cells that rays cross, with exits=iterative";
@@ -26,12 +26,12 @@ inline constexpr std::string_view kPlaneStepsMeaning =
 /// planes; the ray steps from one finest cell to the next, as in a grid, until it is no longer in
 /// the leaf (Fujimoto, Tanaka and Iwata, "ARTS: Accelerated ray-tracing system", IEEE CG&A 6(4),
 /// 1986; Sung, "A DDA octree traversal algorithm for ray tracing", Eurographics 1991, steps by
-/// larger cells where it can). The leaf of the cell is then searched from the root. A large leaf
-/// costs as many steps as it has cells along the ray.
+/// larger cells where it can). The leaf of the cell is then found by a search from the root. A
+/// large leaf costs as many steps as it has cells along the ray.
 ///
-/// They add up the differences between planes; here each plane's t is computed, so that leaves and
-/// exits are those of the other searches, as long as no two planes round to the same place. Where
-/// they do, there may be more leaves of length 0.
+/// They accumulate the differences between planes. Here each plane's t is computed, so that leaves
+/// and exits equal those of the other searches unless two planes round to the same position, in
+/// which case there may be more leaves of length 0.
 template <class CursorType>
 class IterativeSearch {
  public:
@@ -52,8 +52,8 @@ class CellSteps {
   bool is_in(const glm::ivec3& corner, const glm::ivec3& end) const {
     return glm::all(glm::greaterThanEqual(cell_, corner)) && glm::all(glm::lessThan(cell_, end));
   }
-  /// Moves to the next cell, through an edge or a vertex where planes are crossed together. Returns
-  /// the t of the planes.
+  /// Moves to the next cell, through an edge or a vertex if several planes are crossed together.
+  /// Returns the t of the planes.
   double step() {
     glm::dvec3 crossings(std::numeric_limits<double>::infinity());
     for (int axis = 0; axis < 3; ++axis) {

@@ -12,7 +12,7 @@
 namespace beambench::accel::octree {
 
 /// A counter of structures over an octree: nodes passed from a leaf to its neighbor of equal or
-/// larger size. The descent to a smaller leaf, the same for all structures, is not counted.
+/// larger size. The descent to a smaller leaf is not counted; it is the same for all structures.
 inline constexpr std::string_view kNeighborSteps = "neighbor_steps";
 inline constexpr std::string_view kNeighborStepsMeaning =
     "nodes of the octree passed from a leaf to its neighbor of equal or larger size; the descent "
@@ -21,15 +21,15 @@ inline constexpr std::string_view kNeighborStepsMeaning =
 /// The leaves that a ray passes through, in order (Samet, "Implementing ray tracing with octrees
 /// and neighbor finding", Computers & Graphics 13(4), 1989; thesis, sections 2.2.2 and 5.4.1): the
 /// exit point of a leaf is computed, and the leaf behind it is found. A ray that leaves through an
-/// edge or a vertex goes to the edge or vertex neighbor.
+/// edge or a vertex continues in the edge or vertex neighbor.
 ///
 /// `search.move(cursor, step)` moves the cursor from a leaf to a node behind the face, edge or
 /// vertex that `step` (-1, 0 or 1 for each axis) points at, from which the search for the next leaf
 /// continues downward; it returns the number of nodes passed, including the last one, and 0 if the
-/// root ends there. `Search::Cursor` is a place in the octree; `Search::kNeighborSteps`
-/// states whether that node is the neighbor of equal or larger size, so that the passed nodes are
-/// neighbor steps. `Search::count_last_climb(level, counting)` counts what a search adds when a ray
-/// leaves the root from a leaf of that level.
+/// root ends there. `Search::Cursor` is a place in the octree; `Search::kNeighborSteps` states
+/// whether that node is the neighbor of equal or larger size, in which case the passed nodes are
+/// neighbor steps. `Search::count_last_climb(level, counting)` counts the search's extra work when
+/// a ray leaves the root from a leaf of that level.
 template <class Search>
 struct LeafWalk {
   using Cursor = typename Search::Cursor;
@@ -39,10 +39,10 @@ struct LeafWalk {
   const Ray& ray;
   const CellRay& planes;  ///< of `ray` and the octree's grid
 
-  /// Calls `visit(leaf, exit_t)` for the leaves from a node on that the ray enters at t, until it
-  /// returns true or the ray leaves the root. `passed` is the number of nodes passed to find that
-  /// node, including itself. Returns the level of the leaf in which the ray left the root; 0 if it
-  /// did not.
+  /// Calls `visit(leaf, exit_t)` for the leaves along the ray, starting from a node that it enters
+  /// at t, until it returns true or the ray leaves the root. `passed` is the number of nodes passed
+  /// to find that node, including itself. Returns the level of the leaf in which the ray left the
+  /// root; 0 if it did not.
   template <class Counting, class Visit>
   [[gnu::always_inline]] int from(Cursor cursor, double t, int passed, Counting& counting,
                                   Visit visit) const {

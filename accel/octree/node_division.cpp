@@ -17,8 +17,8 @@
 namespace beambench::accel::octree {
 namespace {
 
-/// The number of cells along each axis to which arbitrary planes are rounded: the maximum that a
-/// `CellRange` can number.
+/// Arbitrary planes are rounded to this many cells along each axis, the maximum that a `CellRange`
+/// can number.
 constexpr int kCostCells = 1 << 16;
 
 }  // namespace
@@ -171,7 +171,7 @@ std::uint8_t NodeDivision::overlapped_octants(const OctreeCell& cell, const glm:
       octants &= low ? kLowHalf[slot] : static_cast<std::uint8_t>(~kLowHalf[slot]);
     }
   }
-  // If one octant is left, or a connected surface inside the node crosses one plane, no test is
+  // If one octant remains, or a connected surface inside the node crosses one plane, no test is
   // needed.
   if (axes_crossed == 0 || (axes_crossed == 1 && contained)) return octants;
   if (options_->assign == OctreeOptions::Assign::kBounds) return octants;

@@ -37,8 +37,8 @@ struct OctreeCell {
 };
 
 /// Decides whether a node is divided, by which planes, and which children refer to a primitive. The
-/// decisions depend only on the scene, the options and the node, not on the caller or the time.
-/// Safe from several threads. Scene and options must outlive this object.
+/// decisions depend only on the scene, the options and the node. Safe from several threads. Scene
+/// and options must outlive this object.
 class NodeDivision {
  public:
   NodeDivision(const scenes::Scene& scene, const OctreeOptions& options);
@@ -46,7 +46,7 @@ class NodeDivision {
   const CellGrid& grid() const { return grid_; }
   OctreeCell root() const { return {glm::ivec3(0), grid_.cells, 1}; }
 
-  /// Returns whether a node with that many primitives is divided.
+  /// Returns whether a node with this many primitives is divided.
   bool divides(const OctreeCell& cell, std::size_t primitives) const {
     return primitives > options_->max_objects && can_divide(cell);
   }
@@ -65,13 +65,13 @@ class NodeDivision {
                                         std::vector<std::uint8_t>& octants,
                                         std::vector<scenes::PrimitiveId>& lists) const;
 
-  /// Makes an estimate for the octree divided no deeper than `level`.
+  /// Estimates the references of the octree divided no deeper than `level`.
   ExpectedReferences expected_references(int level, Random& random) const;
   /// Predicts whether the octree divided no deeper than `level` will refer to more than
   /// `max_references` primitives, in its leaves or, if `of_lists`, in all nodes except the root.
   bool will_exceed(int level, bool of_lists) const;
-  /// Checks the same before the octree is built, from a small part of many primitives, if planes
-  /// are fixed. Throws like `fail_too_many_references`.
+  /// If planes are fixed, checks the same before the octree is built, using a small part of many
+  /// primitives. Throws like `fail_too_many_references`.
   void require_few_references(int level, bool of_lists) const;
 
   /// Throws the InputError that names `max_references`.

@@ -23,19 +23,19 @@ struct OctreeOptions {
   enum class Root { kCube, kBox };          ///< a cube around the scene (thesis), or its own box
   enum class Assign { kSurface, kBounds };  ///< criterion for a reference: surface, or box
 
-  enum class Planes { kMedian, kCost };  ///< halved nodes, or planes at the least cost
-  /// Nodes are divided before the first ray or on demand; kHashed: before, and found by names.
+  enum class Planes { kMedian, kCost };  ///< halved nodes, or planes with the lowest cost
+  /// Nodes are divided before the first ray or on demand; kHashed: before, and found by name.
   enum class Build { kComplete, kOnDemand, kHashed };
   enum class Exits { kExplicit, kIterative };  ///< of leaves: how they are found
 
-  /// The value of `max_level` that lets `choose_octree` find the level.
+  /// The value of `max_level` that makes `choose_octree` find the level.
   static constexpr int kAutomatic = 0;
 
   int max_level = 6;              ///< the root is level 1 (the thesis's counting)
-  std::uint32_t max_objects = 0;  ///< a leaf with more is split if its level allows
+  std::uint32_t max_objects = 0;  ///< leaves with more are split if the level allows
   Root root = Root::kCube;
   Assign assign = Assign::kSurface;
-  /// At least so much are overlaps widened, in scene units: for a part of a larger scene.
+  /// The minimum widening of overlaps, in scene units: for a part of a larger scene.
   double least_tolerance = 0.0;
   double pad = 1e-6;  ///< root's margin on each side, relative to its size
   std::uint64_t max_references = 50'000'000;
@@ -46,34 +46,33 @@ struct OctreeOptions {
   Build build = Build::kComplete;  ///< `OnDemandOctree` divides on demand, `Octree` never
   int built_level = 4;             ///< the level divided before the first ray, with `kOnDemand`
 
-  /// The parameters `max_level`, `max_objects`, `root`, `assign`, `pad`, `max_references` of every
-  /// structure over an octree, and reading their values.
+  /// Returns the parameters `max_level`, `max_objects`, `root`, `assign`, `pad` and
+  /// `max_references` of every structure over an octree.
   static std::vector<ParameterInfo> parameters();
   static OctreeOptions from(const Parameters& parameters);
 
-  /// These parameters, and `planes`, `build`, `built_level` of the structures traversed from the
-  /// root down, and reading their values.
+  /// Returns these parameters plus `planes`, `build` and `built_level`, for structures traversed
+  /// from the root down.
   static std::vector<ParameterInfo> top_down_parameters();
   static OctreeOptions from_top_down(const Parameters& parameters);
 
-  /// These parameters and `exits`, of the structure that searches from the root, and reading them.
+  /// Returns these parameters plus `exits`, for the structure that searches from the root.
   static std::vector<ParameterInfo> root_search_parameters();
   static OctreeOptions from_root_search(const Parameters& parameters);
 };
 
 /// Returns the finest cells of an octree with these options over a scene: its root, divided evenly
-/// into 2^(max_level - 1) cells along each axis if nodes are halved, and into 2^16 if planes are
-/// arbitrary, which are rounded to these cells.
+/// along each axis into 2^(max_level - 1) cells if nodes are halved, or into 2^16 cells, to which
+/// planes are rounded, if planes are arbitrary.
 CellGrid octree_grid(const scenes::Scene& scene, const OctreeOptions& options);
 
-/// A part of an octree, for a scene divided among several processes: its cells of `level` that are
-/// not `own` are empty leaves, whatever they contain.
+/// A part of an octree, for a scene divided among several processes: cells of `level` that are not
+/// `own` are empty leaves, whatever they contain.
 struct OctreePart {
   int level;  ///< not deeper than the octree's `max_level`
   std::function<bool(const glm::ivec3& cell)> own;
-  /// Returns whether a node of `size` cells along each axis, from `first` on, must be divided. If
-  /// so, all cells of `level` in it that are such nodes exist, whether or not this part has
-  /// primitives there.
+  /// Returns whether a node of `size` cells along each axis, starting at `first`, must be divided.
+  /// If so, all such nodes of `level` in it exist, whether or not this part has primitives there.
   std::function<bool(const glm::ivec3& first, std::int32_t size)> divided;
 };
 
@@ -90,30 +89,30 @@ struct OctreeNode {
 };
 
 /// An octree over a scene: nodes in one array (the root first, children after their parent),
-/// references in another. A leaf refers to each primitive whose surface (or box) reaches into its
-/// closed cell, widened by `overlap_tolerance`, in increasing id.
+/// references in another. A leaf refers to each primitive whose surface (or box) overlaps its
+/// closed cell, widened by `overlap_tolerance`, in order of id.
 class Octree {
  public:
-  /// Static subdivision (thesis, section 3.3): nodes are split until they have at most
-  /// `max_objects` primitives or lie at `max_level`. Throws InputError naming `max_references` if
-  /// the references exceed it.
+  /// Divides statically (thesis, section 3.3): nodes are split until they have at most
+  /// `max_objects` primitives or are at `max_level`. Throws an InputError that names
+  /// `max_references` if the references exceed it.
   Octree(const scenes::Scene& scene, const OctreeOptions& options);
 
-  /// Makes the same as `Octree(scene, options)`, but faster, from the octree of a lower `max_level`
-  /// and otherwise equal options.
+  /// Builds the same octree as `Octree(scene, options)`, but faster, from one with a lower
+  /// `max_level` and otherwise equal options.
   Octree(const scenes::Scene& scene, const OctreeOptions& options, const Octree& coarser);
 
-  /// Makes a part of an octree, over a scene with at least all primitives that reach into the
-  /// part's own cells.
+  /// Builds a part of an octree over a scene that includes all primitives overlapping the part's
+  /// own cells.
   Octree(const scenes::Scene& scene, const OctreeOptions& options, const OctreePart& part);
 
   /// The finest cells, equally many along each axis (`octree_grid`).
   const CellGrid& grid() const { return grid_; }
-  /// Returns whether each node is halved along each axis, which finding neighbors by coordinates
-  /// requires.
+  /// Returns whether each node is halved along each axis, as required to find neighbors by
+  /// coordinates.
   bool has_central_planes() const { return central_planes_; }
-  /// Returns the planes between the children of an interior node, as finest cells. Must not be
-  /// called for an octree with central planes.
+  /// Returns the planes between the children of an interior node, as finest cells. The octree must
+  /// not have central planes.
   glm::ivec3 split_of(const OctreeNode& node) const {
     const auto& split = splits_[(node.first - 1) / 8];
     return {split[0], split[1], split[2]};

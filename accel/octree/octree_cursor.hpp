@@ -31,7 +31,7 @@ class OctreeCursor {
   /// Returns the planes between the children, as finest cells. Must not be called for a leaf.
   glm::ivec3 split() const { return corner_ + size_ / 2; }
 
-  /// Goes down to a child by its number (x + 2 y + 4 z). Must not be called for a leaf.
+  /// Descends to a child by its number (x + 2 y + 4 z). Must not be called for a leaf.
   void enter(std::uint32_t octant) {
     index_ = node().first + octant;
     size_ /= 2;
@@ -72,7 +72,7 @@ class OctreeCursor {
       index_ = node().parent;
       size_ *= 2;
     }
-    // Descend mirrored: the bits of the target's coordinates give the path with the crossed axes
+    // Descend mirrored: the bits of the target's coordinates are the path with the crossed axes
     // reflected.
     for (; size_ > equal_size && !node().is_leaf(); ++levels) {
       size_ /= 2;
@@ -86,7 +86,7 @@ class OctreeCursor {
     return levels;
   }
 
-  /// Jumps to a node whose place is known.
+  /// Jumps to a node whose position is known.
   void jump(std::uint32_t index, const glm::ivec3& corner, std::int32_t size) {
     index_ = index;
     corner_ = corner;

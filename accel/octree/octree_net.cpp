@@ -7,7 +7,7 @@ OctreeNet::OctreeNet(const Octree& octree) {
   places_.resize(nodes.size());
   places_[0].neighbors.fill(kOutside);
   places_[0].size = static_cast<std::uint16_t>(octree.grid().cells.x);
-  // Children follow their parent, so that its links are known when theirs are made.
+  // Children follow their parent, so its links are known when theirs are made.
   for (std::size_t index = 0; index < nodes.size(); ++index) {
     const OctreeNode& node = nodes[index];
     if (node.is_leaf()) continue;

@@ -1,5 +1,5 @@
 #pragma once
-// The net over an octree: each face linked to the node behind it.
+// The net over an octree: links from each face to the node behind it.
 
 #include <array>
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace beambench::accel::octree {
 
-/// Links from each node through each of its six faces to the neighbor of equal or larger size: the
-/// node that Samet's search over the common ancestor finds, in one step. If the neighbors are
+/// Links from each node, through each of its six faces, to the neighbor of equal or larger size:
+/// one step to the node that Samet's search via the common ancestor finds. If the neighbors are
 /// smaller, the link leads to their parent, from which the ray descends.
 ///
 /// Only faces are linked. Neighbors across an edge or a vertex, which few rays meet exactly, are
@@ -21,7 +21,7 @@ class OctreeNet {
   using Cursor = OctreeCursor;
   static constexpr bool kNeighborSteps = true;
 
-  /// Takes one pass over the nodes: a child's links follow from its parent's.
+  /// Links all nodes in one pass: a child's links follow from its parent's.
   explicit OctreeNet(const Octree& octree);
 
   /// Implements the interface of `LeafWalk`.
@@ -48,7 +48,7 @@ class OctreeNet {
   void describe(Statistics& statistics) const;
 
  private:
-  /// The data of a node that a step needs: half a cache line.
+  /// The data of a node needed for a step: half a cache line.
   struct Place {
     std::array<std::uint32_t, 6> neighbors;
     std::array<std::uint16_t, 3> corner;  ///< in finest cells

@@ -1,5 +1,5 @@
 #pragma once
-// Makes a structure for single rays from an octree and a search for the leaves along a ray.
+// Combines an octree and a search for the leaves along a ray into a structure for single rays.
 
 #include <concepts>
 #include <optional>
@@ -22,7 +22,7 @@ namespace beambench::accel::octree {
 
 /// The octree of the thesis (section 3.3) for individual rays. `Search`, made from the octree,
 /// finds the leaves along a ray by `walk_leaves(octree, search, ray, counting, visit)`; all
-/// searches give the same leaves, order and hits.
+/// searches return the same leaves, order and hits.
 template <class Search>
 class OctreeTracer : public TraversalAccelerator<OctreeTracer<Search>> {
  public:
@@ -38,7 +38,7 @@ class OctreeTracer : public TraversalAccelerator<OctreeTracer<Search>> {
   }
 
   const Tree& octree() const { return octree_; }
-  /// Returns what finds the leaves along a ray.
+  /// Returns the search for the leaves along a ray.
   const Search& search() const { return search_; }
 
   Statistics statistics() const override {
@@ -49,7 +49,7 @@ class OctreeTracer : public TraversalAccelerator<OctreeTracer<Search>> {
 
   std::vector<Cell> occupied_cells() const override { return octree_.occupied_cells(); }
 
-  /// Used by searches that name leaves by the numbers of their nodes.
+  /// Returns the nodes, for searches that identify leaves by node numbers.
   std::vector<NodeFacts> nodes() const override {
     std::vector<NodeFacts> facts;
     if constexpr (requires { requires Search::kNeighborSteps; }) {
@@ -80,7 +80,7 @@ class OctreeTracer : public TraversalAccelerator<OctreeTracer<Search>> {
   }
 
  private:
-  /// Throws if planes are arbitrary but the search identifies places by sizes that are halved.
+  /// Throws if planes are arbitrary but the search requires halved nodes.
   void require_fitting_planes() const {
     if constexpr (std::is_same_v<typename Search::Cursor, OctreeCursor>) {
       if (octree_.has_central_planes()) return;

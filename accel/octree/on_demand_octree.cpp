@@ -14,7 +14,7 @@ OnDemandOctree::OnDemandOctree(const scenes::Scene& scene, const OctreeOptions& 
   root_.references.resize(scene.primitives.size());
   std::iota(root_.references.begin(), root_.references.end(), scenes::PrimitiveId{0});
   divide_to(root_, root_cell(), options_.built_level);
-  // From now on, the rays determine what is divided.
+  // From now on, the rays determine which nodes are divided.
   limit_ = ReferenceLimit(options_.max_references);
 }
 

@@ -40,16 +40,17 @@ struct Children {
 
 /// The octree of McNeill and others ("Performance of space subdivision techniques in ray tracing",
 /// Computer Graphics Forum 11(4), 1992; thesis, section 2.2.2): few rays reach the small nodes, so
-/// only the high levels are divided in advance, and lower nodes when the first ray enters them. The
-/// rules are the same (`NodeDivision`), so a ray passes through the same leaves as in `Octree`.
+/// only the upper levels are divided in advance; lower nodes are divided when the first ray enters
+/// them. The rules are the same (`NodeDivision`), so a ray passes through the same leaves as in
+/// `Octree`.
 ///
 /// Several threads may query at once. A thread that finds a node undivided divides it and then
-/// publishes the children under a lock; a second thread discards its own, which are the same. A
+/// publishes the children under a lock; a second thread discards its own, identical children. A
 /// divided node keeps its list, because another thread may still be dividing it.
 class OnDemandOctree {
  public:
-  /// Divides down to `built_level`. The scene must outlive this object. Throws InputError naming
-  /// `max_references` if the lists exceed it.
+  /// Divides down to `built_level`. The scene must outlive this object. Throws an InputError that
+  /// names `max_references` if the lists exceed it.
   OnDemandOctree(const scenes::Scene& scene, const OctreeOptions& options);
   OnDemandOctree(const OnDemandOctree&) = delete;
   OnDemandOctree& operator=(const OnDemandOctree&) = delete;
@@ -61,9 +62,9 @@ class OnDemandOctree {
     return leaf.references;
   }
 
-  /// Returns the children of a node at a place, dividing it now if no ray entered it before;
-  /// nullptr for a leaf. Throws InputError naming `max_references` if the lists made so far exceed
-  /// it.
+  /// Returns the children of a node at a place, dividing it if no ray has entered it before;
+  /// nullptr for a leaf. Throws an InputError that names `max_references` if the lists made so far
+  /// exceed it.
   const Children* children(const OnDemandNode& node, const OctreeCell& cell) const {
     const Children* children = node.children.load(std::memory_order_acquire);
     if (children != nullptr || !division_.divides(cell, node.references.size())) return children;
@@ -71,7 +72,7 @@ class OnDemandOctree {
   }
 
   /// Returns statistics of the octree as divided so far: nodes that may still be divided count as
-  /// leaves, and are counted.
+  /// leaves and are also reported.
   Statistics statistics() const;
   /// Returns the current leaves that hold references.
   std::vector<Cell> occupied_cells() const;
@@ -86,14 +87,14 @@ class OnDemandOctree {
   OctreeOptions options_;
   NodeDivision division_;
   OnDemandNode root_;
-  // Mutable: any query would have added the same.
+  // Mutable: every query would add the same.
   mutable std::mutex publishing_;
   mutable std::vector<std::unique_ptr<const Children>> divided_;
   mutable std::uint64_t references_made_ = 0;
   mutable ReferenceLimit limit_;
 };
 
-/// A node of an octree on demand with its box. A node that must be divided is divided when the
+/// A node of an on-demand octree with its box. A node that must be divided is divided when the
 /// cursor reaches it.
 class OnDemandCursor {
  public:
@@ -108,8 +109,8 @@ class OnDemandCursor {
 
   const OnDemandNode& node() const { return *node_; }
   bool is_leaf() const { return children_ == nullptr; }
-  /// Returns the code of the node: the numbers of the children on the way, as octal digits after a
-  /// 1. It does not depend on the order of division.
+  /// Returns the code of the node: the child numbers on the path from the root, as octal digits
+  /// after a 1. It does not depend on the order of division.
   std::uint64_t index() const { return code_; }
   const glm::ivec3& corner() const { return cell_.corner; }
   const glm::ivec3& size() const { return cell_.size; }
@@ -117,7 +118,7 @@ class OnDemandCursor {
   /// Returns the planes between the children, as finest cells. Must not be called for a leaf.
   glm::ivec3 split() const { return children_->split; }
 
-  /// Goes down to a child by its number (x + 2 y + 4 z). Must not be called for a leaf.
+  /// Descends to a child by its number (x + 2 y + 4 z). Must not be called for a leaf.
   void enter(std::uint32_t octant) {
     cell_ = cell_.child(children_->split, octant);
     node_ = &children_->nodes[octant];

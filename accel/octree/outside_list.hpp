@@ -1,5 +1,5 @@
 #pragma once
-// A list of objects that are kept outside of an octree.
+// A list of objects that are kept outside an octree.
 
 #include <algorithm>
 #include <cstddef>
@@ -27,9 +27,9 @@
 
 namespace beambench::accel::octree {
 
-/// The primitives of a scene that an octree holds, and those outside of it.
+/// The primitives of a scene inside and outside an octree.
 struct InsideAndOutside {
-  /// `largest`: the size of an object, relative to the scene's, above which it stays outside.
+  /// `largest`: objects above this size, relative to the scene's, stay outside.
   InsideAndOutside(const scenes::Scene& scene, double largest) {
     const double limit = largest * glm::length(glm::dvec3(scene.bounds.extent()));
     for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
@@ -42,7 +42,7 @@ struct InsideAndOutside {
   std::vector<scenes::PrimitiveId> outside;
 };
 
-/// Passes a structure's work on, with the numbers that primitives have in another scene.
+/// Forwards the counted work of a structure, with primitives renumbered as in another scene.
 template <class Counting>
 class Renumbered {
  public:
@@ -72,7 +72,7 @@ class Renumbered {
 template <class Inner>
 class WithOutsideList : public TraversalAccelerator<WithOutsideList<Inner>> {
  public:
-  /// `largest`: as of `InsideAndOutside`.
+  /// `largest`: see `InsideAndOutside`.
   WithOutsideList(const scenes::Scene& scene, const OctreeOptions& options, double largest,
                   const Workload& workload)
       : scene_(&scene),
@@ -118,7 +118,8 @@ class WithOutsideList : public TraversalAccelerator<WithOutsideList<Inner>> {
   const Inner& inner() const { return inner_; }
 
  private:
-  /// The eye may be as far away as the whole scene's size allows (`overlap_tolerance`).
+  /// Adapts the options: the eye may be as far away as the whole scene's size allows
+  /// (`overlap_tolerance`).
   static OctreeOptions for_a_part_of(const scenes::Scene& scene, OctreeOptions options) {
     options.least_tolerance = overlap_tolerance(scene);
     return options;

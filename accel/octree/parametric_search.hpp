@@ -23,8 +23,8 @@ namespace beambench::accel::octree {
 /// four), and the interval in each. A node is visited once per ray; neighbors of leaves are not
 /// searched for.
 ///
-/// They use a linear octree, which stores the codes of occupied leaves: `HashedOctree` is nearest
-/// to it.
+/// They use a linear octree, which stores the codes of occupied leaves; `HashedOctree` comes
+/// closest.
 template <class CursorType>
 class ParametricSearch {
  public:
@@ -34,8 +34,8 @@ class ParametricSearch {
   static void describe(Statistics&) {}
 };
 
-/// One ray's path through an octree with `ParametricSearch`. `visit(leaf, exit_t)` returns true if
-/// nothing behind that leaf matters.
+/// One ray's path through an octree with `ParametricSearch`. `visit(leaf, exit_t)` returns true to
+/// stop after that leaf.
 template <class Cursor, class Counting, class Visit>
 class ParametricWalk {
  public:
@@ -61,7 +61,7 @@ class ParametricWalk {
       if (planes_.above(axis, split[axis], t)) octant |= bit(axis);
     }
     while (true) {
-      // The planes crossed so far are at t or before it.
+      // The planes crossed so far are at or before t.
       double next = exit_t;
       for (const double crossing : crossings) {
         if (crossing > t) next = std::min(next, crossing);
@@ -69,7 +69,7 @@ class ParametricWalk {
       Cursor child = node;
       child.enter(octant);
       if (through(child, t, next)) return true;
-      // A plane that is crossed where the ray leaves the node leads to no other child.
+      // A plane crossed where the ray leaves the node does not lead to another child.
       if (!(next < exit_t)) return false;
       t = next;
       for (int axis = 0; axis < 3; ++axis) {

@@ -9,13 +9,13 @@ namespace beambench::accel::octree {
 
 /// Implements the interface of `LeafWalk` by searching for the next leaf from the root each time
 /// (Glassner, "Space subdivision for fast ray tracing", IEEE CG&A 4(10), 1984; the "root" methods
-/// of the thesis, section 2.2.2). Nodes need neither parents nor neighbors of their own size, so
+/// of the thesis, section 2.2.2). Nodes need neither parents nor neighbors of the same size, so
 /// planes may be arbitrary.
 ///
 /// Glassner moves a point slightly beyond the leaf and locates it. Here no point is moved: the
 /// search uses the planes that the ray has crossed at the leaf's exit, so that no thin leaf is
-/// skipped. He finds nodes by a hash of their names, as `HashedOctree` does; the nodes on the path
-/// are the same.
+/// skipped. Glassner finds nodes by a hash of their names, as `HashedOctree` does; the nodes on the
+/// path are the same.
 template <class CursorType>
 class RootSearch {
  public:

@@ -22,7 +22,7 @@ inline constexpr std::string_view kLastClimbMeaning =
     "them before it finds that the leaf lacks a neighbor; here they are not climbed, and not among "
     "the traversal steps";
 
-/// Samet's search over the nearest common ancestor: nothing is stored, each move climbs and
+/// Samet's search over the nearest common ancestor: nothing is stored; each move climbs and
 /// descends.
 class AncestorNeighbors {
  public:
@@ -36,7 +36,7 @@ class AncestorNeighbors {
   }
   static void describe(Statistics&) {}
 
-  /// Counts a ray that left the root in a leaf of that level. A search that climbs by pointers
+  /// Counts a ray that left the root from a leaf of that level. A search that climbs by pointers
   /// alone reaches the root first; the cursor's coordinates save these steps.
   template <class Counting>
   static void count_last_climb(int level, Counting& counting) {

@@ -31,15 +31,15 @@ double wide_side(const ExactRay& ray, const dvec3& from, const dvec3& to) {
 }
 
 /// Returns the side of the ray on which an edge passes, as the product of their Plücker
-/// coordinates. The edge vector changes sign and the sum does not when the edge is traversed in the
-/// opposite direction, so the two triangles of a shared edge get exactly opposite numbers: no ray
-/// passes between them. The sign is right, so that a ray through a vertex does not leave all edges
-/// there on one side, which would be between all triangles.
+/// coordinates. Reversing the edge changes the sign of the edge vector but not of the sum, so the
+/// two triangles of a shared edge get exactly opposite numbers, and no ray passes between them. The
+/// sign is exact, so that a ray through a vertex never has all edges there on one side, which would
+/// be between all triangles.
 double side(const ExactRay& ray, const dvec3& from, const dvec3& to) {
   const dvec3 edge = to - from;
   const dvec3 sum = from + to;
   const double value = glm::dot(glm::cross(edge, sum), ray.direction);
-  // Each of the three terms, with its rounded parts, is off by less than 6 x 2^-53 of this.
+  // The error of each of the three terms, with its rounded parts, is below 6 x 2^-53 of this.
   const dvec3 e = glm::abs(edge);
   const dvec3 s = glm::abs(sum);
   const double size =
@@ -81,7 +81,7 @@ struct Crossings {
 };
 
 /// Computes both roots without cancellation. Returns nothing for a ray that misses; both roots are
-/// the same for one that touches.
+/// equal for a tangent ray.
 std::optional<Crossings> crossings(double a, double b, double c) {
   if (a == 0.0) {
     if (b == 0.0) return std::nullopt;
@@ -174,7 +174,7 @@ std::optional<double> first_hit(const ExactRay& ray, const scenes::Cone& cone) {
   const auto found =
       crossings(d.x * d.x + d.y * d.y - r_grows * r_grows, b, o.x * o.x + o.y * o.y - r * r);
   if (!found) return std::nullopt;
-  if (cone.inside_only && found->enter == found->leave) return std::nullopt;  // only touched
+  if (cone.inside_only && found->enter == found->leave) return std::nullopt;  // tangent
 
   // Between base and apex the radius is not negative. This excludes the mirrored half of the double
   // cone, and infinite and undefined roots, for which the comparisons are false.

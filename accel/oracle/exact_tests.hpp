@@ -1,7 +1,6 @@
 #pragma once
-// Ray-primitive tests in double precision for Embree's user geometry. They are independent of the
-// canonical tests of the classic structures, with different formulas, so that each exposes mistakes
-// in the other.
+// Ray-primitive tests in double precision for Embree's user geometry. They use different formulas
+// from the canonical tests of the classic structures, so that each exposes mistakes in the other.
 
 #include <optional>
 

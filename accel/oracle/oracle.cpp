@@ -39,7 +39,7 @@ float at_least(double t) {
   return std::nextafter(std::max(static_cast<float>(t), kSmallest), kInfinity);
 }
 
-/// Returns the ray for Embree, whose traversal loses boxes if components of the direction are tiny.
+/// Returns the ray for Embree, whose traversal misses boxes if the direction's components are tiny.
 /// The direction is scaled by a power of two, which is exact, so that its longest component is in
 /// [1, 2). The interval is rounded outward.
 RTCRay scaled(const OracleQuery& query) {

@@ -21,7 +21,7 @@ struct ExactHit {
 /// of a closed mesh. Queries are const and safe from several threads.
 ///
 /// Among hits with equal *double* t, the lowest primitive id wins, while structures compare t
-/// rounded to float: at an edge the two may return different primitives at one place, which the
+/// rounded to float: at an edge the two may return different primitives at one point, which the
 /// differ classifies as a tie.
 class Oracle {
  public:

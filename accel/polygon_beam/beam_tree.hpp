@@ -1,6 +1,6 @@
 #pragma once
-// The beams of one image: from the eye through the BSP tree, each ended by the polygon that it
-// meets first.
+// The beams of one image, from the eye through the BSP tree; each ends at the first polygon it
+// meets.
 
 #include <algorithm>
 #include <cstddef>
@@ -20,9 +20,9 @@
 
 namespace beambench::accel::polygon_beam {
 
-/// Sums that the counting pass adds to the counters at the end.
+/// Sums that are added to the counters at the end of the counting pass.
 struct BeamSums {
-  std::uint64_t made = 1;  ///< the whole image, and what was left of each beam that was cut
+  std::uint64_t made = 1;  ///< the whole image, and the remaining parts of each cut beam
   std::uint64_t ended = 0;
   std::uint64_t left = 0;
   std::uint64_t dropped = 0;
@@ -32,31 +32,31 @@ struct BeamSums {
   std::uint64_t undecided = 0;
 };
 
-/// The first level of Heckbert and Hanrahan's beam tree ("Beam tracing polygonal objects",
-/// SIGGRAPH 1984): the beam of the whole image meets polygons from front to back. What a polygon
-/// covers of a beam ends there; the rest, cut into convex beams, goes on (Weiler and Atherton,
+/// The first level of Heckbert and Hanrahan's beam tree ("Beam tracing polygonal objects", SIGGRAPH
+/// 1984): the beam of the whole image meets polygons from front to back. The part of a beam that a
+/// polygon covers ends there; the rest, cut into convex beams, continues (Weiler and Atherton,
 /// "Hidden surface removal using polygon area sorting", SIGGRAPH 1977). Deeper levels arrive as
-/// queries of their own.
+/// separate queries.
 ///
-/// Polygons of floating-point numbers decide no hit. In a leaf, every sample of a beam is tested
-/// against every polygon that it may hit, by the canonical test, before any beam ends; the nearest
-/// hit is kept, and the lowest id of equal ones. A beam ends only where its samples surely hit a
+/// Beam polygons in floating point never decide a hit. In a leaf, every sample of a beam is tested
+/// by the canonical test against every polygon that it may hit before any beam ends; the nearest
+/// hit is kept, or the lowest id of equal ones. A beam ends only where its samples certainly hit a
 /// polygon within the leaf's cell (`SeenFragment::surely`). No other hit can be as near:
 ///
 /// - Take any plane above the leaf in the tree, and let d be the distance from it, positive on the
 ///   side of the eye, which is visited first. Along a ray, d is linear, and not negative at the
-///   eye. If the leaf is on this side, the hit has d >= -5/8 of the slab. Hits to which this side
-///   does not refer have d < -7/8: they come later, by more than the rounding of t
+///   eye. If the leaf is on this side, the hit has d >= -5/8 of the slab. Hits on primitives that
+///   this side does not refer to have d < -7/8: they come later, by more than the rounding of t
 ///   (`Sight::may_end`).
-/// - If the leaf is on the other side, the beam has passed the first one, where the sample was
-///   tested against everything that it may hit there.
+/// - If the leaf is on the other side, the beam has already passed the first side, where the sample
+///   was tested against everything that it may hit there.
 ///
-/// A sample on an edge is in no part that ends: it stays in the beams beside it, and is tested
-/// until these end or leave. Beams without samples are dropped.
+/// A sample on an edge is in no part that ends: it stays in the adjacent beams and is tested until
+/// these end or leave. Beams without samples are dropped.
 template <class Counting>
 class BeamTree {
  public:
-  /// `outlines`: where all beams that end or leave are to be kept, or null.
+  /// `outlines` receives all beams that end or leave; may be null.
   BeamTree(const scenes::Scene& scene, const PolygonTree& tree, const PrimaryRays& rays,
            const HitSpan& hits, Counting& counting, std::vector<BeamOutline>* outlines)
       : scene_(&scene),
@@ -88,12 +88,13 @@ class BeamTree {
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
   static constexpr bool kCounts = !std::is_same_v<Counting, NoCounting>;
-  /// Less than 1 by more than float loses in t, and double in `SeenFragment::inverse_t`.
+  /// Below 1 by more than the rounding errors of t in float and of `SeenFragment::inverse_t` in
+  /// double.
   static constexpr double kNearly = 1.0 - 0x1p-20;
-  /// A beam with more corners is cut in two, so that there is space for the sides of a fragment.
+  /// Beams with more corners are halved, so that there is space for the sides of a fragment.
   static constexpr std::size_t kMostOfBeam = ImagePolygon::capacity() - kMostSides - 1;
 
-  /// Places in the pool.
+  /// Indices into the pool.
   using Beams = std::vector<std::uint32_t>;
 
   std::uint32_t keep(const ImagePolygon& polygon) {
@@ -107,7 +108,8 @@ class BeamTree {
     return place;
   }
 
-  /// Takes the beams that a node may hide through it, near side first; puts back what is left.
+  /// Passes the beams that a node may hide through it, near side first, and puts back the remaining
+  /// ones.
   void visit(std::size_t index, Beams& beams) {
     const TreeNode& node = tree_->nodes()[index];
     if (beams.empty() || node.box.lower.x > node.box.upper.x) return;
@@ -131,7 +133,8 @@ class BeamTree {
     beams.insert(beams.end(), inside.begin(), inside.end());
   }
 
-  /// Tests the samples of beams against the polygons of a leaf; then ends what these surely hide.
+  /// Tests the samples of beams against the polygons of a leaf; then ends the parts they certainly
+  /// hide.
   void meet(std::size_t leaf, Beams& beams) {
     counting_->add(Counter::kLeaves);
     seen_.clear();
@@ -178,7 +181,7 @@ class BeamTree {
       for (int x = first; x <= last; ++x) {
         const std::size_t index = hits_.index(x, y, sample);
         if (best_triangle_[index] == triangle) continue;
-        // NaN, of a limit that is none, is no reason to skip it.
+        // NaN, from an infinite limit, must not skip the sample.
         const double inverse_t = seen.inverse_t.at({x + offset.x, y + offset.y});
         if (inverse_t * hits_.t()[index] < kNearly) continue;
         confirm(triangle, rays_->ray(x, y, sample), index);
@@ -202,7 +205,7 @@ class BeamTree {
     hits_.set(index, closest.result());
   }
 
-  /// Ends the part of a beam that a fragment surely hides, and keeps the rest in `next`.
+  /// Ends the part of a beam that a fragment certainly hides, and keeps the rest in `next`.
   void cut(std::size_t leaf, const SeenFragment& seen, std::uint32_t beam, Beams& next) {
     if (!pool_[beam].overlaps(seen.box)) return next.push_back(beam);
     beam::FixedVector<ImagePolygon, kMostSides> outside;
@@ -213,14 +216,14 @@ class BeamTree {
       if (beam::range_over(whole, line).high <= 0.0) continue;
       outside.push_back(beam::clip(whole, {-line.x, -line.y, -line.constant, 0.0}, 0.0));
     }
-    // Without samples, nothing ends here: cutting the beam would only make more of them.
+    // Without samples, nothing ends here: cutting the beam would only create more beams.
     if (!rows_.any_in(hidden)) return next.push_back(beam);
     free_.push_back(beam);
     for (const ImagePolygon& part : outside) go_on(part, next);
     end(leaf, hidden);
   }
 
-  /// Keeps a part of a beam if it has samples; in two halves if it has too many corners.
+  /// Keeps a part of a beam if it has samples, as two halves if it has too many corners.
   void go_on(const ImagePolygon& part, Beams& next) {
     if (part.empty() || !rows_.any_in(part)) {
       ++sums_.dropped;
@@ -273,7 +276,7 @@ class BeamTree {
   z_buffer::Screen screen_;
   Sight sight_;
   SampleRows rows_;
-  /// For each sample, the triangle of its hit so far: others of its fragments need no test.
+  /// For each sample, the triangle of its hit so far, whose other fragments need no test.
   std::vector<std::uint32_t> best_triangle_;
   std::vector<ImageBeam> pool_;
   Beams free_;

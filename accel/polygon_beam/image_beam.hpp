@@ -19,9 +19,9 @@ namespace beambench::accel::polygon_beam {
 using beam::ImageLine;
 using beam::ImagePolygon;
 
-/// The distance, in pixels, within which a sample outside of a polygon counts as in it: far more
-/// than rounding moves the corners of polygons. So each sample is in some part of a polygon that is
-/// cut, and one close to the cut is in both.
+/// A sample outside a polygon counts as inside within this distance, in pixels: far more than
+/// rounding moves the corners of polygons. So each sample is in some part of a polygon that is cut,
+/// and samples close to the cut are in both.
 inline constexpr double kBorder = 1e-6;
 
 /// A beam from the eye: the pyramid through a convex polygon of the image, in pixels.
@@ -88,7 +88,8 @@ class SampleRows {
     double right = -left;
   };
 
-  /// Returns what the polygon covers of a row that is as high as the border on both sides.
+  /// Returns the part of a row that the polygon covers, the row extending by the border on both
+  /// sides.
   static Span span_at(const ImagePolygon& polygon, double y) {
     Span span;
     const std::array<double, 2> ends{y - kBorder, y + kBorder};
@@ -108,7 +109,7 @@ class SampleRows {
     }
     return span;
   }
-  // In double as long as numbers may be outside of the image.
+  // In double while numbers may be outside the image.
   static int first_from(double place, int least) {
     return static_cast<int>(
         std::clamp(std::ceil(place - kBorder), static_cast<double>(least), kBeyond));

@@ -14,8 +14,8 @@ namespace {
 constexpr const char* kName = "polygon-beam";
 
 /// The beam tracer of Heckbert and Hanrahan ("Beam tracing polygonal objects", SIGGRAPH 1984): an
-/// image is one beam, which polygons cut from front to back. It traces images of polygons, and
-/// nothing else: the coherence of a list of rays is not known.
+/// image is one beam, which polygons cut from front to back. It traces only images of polygons: the
+/// coherence of a list of rays is unknown.
 class PolygonBeam : public ImageAccelerator, public Inspector {
  public:
   PolygonBeam(const scenes::Scene& scene, const TreeOptions& options)
@@ -46,8 +46,8 @@ class PolygonBeam : public ImageAccelerator, public Inspector {
   }
 
   const Inspector* inspector() const override { return this; }
-  /// Returns the beams that polygons ended, in this order, with the samples that these hide; then
-  /// those that nothing ended. Samples on edges are in several beams.
+  /// Returns the beams that polygons ended, in this order, with the samples that the polygons hide;
+  /// then those that nothing ended. Samples on edges are in several beams.
   std::optional<std::vector<BeamOutline>> beams(const PrimaryRays& image) const override {
     std::vector<BeamOutline> outlines;
     HitBuffer hits(image.width(), image.height(), image.samples());

@@ -18,8 +18,8 @@ using Corners = std::vector<glm::dvec3>;
 /// A triangle in a cell while the tree is built.
 struct Part {
   std::uint32_t triangle;
-  bool in_face = false;  ///< lies in a plane that bounds the cell: it does not count any more
-  bool is_whole = true;  ///< else it was cut: `outer` and `inner` are what remains
+  bool in_face = false;  ///< lies in a plane that bounds the cell: no longer counted
+  bool is_whole = true;  ///< otherwise it was cut: `outer` and `inner` remain
   Corners outer{};
   Corners inner{};
 };
@@ -82,11 +82,11 @@ class TreeBuilder {
   }
 
  private:
-  /// The polygons that planes are taken from, in a cell: the largest ones and a few others.
+  /// The polygons of a cell that supply candidate planes: the largest ones and a few others.
   static constexpr std::size_t kLargest = 4;
   static constexpr std::size_t kOthers = 4;
 
-  /// Returns the corners of a part: its own, or those of the triangle, for which `whole` has space.
+  /// Returns the corners of a part: its own, or those of the triangle, which are stored in `whole`.
   std::span<const glm::dvec3> outer_of(const Part& part, PolygonTree::Triangle& whole) const {
     if (!part.is_whole) return part.outer;
     whole = tree_->triangle(part.triangle);
@@ -120,7 +120,7 @@ class TreeBuilder {
       if (back) sides[1].push_back(std::move(*back));
     }
     parts = {};
-    // References below are at least these, since parts are only divided further.
+    // A lower bound of the references below, since parts are only divided further.
     require_room(sides[0].size() + sides[1].size());
     const auto first = static_cast<std::uint32_t>(tree_->nodes_.size());
     tree_->nodes_.resize(first + 2UL);
@@ -156,7 +156,8 @@ class TreeBuilder {
         tree_->scene_->name, tree_->scene_->triangles.size(), options_.max_references));
   }
 
-  /// Returns what a child refers to of a part: nothing if it does not come within the slab.
+  /// Returns the portion of a part that a child refers to; nothing if the part is not within the
+  /// slab.
   std::optional<Part> beside(const Part& part, const Plane& plane, double sign) const {
     const double slab = tree_->slab_;
     PolygonTree::Triangle whole;
@@ -181,7 +182,7 @@ class TreeBuilder {
     return kept;
   }
 
-  /// Returns the plane to divide a cell by; nothing where it should be a leaf.
+  /// Returns the plane that divides a cell; nothing if it should be a leaf.
   std::optional<Plane> choose(std::span<const Part> parts) const {
     std::vector<const Part*> counted;
     for (const Part& part : parts) {
@@ -189,7 +190,7 @@ class TreeBuilder {
     }
     if (counted.size() <= options_.max_polygons) return std::nullopt;
     std::optional<Plane> best;
-    // Every part on one side, and nothing gained, is where the score begins.
+    // The initial score: all parts on one side and nothing gained.
     double best_score = 2.0 * static_cast<double>(counted.size());
     for (const Plane& plane : candidates(counted)) {
       const double score = score_of(plane, counted);
@@ -203,7 +204,7 @@ class TreeBuilder {
 
   std::vector<Plane> candidates(std::span<const Part* const> parts) const {
     std::vector<Plane> planes;
-    // Across each axis, where half of the polygons begin, and where half of them end.
+    // Across each axis, the planes below which half of the polygons begin or end.
     std::vector<Range> extents(parts.size());
     const auto middle = extents.begin() + static_cast<std::ptrdiff_t>(extents.size() / 2);
     for (int axis = 0; axis < 3; ++axis) {
@@ -241,8 +242,8 @@ class TreeBuilder {
     planes.push_back({normal / length, glm::dot(normal / length, corners[0])});
   }
 
-  /// Returns the number of parts that remain in both children, and once more those of the larger
-  /// one.
+  /// Returns the number of parts that remain in both children, counting those of the larger one
+  /// twice.
   double score_of(const Plane& plane, std::span<const Part* const> parts) const {
     std::size_t front = 0;
     std::size_t back = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// A BSP tree over triangles, for their order seen from any eye (Fuchs, Kedem and Naylor 1980).
+// A BSP tree over triangles, which orders them as seen from any eye (Fuchs, Kedem and Naylor 1980).
 
 #include <array>
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace beambench::accel::polygon_beam {
 
 struct TreeOptions {
   std::size_t max_polygons = 8;               ///< in a leaf that is not divided
-  std::size_t max_depth = 32;                 ///< how often cells are divided at most
+  std::size_t max_depth = 32;                 ///< maximum number of divisions of a cell
   std::uint64_t max_references = 10'000'000;  ///< fragments of all leaves
 };
 
@@ -52,7 +52,7 @@ struct TreeNode {
 /// SIGGRAPH 1980). A leaf's polygons have no order among themselves.
 ///
 /// Cells overlap: a fragment belongs to both sides of a plane if it comes within `slab()` of it. So
-/// a polygon in a dividing plane belongs to the cells on both of its sides, and whatever touches it
+/// a polygon in a dividing plane belongs to the cells on both sides, and everything that touches it
 /// is in the same leaf.
 class PolygonTree {
  public:

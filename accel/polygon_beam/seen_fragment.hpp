@@ -1,5 +1,5 @@
 #pragma once
-// Fragments of polygons as an eye sees them: where samples may hit them, and where they surely do.
+// Fragments of polygons as seen by an eye: where samples may hit them, and where they certainly do.
 
 #include <algorithm>
 #include <array>
@@ -20,19 +20,20 @@ namespace beambench::accel::polygon_beam {
 
 using z_buffer::PixelBox;
 
-/// The most corners that a fragment can have: each division of its cell adds one at most.
+/// The maximum number of corners of a fragment: each division of its cell adds at most one.
 inline constexpr std::size_t kMostCorners = 64;
-/// The most sides of the part of a fragment that ends beams. A beam's polygon has space for them.
+/// The maximum number of sides of the part of a fragment that ends beams. A beam's polygon has
+/// space for them.
 inline constexpr std::size_t kMostSides = 11;
 
-/// A fragment on the image. Its lines are planes through the eye and an edge, so they are right
-/// wherever its corners lie, also behind the eye.
+/// A fragment on the image. Its lines are planes through the eye and an edge, so they are correct
+/// wherever its corners lie, even behind the eye.
 struct SeenFragment {
   PixelBox box;  ///< of all samples that may hit it
   /// Lines on the image in pixels, negative on their inner side. A sample that may hit the fragment
-  /// is inside of all.
+  /// is inside all of them.
   beam::FixedVector<beam::ImageLine, kMostCorners> may;
-  /// A sample inside of all of these surely hits it. Empty: no sample surely does.
+  /// A sample inside all of these certainly hits the fragment. Empty: no sample certainly does.
   beam::FixedVector<beam::ImageLine, kMostSides> surely;
   beam::ImageLine inverse_t;  ///< at least 1 / view depth of its plane
 };
@@ -46,7 +47,7 @@ struct SeenFragment {
 /// Seen from the eye, at a distance of at least `height`, that is an angle of s / height; the
 /// sample's direction, rounded to float, deviates by Screen::rounding(). `may` is widened by both.
 ///
-/// (2) A sample inside of `surely` has a canonical hit of the triangle, and the hit lies within the
+/// (2) A sample inside `surely` has a canonical hit of the triangle, and the hit lies within the
 /// leaf's cell widened by 5/8 of the slab: the inner fragment is in the cell widened by half of it,
 /// and the conditions below make the error of the computed t less than an eighth.
 class Sight {
@@ -56,7 +57,7 @@ class Sight {
     const Box& box = tree.nodes().front().box;
     const glm::dvec3 largest =
         glm::max(glm::abs(eye), glm::max(glm::abs(box.lower), glm::abs(box.upper)));
-    // Corners are off by this when a plane has cut them, with room for products of two.
+    // The error of corners cut by a plane, with a margin for products of two.
     corner_loss_ = 0x1p-48 * std::max({largest.x, largest.y, largest.z});
     const glm::dvec3 farthest = glm::max(glm::abs(box.lower - eye), glm::abs(box.upper - eye));
     scene_reach_ = glm::length(farthest);
@@ -77,7 +78,7 @@ class Sight {
     return screen_->box_of(hull);
   }
 
-  /// Returns how a fragment is seen; only its box is set where that is empty.
+  /// Returns a fragment as seen; if its box is empty, only the box is set.
   SeenFragment see(const Fragment& fragment) const {
     SeenFragment seen;
     const PolygonTree::Triangle whole = tree_->triangle(fragment.triangle);
@@ -92,7 +93,8 @@ class Sight {
 
     const double longest = screen_->longest();
     if (!(facing.height > 0x1p-20 * facing.reach) || !(facing.length > 0x1p-20 * facing.size)) {
-      // Seen edge-on, or a needle whose plane is uncertain: only its box limits the samples.
+      // Seen edge-on, or a needle triangle whose plane is uncertain: only its box limits the
+      // samples.
       seen.inverse_t = {0.0, 0.0, std::numeric_limits<double>::infinity(), 0.0};
       return seen;
     }
@@ -124,12 +126,12 @@ class Sight {
     glm::dvec3 normal;
     double reach = 0.0;  ///< distance of the farthest corner
     double length;       ///< of the normal
-    double size;         ///< what the length would be if the sides were perpendicular
+    double size;         ///< the length for perpendicular sides
     double volume;
     double height;  ///< distance of the plane
   };
 
-  /// Returns how far from a primitive a hit may lie, with some room.
+  /// Returns how far from a primitive a hit may lie, with a margin.
   static double beside(double reach) { return 4.0 * kHitSlack * reach; }
 
   /// Returns dot(normal, direction) + slack as a function of the place in pixels.
@@ -159,14 +161,14 @@ class Sight {
     for (std::size_t i = 0; i < corners.size() && !lines.full(); ++i) {
       const EdgePlane plane =
           plane_through(from_eye(corners[i]), from_eye(corners[(i + 1) % corners.size()]));
-      // An edge that is seen as a point limits nothing; the others do.
+      // An edge seen as a point limits nothing; the other edges do.
       if (!(plane.loss < kLoosest * screen_->longest())) continue;
       lines.push_back(line_of(outward * plane.normal, -wider - plane.loss));
     }
   }
 
   /// Adds the lines of the inner fragment, moved inward; none if they are not certain. Corners may
-  /// be left out: what remains is a smaller polygon.
+  /// be dropped, which only shrinks the polygon.
   void add_inner(std::span<const glm::dvec3> corners, const Facing& facing,
                  decltype(SeenFragment::surely)& lines) const {
     beam::FixedVector<glm::dvec3, kMostSides> kept;
@@ -189,19 +191,19 @@ class Sight {
     }
   }
 
-  /// Returns whether statement (2) can be made about a triangle.
+  /// Returns whether statement (2) holds for a triangle.
   bool may_end(const Facing& facing) const {
     const double longest = screen_->longest();
     // Canonical hits of everything else near the cell are in it: they lie within an eighth of the
     // slab of their primitive.
     if (!(kHitSlack * scene_reach_ <= 0.125 * tree_->slab())) return false;
-    // An eighth of the slab is more than float loses in t, so what lies farther behind the cell has
-    // a larger t, not an equal one; and more than double loses where the ray meets the plane, whose
-    // normal is off by 2^-50 * size / length, at a flat angle.
+    // An eighth of the slab exceeds the rounding error of t in float, so anything farther behind
+    // the cell has a larger t, not an equal one. It also exceeds the error in double where the ray
+    // meets the plane at a flat angle; the error of the plane's normal is 2^-50 * size / length.
     if (!(0x1p-20 * facing.reach * longest <= tree_->slab())) return false;
     if (!(facing.length > 0x1p-10 * facing.size)) return false;
     if (!(facing.height > 0x1p-14 * facing.reach)) return false;
-    // The canonical areas lose 2^-48 of these products: nothing, compared to a line's margin.
+    // The canonical areas lose 2^-48 of these products, negligible compared to a line's margin.
     for (std::size_t i = 0; i < 3; ++i) {
       const glm::dvec3& from = facing.corners[i];
       const glm::dvec3& to = facing.corners[(i + 1) % 3];

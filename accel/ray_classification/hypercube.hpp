@@ -1,5 +1,5 @@
 #pragma once
-// Rays as points of five dimensions, and sets of rays as boxes of them.
+// Rays as points in five dimensions, and sets of rays as boxes of such points.
 
 #include <algorithm>
 #include <array>
@@ -11,9 +11,8 @@
 
 namespace beambench::accel::ray_classification {
 
-/// One of six directions, the positive and the negative one of each axis. Seen from it, `along` is
-/// the axis on which a direction is longest, with the sign that makes rays proceed to larger
-/// numbers.
+/// One of the six axis directions. In its coordinates, `along` is the axis along which a direction
+/// is longest, with the sign that makes coordinates increase along rays.
 struct Face {
   std::size_t along;
   std::array<std::size_t, 2> aside;
@@ -26,8 +25,8 @@ struct Face {
 };
 inline constexpr std::size_t kFaces = 6;
 
-/// The five coordinates of a ray seen from a face: its place along and aside, and its slopes, the
-/// components of its direction aside over that along.
+/// The five coordinates of a ray seen from a face: its origin along and aside, and its slopes, the
+/// direction's components aside divided by its component along.
 inline constexpr std::size_t kDimensions = 5;
 using Point = std::array<double, kDimensions>;
 
@@ -68,10 +67,10 @@ inline void keep_below(double offset, double slope, Interval& s) {
   }
 }
 
-/// Returns whether a ray of the set may meet the box: whether at some distance s along, the places
-/// that the set's rays have there overlap it (Arvo and Kirk 1987, section 4, where a linear program
-/// or bounding cones decide). Never false if a ray meets it; true, too, where it takes one origin
-/// along and another aside.
+/// Returns whether a ray of the set may meet the box: whether at some distance s along, the
+/// positions of the set's rays overlap it (Arvo and Kirk 1987, section 4, use a linear program or
+/// bounding cones). Conservative: never false if a ray meets the box, but it may combine the origin
+/// of one ray along with that of another aside.
 inline bool may_meet(const Hypercube& rays, const SeenBox& box) {
   Interval s{std::max(0.0, box.along.low - rays[0].high), box.along.high - rays[0].low};
   for (std::size_t i = 0; i < 2; ++i) {

@@ -54,7 +54,7 @@ RayClassification::RayClassification(const scenes::Scene& scene, const RayTreeOp
     : scene_(&scene),
       boxes_(padded_primitive_bounds(scene)),
       references_(std::make_unique<std::atomic<std::uint64_t>>(0)) {
-  // Once more, for the rounding of a ray's place and slopes and of `may_meet`.
+  // Widened again, for the rounding of a ray's origin and slopes and of `may_meet`.
   const double tolerance = overlap_tolerance(scene);
   std::vector<Box> classified;
   classified.reserve(boxes_.size());
@@ -70,8 +70,8 @@ RayClassification::RayClassification(const scenes::Scene& scene, const RayTreeOp
 }
 
 Point RayClassification::point_of(const CanonicalRay& ray, const Face& face) const {
-  // Where the ray enters the box, in double: t as a float may lie behind a hit there. A hit before
-  // t_min may round to it.
+  // The point where the ray enters the box, in double: a float t may lie behind a hit there. A hit
+  // before t_min may round to it.
   double t = ray.t_min * (1.0 - 0x1p-23);
   for (int axis = 0; axis < 3; ++axis) {
     if (ray.direction[axis] == 0.0) continue;

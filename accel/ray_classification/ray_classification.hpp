@@ -18,12 +18,12 @@
 
 namespace beambench::accel::ray_classification {
 
-/// Subdivides the set of rays instead of the space ("Fast Ray Tracing by Ray Classification",
-/// Computer Graphics 21(4), 1987): a ray is a point of five dimensions, its place and two slopes on
-/// the face of a cube of directions. Sets of rays are boxes of such points; each has the list of
-/// the primitives that its rays may meet, in their order along the face's axis. A ray finds its set
-/// by comparing its coordinates with planes, steps through no space, and is tested against the list
-/// from the near end until the closest hit lies before everything that remains.
+/// Subdivides the set of rays instead of space ("Fast Ray Tracing by Ray Classification", Computer
+/// Graphics 21(4), 1987): a ray is a point in five dimensions: its origin and two slopes on a face
+/// of the direction cube. Sets of rays are boxes of such points; each has a list of the primitives
+/// that its rays may meet, in order along the face's axis. A ray finds its set by comparing its
+/// coordinates with planes, without stepping through space, and is tested against the list from the
+/// near end until the closest hit lies before all remaining primitives.
 ///
 /// Rays that begin outside the scene's box are moved to where they enter it.
 class RayClassification : public TraversalAccelerator<RayClassification> {
@@ -54,7 +54,7 @@ class RayClassification : public TraversalAccelerator<RayClassification> {
   }
 
   Statistics statistics() const override;
-  /// Returns the origins of all sets of rays that have candidates.
+  /// Returns the boxes of origins of all ray sets that have candidates.
   std::vector<Cell> occupied_cells() const override;
 
  private:
@@ -81,7 +81,7 @@ class RayClassification : public TraversalAccelerator<RayClassification> {
     const double origin = canonical.origin[axis];
     const double inverse = 1.0 / canonical.direction[axis];
     for (const scenes::PrimitiveId id : place.set->candidates) {
-      // In order: whatever follows begins at this t or later, rounded as the t of a hit is.
+      // In order: all later primitives begin at this t or beyond, rounded like the t of a hit.
       const float near = forward ? boxes_[id].lower[axis] : boxes_[id].upper[axis];
       if (static_cast<float>((near - origin) * inverse) > canonical.t_max) break;
       counting.add(Counter::kBoxTests);

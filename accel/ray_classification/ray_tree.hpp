@@ -1,5 +1,5 @@
 #pragma once
-// The tree of sets of rays, divided as rays come.
+// The tree of ray sets, divided as rays arrive.
 
 #include <array>
 #include <atomic>
@@ -18,7 +18,7 @@ namespace beambench::accel::ray_classification {
 
 struct RayTreeOptions {
   std::size_t max_candidates = 16;  ///< a set whose rays may meet more primitives is divided
-  int max_depth = 25;               ///< unless it was divided so many times
+  int max_depth = 25;               ///< unless it was already divided this many times
   std::uint64_t max_references = 50'000'000;
 };
 
@@ -37,33 +37,33 @@ struct Halves {
   std::array<RaySet, 2> sets;
 };
 
-/// The sets of one face, a binary tree over its five dimensions. A set is divided when the first
-/// ray comes that it holds, in the middle of the dimension in which it is largest, and its
-/// candidates are classified anew. Sets divide alike whatever the order of rays, so that neither
-/// hits nor counters depend on it, as long as the lists do not reach `max_references`: from then on
-/// nothing is divided, and rays are tested against longer lists.
+/// The sets of one face, a binary tree over its five dimensions. When the first ray in a set
+/// arrives, the set is divided in the middle of its largest dimension, and its candidates are
+/// reclassified. The division does not depend on the order of rays, so neither do hits and
+/// counters, unless the lists reach `max_references`: from then on nothing is divided, and rays are
+/// tested against longer lists.
 ///
 /// Several threads may query at once, as in `OnDemandOctree`.
 class RayTree {
  public:
-  /// A place in the tree: a set, what it holds, and how often it was divided.
+  /// A position in the tree: a set, its contents, and how often it was divided.
   struct Place {
     const RaySet* set;
     Hypercube rays;
     int depth;
-    std::uint64_t code;  ///< 1, and a binary digit for each division
+    std::uint64_t code;  ///< 1, followed by a binary digit for each division
   };
 
-  /// `boxes` of all primitives, widened for rounding; `whole` of their union. `references` counts
-  /// the entries of all trees' lists, and outlives this one.
+  /// `boxes` are those of all primitives, widened for rounding; `whole` is the box of their union.
+  /// `references` counts the list entries of all trees and must outlive this one.
   RayTree(std::size_t face, const Box& whole, std::span<const Box> boxes,
           const RayTreeOptions& options, std::atomic<std::uint64_t>& references);
   RayTree(const RayTree&) = delete;
   RayTree& operator=(const RayTree&) = delete;
 
   const Face& face() const { return face_; }
-  /// Returns the undivided set that holds a ray, dividing what has to be divided. Calls
-  /// `visit(place, is_leaf)` for each set on the way.
+  /// Returns the undivided set that contains a ray, dividing sets as necessary. Calls `visit(place,
+  /// is_leaf)` for each set on the path.
   template <class Visit>
   Place find(const Point& ray, const Visit& visit) const {
     Place place{&root_, whole_, 0, 1};
@@ -76,7 +76,7 @@ class RayTree {
     }
   }
 
-  /// Adds the sets made so far, those that may still be divided as leaves.
+  /// Adds the sets made so far; those that may still be divided count as leaves.
   void describe(Statistics& statistics) const;
   /// Calls `visit(place)` for each leaf.
   template <class Visit>
@@ -114,7 +114,7 @@ class RayTree {
     }
     return divide(place);
   }
-  /// Returns nullptr where the lists are too long already.
+  /// Divides a set; returns nullptr if the lists are already too long.
   const Halves* divide(const Place& place) const;
 
   Face face_;
@@ -122,7 +122,7 @@ class RayTree {
   Hypercube whole_;
   std::vector<SeenBox> boxes_;
   RaySet root_;
-  // Mutable: any query would have added the same.
+  // Mutable: every query would add the same.
   mutable std::mutex publishing_;
   mutable std::deque<Halves> divided_;
   std::atomic<std::uint64_t>& references_;

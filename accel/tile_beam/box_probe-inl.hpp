@@ -1,4 +1,4 @@
-// Determines which of sixteen boxes a tile's beam meets, where on the screen, and how near.
+// Determines which of sixteen boxes a tile's beam meets, where on the screen, and how close.
 
 #if defined(ACCEL_TILE_BEAM_BOX_PROBE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_BOX_PROBE_INL
@@ -14,7 +14,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// A view's planes for testing boxes, with the corner of a box that lies farthest along each.
+/// A view's planes for testing boxes, with the box corner that is farthest along each plane's
+/// normal.
 class BoxProbe {
  public:
   explicit BoxProbe(const TileView& view)
@@ -25,7 +26,7 @@ class BoxProbe {
         width_(static_cast<float>(view.width - 1)),
         height_(static_cast<float>(view.height - 1)) {}
 
-  /// The boxes' samples and their largest 1/t, for those that the beam meets.
+  /// For each box that the beam meets, its samples and its largest 1/t.
   struct Met {
     alignas(64) std::array<std::int32_t, kTileLanes> rectangle;  ///< bytes of SampleRectangle
     alignas(64) std::array<float, kTileLanes> nearest;
@@ -40,7 +41,7 @@ class BoxProbe {
     }
   };
 
-  /// Tests boxes. A box is met if it reaches into the beam, contains a sample's place and is not
+  /// Tests boxes. A box is met if it overlaps the beam, contains a sample position and is not
   /// entirely behind `farthest` (1/t).
   HWY_INLINE void probe(const TileBoxes& boxes, std::uint32_t count, float farthest,
                         Met& met) const {
@@ -49,11 +50,11 @@ class BoxProbe {
     met.lanes &= (LaneBits{1} << count) - 1;
   }
 
-  /// Returns the children of a node whose cones of normals face entirely away from the eye, from
-  /// anywhere in the box (Shirmun and Abi-Ezzi 1993). Children without a cone may be among them.
+  /// Returns the children of a node whose normal cones face entirely away from the eye from
+  /// everywhere in the box (Shirmun and Abi-Ezzi 1993). May include children without a cone.
   HWY_INLINE LaneBits turned_away(const TileNode& node) const {
     return for_each_register([&](std::size_t lane) {
-      Floats along = hn::Zero(Tag());  // the axis, at least, over the box
+      Floats along = hn::Zero(Tag());  // lower bound along the axis, over the box
       Floats farthest = hn::Zero(Tag());
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const Floats lower = from_eye(node.boxes, axis, lane, eye_[static_cast<int>(axis)]);
@@ -84,7 +85,7 @@ class BoxProbe {
         hn::Min(hn::Min(from_left, from_right),
                 hn::Min(hn::Min(from_top, from_bottom), largest(4, lower, upper)));
 
-    // With the corners exchanged it is the smallest value along the row.
+    // With the corners exchanged, this is the smallest value along the row.
     const Floats near = largest(4, upper, lower, -1.0F);
     const Mask before = hn::Gt(near, none);
     const Floats nearest = hn::IfThenElse(before, hn::Div(all(1.0F), near), all(kNearestOfAll));

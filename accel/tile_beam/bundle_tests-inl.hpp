@@ -27,8 +27,8 @@ HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
 /// Tests pairs of a block and a shape, as PencilTests does for one apex: hides apexes from origins,
-/// and ends origins from which all are hidden, or which are left open. Each function returns the
-/// groups that changed.
+/// and ends origins from which all apexes are hidden or that are left open. Each function returns
+/// the groups that changed.
 class BundleTests {
  public:
   BundleTests(const PencilPart& part, PencilUnit& unit, PencilGroups<HullPolicy>& groups,
@@ -72,9 +72,10 @@ class BundleTests {
     }
   }
 
-  /// Tests a triangle for the origins of a block. Returns those from which all apexes are hidden.
+  /// Tests a triangle for the origins of a block. Returns the origins from which all apexes are
+  /// hidden.
   ///
-  /// Edges are moved by what places and edges may be wrong, too; the plane is, by its slack.
+  /// Edges are also moved by the errors of places and edges; the plane is moved by its slack.
   HWY_INLINE LaneBits test_triangle(std::size_t place, std::size_t shape, const Meshlet& meshlet) {
     constexpr float kUncertain = 8.0F * 0x1p-24F;
     const OneShape of{*shapes_, shape};
@@ -98,7 +99,7 @@ class BundleTests {
       const Floats missed = hn::Or(
           either(hn::Add(edges[0], by[0]), hn::Add(edges[1], by[1]), hn::Add(edges[2], by[2])),
           beyond);
-      // Zeros exclude nothing, and decide nothing.
+      // Zeros neither exclude nor decide anything.
       const auto inside = [&](std::size_t k) { return hn::Gt(edges[k], hn::Add(by[k], by[k])); };
       covered |= bits_of(hn::And(hn::And(inside(0), inside(1)), inside(2))) << lane;
       behind |= bits_of(hn::Gt(beyond, slack_of(of, w))) << lane;
@@ -106,34 +107,35 @@ class BundleTests {
     });
     possible &= unit_->alive[place];
     if (possible == 0) return 0;
-    // A triangle that may be seen from both sides covers nothing: its plane is 0.
+    // A triangle that may be seen from both sides covers nothing, since its plane is 0.
     covered = view_->ends_at_apex ? covered & possible & behind : 0;
     hide(place, covered);
     const LaneBits others = possible & ~covered;
     return covered | (others == 0 ? 0 : hide_apexes(place, others, shape, meshlet));
   }
 
-  /// The triangles that are tested for all apexes of an origin. For more, streams take less time.
+  /// The maximum number of triangles tested for all apexes of an origin. Beyond it, streams are
+  /// faster.
   static constexpr std::uint8_t kMostTests = 64;
 
   /// Finds the apexes that a triangle hides from some origins of a block. Returns the origins that
   /// end here: all apexes are hidden, or there were too many tests.
   ///
   /// Let P be an origin, A, B and C the corners relative to it, n the normal and d the vector to an
-  /// apex. The triangle hides the apex if P and the apex are on two sides of its plane, and d . (A
-  /// x B), d . (B x C) and d . (C x A) have one sign: that of the apex's side.
+  /// apex. The triangle hides the apex if P and the apex are on opposite sides of its plane, and d
+  /// . (A x B), d . (B x C) and d . (C x A) all have the sign of the apex's side.
   ///
-  /// Origins, corners and apexes are floats, so in float A, B, C and d are wrong by e (= 2^-24) of
-  /// their components. The ray's direction may differ by as much, and by e S, because its origin
-  /// was rounded, whose coordinates are at most S. Let m be the longest of A, B and C. A cross
-  /// product is wrong by 6 e m^2, and one with d by e m^2 (18 |d| + 2 S). A height over the plane
-  /// times |n|, of a point at a distance l from a corner, is wrong by e l (9 L^2 + 5 |n|), L being
-  /// the longest side. Rays end before an apex by `surface_lift`. Within these errors, which are
-  /// rounded up, the canonical test decides.
+  /// Origins, corners and apexes are floats, so the components of A, B, C and d in float have a
+  /// relative error of e (= 2^-24). The ray's direction may differ by as much, and by e S, because
+  /// its origin, with coordinates of at most S, was rounded. Let m be the longest of A, B and C.
+  /// The error of a cross product is 6 e m^2, and that of its product with d is e m^2 (18 |d| + 2
+  /// S). For a point at a distance l from a corner, the height over the plane times |n| has an
+  /// error of e l (9 L^2 + 5 |n|), L being the longest side. Rays end before an apex by
+  /// `surface_lift`. Within these errors, which are rounded up, the canonical test decides.
   HWY_NOINLINE LaneBits hide_apexes(std::size_t place, LaneBits origins, std::size_t shape,
                                     const Meshlet& meshlet) {
     constexpr float kRounding = 0x1p-24F;
-    constexpr float kTiny = 1e-30F;    // what underflows is less than a rounding of that
+    constexpr float kTiny = 1e-30F;    // numbers that underflow are less than a rounding of it
     constexpr float kLift = 0x1p-17F;  // twice that of `surface_lift`
     const BundleRays& bundle = *part_->bundle;
     const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
@@ -155,7 +157,7 @@ class BundleTests {
     struct Row {
       alignas(64) std::array<float, PencilUnit::kBlock> at;
     };
-    // Three normals, the origin, the possible errors of products and of the apexes' heights.
+    // Three normals, the origin, and the error bounds of products and of the apexes' heights.
     enum : std::size_t { kNormals = 0, kOrigin = 9, kProduct = 12, kHeight = 13, kRows = 14 };
     std::array<Row, kRows> rows;
     for (LaneBits left = unit_->lanes[unit_->slot[place]]; left != 0; left &= left - 1) {
@@ -226,7 +228,7 @@ class BundleTests {
         const Floats second = product(kNormals + 3);
         const Floats third = product(kNormals + 6);
         const Floats least = hn::Min(hn::Min(first, second), third);
-        // Above the plane, on the side opposite to the origin.
+        // Above the plane, on the side opposite the origin.
         const Floats height =
             dot(Points{hn::Sub(apex.x, all(corners[0].x)), hn::Sub(apex.y, all(corners[0].y)),
                        hn::Sub(apex.z, all(corners[0].z))},
@@ -262,9 +264,9 @@ class BundleTests {
     return ended;
   }
 
-  /// Of a line from an origin to an apex, the point at the share s of the way lies beside that of
-  /// the line to the center by at most s times the ball's radius. A ray that begins outside of the
-  /// sphere and moves away from it misses it.
+  /// At a fraction s of the way, the line from an origin to an apex is at most s times the ball's
+  /// radius away from the line to the center. A ray that begins outside the sphere and moves away
+  /// from it misses it.
   HWY_INLINE LaneBits test_sphere(std::size_t place, std::size_t shape) {
     const OneShape of{*shapes_, shape};
     const Points center{of(SeenShapes::kCenter), of(SeenShapes::kCenter + 1),
@@ -298,7 +300,7 @@ class BundleTests {
       const Floats nearest_at = hn::Max(hn::Min(middle, origin), hn::Zero(Tag()));
       const Points nearest = from_center(nearest_at);
       const Floats distance = hn::Sqrt(dot(nearest, nearest));
-      // The largest share of the way at which the sphere may be met.
+      // The largest fraction of the way at which the sphere may be met.
       const Floats near_z = hn::Div(all(1.0F), high_w);
       const Floats last =
           hn::Min(hn::Div(hn::Sub(origin, near_z), hn::Sub(origin, ball)), all(1.0F));

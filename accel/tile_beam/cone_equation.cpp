@@ -8,15 +8,14 @@
 namespace beambench::accel::tile_beam {
 namespace {
 
-/// The cosine of the inclination to the axis beyond which surfaces count as flat.
+/// Surfaces count as flat beyond this cosine of the inclination to the axis.
 constexpr double kFlat = 0x1p-5;
-/// The length below which cones are left to double: a rim has a doubtful margin of 2^-18 on either
-/// side.
+/// Shorter cones are left to double precision: a rim has a doubtful margin of 2^-18 on either side.
 constexpr double kShort = 0x1p-12;
-/// The distance below which the eye counts as touching the surface.
+/// Below this distance, the eye counts as touching the surface.
 constexpr double kTouching = 0x1p-18;
 
-/// Returns a vector at right angles to a unit vector.
+/// Returns a vector perpendicular to a unit vector.
 glm::dvec3 beside_axis(const glm::dvec3& axis) {
   const glm::dvec3 size = glm::abs(axis);
   const bool is_x = size.x <= size.y && size.x <= size.z;
@@ -72,8 +71,8 @@ std::optional<ConeEquation> cone_equation(const scenes::Cone& cone, const Sample
                     static_cast<float>(glm::dot(gradient, raster.down)),
                     static_cast<float>(glm::dot(gradient, corner))};
   };
-  // b^2 - a c = (C R d.x - S C X d.axis)^2 - c (C d.y)^2, where eye_beside is C X. The first
-  // square's root is positive toward all points whose radius is.
+  // b^2 - a c = (C R d.x - S C X d.axis)^2 - c (C d.y)^2, where eye_beside is C X. The root of the
+  // first square is positive toward all points with a positive radius.
   const glm::dvec3 toward = sine * eye_beside * axis - cosine * eye_radius * x;
   const glm::dvec3 sideways = cosine * std::sqrt(std::abs(constant)) * y;
   const bool outside = constant > 0.0;

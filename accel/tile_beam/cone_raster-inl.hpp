@@ -30,7 +30,7 @@ inline constexpr float kOnSurface = 0x1p-22F;
 /// A height closer than this to that of a rim is doubtful.
 inline constexpr float kAtRim = 0x1p-18F;
 
-/// Boxes with at most this many samples take less time ray by ray.
+/// Boxes with at most this many samples are faster ray by ray.
 inline constexpr int kFewSamples = 2;
 
 /// Returns a linear function at the first samples of a row, in the lanes of a register of a block.
@@ -38,10 +38,10 @@ HWY_INLINE Floats start_of_row(const TileLine& line, Floats j) {
   return hn::MulAdd(all(line.y), j, all(line.constant));
 }
 
-/// Facts about rays where they meet the infinite cone.
+/// The properties of rays where they meet the infinite cone.
 struct ConeRoot {
-  Mask hit;       ///< the frustum is met
-  Mask doubtful;  ///< rounding decides whether it is
+  Mask hit;       ///< the ray meets the frustum
+  Mask doubtful;  ///< rounding decides whether it does
 };
 
 /// Directions in the axes of a `ConeEquation`.
@@ -81,7 +81,7 @@ class ConePainter {
   }
 
  private:
-  static constexpr int kFewBlocks = 8;  ///< finding the ends of rows would cost more than it saves
+  static constexpr int kFewBlocks = 8;  ///< below it, finding row ends costs more than it saves
 
   template <class Exact>
   HWY_INLINE void paint_row(int row, int first_column, int last_column, TileImage& image,
@@ -137,7 +137,7 @@ class ConePainter {
     const ConeRoot first = classify(w);
     Mask hit = hn::And(first.hit, hn::Or(hn::Not(approaches), enters));
     doubtful = hn::Or(hn::Or(doubtful, first.doubtful), hn::Le(hn::Abs(q), all(cone_.least_root)));
-    // Both are met only if the ray approaches, and then the first is nearer.
+    // The ray meets both only if it approaches, and then the first is nearer.
     const Mask decided = hn::Or(doubtful, hit);
     if (!hn::AllFalse(Tag(), hn::AndNot(decided, met))) {
       const Floats a =
@@ -154,8 +154,8 @@ class ConePainter {
     return bits_of(hn::And(met, doubtful));
   }
 
-  /// Returns whether the root w is a point of the frustum. The point is computed and compared with
-  /// the surface, which exposes an inaccurate root, a rare case.
+  /// Returns whether the root w is a point of the frustum. Comparing the computed point with the
+  /// surface detects the rare inaccurate root.
   HWY_INLINE ConeRoot met_at(Floats w, const ConeDirections& d, Floats across_squared,
                              Floats along_radius) const {
     const Floats beside = hn::MulAdd(all(cone_.eye_beside), w, d.beside);

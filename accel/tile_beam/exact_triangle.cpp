@@ -50,8 +50,8 @@ Range range_of(const std::array<glm::dvec3, 3>& projected, int axis) {
   return range;
 }
 
-/// Returns the samples that the triangle may cover. Acute corners end here, because edges moved
-/// outward meet only far beyond them.
+/// Returns the samples that the triangle may cover. The box cuts off acute corners, because edges
+/// moved outward meet only far beyond them.
 std::optional<SampleRectangle> box_of(const TileView& view,
                                       const std::array<glm::dvec3, 3>& projected) {
   const auto clipped = [&](int axis, double per_angle, int samples) {
@@ -84,12 +84,12 @@ Eye place_of_eye(const std::array<glm::dvec3, 3>& from_eye) {
   return on ? Eye::kOnTriangle : Eye::kInPlane;
 }
 
-/// The size of a plane's numbers, in units of the largest t of its triangle, beyond which rounding
-/// may move a hit farther from the triangle than two equal hits may differ along a ray.
+/// The magnitude of a plane's coefficients, in units of the largest t of its triangle, beyond which
+/// rounding may move a hit farther from the triangle than the tolerance for equal hits along a ray.
 constexpr double kMinAngle = 0x1p11;
 
-/// The outward shift of edges seen from an apex, relative to their numbers; the error of edges in
-/// float is smaller.
+/// The outward shift of edges seen from an apex, relative to their coefficients; the error of edges
+/// in float is smaller.
 constexpr double kApexWidening = 2e-7;
 
 ExactTriangle left_to_rays(const SampleRectangle& box) { return {{}, {}, box, true}; }
@@ -129,7 +129,7 @@ std::optional<ExactTriangle> exact_triangle(const TileView& view,
   triangle.box = *box;
   for (std::size_t i = 0; i < 3; ++i) {
     glm::dvec3 edge = glm::cross(projected[i], projected[(i + 1) % 3]) * inward;
-    // In samples from the edge; for an edge at infinity only the sign matters.
+    // In samples from the edge; for an edge at infinity, only the sign matters.
     const double slope = std::max(std::hypot(edge.x, edge.y), std::abs(edge.z) * 1e-12);
     if (slope == 0.0) return std::nullopt;
     edge /= slope;

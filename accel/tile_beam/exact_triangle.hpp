@@ -14,32 +14,32 @@
 
 namespace beambench::accel::tile_beam {
 
-/// The condition for a sample of the box to hit a triangle: no edge is negative. The plane then
-/// gives 1/t.
+/// The condition for a sample of the box to hit a triangle: no edge is negative. The plane is then
+/// 1/t.
 struct ExactTriangle {
   std::array<TileLine, 3> edges;
   TileLine plane;
   SampleRectangle box;
-  bool at_eye;  ///< the triangle has no image: edges and plane are not set, and rays decide
+  bool at_eye;  ///< the triangle has no image: edges and plane are unset, and rays decide
 };
 
-/// Computes the image of any triangle, including one that crosses the plane through the eye at
-/// right angles to the view, one that reaches far beyond the tile, and a sliver. Homogeneous
-/// coordinates need no clipping (Olano and Greer, "Triangle Scan Conversion using 2D Homogeneous
-/// Coordinates", 1997). Returns nothing if no sample of the tile can hit it. The edges are moved
-/// outward by kEdgeWidening. A triangle that contains the eye is hit at t = 0 in any direction, and
-/// has no image.
+/// Computes the image of any triangle, including slivers and triangles that cross the eye's plane
+/// perpendicular to the view or extend far beyond the tile. Homogeneous coordinates need no
+/// clipping (Olano and Greer, "Triangle Scan Conversion using 2D Homogeneous Coordinates", 1997).
+/// Returns nothing if no sample of the tile can hit it. The edges are moved outward by
+/// kEdgeWidening. A triangle that contains the eye is hit at t = 0 in any direction and has no
+/// image.
 std::optional<ExactTriangle> exact_triangle(const TileView& view,
                                             const std::array<glm::vec3, 3>& corners);
 
-/// A triangle seen through a side of the cube about a pencil's apex. The condition for a place (u,
-/// v) within the bounds to see it: no edge is negative, where an edge is x * u + y * v + z; there,
-/// its w is the plane divided by `distance`, which is positive. Acute corners end at the bounds.
+/// A triangle seen through a side of the cube around a pencil's apex. It is visible at a place (u,
+/// v) within the bounds if no edge is negative, where an edge is x * u + y * v + z; its w there is
+/// the plane divided by `distance`, which is positive. The bounds cut off acute corners.
 struct ExactApexTriangle {
   glm::dvec2 low;
   glm::dvec2 high;
   std::array<glm::dvec3, 3> edges;
-  std::array<double, 3> clear;  ///< at this value of an edge and above, a place is certainly inside
+  std::array<double, 3> clear;  ///< places with at least this value of an edge are certainly inside
   glm::dvec3 plane;
   double distance;
   double distance_to_plane;  ///< from the apex
@@ -47,7 +47,7 @@ struct ExactApexTriangle {
 };
 
 /// Does the same as `exact_triangle` from an apex; edges are moved outward by more than the error
-/// of those in float.
+/// of float edges.
 std::optional<ExactApexTriangle> exact_apex_triangle(const glm::vec3& apex, const CubeSide& side,
                                                      const std::array<glm::vec3, 3>& corners);
 
@@ -56,8 +56,8 @@ class TrianglePlane {
  public:
   explicit TrianglePlane(const std::array<glm::vec3, 3>& corners);
 
-  /// Returns the canonical t at which the ray meets the plane, wherever that is beside the
-  /// triangle, or kMiss.
+  /// Returns the canonical t at which the ray meets the plane, inside or outside the triangle, or
+  /// kMiss.
   float hit(const Ray& ray) const;
 
  private:

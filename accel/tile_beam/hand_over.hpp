@@ -8,8 +8,8 @@
 
 namespace beambench::accel::tile_beam {
 
-/// The policy of `beam_places`: records the rays that are handed over, by their places in the
-/// tile's image or in the pencil's unit.
+/// The policy of `beam_places`: records the rays handed over, by their places in the tile's image
+/// or in the pencil's unit.
 struct HandOverRecorder : NoCounting {
   explicit HandOverRecorder(std::size_t places) : is_handed_over(places) {}
 

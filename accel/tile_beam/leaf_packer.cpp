@@ -24,18 +24,18 @@ bool same_bits(const glm::vec3& point, const Meshlet& meshlet, std::size_t verte
   return true;
 }
 
-/// A meshlet to which triangles are added, and where the scene moves its vertices.
+/// A meshlet that triangles are added to and, if the scene moves, its vertices.
 struct OpenMeshlet {
   Meshlet& meshlet;
-  MeshletVertices* numbers;  ///< null where the scene does not move
+  MeshletVertices* numbers;  ///< null if the scene does not move
 
   bool has(std::size_t corner, std::uint32_t vertex, const glm::vec3& place) const {
     return numbers != nullptr ? (*numbers)[corner] == vertex : same_bits(place, meshlet, corner);
   }
 };
 
-/// Returns the number of a corner in a meshlet, adding it if it is new; kMaxVertices if the meshlet
-/// is full.
+/// Returns the index of a corner in the meshlet, adding it if it is new; kMaxVertices if the
+/// meshlet is full.
 std::size_t corner_of(const OpenMeshlet& open, const scenes::Scene& scene, std::uint32_t vertex) {
   Meshlet& meshlet = open.meshlet;
   const glm::vec3& place = scene.vertices[vertex];
@@ -50,7 +50,7 @@ std::size_t corner_of(const OpenMeshlet& open, const scenes::Scene& scene, std::
   return meshlet.vertex_count++;
 }
 
-/// Adds a triangle with its corners; false, without adding anything, if it does not fit.
+/// Adds a triangle with its corners; returns false, without adding anything, if it does not fit.
 bool append(const OpenMeshlet& open, const scenes::Scene& scene, const scenes::Triangle& triangle) {
   Meshlet& meshlet = open.meshlet;
   if (meshlet.triangle_count == Meshlet::kMaxTriangles) return false;
@@ -79,13 +79,13 @@ class LeafPacker {
  public:
   explicit LeafPacker(const TileParts& parts) : parts_(&parts) { made_.first.push_back(0); }
 
-  /// Reserves memory for that many leaves of a scene's parts.
+  /// Reserves memory for this many leaves of a scene's parts.
   void reserve(std::size_t leaves) {
     const std::size_t parts = parts_->parts.size();
     const scenes::Scene& scene = parts_->scene;
     made_.packed.reserve(leaves);
     made_.first.reserve(leaves + 1);
-    // Allow for leaves with several blocks; unused room is never touched.
+    // Allow for leaves with several blocks; unused space is never touched.
     const std::size_t blocks = leaves + leaves / 2;
     made_.blocks.meshlets.reserve(blocks * scene.triangles.size() / parts);
     made_.blocks.spheres.reserve(blocks * scene.spheres.size() / parts);
@@ -109,8 +109,8 @@ class LeafPacker {
   PackedLeaves& made() { return made_; }
 
  private:
-  /// Packs items of one kind into one block. If they do not fit, they are halved along the axis of
-  /// their greatest extent: in the order of the scene, the boxes of a leaf's blocks would overlap.
+  /// Packs items of one kind into one block. If they do not fit, they are halved along their
+  /// longest axis: in scene order, the boxes of a leaf's blocks would overlap.
   void pack_blocks(scenes::PrimitiveKind kind, std::span<std::uint32_t> items) {
     if (pack_block(kind, items)) return;
     const auto half = static_cast<std::ptrdiff_t>(items.size() / 2);
@@ -219,7 +219,7 @@ class LeafPacker {
   }
 
   const TileParts* parts_;
-  std::vector<std::uint32_t> of_kind_;  ///< of the current leaf; kept for its memory
+  std::vector<std::uint32_t> of_kind_;  ///< of the current leaf; reuses its memory
   PackedLeaves made_;
 };
 
@@ -304,7 +304,7 @@ class Joining {
   Begin end_;
 };
 
-/// Leaves per task: enough that joining costs little in comparison.
+/// Leaves per task: enough that joining is comparatively cheap.
 constexpr std::size_t kLeavesOfPart = 1024;
 
 }  // namespace

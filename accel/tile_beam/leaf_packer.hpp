@@ -1,5 +1,5 @@
 #pragma once
-// Packs leaves of primitives into the blocks that SIMD processes: meshlets, spheres, cones.
+// Packs leaves of primitives into blocks for SIMD: meshlets, spheres, cones.
 
 #include <cstdint>
 #include <span>
@@ -21,7 +21,7 @@ struct PackedLeaves {
   TileBlocks blocks;
   std::vector<SolidMeshlet> solid_meshlets;
   std::vector<PackedLeaf> packed;    ///< leaf by leaf
-  std::vector<std::uint32_t> first;  ///< of each leaf, in `packed`; one more for the end
+  std::vector<std::uint32_t> first;  ///< index of each leaf in `packed`, plus one for the end
 
   std::span<const PackedLeaf> of(std::size_t leaf) const {
     return std::span(packed).subspan(first[leaf], first[leaf + 1] - first[leaf]);
@@ -34,12 +34,12 @@ struct TileParts {
   const Solids& solids;
   std::span<const bvh::PrimitivePart> parts;
   std::span<const scenes::Bounds> boxes;
-  bool moves;  ///< corners that meet now may part: only those of one vertex are shared
+  bool moves;  ///< corners that coincide now may separate: only those of one vertex are shared
 };
 
 /// Packs leaves, each given by its items. A leaf becomes a block for each kind of primitive in it,
-/// or several if one is full: at most kTileLanes for a leaf of up to 32 parts. `parallel`: on all
-/// cores; the blocks are the same. Throws InputError when there are more than TileChild::kIndices
+/// or several if one is full: at most kTileLanes for a leaf of up to 32 parts. `parallel`: use all
+/// cores; the blocks are the same. Throws InputError if there are more than TileChild::kIndices
 /// blocks of a kind.
 PackedLeaves pack_leaves(const TileParts& parts,
                          std::span<const std::span<const std::uint32_t>> leaves, bool parallel);

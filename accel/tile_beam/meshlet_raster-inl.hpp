@@ -19,8 +19,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// Draws triangles that need double, one by one. `triangle_of(lane)` is the number of a lane's
-/// triangle.
+/// Draws triangles that need double precision, one by one. `triangle_of(lane)` is the index of a
+/// lane's triangle.
 template <class TriangleOf>
 inline void draw_exactly(const Meshlet& meshlet, TriangleOf triangle_of, Mask which,
                          const TileRays& rays, TileImage& image) {
@@ -42,7 +42,7 @@ inline void draw_exactly(const Meshlet& meshlet, TriangleOf triangle_of, Mask wh
   }
 }
 
-/// Draws large triangles one by one, row by row; acute ones not beyond their boxes.
+/// Draws large triangles one by one, row by row; acute ones are clipped to their boxes.
 inline void draw_large(const StoredImages& images, const scenes::PrimitiveId* primitives,
                        Mask which, Mask acute_ones, TileImage& image) {
   const LaneBits acute = bits_of(acute_ones);
@@ -58,8 +58,8 @@ inline void draw_large(const StoredImages& images, const scenes::PrimitiveId* pr
   }
 }
 
-/// Returns the triangles of `which` that hierarchical Z hides, among those that cover at most 2 x 2
-/// of its cells.
+/// Returns the triangles of `which` that cover at most 2 x 2 cells of hierarchical Z and are hidden
+/// by it.
 HWY_INLINE Mask hidden(const TriangleImages& images, Mask which, const TileImage& image) {
   const auto cell = [](Floats sample) {
     return hn::ShiftRight<3>(hn::ConvertTo(IntTag(), sample));

@@ -9,12 +9,12 @@
 namespace beambench::accel::tile_beam {
 namespace {
 
-/// The radius of a ball up to which places that it widens are finite.
+/// The maximum radius of a ball; places widened by it stay finite.
 constexpr float kLargestRadius = 0x1p20F;
-/// The origins of a part that show whether it is worthwhile.
+/// The number of a part's origins tested to determine whether bundling is worthwhile.
 constexpr std::size_t kFirst = 512;
 
-/// Returns origins of a bundle, with a ball that holds the apexes, up to what rounding changes of
+/// Returns origins of a bundle with a ball that contains the apexes, allowing for the rounding of
 /// rays toward them.
 BundleRays bundle_rays(const BundlePart& part) {
   const std::span<const Pencil> pencils = part.pencils;
@@ -37,8 +37,8 @@ BundleRays bundle_rays(const BundlePart& part) {
     }
     farthest = std::max(farthest, glm::distance(pencil.apex, glm::dvec3(bundle.apex)));
   }
-  // Directions are rounded: they pass beside the apex by up to 2^-23 of their length, and lengths
-  // are a few sizes of the scene and of the apex's coordinates.
+  // Directions are rounded: they miss the apex by up to 2^-23 of their length, and lengths are a
+  // few times the size of the scene and of the apex's coordinates.
   const glm::dvec3 size = glm::max(glm::abs(lower), glm::abs(upper));
   const double coordinates =
       std::max({size.x, size.y, size.z, double{part.hierarchy.bounds.largest_coordinate()}});

@@ -1,5 +1,5 @@
 #pragma once
-// The pencils of one light with an extent: what is the same for all of them is found once.
+// The pencils of one extended light: results common to all of them are found once.
 
 #include <algorithm>
 #include <cstddef>
@@ -16,8 +16,8 @@
 
 namespace beambench::accel::tile_beam {
 
-/// Returns whether pencils are a bundle as `PencilBundle` describes it, as far as that can be seen
-/// without looking at their rays.
+/// Returns whether pencils are a bundle as `PencilBundle` describes it, as far as this can be
+/// determined without examining their rays.
 bool is_bundle(std::span<const Pencil> pencils);
 
 /// Some origins of a bundle of at most BundleRays::kApexes pencils: `count` of each pencil's rays,
@@ -44,14 +44,14 @@ struct BundleMemory {
   std::vector<std::uint8_t> hits;    ///< of these rays
 };
 
-/// Writes 0 or 1 for each ray of the batch that belongs to the part, except for those of the
-/// origins that it leaves open. Returns false without having written anything if these are most of
-/// the first ones: the light is in a lamp, and what is next to it may be in the way of all rays.
+/// Writes 0 or 1 for each ray of the batch that belongs to the part, except for rays from origins
+/// that it leaves open. Returns false, having written nothing, if most of the first origins are
+/// open: the light is inside a lamp, and nearby surfaces may block all rays.
 template <class Counting>
 bool find_hidden(const BundlePart& part, PencilUnit& unit, BundleMemory& memory,
                  std::span<std::uint8_t> hits, Counting& counting);
 
-/// Calls `trace(rays, hits)` for lists of the rays of the open origins, and copies what it writes.
+/// Calls `trace(rays, hits)` for lists of rays from the open origins, and copies the results.
 template <class Trace>
 void trace_open(const BundlePart& part, BundleMemory& memory, std::span<std::uint8_t> hits,
                 const Trace& trace) {

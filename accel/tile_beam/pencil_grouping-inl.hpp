@@ -1,4 +1,4 @@
-// Regroups the blocks of a part of a pencil: large blocks are rebuilt, and all are put into groups.
+// Regroups the blocks of a part of a pencil: large blocks are rebuilt, and all blocks form groups.
 
 #if defined(ACCEL_TILE_BEAM_PENCIL_GROUPING_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_PENCIL_GROUPING_INL
@@ -49,8 +49,8 @@ class MortonOrder {
   float low_u_, low_v_, scale_u_, scale_v_;
 };
 
-/// Splits blocks that are much larger than most, sorts their rays and forms new blocks of them;
-/// then orders all blocks and makes groups of them.
+/// Splits blocks that are much larger than most, sorts their rays and forms new blocks from them;
+/// then orders all blocks and forms groups.
 class PencilGrouping {
  public:
   PencilGrouping(PencilUnit& unit, bool has_origin_w) : unit_(&unit), has_origin_w_(has_origin_w) {}
@@ -97,8 +97,8 @@ class PencilGrouping {
       bits += std::bit_cast<std::int32_t>(size);
       ++extended;
     }
-    // The mean of the bits is roughly that of the logarithms. In an unordered list all blocks are
-    // similar, so none may be much larger than an equal part of the whole either.
+    // The mean of the bits approximates the mean of the logarithms. In an unordered list all blocks
+    // are similar, so also require that none be much larger than an equal share of the whole.
     const float usual =
         extended > 0 ? std::bit_cast<float>(static_cast<std::int32_t>(bits / extended)) : 0.0F;
     const float equal_part = ((high_u_ - low_u_) + (high_v_ - low_v_)) /
@@ -106,7 +106,7 @@ class PencilGrouping {
     largest_ = kMuchLarger * std::min(usual, equal_part);
   }
 
-  /// Moves the rays of large blocks behind those in blocks; returns their number.
+  /// Moves the rays of large blocks behind all other rays; returns their number.
   std::size_t pool_large_blocks() {
     std::size_t pooled = 0;
     for (std::size_t block = 0; block < unit_->listed; ++block) {
@@ -120,7 +120,7 @@ class PencilGrouping {
     return pooled;
   }
 
-  /// Sorts them along the curve, with two passes of counting.
+  /// Sorts the pooled rays along the curve by a counting sort in two passes.
   void put_together(std::size_t pooled) {
     const MortonOrder order(low_u_, high_u_, low_v_, high_v_);
     alignas(64) std::array<float, 16> u{};
@@ -282,7 +282,7 @@ class PencilGrouping {
 
   /// The factor by which a block must exceed the usual extent to be split: depth discontinuities.
   static constexpr float kMuchLarger = 2.8F;
-  /// The padding of a block's bounds: more than five roundings of places |u| <= 1, the possible
+  /// The padding of a block's bounds: more than five roundings of places |u| <= 1, the maximum
   /// error of bounds and edges.
   static constexpr float kPad = 3e-7F;
 

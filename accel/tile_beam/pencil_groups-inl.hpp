@@ -22,7 +22,7 @@ namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 using SideBounds = std::array<float, 6>;
 enum Bound : std::size_t { kLowU, kHighU, kLowV, kHighV, kLowW, kHighW };
 
-/// Returns the lanes whose bounds overlap those of `within` (sign clear).
+/// Returns the lanes whose bounds overlap `within` (sign bit clear).
 template <class Policy>
 HWY_INLINE Floats apart(const SeenBounds& seen, const PencilBounds& within, float spread) {
   const Floats behind = hn::Sub(seen.high_w, all(within.least_w));
@@ -63,7 +63,7 @@ class PencilGroups {
 
   /// Returns a bit for each group with a ray that may still be hit.
   std::uint32_t alive() const { return unit_->groups_alive; }
-  /// Returns the bounds of all of these.
+  /// Returns the bounds of all rays that may still be hit.
   const PencilBounds& all_bounds() const { return all_; }
   PencilBounds bounds_of(std::size_t group) const {
     return {unit_->group_low_u[group],  unit_->group_high_u[group], unit_->group_low_v[group],
@@ -106,17 +106,17 @@ class PencilGroups {
     return blocks & unit_->group_blocks[group];
   }
 
-  /// Returns how much wider (HullPolicy) shapes are whose largest w exceeds that of rays by
-  /// `nearer`; zero where all rays run to one point.
+  /// Returns by how much shapes are widened (HullPolicy) if their largest w exceeds that of the
+  /// rays by `nearer`; zero if all rays run to one point.
   HWY_INLINE Floats widening(Floats nearer) const { return hn::Mul(nearer, all(spread_)); }
-  /// Adds it.
+  /// Adds the widening to a value.
   static HWY_INLINE Floats plus(Floats value, Floats more) {
     return Policy::kHull ? hn::Add(value, more) : value;
   }
 
   float spread() const { return spread_; }
 
-  /// Records which rays of a block were hit. Returns the bit of its group if that affects bounds.
+  /// Records which rays of a block were hit. Returns the bit of its group if this affects bounds.
   HWY_INLINE std::uint32_t note(std::size_t place, LaneBits hits) {
     const std::size_t group = place / 16;
     if constexpr (kClosest) {
@@ -213,7 +213,7 @@ class PencilGroups {
             most_of(high_v), least_of(w),     kClosest ? most_of(origin_w) : kInfinity};
   }
 
-  /// Finds the smallest w in a block that hits must exceed.
+  /// Finds the smallest w that hits of a block must exceed.
   HWY_INLINE void find_farthest(std::size_t place) {
     const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
     Floats least = all(kInfinity);

@@ -3,7 +3,7 @@
 #include "accel/core/pick_target.hpp"
 #include "accel/tile_beam/pencil_places.hpp"
 
-// Highway includes this file once more for each instruction set.
+// Highway includes this file again for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "accel/tile_beam/pencil_kernels.cpp"
 #include <hwy/foreach_target.h>
@@ -15,10 +15,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// The largest distance from the apex at which a part is traced together. At more than a few scene
-/// sizes, float rarely distinguishes origins of rays from the surfaces beside them. For any hits,
-/// it is still worthwhile to decide them one by one, but in a scene that is small relative to its
-/// coordinates, all places are rounded to the same ones.
+/// The largest distance from the apex at which a part is traced together. Beyond a few scene sizes,
+/// float rarely distinguishes the origins of rays from nearby surfaces. For any hits, it is still
+/// worthwhile to decide them one by one, but in a scene that is small relative to its coordinates,
+/// all places round to the same values.
 template <class Policy>
 float farthest(const scenes::Bounds& scene) {
   const float size = scene.largest_coordinate();
@@ -29,8 +29,8 @@ float farthest(const scenes::Bounds& scene) {
   return 4.0F * size + more;
 }
 
-/// Calls `walk(part, side)` for each side of the cube that the first rays pass, and `undecided(i)`
-/// for rays that pass none.
+/// Calls `walk(part, side)` for each side of the cube that the first rays cross, and `undecided(i)`
+/// for rays that cross none.
 template <class Policy, class Rays, class Walk, class Undecided>
 HWY_INLINE AnsweredRays for_each_side(const Rays& pencil, PencilUnit& unit, Walk walk,
                                       Undecided undecided) {
@@ -127,9 +127,9 @@ AnsweredRays closest_hits(const PencilRays& pencil, PencilUnit& unit, const HitS
         counting.add("beams");
         walk_part<ClosestHitPolicy>(pencil, part, side, unit, counting);
         const auto z = static_cast<int>(side.z_axis());
-        // The place of a hit is off by up to 8 roundings of its distance from the apex. If these
-        // exceed the 16 that are allowed for origin and hit (`float_unit`), the canonical test
-        // determines t.
+        // The position of a hit is off by up to 8 roundings of its distance from the apex. If this
+        // exceeds the 16 allowed for origin and hit (`float_unit`), the canonical test determines
+        // t.
         const auto is_far = [](const Ray& ray, float t, float depth) {
           const float more = depth - 2.0F * glm::length(ray.origin);
           if (more <= 0.0F) return false;
@@ -146,7 +146,7 @@ AnsweredRays closest_hits(const PencilRays& pencil, PencilUnit& unit, const HitS
             const bool hit = unit.w[at] > 0.0F;
             const Ray& ray = pencil.rays[i];
             primitive[i] = hit ? unit.primitive[at] : scenes::kNoPrimitive;
-            // Of a hit at the ray's origin the depths may differ by a rounding.
+            // For a hit at the ray's origin, the depths may differ by a rounding.
             const float from_origin = std::max(depth - 1.0F / unit.origin_w[at], 0.0F);
             t[i] = hit ? from_origin / std::abs(ray.direction[z]) : kInfinity;
             if (hit && is_far(ray, t[i], depth)) [[unlikely]] {

@@ -18,7 +18,7 @@
 
 namespace beambench::accel::tile_beam {
 
-/// The samples of an image from which rays come, as numbers in a HitBuffer.
+/// The image samples that rays come from, numbered as in a HitBuffer.
 struct PencilSamples {
   std::span<const std::uint32_t> of_rays;  ///< empty if unknown
   std::uint32_t width = 1;                 ///< of the image, in pixels
@@ -39,13 +39,14 @@ struct PencilSamples {
     if (!of_rays.empty()) rest.of_rays = of_rays.subspan(first);
     return rest;
   }
-  /// Avoids a division. Half a pixel more than the quotient is far enough from whole numbers.
+  /// Returns the row of a pixel without a division. Adding half a pixel keeps the quotient far
+  /// enough from integers.
   std::uint32_t row_of(std::uint32_t pixel) const {
     return static_cast<std::uint32_t>((pixel + 0.5) * per_width);
   }
 };
 
-/// Rays of a pencil, at least one. The hierarchy is not empty.
+/// Rays of a pencil, at least one. The hierarchy must not be empty.
 struct PencilRays {
   const TileHierarchy& hierarchy;
   const scenes::Scene& scene;
@@ -54,16 +55,16 @@ struct PencilRays {
   glm::vec3 apex;
 };
 
-/// Origins of rays toward the apexes of a bundle. `PencilRays`: the rays toward the first one, but
-/// their apex is the center of a ball that holds all.
+/// Origins of rays toward the apexes of a bundle. The `PencilRays` are those toward the first apex,
+/// but with the center of a ball that contains all apexes as their apex.
 struct BundleRays : PencilRays {
   static constexpr std::size_t kApexes = 16;
 
   float radius;  ///< of the ball
-  /// The apexes, x, y, z, and as many copies of the last as there is room for.
+  /// The apexes' x, y and z, padded with copies of the last one.
   alignas(64) std::array<std::array<float, kApexes>, 3> places;
   std::size_t apexes;
-  std::size_t stride;  ///< from a ray to the one from the same origin toward the next apex
+  std::size_t stride;  ///< between rays from one origin toward consecutive apexes
 
   std::uint32_t all_apexes() const { return (1U << apexes) - 1U; }
   const Ray& ray(std::size_t origin, std::size_t apex) const {
@@ -71,24 +72,24 @@ struct BundleRays : PencilRays {
   }
 };
 
-/// Means that the rays of an origin must be traced apex by apex. Otherwise what is found for an
-/// origin is a bit for each apex: whether it is hidden.
+/// Marks an origin whose rays must be traced apex by apex. Otherwise the result for an origin has a
+/// bit for each apex that is hidden.
 inline constexpr std::uint32_t kOpen = 0x80000000U;
 
-/// The result of a ray that is left to the query for single rays: its line is too long for float,
-/// or has no direction from the apex.
+/// The result of a ray that is left to the single-ray query: its line is too long for float or has
+/// no direction from the apex.
 inline constexpr std::uint8_t kUndecided = 2;
-/// The same as the t of a closest hit; no ray has one there.
+/// The corresponding t of a closest hit, which no ray can have.
 inline constexpr float kUndecidedT = -kInfinity;
 
-/// The number of rays answered, and whether some of them are undecided.
+/// The number of rays processed, and whether some of them are undecided.
 struct AnsweredRays {
   std::size_t count;
   bool some_undecided;
 };
 
 /// The queries under one counting policy. They trace the first rays of a list, as many as fit into
-/// `unit`. The unit's side of the cube is tried first, and is set to the one that saw the last
+/// `unit`. The unit's side of the cube is tried first and is set to the side that saw the last
 /// rays.
 template <class Counting>
 struct PencilQueries {
@@ -99,7 +100,7 @@ struct PencilQueries {
   /// kUndecidedT if undecided.
   AnsweredRays (*closest_hits)(const PencilRays&, PencilUnit& unit, const HitSpan& buffer,
                                std::size_t first, Counting&);
-  /// Writes which apexes are hidden from each origin of a bundle, or kOpen where its rays must be
+  /// Writes which apexes are hidden from each origin of a bundle, or kOpen if its rays must be
   /// traced apex by apex.
   AnsweredRays (*bundle)(const BundleRays&, PencilUnit& unit, std::span<std::uint32_t> found,
                          Counting&);
@@ -108,8 +109,8 @@ struct PencilQueries {
 struct PencilKernels : PencilQueries<NoCounting>, PencilQueries<WorkCounters> {
   /// Returns how many rays the queries trace at once.
   std::size_t (*count_part)(const PencilRays&, PencilUnit& unit);
-  /// Writes the places of the rays of a part toward the apex when any_hits traces them
-  /// (`note_places`); those that it leaves undecided are not written.
+  /// Writes the places of a part's rays toward the apex as any_hits traces them (`note_places`);
+  /// undecided rays are not written.
   void (*places)(const PencilRays&, PencilUnit& unit, std::span<BeamPlace> places);
 
   template <class Counting>
@@ -118,7 +119,7 @@ struct PencilKernels : PencilQueries<NoCounting>, PencilQueries<WorkCounters> {
   }
 };
 
-/// Returns the kernels for the best instruction set that this machine has among some, like
+/// Returns the kernels for this machine's best instruction set among `targets`, like
 /// `tile_kernels_for`.
 const PencilKernels& pencil_kernels_for(std::int64_t targets);
 

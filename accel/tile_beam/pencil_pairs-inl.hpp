@@ -21,7 +21,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// The numbers of one shape per lane (as OneShape has those of one); likewise for blocks.
+/// The numbers of one shape per lane (OneShape has those of a single shape); likewise for blocks.
 struct SomeShapes {
   const SeenShapes& shapes;
   std::size_t lane;
@@ -50,7 +50,7 @@ class PencilPairs {
     list_candidates(bounds, groups, count);
     test_blocks<kTriangles>(count);
   }
-  /// Returns the pairs found last: place of the block * SeenShapes::kMax + shape.
+  /// Returns the last pairs found: place of the block * SeenShapes::kMax + shape.
   std::span<const std::uint32_t> found() const { return {pairs_.data(), count_}; }
 
  private:
@@ -87,7 +87,7 @@ class PencilPairs {
                   << lane;
       }
       shapes &= shapes_->present;
-      // Both lists grow without a branch: the one that is not chosen grows by nothing.
+      // Both lists are appended to without a branch: the one not chosen grows by nothing.
       const std::size_t registers_of_group = 16 / kLanes;
       const bool by_block = static_cast<std::size_t>(std::popcount(blocks)) * shape_registers <
                             static_cast<std::size_t>(std::popcount(shapes)) * registers_of_group;
@@ -107,7 +107,7 @@ class PencilPairs {
     by_block_count_ = by_block_count;
   }
 
-  /// Sets the sign of lanes in which the shape cannot hit any ray of the block.
+  /// Sets the sign of lanes whose shape cannot hit any ray of the block.
   template <bool kTriangles, class Shape, class Block>
   HWY_INLINE Floats misses(Shape shape, Block block) const {
     const PencilUnit& unit = *unit_;
@@ -193,7 +193,7 @@ class PencilPairs {
   std::size_t by_shape_count_ = 0;
   std::size_t by_block_count_ = 0;
   std::size_t count_ = 0;
-  /// Room for a register after the last one.
+  /// With room for a register after the last one.
   std::array<std::uint32_t, PencilUnit::kGroups * SeenShapes::kMax + 16> by_shape_;
   std::array<std::uint32_t, PencilUnit::kPlaces + 16> by_block_;
   std::array<std::uint32_t, PencilUnit::kPlaces * SeenShapes::kMax + 16> pairs_;

@@ -27,7 +27,7 @@ namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 struct AnyHitPolicy {
   static constexpr bool kClosest = false;
   static constexpr bool kHull = false;
-  /// The number of leaves per ray from which on single rays take less time, as measured.
+  /// The number of leaves per ray above which single rays are faster, as measured.
   static constexpr float kHandoverLeaves = 1.0F;
 };
 /// Rays away from the apex: a hit brings the ray's end nearer.
@@ -36,16 +36,16 @@ struct ClosestHitPolicy {
   static constexpr bool kHull = false;
   static constexpr float kHandoverLeaves = 3.0F;
 };
-/// Rays toward all apexes of a bundle at once: toward any point of a ball about the apex. A shape
-/// that may be hit by one of them opens the ray's origin, and ends the search for it.
+/// Rays toward all apexes of a bundle at once: toward any point of a ball around the apex. A shape
+/// that one of them may hit opens the ray's origin and ends the search for it.
 ///
 /// Let x, y, z be the coordinates of a side of the cube about the ball's center, r its radius, P an
 /// origin, with z > 2 r, and a a point of the ball. On the line from P to a, the point at depth z
 /// has
 ///     u = u_P + (a.x - u_P a.z) (w - w_P) / (1 - a.z w_P).
-/// As |u_P| <= 1, it is beside u_P by at most `spread` (w - w_P), where spread = sqrt(2) r / (1 - r
-/// w_P). So a shape is tested as any hits from the center are, but widened by that at its largest
-/// w. A shape nearer than z = 2 r may be met by all.
+/// As |u_P| <= 1, it differs from u_P by at most `spread` (w - w_P), where spread = sqrt(2) r / (1
+/// - r w_P). So a shape is tested as for any hits from the center, but widened by this amount at
+/// its largest w. All rays may meet a shape nearer than z = 2 r.
 struct HullPolicy {
   static constexpr bool kClosest = false;
   static constexpr bool kHull = true;
@@ -95,8 +95,8 @@ HWY_INLINE Floats coordinate(const Points& points, std::size_t axis) {
   return axis == 0 ? points.x : axis == 1 ? points.y : points.z;
 }
 
-/// Divides the first rays of a list into listed blocks: sixteen in succession or, if their samples
-/// are known, those in a square of 4 x 4 pixels.
+/// Divides the first rays of a list into listed blocks: sixteen consecutive rays or, if their
+/// samples are known, those in a square of 4 x 4 pixels.
 inline void list_blocks(std::span<const Ray> rays, const PencilSamples& samples, PencilUnit& unit) {
   unit.listed = 0;
   unit.first[0] = 0;
@@ -112,14 +112,14 @@ inline void list_blocks(std::span<const Ray> rays, const PencilSamples& samples,
 struct PencilPart {
   std::span<const Ray> rays;
   glm::vec3 apex;
-  /// The maximum distance of a ray's beginning from the apex along the side's axis for float.
+  /// The maximum distance, along the side's axis, of a ray's origin from the apex for float.
   float farthest;
   const BundleRays* bundle = nullptr;  ///< HullPolicy
 };
 
-/// Projects the rays of one side. Unless hits are closest, the apex is at the rays' ends, and sees
-/// their points; otherwise it is at some distance behind their origins, and sees their directions.
-/// Returns the sides to which other rays belong, one bit each.
+/// Projects the rays of one side. For any hits, the apex is at the rays' ends and sees their
+/// origins; for closest hits, it is at some distance behind their origins and sees their
+/// directions. Returns the sides of the other rays, one bit each.
 template <class Policy>
 class PencilProjection {
  public:
@@ -175,7 +175,7 @@ class PencilProjection {
       const Mask to_end =
           kToward ? hn::And(hn::Ge(ray.t_max, all(kMinEnd)), hn::Le(ray.t_max, all(1.0F)))
                   : hn::Eq(ray.t_max, infinity);
-      // Of a bundle, only the origins are seen: its rays may be shorter.
+      // For a bundle, only the origins are projected: its rays may be shorter.
       const Mask whole =
           Policy::kHull ? wanted : hn::And(hn::Eq(ray.t_min, hn::Zero(Tag())), to_end);
       const float nearest =
@@ -237,8 +237,8 @@ class PencilProjection {
   /// The minimum depth and direction: reciprocals stay of ordinary size, and single rays can be
   /// probed (ProbeRay::can_probe).
   static constexpr float kNearest = 0x1p-59F;
-  /// The minimum end of rays traced together. Rays that end farther in front of the apex, such as
-  /// those of points close to a light, are traced one by one.
+  /// The minimum end of rays traced together. Rays that end farther before the apex, such as those
+  /// from points close to a light, are traced one by one.
   static constexpr float kMinEnd = 0.5F;
 
   Floats end_depth_ = hn::Zero(Tag());

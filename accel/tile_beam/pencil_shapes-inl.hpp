@@ -23,11 +23,11 @@ struct ApexView {
   CubeSide side;
   float scene_size;  ///< the largest |coordinate|
   /// Shapes closer to the apex are left to the canonical test, because some ray ends before them;
-  /// of a bundle, they may be hit by all.
+  /// all rays of a bundle may hit them.
   float end;
-  float radius;  ///< of the ball about the apex (HullPolicy), otherwise 0, like the next
+  float radius;  ///< of the ball around the apex (HullPolicy); otherwise 0, like the next
   float spread;
-  bool ends_at_apex;  ///< of a bundle: no ray ends before a shape
+  bool ends_at_apex;  ///< for a bundle: no ray ends before a shape
 
   /// Returns the world's coordinates in the order of the side's.
   HWY_INLINE Points turned(Floats x, Floats y, Floats z) const {
@@ -35,7 +35,7 @@ struct ApexView {
     return {coordinate(world, side.x_axis()), coordinate(world, side.y_axis()),
             hn::Mul(coordinate(world, side.z_axis()), all(side.sign()))};
   }
-  /// Returns the side's coordinates of turned places.
+  /// Returns the side's coordinates for turned places.
   HWY_INLINE Points from_apex(const Points& at) const {
     const auto component = [&](std::size_t axis) { return apex[static_cast<int>(axis)]; };
     return {hn::Sub(at.x, all(component(side.x_axis()))),
@@ -64,7 +64,7 @@ HWY_INLINE SeenBounds widened(const SeenBounds& bounds, Floats more) {
 /// The largest w, for parts at or beside the apex.
 inline constexpr float kAtApex = 1e30F;
 
-/// Returns bounds without limits in the other lanes.
+/// Returns the bounds, without limits in lanes that are not `bounded`.
 HWY_INLINE SeenBounds anywhere_unless(Mask bounded, const SeenBounds& bounds) {
   const auto low = [&](Floats value) { return hn::IfThenElse(bounded, value, all(-kAtApex)); };
   const auto high = [&](Floats value) { return hn::IfThenElse(bounded, value, all(kAtApex)); };
@@ -99,9 +99,9 @@ HWY_INLINE SeenBounds bounds_of(const TileBoxes& boxes, std::size_t lane, const 
   return anywhere_unless(hn::Gt(near_z, all(view.end)), bounds);
 }
 
-/// The roundings allowed for the beginning of a ray in float, in units of 2^-24 (see
-/// TriangleShapes): of places, to be multiplied by 1; of origins beside their line, by the scene's
-/// size and w; and of the depths of origins.
+/// The roundings allowed for a ray's origin in float, in units of 2^-24 (see TriangleShapes): of
+/// places, multiplied by 1; of origins off their line, multiplied by the scene's size and w; and of
+/// the depths of origins.
 template <class Policy>
 inline constexpr float kSlackOfPlaces = Policy::kClosest ? 36.0F : 8.0F;
 template <class Policy>
@@ -119,14 +119,14 @@ struct SeenShapes {
     kLowW,
     kHighW,
     /// Triangles: three edges a u + b v + c, nonnegative inside; the plane, and its distance: w of
-    /// the triangle is (x u + y v + z) / distance. And the magnitudes of a, b, x and y. For any
-    /// hits the plane and the distance are moved toward the rays by the slack.
+    /// the triangle is (x u + y v + z) / distance. Also the magnitudes of a, b, x and y. For any
+    /// hits, the plane and the distance are moved toward the rays by the slack.
     kEdge0,
     kPlane = kEdge0 + 9,
     kDistance = kPlane + 3,
     kMagnitudes,
-    /// Triangles: the possible error of plane - distance w, slack + slack per w * w; twice as much
-    /// where that was moved by it.
+    /// Triangles: the error bound of plane - distance w, slack + slack per w * w; twice as much if
+    /// the plane was moved by it.
     kSlack = kMagnitudes + 8,
     kSlackPerW,
     /// Triangles: the value of an edge below which a hit is uncertain.
@@ -174,19 +174,19 @@ struct PencilBounds {
 ///
 /// How far a ray's origin o lies before a triangle's plane is n.(u, v, 1) - w n.p, of the normal n
 /// and a corner p, seen from the apex. In units of e = 2^-24, and with |x| for the sum of the sizes
-/// of x's components, float makes it wrong by at most
-/// - 4 (|n.x| + |n.y|) of the places u and v, whose four roundings each have an error of e, and
-///   3 |n| of the sums: 7 |n|;
-/// - 4 of the distance n.p, 2 of w and 3 of the sums: 9 w (|n.x p.x| + |n.y p.y| + |n.z p.z|);
-/// - 4 L^2 of each component of n, L being the longest side at the corner p, times o - p, which
-///   where the triangle is hit is within sqrt(3) L: 7 w L^3.
-/// Within this slack, rounded up, the canonical test decides (`PencilTests`). Beyond it, the sign
-/// is that of the canonical test, and so is that of t: the apex lies on the other side of the
-/// plane.
+/// of x's components, its error in float is at most
+/// - 4 (|n.x| + |n.y|) from the places u and v, with four roundings of e each, and 3 |n| from the
+///   sums: 7 |n|;
+/// - 4 from the distance n.p, 2 from w and 3 from the sums: 9 w (|n.x p.x| + |n.y p.y| + |n.z
+///   p.z|);
+/// - 4 L^2 from each component of n, L being the longest side at the corner p, times o - p, which
+///   for a hit is within sqrt(3) L: 7 w L^3. Within this slack, rounded up, the canonical test
+///   decides (`PencilTests`). Beyond it, the sign is that of the canonical test, and so is that of
+///   t: the apex lies on the other side of the plane.
 ///
-/// Of rays away from the apex, u and v are those of the direction. Their origin lies beside the
-/// line through the apex by up to 16 e (scene size + distance) (`RayBatch`): the sum of the sizes
-/// of n's components times that, of which distance * w is sqrt(3) at most, is added.
+/// For rays away from the apex, u and v are those of the direction. Their origins are off the line
+/// through the apex by up to 16 e (scene size + distance) (`RayBatch`), where distance * w is at
+/// most sqrt(3). The slack grows by this, times the sum of the absolute values of n's components.
 template <class Policy>
 class TriangleShapes {
  public:
@@ -219,7 +219,7 @@ class TriangleShapes {
       const Floats w = hn::Div(all(1.0F), seen.z);
       store(hn::Mul(seen.x, w), &u_[i]);
       store(hn::Mul(seen.y, w), &v_[i]);
-      // A corner beside the apex or behind it has no accurate place: NaN.
+      // A corner next to or behind the apex has no accurate place: NaN.
       const Mask before =
           hn::Gt(hn::Mul(seen.z, all(kFarAside)), hn::Max(hn::Abs(seen.x), hn::Abs(seen.y)));
       store(hn::IfThenElse(before, w, all(kNaN)), &w_[i]);
@@ -267,7 +267,7 @@ class TriangleShapes {
                         hn::MulSub(side1.x, side2.y, hn::Mul(side1.y, side2.x))};
     const Points size{hn::Abs(normal.x), hn::Abs(normal.y), hn::Abs(normal.z)};
     const Floats distance = dot(normal, p0);
-    // A needle's normal is too inaccurate in float, unless the needle is small.
+    // A needle triangle's normal is too inaccurate in float unless the needle is small.
     const Floats longest = hn::Max(dot(side1, side1), dot(side2, side2));
     const float reach = 4.0F * view_->scene_size;
     const Mask needle = hn::Not(hn::Lt(hn::Mul(longest, hn::Mul(longest, longest)),
@@ -281,8 +281,8 @@ class TriangleShapes {
     slack_per_w = hn::MulAdd(all(kRounding * kSlackOfOrigins<Policy> * view_->scene_size),
                              sum_of_sizes, slack_per_w);
 
-    // Places of corners are the same for all their triangles. So edges moved outward by their
-    // possible rounding leave no gap between triangles that share an edge or a corner.
+    // The places of corners are the same for all their triangles. So edges moved outward by their
+    // rounding error leave no gap between triangles that share an edge or a corner.
     struct Edge {
       Floats a, b, c;
     };
@@ -305,8 +305,8 @@ class TriangleShapes {
     const Mask inexact = hn::Or(hn::Or(hn::Not(before), at_end), sliver);
     const Mask bounded = hn::AndNot(at_end, before);
     shapes_->set_bounds(lane, Policy::kHull ? anywhere_unless(bounded, bounds) : bounds);
-    // Of a bundle, edges and planes that are uncertain exclude nothing: they are zeros. So is the
-    // plane of a triangle that may be seen from both sides.
+    // For a bundle, uncertain edges and planes exclude nothing: they are zeros. So is the plane of
+    // a triangle that may be seen from both sides.
     const auto usable = [](Mask excluded, Floats value) {
       return Policy::kHull ? hn::IfThenZeroElse(excluded, value) : value;
     };
@@ -403,10 +403,10 @@ class TriangleShapes {
   /// The distance by which edges are moved, on the side of the cube: a rounding of places |u| <= 1.
   static constexpr float kOutward = kRounding;
   /// The distance from a moved edge within which any hits are uncertain: the errors of places and
-  /// edges are smaller, but far from the apex exceed the tolerance of ray and hit (`float_unit`).
+  /// edges are smaller, but far from the apex they exceed the tolerance of ray and hit
+  /// (`float_unit`).
   static constexpr float kUncertain = 8.0F * kRounding;
-  /// The tangent beyond which a corner's place is less accurate than the bounds of blocks allow
-  /// for.
+  /// The tangent beyond which a corner's place is less accurate than the bounds of blocks allow.
   static constexpr float kFarAside = 4.0F;
   /// The area of a triangle, over its extent, below which its sign is uncertain: eight roundings of
   /// places up to `kFarAside`.

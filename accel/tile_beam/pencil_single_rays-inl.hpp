@@ -23,7 +23,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// Traces them with the same query, and records their hits with those of the part.
+/// Traces rays singly by the same query and records their hits with those of the part.
 template <class Policy, class Counting>
 class PencilSingleRays {
  public:
@@ -39,7 +39,7 @@ class PencilSingleRays {
         counting_(&counting) {}
 
   /// Traces the rays of some groups whose places are within bounds through a part of the hierarchy.
-  /// Returns the groups that changed. Of a bundle, they are opened.
+  /// Returns the groups that changed. Origins of a bundle are opened instead.
   std::uint32_t hand_over(TileChild from, const SideBounds& bounds, std::uint32_t groups) {
     count_ = 0;
     for (; groups != 0; groups &= groups - 1) {
@@ -65,7 +65,7 @@ class PencilSingleRays {
     return changed;
   }
 
-  /// Returns whether the ray of a place in the unit is hit by anything in the hierarchy.
+  /// Returns whether the ray of a place in the unit hits anything in the hierarchy.
   bool is_hit(std::size_t at) const {
     note_handed_over(*counting_, at);
     return any_below(*hierarchy_, *scene_, hierarchy_->root, part_->rays[unit_->ray_at(at)],
@@ -135,7 +135,7 @@ class PencilSingleRays {
     }
   }
 
-  /// The possible error of bounds of boxes and places: a few roundings of places |u| <= 1.
+  /// The maximum error of the bounds of boxes and of places: a few roundings of places |u| <= 1.
   static constexpr float kPlacePad = 3e-7F;
   static constexpr std::size_t kMax = PencilUnit::kPlaces * PencilUnit::kBlock;
 

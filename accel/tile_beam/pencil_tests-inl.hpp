@@ -43,7 +43,7 @@ class PencilTests {
   HWY_INLINE std::uint32_t test_triangles(std::span<const std::uint32_t> pairs,
                                           const Meshlet& meshlet) {
     const LaneBits special = shapes_->exact | shapes_->by_rays;
-    std::uint32_t changed = 0;  // in a register, because the next test would wait for it in memory
+    std::uint32_t changed = 0;  // kept in a register: the next test would wait for memory
     for (const std::uint32_t pair : pairs) {
       const std::size_t place = pair / SeenShapes::kMax;
       const std::size_t shape = pair % SeenShapes::kMax;
@@ -109,12 +109,12 @@ class PencilTests {
 
   /// The rays of a block for which float cannot decide whether they hit a shape.
   struct Unsure {
-    LaneBits depth = 0;  ///< they begin too close to it: at its surface or at one of its sides
+    LaneBits depth = 0;  ///< the ray begins too close to its surface or to one of its sides
     LaneBits edge = 0;   ///< hits close to an edge, which was moved outward
   };
 
   /// Returns the rays of a block that hit a triangle, and which of these hits are `uncertain`.
-  /// These are so few that `told_apart` determines the reason.
+  /// These are so few that `told_apart` determines the reason afterward.
   HWY_INLINE LaneBits test_triangle(std::size_t place, std::size_t shape,
                                     scenes::PrimitiveId primitive, LaneBits& uncertain) {
     const OneShape of{*shapes_, shape};
@@ -174,8 +174,9 @@ class PencilTests {
     return {uncertain & in_depth, uncertain & at_edge};
   }
 
-  /// Returns any hits, with those at an edge decided by single rays through the whole hierarchy: if
-  /// triangles share the edge, another test of only one of them could lose the ray between them.
+  /// Returns any hits after single rays through the whole hierarchy have decided those at an edge:
+  /// if triangles share the edge, testing only one of them differently could lose the ray between
+  /// them.
   LaneBits decided_by_rays(std::size_t place, LaneBits hits, LaneBits unsure) {
     const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
     for (LaneBits left = hits & unsure; left != 0; left &= left - 1) {
@@ -202,9 +203,9 @@ class PencilTests {
     return groups_->note(place, hits);
   }
 
-  /// Returns the hits of a block after a triangle's plane has decided in double on which side
-  /// uncertain rays begin. The triangle's edges stay as tested in float: neighbors that share an
-  /// edge must be tested in the same way, or a ray could pass between them.
+  /// Returns the hits of a block after testing in double on which side of a triangle's plane
+  /// uncertain rays begin. The edges are not retested: neighbors that share an edge must be tested
+  /// in the same way, or a ray could pass between them.
   LaneBits decided_by_plane(std::size_t place, LaneBits hits, LaneBits unsure,
                             const Meshlet& meshlet, std::size_t shape) {
     const TrianglePlane plane(
@@ -213,8 +214,9 @@ class PencilTests {
                    [&](const Ray& ray) { return plane.hit(ray); });
   }
 
-  /// Returns whether the ray begins outside of the sphere, clearly in double, and moves away from
-  /// it. Far from the apex, most rays that begin beside a sphere are uncertain, and do so.
+  /// Returns whether the ray begins outside the sphere, by a clear margin in double, and moves away
+  /// from it. This holds for most of the uncertain rays that begin next to a sphere far from the
+  /// apex.
   static bool leaves(const scenes::Sphere& sphere, const Ray& ray) {
     const glm::dvec3 from_center = glm::dvec3(ray.origin) - glm::dvec3(sphere.center);
     const double square = double{sphere.radius} * sphere.radius;
@@ -222,8 +224,8 @@ class PencilTests {
            glm::dot(from_center, glm::dvec3(ray.direction)) > 0.0;
   }
 
-  /// Returns the hits of a block, of which the canonical test decides some: `t_of(ray)` returns t
-  /// or kMiss.
+  /// Returns the hits of a block after the canonical test has decided some of them: `t_of(ray)`
+  /// returns t or kMiss.
   template <class TOf>
   LaneBits decided(std::size_t place, LaneBits hits, LaneBits unsure, scenes::PrimitiveId primitive,
                    TOf t_of) {
@@ -252,7 +254,7 @@ class PencilTests {
     const hn::CappedTag<double, 8> d;
     const hn::Rebind<float, decltype(d)> half;
     const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
-    // Only the rays are in float: see TriangleShapes.
+    // Only the rays are in float; see TriangleShapes.
     const double size =
         std::abs(triangle.plane.x) + std::abs(triangle.plane.y) + std::abs(triangle.plane.z);
     const double slack_at_apex = 0x1p-24 * kSlackOfPlaces<Policy> * size;
@@ -313,10 +315,10 @@ class PencilTests {
   }
 
   /// Computes in units of z: a ray's line is s (u, v, 1). The side of the surface on which a ray
-  /// begins determines which of the two roots are within the ray. It is known more accurately than
-  /// the roots, but not for rays that begin too close to the surface. As in the canonical test, the
-  /// discriminant is computed from the line's point nearest the center (Haines et al., Ray Tracing
-  /// Gems, 2019).
+  /// begins determines which of the two roots are within the ray. Except for rays that begin too
+  /// close to the surface, this side is known more accurately than the roots. As in the canonical
+  /// test, the discriminant is computed from the point of the line nearest to the center (Haines et
+  /// al., Ray Tracing Gems, 2019).
   HWY_INLINE LaneBits test_sphere(std::size_t place, std::size_t shape, bool around,
                                   bool inside_only, scenes::PrimitiveId primitive, Unsure& unsure) {
     const OneShape of{*shapes_, shape};
@@ -364,7 +366,7 @@ class PencilTests {
         if (!hn::AllFalse(Tag(), hit)) keep(at, hit, found, w, primitive);
         return hit;
       } else {
-        // Toward the apex: surfaces passed or left on the way.
+        // Toward the apex: surfaces crossed or left on the way.
         const Mask passes =
             hn::And(meets, hn::And(hn::Lt(middle, origin), hn::Gt(middle, hn::Zero(Tag()))));
         if (around) return inside_only ? only(false) : hn::Not(inside);

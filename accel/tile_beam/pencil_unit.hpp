@@ -10,7 +10,7 @@
 namespace beambench::accel::tile_beam {
 
 /// One side of a cube around the apex, aligned with the world's axes: a ray belongs to the side
-/// that its line passes. In the side's coordinates (x, y, z), from the apex and with z through the
+/// that its line crosses. In the side's coordinates (x, y, z), from the apex and with z through the
 /// side, a point has the place u = x/z, v = y/z on it and w = 1/z; |u|, |v| <= 1.
 struct CubeSide {
   static constexpr int kCount = 6;
@@ -24,14 +24,14 @@ struct CubeSide {
 };
 
 /// Up to 256 blocks of up to sixteen rays. They hold the rays of one side of the cube at a time. A
-/// block has its rays in the order of the batch (by 4 x 4 pixels, if known), or was formed from
-/// rays whose neighbors in the batch are far apart. Sixteen blocks form a group.
+/// block's rays are in the order of the batch (by 4 x 4 pixels, if known), or were regrouped
+/// because their neighbors in the batch are far apart. Sixteen blocks form a group.
 struct PencilUnit {
   static constexpr std::size_t kBlock = 16;
   static constexpr std::size_t kListed = 256;  ///< blocks in the order of the batch
   static constexpr std::size_t kRays = kListed * kBlock;
   static constexpr std::size_t kBlocks = 2 * kListed;
-  /// One block more than `kListed` may be occupied, because the last newly formed block may not be
+  /// One block more than `kListed` may be occupied, because the last regrouped block may not be
   /// full.
   static constexpr std::size_t kPlaces = kListed + kBlock;
   static constexpr std::size_t kGroups = 32;  ///< 17, for registers
@@ -39,7 +39,7 @@ struct PencilUnit {
   template <class T, std::size_t n>
   using Array = std::array<T, n>;
 
-  Array<std::uint16_t, kListed + 1> first;  ///< ray of each listed block, and behind the last
+  Array<std::uint16_t, kListed + 1> first;  ///< first ray of each listed block, and the end
   std::size_t listed;
 
   /// Returns the ray of a place in the arrays below.
@@ -50,8 +50,8 @@ struct PencilUnit {
   /// For each ray, by block. NaN in lanes without a ray of this side.
   alignas(64) Array<float, kBlocks * kBlock> u;
   alignas(64) Array<float, kBlocks * kBlock> v;
-  /// The w that hits of a ray must exceed: that of its own point if the apex is at its end, or that
-  /// of the nearest hit so far (initially 0) if the apex is behind its origin.
+  /// The w that hits of a ray must exceed: the w of its origin if the apex is at its end, or of the
+  /// nearest hit so far (initially 0) if the apex is behind its origin.
   alignas(64) Array<float, kBlocks * kBlock> w;
   alignas(64) Array<float, kBlocks * kBlock> origin_w;  ///< closest hits: w of the ray's origin
   alignas(
@@ -66,16 +66,16 @@ struct PencilUnit {
   Bounds block;
 
   /// The blocks in an order in which neighbors are close together: `slot` is a block's number.
-  /// Lower ends are negated, so that a test of bounds is a sign.
+  /// Lower ends are negated, so that a bounds test is a test of the sign.
   alignas(64) Array<std::uint32_t, kPlaces> slot;
   alignas(64) Array<std::uint16_t, kPlaces> alive;  ///< lanes that may still be hit
   alignas(64) Array<float, kPlaces> minus_low_u, high_u, minus_low_v, high_v, minus_w, origin_w_top;
   alignas(64) Array<float, kPlaces> middle_u, middle_v, half_u, half_v;
-  /// Of a bundle: which apexes are hidden from each ray's origin, a bit each, by place.
+  /// For a bundle: the apexes hidden from each ray's origin, a bit each, by place.
   alignas(64) Array<std::uint16_t, kPlaces * kBlock> hidden;
   Array<std::uint8_t, kPlaces * kBlock> tests;  ///< triangles tested for all apexes, likewise
   std::size_t places;
-  CubeSide side;  ///< that saw the last rays
+  CubeSide side;  ///< the side that saw the last rays
   /// The distance from the apex, along the side's axis, of the nearest end of a ray toward the
   /// apex.
   float end_depth;
@@ -84,7 +84,7 @@ struct PencilUnit {
   /// The groups' bounds; those of a group without a live ray are empty.
   alignas(64) Array<float, kGroups> group_low_u, group_high_u, group_low_v, group_high_v, group_w,
       group_origin_w;
-  alignas(64) Array<float, kGroups> group_rays, group_area;  ///< as they were at first
+  alignas(64) Array<float, kGroups> group_rays, group_area;  ///< initial values
   Array<std::uint16_t, kGroups> group_blocks;                ///< alive, a bit each
   std::uint32_t groups_alive;
   std::size_t groups;

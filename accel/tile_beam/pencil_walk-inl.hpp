@@ -1,4 +1,4 @@
-// Traces the rays of a part of a pencil through one side of the cube around its apex, through the
+// Traces the rays of a part of a pencil that cross one side of the cube around its apex through the
 // hierarchy.
 
 #if defined(ACCEL_TILE_BEAM_PENCIL_WALK_INL) == defined(HWY_TARGET_TOGGLE)
@@ -27,7 +27,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// The number of leaves up to which counting rays is not worthwhile for a part.
+/// For parts with at most this many leaves, counting rays is not worthwhile.
 inline constexpr std::uint32_t kFewLeaves = 2;
 
 template <class Policy, class Counting>
@@ -48,7 +48,7 @@ class PencilWalk {
 
   void operator()() {
     if (groups_.alive() == 0) return;
-    // Over the whole scene the estimate is coarse. Only a clearly crowded part is handed over
+    // For the whole scene, the estimate is coarse. Only a clearly crowded part is handed over as a
     // whole; examining the children would decide this better, but at a cost.
     const auto half = static_cast<std::uint32_t>(hierarchy_->leaves() / 2);
     stack_[0] = {hierarchy_->root, groups_.alive(),
@@ -81,7 +81,7 @@ class PencilWalk {
   struct Entry {
     TileChild child;
     std::uint32_t groups;   ///< groups from which it may be visible, one bit each
-    std::uint32_t crowded;  ///< not 0: more leaves than single rays take; a word: see TileWalk
+    std::uint32_t crowded;  ///< not 0: more leaves than single rays visit; a word: see TileWalk
     SideBounds bounds;
   };
 
@@ -94,8 +94,8 @@ class PencilWalk {
     }
     constexpr float kRootOfTwo = 1.4143F;
     const float radius = part.bundle->radius;
-    // A triangle that is found to hide an apex lies before it by at least an eighth of the radius,
-    // and rays end before it by `surface_lift`, 2^-18 of the coordinates of apex and origin.
+    // A triangle found to hide an apex lies at least an eighth of the radius before it, and rays
+    // end `surface_lift` before the apex, 2^-18 of the coordinates of apex and origin.
     const glm::vec3 apex = glm::abs(part.apex);
     const float coordinates = std::max({apex.x, apex.y, apex.z}) + 2.0F * part.farthest;
     return {part.apex,
@@ -163,7 +163,7 @@ class PencilWalk {
 
   /// Returns whether a part of the hierarchy has more leaves than `kHandoverLeaves` for each ray
   /// that may meet it. If so, it is traversed by single rays, which need a few leaves each. The
-  /// number of these rays is estimated from the density of the groups' rays over all of the part's
+  /// number of these rays is estimated from the density of the groups' rays over the part's whole
   /// bounds, because most leaves of a large part may lie outside the groups.
   HWY_INLINE bool is_crowded(std::uint32_t leaves, std::uint32_t groups,
                              const SideBounds& bounds) const {

@@ -18,14 +18,14 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// Prefetches cache lines. Must be inlined before GCC looks for functions without effect: it treats
-/// a function that only prefetches as one, and removes the calls.
+/// Prefetches cache lines. Must be inlined before GCC looks for functions without side effects: it
+/// considers a function that only prefetches one of them and removes its calls.
 HWY_INLINE void prefetch_lines(const void* from, std::size_t bytes) {
   const auto* const first = static_cast<const std::uint8_t*>(from);
   for (std::size_t i = 0; i < bytes; i += 64) hwy::Prefetch(first + i);
 }
 
-/// Prefetches all of a node's child for a beam. Entries on a stack are visited soon, in an order
+/// Prefetches a whole child of a node for a beam. Entries on a stack are visited soon, in an order
 /// that the processor cannot predict.
 HWY_INLINE void prefetch_child(const TileHierarchy& hierarchy, TileChild child) {
   if (child.kind() == TileChild::Kind::kNode) {
@@ -35,7 +35,7 @@ HWY_INLINE void prefetch_child(const TileHierarchy& hierarchy, TileChild child) 
   }
 }
 
-/// Prefetches what the next step of a single ray needs.
+/// Prefetches the data for the next step of a single ray.
 HWY_INLINE void prefetch_for_ray(const TileHierarchy& hierarchy, TileChild child) {
   if (child.kind() == TileChild::Kind::kNode) {
     const TileNode& node = hierarchy.nodes[child.index()];

@@ -39,7 +39,7 @@ HWY_INLINE std::size_t run_in_square(const PencilSamples& samples, std::size_t f
     return hn::Or(hn::Or(in_row(0), in_row(1)), hn::Or(in_row(2), in_row(3)));
   };
   std::size_t run = 0;
-  // Whole registers, then one by one at the end of the list.
+  // Whole registers first, then one by one at the end of the list.
   for (; run < most && from + run + kLanes <= samples.of_rays.size(); run += kLanes) {
     const LaneBits here = bits_of(hn::RebindMask(Tag(), inside(from_corner(run))));
     const auto count = static_cast<std::size_t>(std::countr_one(here));

@@ -23,8 +23,8 @@ struct TileRays {
   HWY_INLINE Ray at(int x, int y) const { return raster.ray(rays, view.left + x, view.top + y); }
 };
 
-/// Draws one sample, unless it is already nearer than 1/t = `nearest`. `intersect(ray)` returns t
-/// or kMiss for a CanonicalRay.
+/// Draws one sample unless it already has a hit nearer than 1/t = `nearest`. `intersect(ray)`
+/// returns t or kMiss for a CanonicalRay.
 template <class Intersect>
 HWY_INLINE void draw_by_ray(const TileRays& rays, int x, int y, float nearest,
                             scenes::PrimitiveId primitive, TileImage& image, Intersect intersect) {
@@ -36,7 +36,7 @@ HWY_INLINE void draw_by_ray(const TileRays& rays, int x, int y, float nearest,
   image.primitive[at] = primitive;
 }
 
-/// Draws the samples of `box` in this way.
+/// Draws the samples of `box` likewise.
 template <class Intersect>
 HWY_INLINE void draw_by_rays(const TileRays& rays, const SampleRectangle& box, float nearest,
                              scenes::PrimitiveId primitive, TileImage& image, Intersect intersect) {

@@ -41,7 +41,7 @@ HWY_INLINE LaneBits meet_boxes(const TileNode& node, const bvh::ProbeRay& ray, f
   return met & ((LaneBits{1} << node.count) - 1);
 }
 
-/// The triangles of a meshlet, from `first` on, that a ray may hit in [t_min, t_max].
+/// Finds the triangles of a meshlet, from `first` on, that a ray may hit in [t_min, t_max].
 class MeshletProbe {
  public:
   HWY_INLINE MeshletProbe(const Meshlet& meshlet, const bvh::ProbeRay& ray)
@@ -101,8 +101,8 @@ class MeshletProbe {
 /// The number of rays in flight at a time.
 inline constexpr std::size_t kRaysAtOnce = 12;
 
-/// The entries still to be visited: the bits of the entry t, which are ordered like the floats,
-/// above those of the child. The nearest is on top.
+/// The stack of pending entries: the bits of the entry t, which are ordered like floats, above
+/// those of the child. The nearest is on top.
 class WaitingChildren {
  public:
   bool empty() const { return size_ == 0; }
@@ -115,7 +115,7 @@ class WaitingChildren {
     }
     entries_[hole] = entry;
   }
-  /// Entries pushed from here on are sorted among themselves.
+  /// Starts a group of entries that are sorted among themselves.
   void begin_siblings() { sorted_from_ = size_; }
   TileChild top() const {
     return TileChild::from_bits(static_cast<std::uint32_t>(entries_[size_ - 1]));
@@ -133,7 +133,8 @@ class WaitingChildren {
 };
 
 /// Tests a leaf's primitives. `visit(t, primitive)` receives the result of each canonical test and
-/// returns true to end; hits beyond `t_max()` do not matter. Returns whether `visit` returned true.
+/// returns true to stop; hits beyond `t_max()` are irrelevant. Returns whether `visit` returned
+/// true.
 template <class Counting, class FarEnd, class Visit>
 HWY_INLINE bool visit_leaf(const TileHierarchy& hierarchy, const scenes::Scene& scene,
                            TileChild leaf, const bvh::ProbeRay& probe, const CanonicalRay& ray,
@@ -208,7 +209,7 @@ class RayWalk {
     waiting_.push(ray.t_min, from);
   }
 
-  /// Visits one node or leaf. Returns whether more are waiting.
+  /// Visits one node or leaf. Returns whether more are pending.
   template <class Counting>
   HWY_INLINE bool step(const TileHierarchy& hierarchy, const scenes::Scene& scene,
                        Counting& counting) {
@@ -272,8 +273,9 @@ struct NumberedWalk {
   RayWalk<Query> walk;
 };
 
-/// Traces several rays at once: in a hierarchy larger than the caches, nearly each step of a single
-/// ray waits for memory, and meanwhile the others continue. Interface as in `answer_rays_below`.
+/// Traces several rays at once: in a hierarchy larger than the caches, nearly every step of a
+/// single ray waits for memory, while the others continue. The interface is that of
+/// `answer_rays_below`.
 template <class Query, class Counting, class Next, class Done>
 void interleave_rays_below(const TileHierarchy& hierarchy, const scenes::Scene& scene,
                            TileChild from, Counting& counting, Next next, Done done) {

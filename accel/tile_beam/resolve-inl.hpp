@@ -15,11 +15,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// The number of samples from which on images are written past the caches, which could not hold
-/// them.
+/// Images with at least this many samples exceed the caches and are written with streaming stores.
 inline constexpr std::size_t kStreamedSamples = std::size_t{1} << 17U;
 
-/// Returns whether the image's rows are whole cache lines, and too many for the caches.
+/// Returns whether the image's rows are whole cache lines and too many for the caches.
 inline bool is_streamed(const HitSpan& buffer) {
   return buffer.samples() == 1 && buffer.width() % 16 == 0 && buffer.size() > kStreamedSamples;
 }
@@ -35,8 +34,8 @@ HWY_INLINE void write(D d, hn::Vec<D> values, T* to) {
 }
 
 #if HWY_MAX_BYTES == 64  // a block fills a register
-/// Four adjacent blocks of 4 x 4 samples as rows of sixteen: a transposition of 4 x 4 quarters of
-/// registers.
+/// Converts four adjacent blocks of 4 x 4 samples to rows of sixteen, by transposing 4 x 4 quarters
+/// of registers.
 template <class D>
 HWY_INLINE std::array<hn::Vec<D>, 4> rows_of(D d, const std::array<hn::Vec<D>, 4>& blocks) {
   const auto& [a, b, c, e] = blocks;
@@ -51,8 +50,8 @@ HWY_INLINE std::array<hn::Vec<D>, 4> rows_of(D d, const std::array<hn::Vec<D>, 4
 }
 #endif
 
-/// Writes values of four adjacent blocks, `height` rows of them. `of(d, place)` gives the values
-/// from a place in the image on. `place_of_row(y)` is the destination of a row.
+/// Writes `height` rows of values of four adjacent blocks. `of(d, place)` returns the values from a
+/// place in the image on. `place_of_row(y)` is the destination of a row.
 template <bool kStreamed, class T, class PlaceOfRow, class Values>
 HWY_INLINE void write_blocks(std::size_t from, int height, PlaceOfRow place_of_row, T* to,
                              Values of) {
@@ -124,7 +123,7 @@ inline void resolve_blocks(const TileImage& image, const TileView& view, const H
   resolve_rest(image, view, 4 * whole, buffer);
 }
 
-/// Writes background, without a ray.
+/// Writes background without tracing rays.
 template <bool kStreamed>
 inline void paint_background(const TileView& view, const HitSpan& buffer) {
   for (int y = 0; y < view.height; ++y) {
@@ -142,7 +141,7 @@ inline void paint_background(const TileView& view, const HitSpan& buffer) {
   }
 }
 
-/// Writes a tile with several samples per pixel: those of a pixel are adjacent in the buffer, and
+/// Writes a tile with several samples per pixel; a pixel's samples are adjacent in the buffer and
 /// may be shared.
 inline void resolve_samples(TileImage& image, const SampleRaster& raster, const TileView& view,
                             const HitSpan& buffer) {

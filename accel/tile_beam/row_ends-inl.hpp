@@ -19,7 +19,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// For each row of blocks, those between some edges: the others lie outside one of them.
+/// For each row, the blocks between some edges; all others lie outside an edge.
 class RowEnds {
  public:
   template <std::size_t kEdges>
@@ -33,7 +33,7 @@ class RowEnds {
         const float largest = edge.constant + (edge.y > 0.0F ? 3.0F * edge.y : 0.0F) +
                               0x1p-21F * (std::abs(edge.constant) + std::abs(kTileHeight * edge.y));
         const Floats value = hn::MulAdd(all(4.0F * edge.y), top, all(largest));
-        constexpr float kLevel = 1e-30F;  // an edge this level does not end a row
+        constexpr float kLevel = 1e-30F;  // an edge this flat does not end a row
         constexpr float kSlack = 0.0625F;
         if (edge.x > kLevel) {
           low = hn::Max(low, hn::MulAdd(value, all(-1.0F / edge.x), all(-kSlack)));

@@ -1,5 +1,5 @@
 #pragma once
-// The samples of an image as rasters: the samples drawn in one pass.
+// The samples of an image as rasters, each drawn in one pass.
 
 #include <cstddef>
 #include <vector>
@@ -12,8 +12,8 @@
 namespace beambench::accel::tile_beam {
 
 /// Samples in equidistant rows and columns. A grid of n x n samples per pixel is one raster of n
-/// times the image's size. The corners of pixels are also one raster, in which neighboring pixels
-/// share equal rays.
+/// times the image's size. Pixel corners also form one raster, in which neighboring pixels share
+/// identical rays.
 struct SampleRaster {
   /// The pixel and sample to which the raster's sample (0, 0) belongs.
   struct Place {
@@ -25,7 +25,7 @@ struct SampleRaster {
   int width;
   int height;
   int per_pixel;              ///< samples along a pixel's side
-  std::vector<Place> places;  ///< more than one if pixels share samples
+  std::vector<Place> places;  ///< several if pixels share samples
 
   /// direction(i, j) = origin + right * i + down * j, before rounding.
   glm::dvec3 origin;
@@ -41,7 +41,7 @@ struct SampleRaster {
   }
 
   /// Calls `visit(x, index)` for the samples (left + x, j), x < width, of a row that belong to
-  /// `place`: with their places in a buffer.
+  /// `place`; `index` is the sample's index in a buffer.
   template <class Visit>
   void for_each_of_row(const Place& place, const HitSpan& buffer, int left, int j, int width,
                        Visit visit) const {

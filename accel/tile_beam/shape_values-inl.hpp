@@ -1,4 +1,4 @@
-// What the numbers of a leaf's shape say about places on a side of the cube: on which side of a
+// Evaluates the numbers of a leaf's shape at places on a side of the cube: on which side of a
 // triangle's edges and plane they lie.
 
 #if defined(ACCEL_TILE_BEAM_SHAPE_VALUES_INL) == defined(HWY_TARGET_TOGGLE)
@@ -23,7 +23,7 @@ struct OneShape {
   HWY_INLINE Floats operator()(std::size_t row) const { return all(shapes.rows[row][shape]); }
 };
 
-/// Returns the possible error of a ray origin's place relative to a triangle's plane.
+/// Returns the error bound of a ray origin's position relative to a triangle's plane.
 HWY_INLINE Floats slack_of(const OneShape& of, Floats w) {
   return hn::MulAdd(of(SeenShapes::kSlackPerW), w, of(SeenShapes::kSlack));
 }
@@ -41,7 +41,7 @@ HWY_INLINE Edges edges_of(const OneShape& of, Floats u, Floats v) {
 HWY_INLINE Floats least_edge(const Edges& edges) {
   return hn::Min(edges[0], hn::Min(edges[1], edges[2]));
 }
-/// Returns how far behind a triangle's plane a ray begins, seen from the apex. For any hits.
+/// Returns how far behind a triangle's plane a ray begins, as seen from the apex; for any hits.
 HWY_INLINE Floats beyond_plane(const OneShape& of, Floats u, Floats v, Floats w) {
   return value_of(of, SeenShapes::kPlane, u, v,
                   hn::NegMulAdd(of(SeenShapes::kDistance), w, of(SeenShapes::kPlane + 2)));

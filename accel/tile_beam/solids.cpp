@@ -16,7 +16,7 @@ namespace {
 
 using Numbers = LargePageVector<std::uint32_t>;
 
-/// Returns for each vertex the first one at its place, using a hash table with open addressing.
+/// Returns the first vertex at each vertex's position, using a hash table with open addressing.
 Numbers first_at_place(const std::vector<glm::vec3>& vertices) {
   constexpr std::uint32_t kFree = ~0U;
   Numbers table(std::bit_ceil(2 * vertices.size() + 1), kFree);
@@ -37,7 +37,7 @@ Numbers first_at_place(const std::vector<glm::vec3>& vertices) {
   return first;
 }
 
-/// Sets of triangles that grow together (union by the lower number, with path halving).
+/// Disjoint sets of triangles (union by the lower number, with path halving).
 class Components {
  public:
   explicit Components(std::size_t count) : parent_(count) {
@@ -83,7 +83,7 @@ class JoinedTriangles {
     }
   }
 
-  /// Returns the lowest triangle among those joined with a triangle, including itself.
+  /// Returns the lowest-numbered triangle joined with a triangle, including itself.
   std::uint32_t component(std::uint32_t triangle) { return components_.of(triangle); }
   /// Returns whether it has an edge without a partner in the opposite direction.
   bool is_open(std::uint32_t triangle) const { return is_open_[triangle] != 0; }
@@ -93,7 +93,7 @@ class JoinedTriangles {
 
   /// An edge to a higher vertex, kept at the lower one.
   struct Upward {
-    std::uint32_t to;  ///< kJoined: it has its partner
+    std::uint32_t to;  ///< kJoined if it has a partner
     std::uint32_t triangle;
   };
 
@@ -108,7 +108,7 @@ class JoinedTriangles {
     }
   }
 
-  /// Finds the partner of a downward edge.
+  /// Finds and joins the partner of a downward edge.
   void join(std::uint32_t triangle, std::uint32_t from, std::uint32_t to) {
     for (std::uint32_t i = first_[to]; i < first_[to + 1]; ++i) {
       if (upward_[i].to != from) continue;
@@ -147,7 +147,7 @@ std::array<glm::dvec3, 3> corners_from(const scenes::Scene& scene, std::uint32_t
 
 /// Returns the position of a ray from a point relative to a triangle: the volumes spanned by its
 /// direction and each edge, as seen from the point. If all are positive, the ray meets the
-/// triangle, whose volume about the point is positive, at `volume` / their sum.
+/// triangle, whose volume about the point is positive, at t = `volume` / their sum.
 glm::dvec3 volumes_beside(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& direction) {
   return {glm::dot(direction, glm::cross(corners[1], corners[2])),
           glm::dot(direction, glm::cross(corners[2], corners[0])),
@@ -156,10 +156,10 @@ glm::dvec3 volumes_beside(const std::array<glm::dvec3, 3>& corners, const glm::d
 
 double smallest(const glm::dvec3& v) { return std::min({v.x, v.y, v.z}); }
 
-/// Adds a triangle to the facts about its surface.
+/// Adds a triangle to the data of its surface.
 void look_from_center(const scenes::Scene& scene, std::uint32_t triangle, Surface& surface) {
-  constexpr double kRounding = 1e-12;            // generously: of sums of products of doubles
-  const glm::dvec3 ray(0.5377, 0.7911, 0.2931);  // any direction that no model favors
+  constexpr double kRounding = 1e-12;            // generous, for sums of products of doubles
+  const glm::dvec3 ray(0.5377, 0.7911, 0.2931);  // an arbitrary direction that no model favors
   const auto corners = corners_from(
       scene, triangle, 0.5 * (glm::dvec3(surface.box.lower) + glm::dvec3(surface.box.upper)));
   double lengths = 1.0;  // of the corners, squared and multiplied
@@ -181,7 +181,7 @@ void look_from_center(const scenes::Scene& scene, std::uint32_t triangle, Surfac
   }
 }
 
-/// Returns the surfaces of a scene; `of` gives that of each triangle.
+/// Returns the surfaces of a scene; `of` receives the surface of each triangle.
 std::vector<Surface> find_surfaces(const scenes::Scene& scene, Numbers& of) {
   const auto count = static_cast<std::uint32_t>(scene.triangles.size());
   JoinedTriangles joined(scene, first_at_place(scene.vertices));
@@ -231,7 +231,7 @@ bool is_outside(const scenes::Scene& scene, const Solids& solids, const Solid& s
                 const glm::vec3& eye, std::size_t most_triangles) {
   const float largest =
       std::max({std::abs(eye.x), std::abs(eye.y), std::abs(eye.z), solid.box.largest_coordinate()});
-  const double margin = 0x1p-18 * static_cast<double>(largest);  // tests in float err by less
+  const double margin = 0x1p-18 * static_cast<double>(largest);  // float tests err by less
   const glm::dvec3 from(eye);
   const auto beyond = [&](int axis) {
     return from[axis] < solid.box.lower[axis] - margin ||

@@ -14,9 +14,9 @@
 
 namespace beambench::accel::tile_beam {
 
-/// Triangles that form a closed surface such that every ray from `center` leaves through exactly
-/// one of them: a star-shaped solid. A ray from an eye outside enters it before leaving it, so the
-/// first triangle that it hits faces the eye.
+/// A star-shaped solid: triangles that form a closed surface such that every ray from `center`
+/// leaves through exactly one of them. A ray from an eye outside enters the solid before leaving
+/// it, so the first triangle that it hits faces the eye.
 struct Solid {
   scenes::Bounds box;
   glm::dvec3 center;             ///< of the box
@@ -40,15 +40,15 @@ struct Solids {
 
 /// Finds solids in linear time: corners are matched by their bits, and every edge must have two
 /// triangles that run along it in opposite directions. The triangles connected by such edges form
-/// the solid. It is star-shaped if all its triangles have the same sign of volume about the center
-/// and one ray from there meets exactly one of them: the projection of the surface to a sphere
-/// around the center then covers it once. If rounding leaves this undecided, the surface is not a
-/// solid.
+/// the solid. It is star-shaped if the volumes of all its triangles about the center have the same
+/// sign and one ray from the center meets exactly one triangle: the projection of the surface to a
+/// sphere around the center then covers the sphere once. If rounding leaves this undecided, the
+/// surface is not a solid.
 Solids find_solids(const scenes::Scene& scene);
 
-/// Returns whether the eye is outside by more than rounding. If it is in the solid's box, this
-/// takes time proportional to the number of triangles; for more than `most_triangles`, false is
-/// returned instead.
+/// Returns whether the eye is outside by more than rounding. If the eye is in the solid's box, this
+/// takes time proportional to the number of triangles; for more than `most_triangles`, returns
+/// false instead.
 bool is_outside(const scenes::Scene& scene, const Solids& solids, const Solid& solid,
                 const glm::vec3& eye, std::size_t most_triangles);
 

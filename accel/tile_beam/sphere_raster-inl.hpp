@@ -16,8 +16,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// The range of a sphere along one axis of the screen: with `beside` and `depth` of its center, of
-/// equal scale, the tangents from the eye to a circle. Valid for depth > radius.
+/// The range of a sphere along one axis of the screen: the tangents from the eye to a circle, given
+/// the `beside` and `depth` of its center at equal scale. Valid for depth > radius.
 struct Extent {
   Floats low;
   Floats high;
@@ -50,7 +50,7 @@ struct SphereBoxes {
 HWY_INLINE void see_spheres(const SphereBlock& block, const TileView& view, SphereBoxes& boxes) {
   const Points eye = all_of(view.eye);
   const Points to_depth = all_of(view.depth);
-  // The view's axes at equal scale: right and down are at right angles to depth.
+  // The view's axes at equal scale; right and down are perpendicular to depth.
   const auto scale_x = static_cast<float>(view.per_angle_x);
   const auto scale_y = static_cast<float>(view.per_angle_y);
   const Points to_right = all_of(view.right * scale_x);
@@ -80,7 +80,7 @@ HWY_INLINE void see_spheres(const SphereBlock& block, const TileView& view, Sphe
     const Floats high_x = hn::Min(place(x.high, scale_x, left, kSlack), width);
     const Floats low_y = hn::Max(place(y.low, scale_y, top, -kSlack), none);
     const Floats high_y = hn::Min(place(y.high, scale_y, top, kSlack), height);
-    // A sphere that contains the eye, or nearly does, may be anywhere.
+    // A sphere that contains, or nearly contains, the eye may be anywhere.
     const Floats box_left = hn::Ceil(hn::IfThenElse(before, low_x, none));
     const Floats box_right = hn::Floor(hn::IfThenElse(before, high_x, width));
     const Floats box_top = hn::Ceil(hn::IfThenElse(before, low_y, none));
@@ -98,8 +98,8 @@ HWY_INLINE void see_spheres(const SphereBlock& block, const TileView& view, Sphe
 }
 
 /// Draws one sphere, whose largest 1/t is `nearest`, into the blocks of a box. As in the canonical
-/// test, t is computed from the point of the ray nearest the center (Haines et al., Ray Tracing
-/// Gems, 2019): the hit then lies within a few roundings of the distance from the surface, however
+/// test, t is computed from the point of the ray nearest to the center (Haines et al., Ray Tracing
+/// Gems, 2019). The hit then lies within a few roundings of its distance from the surface, however
 /// small or distant the sphere is.
 HWY_INLINE void draw_sphere(const glm::vec3& from_eye, float radius, bool inside_only,
                             scenes::PrimitiveId primitive, const SampleRectangle& box,
@@ -141,7 +141,7 @@ HWY_INLINE void draw_sphere(const glm::vec3& from_eye, float radius, bool inside
 }
 
 /// Returns whether the eye is so close to a sphere's surface that float cannot decide its side.
-/// Otherwise half of the hits at t = 0 would be lost.
+/// Without this check, half of the hits at t = 0 would be lost.
 HWY_INLINE bool is_at_eye(const glm::vec3& from_eye, float radius) {
   const float distance_squared = glm::dot(from_eye, from_eye);
   const float radius_squared = radius * radius;

@@ -23,7 +23,7 @@ namespace beambench::accel::tile_beam {
 
 namespace {
 
-/// A raster, cut into tiles.
+/// A raster divided into tiles.
 struct TiledRaster {
   SampleRaster raster;
   RasterView view;
@@ -33,7 +33,7 @@ struct TiledRaster {
 
   int columns() const { return (raster.width + kTileWidth - 1) / kTileWidth; }
   int rows() const { return (raster.height + kTileHeight - 1) / kTileHeight; }
-  /// Requires column < columns(), row < rows().
+  /// Returns a tile's view. Requires column < columns() and row < rows().
   TileView tile(int column, int row) const {
     const int left = column * kTileWidth;
     const int top = row * kTileHeight;
@@ -55,7 +55,7 @@ class TiledImage {
   }
 
   int tiles() const { return columns_ * rows_; }
-  /// Calls `draw(raster, view)` for the tiles of a number.
+  /// Calls `draw(raster, view)` for the tiles with a number.
   template <class Draw>
   void for_each_of(int number, Draw draw) const {
     const int column = number % columns_;
@@ -113,12 +113,12 @@ BeamPlace::Way way_of(const TileImage& image, const HandOverRecorder& recorder, 
   return image.touched ? BeamPlace::Way::kInOrder : BeamPlace::Way::kBackground;
 }
 
-/// Consecutive rays of a batch: those of a pencil, or single ones. Or origins of a bundle.
+/// Consecutive rays of a batch: rays of a pencil, single rays, or origins of a bundle.
 struct RayRange {
-  std::size_t first;  ///< of a bundle: in its first pencil
+  std::size_t first;  ///< for a bundle: in its first pencil
   std::size_t count;
   const Pencil* pencil;     ///< or null
-  std::size_t pencils = 1;  ///< of a bundle, from `pencil` on
+  std::size_t pencils = 1;  ///< for a bundle: their number, from `pencil` on
 };
 
 /// Returns the number of pencils in the bundle that begins with a pencil, otherwise 1.
@@ -131,7 +131,7 @@ std::size_t bundled_from(const RayBatch& batch, std::size_t pencil) {
   return is_bundle(batch.pencils.subspan(pencil, at->count)) ? at->count : 1;
 }
 
-/// Returns all rays of a batch in order: pencils whose direction is that of `toward`, and all other
+/// Returns all rays of a batch in order: pencils whose direction matches `toward`, and all other
 /// rays in parts of one stream each.
 std::vector<RayRange> ranges_of(const RayBatch& batch, bool toward) {
   std::vector<RayRange> ranges;
@@ -169,13 +169,13 @@ struct SeenBatch {
             samples.from(range.first), glm::vec3(range.pencil->apex)};
   }
 
-  /// `first`: among the origins.
+  /// `first` counts among the origins.
   BundlePart bundle_part(std::span<const Pencil> pencils, std::size_t first,
                          std::size_t count) const {
     return {hierarchy, scene, kernels, batch.rays, samples, pencils, first, count};
   }
 
-  /// Returns ranges of rays, those of pencils divided into parts that are traced at once.
+  /// Returns ranges of rays; pencils are divided into parts that are traced at once.
   std::vector<RayRange> parts_of(std::span<const RayRange> ranges) const {
     std::vector<RayRange> parts;
     const auto unit = std::make_unique_for_overwrite<PencilUnit>();
@@ -196,7 +196,7 @@ struct SeenBatch {
 /// The state of one thread.
 template <class Counting>
 struct QueryState {
-  std::unique_ptr<PencilUnit> unit;  ///< made for the first pencil: most batches have none
+  std::unique_ptr<PencilUnit> unit;  ///< created for the first pencil; most batches have none
   BundleMemory bundle;
   Counting counting;
 
@@ -206,8 +206,8 @@ struct QueryState {
   }
 };
 
-/// Traces rays of no pencil: by `query.stream`, or where they are few by `query.list`, except those
-/// that ProbeRay cannot probe, which are single rays.
+/// Traces rays that are in no pencil by `query.stream` or, if they are few, by `query.list`; rays
+/// that ProbeRay cannot probe are traced singly.
 template <class Query, class Counting>
 void trace_list(const Query& query, const std::optional<bvh::Streams>& streams,
                 const RayRange& range, Counting& counting) {
@@ -220,7 +220,8 @@ void trace_list(const Query& query, const std::optional<bvh::Streams>& streams,
   }
 }
 
-/// The query for closest hits of a batch, part by part. Away from an apex, as mirrors send rays.
+/// The query for closest hits of a batch, part by part. Its pencils run away from an apex, like
+/// rays from mirrors.
 template <class Counting>
 struct ClosestOfBatch {
   static constexpr bool kToward = false;
@@ -252,7 +253,8 @@ struct ClosestOfBatch {
   }
 };
 
-/// The query for any hits of a batch, part by part. Toward an apex, as shadow rays run.
+/// The query for any hits of a batch, part by part. Its pencils run toward an apex, like shadow
+/// rays.
 template <class Counting>
 struct AnyOfBatch {
   static constexpr bool kToward = true;
@@ -266,7 +268,7 @@ struct AnyOfBatch {
     return seen.kernels.queries<Counting>().any_hits(
         rays, unit, hits.subspan(first, rays.rays.size()), counting);
   }
-  /// Returns false if nothing was written, because the pencils of the part take less time.
+  /// Returns false if nothing was written, because tracing the part's pencils separately is faster.
   bool bundle(const BundlePart& part, PencilUnit& unit, BundleMemory& memory,
               Counting& counting) const {
     if (!find_hidden(part, unit, memory, hits, counting)) return false;
@@ -294,9 +296,9 @@ struct AnyOfBatch {
   }
 };
 
-/// Traces a batch: its pencils by `query.pencil`, and what that leaves undecided as single rays;
-/// all other rays by `trace_list`. `parallel`: parts are distributed among all
-/// cores; hits and counts are the same.
+/// Traces a batch: its pencils by `query.pencil`, rays that this leaves undecided singly, and all
+/// other rays by `trace_list`. `parallel`: parts are distributed among all cores; hits and counts
+/// are the same.
 template <class Query, class Counting>
 void trace_parts(const SeenBatch& seen, const Query& query, bool parallel, Counting& counting) {
   using State = QueryState<Counting>;
@@ -313,7 +315,7 @@ void trace_parts(const SeenBatch& seen, const Query& query, bool parallel, Count
       left.count -= answered.count;
     }
   };
-  // In parts, because a part has a bit for each apex.
+  // Split up, because a part has a bit for each apex.
   const auto trace_bundle = [&](const RayRange& range, State& state) {
     PencilUnit& unit = state.made_unit();
     const std::size_t skipped = range.first - range.pencil->first;
@@ -355,7 +357,7 @@ std::size_t solid_bytes(const TileHierarchy& hierarchy) {
          hierarchy.solid_meshlets.capacity() * sizeof(SolidMeshlet);
 }
 
-/// Describes a node or a leaf, and all below it.
+/// Describes a node or leaf and its subtree.
 void describe_child(const TileHierarchy& hierarchy, TileChild child, const scenes::Bounds& box,
                     TreeQuality& tree) {
   const auto add_all = [&](const auto& block, std::size_t count) {

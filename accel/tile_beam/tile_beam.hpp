@@ -22,14 +22,14 @@ namespace beambench::accel::tile_beam {
 /// empty space, with modern methods: a tile of the screen traverses a hierarchy of boxes front to
 /// back, skipping boxes excluded by its frustum, its samples or nearer hits (hierarchical Z:
 /// Greene, Kass and Miller 1993), and draws the contents of leaves. Images are computed in float,
-/// to within a few roundings of the distances. So are the pencils of batches (shadow rays of a
+/// accurate to a few roundings of the distances. So are the pencils of batches (shadow rays of a
 /// point light, and rays from a planar mirror), as seen from their common point
-/// (pencil_walk-inl.hpp). All other rays, alone or in lists, return the hits of the classic
-/// structures, bit for bit; lists go down as streams (accel/bvh/streams.hpp).
+/// (pencil_walk-inl.hpp). All other rays, single or in lists, return the hits of the classic
+/// structures, bit for bit; lists are traced as streams (accel/bvh/streams.hpp).
 class TileBeam : public TraversalAccelerator<TileBeam>, public BoxHierarchy {
  public:
   static std::vector<ParameterInfo> parameters();
-  /// `workload`: whether lists of rays are expected, where `lists` is `auto`.
+  /// Reads the options. `workload` determines whether to expect lists of rays if `lists` is `auto`.
   static TileHierarchyOptions options_from(const Parameters& parameters, const Workload& workload);
 
   /// `targets`: the allowed instruction sets (accel/core/instruction_set.hpp).
@@ -44,26 +44,26 @@ class TileBeam : public TraversalAccelerator<TileBeam>, public BoxHierarchy {
         moves_(options.moves) {}
 
   /// The minimum number of rays of a pencil; smaller ones are traced singly, because the fixed cost
-  /// of a part exceeds the gain. Rays toward an apex come from everything in the picture; those
-  /// away from one see what is in their mirror, which may be in a few leaves.
+  /// of a part exceeds the gain. Rays toward an apex come from everywhere in the picture; those
+  /// away from one see what their mirror shows, which may be in a few leaves.
   static constexpr std::size_t least_pencil(bool toward) { return toward ? 512 : 32; }
 
   const TileHierarchy& hierarchy() const { return hierarchy_; }
-  /// The instruction set in use, as Highway calls it: "AVX3".
+  /// Returns Highway's name of the instruction set in use, such as "AVX3".
   const char* instruction_set() const;
   Statistics statistics() const override;
   void describe(TreeQuality& tree) const override;
 
-  /// An image is traced in tiles, a batch with its pencils.
+  /// Traces an image in tiles, and a batch with its pencils.
   void closest_hits(const RaySource& rays, const HitSpan& hits,
                     const QueryContext& context) const override;
   void any_hits(const RaySource& rays, std::span<std::uint8_t> hits,
                 const QueryContext& context) const override;
   std::vector<BeamPlace> places(const RaySource& rays) const override;
-  /// Only where the scene was announced as one that moves.
+  /// Works only if the structure was built for a moving scene.
   bool update(const scenes::Scene& scene) override;
 
-  /// Returns the way of lists of rays; nothing where they are traced ray by ray.
+  /// Returns the streams that trace lists of rays; nothing if lists are traced ray by ray.
   std::optional<bvh::Streams> streams() const {
     if (hierarchy_.stream_bvh.empty()) return std::nullopt;
     return bvh::Streams{hierarchy_.stream_bvh, hierarchy_.stream_tree, *scene_, *stream_kernels_};

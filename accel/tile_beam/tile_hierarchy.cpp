@@ -17,13 +17,14 @@
 namespace beambench::accel::tile_beam {
 namespace {
 
-/// A cone about directions.
+/// A cone of directions.
 struct NormalCone {
   glm::dvec3 axis;  ///< of length 1
   double half_angle;
 };
 
-/// Returns the cone if it is useful: a wider one culls little, and one with a right angle nothing.
+/// Returns the cone if it is useful: wider ones cull little, and one with a right angle culls
+/// nothing.
 std::optional<NormalCone> usable(const NormalCone& cone) {
   constexpr double kWidest = 1.5;
   return cone.half_angle < kWidest ? std::optional(cone) : std::nullopt;
@@ -53,15 +54,16 @@ std::optional<NormalCone> normal_cone(const Meshlet& meshlet) {
   for (std::size_t t = 0; t < meshlet.triangle_count; ++t) {
     least_cosine = std::min(least_cosine, glm::dot(normals[t], axis));
   }
-  if (!(least_cosine > 0.0F)) return std::nullopt;  // nor if normals cancel: NaN
+  if (!(least_cosine > 0.0F)) return std::nullopt;  // also if normals cancel: NaN
   return usable({glm::dvec3(axis), std::acos(static_cast<double>(least_cosine)) + kRounding});
 }
 
-/// The size in bytes above which a processor's nearer caches hold only a small part of a hierarchy.
-/// In smaller hierarchies, rays traced one after the other take 10% to 33% less time, as measured.
+/// The size in bytes above which a processor's inner caches hold only a small part of a hierarchy.
+/// In smaller hierarchies, tracing rays one after the other takes 10% to 33% less time, as
+/// measured.
 constexpr std::size_t kLargeHierarchy = std::size_t{16} << 20U;
 
-/// Turns the binary hierarchy over a scene's parts into the wide one.
+/// Converts the binary hierarchy over a scene's parts into the wide one.
 class Builder {
  public:
   Builder(const scenes::Scene& scene, const TileHierarchyOptions& options) {
@@ -79,7 +81,7 @@ class Builder {
     if (options.streams) add_streams(scene, parts, boxes, options);
     if (options.backface_culling) wide_.solids = find_solids(scene);
     pack({scene, wide_.solids, parts, boxes, options.moves}, options.parallel);
-    wide_.solids.of_triangle = {};  // from here on, the meshlets have this information
+    wide_.solids.of_triangle = {};  // from now on, the meshlets hold this
     wide_.nodes.reserve(binary_.nodes.size() / 8 + 1);
     const Made root = convert(0, 1);
     wide_.root = root.child;
@@ -202,7 +204,7 @@ class Builder {
 }  // namespace
 
 void TileCones::set(std::size_t lane, const glm::dvec3& along, double half_angle) {
-  // More than the rounding of the test, so that parts that are left out certainly face away.
+  // More than the rounding error of the test, so that culled parts certainly face away.
   constexpr double kWider = 1.001;
   constexpr double kMin = 1e-6;
   for (int i = 0; i < 3; ++i)

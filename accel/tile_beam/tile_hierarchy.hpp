@@ -16,7 +16,7 @@
 
 namespace beambench::accel::tile_beam {
 
-/// Children of a node, and spheres or cones of a block.
+/// The number of children of a node, and of spheres or cones in a block.
 inline constexpr std::size_t kTileLanes = 16;
 
 /// The kind and place of a node's child.
@@ -58,7 +58,8 @@ struct alignas(64) TileBoxes {
   }
 };
 
-/// The directions that the fronts of a child's triangles face: a cone around all normals.
+/// The directions that the fronts of children's triangles face: for each child, a cone around all
+/// normals.
 struct alignas(64) TileCones {
   std::array<std::array<float, kTileLanes>, 3> axis;
   std::array<float, kTileLanes> sine_squared;  ///< of half its angle, rounded up
@@ -72,7 +73,7 @@ struct alignas(64) TileNode {
   std::array<TileChild, kTileLanes> children;
   std::array<std::uint32_t, kTileLanes> leaves;  ///< of each child, including itself
   std::uint32_t count;
-  std::uint32_t cone_lanes;  ///< bit i: child i has only solids' triangles, and a cone
+  std::uint32_t cone_lanes;  ///< bit i: child i has a cone and only triangles of solids
 };
 
 /// A few neighboring triangles and their shared corners: each corner is projected once.
@@ -136,49 +137,49 @@ struct SolidMeshlet {
 struct TileHierarchy : TileBlocks {
   LargePageVector<TileNode> nodes;  ///< children after their parents
   TileChild root{};
-  Solids solids;                             ///< whose backs are left out; none: all are drawn
+  Solids solids;                             ///< whose backs are culled; none: all are drawn
   std::vector<SolidMeshlet> solid_meshlets;  ///< ascending
   scenes::Bounds bounds;                     ///< of everything, widened
-  bool interleaves_rays = false;             ///< so large that single rays are traced together
-  std::uint32_t depth = 0;                   ///< nodes on the longest path to a leaf, leaf included
+  bool interleaves_rays = false;             ///< large enough to interleave single rays
+  std::uint32_t depth = 0;                   ///< nodes on the longest path to a leaf, with the leaf
   std::uint64_t references = 0;
   ExpectedVisits visits;
   double cost = 0.0;      ///< the cost of the underlying binary hierarchy: see sah_cost
-  bool is_refit = false;  ///< `visits` and `cost` are those of the boxes that it was built with
-  /// The same binary hierarchy as streams go down it, with leaves of a few parts. Without nodes of
-  /// its own, which are those of `stream_tree`, unless the scene moves. Empty if lists are traced
+  bool is_refit = false;  ///< `visits` and `cost` are those of the original boxes
+  /// The same binary hierarchy in the form for streams, with leaves of a few parts. It has no nodes
+  /// of its own unless the scene moves: those of `stream_tree` are used. Empty if lists are traced
   /// ray by ray.
   bvh::WideBvh stream_bvh;
   bvh::StreamTree stream_tree;
 
   bool empty() const { return references == 0; }
   std::size_t leaves() const { return count(); }
-  /// Returns the bytes of nodes and leaves. Reserved memory behind them was never touched.
+  /// Returns the bytes of nodes and leaves. Reserved memory beyond them was never touched.
   std::size_t bytes() const {
     return nodes.size() * sizeof(TileNode) + meshlets.size() * sizeof(Meshlet) +
            meshlet_vertices.size() * sizeof(MeshletVertices) +
            spheres.size() * sizeof(SphereBlock) + cones.size() * sizeof(ConeBlock);
   }
-  /// Returns the bytes that are there for streams alone.
+  /// Returns the bytes used only for streams.
   std::size_t stream_bytes() const {
     return stream_bvh.nodes.capacity() * sizeof(bvh::WideNode) +
            stream_bvh.blocks.capacity() * sizeof(bvh::PrimitiveBlock) + stream_tree.bytes();
   }
 };
 
-/// The maximum number of nodes from the root to a leaf: that of the binary hierarchy, and one for a
-/// leaf that needs several blocks.
+/// The maximum number of nodes from the root to a leaf: that of the binary hierarchy, plus one for
+/// a leaf that needs several blocks.
 inline constexpr std::size_t kMaxTileDepth = 97;
 
 struct TileHierarchyOptions {
-  std::uint32_t max_leaf = 32;    ///< most primitives of a leaf
+  std::uint32_t max_leaf = 32;    ///< maximum number of primitives in a leaf
   bool parallel = false;          ///< build, and trace images, on all cores
-  bool backface_culling = false;  ///< leave out the invisible backs of solids in images
-  bool streams = true;            ///< lists of rays go down together (accel/bvh/streams.hpp)
+  bool backface_culling = false;  ///< cull the invisible backs of solids in images
+  bool streams = true;            ///< trace lists of rays as streams (accel/bvh/streams.hpp)
   bool moves = false;  ///< the scene's coordinates will change (tile_refit.hpp); no culling then
 };
 
-/// Returns the bounds of what a node or leaf holds, a node's from the boxes of its children.
+/// Returns the bounds of a node or leaf; a node's follow from the boxes of its children.
 scenes::Bounds bounds_of(const TileHierarchy& hierarchy, TileChild child);
 
 /// Throws InputError if the scene needs more than TileChild::kIndices leaves of a kind.

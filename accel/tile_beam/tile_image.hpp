@@ -19,8 +19,8 @@ struct TileImage {
   static constexpr int kBlockColumns = kTileWidth / 4;
   static constexpr int kBlockRows = kTileHeight / 4;
   static constexpr std::size_t kBlockSamples = 16;
-  /// 2 to this power is the tile's width: place(x, y) for the first sample of a block is
-  /// (y << kWidthBits) + 4 x.
+  /// The tile's width is 2 to this power: place(x, y) for the first sample of a block is (y <<
+  /// kWidthBits) + 4 x.
   static constexpr int kWidthBits = std::countr_zero(static_cast<unsigned>(kTileWidth));
   static_assert(kTileWidth == 1 << kWidthBits);
   static constexpr std::size_t kSamples = std::size_t{kTileWidth} * kTileHeight;

@@ -2,7 +2,7 @@
 
 #include "accel/core/pick_target.hpp"
 
-// Highway includes this file once more for each instruction set.
+// Highway includes this file again for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "accel/tile_beam/tile_kernels.cpp"
 #include <hwy/foreach_target.h>

@@ -18,16 +18,16 @@
 
 namespace beambench::accel::tile_beam {
 
-/// The queries of single rays under one counting policy. Must not be used for empty hierarchies,
-/// nor for rays that ProbeRay cannot probe.
+/// The queries of single rays under one counting policy. Must not be used for empty hierarchies or
+/// for rays that ProbeRay cannot probe.
 template <class Counting>
 struct TileRayQueries {
   std::optional<Hit> (*closest)(const TileHierarchy&, const scenes::Scene&, const Ray&, Counting&);
   bool (*any)(const TileHierarchy&, const scenes::Scene&, const Ray&, Counting&);
 };
 
-/// The queries of lists of rays, for nonempty hierarchies. Rays that ProbeRay cannot probe are left
-/// out; the functions return whether there are any.
+/// The queries of lists of rays, for nonempty hierarchies. Rays that ProbeRay cannot probe are
+/// skipped; the functions return whether there are any.
 template <class Counting>
 struct TileListQueries {
   /// Writes the hits from `first` of the buffer on.
@@ -78,8 +78,8 @@ struct TileKernels : TileRayQueries<NoCounting>,
   }
 };
 
-/// Returns the kernels for the best instruction set that this machine has among Highway's targets
-/// `targets`, as given by `targets_of`.
+/// Returns the kernels for this machine's best instruction set among the Highway targets `targets`,
+/// as returned by `targets_of`.
 const TileKernels& tile_kernels_for(std::int64_t targets);
 
 }  // namespace beambench::accel::tile_beam

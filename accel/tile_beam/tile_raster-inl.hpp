@@ -1,4 +1,4 @@
-// The tile's image under SIMD: clearing, hierarchical Z, blocks of samples.
+// SIMD operations on a tile's image: clearing, hierarchical Z, blocks of samples.
 
 #if defined(ACCEL_TILE_BEAM_TILE_RASTER_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_TILE_RASTER_INL
@@ -27,8 +27,8 @@ HWY_INLINE Floats block_y(std::size_t first) {
 }
 
 /// Keeps hits that are nearer than the contents of a block: those with `inverse_t` in the lanes of
-/// `hit`, from place `at` on. Of primitives at the same depth, the first drawn stays: finding the
-/// lowest id would cost 5% of a trace, and rounding decides between most of them anyway.
+/// `hit`, from place `at` on. Of primitives at the same depth, the first one drawn is kept: finding
+/// the lowest id would cost 5% of a trace, and rounding decides between most of them anyway.
 HWY_INLINE void keep_nearer(TileImage& image, std::size_t at, Floats inverse_t, Mask hit,
                             scenes::PrimitiveId primitive) {
   float* const depths = image.inverse_t.data() + at;
@@ -67,7 +67,7 @@ class HzCell {
 
   /// Returns the smallest 1/t.
   HWY_INLINE float farthest() const { return is_stale() ? found(smallest()) : kept(); }
-  /// Returns whether all of it is at least as near as 1/t.
+  /// Returns whether the whole cell is at least as near as 1/t.
   HWY_INLINE bool hides(float inverse_t) const {
     if (!is_stale()) return kept() >= inverse_t;
     const Floats now = smallest();
@@ -102,13 +102,13 @@ class HzCell {
 };
 
 /// Returns whether everything in a rectangle is nearer than something whose 1/t is at most
-/// `inverse_t`. Conservative: may be false although it is true, but not vice versa.
+/// `inverse_t`. Conservative: may return false even if it is hidden, but never true if it is not.
 inline bool hides(TileImage& image, const SampleRectangle& where, float inverse_t) {
   const unsigned left = where.left >> 3U;
   const unsigned right = where.right >> 3U;
   const unsigned top = where.top >> 3U;
   const unsigned bottom = where.bottom >> 3U;
-  constexpr unsigned kMaxCells = 40;  // the test of more would cost more than it saves
+  constexpr unsigned kMaxCells = 40;  // testing more would cost more than it saves
   if ((right - left + 1) * (bottom - top + 1) > kMaxCells) return false;
   for (unsigned row = top; row <= bottom; ++row) {
     for (unsigned column = left; column <= right; ++column) {
@@ -119,7 +119,7 @@ inline bool hides(TileImage& image, const SampleRectangle& where, float inverse_
 }
 
 /// Returns the smallest 1/t of the tile. `open` is the cell tested first; if there is background,
-/// it becomes a cell that has some and most likely will the next time.
+/// it is set to a cell with background, which most likely still has some next time.
 inline float farthest_of_all(TileImage& image, unsigned& open) {
   constexpr unsigned kColumns = TileImage::kHzColumns;
   const auto farthest = [&](unsigned cell) {

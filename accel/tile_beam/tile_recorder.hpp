@@ -6,8 +6,9 @@
 
 namespace beambench::accel::tile_beam {
 
-/// Lets a tile traverse the hierarchy like `TileDrawing::draw`, but writes no hits: the image shows
-/// whether it met anything, and the recorder which of its samples were handed over.
+/// Traverses the hierarchy with a tile like `TileDrawing::draw`, but writes no hits: the image
+/// shows whether the tile met anything, and the recorder shows which of its samples were handed
+/// over.
 void record_tile(const TilePicture& picture, const TileView& view, TileImage& image,
                  HandOverRecorder& recorder);
 

@@ -21,7 +21,7 @@ RasterView::RasterView(const SampleRaster& raster, const PrimaryRays& rays,
       down(raster.down),
       per_angle_x(1.0 / glm::length(raster.right)),
       per_angle_y(1.0 / glm::length(raster.down)) {
-  // right and down are at right angles to each other and to forward, and forward . origin = 1.
+  // right and down are perpendicular to each other and to forward, and forward . origin = 1.
   const glm::dvec3 across = right * (per_angle_x * per_angle_x);
   const glm::dvec3 along = down * (per_angle_y * per_angle_y);
   x = across - depth * glm::dot(across, origin);

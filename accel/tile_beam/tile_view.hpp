@@ -8,12 +8,12 @@
 
 namespace beambench::accel::tile_beam {
 
-/// Sides of a tile in samples.
+/// The sides of a tile, in samples.
 inline constexpr int kTileWidth = 128;
 inline constexpr int kTileHeight = 128;
 
-/// The distance by which the edges of triangles computed in double are moved outward, in units of
-/// |direction|: more than the error of those computed in float, so that no gap is left between the
+/// The distance by which triangle edges computed in double are moved outward, in units of
+/// |direction|: more than the error of edges computed in float, so that no gap remains between the
 /// two.
 inline constexpr double kEdgeWidening = 0x1.8p-22;
 
@@ -39,7 +39,7 @@ struct RasterView {
   double per_angle_x;  ///< samples per unit of |direction|
   double per_angle_y;
   bool mirrored;       ///< clockwise corners appear counter-clockwise
-  double reach = 0.0;  ///< maximum distance of a point of the scene from the eye along any axis
+  double reach = 0.0;  ///< maximum distance of scene points from the eye along any axis
 };
 
 /// The view with a tile's first sample as (0, 0), in float. Let e = 2^-24. Coordinates of points
@@ -64,18 +64,18 @@ struct TileView {
   glm::vec3 down;
   bool mirrored;  ///< as `RasterView::mirrored`
 
-  /// The distance from the tile's first sample beyond which corners make the float edge functions
-  /// of their triangles too inaccurate. In samples per unit of |direction|.
+  /// The distance from the tile's first sample beyond which corners make their triangles' float
+  /// edge functions too inaccurate, in samples per unit of |direction|.
   float guard;
-  /// The distance by which boxes of triangles are widened, in samples: more than the error of edges
-  /// evaluated in float, but only slightly, because acute corners end at the boxes.
+  /// The distance by which boxes of triangles are widened, in samples: slightly more than the error
+  /// of edges evaluated in float, but no more, because the boxes cut off acute corners.
   float box_slack;
   /// If a triangle's float area is below sliver x (longer side of its box)^3, its plane is too
   /// coarse in float.
   float sliver;
   double per_angle_x;  ///< samples per unit of |direction|
   double per_angle_y;
-  /// The possible errors of box tests, as distances: of x . p and y . p, and of depth . p.
+  /// The error bounds of box tests, as distances: for x . p and y . p, and for depth . p.
   float slack_x;
   float slack_y;
   float slack_depth;

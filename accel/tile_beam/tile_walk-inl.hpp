@@ -56,8 +56,8 @@ class TileWalk {
     TileChild child;
     float nearest;  ///< the largest 1/t of its box
     SampleRectangle where;
-    /// Not 0 if there are more leaves than single rays would take. A whole word, because entries
-    /// with a gap are copied in overlapping pieces, and reading them waits for the cache.
+    /// Not 0 if there are more leaves than single rays would visit. A whole word, because entries
+    /// with padding are copied in overlapping pieces, and reading them stalls.
     std::uint32_t crowded;
   };
 
@@ -73,8 +73,8 @@ class TileWalk {
         is_crowded(static_cast<std::uint32_t>(hierarchy_->leaves()), met.samples[0])};
   }
 
-  /// Samples are counted on the whole screen, because most leaves of a part may lie outside the
-  /// tile.
+  /// Returns whether a part is crowded. Samples are counted on the whole screen, because most
+  /// leaves of a part may lie outside the tile.
   static bool is_crowded(std::uint32_t leaves, float samples) {
     return static_cast<float>(leaves) > kHandoverLeaves * (samples + 1.0F);
   }
@@ -107,9 +107,9 @@ class TileWalk {
     }
   }
 
-  /// Returns how many of those met are farther than one: its place on the stack. Counting them
-  /// needs no branch, which would be unpredictable. Among equally near ones, the first lane counts
-  /// as the farthest.
+  /// Returns how many of the boxes met are farther than a given one, which is its place on the
+  /// stack. Counting avoids a branch, which would be unpredictable. Of equally near boxes, the
+  /// first lane counts as the farthest.
   static HWY_INLINE int farther_lanes(const BoxProbe::Met& met, std::size_t lane) {
     const Floats own = all(met.nearest[lane]);
     const LaneBits farther = for_each_register(
@@ -179,7 +179,7 @@ class TileWalk {
     changed(where);
   }
 
-  /// Updates the whole tile's depth occasionally, when it may have grown by much.
+  /// Updates the whole tile's depth occasionally, when it may have changed considerably.
   HWY_INLINE void changed(const SampleRectangle& where) {
     mark_stale(*image_, where);
     drawn_ += where.count();
@@ -196,7 +196,7 @@ class TileWalk {
   BoxProbe probe_;
   TileImage* image_;
   Counting* counting_;
-  float farthest_ = 0.0F;   ///< the smallest 1/t of the tile, as far as known
+  float farthest_ = 0.0F;   ///< the last known smallest 1/t of the tile
   unsigned open_cell_ = 0;  ///< where background was last found
   int drawn_ = 0;           ///< samples covered by leaves since then
   std::size_t size_ = 0;

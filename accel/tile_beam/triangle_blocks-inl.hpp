@@ -55,7 +55,7 @@ struct BlockBoxes {
 /// Returns the edge's largest value on a block, as a line over the blocks' first samples.
 HWY_INLINE Lines largest_on_block(const Lines& edge) {
   const Floats none = hn::Zero(Tag());
-  const Floats three = all(3.0F + 0x1p-6F);  // and a little for rounding
+  const Floats three = all(3.0F + 0x1p-6F);  // plus a little for rounding
   return {edge.x, edge.y,
           hn::Add(edge.constant, hn::Add(hn::Max(none, hn::Mul(edge.x, three)),
                                          hn::Max(none, hn::Mul(edge.y, three))))};
@@ -87,8 +87,7 @@ HWY_INLINE void list_blocks(const TriangleImages& images, const BlockBoxes& boxe
   } while (!hn::AllFalse(Tag(), listed));
 }
 
-/// The places of samples of each column of blocks, or each row: looking them up is faster than
-/// computing them.
+/// The sample positions of each column or row of blocks: a look-up is faster than computing them.
 template <std::size_t kCount>
 struct BlockPlaces {
   alignas(64) std::array<std::array<float, TileImage::kBlockSamples>, kCount> places;

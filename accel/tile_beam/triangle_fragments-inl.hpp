@@ -1,4 +1,4 @@
-// Draws the smallest triangles: each lane walks through the samples of its own.
+// Draws the smallest triangles: each lane walks through the samples of its own triangle.
 
 #if defined(ACCEL_TILE_BEAM_TRIANGLE_FRAGMENTS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_TRIANGLE_FRAGMENTS_INL
@@ -20,7 +20,7 @@ inline constexpr float kMaxLaneSamples = 9.0F;
 struct Fragments {
   static constexpr std::size_t kMaxCount = 16 * 9 + 16;  // room for a whole register at the end
 
-  /// The sample's number in the tile, row by row, and the triangle's lane in the four bits below.
+  /// The sample's number in the tile, row by row, with the triangle's lane in the lowest four bits.
   alignas(64) std::array<std::int32_t, kMaxCount> where;
   alignas(64) std::array<float, kMaxCount> inverse_t;
   std::size_t count;

@@ -21,7 +21,7 @@ class BlockPainter {
                scenes::PrimitiveId primitive, const SampleRectangle& box)
       : edges_(edges), plane_(plane), primitive_(primitive), box_(box) {}
 
-  /// Paints all blocks of the box that the triangle may meet; `clip`: not beyond the box.
+  /// Paints all blocks of the box that the triangle may meet; with `kClip`, not beyond the box.
   template <bool kClip>
   HWY_INLINE void paint(TileImage& image) const {
     const int last_row = box_.bottom >> 2;

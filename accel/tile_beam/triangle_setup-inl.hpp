@@ -1,4 +1,4 @@
-// The images of triangles, as many at once as there are lanes.
+// The images of triangles, one per lane.
 
 #if defined(ACCEL_TILE_BEAM_TRIANGLE_SETUP_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_TRIANGLE_SETUP_INL
@@ -18,7 +18,7 @@ namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 struct ProjectedVertices {
   alignas(64) std::array<float, Meshlet::kMaxVertices> x;
   alignas(64) std::array<float, Meshlet::kMaxVertices> y;
-  /// 1 / depth; -1 for vertices whose triangles need double: behind the eye, or far beside the
+  /// 1 / depth; -1 for vertices whose triangles need double: behind the eye or far outside the
   /// tile.
   alignas(64) std::array<float, Meshlet::kMaxVertices> inverse_t;
   bool none_needs_double;  ///< no vertex has -1
@@ -68,7 +68,7 @@ struct TriangleImages {
   Lines edge2;
   Lines plane;     ///< 1/t
   Floats nearest;  ///< the largest 1/t of the corners
-  Floats left;     ///< the samples that may be within
+  Floats left;     ///< the samples that may be inside
   Floats right;
   Floats top;
   Floats bottom;
@@ -87,9 +87,9 @@ struct TriangleImages {
 /// acute.
 inline constexpr float kAcute = 0x1p-5F;
 
-/// Returns the edge from (x0, y0) to (x1, y1). Its constant is computed at the middle: the reversed
-/// edge has exactly the negative value at every sample, so two triangles that share it leave no gap
-/// (this requires -ffp-contract=off).
+/// Returns the edge from (x0, y0) to (x1, y1). Its constant is computed at the midpoint, so that
+/// the reversed edge has exactly the negated value at every sample and two triangles that share it
+/// leave no gap (this requires -ffp-contract=off).
 HWY_INLINE Lines edge_between(Floats x0, Floats y0, Floats x1, Floats y1, Floats sign) {
   const Floats a = hn::Sub(y0, y1);
   const Floats b = hn::Sub(x1, x0);
@@ -104,7 +104,7 @@ struct TriangleCorners {
   Ints corner2;
   Mask present;
 
-  /// Returns those from `first` on.
+  /// Returns the triangles from `first` on.
   static HWY_INLINE TriangleCorners from(const Meshlet& meshlet, std::size_t first) {
     const hn::Rebind<std::uint8_t, Tag> bytes;
     const auto corner = [&](std::size_t which) {
@@ -114,8 +114,8 @@ struct TriangleCorners {
   }
 };
 
-/// The triangles whose backs are invisible: bits for those that would show them if their area on
-/// the screen is positive, and if it is negative.
+/// The triangles whose backs are invisible: one mask for those that show their back if their area
+/// on the screen is positive, and one if it is negative.
 struct HiddenBacks {
   std::uint32_t positive;
   std::uint32_t negative;
@@ -125,11 +125,11 @@ struct HiddenBacks {
         negative(hidden & ~positive) {}
 };
 
-/// The triangles of a meshlet that remain.
+/// The triangles of a meshlet that remain after culling.
 struct Survivors {
   static constexpr std::size_t kRoom = Meshlet::kMaxTriangles + 16;  // for a register at the end
 
-  /// The numbers of the corners in the three lower bytes, that of the triangle in the highest.
+  /// The indices of the corners in the three lower bytes and that of the triangle in the highest.
   alignas(64) std::array<std::int32_t, kRoom> corners;
   alignas(64) std::array<scenes::PrimitiveId, kRoom> primitives;
   std::size_t count = 0;
@@ -145,9 +145,9 @@ struct Survivors {
   }
 };
 
-/// Finds the triangles that show no hidden back and whose box contains a sample. No vertex needs
-/// double. A triangle shows its back if its area proves that beyond the rounding of its corners: up
-/// to `box_slack` each.
+/// Finds the triangles that show no hidden back and whose box contains a sample. No vertex may need
+/// double. A triangle counts as showing its back only if its area proves so despite the rounding of
+/// its corners, up to `box_slack` each.
 HWY_INLINE void find_survivors(const Meshlet& meshlet, const HiddenBacks& backs,
                                const ProjectedVertices& projected, const TileView& view,
                                Survivors& survivors) {
@@ -194,8 +194,8 @@ HWY_INLINE void find_survivors(const Meshlet& meshlet, const HiddenBacks& backs,
   }
 }
 
-/// Triangles that contain no sample, or that are entirely behind `farthest` (1/t), are in neither
-/// mask.
+/// Projects triangles. Those that contain no sample or are entirely behind `farthest` (1/t) are in
+/// neither mask.
 HWY_INLINE TriangleImages project_triangles(const TriangleCorners& corners,
                                             const ProjectedVertices& projected,
                                             const TileView& view, float farthest) {

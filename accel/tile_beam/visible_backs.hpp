@@ -1,5 +1,5 @@
 #pragma once
-// The solids whose backs an eye may see, because it is not clearly outside of them.
+// The solids whose backs an eye may see, because it is not clearly outside them.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace beambench::accel::tile_beam {
 class VisibleBacks {
  public:
   /// If the eye is in the box of a solid with more than `most_triangles`, it counts as inside the
-  /// solid: finding out would take longer than it saves.
+  /// solid: an exact test would take longer than it saves.
   VisibleBacks(const TileHierarchy& hierarchy, const scenes::Scene& scene, const glm::vec3& eye,
                std::size_t most_triangles);
 
@@ -24,14 +24,14 @@ class VisibleBacks {
     if (!meshlets_.empty() && meshlets_[meshlet] != 0) return 0;
     return hierarchy.meshlets[meshlet].solid;
   }
-  /// Returns the children of a node of which only fronts are visible: one bit for each.
+  /// Returns the children of a node with only fronts visible: one bit for each.
   std::uint32_t hidden_lanes(const TileHierarchy& hierarchy, std::uint32_t node) const {
     const std::uint32_t lanes = hierarchy.nodes[node].cone_lanes;
     return nodes_.empty() ? lanes : lanes & ~std::uint32_t{nodes_[node]};
   }
 
  private:
-  // Empty if the eye is outside of all solids.
+  // Empty if the eye is outside all solids.
   std::vector<std::uint8_t> meshlets_;  ///< not 0: has triangles of a solid that the eye may be in
   std::vector<std::uint16_t> nodes_;    ///< bit i: child i leads to such a meshlet
 };

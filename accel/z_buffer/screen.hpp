@@ -1,5 +1,5 @@
 #pragma once
-// Where primitives lie on the screen: never too small, whatever is rounded.
+// Conservative bounds of primitives on the screen, including rounding errors.
 
 #include <algorithm>
 #include <array>
@@ -13,8 +13,8 @@
 
 namespace beambench::accel::z_buffer {
 
-/// A ball relative to the eye. Primitives lie in the convex hull of a few balls: corners are small
-/// ones.
+/// A ball relative to the eye. Primitives lie in the convex hull of a few balls; corners are small
+/// balls.
 struct Ball {
   glm::dvec3 center;
   double radius;
@@ -58,8 +58,8 @@ class Screen {
 
   /// The length of the longest direction.
   double longest() const { return longest_; }
-  /// A bound on the distance of a ray's direction, rounded to float, from that of its sample: four
-  /// times what its components, each off by at most 2^-24 of itself, can make.
+  /// Returns a bound on the distance between a ray's direction, rounded to float, and that of its
+  /// sample: four times the effect of components with relative errors of 2^-24.
   double rounding() const { return 0x1p-22 * longest_; }
   double depth(const glm::dvec3& point) const { return glm::dot(point, rays_->forward()); }
 
@@ -80,7 +80,7 @@ class Screen {
     for (const Ball& ball : hull) {
       const double at = depth(ball.center);
       all_behind = all_behind && at < -ball.radius;
-      // Somewhat in front, so that the tangents below are precise.
+      // Slightly in front, so that the tangents below are accurate.
       all_in_front = all_in_front && at > 1.001 * ball.radius;
       nearest = std::min(nearest, at - ball.radius);
     }
@@ -96,8 +96,8 @@ class Screen {
   struct Axis {
     glm::dvec3 unit;  ///< the direction from one pixel to the next
     double pixels;    ///< per unit of length at view depth 1
-    double origin;    ///< the place of the first pixel, in these units
-    double low;       ///< the lowest and the highest place of a sample in its pixel
+    double origin;    ///< position of the first pixel, in these units
+    double low;       ///< lowest and highest position of a sample in its pixel
     double high;
     int last;
   };
@@ -124,7 +124,7 @@ class Screen {
       high = std::max(high, (side * at + root) / squared);
     }
     const auto pixel = [&](double place) { return (place - axis.origin) * axis.pixels; };
-    // Places may be far outside of the image, where integers end.
+    // Positions may be far outside the image, beyond the range of integers.
     first = static_cast<int>(
         std::clamp(std::ceil(pixel(low - 2.0 * rounding()) - axis.high), 0.0, axis.last + 1.0));
     last = static_cast<int>(std::clamp(std::floor(pixel(high + 2.0 * rounding()) - axis.low), -1.0,

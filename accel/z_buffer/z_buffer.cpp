@@ -21,7 +21,8 @@ namespace {
 
 constexpr const char* kName = "z-buffer";
 
-/// Less than 1 by more than float loses in t, and double in the depth of a `TriangleOnScreen`.
+/// Below 1 by more than the rounding errors of t in float and of a `TriangleOnScreen`'s depth in
+/// double.
 constexpr double kNearly = 1.0 - 0x1p-20;
 
 /// The edge functions and the depth of a triangle.
@@ -36,7 +37,7 @@ struct TriangleOnScreen {
   }
 };
 
-/// A box on the screen whose samples are all tested where it is near enough.
+/// A box on the screen; samples at which it is near enough are all tested.
 struct AnythingOnScreen {
   PixelBox box;
 
@@ -93,7 +94,7 @@ class Rasterizer {
 
   glm::dvec3 from_eye(const glm::vec3& point) const { return glm::dvec3(point) - eye_; }
 
-  /// Draws what lies in the convex hull of balls: all samples of its box are tested.
+  /// Draws a primitive in the convex hull of balls: all samples of its box are tested.
   template <std::size_t kBalls, class Test>
   void draw_hull(scenes::PrimitiveId id, std::array<Ball, kBalls> hull, Test test) {
     double reach = 0.0;
@@ -119,7 +120,7 @@ class Rasterizer {
     const double volume = glm::dot(normal, corners[0]);
     // Double loses at most 2^-49 of `size` in the normal, and of size * reach in the volume.
     const double size = std::sqrt(squared(side) * squared(other));
-    // The eye is in the triangle's plane, or so near to it that rounding matters.
+    // The eye is in the triangle's plane, or so close to it that rounding matters.
     if (!(std::abs(volume) > 0x1p-24 * size * reach * screen_.longest())) {
       return draw_hull<3>(id, {Ball{corners[0], 0.0}, Ball{corners[1], 0.0}, Ball{corners[2], 0.0}},
                           test);
@@ -127,7 +128,7 @@ class Rasterizer {
 
     TriangleOnScreen image;
     const double length = glm::length(normal);
-    // No ray of the image meets the plane nearer than at this view depth; half leaves room for
+    // No ray of the image meets the plane nearer than this view depth; halved as a margin for
     // rounding.
     const double depth = std::abs(volume) / (length * screen_.longest());
     image.box = box_beyond(0.5 * depth, corners, beside(reach));
@@ -143,12 +144,12 @@ class Rasterizer {
     fill(id, image, test);
   }
 
-  /// Returns how far from a primitive a hit may lie (tolerance.hpp), with some room, if the
-  /// primitive reaches that far from the eye.
+  /// Returns how far from a primitive a hit may lie (tolerance.hpp), with a margin, given the
+  /// primitive's reach from the eye.
   static double beside(double reach) { return 4.0 * kHitSlack * reach; }
 
-  /// Returns the box of a triangle's part at view depths from `near` on (Sutherland and Hodgman's
-  /// clipping against one plane), for hits within `slack` of it.
+  /// Returns the box of the part of a triangle at view depths of at least `near` (Sutherland and
+  /// Hodgman's clipping against one plane), for hits within `slack` of it.
   PixelBox box_beyond(double near, const std::array<glm::dvec3, 3>& corners, double slack) const {
     std::array<Ball, 4> hull;
     std::size_t count = 0;
@@ -165,7 +166,7 @@ class Rasterizer {
     return screen_.box_of({hull.data(), count});
   }
 
-  /// Runs the canonical test for all samples in the box of an image that it does not reject.
+  /// Runs the canonical test for all samples in the image's box that the image does not reject.
   template <class OnScreen, class Test>
   void fill(scenes::PrimitiveId id, const OnScreen& image, Test test) {
     const int last = std::min(image.box.last[1], end_ - 1);
@@ -198,11 +199,10 @@ class Rasterizer {
 /// The textbook rasterizer: each primitive is projected, the pixels of its box on the screen are
 /// tested by edge functions (Pineda, "A parallel algorithm for polygon rasterization", SIGGRAPH
 /// 1988), and a buffer keeps the nearest hit of each sample (Catmull, "A subdivision algorithm for
-/// computer display of curved surfaces", 1974). Nothing is built, and images are all that it
-/// traces.
+/// computer display of curved surfaces", 1974). Nothing is built, and it traces only images.
 ///
-/// Edge functions and depths only reject. What they pass goes to the canonical test of the sample's
-/// ray, so that hits are those of `exhaustive`.
+/// Edge functions and depths only reject. Samples that pass go to the canonical test of their ray,
+/// so that hits equal those of `exhaustive`.
 class ZBuffer : public ImageAccelerator {
  public:
   explicit ZBuffer(const scenes::Scene& scene) : ImageAccelerator(kName), scene_(&scene) {}
@@ -210,20 +210,20 @@ class ZBuffer : public ImageAccelerator {
   void closest_hits(const RaySource& rays, const HitSpan& hits,
                     const QueryContext& context) const override {
     const PrimaryRays& image = image_of(rays);
-    // Each band projects all primitives, so there are no more bands than threads.
+    // Each band projects all primitives, so there are only as many bands as threads.
     const int bands = thread_count(context.threads);
     const auto first_row = [&](int band) { return image.height() * band / bands; };
     for_rows(context, bands, [&](int begin, int end, auto& counting) {
       Rasterizer(*scene_, image, hits, first_row(begin), first_row(end), counting)();
     });
   }
-  /// Samples that nothing covers do not become rays.
+  /// Uncovered samples do not become rays.
   Statistics statistics() const override {
     Statistics statistics;
     statistics.image_rays = ImageRays::kOwn;
     return statistics;
   }
-  /// Nothing was built, so there is nothing to adapt.
+  /// Nothing is built, so there is nothing to update.
   bool update(const scenes::Scene& scene) override {
     scene_ = &scene;
     return true;
