@@ -14,8 +14,8 @@
 
 namespace beambench::scenes {
 
-/// The coordinates of one frame, in arrays of the sizes that the scene's own have. Radii and the
-/// sides of primitives stay those of the scene.
+/// The coordinates of one frame, in arrays of the same sizes as the scene's. Radii and the visible
+/// sides of primitives are those of the scene.
 struct Pose {
   std::vector<glm::vec3> vertices;
   std::vector<glm::vec3> normals;
@@ -23,33 +23,34 @@ struct Pose {
   std::vector<Cone> cones;
 };
 
-/// Returns the coordinates that a scene has now.
+/// Returns a scene's current coordinates.
 Pose pose_of(const Scene& scene);
 
-/// Gives a scene the coordinates of a pose, in place, and computes its bounds. Primitives may be
-/// degenerate in a frame: no ray hits a triangle without area or a cone without length. Throws
-/// InputError naming the frame and the primitive where a coordinate is NaN, infinite or beyond
-/// `kLargestNumber`, or a count or a radius differs from the scene's; the scene is then as before.
+/// Sets a scene's coordinates to those of a pose, in place, and computes its bounds. Primitives may
+/// be degenerate in a frame: no ray hits a triangle without area or a cone without length. Throws
+/// an InputError that names the frame and the primitive if a coordinate is NaN, infinite or beyond
+/// `kLargestNumber`, or if a count or a radius differs from the scene's; the scene is then
+/// unchanged.
 void set_pose(Scene& scene, const Pose& pose, std::uint32_t frame);
 
-/// A scene and how it moves.
+/// A scene and its motion.
 struct Animation {
   Scene scene;               ///< as in frame 0
-  std::uint32_t frames = 1;  ///< 1: it does not move
-  /// Returns the coordinates of a frame, which do not depend on those of any other; null where the
-  /// scene does not move.
+  std::uint32_t frames = 1;  ///< 1: static
+  /// Returns the coordinates of a frame, independent of all other frames; null if the scene is
+  /// static.
   std::function<Pose(std::uint32_t frame)> pose{};
 };
 
-/// The name of a scene and the frame at its end, of what a user types and of `Scene::name`:
+/// A scene's name and the frame number at its end, as a user types it and in `Scene::name`:
 /// `waving-sheet:n=64@7`.
 struct FrameName {
   std::string_view scene;
-  std::optional<std::uint32_t> frame;  ///< nothing where none is named
+  std::optional<std::uint32_t> frame;  ///< nothing if none is named
 };
 FrameName divide_frame(std::string_view name);
 
-/// Moves the animation's scene to a frame. Throws InputError where there is no such frame, or like
+/// Moves the animation's scene to a frame. Throws InputError if there is no such frame, and like
 /// `set_pose`.
 void show_frame(Animation& animation, std::uint32_t frame);
 

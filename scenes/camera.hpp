@@ -7,8 +7,8 @@
 
 namespace beambench::scenes {
 
-/// A pinhole camera. It fixes the frustum; a resolution only samples it (with non-square pixels
-/// where its aspect differs), so that sweeps over resolutions see one image.
+/// A pinhole camera. It defines the frustum; a resolution only samples it (with non-square pixels
+/// if its aspect differs), so that sweeps over resolutions see the same image.
 struct Camera {
   std::string name = "default";
   glm::vec3 from{0.0F, 0.0F, 0.0F};
@@ -17,7 +17,7 @@ struct Camera {
   float angle = 45.0F;  ///< full vertical field of view in degrees, in (0, 180)
   float aspect = 1.0F;  ///< width of the frustum over its height, > 0
   float hither = 0.0F;  ///< NFF's near distance; kept for export, rays start at the eye
-  int width = 512;      ///< the resolution that the scene suggests, in pixels
+  int width = 512;      ///< the scene's suggested resolution in pixels
   int height = 512;
 };
 

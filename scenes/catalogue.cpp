@@ -76,9 +76,8 @@ void require_primitives(const Scene& scene, const std::vector<std::string>& noti
       excerpt(name), did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
-/// Takes the parameter that all scenes of the catalogue have out of what was given, and returns its
-/// value: 0 leaves the scene as it is. Where the scene has a seed of its own that was not given,
-/// that is another one, too.
+/// Removes the parameter common to all catalogue scenes from those given, and returns its value: 0
+/// leaves the scene as it is. If the scene has its own seed and none was given, changes that too.
 std::uint64_t take_perturbation(Spec& spec, const SceneInfo& info) {
   const ParameterInfo& perturb = perturb_parameter();
   const auto find_given = [&](std::string_view name) {
@@ -178,7 +177,7 @@ Animation load_first_frame(std::string_view spec, std::vector<std::string>* warn
   if (seed == 0) return animation;
   scene.name += fmt::format("{}{}={}", scene.name.find(':') == std::string::npos ? ':' : ',',
                             perturb_parameter().name, seed);
-  return {perturbed(scene, seed)};  // its objects are told by where they are, so it stays still
+  return {perturbed(scene, seed)};  // its objects are identified by position, so it is static
 }
 
 }  // namespace

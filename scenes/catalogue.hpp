@@ -19,16 +19,16 @@ struct SceneInfo {
   std::string name;
   std::string summary;  ///< one sentence
   std::vector<ParameterInfo> parameters;
-  /// May be null where `animate` is given: `Catalogue::add` then makes it, as that scene.
+  /// May be null if `animate` is given: `Catalogue::add` then derives it from that.
   std::function<Scene(const Parameters&)> generate{};
   std::string size_parameter{};  ///< the integer that scales the scene; may be empty
-  std::string origin{};          ///< the file of the plug-in that defines it; empty: built in
-  /// Makes the scene and its frames, as many as `frames_parameter` says, which is among its
-  /// parameters; null where it does not move.
+  std::string origin{};          ///< file of the plug-in that defines it; empty if built in
+  /// Creates the scene and its frames, whose number is `frames_parameter`, one of its parameters;
+  /// null if the scene is static.
   std::function<Animation(const Parameters&)> animate{};
 };
 
-/// Returns the parameter `frames` of a scene that moves.
+/// Returns the parameter `frames` of moving scenes.
 ParameterInfo frames_parameter();
 
 /// Options for reading a file.
@@ -36,12 +36,12 @@ struct ReadOptions {
   bool strict = false;  ///< treat every warning as an error
 };
 
-/// A format of scene files that is built in.
+/// A built-in format of scene files.
 struct SceneFormat {
   /// Returns whether the format reads what the user typed, judging by the text alone.
   std::function<bool(std::string_view spec)> reads;
-  /// Reads the file, with its frames, and appends what was skipped or repaired to `warnings`.
-  /// Throws InputError with file and line when the file is malformed.
+  /// Reads the file and its frames, and appends to `warnings` what was skipped or repaired. Throws
+  /// InputError with file and line when the file is malformed.
   std::function<Animation(std::string_view spec, ReadOptions options,
                           std::vector<std::string>& warnings)>
       read;
@@ -51,17 +51,17 @@ struct SceneFormat {
 struct SceneReader {
   std::string ending;   ///< of the file names, in lower case, with its dot: `.xyz`
   std::string summary;  ///< one sentence
-  /// Reads a file, and appends what was skipped or repaired to `warnings`. Throws InputError with
+  /// Reads a file, and appends to `warnings` what was skipped or repaired. Throws InputError with
   /// file and line when the file is malformed.
   std::function<Scene(const std::filesystem::path& file, std::vector<std::string>& warnings)> read;
   std::string origin{};  ///< the file of the plug-in
 };
 
-/// The registry in which generators and formats enter themselves.
+/// The registry of generators and formats.
 class Catalogue {
  public:
   void add(SceneInfo scene);
-  /// Adds a format. If several formats read a text, the first one added gets it.
+  /// Adds a format. If several formats read a text, the first one added applies.
   void add_format(SceneFormat format);
   /// Adds a plug-in's reader, which takes precedence over the built-in formats.
   void add_reader(SceneReader reader);
@@ -81,9 +81,9 @@ std::span<const SceneInfo> scene_catalogue();
 /// The formats that plug-ins read, in addition to the built-in ones (NFF and meshes).
 std::span<const SceneReader> scene_readers();
 
-/// Returns the parameter that every scene of the catalogue has besides its own: `perturb`, the seed
-/// of `perturbed` (perturbed.hpp); 0, the default, leaves the scene as it is. With another one, a
-/// scene does not move.
+/// Returns the parameter that every catalogue scene has in addition to its own: `perturb`, the seed
+/// of `perturbed` (perturbed.hpp); 0, the default, leaves the scene as it is. With any other seed,
+/// the scene is static.
 const ParameterInfo& perturb_parameter();
 
 /// Registers the scenes and readers of a plug-in, validated by the caller
@@ -101,15 +101,15 @@ bool is_scene_file(std::string_view spec);
 /// Loads the scene that the user named: a catalogue name with parameters (`balls:n=4`), a
 /// registered mesh (`mesh:dragon`), or a path to a mesh (by its ending), to a file that a plug-in
 /// reads (see scene_readers()), or to an NFF file (the ending .nff, or none after a slash).
-/// `Scene::name` is the canonical label of a catalogue scene; for all others it is the text as
-/// `name_of_path` shows it. Throws InputError for an unknown name (with the nearest and all valid
+/// `Scene::name` is the canonical label of a catalogue scene; for all others it is the text in the
+/// form of `name_of_path`. Throws InputError for an unknown name (with the nearest and all valid
 /// ones), a parameter out of range, a missing or malformed file, or a scene without primitives.
-/// What the reader skipped or repaired is appended to `warnings` if given, one printable line each;
-/// the options apply to files.
+/// Appends to `warnings`, if given, what the reader skipped or repaired, one printable line each.
+/// The options apply to files.
 Scene load_scene(std::string_view spec, std::vector<std::string>* warnings = nullptr,
                  ReadOptions options = {});
 
-/// Loads a scene like `load_scene`, with its frames.
+/// Loads a scene like `load_scene`, but with its frames.
 Animation load_animation(std::string_view spec, std::vector<std::string>* warnings = nullptr,
                          ReadOptions options = {});
 

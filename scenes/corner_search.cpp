@@ -12,9 +12,9 @@ namespace {
 
 constexpr std::uint32_t kWordBits = 64;
 
-/// Returns whether a point of the rectangle can lie on the left of the line from a to b, or on it.
-/// `signed_area` is monotonic, so rounding never makes this false for a point whose own area is not
-/// negative.
+/// Returns whether a point of the rectangle can lie to the left of the line from a to b, or on it.
+/// `signed_area` is monotonic, so rounding never makes this false for a point whose own area is
+/// nonnegative.
 template <class Rectangle>
 bool may_be_left(const glm::dvec2& a, const glm::dvec2& b, const Rectangle& box) {
   const glm::dvec2 most_left{b.y - a.y >= 0.0 ? box.lower.x : box.upper.x,

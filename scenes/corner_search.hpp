@@ -1,5 +1,6 @@
 #pragma once
-// Finds the next corner for ear clipping, and a corner in its way, without looking at all of them.
+// Finds the next corner for ear clipping, and a corner that blocks it, without examining all
+// corners.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,20 +13,20 @@
 
 namespace beambench::scenes {
 
-/// Twice the signed area of a triangle, positive when it runs counter-clockwise. Computed so that
-/// it is monotonic in each coordinate of `c`, rounding included: differences, products with a
-/// constant and a sum of two terms, each rounded to nearest.
+/// Returns twice the signed area of a triangle, positive if it is counter-clockwise. Monotonic in
+/// each coordinate of `c`, including rounding: it consists of differences, products with a constant
+/// and a sum of two terms, each rounded to nearest.
 inline double signed_area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
 /// A set of numbers in 0 ... size - 1. It has a bit for each number, a bit for each group of 64
-/// that holds whether the group has a member, and so on: each call takes O(log size).
+/// that states whether the group has a member, and so on: each call takes O(log size).
 class CornerSet {
  public:
   explicit CornerSet(std::uint32_t size);
 
-  /// Puts a number in or takes it out.
+  /// Inserts or removes a number.
   void assign(std::uint32_t number, bool member);
   /// Returns the first member from `number` on, wrapping around to 0; nothing if the set is empty.
   std::optional<std::uint32_t> next(std::uint32_t number) const;
@@ -44,13 +45,13 @@ class CornerSet {
 /// A k-d tree over points of the plane from which points are removed (Bentley 1975).
 class CornerTree {
  public:
-  /// `corners` are numbers of `points`, which must outlive the tree.
+  /// `corners` are indices into `points`, which must outlive the tree.
   CornerTree(std::span<const glm::dvec2> points, std::vector<std::uint32_t> corners);
 
   bool empty() const { return nodes_.empty() || nodes_[kRoot].left == 0; }
   bool has(std::uint32_t corner) const { return !empty() && leaf_of_[corner] != kNoLeaf; }
   /// Returns a remaining corner that lies in the closed triangle, by the signs of `signed_area`,
-  /// but not at the place of one of the triangle's own corners; nothing if there is none.
+  /// but does not coincide with one of the triangle's own corners; nothing if there is none.
   std::optional<std::uint32_t> find_in_triangle(const glm::dvec2& a, const glm::dvec2& b,
                                                 const glm::dvec2& c) const;
   /// Removes a corner that is in the tree.
@@ -62,14 +63,14 @@ class CornerTree {
     glm::dvec2 upper;
   };
   struct Node {
-    Rectangle box;           ///< of all corners that were ever below it
-    std::uint32_t left = 0;  ///< corners remaining below it; in a leaf, its first slots
+    Rectangle box;           ///< of all corners that were ever in the subtree
+    std::uint32_t left = 0;  ///< corners remaining in the subtree; in a leaf, its first slots
   };
   static constexpr std::uint32_t kNoLeaf = 0;
   static constexpr std::size_t kRoot = 1;  ///< the children of node n are 2n and 2n + 1
 
   bool is_leaf(std::size_t node) const { return node >= nodes_.size() / 2; }
-  /// The corners of a node lie together: the first of its slots, and the first after them.
+  /// Returns the contiguous slots of a node's corners: the first one, and the first after them.
   std::pair<std::size_t, std::size_t> slots_of(std::size_t node) const;
   void build(std::size_t node);
 

@@ -31,7 +31,7 @@ constexpr double kLargest = 0.5;     // of the scene's size: larger objects stay
 
 double size_of(const Bounds& bounds) { return glm::length(dvec3(bounds.extent())); }
 
-/// Numbers the objects of a scene: for each primitive, the first one of its object.
+/// Numbers the objects of a scene: for each primitive, the first primitive of its object.
 std::vector<PrimitiveId> objects_of(const Scene& scene) {
   std::vector<PrimitiveId> parent(scene.primitives.size());
   std::iota(parent.begin(), parent.end(), PrimitiveId{0});

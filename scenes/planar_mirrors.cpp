@@ -23,7 +23,7 @@ dvec3 corner_of(const Scene& scene, const Polygon& polygon, std::uint32_t corner
   return {scene.vertices[scene.corners[polygon.first_corner + corner]]};
 }
 
-/// Newell's normal: twice the area of the polygon's projection along each axis.
+/// Returns Newell's normal: twice the area of the polygon's projection along each axis.
 dvec3 unit_normal(const Scene& scene, const Polygon& polygon) {
   dvec3 normal(0.0);
   for (std::uint32_t i = 0; i < polygon.corner_count; ++i) {
@@ -62,7 +62,7 @@ bool lies_in(const Scene& scene, const Polygon& polygon, const PlanarSurface& mi
 using PlaneCell = std::array<std::int64_t, 4>;
 
 /// Only planes in the same cell are compared, so that a million small mirrors take little time. If
-/// two halves of a plane fall into neighboring cells, they are two mirrors that show the same
+/// a plane's polygons fall into two neighboring cells, they form two mirrors that show the same
 /// image.
 PlaneCell cell_of(const Scene& scene, const PlanarSurface& mirror) {
   constexpr double kNormals = 0x1p8;
@@ -80,7 +80,7 @@ PlaneCell cell_of(const Scene& scene, const PlanarSurface& mirror) {
           std::llround(kNormals * normal.z), std::llround(kDistances * distance)};
 }
 
-/// Combines the flat polygons that have a place in a group: `group_of(surface)`, if that is not
+/// Combines the flat polygons that belong to a group: `group_of(surface)`, unless it returns
 /// nothing.
 template <class GroupOf>
 std::vector<PlanarSurface> planar_surfaces(const Scene& scene, GroupOf group_of) {
@@ -96,7 +96,7 @@ std::vector<PlanarSurface> planar_surfaces(const Scene& scene, GroupOf group_of)
                       unit_normal(scene, polygon),
                       {id},
                       primitive_bounds(scene, id)};
-    if (!lies_in(scene, polygon, own)) continue;  // it is bent
+    if (!lies_in(scene, polygon, own)) continue;  // it is not flat
     std::vector<std::size_t>& near = in_cell[{*group, cell_of(scene, own)}];
     const auto same = std::ranges::find_if(
         near, [&](std::size_t i) { return lies_in(scene, polygon, mirrors[i]); });

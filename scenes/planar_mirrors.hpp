@@ -19,14 +19,14 @@ struct PlanarSurface {
 };
 
 /// Returns a scene's planar mirrors, ordered by their lowest primitive ids. Each combines all
-/// coplanar flat-shaded polygons whose surface has a specular factor. Plane and polygons agree to
-/// the rounding of floats (2^-22 for their normals, and for their distances relative to the scene's
+/// coplanar flat-shaded polygons whose surface has a specular factor. Plane and polygons agree up
+/// to float rounding (2^-22 for their normals, and for their distances relative to the scene's
 /// largest coordinate), so that all rays from one point are reflected as if they came from its
 /// image behind the mirror. A polygon whose corners are not coplanar is not a mirror.
 std::vector<PlanarSurface> planar_mirrors(const Scene& scene);
 
-/// Returns the planes of a scene that refract, likewise: each combines all coplanar flat-shaded
-/// polygons that have one transparent surface.
+/// Returns the refracting planes of a scene likewise: each combines all coplanar flat-shaded
+/// polygons with the same transparent surface.
 std::vector<PlanarSurface> planar_glass(const Scene& scene);
 
 }  // namespace beambench::scenes

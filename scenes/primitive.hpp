@@ -23,7 +23,7 @@ struct Primitive {
 };
 
 /// A hollow sphere; radius > 0. `inside_only` (a negative radius in NFF): rays hit it only where
-/// they leave it.
+/// they exit.
 struct Sphere {
   glm::vec3 center;
   float radius;
@@ -31,7 +31,7 @@ struct Sphere {
 };
 
 /// The lateral surface of a cone frustum or cylinder, without caps. Radii are >= 0 and not both 0,
-/// base != apex. `inside_only` (both radii negative in NFF): rays hit it only where they leave it.
+/// base != apex. `inside_only` (both radii negative in NFF): rays hit it only where they exit.
 struct Cone {
   glm::vec3 base;
   float base_radius;
@@ -41,8 +41,8 @@ struct Cone {
 };
 
 /// A simple polygon, convex or concave, seen from both sides. Its surface *is* the union of its
-/// triangles (`Scene::triangles[first_triangle ...]`), made once by `triangulate`; everyone,
-/// Embree included, uses these.
+/// triangles (`Scene::triangles[first_triangle ...]`), made once by `triangulate`; all structures,
+/// including Embree, use these.
 struct Polygon {
   std::uint32_t first_corner;    ///< into Scene::corners
   std::uint32_t corner_count;    ///< >= 3

@@ -70,8 +70,8 @@ std::size_t bytes_of(const std::vector<T>& list) {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// Returns the largest float that is not above a + b. Knuth's two-sum yields the rounding error of
-/// the sum in double.
+/// Returns the largest float that is not above a + b, using the double sum's rounding error from
+/// Knuth's two-sum.
 float sum_rounded_down(double a, double b) {
   const double sum = a + b;
   const double part = sum - a;
@@ -93,14 +93,14 @@ Bounds box_around(const glm::vec3& center, const glm::dvec3& half_size) {
 }
 
 Bounds cone_bounds(const Cone& cone) {
-  // A disc of radius r and unit normal n reaches r sqrt(1 - n_i^2) along axis i. The factor covers
+  // A disc of radius r and unit normal n extends r sqrt(1 - n_i^2) along axis i. The factor covers
   // the few roundings of this computation.
   constexpr double kOutward = 1.0 + 0x1p-48;
   const glm::dvec3 axis = glm::dvec3(cone.apex) - glm::dvec3(cone.base);
   const glm::dvec3 square = axis * axis;
   const glm::dvec3 across(square.y + square.z, square.z + square.x, square.x + square.y);
   const double length_squared = square.x + square.y + square.z;
-  // No ray hits a cone without length, which a frame of an animation may have.
+  // Frames of an animation may have cones without length, which no ray hits.
   const glm::dvec3 reach =
       length_squared > 0.0 ? glm::sqrt(across / length_squared) * kOutward : glm::dvec3(0.0);
   Bounds bounds = box_around(cone.base, static_cast<double>(cone.base_radius) * reach);

@@ -23,9 +23,9 @@ struct Light {
   glm::vec3 color{1.0F};
 };
 
-/// A scene in single precision, rounded once, so that all structures receive the same bits. Made by
-/// `SceneBuilder`, which checks all of it: no NaN, no infinity, no coordinate beyond 1e9, no
-/// degenerate primitive. Everything is indexed by 32 bits. Treat it as read-only once built.
+/// A scene in single precision, rounded once, so that all structures receive the same bits. Built
+/// by `SceneBuilder`, which ensures that there are no NaNs, infinities, coordinates beyond 1e9 or
+/// degenerate primitives. All indices have 32 bits. Treat it as read-only once built.
 struct Scene {
   std::string name;             ///< printable; for a file, `path_of_name` restores the path
   std::vector<Camera> cameras;  ///< never empty; the first is the default
@@ -45,7 +45,7 @@ struct Scene {
   Bounds bounds;  ///< of all primitives; empty for an empty scene
 
   std::uint32_t frame = 0;  ///< of a scene that moves (animation.hpp)
-  /// The same scene as it was in frame 0; null where this is that frame.
+  /// The same scene in frame 0; null if this is that frame.
   std::shared_ptr<const Scene> first_frame{};
 };
 
@@ -53,14 +53,14 @@ struct Scene {
 /// representable). For a cone: the box of its two end discs.
 Bounds primitive_bounds(const Scene& scene, PrimitiveId id);
 
-/// Returns the bounds of all primitives together; empty where there are none.
+/// Returns the bounds of all primitives together; empty if there are none.
 Bounds bounds_of_all(const Scene& scene);
 
 /// Returns the bytes of the scene's arrays, including spare capacity.
 std::size_t memory_bytes(const Scene& scene);
 
-/// Returns a 64-bit hash of what rays can hit: primitives, their coordinates and order (XXH3 over
-/// the bits; not surfaces, lights or cameras). Equal on every machine.
+/// Returns a 64-bit hash of everything that rays can hit: primitives, their coordinates and order
+/// (XXH3 over the bits; not surfaces, lights or cameras). The same on every machine.
 std::uint64_t scene_hash(const Scene& scene);
 
 /// Returns the camera of that name. Throws InputError with a list of the scene's cameras.

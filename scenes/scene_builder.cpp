@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kLargestResolution = 65535;
 
-/// The subject of error messages; formatted only if there is an error.
+/// The subject of an error message; formatted only if there is an error.
 struct Subject {
   const char* words;  // "sphere (primitive {})"
   std::size_t number;
@@ -59,7 +59,7 @@ std::uint32_t index_32(std::size_t index, const Subject& subject) {
   return static_cast<std::uint32_t>(index);
 }
 
-/// The corners of a polygon, consecutive ones at the same place merged into the first.
+/// The corners of a polygon, with consecutive coincident ones merged into the first.
 struct MergedCorners {
   std::vector<std::uint32_t> vertices;
   std::vector<glm::vec3> positions;
@@ -134,8 +134,8 @@ void append(std::vector<T>& list, const std::vector<T>& more) {
   list.insert(list.end(), more.begin(), more.end());
 }
 
-/// Returns the eye at that distance from the center, without exceeding the coordinate limit: if
-/// there is not enough room, the eye is moved to the origin's side or nearer.
+/// Returns the eye at that distance from the center, within the coordinate limit: if there is not
+/// enough room, the eye is moved to the origin's side or closer.
 glm::dvec3 fitted_eye(const glm::dvec3& center, double distance) {
   glm::dvec3 direction = glm::normalize(glm::dvec3(1.0, 0.8, 1.3));
   double room = distance;
@@ -362,7 +362,7 @@ void SceneBuilder::add_polygon(std::span<const glm::dvec3> vertices,
 
 std::uint32_t SceneBuilder::current_surface() {
   if (surface_index_) return *surface_index_;
-  // Generators cycle through a few surfaces, millions of times; older ones are added again.
+  // Generators cycle through a few surfaces millions of times; only the recent ones are reused.
   constexpr std::size_t kRemembered = 64;
   auto& surfaces = scene_.surfaces;
   const auto oldest =

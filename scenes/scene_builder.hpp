@@ -17,15 +17,14 @@
 namespace beambench::scenes {
 
 /// Thrown by `SceneBuilder` for a primitive that no ray could hit although its numbers are valid: a
-/// sphere of radius 0, a cone whose radii are both 0 or that has no length, a polygon with fewer
-/// than three distinct corners or without area. The builder is as it was before; a reader may skip
-/// the primitive.
+/// sphere of radius 0, a cone without length or with both radii 0, a polygon without area or with
+/// fewer than three distinct corners. The builder is unchanged; a reader may skip the primitive.
 class DegeneratePrimitive : public InputError {
  public:
   using InputError::InputError;
 };
 
-/// No coordinate, radius or factor of a scene may be larger than this in size.
+/// The maximum absolute value of a scene's coordinates, radii and factors.
 inline constexpr double kLargestNumber = 1e9;
 
 /// Counts of what a builder repaired instead of refusing it.
@@ -35,9 +34,9 @@ struct Repairs {
 };
 
 /// Collects primitives into a `Scene`. Each add_* rounds its numbers to float, checks them and
-/// throws `InputError` naming the primitive (by kind and the id it would have had) when a number is
-/// NaN, infinite or beyond 1e9 in size, or the primitive is degenerate. Callers that read a file
-/// put its name and line in front of the message.
+/// throws an `InputError` that names the primitive (by kind and the id it would have had) if a
+/// number is NaN, infinite or beyond 1e9 in absolute value, or the primitive is degenerate. Callers
+/// that read a file put its name and line in front of the message.
 class SceneBuilder {
  public:
   explicit SceneBuilder(std::string_view name);
@@ -48,7 +47,7 @@ class SceneBuilder {
   void add_light(const glm::dvec3& position, const glm::dvec3& color = glm::dvec3(1.0));
   /// Throws if the angle is not in (0, 180), from == at, up is parallel to the view, the resolution
   /// is not from 1x1 to 65535x65535, or the name is not one line of text without '#' and without
-  /// blanks at its ends. The scene has the name as `printable` shows it.
+  /// blanks at its ends. The scene stores the name in the form of `printable`.
   void add_camera(const Camera& camera);
 
   /// A negative radius means seen from the inside only; 0 is refused.
@@ -67,7 +66,7 @@ class SceneBuilder {
   /// polygon with fewer than three distinct corners, or with no area, is refused.
   void add_polygon(std::span<const std::uint32_t> vertices,
                    std::span<const glm::dvec3> normals = {});
-  /// Adds a polygon with its own vertices. A refused primitive leaves the builder as it was.
+  /// Adds a polygon with its own vertices. A refused primitive leaves the builder unchanged.
   void add_polygon(std::span<const glm::dvec3> vertices, std::span<const glm::dvec3> normals = {});
 
   std::size_t primitive_count() const { return scene_.primitives.size(); }
@@ -91,11 +90,11 @@ class SceneBuilder {
   Repairs repairs_;
 };
 
-/// The smallest diagonal of a scene's box. Rounding is relative, so that a scene may have any size
-/// until products of its lengths leave the range of float. By experiment (`finishes`, triangles,
-/// spheres and cones, scaled down): everything is correct at diagonals of 3e-12; Embree loses
-/// triangles from 3e-13 on down, and cones, spheres, tile beams and the boxes of sah-bvh fail
-/// between 1e-18 and 1e-21. The limit leaves a factor of a thousand.
+/// The smallest diagonal of a scene's box. Rounding is relative, so a scene may have any size for
+/// which products of its lengths stay in the range of float. By experiment (`finishes`, triangles,
+/// spheres and cones, scaled down), everything is correct at diagonals of 3e-12; Embree loses
+/// triangles at 3e-13 and below, and cones, spheres, tile beams and the boxes of sah-bvh fail
+/// between 1e-18 and 1e-21. The limit leaves a safety factor of a thousand.
 inline constexpr double kMinExtent = 1e-9;
 
 /// Returns why a scene with these bounds is too small, as a clause that includes the remedy; empty

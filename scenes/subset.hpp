@@ -1,5 +1,5 @@
 #pragma once
-// Makes a scene of some of another scene's primitives.
+// Makes a scene from some primitives of another scene.
 
 #include <span>
 

@@ -9,8 +9,8 @@
 
 namespace beambench::scenes {
 
-/// The surfaces and textures that the thesis adds to NFF (annex A, "Extensiones"). `kPlain` is
-/// anything that NFF's `f` can express by itself.
+/// The surfaces and textures that the thesis adds to NFF (annex A, "Extensiones"). `kPlain` is any
+/// surface that NFF's `f` alone can express.
 enum class Finish : std::uint8_t {
   kPlain,
   kReflect,
@@ -48,8 +48,8 @@ std::string_view finish_word(Finish finish);
 /// `f`.
 std::optional<Finish> find_finish(std::string_view word);
 
-/// Returns the surface of a finish. The thesis gives no numbers: a texture has its mean color, a
-/// mirror reflects nearly all light, glass transmits nearly all. Plain is white and matte.
+/// Returns the surface of a finish. The thesis states no numbers: a texture has its mean color, a
+/// mirror reflects nearly all light, and glass transmits nearly all. Plain is white and matte.
 Surface finished_surface(Finish finish);
 
 }  // namespace beambench::scenes

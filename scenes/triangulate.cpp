@@ -14,7 +14,7 @@ namespace beambench::scenes {
 namespace {
 
 /// Projects the corners along the largest axis of the polygon's normal, mirrored if needed so that
-/// the polygon runs counter-clockwise; nothing if it has no area. Differences to the first corner
+/// the polygon runs counter-clockwise; nothing if it has no area. Differences from the first corner
 /// keep their precision far from the origin.
 std::optional<std::vector<glm::dvec2>> project(std::span<const glm::vec3> corners) {
   std::vector<glm::dvec3> relative;
@@ -40,8 +40,8 @@ std::optional<std::vector<glm::dvec2>> project(std::span<const glm::vec3> corner
   return points;
 }
 
-/// The remaining polygon while ears are clipped off: a ring of corner numbers. Facts about each
-/// corner are kept; when a corner is removed, only those of its neighbors change.
+/// The remaining polygon while ears are clipped off: a ring of corner numbers. The state of each
+/// corner is stored; when a corner is removed, only its neighbors' states change.
 class Ring {
  public:
   explicit Ring(std::vector<glm::dvec2> points)
@@ -65,10 +65,10 @@ class Ring {
     return signed_area(points_[previous_[i]], points_[i], points_[next_[i]]);
   }
 
-  /// Returns the corner to clip next, the first of its kind from `start` on: an ear; failing that,
-  /// a corner without area, so that corners on a straight edge are kept as long as another triangle
-  /// can use them (neighbors that share such a corner then meet without a crack); failing that, the
-  /// polygon crosses itself and any convex corner will do.
+  /// Returns the corner to clip next, the first of its kind from `start` on. The first choice is an
+  /// ear. The second is a corner without area: corners on a straight edge are thus kept as long as
+  /// another triangle can use them, and neighbors that share such a corner meet without a crack.
+  /// Otherwise the polygon crosses itself, and any convex corner will do.
   std::optional<std::uint32_t> next_to_clip(std::uint32_t start) {
     while (const auto corner = may_be_ear_.next(start)) {
       if (is_ear(*corner)) return corner;
@@ -115,9 +115,9 @@ class Ring {
   }
 
   /// Returns whether a convex corner is an ear, that is, whether its closed triangle contains no
-  /// other corner. It suffices to look at corners that are not convex, and a convex corner stays
-  /// convex (Eberly 2002). A corner at exactly the place of one of the triangle's own (a bridge to
-  /// a hole) does not count.
+  /// other corner. It suffices to examine corners that are not convex, and a convex corner stays
+  /// convex (Eberly 2002). A corner that coincides with one of the triangle's own (a bridge to a
+  /// hole) does not count.
   bool is_ear(std::uint32_t i) {
     const auto found =
         not_convex_.find_in_triangle(points_[previous_[i]], points_[i], points_[next_[i]]);

@@ -10,15 +10,15 @@
 
 namespace beambench::scenes {
 
-/// Returns whether `triangulate` makes a triangle of these three corners. If so, it is {0, 1, 2}.
+/// Returns whether `triangulate` makes a triangle from these three corners. If so, it is {0, 1, 2}.
 bool has_area(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 
 /// Splits a simple polygon, convex or concave, into triangles by ear clipping (Meisters 1975) in
 /// the coordinate plane in which its area (Newell's normal) is largest, computed in double from the
-/// float corners; the time is about n log n. Deterministic: the same corners give the same
+/// float corners; the time is about n log n. Deterministic: the same corners result in the same
 /// triangles on every machine. Ears without area are dropped, so at most n - 2 triangles are
 /// returned, each as three corner numbers in the polygon's winding order; none for a polygon
-/// without area. A polygon that crosses itself also gets triangles, though not meaningful ones.
+/// without area. A self-intersecting polygon also gets triangles, though not meaningful ones.
 std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const glm::vec3> corners);
 
 }  // namespace beambench::scenes

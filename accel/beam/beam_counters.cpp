@@ -12,23 +12,22 @@ std::vector<CounterInfo> beam_counters() {
       {"beams_occupied_ns", "nanoseconds of the counting pass spent in occupied leaves"},
       {"beams_leaving_ns", "nanoseconds of the counting pass spent on beams that leave the root"},
       {"beams_made",
-       "beams as the thesis counts them: those at the beginning, and each part of a "
-       "beam that is cut"},
-      {"beams_divided", "beams that were cut into two parts or more"},
+       "beams as the thesis counts them: initial beams, and each part of a divided beam"},
+      {"beams_divided", "beams that were divided into two or more parts"},
       {"beams_passed_whole", "times that a beam continued undivided"},
       {"beam_edges", "edges of the polygons of all beams"},
       {"beam_clips", "cuts of a polygon by a line"},
-      {"neighbor_searches", "searches of the leaf behind a face, by beams"},
+      {"neighbor_searches", "searches by beams for the leaf behind a face"},
       {"samples_leaving", "samples that left the root with a beam"},
       {"samples_in_leaves", "samples that were tested in a leaf with a beam"},
       {"rays_after_leaf", "samples that found no hit in their beam's leaf and continued as rays"},
       {"rays_by_handover",
-       "samples that became rays because their beam had fewer than 'handover', or few of what a "
-       "plane reflects or refracts"},
+       "samples that became rays because their beam had fewer samples than 'handover', or few "
+       "rays that a plane reflects or refracts"},
       {"rays_by_crowding", "samples that became rays because their beam had too many cuts"},
       {"rays_beside_beams",
-       "rays that a plane reflected or refracted and that were in no beam, because they deviate "
-       "too much from their neighbors, or are too few"},
+       "rays that a plane reflected or refracted and that are in no beam, because they deviate "
+       "too much from their neighbors or are too few"},
   };
 }
 

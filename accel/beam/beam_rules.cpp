@@ -29,14 +29,14 @@ std::string instruction_set_of(LeafTest leaf) {
 std::vector<ParameterInfo> BeamRules::parameters(const BeamRules& defaults) {
   return {integer_parameter(
               "handover", defaults.handover, 0, 1'000'000'000,
-              "a beam of fewer samples than this becomes individual rays; 0 (thesis): never"),
+              "a beam with fewer samples than this becomes individual rays; 0 (thesis): never"),
           choice_parameter(
               "continue", defaults.continue_with_rays ? "rays" : "beams", {"rays", "beams"},
-              "what passes an occupied leaf continues as individual rays (thesis), or as a beam "
-              "again (discussed and rejected in its section 3.6.2)"),
+              "how samples continue behind an occupied leaf: as individual rays (thesis), or "
+              "again as a beam (discussed and rejected in its section 3.6.2)"),
           flag_parameter("share_corners", defaults.share_corners,
-                         "with 5 samples per pixel: a corner is traced once for the pixels that "
-                         "share it"),
+                         "with 5 samples per pixel: trace a corner only once for the pixels "
+                         "that share it"),
           choice_parameter(
               "leaf", name_of(defaults.leaf),
               {name_of(LeafTest::kSimd), name_of(LeafTest::kScalar), name_of(LeafTest::kExact)},

@@ -47,9 +47,8 @@ std::unique_ptr<BeamTracer> build_beam_tracer(const StructureChoice& choice,
 void register_beam(Registry& registry) {
   registry.add(
       {kName,
-       "the beam tracer of the thesis: primary rays, and what planes reflect and refract, in beams "
-       "through "
-       "samet's octree, individual rays where a beam meets objects",
+       "the beam tracer of the thesis: primary rays, and rays that planes reflect and refract, "
+       "in beams through samet's octree; individual rays where a beam meets objects",
        Conformance::kBitExact, BeamOptions::parameters(),
        [](const scenes::Scene& scene, const Parameters& parameters, const Workload& workload) {
          const BeamOptions options = BeamOptions::from(parameters);

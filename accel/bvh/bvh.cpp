@@ -30,14 +30,14 @@ void register_bvh(Registry& registry) {
 std::vector<CounterInfo> stream_counters() {
   return {
       {"confirmed_tests",
-       "primitives that the test in float by SIMD did not decide (of single rays: did not "
-       "reject), and that were tested again by the canonical test in double"},
+       "primitives that the SIMD float test did not decide (for single rays: did not reject) "
+       "and that the canonical test in double tested again"},
       {"stream_lists", "visits of a node by a list of rays"},
-      {"stream_rays", "rays in these lists: divided by the lists, those of one"},
+      {"stream_rays", "rays in these lists; divided by stream_lists, the mean length of a list"},
       {"stream_chunks", "groups of up to 16 rays tested against a node or a leaf together"},
-      {"stream_packets", "lists of up to 16 rays that went on in registers"},
-      {"stream_singles", "rays of lists that went on alone below some node"},
-      {"stream_left", "rays that a stream does not take, which were traced alone from the root"}};
+      {"stream_packets", "lists of up to 16 rays that continued in registers"},
+      {"stream_singles", "rays of lists that continued singly below a node"},
+      {"stream_left", "rays that streams cannot trace, traced singly from the root"}};
 }
 
 }  // namespace beambench::accel::bvh

@@ -37,16 +37,19 @@ std::vector<ParameterInfo> SahBvh::parameters() {
                            "sweep: of all splits the best by SAH; spatial: splits may divide "
                            "primitives (Stich and others 2009)"),
           flag_parameter("reinsertion", false,
-                         "then put nodes where they enlarge the hierarchy least (Bittner and "
-                         "others 2013; Meister and Bittner 2018)"),
+                         "then reinsert nodes where they enlarge the hierarchy least (Bittner "
+                         "and others 2013; Meister and Bittner 2018)"),
           choice_parameter("collapse", "area", {"area", "cost"},
                            "of two-way splits into eight-way nodes: by area, which suits single "
                            "rays, or at the least cost for streams"),
-          integer_parameter("max_leaf", defaults.max_leaf, 1, 32, "most primitives of a leaf"),
+          integer_parameter("max_leaf", defaults.max_leaf, 1, 32,
+                            "maximum number of primitives "
+                            "in a leaf"),
           flag_parameter("parallel", defaults.parallel,
-                         "build on all cores; the hierarchy is the same"),
+                         "use all cores for the build; the hierarchy is the same"),
           choice_parameter("lists", "streams", {"streams", "single"},
-                           "streams: the rays of a list go down together; single: one by one"),
+                           "streams: the rays of a list traverse the hierarchy together; "
+                           "single: one by one"),
           update_parameter(),
           isa_parameter()};
 }

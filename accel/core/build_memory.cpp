@@ -64,7 +64,7 @@ void require_build_memory(const StructureChoice& choice, const scenes::Scene& sc
   throw InputError(fmt::format(
       "'{}' over the {} primitives of '{}' would take about {:.2f} GiB of memory (predicted from a "
       "build over an eighth of them), but {:.2f} GiB are available; choose another structure, "
-      "close other programs, or state in BEAMBENCH_MEMORY what may be used",
+      "close other programs, or set BEAMBENCH_MEMORY to the memory that may be used",
       choice.short_label(), scene.primitives.size(), scene.name,
       gibibytes(static_cast<double>(*needed)), gibibytes(static_cast<double>(*available))));
 }

@@ -22,7 +22,7 @@ std::int64_t all_of(const std::string& isa) {
 
 ParameterInfo isa_parameter() {
   return choice_parameter("isa", "best", {"best", "avx512", "avx2", "sse4"},
-                          "the instruction set it runs on: the machine's best, or a lesser one to "
+                          "the instruction set to use: the machine's best, or an older one to "
                           "compare on equal terms");
 }
 

@@ -52,8 +52,8 @@ bool StructureChoice::updates() const {
 
 ParameterInfo update_parameter() {
   return flag_parameter("update", false,
-                        "over a scene that moves: built over its first frame and updated to the "
-                        "present one, in place of being built anew");
+                        "for moving scenes: build over the first frame and update to the current "
+                        "one instead of rebuilding");
 }
 
 std::span<const CounterInfo> common_counters() {

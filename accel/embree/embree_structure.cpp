@@ -121,9 +121,9 @@ const TraceMode& find_mode(const std::string& name) {
 ParameterInfo cones_parameter() {
   ParameterInfo parameter = choice_parameter(
       "cones", "callbacks", {"callbacks", "curves"},
-      "cones tested exactly by callbacks, one ray at a time, or as Embree's linear "
-      "curves, which it closes by disks at both ends and tests in single "
-      "precision: fast, and wrong where an open end would be looked into");
+      "test cones exactly by callbacks, one ray at a time, or as Embree's linear curves, which "
+      "it closes by disks at both ends and tests in single precision: fast, but wrong where an "
+      "open end is visible");
   parameter.changes_hits = true;
   return parameter;
 }
@@ -150,12 +150,12 @@ void register_embree(Registry& registry) {
                          "surface area, high also splits triangles, which Embree 3 does for "
                          "robust=false only"),
         flag_parameter("robust", true,
-                       "watertight traversal; without it Embree loses rays at vertices and edges, "
-                       "and fails verification where they matter"),
+                       "watertight traversal; without it, Embree loses rays at vertices and "
+                       "edges and fails verification where they matter"),
         choice_parameter("coherent", "auto", {"auto", "true", "false"},
-                         "flags neighboring rays as coherent for Embree, which packets then do not "
-                         "give up; auto: those of images and of any-hit queries, but not the "
-                         "closest hits of lists"),
+                         "flag neighboring rays as coherent, so that Embree keeps packets "
+                         "together; auto: for images and any-hit queries, but not for closest "
+                         "hits of lists"),
         cones_parameter(), update_parameter(), isa_parameter()},
        [](const scenes::Scene& scene, const Parameters& parameters, const Workload& workload) {
          const std::string& isa = parameters.choice("isa");

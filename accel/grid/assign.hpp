@@ -13,7 +13,7 @@ enum class Assign { kSurface, kBounds };
 /// Returns the parameter `assign`.
 inline ParameterInfo assign_parameter() {
   return choice_parameter("assign", "surface", {"surface", "bbox"},
-                          "what must reach into a voxel for a reference: the primitive's surface, "
+                          "what must overlap a voxel for a reference: the primitive's surface, "
                           "or only its bounding box");
 }
 /// Returns the parameter's value.

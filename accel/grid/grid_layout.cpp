@@ -121,13 +121,13 @@ void fail_too_many_references(const scenes::Scene& scene, const CellGrid& grid,
 ParameterInfo resolution_parameter() {
   return cells_parameter("resolution", "auto", kMaxCellsPerAxis,
                          "voxels along the axes of the scene's box: one number for all three, "
-                         "three numbers, or auto: by density, fewer where the lists would hold "
-                         "more than max_references");
+                         "three numbers, or auto: by density, but fewer if the lists would "
+                         "exceed max_references");
 }
 
 ParameterInfo density_parameter(double default_value) {
   return real_parameter("density", default_value, 0.001, 1000.0,
-                        "voxels for each primitive of the scene, where resolution is auto");
+                        "voxels for each primitive of the scene, if resolution is auto");
 }
 
 ParameterInfo max_references_parameter(const GridLayout& defaults) {

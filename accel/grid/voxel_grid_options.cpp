@@ -11,9 +11,10 @@ std::vector<ParameterInfo> VoxelGridOptions::parameters() {
                            "when a voxel's list is made: by the first ray that visits it, testing "
                            "every primitive (thesis), or all before the first ray"),
           flag_parameter("mailboxes", defaults.mailboxes,
-                         "test no primitive twice against a ray; 4 bytes per primitive and thread"),
+                         "never test a primitive twice against a ray; 4 bytes per primitive "
+                         "and thread"),
           integer_parameter("max_voxels", defaults.max_voxels, 1, 2'000'000'000,
-                            "refuse a grid of more voxels (4 bytes each, 8 where fill is lazy)"),
+                            "refuse grids with more voxels (4 bytes each, 8 if fill is lazy)"),
           max_references_parameter(defaults)};
 }
 

@@ -4,32 +4,32 @@ namespace beambench::accel::hierarchical_grid {
 
 std::vector<ParameterInfo> HierarchicalGridOptions::parameters() {
   const HierarchicalGridOptions defaults;
-  return {
-      grid::resolution_parameter(),
-      grid::density_parameter(defaults.density),
-      real_parameter("inner_density", defaults.inner_density, 0.001, 1000.0,
-                     "voxels of a grid in a voxel for each reference of that voxel"),
-      choice_parameter("shape", "cubic", {"cubic", "equal"},
-                       "the voxels of a grid by density: as cubic as they can be, or the same "
-                       "number along each axis"),
-      choice_parameter("inner", "any", {"any", "powers"},
-                       "the voxels of a grid in a voxel: any number, or the nearest power of two "
-                       "along each axis, the same for all, as grid-beam has it"),
-      integer_parameter("max_objects", defaults.max_objects, 0, 1'000'000,
-                        "a voxel that refers to more primitives gets a grid of its own"),
-      integer_parameter("max_level", defaults.max_level, 1, kMaxLevels,
-                        "levels of grids, the grid of the scene being level 1"),
-      choice_parameter(
-          "divide", "gain", {"gain", "always"},
-          "which of these voxels: where a grid is expected to save a fifth of the time by the "
-          "surface area heuristic, or all"),
-      grid::assign_parameter(),
-      flag_parameter("mailboxes", defaults.mailboxes,
-                     "test no primitive twice against a ray; 4 bytes per primitive and thread"),
-      integer_parameter("max_voxels", defaults.max_voxels, 1, 2'000'000'000,
-                        "refuse a top grid of more voxels, and make no grids in voxels beyond "
-                        "that many in all (4 bytes each)"),
-      grid::max_references_parameter(defaults)};
+  return {grid::resolution_parameter(),
+          grid::density_parameter(defaults.density),
+          real_parameter("inner_density", defaults.inner_density, 0.001, 1000.0,
+                         "voxels of an inner grid for each reference of its voxel"),
+          choice_parameter("shape", "cubic", {"cubic", "equal"},
+                           "the voxels of a grid by density: as cubic as possible, or the same "
+                           "number along each axis"),
+          choice_parameter("inner", "any", {"any", "powers"},
+                           "the voxels of an inner grid: any number, or the nearest power of two "
+                           "along each axis, the same for all axes, as in grid-beam"),
+          integer_parameter("max_objects", defaults.max_objects, 0, 1'000'000,
+                            "a voxel that refers to more primitives gets its own grid"),
+          integer_parameter("max_level", defaults.max_level, 1, kMaxLevels,
+                            "levels of grids, the grid of the scene being level 1"),
+          choice_parameter(
+              "divide", "gain", {"gain", "always"},
+              "which of these voxels: where a grid is expected to save a fifth of the time by the "
+              "surface area heuristic, or all"),
+          grid::assign_parameter(),
+          flag_parameter("mailboxes", defaults.mailboxes,
+                         "never test a primitive twice against a ray; 4 bytes per primitive and "
+                         "thread"),
+          integer_parameter("max_voxels", defaults.max_voxels, 1, 2'000'000'000,
+                            "refuse a top grid with more voxels, and stop making inner grids at "
+                            "that total (4 bytes each)"),
+          grid::max_references_parameter(defaults)};
 }
 
 HierarchicalGridOptions HierarchicalGridOptions::from(const Parameters& parameters) {

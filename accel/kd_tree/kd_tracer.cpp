@@ -46,8 +46,8 @@ void register_kd_tree(Registry& registry) {
                 }});
   registry.describe_counters(
       "kd-tree", {{"confirmed_tests",
-                   "primitives that passed the test in float by SIMD, which only rejects, and were "
-                   "tested again by the canonical test in double"}});
+                   "primitives that passed the SIMD float test, which only rejects, and that "
+                   "the canonical test in double tested again"}});
 }
 
 }  // namespace beambench::accel::kd_tree

@@ -9,8 +9,8 @@ std::vector<ParameterInfo> KdTreeOptions::parameters() {
   const KdTreeOptions defaults;
   ParameterInfo depth = integer_or_auto_parameter(
       "max_depth", 0, 0, kMaxSplits,
-      "most splits on the way from the root to a leaf; auto: 8 + 1.3 log2 of the primitives, or 15 "
-      "with builder=median (the cells of an octree of level 6)");
+      "maximum number of splits from the root to a leaf; auto: 8 + 1.3 log2 of the primitives, "
+      "or 15 with builder=median (the cells of an octree of level 6)");
   depth.default_value = "auto";
   ParameterInfo references = integer_or_auto_parameter(
       "max_references", 1, 1, 2'000'000'000,
@@ -19,23 +19,23 @@ std::vector<ParameterInfo> KdTreeOptions::parameters() {
   references.default_value = "auto";
   return {
       choice_parameter("builder", "sah", {"sah", "median"},
-                       "where a node is split: where the surface area heuristic expects the least "
-                       "work, if that is less than a leaf's; or in the middle of one axis after "
-                       "the other (Kaplan 1985), down to max_objects or max_depth"),
+                       "where a node is split: where the surface area heuristic expects the "
+                       "least work, if that is less than a leaf's; or in the middle of each "
+                       "axis in turn (Kaplan 1985), down to max_objects or max_depth"),
       real_parameter("traversal_cost", defaults.traversal_cost, 0.001, 1000.0,
                      "builder=sah: the cost of passing an interior node"),
       real_parameter("intersection_cost", defaults.intersection_cost, 0.001, 1000.0,
                      "builder=sah: the cost of testing a block of up to eight primitives by SIMD"),
       real_parameter("empty_bonus", defaults.empty_bonus, 0.0, 1.0,
-                     "builder=sah: the fraction by which a split is taken to cost less when one "
-                     "side of it is empty"),
+                     "builder=sah: the fraction by which the cost of a split is reduced if one "
+                     "side is empty"),
       depth,
       integer_parameter("max_objects", defaults.max_objects, 0, 1'000'000,
-                        "a node with more primitives than this (triangles, of polygons) is split; "
-                        "builder=sah: only where that is expected to pay"),
+                        "a node with more primitives than this is split (polygons count as "
+                        "triangles); builder=sah: only if that is expected to pay"),
       flag_parameter("clip", defaults.clip,
-                     "refer to a primitive where its part inside the cell reaches (Wald and Havran "
-                     "2006), not where its whole box does"),
+                     "assign a primitive to children by its part inside the cell (Wald and "
+                     "Havran 2006), not by its whole box"),
       references};
 }
 

@@ -86,8 +86,8 @@ void register_null(Registry& registry) {
        "returns a miss at once: measures the harness's own share",
        Conformance::kBaseline,
        {choice_parameter("rays", "single", {"single", "simd"},
-                         "how rays are made or read and hits are stored: one by one, as for most "
-                         "structures, or by SIMD, as for embree")},
+                         "how rays are generated or read and hits are stored: one by one, as "
+                         "for most structures, or by SIMD, as for embree")},
        [](const scenes::Scene&, const Parameters& parameters,
           const Workload&) -> std::unique_ptr<Accelerator> {
          if (parameters.choice("rays") == "single") return std::make_unique<Null>();

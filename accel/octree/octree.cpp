@@ -27,7 +27,7 @@ std::vector<ParameterInfo> OctreeOptions::parameters() {
       choice_parameter("root", "cube", {"cube", "box"},
                        "the root cell: the cube around the scene (thesis) or the scene's own box"),
       choice_parameter("assign", "surface", {"surface", "bbox"},
-                       "what must reach into a cell for a reference: the primitive's surface, or "
+                       "what must overlap a cell for a reference: the primitive's surface, or "
                        "only its bounding box"),
       real_parameter("pad", defaults.pad, 0.0, 1.0,
                      "margin added to each side of the root cell, as a fraction of its size"),
@@ -53,13 +53,14 @@ std::vector<ParameterInfo> OctreeOptions::top_down_parameters() {
   std::vector<ParameterInfo> all = parameters();
   all.push_back(choice_parameter(
       "planes", "median", {"median", "cost"},
-      "where a node is divided: in its middle, or along each axis where the cost of MacDonald and "
-      "Booth is the least of 10 positions between the spatial and the object median"));
+      "where a node is divided: in its middle, or on each axis at the cheapest of 10 positions "
+      "between the spatial and the object median (cost of MacDonald and Booth)"));
   all.push_back(choice_parameter(
       "build", "complete", {"complete", "on-demand", "hashed"},
-      "when nodes are divided, and how they are found: all before the first ray; those below "
-      "built_level when the first ray enters them; or all before, found by their names in a hash "
-      "table instead of links, as in a linear octree; which changes no hit and no counter"));
+      "when nodes are divided and how they are found: all before the first ray; those below "
+      "built_level when the first ray enters them; or all before the first ray, but found by "
+      "name in a hash table instead of by links, as in a linear octree; neither hits nor "
+      "counters change"));
   all.push_back(integer_parameter("built_level", defaults.built_level, 1, kDeepestLevel,
                                   "with build=on-demand, levels divided before the first ray"));
   return all;
@@ -80,8 +81,8 @@ std::vector<ParameterInfo> OctreeOptions::root_search_parameters() {
   std::vector<ParameterInfo> all = top_down_parameters();
   all.push_back(choice_parameter(
       "exits", "explicit", {"explicit", "iterative"},
-      "how the exit of a leaf is found: from its planes, or by steps over the octree's finest "
-      "cells; with planes=median only"));
+      "how the exit of a leaf is found: from its planes, or by stepping over the octree's "
+      "finest cells; only with planes=median"));
   return all;
 }
 

@@ -85,7 +85,7 @@ class OctreeTracer : public TraversalAccelerator<OctreeTracer<Search>> {
     if constexpr (std::is_same_v<typename Search::Cursor, OctreeCursor>) {
       if (octree_.has_central_planes()) return;
       throw InputError(
-          "planes=cost needs a traversal from the root down, as those of glassner and gargantini; "
+          "planes=cost needs a traversal from the root down, as in glassner and gargantini; "
           "choose one of these, or planes=median");
     }
   }

@@ -21,8 +21,8 @@ void add(Registry& registry, std::string name, std::string summary) {
   std::vector<ParameterInfo> parameters = OctreeOptions::parameters();
   parameters.push_back(real_parameter(
       "outside", 0.0, 0.0, 1.0,
-      "objects larger than this part of the scene's size stay out of the octree, in a list that "
-      "each ray is tested against (thesis, section 4.4); 0: none"));
+      "objects larger than this fraction of the scene's size stay outside the octree, in a "
+      "list that each ray is tested against (thesis, section 4.4); 0: none"));
   registry.add({std::move(name), std::move(summary), Conformance::kBitExact, std::move(parameters),
                 [](const scenes::Scene& scene, const Parameters& given,
                    const Workload& workload) -> std::unique_ptr<Accelerator> {

@@ -18,9 +18,9 @@ namespace beambench::accel::octree {
 /// A counter of structures with Samet's search (`kLastClimbMeaning`).
 inline constexpr std::string_view kLastClimb = "last_climb";
 inline constexpr std::string_view kLastClimbMeaning =
-    "levels from the leaf in which a ray leaves the root up to the root: Samet's search climbs "
-    "them before it finds that the leaf lacks a neighbor; here they are not climbed, and not among "
-    "the traversal steps";
+    "levels between the root and the leaf from which a ray leaves it: Samet's search climbs "
+    "them before it finds that the leaf has no neighbor; here they are not climbed and are not "
+    "traversal steps";
 
 /// Samet's search over the nearest common ancestor: nothing is stored; each move climbs and
 /// descends.

@@ -76,16 +76,16 @@ class PolygonBeam : public ImageAccelerator, public Inspector {
 
 std::vector<ParameterInfo> parameters() {
   const TreeOptions defaults;
-  return {
-      integer_parameter("max_polygons", static_cast<std::int64_t>(defaults.max_polygons), 1,
-                        1'000'000,
-                        "a cell with more triangles is divided, apart from those in its faces"),
-      integer_parameter("max_depth", static_cast<std::int64_t>(defaults.max_depth), 0, 48,
-                        "how often cells are divided at most"),
-      integer_parameter("max_references", static_cast<std::int64_t>(defaults.max_references), 1,
-                        2'000'000'000,
-                        "refuse to build a tree with more fragments of triangles (16 bytes each, "
-                        "and 24 for each corner where a plane cut them)")};
+  return {integer_parameter("max_polygons", static_cast<std::int64_t>(defaults.max_polygons), 1,
+                            1'000'000,
+                            "a cell with more triangles, not counting those in its faces, is "
+                            "divided"),
+          integer_parameter("max_depth", static_cast<std::int64_t>(defaults.max_depth), 0, 48,
+                            "maximum number of divisions of a cell"),
+          integer_parameter("max_references", static_cast<std::int64_t>(defaults.max_references), 1,
+                            2'000'000'000,
+                            "refuse trees with more fragments of triangles (16 bytes each, plus 24 "
+                            "for each corner if a plane cut them)")};
 }
 
 TreeOptions options_from(const Parameters& parameters) {
@@ -111,11 +111,13 @@ void register_polygon_beam(Registry& registry) {
   registry.describe_counters(
       kName,
       {{"beams", "beams that a polygon ended, and beams that met no other polygon"},
-       {"beams_ended", "of these: ended by a polygon that hides all behind it"},
-       {"beams_leaving", "of these: ended by none; they have the background, and samples on edges"},
+       {"beams_ended", "of these: ended by a polygon that hides everything behind it"},
+       {"beams_leaving",
+        "of these: ended by no polygon; they contain the background and "
+        "samples on edges"},
        {"beams_made",
         "the beam of the whole image, and each remaining part of a beam that was cut"},
-       {"beams_dropped", "remaining parts of beams that have no samples"},
+       {"beams_dropped", "remaining parts of beams without samples"},
        {"beam_clips", "cuts of a polygon by a line"},
        {"polygons_met", "triangles that samples of a beam may hit, for each beam and leaf"},
        {"samples_in_beams", "samples in beams that a polygon ended"},

@@ -35,11 +35,11 @@ std::vector<ParameterInfo> RayClassification::parameters() {
   return {integer_parameter("max_candidates", static_cast<std::int64_t>(defaults.max_candidates), 1,
                             1'000'000, "a set of rays that may meet more primitives is divided"),
           integer_parameter("max_depth", defaults.max_depth, 0, 60,
-                            "how often sets are divided at most"),
+                            "maximum number of divisions of a set"),
           integer_parameter("max_references", static_cast<std::int64_t>(defaults.max_references), 1,
                             2'000'000'000,
-                            "about the number of entries of the lists (4 bytes each) at which no "
-                            "more sets are divided; hits stay the same")};
+                            "approximate number of list entries (4 bytes each) beyond which no "
+                            "more sets are divided; the hits are the same")};
 }
 
 RayTreeOptions RayClassification::options_from(const Parameters& parameters) {
@@ -127,7 +127,7 @@ std::vector<Cell> RayClassification::occupied_cells() const {
 
 void register_ray_classification(Registry& registry) {
   registry.add({"ray-classification",
-                "divides the set of rays in five dimensions, as rays come; each set has the "
+                "divides the set of rays in five dimensions as rays arrive; each set lists the "
                 "primitives that its rays may meet, nearest first (Arvo and Kirk 1987)",
                 Conformance::kBitExact, RayClassification::parameters(),
                 [](const scenes::Scene& scene, const Parameters& parameters, const Workload&) {

@@ -479,19 +479,21 @@ std::vector<BeamPlace> TileBeam::places_in_batch(const RayBatch& batch) const {
 
 std::vector<ParameterInfo> TileBeam::parameters() {
   const TileHierarchyOptions defaults;
-  return {
-      integer_parameter("max_leaf", defaults.max_leaf, 1, 32, "most primitives of a leaf"),
-      flag_parameter("parallel", defaults.parallel,
-                     "build, and trace images and batches, on all cores; the hits are the same"),
-      flag_parameter("backface_culling", defaults.backface_culling,
-                     "in images, leave out the backs of closed surfaces that are proven to hide "
-                     "them; what is open is traced as without it"),
-      choice_parameter("lists", "auto", {"auto", "streams", "single"},
-                       "of rays that are of no pencil: streams: they go down together; single: one "
-                       "by one; auto: streams, unless only images are traced, which need no "
-                       "hierarchy for them"),
-      update_parameter(),
-      isa_parameter()};
+  return {integer_parameter("max_leaf", defaults.max_leaf, 1, 32,
+                            "maximum number of primitives in "
+                            "a leaf"),
+          flag_parameter("parallel", defaults.parallel,
+                         "use all cores to build and to trace images and batches; the hits are the "
+                         "same"),
+          flag_parameter("backface_culling", defaults.backface_culling,
+                         "in images, cull the backs of closed surfaces that are proven to hide "
+                         "them; open surfaces are not affected"),
+          choice_parameter("lists", "auto", {"auto", "streams", "single"},
+                           "rays that are in no pencil: streams: traverse the hierarchy together; "
+                           "single: one by one; auto: streams, unless only images are traced, "
+                           "which do not need their hierarchy"),
+          update_parameter(),
+          isa_parameter()};
 }
 
 TileHierarchyOptions TileBeam::options_from(const Parameters& parameters,
@@ -552,14 +554,14 @@ void register_tile_beam(Registry& registry) {
        }});
   std::vector<CounterInfo> counters = bvh::stream_counters();
   counters.push_back({"beams",
-                      "tiles of the image, and parts of pencils through a side of the cube, that "
-                      "were traced"});
+                      "traced tiles of the image, and traced parts of pencils through a side "
+                      "of the cube"});
   counters.push_back({"bundle_origins",
-                      "origins of rays toward several apexes, the points of one light, that were "
-                      "tested against all of them at once"});
+                      "origins of rays toward several apexes (the points of one light) that "
+                      "were tested against all apexes at once"});
   counters.push_back({"open_origins",
-                      "those of them from which rays had to be traced, apex by apex, because they "
-                      "do not all have the same result"});
+                      "of these: origins whose rays had to be traced apex by apex, because "
+                      "their results differ"});
   registry.describe_counters("tile-beam", std::move(counters));
 }
 

@@ -26,7 +26,7 @@ bool lists(std::string_view names, std::string_view name) {
   return std::ranges::find(parts, name) != parts.end();
 }
 
-/// Replaces `\040` by a blank, and so on: proc(5) escapes blanks, tabs, line ends and backslashes.
+/// Unescapes `\040` to a blank, and so on: proc(5) escapes blanks, tabs, line ends and backslashes.
 std::string unescaped(std::string_view text) {
   constexpr std::size_t kDigits = 3;
   std::string result;
@@ -44,7 +44,7 @@ std::string unescaped(std::string_view text) {
   return result;
 }
 
-/// The process's group in each hierarchy, from its root; nothing where it is in none.
+/// The process's group in each hierarchy, as a path from the root; nothing if it is in none.
 struct Membership {
   std::optional<std::string> version1;
   std::optional<std::string> version2;

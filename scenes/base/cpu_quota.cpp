@@ -31,7 +31,7 @@ void add_counts(ThrottlingByGroup& groups, const fs::path& folder, const char* t
   groups[folder] = {*periods, *throttled, unit_seconds * time};
 }
 
-/// The growth of a count. The counts of a recreated group start from 0.
+/// Returns the growth of a count. The counts of a recreated group start from 0.
 template <class T>
 T growth(T before, T after) {
   return after >= before ? after - before : after;

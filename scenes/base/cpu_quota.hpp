@@ -31,7 +31,7 @@ struct Throttling {
 std::optional<Throttling> added_up(const std::optional<Throttling>& first,
                                    const std::optional<Throttling>& second);
 
-/// The kernel's counts so far for each control group of the process, keyed by the group's folder.
+/// The kernel's current counts for each control group of the process, keyed by the group's folder.
 using ThrottlingByGroup = std::map<std::filesystem::path, Throttling>;
 
 /// Reads the counts; there are none without control groups. `root` as for `control_groups`.

@@ -11,8 +11,8 @@ namespace beambench {
 /// remedy; the command line prints it and exits with 2.
 class InputError : public std::runtime_error {
  public:
-  /// Keeps the message as one printable line, whatever its length and whatever it quotes
-  /// (`message_line`), because it goes to terminals, records and pages.
+  /// Stores the message as one printable line, whatever its length and content (`message_line`),
+  /// because it goes to terminals, records and pages.
   explicit InputError(const std::string& message);
 };
 
@@ -20,7 +20,7 @@ class InputError : public std::runtime_error {
 /// one sentence that names the plug-in and its part; the command line prints it and exits with 1.
 class PluginError : public std::runtime_error {
  public:
-  /// Keeps the message as `InputError` does.
+  /// Stores the message like `InputError`.
   explicit PluginError(const std::string& message);
 };
 

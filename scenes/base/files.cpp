@@ -79,8 +79,8 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
                "start the program that writes into it first");
 }
 
-/// A path opened for reading. O_NONBLOCK keeps the opening of a named pipe from waiting for a
-/// writer; reads may wait for an existing one.
+/// A path opened for reading. With O_NONBLOCK, opening a named pipe does not wait for a writer;
+/// reads may wait for an existing one.
 struct OpenInput {
   explicit OpenInput(const fs::path& path)
       : descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
@@ -96,8 +96,8 @@ struct OpenInput {
   bool is_pipe = false;
 };
 
-/// Returns how many bytes are left of a regular file; 0 for anything without a length (a pipe, a
-/// file of /proc).
+/// Returns how many bytes of a regular file remain; 0 for anything without a length (a pipe, a file
+/// in /proc).
 std::uint64_t known_length(int descriptor, const std::string& name) {
   struct stat status {};
   if (::fstat(descriptor, &status) != 0) refuse_input_error(name, errno);
@@ -108,7 +108,7 @@ std::uint64_t known_length(int descriptor, const std::string& name) {
       std::max<off_t>(status.st_size - std::max<off_t>(position, 0), 0));
 }
 
-/// Returns whether it is a device, such as /dev/zero, of which nobody means to read gigabytes.
+/// Returns whether it is a device, such as /dev/zero, from which nobody intends to read gigabytes.
 bool is_device(int descriptor) {
   struct stat status {};
   return ::fstat(descriptor, &status) == 0 && S_ISCHR(status.st_mode);
@@ -118,7 +118,7 @@ std::string read_whole(int descriptor, const std::string& name, std::uint64_t ma
   const std::uint64_t length = known_length(descriptor, name);
   if (is_device(descriptor)) max_bytes = std::min(max_bytes, kLargestDocument);
   if (length > max_bytes) refuse_size(name, max_bytes);
-  // One byte more than the known length: the end is detected without growing the buffer.
+  // One byte more than the known length, so that the end is detected without growing the buffer.
   std::string bytes(length > 0 ? length + 1 : kFirstBlock, '\0');
   std::size_t used = 0;
   for (;;) {
@@ -143,10 +143,10 @@ constexpr const char* kPartial = ".partial";  // in the names of files that are 
 /// The kind of target that an output path refers to.
 struct OutputTarget {
   enum class Kind {
-    kFile,    ///< a regular file, there or to be made: written aside and renamed onto
+    kFile,    ///< an existing or new regular file: replaced by renaming a temporary file
     kFolder,  ///< cannot be written
     kNode,    ///< a device, a pipe or a socket: written to, never replaced
-    kOpen     ///< where standard output or error already goes: appended to
+    kOpen     ///< the destination of standard output or error: appended to
   };
   Kind kind;
   fs::path path;        ///< with symbolic links followed to their end; for a kNode, as given
@@ -163,8 +163,8 @@ bool is_same(const struct stat& a, const struct stat& b) {
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
-/// Returns the descriptor, standard output or error, that goes to the same place as the path; -1 if
-/// neither does. If the file were replaced, the rest of the output would not reach the new one.
+/// Returns the descriptor of standard output or error, whichever goes to the file at the path; -1
+/// if neither does. If that file were replaced, the rest of the output would not reach the new one.
 int open_descriptor_of(const struct stat& status) {
   for (const int descriptor : {STDOUT_FILENO, STDERR_FILENO}) {
     struct stat open {};
@@ -219,7 +219,7 @@ fs::path folder_of(const fs::path& target) {
   return target.has_parent_path() ? target.parent_path() : fs::path(".");
 }
 
-/// Throws the system's error with a suggestion of what to do about it.
+/// Throws the system's error with a suggested remedy.
 [[noreturn]] void refuse_output_error(const fs::path& target, int error) {
   if (error == ENOSPC || error == EDQUOT) {
     refuse_output(target,
@@ -303,7 +303,7 @@ bool reaches_disk(int descriptor) {
   return descriptor >= 0 && (::fsync(descriptor) == 0 || errno == EINVAL);
 }
 
-/// Writes a regular file aside and renames it; a later power loss does not bring back the old one.
+/// Writes a temporary file and renames it; a later power loss does not bring back the old one.
 void replace_file(const fs::path& target, const fs::path& named,
                   const std::function<void(std::ostream&)>& write) {
   const fs::path folder = folder_of(target);
@@ -327,7 +327,7 @@ void replace_file(const fs::path& target, const fs::path& named,
   if (!reaches_disk(place.number())) refuse_output_error(named, errno);
 }
 
-/// Writes into a target that is not replaced. What has been written cannot be taken back.
+/// Writes into a target that is not replaced. A partial write cannot be undone.
 void write_through(const fs::path& target, const OutputTarget& found,
                    const std::function<void(std::ostream&)>& write) {
   std::optional<int> error;
@@ -372,7 +372,7 @@ struct InputStream::State {
   explicit State(const fs::path& path)
       : file(path), name(path.string()), length(known_length(file.descriptor.number(), name)) {}
 
-  /// Appends to the buffer; false at the end of the input.
+  /// Appends to the buffer; returns false at the end of the input.
   bool fill() {
     buffer.erase(0, begin);
     begin = 0;
@@ -404,7 +404,7 @@ struct InputStream::State {
   std::uint64_t length;     ///< 0 if unknown
   std::uint64_t taken = 0;  ///< bytes read from the file
   std::string buffer{};
-  std::size_t begin = 0;  ///< start of what was not returned yet, in `buffer`
+  std::size_t begin = 0;  ///< start of the data not yet returned, in `buffer`
 };
 
 InputStream::InputStream(const fs::path& path) : state_(std::make_unique<State>(path)) {}
@@ -518,7 +518,7 @@ void GrowingFile::add_line(std::string_view line) {
     bytes_ += whole.size();
     return;
   }
-  // Otherwise the next line would be appended to half a line, and both would be lost.
+  // Otherwise the next line would be appended to a partial line, and both would be lost.
   if (::ftruncate(descriptor_, static_cast<off_t>(bytes_)) != 0) { /* the reader leaves it out */
   }
   refuse_output_error(path_, *error);

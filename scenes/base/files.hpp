@@ -1,5 +1,5 @@
 #pragma once
-// Opens input, writes output, and provides growing logs and folder locks.
+// Opens input, writes output, and provides append-only logs and folder locks.
 
 #include <cstddef>
 #include <cstdint>
@@ -22,23 +22,23 @@ inline constexpr std::uint64_t kLargestFile = std::uint64_t{4} << 30U;
 
 /// Reads a whole input: a file, or a pipe or device until its end (`/dev/stdin` is the standard
 /// input). Opening never waits: a named pipe without a writer is refused. If a program has the pipe
-/// open but does not write, reading waits for it, as anywhere in a shell. An incomplete input is
-/// never returned. Throws InputError with the path and the reason if the input cannot be opened, is
-/// a folder, holds more than `max_bytes` (64 MiB for a device, which may have no end), does not fit
-/// into memory, ends before the length that it had at the beginning, or if the system reports an
-/// error during reading.
+/// open but does not write, reading waits for it, as in any shell pipeline. Never returns an
+/// incomplete input. Throws InputError with the path and the reason if the input cannot be opened,
+/// is a folder, holds more than `max_bytes` (64 MiB for a device, which may have no end), does not
+/// fit into memory or ends before its initial length, or if the system reports an error while
+/// reading.
 std::string read_input(const std::filesystem::path& path, std::uint64_t max_bytes);
 
 /// Reads an open descriptor in the same way from its current position, and leaves it open. Messages
 /// call it `name`.
 std::string read_input(int descriptor, const std::string& name, std::uint64_t max_bytes);
 
-/// Reads a text as `read_input` does. A byte order mark of UTF-8 at its beginning, which some
-/// editors write, is skipped, and UTF-16 is refused (`plain_text`).
+/// Reads a text like `read_input`. A byte order mark of UTF-8 at its beginning, which some editors
+/// write, is skipped, and UTF-16 is refused (`plain_text`).
 std::string read_text_input(const std::filesystem::path& path, std::uint64_t max_bytes);
 
-/// An input read in parts, for inputs that may be larger than memory. Opened, read and refused by
-/// the rules of `read_input`; a premature end of a file is detected when it is reached.
+/// An input read in parts, for inputs that may be larger than memory. The rules of `read_input`
+/// apply; a premature end of a file is detected when it is reached.
 class InputStream {
  public:
   explicit InputStream(const std::filesystem::path& path);
@@ -50,7 +50,8 @@ class InputStream {
   /// order mark before the first line is skipped. The line is valid until the next call. Throws
   /// InputError for a line of more than 256 MiB.
   std::optional<std::string_view> line();
-  /// Fills the buffer and returns how many bytes it got: fewer only at the end of the input.
+  /// Fills the buffer and returns the number of bytes read, which is smaller only at the end of the
+  /// input.
   std::size_t read(std::span<char> buffer);
   /// Returns the number of bytes left; nothing for a pipe or a device.
   std::optional<std::uint64_t> remaining() const;
@@ -64,7 +65,7 @@ class InputStream {
 
 /// Throws InputError if output cannot be written there: the folder is missing or not writable, a
 /// folder has the file's name, a device is not writable, or symbolic links are broken. Used to
-/// refuse a request before the long work starts.
+/// reject a request before long work starts.
 void require_writable(const std::filesystem::path& target);
 
 /// Writes an output. A file is written completely or not at all: under a temporary name in the same
@@ -73,13 +74,13 @@ void require_writable(const std::filesystem::path& target);
 /// output) is written to, never replaced; a named pipe waits for its reader. Throws InputError on
 /// failure.
 void write_file(const std::filesystem::path& target, std::string_view text);
-/// Writes an output that is too long to be built in memory first: `write` puts it into the stream.
-/// If `write` throws, the file stays as it was.
+/// Writes an output that is too long to be built in memory first: `write` writes it to the stream.
+/// If `write` throws, the file is unchanged.
 void write_file(const std::filesystem::path& target,
                 const std::function<void(std::ostream&)>& write);
 
-/// A file to which lines are added, such as a log. Each line is passed to the system at once, in
-/// one piece, so it survives the end of this process. Nothing waits for the disk.
+/// A file to which lines are added, such as a log. Each line is passed to the system immediately,
+/// in one piece, so it survives the end of this process. Writes do not wait for the disk.
 class GrowingFile {
  public:
   /// Opens or creates the file and truncates it to its first `bytes`. Throws InputError if it
@@ -89,8 +90,8 @@ class GrowingFile {
   GrowingFile(GrowingFile&& other) noexcept;
   GrowingFile& operator=(GrowingFile&&) = delete;
 
-  /// Adds a line and its end. Throws InputError when the disk is full or fails; the file is then as
-  /// it was.
+  /// Adds a line and its end. Throws InputError when the disk is full or fails; the file is then
+  /// unchanged.
   void add_line(std::string_view line);
 
  private:
@@ -99,20 +100,19 @@ class GrowingFile {
   std::uint64_t bytes_;
 };
 
-/// Creates a folder and its parents if necessary. Throws InputError with a suggestion of what to
-/// do.
+/// Creates a folder and its parents if necessary. Throws InputError with the remedy.
 void make_folder(const std::filesystem::path& folder,
                  std::string_view remedy = "choose another place");
 
-/// Returns whether this is the temporary file of a killed process.
+/// Returns whether this is a temporary file left by a killed process.
 bool is_left_behind(const std::filesystem::path& path);
 
-/// Holds a folder during its lifetime, for one process at a time. The system releases it when the
-/// process ends, however it ends.
+/// Locks a folder during its lifetime, for one process at a time. The system releases the lock when
+/// the process ends, however it ends.
 class FolderLock {
  public:
-  /// Throws InputError if another process holds the folder. On a file system without locks, nothing
-  /// is held.
+  /// Throws InputError if another process holds the lock. On a file system without locks, nothing
+  /// is locked.
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();
   FolderLock(FolderLock&& other) noexcept;

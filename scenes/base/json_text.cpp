@@ -18,22 +18,22 @@ using nlohmann::json;
 
 constexpr int kMaxDepth = 64;
 
-/// Returns whether a comma directly precedes the end of a list or object there.
+/// Returns whether a comma directly precedes the end of a list or object at that position.
 bool comma_is_last(std::string_view text, std::size_t at) {
   if (at >= text.size() || (text[at] != ']' && text[at] != '}')) return false;
   const std::size_t before = text.substr(0, at).find_last_not_of(" \t\r\n");
   return before != std::string_view::npos && text[before] == ',';
 }
 
-/// nlohmann's message without its own prefix and position.
+/// Returns nlohmann's message without its prefix and position.
 std::string_view plain_message(std::string_view what) {
   const std::size_t column = what.find("column ");
   const std::size_t start = column == std::string_view::npos ? column : what.find(": ", column);
   return start == std::string_view::npos ? what : what.substr(start + 2);
 }
 
-/// Reads a text without keeping anything. Refuses invalid JSON, deep nesting and duplicate keys in
-/// one object, which nlohmann would accept, letting the last one win.
+/// Reads a text without storing anything. Refuses invalid JSON, deep nesting and duplicate keys in
+/// one object, of which nlohmann would silently keep the last.
 class Checks : public nlohmann::json_sax<json> {
  public:
   Checks(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {}

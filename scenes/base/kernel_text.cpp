@@ -9,7 +9,7 @@
 namespace beambench {
 namespace {
 
-// A host with many containers has several thousand mounts, each on a line of 200 bytes.
+// A host with many containers has several thousand mounts, each a line of 200 bytes.
 constexpr std::uint64_t kLargestKernelText = std::uint64_t{16} << 20U;
 
 }  // namespace

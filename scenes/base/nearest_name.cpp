@@ -12,7 +12,7 @@ namespace beambench {
 namespace {
 
 /// A foreign name and the name used here. If a word has several meanings, the one among the
-/// candidate names counts, so that structures, parameters, scenes, commands and options can share
+/// candidate names applies, so that structures, parameters, scenes, commands and options can share
 /// this table.
 struct Alias {
   std::string_view word;
@@ -147,7 +147,7 @@ std::string similar_name(std::string_view word, std::span<const std::string> nam
   std::string nearest;
   std::size_t least = std::numeric_limits<std::size_t>::max();
   for (const std::string& name : names) {
-    if (word.size() > 2 * name.size()) continue;  // more than half of it would have to be deleted
+    if (word.size() > 2 * name.size()) continue;  // more than half would have to be deleted
     const std::size_t distance = edit_distance(word, name);
     if (distance < least) {
       least = distance;

@@ -40,7 +40,7 @@ std::optional<bool> parse_flag(std::string_view text) {
 
 constexpr std::string_view kAuto = "auto";
 
-/// One number for all axes, or three with an x between them.
+/// Parses one number for all axes, or three separated by x.
 std::optional<std::array<std::int32_t, 3>> parse_cells(std::string_view text) {
   std::array<std::int32_t, 3> cells{};
   std::size_t count = 0;
@@ -61,7 +61,7 @@ std::string cells_text(const std::array<std::int32_t, 3>& cells) {
   return equal ? fmt::format("{}", cells[0]) : fmt::format("{}", fmt::join(cells, "x"));
 }
 
-/// The value's canonical text (and number), or nothing when it is not valid.
+/// Returns the value's canonical text (and number), or nothing if it is invalid.
 struct Parsed {
   std::string text;
   double number;
@@ -161,7 +161,8 @@ ParameterInfo plain_info(std::string name, Type type, std::string default_value,
       fmt::format("'{}': {}; write a name, or name:key=value,key=value", excerpt(text), why));
 }
 
-/// Takes the text before the first comma, and the comma, off the front of `text`.
+/// Removes the text before the first comma, and the comma, from the front of `text`, and returns
+/// it.
 std::string_view take_piece(std::string_view& text) {
   const std::size_t comma = std::min(text.find(','), text.size());
   const std::string_view piece = text.substr(0, comma);

@@ -20,11 +20,11 @@ struct Spec {
   friend bool operator==(const Spec&, const Spec&) = default;
 };
 
-/// Throws InputError when the text is not of that form or gives a key twice.
+/// Parses a spec. Throws InputError if the text is not of that form or has a key twice.
 Spec parse_spec(std::string_view text);
 
 /// Splits `a:x=1,y=2,b` into the specs `a:x=1,y=2` and `b`: a comma starts a new spec unless an `=`
-/// follows before the next comma or colon. Throws as parse_spec.
+/// follows before the next comma or colon. Throws like parse_spec.
 std::vector<Spec> parse_spec_list(std::string_view text);
 
 /// The declaration of a parameter of a structure or a generator; printed by `beambench list`.
@@ -34,16 +34,16 @@ struct ParameterInfo {
   std::string name;
   Type type;
   std::string default_value;
-  double minimum = 0.0;  ///< of a number (of cells, too), inclusive
+  double minimum = 0.0;  ///< of a number (including cells), inclusive
   double maximum = 0.0;
   std::vector<std::string> choices;  ///< of a choice
   std::string description;           ///< one sentence, units included
-  bool changes_hits = false;         ///< other values may give wrong hits: not self-tested
+  bool changes_hits = false;         ///< other values may cause wrong hits: not self-tested
 };
 
 ParameterInfo integer_parameter(std::string name, std::int64_t default_value, std::int64_t minimum,
                                 std::int64_t maximum, std::string description);
-/// A whole number, or `auto`: the structure chooses.
+/// Declares a whole number, or `auto`: the structure chooses.
 ParameterInfo integer_or_auto_parameter(std::string name, std::int64_t default_value,
                                         std::int64_t minimum, std::int64_t maximum,
                                         std::string description);
@@ -52,11 +52,11 @@ ParameterInfo real_parameter(std::string name, double default_value, double mini
 ParameterInfo flag_parameter(std::string name, bool default_value, std::string description);
 ParameterInfo choice_parameter(std::string name, std::string default_value,
                                std::vector<std::string> choices, std::string description);
-/// Cells along each axis: `32`, `64x32x16`, or `auto`.
+/// Declares cells along each axis: `32`, `64x32x16`, or `auto`.
 ParameterInfo cells_parameter(std::string name, std::string default_value, std::int64_t maximum,
                               std::string description);
 
-/// The values of one owner's parameters: the given values, and defaults for the rest.
+/// The values of one owner's parameters: given values, and defaults for the rest.
 class Parameters {
  public:
   /// Checks every given value against `infos`. Throws InputError naming `owner`, the parameter, the
@@ -64,28 +64,29 @@ class Parameters {
   Parameters(std::string owner, std::span<const ParameterInfo> infos,
              std::span<const std::pair<std::string, std::string>> given);
 
-  /// Each throws std::logic_error when the owner declared no such parameter of that type.
+  /// Each of these throws std::logic_error if the owner did not declare such a parameter of that
+  /// type.
   std::int64_t integer(std::string_view name) const;
-  /// Nothing for `auto`.
+  /// Returns nothing for `auto`.
   std::optional<std::int64_t> integer_or_auto(std::string_view name) const;
   double real(std::string_view name) const;
   bool flag(std::string_view name) const;
   const std::string& choice(std::string_view name) const;
-  /// Nothing for `auto`.
+  /// Returns nothing for `auto`.
   std::optional<std::array<std::int32_t, 3>> cells(std::string_view name) const;
 
-  /// Throws std::logic_error with the name of a parameter that was given but never read: its owner
-  /// declares it and then ignores it.
+  /// Throws std::logic_error with the name of a parameter that was given but never read because its
+  /// owner declares and ignores it.
   void require_given_were_read() const;
 
-  /// All parameters with their values in declared order, `max_level=6,max_objects=0`; numbers in
-  /// their shortest exact form, so that equal values print equally.
+  /// Returns all parameters with their values in declared order, `max_level=6,max_objects=0`.
+  /// Numbers are in their shortest exact form, so that equal values print equally.
   std::string canonical() const;
-  /// Owner and canonical parameters: `samet:max_level=6,max_objects=0`, or the bare owner.
+  /// Returns owner and canonical parameters, `samet:max_level=6,max_objects=0`, or the bare owner.
   std::string label() const;
-  /// The same with only those that are not at their defaults: `samet:max_level=6`.
+  /// Returns the same with only non-default values: `samet:max_level=6`.
   std::string short_label() const;
-  /// Name and value pairs as in canonical().
+  /// Returns name-value pairs as in canonical().
   std::vector<std::pair<std::string, std::string>> values() const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// Prepares texts whose relevant characters are single bytes.
+// Prepares texts in which all relevant characters are single bytes.
 
 #include <string_view>
 

@@ -12,7 +12,7 @@ constexpr double kHalfPiLow = 0x1.0b4611a626331p-34;
 constexpr double kLn2High = 0x1.62e42feep-1;
 constexpr double kLn2Low = 0x1.a39ef35793c76p-33;
 
-/// x minus the nearest multiple of (high + low), and that multiple.
+/// Returns x minus the nearest multiple of (high + low), and that multiple.
 struct Reduced {
   double rest;
   long multiple;
@@ -23,8 +23,8 @@ Reduced reduce(double x, double high, double low) {
   return {(x - multiple * high) - multiple * low, static_cast<long>(multiple)};
 }
 
-/// sum of (-1)^k x^(2k) / (first (first + 1) ... (first + 2k - 1)): Taylor's series of cos x for
-/// first = 1, of sin x / x for first = 2.
+/// Returns the sum of (-1)^k x^(2k) / (first (first + 1) ... (first + 2k - 1)): the Taylor series
+/// of cos x for first = 1 and of sin x / x for first = 2.
 double alternating_series(double x, int first) {
   constexpr int kTerms = 11;  // the next is below 1e-23 for |x| <= pi/4
   double sum = 1.0;
@@ -35,7 +35,7 @@ double alternating_series(double x, int first) {
   return sum;
 }
 
-/// The sine after `quarters` more quarter turns.
+/// Returns the sine after `quarters` more quarter turns.
 double sine(double radians, long quarters) {
   const auto [rest, multiple] = reduce(radians, kHalfPiHigh, kHalfPiLow);
   const long quadrant = ((multiple + quarters) % 4 + 4) % 4;

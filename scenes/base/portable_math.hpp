@@ -1,5 +1,5 @@
 #pragma once
-// Elementary functions that give the same bits on every machine.
+// Elementary functions that return the same bits on every machine.
 
 namespace beambench {
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kLongestToken = 80;
 constexpr std::size_t kLongestMessage = 4000;
-constexpr std::size_t kMessageEnd = 1500;  // of it, when its middle is left out
+constexpr std::size_t kMessageEnd = 1500;  // kept at the end, if the middle is omitted
 constexpr std::string_view kLeftOut = "...";
 
 struct Character {
@@ -31,10 +31,10 @@ bool is_continuation(std::string_view text, std::size_t i) {
   return i < text.size() && (byte_at(text, i) & 0xC0U) == 0x80U;
 }
 
-/// The first character of a text that is not empty (The Unicode Standard, table 3-7).
+/// Returns the first character of a nonempty text (The Unicode Standard, table 3-7).
 Character first_character(std::string_view text) {
   struct Form {
-    std::uint32_t mask, lead, least;  // of the first byte; the least code that needs so many bytes
+    std::uint32_t mask, lead, least;  // of the first byte; the lowest code with that many bytes
   };
   constexpr std::array<Form, 4> kForms{{{0x80U, 0x00U, 0x0U},
                                         {0xE0U, 0xC0U, 0x80U},
@@ -73,7 +73,7 @@ void append_escaped(std::string& text, std::string_view bytes) {
   }
 }
 
-/// Returns a place at or shortly before `at` where the text can be cut between two characters.
+/// Returns a position at or shortly before `at` where the text can be cut between two characters.
 std::size_t cut_near(std::string_view text, std::size_t at) {
   constexpr std::size_t kLongestCharacter = 4;
   for (std::size_t back = 0; back < std::min(at, kLongestCharacter); ++back) {
@@ -82,7 +82,7 @@ std::size_t cut_near(std::string_view text, std::size_t at) {
   return at;
 }
 
-/// Reads the escaped byte whose `\x1b` is at `text[at...]`.
+/// Reads the byte whose escape, such as `\x1b`, is at `text[at...]`.
 bool read_escaped(std::string_view text, std::size_t at, char& byte) {
   if (text.size() < at + 4 || text[at + 1] != 'x') return false;
   unsigned int value = 0;

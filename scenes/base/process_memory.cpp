@@ -88,7 +88,7 @@ std::optional<std::uint64_t> mapped_data_bytes() { return status_bytes("VmData:"
 
 std::optional<std::uint64_t> peak_memory_growth(const std::function<void()>& work) {
 #ifdef __GLIBC__
-  ::malloc_trim(0);  // otherwise freed memory would be reused without being noticed
+  ::malloc_trim(0);  // otherwise the work could reuse freed memory unnoticed
 #endif
   // Not a write_file: this is a switch of the kernel. 5 resets the peak (proc(5)).
   std::ofstream("/proc/self/clear_refs") << "5" << std::flush;
@@ -96,7 +96,7 @@ std::optional<std::uint64_t> peak_memory_growth(const std::function<void()>& wor
   const auto peak_before = status_bytes("VmHWM:");
   work();
   const auto peak = status_bytes("VmHWM:");
-  // A peak that was not reset says nothing about this work.
+  // A peak that was not reset is not about this work.
   constexpr std::uint64_t kAgree = std::uint64_t{4} << 20U;
   if (!before || !peak_before || !peak || *peak_before > *before + kAgree) return std::nullopt;
   return left_of(*peak, *before);

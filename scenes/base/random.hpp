@@ -15,11 +15,11 @@ class Random {
   explicit Random(std::uint64_t seed) : engine_(seed) {}
 
   std::uint64_t bits() { return engine_(); }
-  /// Uniform in [0, 1), a multiple of 2^-53.
+  /// Returns a uniform number in [0, 1), a multiple of 2^-53.
   double unit() { return static_cast<double>(engine_() >> 11U) * 0x1p-53; }
-  /// Uniform in [low, high).
+  /// Returns a uniform number in [low, high).
   double uniform(double low, double high) { return low + (high - low) * unit(); }
-  /// Uniform in 0 ... count - 1 (count >= 1; bias below 2^-32 for counts that fit 32 bits).
+  /// Returns a uniform integer in 0 ... count - 1 (count >= 1; bias below 2^-32 for 32-bit counts).
   std::uint64_t below(std::uint64_t count) {
     return static_cast<std::uint64_t>(unit() * static_cast<double>(count));
   }
@@ -28,7 +28,7 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-/// Shuffles as Fisher and Yates do.
+/// Shuffles by the Fisher-Yates algorithm.
 template <class T>
 void shuffle(std::vector<T>& values, Random& random) {
   for (std::size_t left = values.size(); left > 1; --left) {

@@ -5,11 +5,11 @@
 
 namespace beambench {
 
-/// A rotation counter-clockwise about the x (0), y (1) or z (2) axis, seen from its positive end.
-/// Use this rather than glm::rotate, whose sine comes from the library.
+/// Returns a counter-clockwise rotation about the x (0), y (1) or z (2) axis, seen from its
+/// positive end. Use this rather than glm::rotate, whose sine comes from the library.
 glm::dmat4 rotation(int axis, double degrees);
 
-/// A translation.
+/// Returns a translation.
 glm::dmat4 moved_by(const glm::dvec3& offset);
 
 }  // namespace beambench

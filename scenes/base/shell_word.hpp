@@ -6,8 +6,8 @@
 
 namespace beambench {
 
-/// Returns a word quoted for a shell, and printable: unchanged if that is safe, otherwise in single
-/// quotes, or in the form `$'esc\x1b'` of bash, ksh and zsh if some of it is not printable.
+/// Returns a word quoted for a shell, in printable form: unchanged if safe, otherwise in single
+/// quotes, or in the form `$'esc\x1b'` of bash, ksh and zsh if it has unprintable characters.
 std::string shell_quoted(std::string_view word);
 
 }  // namespace beambench

@@ -86,7 +86,7 @@ PolygonMesh square_ring(double half, double hole, double bottom, double top) {
           {{-size, -size, z}, {size, -size, z}, {size, size, z}, {-size, size, z}});
     }
   }
-  for (std::uint32_t i = 0; i < 4; ++i) {  // outer corners i, inner ones 4 + i, the upper 8 more
+  for (std::uint32_t i = 0; i < 4; ++i) {  // outer corners i, inner ones 4 + i, upper ones + 8
     const std::uint32_t next = (i + 1) % 4;
     mesh.polygons.push_back({i, next, next + 8, i + 8});
     mesh.polygons.push_back({i + 8, next + 8, next + 12, i + 12});

@@ -7,26 +7,26 @@
 
 namespace beambench::scenes::modelling {
 
-/// The six faces of the box between two corners, in the order -x, +x, -y, +y, -z, +z.
+/// Returns the six faces of the box between two corners, in the order -x, +x, -y, +y, -z, +z.
 PolygonMesh box(const glm::dvec3& lower, const glm::dvec3& upper);
 
-/// The box without its lower face (-z), for pieces that stand on something.
+/// Returns the box without its lower face (-z), for pieces that stand on something.
 PolygonMesh box_without_bottom(const glm::dvec3& lower, const glm::dvec3& upper);
 
-/// The box with its edges cut off by `bevel` on both sides: 6 faces, 12 edges, 8 corner triangles.
-/// 0 < bevel < half of every extent.
+/// Returns the box with its edges cut off by `bevel` on both sides: 6 faces, 12 edges, 8 corner
+/// triangles. 0 < bevel < half of every extent.
 PolygonMesh beveled_box(const glm::dvec3& lower, const glm::dvec3& upper, double bevel);
 
-/// The square plate |x|, |y| <= half between two heights, with the hole |x|, |y| < hole: 16 quads,
-/// four on each side, in the order outside, top, hole, bottom.
+/// Returns the square plate |x|, |y| <= half between two heights, with the hole |x|, |y| < hole: 16
+/// quads, four on each side, in the order outside, top, hole, bottom.
 PolygonMesh square_ring(double half, double hole, double bottom, double top);
 
-/// A four-sided bar between two places, with two sides facing along `outward`. Its open ends are
-/// inside the pieces that it is fixed to.
+/// Returns a four-sided bar between two points, with two sides facing along `outward`. Its open
+/// ends are inside the pieces that it is attached to.
 PolygonMesh bar(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& outward,
                 double thickness);
 
-/// The bracing of a face between two posts, whose places are listed level by level from below: a
+/// The bracing of a face between two posts, whose points are listed level by level from below: a
 /// crossbar at every level and two diagonals in every panel. Crossing bars differ in thickness, so
 /// that none of their faces are coplanar.
 struct Bracing {

@@ -17,14 +17,14 @@ struct FlatShape {
   std::vector<PolygonMesh::Corners> polygons;
 };
 
-/// One polygon.
+/// Returns a shape of one polygon.
 FlatShape flat_polygon(std::vector<glm::dvec2> points);
 
-/// The ends that an extrusion has.
+/// The closed ends of an extrusion.
 enum class Ends : std::uint8_t { kBoth, kFront, kNone };
 
-/// The shape from z = 0 (back) to z = depth (front), with a wall along every edge of the outline
-/// and the holes, but not along the seams.
+/// Returns the shape extruded from z = 0 (back) to z = depth (front), with a wall along every edge
+/// of the outline and the holes, but not along the seams.
 PolygonMesh extruded(const FlatShape& shape, double depth, Ends ends = Ends::kBoth);
 
 }  // namespace beambench::scenes::modelling

@@ -23,7 +23,7 @@ glm::dvec3 gradient(const Field& field, const glm::dvec3& place, double step) {
   return result;
 }
 
-/// Newton steps along the gradient, none longer than half a `reach`.
+/// Takes Newton steps along the gradient, none longer than half of `reach`.
 glm::dvec3 onto_surface(const Field& field, glm::dvec3 place, double reach) {
   for (int i = 0; i < 4; ++i) {
     const glm::dvec3 slope = gradient(field, place, 1e-4 * reach);
@@ -37,7 +37,7 @@ glm::dvec3 onto_surface(const Field& field, glm::dvec3 place, double reach) {
 }
 
 /// The field on a grid, with a vertex in every cell that the surface crosses and a quad at every
-/// edge.
+/// crossed edge.
 class SurfaceNet {
  public:
   SurfaceNet(const Field& field, const glm::dvec3& lower, const glm::dvec3& upper, double cell)
@@ -81,7 +81,7 @@ class SurfaceNet {
     return lower_ + cell_ * glm::dvec3(x, y, z);
   }
 
-  /// Adds the mean of the places where the surface crosses the cell's twelve edges, moved onto the
+  /// Adds the mean of the points where the surface crosses the cell's twelve edges, moved onto the
   /// surface.
   void add_vertex(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
     glm::dvec3 sum(0.0);
@@ -156,7 +156,7 @@ class BorderDrawing {
  private:
   static constexpr int kBorder = -1;
 
-  /// Moves the vertex to the nearest border on its edges, if that is on its half of the edge.
+  /// Moves the vertex to the nearest border on its edges, if the border is on its half of the edge.
   void draw(std::uint32_t vertex) {
     const glm::dvec3 start = mesh_.vertices[vertex];
     glm::dvec3 nearest = start;

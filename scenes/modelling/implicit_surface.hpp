@@ -10,7 +10,7 @@ namespace beambench::scenes::modelling {
 /// The approximate distance to a body, negative inside.
 using Field = std::function<double(const glm::dvec3&)>;
 
-/// The field of an ellipsoid along the axes, exact on its surface.
+/// Returns the field of an axis-aligned ellipsoid, exact on its surface.
 double ellipsoid_field(const glm::dvec3& place, const glm::dvec3& center,
                        const glm::dvec3& half_axes);
 /// A limb: the balls of radii between `from_radius` and `to_radius` along a line.
@@ -21,26 +21,26 @@ struct Limb {
   double to_radius;
 };
 double limb_field(const glm::dvec3& place, const Limb& limb);
-/// The union of two bodies, with the seam filled in over a distance of about `blend`.
+/// Returns the union of two bodies, with the seam filled in over a distance of about `blend`.
 double joined(double a, double b, double blend);
 
-/// The surface of the field inside a box, as quads whose corners lie on it, one for each cube of
-/// side `cell` that it crosses (surface nets: Gibson 1998). It faces the positive side of the
-/// field. The body must end inside the box and be thicker than a cell.
+/// Returns the surface of the field inside a box, as quads whose corners lie on it, one for each
+/// cube of side `cell` that it crosses (surface nets: Gibson 1998). It faces the positive side of
+/// the field. The body must end inside the box and be thicker than a cell.
 PolygonMesh implicit_surface(const Field& field, const glm::dvec3& lower, const glm::dvec3& upper,
                              double cell);
 
-/// Returns the number of the color region that a place of the surface belongs to.
+/// Returns the number of the color region that a point of the surface belongs to.
 using Region = std::function<int(const glm::dvec3&)>;
 
-/// Moves vertices of triangles over the surface onto the borders between regions, so that a border
-/// is a line of edges wherever that does not flip a triangle.
+/// Moves vertices of triangles along the surface onto the borders between regions, so that borders
+/// are lines of edges wherever this does not flip a triangle.
 PolygonMesh drawn_to_borders(PolygonMesh mesh, const Field& surface, const Region& region);
 
-/// Removes the polygons with all corners inside the body, for parts that grow out of it.
+/// Removes the polygons with all corners inside the body, for parts that protrude from it.
 PolygonMesh outside(const PolygonMesh& mesh, const Field& body);
 
-/// The mean of a polygon's corners.
+/// Returns the mean of a polygon's corners.
 glm::dvec3 middle(const PolygonMesh& mesh, std::size_t polygon);
 
 }  // namespace beambench::scenes::modelling

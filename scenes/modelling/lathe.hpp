@@ -19,8 +19,8 @@ class Profile {
   /// Adds a parabola in `steps` pieces whose middle is `bulge` outside the straight line (to the
   /// right of its direction, upward); a negative bulge is inside.
   Profile& curve(const glm::dvec2& to, double bulge, int steps);
-  /// Adds a ball around a place on the axis, from the height at which its surface has the present
-  /// point's radius to its top, in `steps` pieces. The present point must be at or below that
+  /// Adds a ball around a place on the axis, from the height at which its surface has the current
+  /// point's radius to its top, in `steps` pieces. The current point must be at or below that
   /// height.
   Profile& ball(double center, double radius, int steps);
 
@@ -30,10 +30,10 @@ class Profile {
   std::vector<glm::dvec2> points_;
 };
 
-/// The profile's points (radius, height) revolved in `sides` steps, the first at `first_turn` of a
-/// full turn. Drawn upward on the outside, the surface faces outward. Each piece of the profile
-/// gives a ring of flat quads, of triangles where one end has radius 0; a piece with both ends on
-/// the axis gives none. Ends whose radius is not 0 stay open.
+/// Returns the profile's points (radius, height) revolved in `sides` steps, the first at
+/// `first_turn` of a full turn. If the profile is drawn upward, the surface faces outward. Each
+/// piece of the profile becomes a ring of flat quads, or of triangles if one end has radius 0; a
+/// piece with both ends on the axis is skipped. Ends with a nonzero radius stay open.
 PolygonMesh lathe(std::span<const glm::dvec2> profile, int sides, double first_turn = 0.0);
 
 }  // namespace beambench::scenes::modelling

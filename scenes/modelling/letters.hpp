@@ -8,16 +8,17 @@
 namespace beambench::scenes::modelling {
 
 /// The outline of a capital letter, 1 high from the baseline y = 0, its left edge at x = 0 and its
-/// right edge at x = `width`. Straight strokes 0.22 wide with cut corners; A, B and O are two
-/// concave polygons around their holes. There are A, B, E, G, I, L, O and T; any other letter
-/// throws std::invalid_argument.
+/// right edge at x = `width`. Strokes are straight, 0.22 wide, with cut corners; A, B and O are two
+/// concave polygons around their holes. A, B, E, G, I, L, O and T exist; any other letter throws
+/// std::invalid_argument.
 struct Letter {
   FlatShape shape;
   double width;
 };
 Letter letter(char name);
 
-/// A line of letters and blanks, `height` high from y = 0, starting at x = 0, from z = 0 to depth.
+/// Returns a line of letters and blanks, `height` high from y = 0, starting at x = 0, from z = 0 to
+/// depth.
 PolygonMesh extruded_text(std::string_view text, double height, double depth,
                           Ends ends = Ends::kBoth);
 /// Returns the width of that line.

@@ -10,12 +10,12 @@ namespace beambench::scenes::modelling {
 /// A point for (u, v) in [0, 1]^2; the surface faces du x dv.
 using SurfaceFunction = std::function<glm::dvec3(double u, double v)>;
 
-/// A grid of u_steps x v_steps quads over the function; closed where opposite edges coincide, with
-/// triangles where a row shrinks to a point (the grid is welded).
+/// Returns a grid of u_steps x v_steps quads over the function, welded: closed where opposite edges
+/// coincide, with triangles where a row shrinks to a point.
 PolygonMesh parametric_surface(const SurfaceFunction& surface, int u_steps, int v_steps);
 
-/// The ellipsoid around the origin with these half-axes: `slices` around z, `stacks` from pole to
-/// pole, triangles at the poles.
+/// Returns the ellipsoid around the origin with these half-axes: `slices` around z, `stacks` from
+/// pole to pole, triangles at the poles.
 PolygonMesh ellipsoid(const glm::dvec3& half_axes, int slices, int stacks);
 
 }  // namespace beambench::scenes::modelling

@@ -1,5 +1,5 @@
 #pragma once
-// Polygon meshes, which the functions of this folder take and return.
+// Polygon meshes, the type that the functions in this folder take and return.
 //
 // A generator models in double and hands the result to a `SceneBuilder`, which rounds once:
 //   polygon_mesh.hpp        the value; append, transform, weld
@@ -12,10 +12,11 @@
 //   parametric_surface.hpp  a grid of quads over a function of two parameters; ellipsoid
 //   implicit_surface.hpp    the zero set of a field
 //   subdivide.hpp           triangulated; subdivided_to: exactly n polygons
-//   add_mesh.hpp            into the scene, flat or smooth Meshes face outward (counter-clockwise
-//   seen from outside) and hold only visible surfaces: callers can leave out caps and bottoms. To
-//   reach an exact number of polygons, model with slightly fewer, then call `subdivided_to(mesh,
-//   n)`.
+//   add_mesh.hpp            into the scene, flat or smooth
+//
+// Meshes face outward (counter-clockwise seen from outside) and hold only visible surfaces: callers
+// can leave out caps and bottoms. To reach an exact number of polygons, model with slightly fewer,
+// then call `subdivided_to(mesh, n)`.
 
 #include <cstddef>
 #include <cstdint>
@@ -42,20 +43,20 @@ struct PolygonMesh {
 /// Adds all of `more`, with separate vertices.
 void append(PolygonMesh& mesh, const PolygonMesh& more);
 
-/// The mesh moved by an affine transform; windings are reversed where it mirrors.
+/// Returns the mesh moved by an affine transform; windings are reversed if it mirrors.
 PolygonMesh transformed(PolygonMesh mesh, const glm::dmat4& transform);
 
-/// The mesh seen from the other side: every winding reversed.
+/// Returns the mesh turned inside out: every winding reversed.
 PolygonMesh turned_inside_out(PolygonMesh mesh);
 
-/// Newell's normal of a polygon, its length being twice the polygon's area.
+/// Returns Newell's normal of a polygon; its length is twice the polygon's area.
 glm::dvec3 area_normal(const PolygonMesh& mesh, const PolygonMesh::Corners& corners);
 
 using beambench::rotation;
 
-/// Merges vertices that are nearer to each other than 1e-9 of the mesh's largest coordinate into
-/// the first of them, so that edges are shared. Corners that coincide with the one before are
-/// dropped, and so are polygons left with fewer than three.
+/// Merges vertices closer together than 1e-9 of the mesh's largest coordinate into the first of
+/// them, so that edges are shared. Corners that coincide with the previous one are dropped, as are
+/// polygons left with fewer than three.
 PolygonMesh welded(const PolygonMesh& mesh);
 
 }  // namespace beambench::scenes::modelling

@@ -32,7 +32,7 @@ bool is_convex(const PolygonMesh& mesh, const Corners& corners) {
   return true;
 }
 
-/// The corners from position `from` to position `to`, both included, in cyclic order.
+/// Returns the corners from position `from` to position `to`, inclusive, in cyclic order.
 Corners part(const Corners& corners, std::size_t from, std::size_t to) {
   Corners result = {corners[from]};
   for (std::size_t i = from; i != to;) {
@@ -80,7 +80,7 @@ class Subdivider {
     }
   }
 
-  /// The largest convex polygon, of equal ones the first.
+  /// Returns the largest convex polygon; of equal ones, the first.
   std::uint32_t next() {
     while (!largest_.empty()) {
       const auto [size, complement] = largest_.top();
@@ -214,7 +214,7 @@ PolygonMesh triangulated(const PolygonMesh& mesh) {
 }
 
 PolygonMesh subdivided_to(PolygonMesh mesh, std::size_t count) {
-  // A difference below zero arrives as a huge number.
+  // A negative difference arrives as a huge number.
   constexpr std::size_t kMaxPolygons = 100'000'000;
   if (count > kMaxPolygons) {
     throw std::invalid_argument(

@@ -18,7 +18,7 @@ void add_flat_quad(PolygonMesh& mesh, const Rectangle& place, double z) {
   mesh.polygons.push_back({first, first + 1, first + 2, first + 3});
 }
 
-/// The front, cut along all the openings' edges.
+/// The front, cut along the edges of all openings.
 PolygonMesh front(const glm::dvec2& size, std::span<const Rectangle> openings) {
   std::set<double> across = {0.0, size.x};
   std::set<double> up = {0.0, size.y};

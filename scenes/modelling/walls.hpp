@@ -15,20 +15,21 @@ struct Rectangle {
   glm::dvec2 lower, upper;
 };
 
-/// The rectangle from (0, 0) to `size` in the plane z = 0, facing +z, without the openings, and the
-/// openings' sides down to z = -depth. Openings must not touch one another; an opening that reaches
-/// the wall's edge has no side there.
+/// Returns the rectangle from (0, 0) to `size` in the plane z = 0, facing +z, without the openings,
+/// plus the openings' sides down to z = -depth. Openings must not touch one another; an opening
+/// that reaches the wall's edge has no side there.
 PolygonMesh recessed(const glm::dvec2& size, std::span<const Rectangle> openings, double depth);
 
-/// Quads that close the openings, at z = -depth.
+/// Returns quads that close the openings, at z = -depth.
 PolygonMesh openings_filled(std::span<const Rectangle> openings, double depth);
 
-/// columns x rows equal openings in the rectangle, with bars of the same width around all of them.
+/// Returns columns x rows equal openings in the rectangle, with bars of equal width around all of
+/// them.
 std::vector<Rectangle> panes(const glm::dvec2& size, int columns, int rows, double bar);
 
-/// A profile of points (inset, z) swept around the rectangle from (0, 0) to `size`, with mitered
-/// corners: four quads from each point to the next, along y = 0, x = size.x, y = size.y and x = 0
-/// in that order. It faces up where the profile goes inward.
+/// Returns a profile of points (inset, z) swept around the rectangle from (0, 0) to `size`, with
+/// mitered corners: four quads from each point to the next, along y = 0, x = size.x, y = size.y and
+/// x = 0 in that order. It faces up where the profile goes inward.
 PolygonMesh molding(const glm::dvec2& size, std::span<const glm::dvec2> profile);
 
 /// Removes one of the rectangle's sides (0 ... 3, in the order above).

@@ -175,7 +175,7 @@ TEST_F(GltfAnimations, LongOnesHaveAThousandFrames) {
   const Animation animation = load(file);
   EXPECT_EQ(animation.frames, 1000U);
   ASSERT_EQ(warnings_.size(), 1U);
-  EXPECT_TRUE(says(warnings_[0], {"999 s", "1000 frames", "in place of 23977"}));
+  EXPECT_TRUE(says(warnings_[0], {"999 s", "1000 frames", "instead of 23977"}));
   expect_near(corners(file, 400)[0], {400, 0, 0});
 }
 

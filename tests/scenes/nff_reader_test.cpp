@@ -362,7 +362,7 @@ INSTANTIATE_TEST_SUITE_P(
         Malformed{"cut_in_sphere", "b 0 0 0\ns 0 0", 2, "ends where the sphere's center"},
         Malformed{"cut_before_radius", "s 0 0 0\n\n", 3, "ends where the sphere's radius"},
         Malformed{"cut_in_polygon", "p 3\n0 0 0\n1 0 0\n0 1", 1, "cut off"},
-        Malformed{"next_command_too_early", "s 0 0 0\ns 0 0 0 1\n", 2, "'s' stands where"},
+        Malformed{"next_command_too_early", "s 0 0 0\ns 0 0 0 1\n", 2, "found 's' where"},
         Malformed{"not_a_number", "s 0 0 0 1\ns 0 0 zero 1\n", 2, "'zero'"},
         Malformed{"half_a_number", "s 0 0 0 1.2.3\n", 1, "'1.2.3'"},
         Malformed{"decimal_comma", "s 0,5 0 0 1\n", 1, "'0,5'"},

@@ -236,7 +236,7 @@ TEST(Ply, AWrongHeaderIsRefusedWithItsLine) {
       {"uchar int", "uchar", {"line 9: ", "'vertex_indices' is not a property type"}},
       {"element vertex 4\n", "", {"line 4: ", "before the first element"}},
       {"float z", "float w", {"element 'vertex' without 'z'"}},
-      {"float z", "list uchar float z", {"'z' in place of a number"}},
+      {"float z", "list uchar float z", {"'z' instead of a number"}},
       {"list uchar int vertex_indices",
        "int vertex_indices",
        {"'vertex_indices' that is not a list"}},

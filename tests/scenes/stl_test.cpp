@@ -110,16 +110,16 @@ TEST(Stl, ALoopOfOtherThanThreeVerticesIsRefused) {
   EXPECT_TRUE(says(stl_refusal(solid("vertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 0\n")),
                    {"a.stl: line 7: ", "more than three vertices", "triangles"}));
   EXPECT_TRUE(says(stl_refusal(solid("vertex 0 0 0\nvertex 1 0 0\n")),
-                   {"a.stl: line 6: ", "'endloop' stands where 'vertex' must be"}));
+                   {"a.stl: line 6: ", "found 'endloop' where 'vertex' must be"}));
 }
 
 TEST(Stl, AnInvalidNumberIsRefusedWithItsLine) {
   for (const char* word : {"1.#QNAN", "1,5", "x", "1e", "0x1"}) {
     EXPECT_TRUE(says(stl_refusal(one_facet(fmt::format("0 {} 0", word))),
-                     {"a.stl: line 4: ", fmt::format("'{}' stands where", word), "number"}));
+                     {"a.stl: line 4: ", fmt::format("found '{}' where", word), "number"}));
   }
-  EXPECT_TRUE(says(stl_refusal(one_facet("0 0")), {"line 5: ", "'vertex' stands where", "number"}));
-  EXPECT_TRUE(says(stl_refusal(one_facet("0 0 0 0")), {"line 4: ", "'0' stands where 'vertex'"}));
+  EXPECT_TRUE(says(stl_refusal(one_facet("0 0")), {"line 5: ", "found 'vertex' where", "number"}));
+  EXPECT_TRUE(says(stl_refusal(one_facet("0 0 0 0")), {"line 4: ", "found '0' where 'vertex'"}));
   EXPECT_TRUE(says(stl_refusal(one_facet("nan 0 0")), {"coordinate nan", "1e9"}));
 }
 
@@ -135,10 +135,10 @@ TEST(Stl, WordsOutOfPlaceAreRefusedWithTheirLine) {
                                                         {"endsolid", "color 1 0 0\nendsolid"},
                                                         {"facet", "polygon"}}) {
     EXPECT_TRUE(says(stl_refusal(with_count(one_facet(), old, by)),
-                     {"a.stl: line ", " stands where '", "' must be"}))
+                     {"a.stl: line ", ": found '", "' must be"}))
         << by;
   }
-  EXPECT_TRUE(says(stl_refusal(one_facet() + "more"), {"line 10: 'more' stands where 'solid'"}));
+  EXPECT_TRUE(says(stl_refusal(one_facet() + "more"), {"line 10: found 'more' where 'solid'"}));
 }
 
 TEST(Stl, ATextThatIsCutOffAnywhereIsRefused) {

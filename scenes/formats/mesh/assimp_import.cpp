@@ -30,8 +30,8 @@
 namespace beambench::scenes::mesh {
 namespace {
 
-/// Serves the mesh file from memory and its companions, read-only. Outlives everything that Assimp
-/// reads through it.
+/// Serves the mesh file from memory, and its companions, read-only. Must outlive all of Assimp's
+/// reads.
 class AssimpFiles : public Assimp::IOSystem {
  public:
   /// Serves `bytes` as the mesh `name` in the folder of the companions. The bytes and the
@@ -53,7 +53,7 @@ class AssimpFiles : public Assimp::IOSystem {
   std::filesystem::path relative(const std::filesystem::path& name) const {
     return name.lexically_relative(companions_->folder());
   }
-  /// Returns nothing for a companion that cannot or must not be read; the effect of that depends on
+  /// Returns nothing for a companion that cannot or must not be read; the effect depends on
   /// Assimp's importer.
   std::string_view companion_bytes(const char* name) {
     try {
@@ -72,13 +72,13 @@ Assimp::IOStream* AssimpFiles::Open(const char* name, const char* mode) {
   if (std::string_view(mode).find_first_of("wa+") != std::string_view::npos) return nullptr;
   const std::string_view bytes = name == name_ ? bytes_ : companion_bytes(name);
   if (bytes.empty()) return nullptr;
-  // Assimp hands it back to Close.
+  // Assimp passes it back to Close.
   return std::make_unique<Assimp::MemoryIOStream>(
              reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size())
       .release();
 }
 
-/// Incremented whenever this file, or what it calls, reads a mesh differently.
+/// Incremented whenever this file or its callees read a mesh differently.
 constexpr int kOwnVersion = 2;
 
 constexpr unsigned kSteps =
@@ -95,8 +95,8 @@ bool is_default(const aiMaterial& material) {
          std::string_view(name.C_Str()) == AI_DEFAULT_MATERIAL_NAME;
 }
 
-/// Color and transparency of a material. A black material with a texture gets the gray of an
-/// average texture.
+/// Returns a material's color and transparency. A black material with a texture gets an average
+/// texture's gray.
 Surface surface_of(const aiMaterial& material) {
   Surface surface = clay();
   aiColor3D color;
@@ -114,7 +114,7 @@ Surface surface_of(const aiMaterial& material) {
   return surface;
 }
 
-/// Moves one of Assimp's meshes over. Returns how many of its faces are points or lines.
+/// Transfers one of Assimp's meshes. Returns how many of its faces are points or lines.
 std::size_t collect(const aiMesh& mesh, MeshCollector& collector) {
   std::size_t others = 0;
   for (const aiFace& face : std::span(mesh.mFaces, mesh.mNumFaces)) {
@@ -163,7 +163,7 @@ ImportedMesh import_by_assimp(std::string_view bytes, const std::string& ending,
 
   MeshCollector collector;
   std::size_t others = 0;
-  try {  // puts the file's name before an error
+  try {  // prefixes errors with the file's name
     for (const aiMesh* mesh : std::span(scene.mMeshes, scene.mNumMeshes)) {
       const bool known = mesh->mMaterialIndex < scene.mNumMaterials;
       collector.set_surface(known ? surface_of(*scene.mMaterials[mesh->mMaterialIndex]) : clay());

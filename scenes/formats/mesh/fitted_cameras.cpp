@@ -17,11 +17,11 @@ namespace beambench::scenes::mesh {
 namespace {
 
 constexpr double kMargin = 1.08;
-/// The smallest distance between an eye and what it looks at, relative to the size of the
-/// coordinates: any nearer, the two might be the same place in float.
+/// The minimum distance between an eye and its target, relative to the size of the coordinates: any
+/// closer, the two might coincide in float.
 constexpr double kMinDistance = 1e-5;
 
-/// A direction by its parts to the right, to the top and to the front of the mesh.
+/// A direction given by its components toward the right, the top and the front of the mesh.
 struct View {
   const char* name;
   glm::dvec3 from;
@@ -54,9 +54,9 @@ ImageAxes image_axes(const View& view, const Orientation& mesh) {
   return axes;
 }
 
-/// The necessary shift of an eye at (u, v, distance), sideways and back, so that all points lie
-/// within `slope` on all sides. For a point (x, z) this means that x - u and u - x are at most
-/// slope (distance - z).
+/// The shift of an eye at (u, v, distance), sideways and back, that brings all points within
+/// `slope` on all sides. For a point (x, z) this means that x - u and u - x are at most slope
+/// (distance - z).
 struct Fit {
   double u = 0.0;
   double v = 0.0;

@@ -83,7 +83,7 @@ double integer_at(const unsigned char* bytes, std::size_t index, bool normalized
   return normalized ? std::max(number / std::numeric_limits<T>::max(), -1.0) : number;
 }
 
-/// Returns one of the numbers of an element.
+/// Returns one component of an element.
 double component_at(const unsigned char* bytes, std::size_t index,
                     const tinygltf::Accessor& accessor) {
   switch (accessor.componentType) {

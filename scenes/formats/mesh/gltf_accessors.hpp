@@ -19,14 +19,14 @@ inline constexpr std::string_view kPrimitive = "a primitive";
 /// outlive the model.
 class GltfElements {
  public:
-  /// Throws InputError with the accessor's name and that of what uses it if it does not exist, is
-  /// not wholly within its buffer, or does not define its elements. Allocates memory only for
-  /// sparse elements, which are in the file.
+  /// Throws InputError with the names of the accessor and its user if it does not exist, is not
+  /// entirely within its buffer, or does not define its elements. Allocates memory only for sparse
+  /// elements, which are in the file.
   GltfElements(const tinygltf::Model& model, int accessor, std::string_view user = kPrimitive);
 
   std::size_t size() const { return count_; }
   const tinygltf::Accessor& accessor() const { return *accessor_; }
-  /// The bytes of one of them.
+  /// Returns the bytes of one element.
   const unsigned char* at(std::size_t index) const;
 
  private:

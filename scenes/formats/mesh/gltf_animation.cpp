@@ -18,7 +18,7 @@ namespace {
 
 using Value = std::array<double, 4>;
 
-/// Returns the sum of both times their factors.
+/// Returns the weighted sum of both.
 Value sum(double a_factor, const Value& a, double b_factor, const Value& b) {
   Value result{};
   for (std::size_t i = 0; i < result.size(); ++i) result[i] = a_factor * a[i] + b_factor * b[i];
@@ -34,15 +34,15 @@ Value normalized(const Value& value) {
   return length > 0.0 ? sum(1.0 / length, value, 0.0, value) : Value{0.0, 0.0, 0.0, 1.0};
 }
 
-/// The angle in [0, pi / 4] with this sine, by Newton's method: the library's arcsine may differ in
-/// its last bits between machines.
+/// Returns the angle in [0, pi / 4] with this sine, by Newton's method: the library's arcsine may
+/// differ in its last bits between machines.
 double portable_small_arcsine(double sine) {
   double angle = sine;
   for (int i = 0; i < 6; ++i) angle -= (portable_sin(angle) - sine) / portable_cos(angle);
   return angle;
 }
 
-/// Between two rotations, the shorter way around.
+/// Interpolates between two rotations, the shorter way around.
 Value slerp(const Value& from, const Value& to, double share) {
   const Value a = normalized(from);
   Value b = normalized(to);
@@ -55,7 +55,7 @@ Value slerp(const Value& from, const Value& to, double share) {
       sum(portable_sin((1.0 - share) * angle) / sine, a, portable_sin(share * angle) / sine, b));
 }
 
-/// glTF 2.0, appendix C: a Hermite spline over an interval of that length.
+/// Evaluates a Hermite spline over an interval of that length (glTF 2.0, appendix C).
 Value cubic(const Value* from, const Value* to, double share, double length) {
   const double s = share;
   const double s2 = s * s;

@@ -12,27 +12,28 @@
 
 namespace beambench::scenes::mesh {
 
-/// An animation: the values that its channels give to nodes at a time.
+/// An animation: the values that its channels assign to nodes at a time.
 class GltfAnimation {
  public:
-  /// Reads it. Throws InputError naming the channel or sampler if it is malformed: an accessor that
-  /// is missing or of another type, times that are not finite or do not increase, values that are
-  /// not finite or not one (three, for CUBICSPLINE) for each time, an unknown interpolation, two
-  /// channels for the same, or a node with a matrix.
+  /// Reads an animation. Throws an InputError that names the channel or sampler if it is malformed:
+  /// an accessor that is missing or of another type, times that are not finite or do not increase,
+  /// values that are not finite or not one per time (three for CUBICSPLINE), an unknown
+  /// interpolation, two channels for the same target, or a node with a matrix.
   GltfAnimation(const tinygltf::Model& model, int number);
 
-  /// Returns the last of its times, in seconds.
+  /// Returns the last time, in seconds.
   double duration() const { return duration_; }
   /// Returns whether a channel moves, turns or scales the node.
   bool moves(int node) const {
     const auto target = targets_.lower_bound({node, Path::kTranslation});
     return target != targets_.end() && target->first == node;
   }
-  /// Returns how many channels change something else: morph targets, or what an extension defines.
+  /// Returns how many channels change anything else: morph targets, or targets defined by
+  /// extensions.
   std::size_t others() const { return others_; }
 
-  /// Gives the nodes their translations, rotations and scales at a time. Before the first and after
-  /// the last time of a channel, its first and last value hold.
+  /// Sets the nodes' translations, rotations and scales at a time. Before a channel's first time
+  /// and after its last, its first and last value apply.
   void pose(std::vector<tinygltf::Node>& nodes, double time) const;
 
  private:

@@ -45,7 +45,7 @@ void require_known_extensions(const tinygltf::Model& model) {
   }
 }
 
-/// tinygltf's messages as one clause.
+/// Returns tinygltf's messages as one clause.
 std::string one_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
@@ -81,7 +81,7 @@ std::vector<std::string> uris_of_buffer_files(std::string_view bytes) {
   return uris;
 }
 
-/// Returns the text with each `%HH` as the byte that it stands for (RFC 3986, 2.1).
+/// Returns the text with each `%HH` decoded (RFC 3986, 2.1).
 std::string percent_decoded(std::string_view text) {
   std::string decoded;
   for (; !text.empty(); text.remove_prefix(1)) {
@@ -98,7 +98,7 @@ std::string percent_decoded(std::string_view text) {
   return decoded;
 }
 
-/// The state of the callbacks with which tinygltf reads files: the file itself, its companions, how
+/// The state of the callbacks that read files for tinygltf: the file itself, its companions, how
 /// many buffers were read, and why one of them was refused.
 struct Buffers {
   std::string_view file;
@@ -108,7 +108,7 @@ struct Buffers {
   std::optional<std::string> refusal{};
 
   /// Returns the name of the next buffer's file. tinygltf provides it too, but replaces '+' with a
-  /// blank and whatever follows a '%' with a byte. Some exporters write names unencoded, such as
+  /// blank and decodes anything after a '%'. Some exporters write names unencoded, such as
   /// Blender's '%'.
   std::string next_name() {
     if (read == 0) uris = uris_of_buffer_files(file);
@@ -206,7 +206,7 @@ tinygltf::Model read_gltf(std::string_view bytes, MeshCompanions& companions) {
   } catch (const std::exception& thrown) {  // from the JSON library, or a list index out of range
     error = thrown.what();
   }
-  require_known_extensions(model);  // before an error that is only a consequence
+  require_known_extensions(model);  // before reporting an error that is only a consequence
   if (buffers.refusal) throw InputError(*buffers.refusal);
   if (!done) refuse_gltf(one_line(error));
   if (!model.asset.version.starts_with("2")) {

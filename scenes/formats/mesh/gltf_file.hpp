@@ -17,16 +17,16 @@ namespace beambench::scenes::mesh {
 /// geometry (the message names it), or if a buffer cannot be read or is not in the file's folder.
 tinygltf::Model read_gltf(std::string_view bytes, MeshCompanions& companions);
 
-/// Throws InputError: the file is readable but contradicts itself or glTF.
+/// Throws InputError for a file that is readable but contradicts itself or the glTF specification.
 [[noreturn]] void refuse_gltf(std::string_view why);
 
-/// Returns the list element that an index of the file refers to; `what` and `user` are for the
+/// Returns the list element that an index in the file refers to; `what` and `user` are for the
 /// message: "node", "scene 0". Throws InputError if there is none.
 template <typename T>
 const T& element_of(const std::vector<T>& list, int index, std::string_view what,
                     std::string_view user);
 
-/// Throws InputError: `user` refers to an element that does not exist.
+/// Throws InputError because `user` refers to an element that does not exist.
 [[noreturn]] void refuse_index(int index, std::size_t size, std::string_view what,
                                std::string_view user);
 

@@ -37,11 +37,11 @@
 namespace beambench::scenes::mesh {
 namespace {
 
-/// Incremented whenever this file, or what it calls, reads a mesh differently.
+/// Incremented whenever this file or its callees read a mesh differently.
 constexpr int kOwnVersion = 2;
 
-/// A short file may place a mesh many times. If it would have more triangles than this, or more
-/// vertices of the primitives that have them, it is refused before any are made: as a scene, it
+/// A short file may place a mesh many times. If there would be more triangles than this, or more
+/// vertices in primitives with triangles, the file is refused before any are made: as a scene, it
 /// would need more than 20 GB.
 constexpr std::size_t kMaxTriangles = std::size_t{1} << 28U;
 
@@ -51,11 +51,11 @@ constexpr const char* kPosition = "POSITION";
 struct PlacedPrimitive {
   const tinygltf::Primitive* primitive;
   int positions;
-  std::size_t corners;    ///< how many its triangles are made of
+  std::size_t corners;    ///< number of its triangles' corners
   std::size_t triangles;  ///< 0 for points and lines
 };
 
-/// Parts of the file that are left out, or that differ in the scene.
+/// Parts of the file that are left out or that differ in the scene.
 struct Notes {
   std::size_t points_and_lines = 0;
   std::size_t masked_triangles = 0;
@@ -84,7 +84,7 @@ std::size_t triangle_count(int mode, std::size_t corners, std::string_view name)
   return corners / 3;
 }
 
-/// The corners of one triangle of a list, a strip or a fan, all wound alike.
+/// Returns the corners of one triangle of a list, strip or fan, with uniform winding.
 std::array<std::size_t, 3> corners_of(int mode, std::size_t triangle) {
   if (mode == TINYGLTF_MODE_TRIANGLES) return {3 * triangle, 3 * triangle + 1, 3 * triangle + 2};
   if (mode == TINYGLTF_MODE_TRIANGLE_FAN) return {triangle + 1, triangle + 2, 0};
@@ -92,7 +92,7 @@ std::array<std::size_t, 3> corners_of(int mode, std::size_t triangle) {
   return {triangle, triangle + 1 + odd, triangle + 2 - odd};
 }
 
-/// Inspects a primitive without reading it. Returns nothing for one that has no positions and so no
+/// Inspects a primitive without reading it. Returns nothing if it has no positions and thus no
 /// shape.
 std::optional<PlacedPrimitive> look_at(const tinygltf::Model& model,
                                        const tinygltf::Primitive& primitive,
@@ -163,7 +163,7 @@ class GltfCollector {
   ImportedMesh collect() && {
     collector_.reserve(std::min(vertices_, 3 * triangles_), triangles_);
     for (const Instance& instance : instances_) {
-      // Primitives of a mesh may have the same positions, but with a skin not the same weights.
+      // Primitives of a mesh may share positions but, with a skin, not their weights.
       std::map<std::pair<int, std::size_t>, SharedVertices> shared;
       for (std::size_t i = 0; i < instance.primitives.size(); ++i) {
         const PlacedPrimitive& placed = instance.primitives[i];
@@ -195,13 +195,13 @@ class GltfCollector {
   struct Instance {
     const PlacedNode* node = nullptr;
     std::optional<std::uint32_t>
-        matrix{};  ///< of the node or its skin's first joint; else it stays
+        matrix{};  ///< of the node or its skin's first joint; empty: it is static
     std::vector<PlacedPrimitive> primitives{};
   };
 
   static bool has_skin(const Instance& instance) { return instance.node->node->skin >= 0; }
 
-  /// Calls visit(vertex, rest, influences) for the vertices of a moved instance for which `wanted`.
+  /// Calls visit(vertex, rest, influences) for the `wanted` vertices of a moved instance.
   template <typename Wanted, typename Visit>
   void for_each_moved(const Instance& instance, const PlacedPrimitive& placed, Wanted wanted,
                       Visit visit) const {

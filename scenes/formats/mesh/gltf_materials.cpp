@@ -37,7 +37,7 @@ double number_in(const tinygltf::Value& object, const std::string& name, double 
   return object.Get(name).GetNumberAsDouble();
 }
 
-/// Linear color and alpha, and whether a texture tints them.
+/// Linear color and alpha, and whether a texture modifies them.
 struct BaseColor {
   glm::dvec4 factor{1.0};
   bool has_texture = false;

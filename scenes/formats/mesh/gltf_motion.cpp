@@ -11,7 +11,7 @@
 namespace beambench::scenes::mesh {
 namespace {
 
-/// Bounds on time and memory: nodes placed in all frames, and matrices kept.
+/// Bounds on time and memory: node placements over all frames, and stored matrices.
 constexpr std::size_t kMaxPlacements = std::size_t{1} << 24U;
 constexpr std::size_t kMaxMatrices = std::size_t{1} << 21U;
 
@@ -64,7 +64,7 @@ void GltfMotion::choose_frames(std::vector<std::string>& warnings) {
     frames_ = static_cast<std::uint32_t>(most);
     step_ = duration / static_cast<double>(most - 1);
     warnings.push_back(
-        fmt::format("its animation of {:.6g} s has {} frames, evenly over it, in place of {:.0f}",
+        fmt::format("its animation of {:.6g} s has {} frames, evenly spaced, instead of {:.0f}",
                     duration, most, wanted));
     return;
   }

@@ -1,5 +1,5 @@
 #pragma once
-// What moves in a glTF file: its frames, and the matrices of nodes and joints.
+// The motion in a glTF file: its frames, and the matrices of nodes and joints.
 
 #include <cstdint>
 #include <map>
@@ -18,36 +18,36 @@
 
 namespace beambench::scenes::mesh {
 
-/// Frames are this many per second.
+/// Frames per second.
 inline constexpr double kFrameRate = 24.0;
-/// A longer animation has this many frames, evenly over its duration.
+/// The maximum number of frames; a longer animation has this many, evenly spaced.
 inline constexpr std::uint32_t kMaxFrames = 1000;
 
-/// The first animation of a file, sampled at times from 0 on, and the matrices by which its meshes
-/// move.
+/// The first animation of a file, sampled at times from 0 on, and the matrices that move its
+/// meshes.
 class GltfMotion {
  public:
-  /// Puts the model's nodes where they are in frame 0. Appends warnings about what is left out.
-  /// Throws InputError as `GltfAnimation` and `placed_nodes`. The model must stay alive.
+  /// Moves the model's nodes to frame 0. Appends warnings about omitted parts. Throws like
+  /// `GltfAnimation` and `placed_nodes`. The model must outlive this object.
   GltfMotion(tinygltf::Model& model, std::vector<std::string>& warnings);
 
   std::uint32_t frames() const { return frames_; }
-  /// Returns the nodes as in frame 0.
+  /// Returns the nodes in frame 0.
   std::span<const PlacedNode> nodes() const { return nodes_; }
   /// Returns whether the node or one above it moves.
   bool moves(const PlacedNode& node) const;
 
-  /// Returns the number of the matrix that places the node in each frame.
+  /// Returns the index of the matrix that places the node in each frame.
   std::uint32_t matrix_of(const PlacedNode& node);
-  /// Returns the number of the matrix of a skin's first joint; those of the others follow. Throws
-  /// InputError naming the skin if it has no joints, one of them is not in the scene, or its
-  /// matrices are not as they must be.
+  /// Returns the index of the matrix of a skin's first joint; those of the other joints follow.
+  /// Throws an InputError that names the skin if it has no joints, a joint is not in the scene, or
+  /// its matrices are invalid.
   std::uint32_t matrices_of_skin(int skin);
-  /// Returns the matrices as in frame 0.
+  /// Returns the matrices in frame 0.
   std::span<const glm::dmat4> matrices() const { return matrices_; }
 
-  /// Returns those of all frames; the nodes end up in the last. Frames that would need too much
-  /// memory were left out by the constructor.
+  /// Returns the matrices of all frames, leaving the nodes in the last. The constructor has omitted
+  /// frames that would need too much memory.
   std::vector<glm::dmat4> all_matrices();
 
  private:
@@ -79,9 +79,9 @@ class GltfWeights {
   GltfWeights(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
               std::size_t vertices);
 
-  /// Appends the influences of a vertex, whose weights are scaled to the sum 1; if all are 0, its
-  /// first joint has all of it. Throws InputError if a weight is negative or not finite, or there
-  /// is no such joint.
+  /// Appends the influences of a vertex, with weights scaled to a sum of 1; if all are 0, the first
+  /// joint gets the weight 1. Throws InputError if a weight is negative or not finite, or if a
+  /// joint does not exist.
   void append(std::size_t vertex, std::uint32_t first_matrix, std::size_t joints,
               std::vector<Influence>& influences) const;
 

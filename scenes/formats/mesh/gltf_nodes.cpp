@@ -13,7 +13,7 @@
 namespace beambench::scenes::mesh {
 namespace {
 
-/// Requires the length that glTF prescribes for a list of numbers, or no list.
+/// Requires that a list of numbers have the length that glTF prescribes, or be missing.
 void require_length(const std::vector<double>& list, std::size_t length, int node,
                     const char* name) {
   if (list.empty() || list.size() == length) return;
@@ -83,7 +83,7 @@ std::vector<PlacedNode> placed_nodes(const tinygltf::Model& model) {
       pending.push_back({*node, parent, to_world});
   };
   add(root_nodes(model), -1, glm::dmat4(1.0));
-  while (!pending.empty()) {  // no recursion: a file may nest its nodes arbitrarily deep
+  while (!pending.empty()) {  // no recursion: a file may nest nodes arbitrarily deep
     const Pending next = pending.back();
     pending.pop_back();
     const tinygltf::Node& node = element_of(model.nodes, next.node, "node", "a node or scene");

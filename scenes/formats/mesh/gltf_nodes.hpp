@@ -1,5 +1,5 @@
 #pragma once
-// The nodes of a glTF file's scene, with their places in the world.
+// The nodes of a glTF file's scene, with their placement in the world.
 
 #include <vector>
 
@@ -8,7 +8,7 @@
 
 namespace beambench::scenes::mesh {
 
-/// A node, and the matrix from its coordinates to those of the scene.
+/// A node, and the matrix from its coordinates to the scene's.
 struct PlacedNode {
   const tinygltf::Node* node;
   glm::dmat4 to_world;

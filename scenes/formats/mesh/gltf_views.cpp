@@ -27,7 +27,7 @@ double radius_of(const Bounds& bounds) {
   return 0.5 * glm::length(glm::dvec3(bounds.upper) - glm::dvec3(bounds.lower));
 }
 
-/// Returns the text with only the characters that a camera's name may have (see
+/// Returns the text reduced to the characters that a camera's name may have (see
 /// `SceneBuilder::add_camera`).
 std::string plain_name(std::string name) {
   std::replace_if(
@@ -83,7 +83,7 @@ Camera placed_camera(const tinygltf::PerspectiveCamera& lens, const PlacedNode& 
   return camera;
 }
 
-/// A light in its place, with its linear brightness at the scene's center.
+/// A placed light, with its linear brightness at the scene's center.
 struct PlacedLight {
   glm::dvec3 position;
   glm::dvec3 color;
@@ -91,7 +91,7 @@ struct PlacedLight {
 
 double brightest(const glm::dvec3& color) { return std::max({color.x, color.y, color.z}); }
 
-/// -1 for a node without a light.
+/// Returns the index of a node's light; -1 if it has none.
 int light_of(const tinygltf::Node& node) {
   const auto found = node.extensions.find("KHR_lights_punctual");
   if (found == node.extensions.end() || !found->second.Has("light")) return -1;

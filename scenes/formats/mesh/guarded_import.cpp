@@ -43,10 +43,10 @@ std::string out_of_memory(const std::filesystem::path& path, const ImportLimits&
       path.string(), static_cast<double>(limits.memory) / kGibi);
 }
 
-/// The mesh did not come in time.
+/// The mesh did not arrive in time.
 struct TooLate {};
 
-/// A process that claims to send a larger mesh than this has gone wrong.
+/// A process that claims to send a larger mesh than this is faulty.
 constexpr std::uint64_t kLargestReply = std::uint64_t{1} << 37U;
 
 /// The two ends of a pipe, closed at destruction.
@@ -112,7 +112,7 @@ class Pipe {
       const auto left =
           std::chrono::ceil<std::chrono::milliseconds>(deadline_ - Clock::now()).count();
       if (left <= 0) throw TooLate();
-      constexpr std::int64_t kLongestWait = 1'000'000;  // it is an int
+      constexpr std::int64_t kLongestWait = 1'000'000;  // the timeout is an int
       pollfd end{ends_[0], POLLIN, 0};
       const int ready =
           ::poll(&end, 1, static_cast<int>(std::min<std::int64_t>(left, kLongestWait)));
@@ -136,15 +136,15 @@ void keep_within(const ImportLimits& limits) {
   const auto seconds = static_cast<rlim_t>(limits.processor.count());
   const rlimit time{seconds, seconds + 1};
   ::setrlimit(RLIMIT_CPU, &time);
-  // Not the address space, because a sanitizer reserves terabytes of it; here, such reservations
-  // count, but exist before the limit is set.
+  // Not the address space, because sanitizers reserve terabytes of it. Such reservations also count
+  // here, but exist before the limit is set.
   if (const auto used = mapped_data_bytes()) {
     const rlimit memory{*used + limits.memory, RLIM_INFINITY};
     ::setrlimit(RLIMIT_DATA, &memory);
   }
 }
 
-/// Runs in the child: sends the mesh, or why there is none, and exits.
+/// Runs in the child: sends the mesh or the reason for its absence, and exits.
 [[noreturn]] void import_and_send(const Pipe& pipe, pid_t parent, std::string_view bytes,
                                   const std::string& ending, const std::filesystem::path& path,
                                   const ImportLimits& limits) {
@@ -152,8 +152,8 @@ void keep_within(const ImportLimits& limits) {
   if (::getppid() != parent) ::_exit(1);  // the parent has already exited
   keep_within(limits);
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
-  // A library's last messages are for its developers, and the contents of stdout's buffer are the
-  // parent's to write.
+  // A library's last messages are for its developers, and the parent writes the contents of
+  // stdout's buffer.
   ::dup2(nowhere, STDERR_FILENO);
   ::dup2(nowhere, STDOUT_FILENO);
   try {
@@ -202,7 +202,7 @@ class Child {
                   path.string(), importer_of(ending), end));
 }
 
-/// Describes how a child ended that did not send a mesh.
+/// Describes how a child that sent no mesh ended.
 std::string end_of(int status, const ImportLimits& limits) {
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   if (signal != SIGXCPU && signal != SIGKILL) return "crashed";
@@ -243,9 +243,9 @@ ImportedMesh guarded_import(std::string_view bytes, const std::string& ending,
   } catch (const std::bad_alloc&) {
     throw InputError(out_of_memory(path, limits));
   } catch (const std::out_of_range&) {
-    pipe.close_reading_end();  // otherwise the child might wait to send more
+    pipe.close_reading_end();  // otherwise the child might block while sending
     refuse_no_reply(ending, path, end_of(child.wait(), limits));
-  } catch (const TooLate&) {  // the child is killed on leaving
+  } catch (const TooLate&) {  // leaving kills the child
     refuse_no_reply(ending, path,
                     fmt::format("took more than {} s by the clock",
                                 std::chrono::duration<double>(limits.elapsed).count()));

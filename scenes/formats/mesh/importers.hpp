@@ -14,8 +14,8 @@ namespace beambench::scenes::mesh {
 
 /// Reads files of some formats.
 struct Importer {
-  /// `library-version`, or `format-version` for our own readers; changes whenever a file might be
-  /// read differently. Empty in a build without the library.
+  /// `library-version`, or `format-version` for our own readers; it changes whenever a file might
+  /// be read differently. Empty in a build without the library.
   std::string name;
   /// The implementation of `import_mesh`.
   ImportedMesh (*import)(std::string_view bytes, const std::string& ending,
@@ -33,20 +33,20 @@ Importer stl_importer();
 /// Reads all other formats, with Assimp.
 Importer assimp_importer();
 
-/// Throws InputError: this build cannot read the file because a library was missing. `package` is
-/// the Debian package.
+/// Throws an InputError stating that this build lacks the library for the file. `package` is the
+/// Debian package.
 [[noreturn]] void refuse_missing_library(const std::filesystem::path& path,
                                          std::string_view library, std::string_view package);
 
-/// Runs one of our own readers on the bytes of a file. Puts the file's name before its errors.
+/// Runs one of our own readers on the bytes of a file. Prefixes its errors with the file's name.
 ImportedMesh with_file_name(const std::filesystem::path& path, std::string_view bytes,
                             ImportedMesh (*read)(std::string_view));
 
-/// The surface of a mesh without materials: unpainted clay.
+/// Returns the surface of a mesh without materials: unpainted clay.
 Surface clay();
 
-/// Returns the collected mesh, with warnings about what was left out. Throws InputError, without
-/// the file's name, if it has no triangles.
+/// Returns the collected mesh with warnings about omitted parts. Throws InputError, without the
+/// file's name, if it has no triangles.
 ImportedMesh collected_mesh(MeshCollector&& collector, std::size_t points_and_lines);
 
 }  // namespace beambench::scenes::mesh

@@ -1,5 +1,5 @@
 #pragma once
-// The contents of a mesh file, as far as rays are concerned.
+// The contents of a mesh file that matter to rays.
 
 #include <array>
 #include <cstddef>
@@ -40,8 +40,8 @@ struct MeshCompanion {
   std::uint64_t hash = 0;
 };
 
-/// A mesh that a scene can hold, with the cameras and lights of its file, and warnings about what
-/// was left out (without the file's name).
+/// A mesh that a scene can hold, with the cameras and lights of its file, and warnings about
+/// omitted parts (without the file's name).
 struct ImportedMesh {
   TriangleMesh mesh;
   std::vector<Camera> cameras;  ///< each accepted by a scene builder, with unique names
@@ -51,24 +51,24 @@ struct ImportedMesh {
   MeshMotion motion{};
 };
 
-// Imported meshes as bytes, for the cache and for sending between processes.
+// Serialization of imported meshes, for the cache and for sending between processes.
 
-/// Takes the next bytes of a mesh.
+/// Receives the next bytes of a mesh.
 using ByteSink = std::function<void(const char* bytes, std::size_t count)>;
-/// Fills a buffer with the next bytes of a mesh; throws std::out_of_range where they end too early.
+/// Fills a buffer with the next bytes of a mesh; throws std::out_of_range if they end too early.
 using ByteSource = std::function<void(char* buffer, std::size_t count)>;
 
-/// Encodes in parts, so that a large mesh is not in memory twice. Machines with different number
-/// formats produce different bytes: numbers are as in memory.
+/// Encodes in parts, so that a large mesh is not in memory twice. Numbers have their in-memory
+/// format, so machines with different formats produce different bytes.
 void encode(const ImportedMesh& imported, const ByteSink& sink);
-/// Encodes to one text.
+/// Encodes to a string.
 std::string encode(const ImportedMesh& imported);
 
-/// Throws std::out_of_range if the bytes end early or a list claims more than `at_most` bytes, or
-/// the motion is not one of the mesh, and std::bad_alloc if memory runs out. Bytes that `encode`
-/// did not make may give any mesh; a scene builder refuses an invalid one.
+/// Decodes a mesh. Throws std::out_of_range if the bytes end early, a list claims more than
+/// `at_most` bytes, or the motion does not match the mesh, and std::bad_alloc if memory runs out.
+/// Bytes not made by `encode` may yield any mesh; a scene builder refuses invalid ones.
 ImportedMesh decode(const ByteSource& source, std::uint64_t at_most);
-/// Decodes from one text.
+/// Decodes from a string.
 ImportedMesh decode(std::string_view bytes);
 
 }  // namespace beambench::scenes::mesh

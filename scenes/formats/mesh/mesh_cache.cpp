@@ -29,10 +29,10 @@ std::optional<std::filesystem::path> place(const char* variable) {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kMagic = "beambench mesh 3";  // incremented with the layout
+constexpr std::string_view kMagic = "beambench mesh 3";  // incremented whenever the layout changes
 constexpr std::string_view kAnyMagic = kMagic.substr(0, kMagic.size() - 1);
 
-/// The start of a file: its kind, and what must follow.
+/// The start of a file: its type, and what must follow.
 struct Header {
   char magic[16];
   std::uint64_t size;
@@ -44,7 +44,7 @@ bool is_unchanged(const MeshCompanion& companion, const fs::path& mesh_folder) {
   std::uint64_t hash = 0;
   try {
     hash = content_hash(read_bytes(mesh_folder / companion.path));
-  } catch (const InputError&) {  // it does not exist; perhaps it did not then, either
+  } catch (const InputError&) {  // it is missing, as it may have been then
   }
   return hash == companion.hash;
 }
@@ -83,7 +83,7 @@ void read_fully(InputStream& file, char* into, std::size_t count) {
 /// The file was written by an earlier version.
 struct OtherLayout {};
 
-/// Reads the mesh in a file after verifying that the file is as it was written.
+/// Reads the mesh in a file after verifying that the file is unchanged.
 ImportedMesh read_mesh(const fs::path& path) {
   InputStream file(path);
   Header header{};

@@ -1,5 +1,5 @@
 #pragma once
-// The cache folder, and the meshes imported earlier that it holds in a form that is fast to read.
+// The cache folder, with earlier imported meshes in a form that is fast to read.
 
 #include <cstdint>
 #include <filesystem>
@@ -15,7 +15,7 @@ namespace beambench::scenes::mesh {
 /// environment defines none of them. It need not exist. scripts/meshes uses the same rule.
 std::optional<std::filesystem::path> cache_folder();
 
-/// XXH3 of the bytes.
+/// Returns XXH3 of the bytes.
 std::uint64_t content_hash(std::string_view bytes);
 
 /// Returns the key of a mesh, derived from the bytes of its file, the ending that determines how to
@@ -30,13 +30,13 @@ struct CachedMesh {
   ImportedMesh mesh;
 };
 
-/// Looks for the mesh with that key in a folder. A mesh whose companions (looked for in
+/// Looks for the mesh with that key in a folder. A mesh whose companions (looked up in
 /// `mesh_folder`) have changed counts as missing; a file that is truncated or does not match its
-/// checksum, as damaged. Never throws because of a file's contents.
+/// checksum counts as damaged. Never throws because of a file's contents.
 CachedMesh find_cached_mesh(const std::filesystem::path& folder, const std::string& key,
                             const std::filesystem::path& mesh_folder);
 
-/// Stores a mesh, whole or not at all; creates the folder. Returns false on failure.
+/// Stores a mesh atomically; creates the folder. Returns false on failure.
 bool cache_mesh(const std::filesystem::path& folder, const std::string& key,
                 const ImportedMesh& mesh);
 

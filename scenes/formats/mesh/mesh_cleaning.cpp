@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::uint32_t kFree = std::numeric_limits<std::uint32_t>::max();
 
-/// Turns -0 into 0, so that equal places have equal bits; throws if no scene can hold the position.
+/// Turns -0 into 0, so that equal positions have equal bits; throws if no scene can hold the
+/// position.
 glm::vec3 checked(const glm::vec3& position, std::size_t triangle) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!(std::abs(position[axis]) <= static_cast<float>(kLargestNumber))) {  // catches NaN too
@@ -126,7 +127,7 @@ void MeshCollector::grow(std::size_t slots) {
   const std::vector<std::uint32_t> before =
       std::exchange(slots_, std::vector<std::uint32_t>(slots, kFree));
   const std::size_t mask = slots_.size() - 1;
-  for (const std::uint32_t i : before) {  // not all vertices: some are not to be found
+  for (const std::uint32_t i : before) {  // not all vertices: some are not in the table
     if (i == kFree) continue;
     std::size_t slot = hash_of(mesh_.vertices[i]) & mask;
     while (slots_[slot] != kFree) slot = (slot + 1) & mask;

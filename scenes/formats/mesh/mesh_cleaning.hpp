@@ -1,5 +1,5 @@
 #pragma once
-// Turns the triangles of a file into triangles that a scene can hold.
+// Converts the triangles of a file to triangles that a scene can hold.
 
 #include <array>
 #include <cstddef>
@@ -15,11 +15,11 @@
 namespace beambench::scenes::mesh {
 
 /// Vertices of a file that its triangles share by index. Remembers which vertex of the collected
-/// mesh each became, so that equal places are looked up once per vertex, not once per corner.
+/// mesh each became, so that positions are looked up once per vertex, not once per corner.
 class SharedVertices {
  public:
-  /// If `merges` is false, its vertices are not merged with others at the same place, which may
-  /// leave it when the mesh moves.
+  /// If `merges` is false, the vertices are not merged with others at the same position, because
+  /// they may separate when the mesh moves.
   explicit SharedVertices(std::vector<glm::vec3> places, bool merges = true);
 
   const std::vector<glm::vec3>& places() const { return places_; }
@@ -34,8 +34,8 @@ class SharedVertices {
   bool merges_;
 };
 
-/// Collects triangles from a file: vertices at the same place are merged, unused ones are dropped,
-/// and triangles without area are left out and counted.
+/// Collects triangles from a file: vertices at the same position are merged, unused ones are
+/// dropped, and triangles without area are left out and counted.
 class MeshCollector {
  public:
   /// Reserves memory. Fewer or more triangles may follow.
@@ -51,7 +51,8 @@ class MeshCollector {
   /// counts as a triangle without area.
   void add_polygon(SharedVertices& vertices, std::span<const std::uint32_t> corners);
 
-  /// The number of triangles left out, and the first of them (counted from 0 as they were added).
+  /// Return the number of triangles left out, and the index of the first (in the order added, from
+  /// 0).
   std::size_t degenerate() const { return degenerate_; }
   std::size_t first_degenerate() const { return first_degenerate_; }
   TriangleMesh finish() &&;

@@ -21,8 +21,8 @@ bool lies_in(const fs::path& path, const fs::path& folder) {
          folder.end();
 }
 
-/// Returns the place of a companion, with links followed; nothing if it is outside of the folder.
-/// The place of a missing companion follows from its name.
+/// Returns the path of a companion, with links followed; nothing if it is outside the folder. The
+/// path of a missing companion follows from its name.
 std::optional<fs::path> place_of(const fs::path& name, const fs::path& folder) {
   if (name.is_absolute() || name.empty()) return std::nullopt;
   const fs::path said = (folder / name).lexically_normal();

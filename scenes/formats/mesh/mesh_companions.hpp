@@ -13,7 +13,7 @@
 namespace beambench::scenes::mesh {
 
 /// Reads the companions of one mesh file, only from its folder and subfolders: a file from
-/// elsewhere must not gain access to the user's other files. Keeps a list of the requested files.
+/// elsewhere must not gain access to the user's other files. Records the requested files.
 class MeshCompanions {
  public:
   /// Reads companions of the mesh at `mesh`. The bytes of the mesh and its companions count towards
@@ -23,8 +23,8 @@ class MeshCompanions {
   /// Returns the folder of the companions.
   const std::filesystem::path& folder() const { return folder_; }
 
-  /// Returns whether a companion exists and may be read. `list` includes missing ones, because the
-  /// mesh may change when such a file appears.
+  /// Returns whether a companion exists and may be read. `list` includes missing files, because the
+  /// mesh may change when one appears.
   bool has(const std::filesystem::path& name);
 
   /// Returns the bytes of a companion; `name` is relative to the folder. They live as long as this

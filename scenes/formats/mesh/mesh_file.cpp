@@ -91,7 +91,7 @@ class Inflation {
     packed_.remove_prefix(before - stream_.avail_in);
     if (result == Z_STREAM_END) {
       done_ = packed_.empty();
-      if (!done_ && inflateReset(&stream_) != Z_OK) fail();  // gzip files may be put in a row
+      if (!done_ && inflateReset(&stream_) != Z_OK) fail();  // gzip files may be concatenated
     } else if (result != Z_OK) {
       fail();  // Z_BUF_ERROR among them: the file ends too early
     }
@@ -107,11 +107,11 @@ class Inflation {
   bool done_ = false;
 };
 
-/// Unpacks block by block, so that memory holds little more than what is accepted.
+/// Unpacks block by block, so that little more than the accepted data is in memory.
 std::string unpacked(std::string_view packed, const std::filesystem::path& path) {
   constexpr std::size_t kBlock = std::size_t{4} << 20U;
   constexpr std::size_t kSmall = std::size_t{64} << 20U;
-  constexpr std::size_t kLargestRatio = 200;  // text repeats itself 10 times, gzip's most is 1032
+  constexpr std::size_t kLargestRatio = 200;  // text compresses 10-fold; gzip's maximum is 1032
   Inflation inflation(packed);
   std::string bytes;
   while (!inflation.done()) {

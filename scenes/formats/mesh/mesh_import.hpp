@@ -16,11 +16,11 @@ namespace beambench::scenes::mesh {
 /// needs: tinygltf for glTF, none for OBJ, PLY, OFF and STL, Assimp for the others.
 std::string importer_of(std::string_view ending);
 
-/// Reads a mesh from the bytes of a file in the format that `ending` stands for. Its polygons
-/// become triangles, in world space, right-handed; points, lines and triangles without area are
-/// left out with a warning. `path` is used in messages and to find companions, which are read only
-/// from its folder. Throws InputError if the file is malformed, has no triangles, or holds numbers
-/// that no scene can, and always in a build without its importer.
+/// Reads a mesh from the bytes of a file in the format denoted by `ending`. Its polygons become
+/// triangles, in world space, right-handed; points, lines and triangles without area are left out
+/// with a warning. `path` is used in messages and to find companions, which are read only from its
+/// folder. Throws InputError if the file is malformed, has no triangles or has numbers that no
+/// scene can hold, and always in a build without its importer.
 ImportedMesh import_mesh(std::string_view bytes, const std::string& ending,
                          const std::filesystem::path& path);
 
@@ -28,18 +28,18 @@ ImportedMesh import_mesh(std::string_view bytes, const std::string& ending,
 struct ImportLimits {
   std::chrono::seconds processor;     ///< processor time
   std::chrono::milliseconds elapsed;  ///< until the whole mesh has arrived
-  std::uint64_t memory;               ///< bytes, in addition to what this process uses
+  std::uint64_t memory;               ///< bytes, in addition to this process's current use
 };
 
-/// Returns limits that suffice for any valid file of that size. Processor time: 2 s, and 1 s for
-/// each MiB (for glTF, where a short file may place a mesh many times, 2 minutes). Wall time: ten
-/// times as long, and half a minute. Memory: 4 GiB, and 64 bytes for each byte (glTF: 32 GiB), but
-/// no more than is available (`available_memory`).
+/// Returns limits that suffice for any valid file of that size. Processor time: 2 s plus 1 s per
+/// MiB (for glTF, where a short file may place a mesh many times, 2 minutes). Wall time: ten times
+/// as long plus half a minute. Memory: 4 GiB plus 64 bytes per byte (glTF: 32 GiB), but no more
+/// than is available (`available_memory`).
 ImportLimits import_limits(std::string_view bytes, std::string_view ending);
 
-/// Runs import_mesh in its own process: for some malformed or truncated files a library ends the
-/// process, never returns, or takes all memory. Throws InputError in these cases, too, and if a
-/// limit is exceeded.
+/// Runs import_mesh in a separate process: for some malformed or truncated files a library aborts,
+/// never returns, or takes all memory. Also throws InputError in these cases and if a limit is
+/// exceeded.
 ImportedMesh guarded_import(std::string_view bytes, const std::string& ending,
                             const std::filesystem::path& path, const ImportLimits& limits);
 

@@ -11,17 +11,17 @@
 
 namespace beambench::scenes::mesh {
 
-/// The share that one matrix has in a vertex.
+/// The weight of one matrix in a vertex.
 struct Influence {
   std::uint32_t matrix;
   double weight;
 };
 
-/// A vertex that moves: the weighted sum of its place at rest as its matrices move it.
+/// A moving vertex: the weighted sum of its rest position as moved by its matrices.
 struct MovingVertex {
   glm::dvec3 rest{0.0};
   std::uint32_t first = 0;  ///< of its influences
-  std::uint32_t count = 0;  ///< 0: the vertex stays
+  std::uint32_t count = 0;  ///< 0: the vertex is static
 };
 
 /// The frames of a mesh. Frame 0 is the mesh itself.
@@ -34,7 +34,7 @@ struct MeshMotion {
   bool moves() const { return frames > 1; }
 };
 
-/// Returns the sum, rounded once, without negative zeros.
+/// Returns the weighted sum, rounded once, without negative zeros.
 glm::vec3 moved(const glm::dvec3& rest, std::span<const Influence> influences,
                 std::span<const glm::dmat4> matrices);
 

@@ -115,7 +115,7 @@ Json list_of(const Json& json, const char* key, const fs::path& entry) {
 
 GivenView read_view(const Json& json, const Orientation& orientation, const fs::path& entry) {
   GivenView view;
-  SceneBuilder checked("");  // refuses what no scene can have
+  SceneBuilder checked("");  // refuses views that no scene can have
   try {
     for (const Json& given : list_of(json, "cameras", entry)) {
       const Camera camera = camera_of(given, orientation.up, entry);

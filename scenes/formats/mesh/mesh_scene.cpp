@@ -41,8 +41,8 @@ bool has_camera(const GivenView& view, const std::string& name) {
                      [&](const Camera& camera) { return camera.name == name; });
 }
 
-/// Returns the first view with additions from the second: cameras with other names, and lights if
-/// the first has none.
+/// Returns the first view plus the second's cameras with other names, and its lights if the first
+/// has none.
 GivenView combined(GivenView first, const GivenView& second) {
   for (const Camera& camera : second.cameras) {
     if (!has_camera(first, camera.name)) first.cameras.push_back(camera);
@@ -156,7 +156,7 @@ void register_mesh(Catalogue& catalogue) {
                                             usual_orientation(mesh_ending(spec)), options.strict},
                                            &warnings);
                         }});
-  // Otherwise its bytes would be reported as a strange NFF file.
+  // Otherwise its bytes would be reported as a malformed NFF file.
   catalogue.add_format(
       {is_foreign_model, [](std::string_view spec, ReadOptions, Warnings&) -> Animation {
          refuse_foreign_model(spec);

@@ -17,13 +17,13 @@
 
 namespace beambench::scenes::mesh {
 
-/// Adds the given cameras, then fitted cameras that show these points (`three-quarter`, which is
-/// the first of them, `front`, `side`, `top`) unless their names are taken; the given lights, or
-/// else two on the side of the fitted default camera; and a background.
+/// Adds the given cameras, then fitted cameras that show these points (`three-quarter`, `front`,
+/// `side`, `top`) unless their names are taken; the given lights, or else two on the side of the
+/// `three-quarter` camera; and a background.
 void add_view(SceneBuilder& builder, std::span<const glm::vec3> points,
               const Orientation& orientation, const GivenView& given = {});
 
-/// Makes a scene of a mesh: flat triangles in the order of the file, with the view of `add_view`.
+/// Makes a scene from a mesh: flat triangles in file order, with the view of `add_view`.
 Scene mesh_scene(const TriangleMesh& mesh, const std::string& name, const Orientation& orientation,
                  const GivenView& given = {});
 

@@ -57,8 +57,8 @@ bool are_attributes(std::string_view text) {
   return true;
 }
 
-/// Returns the vertex index, from 0, of `7`, `7/1`, `7//3` or `-1/-1/-1`. The vertex may come later
-/// in the file.
+/// Returns the vertex index, from 0, of `7`, `7/1`, `7//3` or `-1/-1/-1`. The vertex may be defined
+/// later in the file.
 std::uint32_t corner_of(std::string_view word, const ObjStatement& statement,
                         std::size_t vertices_before) {
   const std::string_view first = word.substr(0, word.find('/'));

@@ -20,7 +20,7 @@ struct ObjFile {
   std::vector<std::uint32_t> face_sizes;  ///< the number of corners of each face
   /// The materials of `usemtl`, each with the first face that it applies to.
   std::vector<std::pair<std::size_t, std::string>> materials;
-  std::vector<std::string> libraries;  ///< what follows each `mtllib`
+  std::vector<std::string> libraries;  ///< the text after each `mtllib`
   std::size_t points_and_lines = 0;
   std::size_t free_forms = 0;  ///< curves and surfaces
   UnknownLines unknown;

@@ -28,7 +28,7 @@ namespace {
 constexpr int kOwnVersion = 3;
 
 /// Returns the surface of a material. `usemtl` may be followed by a comment, but a material's name
-/// may hold a '#', too.
+/// may also contain a '#'.
 Surface surface_named(const std::string& name, const std::map<std::string, Surface>& surfaces) {
   auto found = surfaces.find(name);
   if (found == surfaces.end()) found = surfaces.find(std::string(without_comment(name)));

@@ -61,7 +61,7 @@ bool read_color(std::string_view rest, glm::vec3& color) {
   return true;
 }
 
-/// Reads one number, after `-halo` or not. Returns false when it is not understood.
+/// Reads one number, optionally after `-halo`. Returns false when it is not understood.
 bool read_factor(std::string_view rest, std::optional<float>& factor) {
   std::string_view after = rest;
   const auto numbers = numbers_of(take_word(after) == "-halo" ? after : rest);
@@ -88,7 +88,7 @@ void add_material(const Material& material, std::map<std::string, Surface>& surf
 
 UnknownLines add_library(std::string_view text, std::map<std::string, Surface>& surfaces) {
   UnknownLines unknown;
-  std::optional<Material> material;  // what precedes the first has no name
+  std::optional<Material> material;  // lines before the first have no material
   for (std::size_t number = 1; !text.empty(); ++number) {
     std::string_view line = take_line(text);
     const std::string_view word = take_word(line);

@@ -15,8 +15,8 @@ struct Keyword {
 
 /// All keywords of the manual except `call` and `csh`, which include other files. `fo`, a face's
 /// outline, "is no longer valid as of version 2.11. You can use f (face) to get the same results.
-/// References to fo in existing .obj files will still be read". The last five are superseded curves
-/// and patches, and their resolution.
+/// References to fo in existing .obj files will still be read". The last five are superseded
+/// statements for curves, patches and their resolution.
 constexpr std::array<Keyword, 43> kKeywords = {{
     {"v", ObjKind::kVertex},        {"vn", ObjKind::kAttribute},
     {"vt", ObjKind::kAttribute},    {"f", ObjKind::kFace},

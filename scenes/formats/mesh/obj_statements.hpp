@@ -18,8 +18,8 @@ enum class ObjKind {
   kFreeForm,   ///< a curve or surface
   kLibrary,    ///< names a material library
   kMaterial,   ///< names the material of the faces that follow
-  kName,       ///< something else that has a name
-  kAttribute,  ///< numbers or switches that change no face
+  kName,       ///< anything else with a name
+  kAttribute,  ///< numbers or switches that do not affect faces
   kUnknown,
 };
 
@@ -30,9 +30,9 @@ struct ObjStatement {
   std::string_view rest;  ///< the text after the word, valid until the next call of `next`
 };
 
-/// Iterates over the statements of an OBJ text, one per line. If numbers follow, a backslash at the
-/// end of a line continues the statement on the next one, as in all examples of the manual, and a
-/// '#' begins a comment. Names and comments may have any characters.
+/// Iterates over the statements of an OBJ text, one per line. In statements with numbers, a
+/// backslash at the end of a line continues the statement on the next line, as in all examples of
+/// the manual, and a '#' begins a comment. Names and comments may contain any characters.
 class ObjStatements {
  public:
   /// The text must outlive this object.
@@ -45,7 +45,7 @@ class ObjStatements {
   std::string_view numbers_from(std::string_view line);
 
   std::string_view text_;
-  std::size_t line_ = 0;  // how many were taken
+  std::size_t line_ = 0;  // number of lines taken
   std::string joined_;    // the last statement of several lines
 };
 

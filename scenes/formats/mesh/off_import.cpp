@@ -2,18 +2,18 @@
 //
 // The rules, by the manual of Geomview ("OFF Files"):
 //
-// - The keyword `[ST][C][N][4][n]OFF`, which may be missing, and the numbers of vertices, of faces
-//   and of edges, the last of which is not checked; on one line or several.
+// - The keyword `[ST][C][N][4][n]OFF`, which may be missing, and the numbers of vertices, faces and
+//   edges (the last is not checked), on one or more lines.
 // - Vertices: x y z, then three numbers of a normal (N), a color (C) and two texture coordinates
-//   (ST), as the keyword says. A color has four numbers, in files of other programs three, and they
-//   order the letters and numbers differently.
+//   (ST), depending on the keyword. A color has four numbers. In files of other programs it has
+//   three, and the letters and numbers are in a different order.
 // - Faces: the number of corners, the corners, counted from 0, and a color of 0 to 4 numbers.
 // - `#` begins a comment.
 //
-// Colors, normals and texture coordinates are skipped. Each vertex and each face stands on a line
-// of its own, as programs write them: of vertices, Geomview reads numbers across line ends, so that
-// a missing number would shift all that follow. Four-dimensional files (4), those of n dimensions
-// (n) and binary ones are refused.
+// Colors, normals and texture coordinates are skipped. Each vertex and each face must be on a
+// separate line, as programs write them; Geomview reads the numbers of vertices across line ends,
+// where a missing number would shift all later ones. Four-dimensional (4), n-dimensional (n) and
+// binary files are refused.
 
 #include <algorithm>
 #include <array>
@@ -71,9 +71,8 @@ void read_letters(std::string_view letters, OffHeader& header, const TextLines& 
   }
 }
 
-/// Takes the keyword. Returns the first count if it is in the same word: in place of the keyword
-/// or, as in some faulty files of ModelNet, directly after it ("OFF490"). Otherwise returns
-/// nothing.
+/// Takes the keyword. Returns the first count if it is in the same word: instead of the keyword or,
+/// as in some faulty ModelNet files, directly after it ("OFF490"). Otherwise returns nothing.
 std::string_view take_off_keyword(OffHeader& header, TextLines& lines) {
   const std::string_view word = lines.word();
   constexpr std::string_view kKeyword = "OFF";
@@ -102,7 +101,7 @@ OffHeader take_off_header(TextLines& lines) {
     }
     const auto number = integer_of(word);
     if (!number) {
-      lines.refuse(fmt::format("'{}' stands where the numbers of vertices, faces and edges must be",
+      lines.refuse(fmt::format("found '{}' where the numbers of vertices, faces and edges must be",
                                excerpt(word)));
     }
     count = *number;
@@ -127,7 +126,7 @@ void next_row(TextLines& lines, std::string_view what, std::uint64_t row, std::u
                   count, what, row));
 }
 
-/// Takes the rest of the line. Returns the number of its numbers.
+/// Takes the rest of the line. Returns how many numbers it has.
 std::size_t skip_numbers(TextLines& lines, std::string_view what, std::uint64_t row) {
   std::size_t count = 0;
   for (auto word = lines.word(); !word.empty(); word = lines.word()) {

@@ -54,7 +54,7 @@ void require_end_of_line(TextLines& lines) {
   }
 }
 
-/// Adds a name to the set; refuses it if it is already there.
+/// Adds a name to the set; refuses duplicates.
 void require_new(std::string_view name, std::set<std::string_view>& names, std::string_view what,
                  const TextLines& lines) {
   if (names.insert(name).second) return;
@@ -141,7 +141,7 @@ PlyHeader take_ply_header(TextLines& lines) {
       properties.clear();
       header.elements.push_back(std::move(element));
     } else if (word == "property") {
-      if (header.elements.empty()) lines.refuse("a property stands before the first element");
+      if (header.elements.empty()) lines.refuse("a property precedes the first element");
       const PlyProperty property = take_property(lines);
       require_new(property.name, properties, "property", lines);
       header.elements.back().properties.push_back(property);

@@ -1,17 +1,17 @@
 #pragma once
 // The header of PLY files.
 //
-// The rules, by Greg Turk, "The PLY Polygon File Format" (1994), which his ply.c and the files of
-// the Stanford 3D Scanning Repository complete:
+// The rules are those of Greg Turk, "The PLY Polygon File Format" (1994), complemented by his ply.c
+// and the files of the Stanford 3D Scanning Repository:
 //
-// - The first line is `ply`, the last one `end_header`. `format ascii 1.0`,
-//   `format binary_little_endian 1.0` or `format binary_big_endian 1.0` stands once between them.
-// - `element NAME COUNT` declares rows, `property TYPE NAME` a number in each row of the element
-//   before it, `property list TYPE TYPE NAME` a list: its length, of the first type, and as many
-//   numbers of the second.
-// - `comment` and `obj_info` begin lines without meaning. Any blanks may stand between words.
-// - After the header stand the rows, element by element in the order of the header: each on a line,
-//   or in binary without anything between them.
+// - The first line is `ply`, the last one `end_header`. Between them is one of `format ascii 1.0`,
+//   `format binary_little_endian 1.0` and `format binary_big_endian 1.0`.
+// - `element NAME COUNT` declares rows; `property TYPE NAME` declares a number in each row of the
+//   preceding element; `property list TYPE TYPE NAME` declares a list: its length, of the first
+//   type, followed by that many numbers of the second.
+// - Lines that begin with `comment` or `obj_info` are ignored. Words are separated by any blanks.
+// - The rows follow the header, element by element in the order of the header: one per line, or in
+//   binary without separators.
 
 #include <cstdint>
 #include <optional>
@@ -48,7 +48,8 @@ struct PlyHeader {
 
 /// Takes the lines of the header, up to `end_header`. Its names are views of the text. Throws
 /// InputError with the line if the rules above are violated, if an element or a property is
-/// declared twice, and for rows without a property, of which a short file could declare any number.
+/// declared twice, or if an element has rows but no properties: a short file could declare any
+/// number of such rows.
 PlyHeader take_ply_header(TextLines& lines);
 
 }  // namespace beambench::scenes::mesh

@@ -1,12 +1,11 @@
-// PLY files, whose header `ply_header.hpp` describes. Of their rows are read, after Turk's
-// description and the files of the Stanford repository:
+// PLY files, whose header `ply_header.hpp` describes. Following Turk's description and the files of
+// the Stanford repository, these rows are read:
 //
 // - `vertex`, with the numbers x, y and z of any type, each rounded to float once; `face`, with the
-//   list `vertex_indices` or `vertex_index`, of the numbers of its corners from 0, the first ones
-//   being the polygon's in order; `tristrips`, with a list of the same name: each corner from the
-//   third on makes a triangle with the two before it, of which every second is turned around, and
-//   -1 begins another strip. Any integer type will do, and a type with fractions if there is none
-//   in the number.
+//   list `vertex_indices` or `vertex_index`, with the indices of its corners in order, from 0;
+//   `tristrips`, with a list of the same name: each corner from the third on forms a triangle with
+//   the two before it, every second triangle has its winding reversed, and -1 starts another strip.
+//   Any integer type is accepted, as is a floating-point type if its values are whole.
 // - Elements may be in any order. All other properties and elements (normals, colors, edges,
 //   cameras, materials) are skipped.
 
@@ -61,7 +60,7 @@ void require_coordinates(const PlyElement& vertex) {
     const glm::length_t axis = axis_of(property);
     found[static_cast<std::size_t>(axis)] = true;
     if (axis < 3 && property.length_type) {
-      refuse_property(vertex, fmt::format("with a list '{}' in place of a number", property.name));
+      refuse_property(vertex, fmt::format("with a list '{}' instead of a number", property.name));
     }
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -215,7 +214,7 @@ class PlyBody {
     faces_.sizes.push_back(3);
   }
 
-  /// Takes a number of a list, which must be whole.
+  /// Takes a number from a list; it must be whole.
   std::int64_t index(PlyType type) {
     const double number = rows_.number(type);
     constexpr double kLargest = 0x1p53;

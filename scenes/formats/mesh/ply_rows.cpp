@@ -26,8 +26,8 @@ std::optional<double> integer_within(std::string_view word) {
   return static_cast<double>(*number);
 }
 
-/// Returns the value of a word of the type: the same as in a binary file with this type, so that
-/// both give the same mesh. A double represents every type exactly.
+/// Returns the value of a word of the type, the same as in a binary file of this type, so that both
+/// result in the same mesh. A double represents every type exactly.
 std::optional<double> ply_number(std::string_view word, PlyType type) {
   switch (type) {
     case PlyType::kInt8:

@@ -1,12 +1,12 @@
 #pragma once
-// The rows of PLY files, as text and in binary: two classes of one interface.
+// The rows of PLY files, as text and in binary: two classes with the same interface.
 //
 // `begin(element, row)` goes to a row and records it for messages; returns false at the end of the
 // file. `number(type)` takes the next number of the row, `skip(type, count)` takes `count` of them,
 // and `end()` ends the row. `finish()` throws unless the file is at its end. `at_most(properties)`
 // bounds the number of rows with that many properties that the rest of the file can hold.
-// `refuse(why)` throws InputError with the row and its place. The others throw it if a number is
-// missing or not of its type.
+// `refuse(why)` throws InputError with the row and its position. The other functions throw it if a
+// number is missing or not of its type.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace beambench::scenes::mesh {
 
-/// A row on each line; empty lines between rows are allowed.
+/// One row per line; empty lines between rows are allowed.
 class PlyTextRows {
  public:
   explicit PlyTextRows(const TextLines& after_header) : lines_(after_header) {}
@@ -38,7 +38,7 @@ class PlyTextRows {
   std::uint64_t row_ = 0;
 };
 
-/// Rows without anything between them.
+/// Rows without separators.
 class PlyBinaryRows {
  public:
   /// Reads a file that holds `bytes`, of which `rest` follows the header.

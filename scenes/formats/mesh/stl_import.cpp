@@ -4,12 +4,13 @@
 // after 3D Systems, "StereoLithography Interface Specification" (1989):
 //
 // - Binary: 80 bytes of any content, which may begin with `solid`; the number of facets, 32 bits,
-//   little endian; 50 bytes a facet: the normal, three corners (12 floats) and 16 bits of no
-//   agreed meaning. So the number of facets decides how long the file is, and whether it is binary.
+//   little endian; 50 bytes per facet: the normal, three corners (12 floats) and 16 bits without an
+//   agreed meaning. So the number of facets determines the length of the file and whether it is
+//   binary.
 // - Text: `solid NAME`; facets, each `facet normal X Y Z`, `outer loop`, three times
-//   `vertex X Y Z`, `endloop`, `endfacet`; `endsolid NAME`. Words are in any case, and blanks and
-//   line ends between them mean the same, but for the names, which end with the line and may be
-//   missing. Files in use hold several solids.
+//   `vertex X Y Z`, `endloop`, `endfacet`; `endsolid NAME`. Words may be in any case, and blanks
+//   and line ends between them are equivalent, except that names, which may be missing, end with
+//   the line. Files in the wild may hold several solids.
 //
 // Normals and names are skipped.
 
@@ -73,14 +74,14 @@ ImportedMesh read_binary_stl(std::string_view bytes) {
 
 // Text
 
-/// Returns whether a word is a keyword, ignoring case; `keyword` is in lower case.
+/// Returns whether a word is the keyword, ignoring case; `keyword` is in lower case.
 bool is_keyword(std::string_view word, std::string_view keyword) {
   const auto same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; };
   return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(), same);
 }
 
 std::string quoted_word(std::string_view word) {
-  return word.empty() ? "the file ends" : fmt::format("'{}' stands", excerpt(word));
+  return word.empty() ? "the file ends" : fmt::format("found '{}'", excerpt(word));
 }
 
 void take_stl_keyword(TextLines& lines, std::string_view keyword) {
@@ -153,7 +154,7 @@ ImportedMesh read_text_stl(std::string_view text) {
   return collected_mesh(std::move(collector), 0);
 }
 
-/// Returns whether a file is meant as text, given that its length does not match a binary file.
+/// Returns whether a file is meant to be text, given that its length does not match a binary file.
 bool is_text_stl(std::string_view bytes) {
   return is_keyword(TextLines(bytes).word_anywhere(), "solid") &&
          bytes.find('\0') == std::string_view::npos;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-/// Returns whether C's isspace is true: CR is a blank where lines end with LF, and vice versa.
+/// Returns C's isspace: CR is a blank if lines end with LF, and vice versa.
 bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 char end_of_first_line(std::string_view text) {

@@ -7,17 +7,17 @@
 
 namespace beambench::scenes::mesh {
 
-/// Iterates over lines. They end as the first one does: with LF, with CR LF or, as on old
-/// Macintoshes, with CR alone. A byte order mark of UTF-8 before the first is skipped.
+/// Iterates over lines. All lines end like the first: with LF, CR LF or, as on old Macintoshes, CR
+/// alone. A UTF-8 byte order mark before the first line is skipped.
 class TextLines {
  public:
   /// Reads a text, which must outlive this object. `comment` begins a comment that extends to the
-  /// end of the line; by default, nothing does.
+  /// end of the line; by default, there are none.
   explicit TextLines(std::string_view text, char comment = '\0');
 
-  /// Goes to the next line; false at the end of the text.
+  /// Moves to the next line; returns false at the end of the text.
   bool next();
-  /// Goes to the next line that contains a word; false if there is none.
+  /// Moves to the next line that contains a word; returns false if there is none.
   bool next_with_words();
   /// Takes the next word of the line, between blanks; empty at its end.
   std::string_view word();
@@ -27,8 +27,7 @@ class TextLines {
   void skip_line() { line_ = {}; }
   /// Returns the text after the line, byte for byte.
   std::string_view text_after() const { return rest_; }
-  /// Throws InputError with the line number, what is wrong there, and the advice to export the file
-  /// again.
+  /// Throws InputError with the line number, the reason and the advice to export the file again.
   [[noreturn]] void refuse(std::string_view why) const;
 
  private:

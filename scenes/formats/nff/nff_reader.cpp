@@ -23,8 +23,8 @@
 namespace beambench::scenes::nff {
 namespace {
 
-/// Collects remarks on a file. The same cause may occur on each of a million lines, so remarks with
-/// the same cause are combined into one, with the first line and a count.
+/// Collects remarks on a file. The same problem may occur on each of a million lines, so remarks
+/// with the same cause are merged into one, with the first line and a count.
 class NffNotes {
  public:
   /// Adds a remark; `message` is the remark on the first line with this cause.
@@ -90,8 +90,8 @@ constexpr std::array<ViewWord, 8> kWords = {{
                   Camera& camera) { camera.aspect = tokens.number("the aspect"); }},
 }};
 
-/// Takes the lines after `view`, the token `v`, as far as they belong to it. The camera's name is
-/// empty when the file has none. Throws InputError with file and line when something is missing.
+/// Takes the lines that belong to `view`, the token `v`. The camera's name is empty if the file has
+/// none. Throws InputError with file and line when something is missing.
 Camera read_nff_view(NffTokens& tokens, const NffToken& view) {
   Camera camera;
   camera.name.clear();
@@ -159,7 +159,7 @@ class NffReader {
     }
   }
 
-  /// Adds a primitive in the same way; a degenerate one is skipped if the options allow it.
+  /// Adds a primitive likewise; a degenerate one is skipped if the options allow it.
   template <typename Add>
   void add_primitive(Add call) {
     add([&] {
@@ -176,7 +176,7 @@ class NffReader {
   SceneBuilder builder_;
   ReadOptions options_;
   NffNotes notes_;
-  NffToken command_;          // the one being read
+  NffToken command_;          // the command being read
   bool any_command_ = false;  // text before the first command may be an e-mail header
   std::size_t view_count_ = 0;
 };
@@ -226,7 +226,7 @@ std::optional<NffReader::Command> NffReader::next_command() const {
   return dialect_command();
 }
 
-/// `fp` has the fields of `f`, of surfaces that are shaded by Phong where those of `f` are flat
+/// `fp` has the fields of `f`, for surfaces with Phong instead of flat shading
 /// (github.com/mfandre/raytracer, Scene.cc). It is accepted with that number of fields; a truncated
 /// file has fewer.
 std::optional<NffReader::Command> NffReader::dialect_command() const {
@@ -244,7 +244,7 @@ std::optional<NffReader::Command> NffReader::dialect_command() const {
 void NffReader::skip_unknown() {
   const NffToken unknown = tokens_.peek();
   if (any_command_ && tokens_.at_number()) {
-    tokens_.refuse(unknown.line, fmt::format("the number '{}' stands where a command should; the "
+    tokens_.refuse(unknown.line, fmt::format("found the number '{}' where a command should be; the "
                                              "command at line {} takes fewer numbers",
                                              excerpt(unknown.text), command_.line));
   }
@@ -292,12 +292,12 @@ void NffReader::read_light() {
   add([&] { builder_.add_light(position, color); });
 }
 
-/// `la` is a word of two dialects:
-/// - before a name, which is not a number here, the position and, if any, the color of a light that
-///   moves (AFF, the format of Lext, Assarsson and Moeller, "BART: A Benchmark for Animated Ray
-///   Tracing", 2001; `parseLight` in its parse.c);
-/// - before numbers, the corner, two edges and, if any, the color of a rectangular light (of a path
-///   tracer, `do_area_light` in its nff2scene, and its exporter from Blender, `WriteAreaLamp`).
+/// `la` is a command of two dialects:
+/// - before a name (not a number), it is the position and optional color of a moving light (AFF,
+///   the format of Lext, Assarsson and Moeller, "BART: A Benchmark for Animated Ray Tracing", 2001;
+///   `parseLight` in its parse.c);
+/// - before numbers, it is the corner, two edges and optional color of a rectangular light (in a
+///   path tracer, `do_area_light` in its nff2scene, and its Blender exporter, `WriteAreaLamp`).
 void NffReader::read_light_of_a_dialect() {
   NffTokens ahead = tokens_;
   std::size_t numbers = 0;
@@ -314,16 +314,16 @@ void NffReader::read_light_of_a_dialect() {
   read_area_light();
 }
 
-/// Nothing moves here, so the light stays at its first position.
+/// NFF scenes are static here, so the light stays at its first position.
 void NffReader::read_animated_light() {
   tokens_.take();  // its name
   note(command_.line, "an animated light is read as one that does not move");
   read_light();
 }
 
-/// Lights are points here. The rectangle of an area light shines to the side of the normal edge x
-/// edge, so the point is slightly on that side of its center: otherwise the ceiling that contains
-/// the rectangle could hide it.
+/// Lights are points here. The rectangle of an area light shines toward its normal, edge x edge, so
+/// the point is slightly on that side of its center: otherwise a ceiling that contains the
+/// rectangle could hide it.
 void NffReader::read_area_light() {
   constexpr double kOffset = 1e-3;  // of the side of a square of the same area
   const glm::dvec3 corner = tokens_.triple("the area light's corner");

@@ -23,7 +23,7 @@ struct NffResult {
 /// used in messages and as the scene's name. Throws InputError with file, line and word if the text
 /// is malformed or truncated, has a number that is not finite or beyond 1e9, or has no command, for
 /// Sense8 WTK files (first word `nff`), and for anything that the options do not allow. A text
-/// without primitives gives a scene without them, which `load_scene` refuses.
+/// without primitives yields an empty scene, which `load_scene` refuses.
 NffResult parse_nff(std::string_view text, const std::string& file, ReadOptions options = {});
 
 /// Reads and parses a file; also throws InputError if it cannot be read completely (`read_input`),

@@ -73,15 +73,15 @@ bool NffTokens::at_number() const {
 
 std::size_t NffTokens::max_numbers_left() const {
   const auto bytes = static_cast<std::size_t>(end_ - position_) + token_.text.size();
-  return (bytes + 1) / 2;  // a digit and a blank each
+  return (bytes + 1) / 2;  // each a digit and a blank
 }
 
 template <typename Number>
 Number NffTokens::take_number(std::string_view what) {
-  if (at_end()) refuse(token_.line, fmt::format("the file ends where {} should stand", what));
+  if (at_end()) refuse(token_.line, fmt::format("the file ends where {} should be", what));
   const auto number = number_of<Number>(token_.text);
   if (!number || !(std::abs(*number) <= static_cast<Number>(kLargestNumber))) {
-    refuse(token_.line, fmt::format("'{}' stands where {} should be a number from -1e9 to 1e9",
+    refuse(token_.line, fmt::format("found '{}' where {} should be a number from -1e9 to 1e9",
                                     excerpt(token_.text), what));
   }
   advance();
@@ -102,14 +102,14 @@ long NffTokens::integer(std::string_view what) {
   const auto real = take_number<double>(what);
   if (real != std::floor(real)) {
     refuse(token.line,
-           fmt::format("'{}' stands where {} should be an integer", excerpt(token.text), what));
+           fmt::format("found '{}' where {} should be an integer", excerpt(token.text), what));
   }
   return static_cast<long>(real);
 }
 
 std::string_view NffTokens::rest_of_line(const NffToken& word, std::string_view what) {
   if (at_end() || token_.line != word.line) {
-    refuse(word.line, fmt::format("{} should stand after '{}' on its line", what, word.text));
+    refuse(word.line, fmt::format("{} should follow '{}' on its line", what, word.text));
   }
   const char* start = token_.text.data();
   while (position_ != end_ && !at_line_end() && *position_ != '#') ++position_;

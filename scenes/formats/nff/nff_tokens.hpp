@@ -9,8 +9,8 @@
 
 namespace beambench::scenes::nff {
 
-/// Comments on lines that begin with this word, which other programs ignore, are read as if the
-/// word were not there.
+/// Comment lines that begin with this word, which other programs ignore, are read as if the word
+/// were not there.
 inline constexpr std::string_view kOwnComment = "#beambench";
 
 /// One word or number. The text is empty at the end of the file.
@@ -31,7 +31,7 @@ class NffTokens {
   const std::string& file() const { return file_; }
   const NffToken& peek() const { return token_; }
   bool at_end() const { return token_.text.empty(); }
-  /// Returns whether the next token is, or is meant as, a number: `nan` and `1.2.3` count.
+  /// Returns whether the next token is, or is meant to be, a number: `nan` and `1.2.3` count.
   bool at_number() const;
   /// Returns an upper bound on the numbers in the rest of the text.
   std::size_t max_numbers_left() const;
@@ -54,7 +54,7 @@ class NffTokens {
 
  private:
   void advance();
-  bool at_line_end() const;  // the last character of one
+  bool at_line_end() const;  // after the last character of a line
   bool at_own_comment() const;
   template <typename Number>
   Number take_number(std::string_view what);

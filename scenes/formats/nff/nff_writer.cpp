@@ -58,7 +58,7 @@ class NffWriter {
   fmt::memory_buffer buffer_;
 };
 
-/// Returns a name that fits into its one-line comment.
+/// Returns the name in a form that fits a one-line comment.
 std::string one_line(std::string name) {
   std::replace_if(
       name.begin(), name.end(), [](unsigned char c) { return c < ' '; }, ' ');

@@ -19,7 +19,7 @@
 namespace beambench::scenes::generators {
 namespace {
 
-constexpr double kInside = 0.72;  // where a shard's inner face lies, as a share of its distance
+constexpr double kInside = 0.72;  // distance of a shard's inner face relative to its outer one
 
 using Corners = std::array<std::uint32_t, 3>;
 
@@ -30,7 +30,7 @@ glm::dvec3 direction(Random& random) {
   return {reach * portable_cos(angle), reach * portable_sin(angle), z};
 }
 
-/// Deals the triangles out: each belongs to the nearest of some random directions.
+/// Assigns each triangle to the nearest of some random directions.
 std::vector<std::vector<Corners>> pieces_of(const BumpyMesh& mesh, std::size_t count,
                                             Random& random) {
   std::vector<glm::dvec3> sites;
@@ -82,11 +82,11 @@ Shard shard_of(const BumpyMesh& mesh, const std::vector<Corners>& piece) {
   return shard;
 }
 
-/// How a shard flies: fast at first, then slower, turning and falling.
+/// A shard's flight: fast at first, then slower, turning and falling.
 struct Flight {
   glm::dvec3 center;
   glm::dvec3 velocity;
-  glm::dvec3 turns;  ///< degrees about each axis in all
+  glm::dvec3 turns;  ///< total degrees about each axis
 
   glm::dmat4 at(double time) const {
     const glm::dvec3 way =

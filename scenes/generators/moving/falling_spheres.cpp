@@ -11,11 +11,11 @@ namespace beambench::scenes::generators {
 namespace {
 
 constexpr double kFloor = -12.0;
-constexpr double kGravity = 40.0;  // per square of the whole time
-constexpr double kBounce = 0.55;   // the share of its speed that a bounce leaves
-constexpr double kSpread = 0.9;    // of its distance from the axis, how far a ball rolls outward
+constexpr double kGravity = 40.0;  // per (total time)^2
+constexpr double kBounce = 0.55;   // the share of its speed kept after a bounce
+constexpr double kSpread = 0.9;    // rolling distance over distance from the axis
 
-/// The height of a ball above where it comes to rest, for a fall from `height`.
+/// Returns the height of a ball above its resting position, for a fall from `height`.
 double height_at(double height, double time) {
   const double first = std::sqrt(2.0 * height / kGravity);  // until it touches the floor
   if (time < first) return height - 0.5 * kGravity * time * time;
@@ -30,7 +30,7 @@ double height_at(double height, double time) {
   return 0.0;
 }
 
-/// The center of a ball, which falls, bounces, and moves outward once it has touched the floor.
+/// Returns the center of a ball, which falls, bounces and, after touching the floor, moves outward.
 glm::dvec3 center_at(const Ball& ball, double time) {
   const glm::dvec3& c = ball.center;
   const double height = c.z - ball.radius - kFloor;

@@ -1,5 +1,5 @@
 #pragma once
-// What the scenes that move share.
+// The common part of the moving scenes.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,20 +17,21 @@
 
 namespace beambench::scenes::generators {
 
-/// An angle in radians.
+/// A full turn in radians.
 inline constexpr double kFullTurn = 6.283185307179586;
 
-/// Returns the places in a frame of the vertices that move: those of frame 0 are the scene's own.
+/// Returns the positions of the moving vertices in a frame; in frame 0, they are the scene's own.
 using VertexPlaces = std::function<std::vector<glm::dvec3>(std::uint32_t frame)>;
 
-/// A scene whose first vertices move. The others stay, and so do spheres, cones and normals.
+/// Returns an animation in which a scene's first vertices move. All others, spheres, cones and
+/// normals stay.
 Animation with_moving_vertices(Scene scene, std::uint32_t frames, VertexPlaces places);
 
-/// Rigid parts, the vertices of each following those of the one before.
+/// Rigid parts; the vertices of each follow those of the previous one.
 struct RigidParts {
   std::vector<glm::dvec3> vertices;  ///< at rest
   std::vector<std::size_t> ends{};   ///< of each part's vertices
-  /// Returns the matrix that moves a part from rest to its place in a frame.
+  /// Returns the matrix that moves a part from rest to its position in a frame.
   std::function<glm::dmat4(std::size_t part, std::uint32_t frame)> place{};
 
   std::vector<glm::dvec3> placed(std::uint32_t frame) const;
@@ -39,10 +40,10 @@ struct RigidParts {
 /// Returns the value of `frames_parameter`.
 std::uint32_t frames_of(const Parameters& parameters);
 
-/// The k for which 2 k^2 is nearest to a number of triangles, at least 1.
+/// Returns the k for which 2 k^2 is nearest to a number of triangles, at least 1.
 std::uint32_t cells_for(std::int64_t triangles);
 
-/// Adds a camera with a landscape picture.
+/// Adds a camera with a landscape format.
 void add_wide_camera(SceneBuilder& builder, const std::string& name, const glm::dvec3& from,
                      const glm::dvec3& at, float angle);
 

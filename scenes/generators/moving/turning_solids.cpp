@@ -19,7 +19,7 @@ namespace {
 
 using modelling::PolygonMesh;
 
-constexpr double kSpacing = 2.3;  // between rings, and about as much between solids of a ring
+constexpr double kSpacing = 2.3;  // between rings, and approximately between solids of a ring
 
 PolygonMesh torus(int detail) {
   return modelling::parametric_surface(
@@ -31,7 +31,7 @@ PolygonMesh torus(int detail) {
       4 * detail, 2 * detail);
 }
 
-/// A tube along a trefoil knot.
+/// Returns a tube along a trefoil knot.
 PolygonMesh knot(int detail) {
   const auto point = [](double u, double v) {
     const double t = kFullTurn * u;
@@ -74,10 +74,10 @@ std::array<Solid, 5> solids_of(int detail) {
        {modelling::ellipsoid({0.85, 0.6, 0.42}, 4 * detail, 2 * detail), {0.40F, 0.62F, 0.38F}}}};
 }
 
-/// Rings of 6, 12, 18... places about the z axis.
+/// Returns rings of 6, 12, 18... positions about the z axis.
 struct Place {
   double ring;
-  double along;  ///< as a share of the ring
+  double along;  ///< fraction of the ring
 };
 
 Place place_of(std::size_t solid) {
@@ -87,8 +87,8 @@ Place place_of(std::size_t solid) {
           static_cast<double>(solid) / (6.0 * static_cast<double>(ring))};
 }
 
-/// Every solid turns about an axis of its own once, rises and sinks, and is carried around by its
-/// ring, each ring against its neighbors.
+/// Every solid turns once about its own axis, rises and sinks, and moves around with its ring;
+/// neighboring rings turn in opposite directions.
 glm::dmat4 placed(std::size_t solid, double time) {
   const auto [ring, along] = place_of(solid);
   const double direction = static_cast<int>(ring) % 2 == 0 ? -1.0 : 1.0;

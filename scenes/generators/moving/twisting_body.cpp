@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kHeight = 3.2;
 
-/// A point of the straight body, with its normal: a column of four ribs, which bulges below and
-/// ends in a point at both ends.
+/// Returns a point of the straight body with its normal. The body is a column of four ribs that
+/// bulges below and tapers to a point at both ends.
 struct Point {
   glm::dvec3 place;
   glm::dvec3 normal;
@@ -35,7 +35,7 @@ glm::dvec3 straight_place(double around, double up) {
 }
 
 Point straight_point(double around, double up) {
-  // Differences rather than derivatives: the normals only shade.
+  // Differences rather than derivatives: the normals only affect shading.
   constexpr double kStep = 1e-4;
   const double low = std::fmax(up - kStep, 1e-9);
   const double high = std::fmin(up + kStep, 1.0 - 1e-9);
@@ -45,8 +45,8 @@ Point straight_point(double around, double up) {
   return {straight_place(around, up), glm::normalize(glm::cross(sideways, upward))};
 }
 
-/// The point after a twist of `turns` full turns from the bottom to the top. The normal is moved by
-/// the inverse transpose of the twist's derivative.
+/// Returns the point after a twist of `turns` full turns from the bottom to the top. The normal is
+/// moved by the inverse transpose of the twist's derivative.
 Point twisted(const Point& point, double turns) {
   const auto& [p, n] = point;
   const double rate = kFullTurn * turns / kHeight;
@@ -63,7 +63,7 @@ struct Grid {
   std::uint32_t up;
 
   std::size_t size() const { return std::size_t{around} * (up - 1) + 2; }
-  /// The vertex in a row; the rows 0 and `up` are the tips.
+  /// Returns the vertex in a row; the rows 0 and `up` are the tips.
   std::uint32_t vertex(std::uint32_t column, std::uint32_t row) const {
     if (row == 0) return 0;
     if (row == up) return around * (up - 1) + 1;
@@ -95,7 +95,7 @@ void for_each_triangle(const Grid& grid, Add add) {
   }
 }
 
-/// Pairs of light and dark stripes, two for each rib.
+/// Returns the stripes: two pairs of light and dark ones for each rib.
 Surface stripe(std::uint32_t column, std::uint32_t around) {
   const bool light = (8 * column / around) % 2 == 0;
   return {.color = light ? glm::vec3(0.92F, 0.88F, 0.78F) : glm::vec3(0.16F, 0.42F, 0.44F),

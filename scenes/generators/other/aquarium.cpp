@@ -28,7 +28,7 @@ constexpr Surface kWater{.color = {0.75F, 0.92F, 0.95F},
                          .refraction_index = 1.33F};
 const glm::dvec3 kLower(-1.6, 0.0, 0.0);  // the corners of the body of water
 const glm::dvec3 kUpper(1.6, 1.3, 1.75);
-constexpr double kGap = 0.02;   // from the water to what is outside
+constexpr double kGap = 0.02;   // from the water to everything outside
 constexpr double kBed = 0.02;   // from the water's bottom face to the stones
 constexpr double kSide = 0.04;  // from the water's upright faces to the stones
 

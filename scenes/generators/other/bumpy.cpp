@@ -43,7 +43,7 @@ class CubeGrid {
   }
 
  private:
-  /// Once around the square from (0, 0), counter-clockwise.
+  /// Visits the square's border once from (0, 0), counter-clockwise.
   std::uint32_t ring(std::uint32_t x, std::uint32_t y) const {
     if (y == 0 && x < k_) return x;
     if (x == k_ && y < k_) return k_ + y;
@@ -54,7 +54,8 @@ class CubeGrid {
   std::uint32_t k_;
 };
 
-/// A smooth wave of period 1 between -1 and 1, of polynomials alone: sines differ between machines.
+/// Returns a smooth wave of period 1 between -1 and 1, made of polynomials: sines differ between
+/// machines.
 double wave(double x) {
   const double t = x - std::floor(x);
   const double u = t < 0.5 ? t : t - 0.5;
@@ -62,7 +63,7 @@ double wave(double x) {
   return t < 0.5 ? arch : -arch;
 }
 
-/// The point of the bumpy sphere over the point c of the cube [-1, 1]^3's surface.
+/// Returns the point of the bumpy sphere over a point c on the surface of the cube [-1, 1]^3.
 glm::dvec3 bumpy_point(const glm::dvec3& c) {
   const glm::dvec3 s = c * c;
   // Spreads the grid more evenly over the unit sphere than normalizing would.

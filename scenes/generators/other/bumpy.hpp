@@ -15,7 +15,7 @@ struct BumpyMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// A closed, bumpy sphere of radius about 1 with 12 k^2 triangles, for the k that comes nearest to
+/// Returns a closed, bumpy sphere of radius about 1 with 12 k^2 triangles, the number nearest to
 /// `triangles`.
 BumpyMesh bumpy_mesh(std::int64_t triangles);
 

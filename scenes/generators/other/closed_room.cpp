@@ -60,7 +60,7 @@ modelling::PolygonMesh column(int detail) {
   return modelling::lathe(profile, 4 * detail);
 }
 
-/// A table top on four square legs, the middle of its floor at the origin.
+/// A table top on four square legs, centered at the origin on the floor.
 modelling::PolygonMesh table() {
   constexpr double kTop = 0.71;
   const std::vector<glm::dvec2> leg = {{0.06, 0.0}, {0.06, kTop}};

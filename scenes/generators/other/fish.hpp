@@ -8,7 +8,7 @@
 
 namespace beambench::scenes::generators {
 
-/// A part of a fish that has a color of its own.
+/// A part of a fish with its own color.
 enum class FishPart : std::uint8_t { kBody, kStripe, kFin, kEye };
 
 /// A fish, 1 long from its nose (x = 0.5) to its tail (x = -0.5), back to +z: a closed body and

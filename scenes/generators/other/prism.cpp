@@ -37,9 +37,9 @@ void add(SceneBuilder& builder, const modelling::PolygonMesh& mesh, const glm::v
   modelling::add_flat(builder, modelling::triangulated(mesh));
 }
 
-/// Adds two bodies that stand apart: a prism with angles of 30, 60 and 90 degrees, with an upright
-/// face turned to the camera, and a plate. The corners of an upright face have two places in x and
-/// y and two in z, so that the face stays flat when they are rounded.
+/// Adds two separate bodies: a prism with angles of 30, 60 and 90 degrees and an upright face
+/// turned toward the camera, and a plate. The corners of an upright face have only two positions in
+/// x and y and two in z, so that the face stays flat when they are rounded.
 void add_glass(SceneBuilder& builder) {
   builder.set_surface(kGlass);
   const modelling::PolygonMesh prism =
@@ -49,7 +49,7 @@ void add_glass(SceneBuilder& builder) {
   modelling::add_flat(builder, modelling::transformed(plate, standing({1.42, -0.6, kGap}, -16.0)));
 }
 
-/// Adds a wall of 5 d x 2 d tiles in two colors, each of which bears a raised letter.
+/// Adds a wall of 5 d x 2 d tiles in two colors, each with a raised letter.
 void add_wall(SceneBuilder& builder, int detail) {
   const int columns = 5 * detail;
   const int rows = 2 * detail;

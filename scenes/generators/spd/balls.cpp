@@ -42,7 +42,7 @@ glm::dmat3 rotation_from_z(const glm::dvec3& d) {
           {d.x, d.y, d.z}};
 }
 
-/// One sphere and its descendants; `frame` turns the directions into the sphere's own frame.
+/// Adds a sphere and its descendants; `frame` rotates directions into the sphere's own frame.
 void add_spheres(SceneBuilder& builder, const Directions& directions, const glm::dvec3& center,
                  double radius, const glm::dmat3& frame, int depth) {
   builder.add_sphere(center, radius);

@@ -19,7 +19,7 @@ constexpr double kTipRatio = 0.995;  // of the outer radius: meshing gears keep 
 constexpr double kFootRatio = 0.9;   // of the outer radius
 constexpr double kThickness = 0.1;   // at most
 
-/// The outline of a gear around the origin, counter-clockwise from the first tooth's tip.
+/// Returns the outline of a gear around the origin, counter-clockwise from the first tooth's tip.
 using Outline = std::array<glm::dvec2, kRim>;
 
 Outline outline(double outer_radius, double turned_by) {

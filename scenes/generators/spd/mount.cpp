@@ -16,8 +16,8 @@ constexpr double kFractalDimension = 2.2;
 constexpr double kHalfSize = 1.0;
 constexpr std::int64_t kMountain = 21;  // another number is another mountain
 
-/// A normal deviate that depends on the seed alone: the polar method over a linear congruential
-/// generator modulo 134456 (Numerical Recipes).
+/// Returns a normal deviate that depends only on the seed: the polar method over a linear
+/// congruential generator modulo 134456 (Numerical Recipes).
 double normal_deviate(std::int64_t seed) {
   constexpr std::int64_t kModulus = 134456;
   const auto next = [](std::int64_t state) { return (28411 + state * 8121) % kModulus; };

@@ -159,7 +159,7 @@ class PatchMesh {
     }
   }
 
-  /// Adds two triangles for each cell; at a pole, where one side of the cell is a point, only one.
+  /// Adds two triangles for each cell; only one at a pole, where one side of the cell is a point.
   void add_triangles() const {
     for (std::int64_t i = 0; i < n_; ++i) {
       for (std::int64_t j = 0; j < n_; ++j) {
@@ -175,7 +175,7 @@ class PatchMesh {
     const PatchPoint at =
         evaluate_patch(patch, static_cast<double>(i) / n, static_cast<double>(j) / n);
     // Only the lid's tip and the middle of the bottom lie on the axis; there the patch's first row
-    // is one point and has no normal of its own.
+    // is a single point without a normal.
     const bool pole = at.position.x == 0.0 && at.position.y == 0.0;
     if (pole && j > 0) return point(i, 0);
     const glm::dvec3 normal =

@@ -14,7 +14,7 @@ namespace {
 constexpr double kWidthOfHeight = 0.15;  // base radius over a branch's unshrunk length
 constexpr double kTaper = 0.67;          // a branch's upper radius over its lower
 
-/// How a branch grows out of the end of another (Aono and Kunii, IEEE CG&A 4(5), 1984).
+/// How a branch grows from the end of another (Aono and Kunii, IEEE CG&A 4(5), 1984).
 struct Growth {
   double bend;         ///< degrees away from the parent's direction
   double divergence;   ///< degrees around it
@@ -36,8 +36,8 @@ glm::dmat3 relative_axes(const Growth& growth) {
 
 using Branching = std::array<glm::dmat3, 2>;
 
-/// Adds a branch, a sphere on its end, and everything that grows out of it. The z column of `axes`
-/// is the branch's direction.
+/// Adds a branch, a sphere on its end, and everything that grows from it. The z column of `axes` is
+/// the branch's direction.
 void grow(SceneBuilder& builder, const Branching& branching, const glm::dmat3& axes,
           const glm::dvec3& base, double radius, std::int64_t generations) {
   const glm::dvec3 end = base + axes[2];

@@ -39,7 +39,7 @@ modelling::Profile& collar(modelling::Profile& profile, double stem, double radi
       .line({stem, height + 0.07});
 }
 
-/// Raises whatever is on the crown's rim: every second vertex of the ring at `height`.
+/// Raises the points of the crown's rim: every second vertex of the ring at `height`.
 void raise_points(modelling::PolygonMesh& mesh, double height, double rise) {
   std::size_t nth = 0;
   for (glm::dvec3& vertex : mesh.vertices) {

@@ -63,10 +63,10 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-// The thesis's own scene is lost. What is known of it: 1,536 polygons that are "very near to each
-// other and occupy nearly all of the scene's space", with "very few free spaces" (section 5.4.2,
-// figure 5.9). So the ball fills the picture and its box. Nothing is fitted to what the thesis says
-// of the rays and times in it.
+// The thesis's own scene is lost. Known are its 1,536 polygons, which are "very near to each other
+// and occupy nearly all of the scene's space", with "very few free spaces" (section 5.4.2, figure
+// 5.9). So the ball fills the picture and its box. Nothing is fitted to the thesis's ray counts and
+// times for this scene.
 void register_bola_espacial(Catalogue& catalogue) {
   catalogue.add({"bola-espacial",
                  "The thesis's Bola espacial: a ball of 1,536 panels that fills its box",

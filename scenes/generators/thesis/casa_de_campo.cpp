@@ -354,7 +354,7 @@ modelling::Field crown(const glm::dvec3& center, double radius, std::uint64_t se
 
 struct Tree {
   glm::dvec2 place;
-  double height;  ///< of its crown's middle
+  double height;  ///< of the crown's center
   double radius;
 };
 constexpr std::array<Tree, 3> kTrees = {

@@ -221,9 +221,9 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-// The thesis's own scene is lost. What is known of it: 1,692 polygons, three dolphins in "three
-// clearly separate places" (section 5.3.1). Nothing is fitted to the counts and times that the
-// thesis prints of it.
+// The thesis's own scene is lost. Known are its 1,692 polygons, three dolphins in "three clearly
+// separate places" (section 5.3.1). Nothing is fitted to the thesis's counts and times for this
+// scene.
 void register_delfines(Catalogue& catalogue) {
   catalogue.add({"delfines",
                  "The thesis's Delfines: three dolphins in three clearly separate places",

@@ -33,8 +33,8 @@ class BallGrid {
   }
 
   /// Returns the free room around a point: its distance to the nearest ball, at most the cube's
-  /// edge. If that is no more than `wanted`, any distance up to `wanted` may be returned. Searches
-  /// shell after shell of cells, skipping those too far away to hold a nearer ball.
+  /// edge. If that is at most `wanted`, any distance up to `wanted` may be returned. Searches the
+  /// cells shell by shell, skipping those too far away to contain a nearer ball.
   double gap(const glm::dvec3& point, double wanted) const {
     const Cell middle = cell(point);
     double least = 2.0 * kHalfSize;
@@ -64,7 +64,7 @@ class BallGrid {
     return static_cast<std::size_t>((at[2] * cells_ + at[1]) * cells_ + at[0]);
   }
 
-  /// Returns whether the layer of cells lies in the grid and near enough for a ball nearer than
+  /// Returns whether the layer of cells is in the grid and close enough for a ball nearer than
   /// `least`, with a slight tolerance for rounding.
   bool may_hold_nearer(double coordinate, std::int64_t layer, double least) const {
     if (layer < 0 || layer >= cells_) return false;

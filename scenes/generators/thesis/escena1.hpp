@@ -17,14 +17,14 @@ struct Ball {
 };
 
 /// Balls of random sizes in the cube [-10, 10]^3, spread evenly by best-candidate sampling
-/// (Mitchell 1991): each ball takes the roomiest of several random places, and shrinks if it does
+/// (Mitchell 1991): each ball takes the roomiest of several random positions and shrinks if it does
 /// not fit.
 std::vector<Ball> scattered_balls(std::int64_t count, std::uint64_t seed);
 
-/// Their camera, background and lights.
+/// Adds the camera, background and lights of these scenes.
 void light_balls(SceneBuilder& builder);
 
-/// The surface of one of `count` balls: six colors, one after the other.
+/// Returns the surface of one of `count` balls: six colors, one after another.
 Surface surface_of_ball(std::size_t number, std::size_t count);
 
 }  // namespace beambench::scenes::generators

@@ -35,7 +35,7 @@ double chain(const glm::dvec3& place, std::span<const Joint> joints) {
   return d;
 }
 
-/// The same along a spline through the joints.
+/// Does the same along a spline through the joints.
 std::vector<Joint> rounded(std::span<const Joint> joints) {
   constexpr int kSteps = 4;
   std::vector<glm::dvec3> knots;

@@ -35,7 +35,7 @@ const std::array<glm::dvec3, 7> kTail = {{{0.15, 0.25, 0.12},
                                           {1.06, 0.20, 1.12},
                                           {1.26, 0.16, 1.26}}};
 
-/// Mirrors a place to the cat's left half: everything except arms and tail is symmetric.
+/// Mirrors a point to the cat's left half: everything except arms and tail is symmetric.
 glm::dvec3 folded(const glm::dvec3& place) { return {std::abs(place.x), place.y, place.z}; }
 
 double head(const glm::dvec3& place) {

@@ -36,8 +36,8 @@ modelling::PolygonMesh stem() {
   return modelling::tube(path, radii, 6);
 }
 
-/// Leaves around the stem in the spiral of phyllotaxis (Vogel 1979): each a golden angle further
-/// than the one below, the lower ones long and drooping, the upper ones steep and short.
+/// Leaves around the stem in the spiral of phyllotaxis (Vogel 1979): each a golden angle farther
+/// around than the one below, the lower ones long and drooping, the upper ones steep and short.
 modelling::PolygonMesh leaves() {
   const double golden = std::numbers::pi * (3.0 - std::sqrt(5.0));
   modelling::PolygonMesh mesh;
@@ -81,9 +81,9 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-// The thesis's own scene is lost. What is known of it: 1,284 polygons, a potted plant whose objects
-// are "strongly distributed over the whole scene" (section 5.3.1). Nothing is fitted to the counts
-// and times that the thesis prints of it.
+// The thesis's own scene is lost. Known are its 1,284 polygons, a potted plant whose objects are
+// "strongly distributed over the whole scene" (section 5.3.1). Nothing is fitted to the thesis's
+// counts and times for this scene.
 void register_maceta(Catalogue& catalogue) {
   catalogue.add(
       {"maceta", "The thesis's Maceta: a potted plant spread over the whole volume", {}, generate});

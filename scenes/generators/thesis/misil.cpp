@@ -23,7 +23,7 @@ constexpr Surface kGray{
     .color = {0.30F, 0.33F, 0.37F}, .diffuse = 0.7F, .specular = 0.4F, .shine = 20.0F};
 constexpr Surface kDark{.color = {0.10F, 0.10F, 0.11F}, .diffuse = 0.8F};
 
-/// The missile stands on z = 0 with its tip at 10; every part is a lathe of its own color.
+/// The missile stands on z = 0 with its tip at 10; every part is a lathe with its own color.
 struct Part {
   Surface surface;
   std::vector<glm::dvec2> profile;

@@ -60,7 +60,7 @@ std::vector<Section> shaft_sections() {
 
 using Posts = std::vector<glm::dvec3>;
 
-/// A post through the sections; `x` and `y` map a section to a place on the axis.
+/// A post through the sections; `x` and `y` map a section to a position on the axis.
 template <typename X, typename Y>
 Posts post(const std::vector<Section>& sections, X x, Y y) {
   Posts places;
@@ -108,7 +108,7 @@ modelling::PolygonMesh leg_side(const Posts& left, const Posts& right, const glm
   return mesh;
 }
 
-/// The leg in the corner x > 0, y > 0.
+/// Returns the leg in the corner x > 0, y > 0.
 modelling::PolygonMesh leg(const std::vector<Section>& sections, double thickness,
                            const modelling::Bracing& bracing) {
   const std::array<Posts, 4> posts = {post(sections, outer, outer), post(sections, inner, outer),

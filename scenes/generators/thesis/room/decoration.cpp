@@ -65,7 +65,7 @@ void sierpinski(const std::array<glm::dvec2, 3>& corners, int depth, modelling::
 modelling::PolygonMesh hand(double hour, double length, double width) {
   modelling::PolygonMesh mesh =
       modelling::box({-0.5 * width, -0.2 * length, 0.0}, {0.5 * width, length, 0.004});
-  mesh.polygons.erase(mesh.polygons.begin() + 4);  // nobody looks from behind
+  mesh.polygons.erase(mesh.polygons.begin() + 4);  // the back is never visible
   return modelling::transformed(mesh, modelling::rotation(2, -30.0 * hour));
 }
 

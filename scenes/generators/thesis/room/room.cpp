@@ -103,7 +103,7 @@ void add_skirting_and_cornice(SceneBuilder& builder) {
   const std::vector<glm::dvec2> skirting = {
       {0.0, 0.12}, {0.010, 0.12}, {0.018, 0.10}, {0.018, 0.0}};
   room.flat(kPaintedWood, modelling::without_side(modelling::molding(kRoom, skirting), 1));
-  // On the door's wall it stops at the architrave, on both sides of it.
+  // On the door's wall it stops at both sides of the architrave.
   const std::array<modelling::Rectangle, 2> pieces = {
       {{{0.018, 0.0}, {kDoor.lower.x - kArchitrave, 0.12}},
        {{kDoor.upper.x + kArchitrave, 0.0}, {kRoom.y - 0.018, 0.12}}}};
@@ -171,7 +171,7 @@ void add_window(SceneBuilder& builder) {
   const glm::dvec2 size = kWindow.upper - kWindow.lower;
   add_window_view(builder, moved(window_wall(), kWindow.lower, -kReveal), size);
 
-  // Two casements; nobody sees their backs.
+  // Two casements, whose backs are never visible.
   const glm::dvec2 half(0.5 * size.x, size.y);
   const std::vector<modelling::Rectangle> openings = modelling::panes(half, 2, 3, 0.045);
   for (const double x : {0.0, half.x}) {

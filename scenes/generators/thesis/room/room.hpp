@@ -23,11 +23,11 @@ inline constexpr modelling::Rectangle kWindow = {{1.15, 1.02}, {2.65, 2.27}};
 /// completely hidden by one of `covered` (rectangles of the floor) are left out.
 void add_room(SceneBuilder& builder, std::span<const modelling::Rectangle> covered);
 
-/// The transform of a piece that stands upright at a place, turned counter-clockwise seen from
-/// above.
+/// Returns the transform of a piece that stands upright at a place, turned counter-clockwise as
+/// seen from above.
 glm::dmat4 standing_at(const glm::dvec3& place, double degrees = 0.0);
 
-/// Adds meshes of one piece, moved to its place.
+/// Adds the meshes of one piece, moved to its position.
 class PlacedPiece {
  public:
   PlacedPiece(SceneBuilder& builder, const glm::dmat4& place) : builder_(builder), place_(place) {}
@@ -40,7 +40,7 @@ class PlacedPiece {
   glm::dmat4 place_;
 };
 
-/// Removes the polygons below a height, which the piece below hides.
+/// Returns the mesh without the polygons below a height, which the piece below hides.
 modelling::PolygonMesh above(modelling::PolygonMesh mesh, double z);
 
 inline constexpr double kDiningTop = 0.75;  ///< height of the table's top
@@ -66,7 +66,8 @@ modelling::PolygonMesh settee(const Settee& settee, double cell);
 /// Four turned feet.
 modelling::PolygonMesh settee_feet(const Settee& settee);
 
-/// A cushion of a half width and height that lies flat around the origin, pointed at its corners.
+/// Returns a cushion of this half width and height that lies flat around the origin, with pointed
+/// corners.
 modelling::PolygonMesh scatter_cushion(double half, double height, int steps);
 
 /// A woven rug over a rectangle of the floor, a quad for each knot of its pattern, fringed left and
@@ -94,13 +95,13 @@ void add_china_teapot(SceneBuilder& builder, const glm::dmat4& place);
 void add_cup(SceneBuilder& builder, const glm::dmat4& place);
 /// A bowl of radius 0.17 with apples, oranges and a banana.
 void add_fruit_bowl(SceneBuilder& builder, const glm::dmat4& place);
-/// A vase with daisies, some 0.5 high.
+/// A vase with daisies, about 0.5 high.
 void add_vase_of_flowers(SceneBuilder& builder, const glm::dmat4& place);
 
-/// The plane z = 0 of `place` is the wall, with the lower left outer corner of a framed picture at
-/// its origin. This one, 0.62 x 0.62, shows Sierpinski's triangle, as `stetra` does in space.
+/// Adds a framed picture on the wall, the plane z = 0 of `place`, with its lower left outer corner
+/// at the origin. This one, 0.62 x 0.62, shows Sierpinski's triangle, like `stetra` in space.
 void add_triangle_picture(SceneBuilder& builder, const glm::dmat4& place);
-/// 0.8 x 0.6: a sailing boat under the sun.
+/// Adds a picture, 0.8 x 0.6, of a sailing boat under the sun.
 void add_boat_picture(SceneBuilder& builder, const glm::dmat4& place);
 /// A clock of radius 0.17 around the origin of `place`, at ten past ten.
 void add_clock(SceneBuilder& builder, const glm::dmat4& place);

@@ -128,7 +128,7 @@ double settee_field(const glm::dvec3& p, const Settee& settee) {
       rounded_box_field(p - glm::dvec3(0.0, 0.0, kBottom + 0.11), {inner, 0.42, 0.11}, 0.03);
   const double back = rounded_box_field({p.x, p.y - 0.33 - 0.10 * (p.z - 0.5), p.z - 0.47},
                                         {inner + 0.06, 0.10, 0.36}, 0.07);
-  // The body under and behind the cushions, so that nothing is hollow.
+  // The body under and behind the cushions, which fills the hollow space.
   const double core = rounded_box_field(p - glm::dvec3(0.0, 0.02, 0.33), {inner, 0.36, 0.10}, 0.02);
   const double behind = rounded_box_field({p.x, p.y - 0.26 - 0.13 * (p.z - 0.5), p.z - 0.55},
                                           {inner, 0.06, 0.24}, 0.02);
@@ -231,7 +231,7 @@ void add_rug(SceneBuilder& builder, const modelling::Rectangle& place) {
 }
 
 void add_curtains(SceneBuilder& builder, const modelling::Rectangle& window, double y) {
-  constexpr double kBeside = 0.26;  // of the wall, covered too
+  constexpr double kBeside = 0.26;  // of the wall, also covered
   const double bottom = window.lower.y - 0.12;
   const double top = window.upper.y + 0.10;
   const double rod = top + 0.038;

@@ -39,7 +39,7 @@ std::vector<glm::dvec3> bow() {
   return modelling::spline(knots, 3);
 }
 
-/// A board with a round edge, open where the cushion lies.
+/// A board with a round edge, open under the cushion.
 modelling::PolygonMesh seat_board() {
   modelling::Profile edge({0.0, -0.5});
   edge.line({0.80, -0.5}).curve({1.0, 0.1}, 0.06, 3).curve({0.90, 0.5}, 0.05, 2);
