@@ -46,7 +46,7 @@ inline scenes::modelling::PolygonMesh bumpy(const char* name) {
 
 inline constexpr int kTorusSlices = 24;
 
-/// Returns a point on the ring of radius 1 about z whose tube has the radius `thickness`.
+/// Returns a point on a torus about z with major radius 1 and minor radius `thickness`.
 inline glm::dvec3 torus_point(double u, double v, double thickness) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
   const double radius = 1.0 + thickness * portable_cos(kTurn * v);

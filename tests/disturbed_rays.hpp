@@ -1,5 +1,5 @@
 #pragma once
-// Rays that do not run where their samples say, among rays that do.
+// Rays that deviate from their samples, among rays that do not.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,14 +12,14 @@
 
 namespace beambench::tests {
 
-/// Changes six of `kinds` rays, in turn at random: sample, direction, origin or interval. The
-/// others get directions of other lengths.
+/// Changes six of `kinds` rays, each in a random way: sample, direction, origin or interval. The
+/// others get directions of different lengths.
 inline void disturb(std::span<accel::Ray> rays, std::span<std::uint32_t> samples,
                     std::uint64_t kinds, Random& random) {
   for (std::size_t i = 0; i < rays.size(); ++i) {
     accel::Ray& ray = rays[i];
     switch (random.below(kinds)) {
-      case 0:  // of another sample, which may have a ray
+      case 0:  // the sample, to one that may have a ray
         samples[i] = samples[random.below(samples.size())];
         break;
       case 1:

@@ -1,5 +1,5 @@
 #pragma once
-// The modes of the installed Embree; version 4 has one less.
+// The modes of the installed Embree; version 4 has one fewer.
 
 #include <algorithm>
 #include <string>

@@ -7,7 +7,7 @@
 
 namespace beambench {
 
-/// A folder that serves as the root of a system: with /proc and control groups, or without them.
+/// A folder that serves as the root of a system, with or without /proc and control groups.
 class FakeSystem {
  public:
   const std::filesystem::path& root() const { return folder_.path(); }

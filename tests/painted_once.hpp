@@ -1,6 +1,6 @@
 #pragma once
-// Checks images by beams, sample by sample: each sample belongs to one beam, whatever the beams are
-// cut by.
+// Checks images traced by beams, sample by sample: each sample belongs to one beam, however beams
+// are divided.
 
 #include <array>
 #include <cmath>
@@ -42,8 +42,8 @@ class PaintWatch : public accel::beam::NoBeamWatch {
 };
 
 /// Traces an image and checks that each sample whose ray `meets` the structure is painted once and
-/// every other sample never, that no cell was too crowded to paint a sample, and that the hits of
-/// all samples, or of every `stride`-th, are those of `exhaustive`. Returns how samples ended.
+/// all others never, that no sample became a ray because of crowding, and that the hits of all
+/// samples, or of every `stride`-th, equal those of `exhaustive`. Returns how samples ended.
 template <class Tracer, class Meets>
 PaintWatch expect_painted_once(const scenes::Scene& scene, const Tracer& tracer, const Meets& meets,
                                const accel::PrimaryRays& rays, std::size_t stride = 1) {

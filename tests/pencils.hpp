@@ -38,8 +38,8 @@ class CheckedPencils {
         image_(&image),
         roundings_(roundings) {}
 
-  /// Checks that pencils are in order, that their rays either run toward the apex and end there, or
-  /// away from it, and in the latter case that the view shows the same at their samples.
+  /// Checks that pencils are in order and that their rays either run toward the apex and end there,
+  /// or run away from it and match the view at their samples.
   void add(const accel::RayBatch& batch) {
     ASSERT_TRUE(batch.samples.empty() || batch.samples.size() == batch.rays.size());
     for (const std::uint32_t sample : batch.samples) ASSERT_LT(sample, image_->count());
@@ -81,7 +81,7 @@ class CheckedPencils {
     const glm::dvec3 from_apex = glm::dvec3(ray.origin) - pencil.apex;
     EXPECT_GT(glm::dot(from_apex, glm::dvec3(ray.direction)), 0.0);
     EXPECT_EQ(ray.t_min, 0.0F);
-    // The view's eye is not moved by each mirror's lift.
+    // Each mirror's lift does not move the view's eye.
     const accel::Ray seen = rays::ray_at(*pencil.view, sample);
     const glm::dvec3 line = glm::normalize(glm::dvec3(seen.direction));
     const glm::dvec3 offset = glm::dvec3(ray.origin) - glm::dvec3(seen.origin);

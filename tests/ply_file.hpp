@@ -1,5 +1,5 @@
 #pragma once
-// PLY files for tests, in each encoding from one description.
+// PLY files for tests, generated in each encoding from one description.
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@ inline constexpr std::array<std::string_view, 3> kPlyEncodings = {"ascii", "bina
                                                                   "binary_big_endian"};
 
 /// A number with its type, as spelled in the header. In a text file it is written as `text` if
-/// given, else as the shortest decimal that restores the number.
+/// given, otherwise as the shortest decimal that restores the number.
 struct PlyNumber {
   std::string_view type;
   double value = 0.0;
@@ -26,7 +26,7 @@ struct PlyNumber {
 
 using PlyRow = std::vector<PlyNumber>;
 
-/// Appends the bytes of a number of this type; would be wrong on a big-endian machine.
+/// Appends the bytes of a number of this type; assumes a little-endian machine.
 template <typename Number>
 void put_ply(std::string& bytes, double value, bool big_endian) {
   const auto number = static_cast<Number>(value);

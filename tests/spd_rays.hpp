@@ -1,5 +1,5 @@
 #pragma once
-// The rays with which the published counts of the Standard Procedural Databases were made.
+// The rays of the published counts for the Standard Procedural Databases.
 
 #include <cstdint>
 #include <vector>

@@ -1,4 +1,5 @@
-// The ways in which beams test samples in leaves: the same hits, and no SIMD where none is stated.
+// How beams test samples in leaves: all ways find the same hits, and none uses SIMD without stating
+// it.
 
 #include <array>
 #include <cstdint>

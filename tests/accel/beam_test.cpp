@@ -1,4 +1,4 @@
-// Properties of beams: every sample belongs to exactly one, whatever they are cut by.
+// Properties of beams: every sample belongs to exactly one, however beams are divided.
 
 #include <array>
 #include <cstdint>
@@ -72,8 +72,8 @@ TEST(Beam, PaintsEverySampleOfRandomScenesOnce) {
   }
 }
 
-/// A block of 4x4x4 cubes' faces over [0, 8]^3. With a margin of an eighth the root is [-1, 9]^3
-/// and the planes of its cells are floats, on which eyes can be put.
+/// The faces of a block of 4x4x4 cubes over [0, 8]^3. With a margin of an eighth, the root is [-1,
+/// 9]^3 and the planes of its cells are floats, so that eyes can be placed on them.
 scenes::Scene lattice_scene() {
   scenes::SceneBuilder builder("lattice");
   for (int cell = 0; cell < 64; ++cell) {
@@ -99,7 +99,7 @@ TEST_P(EyeOnPlanes, LosesNoSampleAtFacesEdgesAndCorners) {
   const scenes::Scene scene = lattice_scene();
   beam::BeamOptions options = options_with(5);
   options.octree.pad = GetParam();
-  // Faces, edges and corners of cells of all sizes, outside and inside, and places beside them.
+  // Faces, edges and corners of cells of all sizes, outside and inside, and points next to them.
   constexpr std::array kPlaces{-6.0F, -1.0F, 0.25F, 1.5F, 4.0F, 4.625F, 6.3F, 9.0F, 14.0F};
   const std::array<glm::vec3, 7> directions{
       {{1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {1, 1, 1}, {-1, 1, 0}, {-1, -1, -1}, {0.3F, -0.7F, 0.2F}}};
@@ -165,7 +165,7 @@ TEST(Beam, MakesTheSameBeamsAtEveryResolution) {
   }
 }
 
-/// Every beam that was made ends: it is divided, or it reaches an occupied leaf or the root's end.
+/// Every beam ends: it is divided, reaches an occupied leaf, or leaves the root.
 TEST(Beam, CountsABeamWhenItIsMade) {
   for (const char* name : {"tetra:n=5", "escena1", "escena2", "habitacion", "closed-room"}) {
     SCOPED_TRACE(name);

@@ -1,5 +1,5 @@
 #pragma once
-// What tests expect of the binary hierarchies of all builders.
+// Checks for the binary hierarchies of all builders.
 
 #include <algorithm>
 #include <cstddef>

@@ -17,7 +17,7 @@
 
 namespace beambench::tests {
 
-/// Distinguishes -0 from 0, which compare as equal.
+/// Compares bits: distinguishes -0 from 0, which compare equal.
 inline std::optional<std::pair<std::uint32_t, scenes::PrimitiveId>> bits_of(
     const std::optional<accel::Hit>& hit) {
   if (!hit) return std::nullopt;

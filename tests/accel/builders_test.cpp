@@ -1,5 +1,5 @@
-// The builders besides the binned one, and reinsertion: valid hierarchies whatever the boxes, the
-// same on any number of threads.
+// All builders other than the binned one, and reinsertion: hierarchies are valid for any boxes and
+// the same for any number of threads.
 
 #include <array>
 #include <cmath>

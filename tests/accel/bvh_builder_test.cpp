@@ -1,4 +1,4 @@
-// The SAH builder by itself: the properties that all its users rely on.
+// The SAH builder in isolation: the properties that all its users rely on.
 
 #include "accel/bvh/bvh_builder.hpp"
 
@@ -89,7 +89,7 @@ TEST(BvhBuilder, NoAxisIsPreferred) {
 }
 
 TEST(BvhBuilder, SplitsByAreaAndNotByCount) {
-  // Eight boxes at one end, one far away: the middle of the items is the worst of splits.
+  // Eight boxes at one end, one far away: splitting at the middle item is the worst choice.
   std::vector<scenes::Bounds> boxes;
   for (int i = 0; i < 8; ++i) {
     const auto at = static_cast<float>(i) * 0.01F;
@@ -111,7 +111,7 @@ TEST(BvhBuilder, ManyBoxesInOnePlaceAreSplitInTheMiddle) {
 }
 
 TEST(BvhBuilder, DepthIsBoundedWhateverTheBoxes) {
-  std::vector<scenes::Bounds> boxes;  // each split takes off the largest few only
+  std::vector<scenes::Bounds> boxes;  // each split removes only the few largest
   for (int i = 0; i < 250; ++i) {
     const auto at = static_cast<float>(std::pow(1.7, i % 125) * 1e-28);
     boxes.push_back({glm::vec3(at), glm::vec3(at)});

@@ -127,8 +127,8 @@ TEST(CountBeams, EstimatesWhatTheTracerCounts) {
     estimated.nonterminal += work.nonterminal;
     estimated.occupied += work.occupied;
   }
-  // Errors of one scene cancel those of another: a rule that counted all beams that a window shows
-  // would find twice as many.
+  // The errors of different scenes cancel out; counting all beams visible in a window would find
+  // twice as many.
   EXPECT_NEAR(estimated.nonterminal, traced.nonterminal, 0.15 * traced.nonterminal);
   EXPECT_NEAR(estimated.occupied, traced.occupied, 0.15 * traced.occupied);
 }

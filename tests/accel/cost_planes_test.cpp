@@ -1,4 +1,4 @@
-// Octrees with planes at the least cost, and octrees divided on demand.
+// Octrees with planes at the lowest cost, and octrees divided on demand.
 
 #include "accel/octree/cost_planes.hpp"
 
@@ -141,7 +141,7 @@ TEST(CostPlanes, AreRefusedWhereNeighborsAreFoundByHalving) {
   EXPECT_THROW(octree::SametNet(scene, some_cost_options(4)), InputError);
 }
 
-// A ray passes through the same leaves, whichever rays divided them.
+// A ray passes through the same leaves, no matter which rays divided them.
 TEST(OnDemandOctree, WorkAndHitsAreThoseOfTheCompleteOctree) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
@@ -171,7 +171,7 @@ TEST(OnDemandOctree, WorkAndHitsAreThoseOfTheCompleteOctree) {
   }
 }
 
-// Without rays, only the high levels exist; with all leaves entered, the octree is complete.
+// Without rays, only the upper levels exist; once all leaves are entered, the octree is complete.
 TEST(OnDemandOctree, DividesWhereRaysCome) {
   const scenes::Scene scene = scenes::load_scene("balls:n=2");
   OctreeOptions options;

@@ -36,8 +36,8 @@ Ray ray_from(const glm::vec3& origin, const glm::vec3& direction) {
   return made;
 }
 
-/// Along the x axis: a sphere, one seen from inside only, a cylinder across, one from inside only,
-/// two polygons of one square at x = 12.
+/// Along the x axis: a sphere, one seen only from the inside, a cylinder across, one seen only from
+/// the inside, and two coincident square polygons at x = 12.
 scenes::Scene row_of_primitives() {
   scenes::SceneBuilder builder("row");
   builder.add_sphere({0.0, 0.0, 0.0}, 1.0);
@@ -66,13 +66,13 @@ TEST(EmbreeOracle, HitsEachKindWhereItsDefinitionSays) {
   expect_hit(oracle.closest_hit(along), (5.0 - half) / 2.0, 0);
   along.t_min = 2.3F;  // beyond the entry: the far side of the hollow sphere
   expect_hit(oracle.closest_hit(along), (5.0 + half) / 2.0, 0);
-  along.t_min = 3.1F;  // the next sphere is entered at 3.5 unseen
+  along.t_min = 3.1F;  // entering the next sphere, at 3.5, is not a hit
   expect_hit(oracle.closest_hit(along), (8.0 + half) / 2.0, 1);
   along.t_min = 4.6F;
   expect_hit(oracle.closest_hit(along), 5.0, 2);
   along.t_min = 5.5F;
   expect_hit(oracle.closest_hit(along), 6.0, 2);
-  along.t_min = 6.2F;  // the next cylinder is entered at 6.5 unseen
+  along.t_min = 6.2F;  // entering the next cylinder, at 6.5, is not a hit
   expect_hit(oracle.closest_hit(along), 7.5, 3);
   along.t_min = 7.6F;  // two polygons at one place
   expect_hit(oracle.closest_hit(along), 8.5, 4);
@@ -112,8 +112,8 @@ TEST(EmbreeOracle, LosesNoRayAtTheVerticesOfAClosedMesh) {
   }
 }
 
-// Five in a million of these were lost when doubles decided the side of the ray on which edges
-// pass: at a vertex, they may put all edges on one side.
+// Five in a million of these rays were lost when doubles decided on which side of the ray an edge
+// passes: at a vertex, they may put all edges on one side.
 TEST(EmbreeOracle, LosesNoRayFromAnywhereAtTheVerticesOfAClosedMesh) {
   for (const char* name : {"bumpy:triangles=1000", "bumpy:triangles=20000"}) {
     const scenes::Scene scene = scenes::load_scene(name);
@@ -197,8 +197,8 @@ scenes::Camera random_camera(Random& random) {
   return camera;
 }
 
-/// Hollow spheres seen from the inside only and cones, scattered: user geometry, whose t comes from
-/// our own test in double, whatever packet the ray came in. A ray that differs in one bit shows.
+/// Scattered cones and hollow spheres seen only from the inside: user geometry, whose t comes from
+/// our own test in double, independent of the packet. A ray that differs in one bit is noticed.
 scenes::Scene user_primitives(Random& random) {
   scenes::SceneBuilder builder("user primitives");
   const auto place = [&] {
@@ -274,14 +274,14 @@ TEST_P(EmbreeModes, TraceListsOfAnyLengthOnEveryInstructionSet) {
   }
 }
 
-/// Expects the exact hit within the single precision of curves for cones: t to several roundings of
-/// the ray's length, and another primitive if the two are that close.
+/// Expects the exact hit up to the single precision of curves for cones: t within several roundings
+/// of the ray's length; a different primitive only if the two are that close.
 void expect_as_exact(const Accelerator& exact, const Ray& ray, const std::optional<Hit>& hit,
                      std::size_t& unlike) {
   const auto expected = exact.closest_hit(ray, nullptr);
   if (hit.has_value() != expected.has_value() ||
       (hit && std::abs(hit->t - expected->t) > 1e-4F * expected->t)) {
-    ++unlike;  // a ray that touches
+    ++unlike;  // a tangent ray
   }
 }
 
@@ -372,7 +372,7 @@ TEST(Embree, RefusesAnUnknownMode) {
   EXPECT_THROW(embree("mode=packet32", scene), InputError);
 }
 
-// The output of Embree 3.13.5 on a machine with AVX-512, and of a build for less.
+// The output of Embree 3.13.5 on a machine with AVX-512, and of a build with fewer targets.
 constexpr const char* kPrinted = R"(
    Targets  : SSE SSE2 SSE3 SSSE3 SSE4.1 SSE4.2 AVX AVXI AVX2 AVX512
   Config
@@ -408,7 +408,7 @@ TEST(Embree, IsRestrictedToAnInstructionSet) {
 // Streams are made in packets as wide as the instruction set's registers: 4, 8 or 16 rays.
 TEST(Embree, OfEachInstructionSetEveryModeGivesTheHitsOfSingleRays) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=3");
-  const PrimaryRays rays(scene.cameras.front(), 45, 35, 5);  // tiles and blocks that are cut off
+  const PrimaryRays rays(scene.cameras.front(), 45, 35, 5);  // with partial tiles and blocks
   for (const char* isa : {"best", "avx2", "sse4"}) {
     HitBuffer single(45, 35, 5);
     embree(fmt::format("mode=single,isa={}", isa), scene)->closest_hits(rays, single, {});

@@ -44,7 +44,8 @@ TEST(ExpectedVisits, AreUnknownOfAFlatSceneWithoutArea) {
   EXPECT_TRUE(statistics.more.empty());
 }
 
-/// A line through two random points of a sphere around the scene: lines are uniformly distributed.
+/// Returns a line through two random points of a sphere around the scene; such lines are uniformly
+/// distributed.
 Ray random_line(const glm::dvec3& center, double radius, Random& random) {
   const auto on_sphere = [&] {
     const double z = random.uniform(-1.0, 1.0);

@@ -32,8 +32,8 @@ bvh::GoldsmithSalmonOptions options_for(Order order,
 
 constexpr std::array kInsertions{bvh::Insertion::kEverywhere, bvh::Insertion::kTerminal};
 
-/// Every primitive once and within its box; every box the union of those below it; volumes with at
-/// least two children (the root may have one).
+/// Expects every primitive once and within its box, every box to be the union of those below it,
+/// and volumes to have at least two children (the root may have one).
 void expect_valid(const bvh::InsertionHierarchy& hierarchy, const scenes::Scene& scene) {
   const auto& entries = hierarchy.entries;
   std::vector<int> seen(scene.primitives.size(), 0);
@@ -103,8 +103,8 @@ TEST(GoldsmithSalmon, ChoosesAsByHand) {
   EXPECT_EQ(paired.volumes, 2U);
   EXPECT_DOUBLE_EQ(paired.cost, 2.0 + 2.0 * 12.0 / 300.0);
 
-  // The fourth lies within the pair: one more child there costs 12; a pair with one of its cubes of
-  // side 1 and an overlap of one half, of side 1.5: 13.5.
+  // The fourth lies within the pair: one more child there costs 12; pairing it with one of the
+  // pair's cubes of side 1, overlapping by half, costs 13.5.
   const bvh::InsertionHierarchy wider =
       insert_in_order({cube(0, 1), cube(9, 10), cube(1, 2), cube(0.5F, 1.5F)});
   EXPECT_EQ(wider.volumes, 2U);
@@ -134,7 +134,8 @@ TEST(GoldsmithSalmon, ChoosesBesideTheTerminalNodeByHand) {
   EXPECT_EQ(wider.widest, 3U);
   EXPECT_DOUBLE_EQ(wider.cost, 2.0 + 3.0 * 12.0 / 300.0);
 
-  // No volume is put above one that is passed: the far cube grows the only one and stays in it.
+  // No volume is inserted above one that the path has passed: the far cube enlarges the only volume
+  // and stays in it.
   const bvh::InsertionHierarchy below =
       insert_in_order({cube(0, 1), cube(0, 1), cube(0, 1), cube(9, 10)}, bvh::Insertion::kTerminal);
   EXPECT_EQ(below.volumes, 1U);
@@ -223,7 +224,7 @@ TEST(GoldsmithSalmon, BothInsertionsGiveTheHitsOfExhaustiveSearch) {
   }
 }
 
-// The queue looks at the nearest box first wherever it is, the stack at the nearest child first:
+// The queue visits the nearest box first wherever it is, and the stack the nearest child first, so
 // the queue never enters more.
 TEST(GoldsmithSalmon, TheQueueEntersNoMoreThanTheStack) {
   for (const char* name : {"balls:n=3", "tetra:n=5", "escena1"}) {
@@ -278,7 +279,7 @@ TEST(GoldsmithSalmon, ManyObjectsInOnePlaceAreBuiltInLinearTime) {
   }
 }
 
-// Each sphere larger than all before: volumes above volumes, as deep as it gets.
+// Each sphere is larger than all before: volumes above volumes, as deep as possible.
 TEST(GoldsmithSalmon, TakesADeepHierarchy) {
   scenes::SceneBuilder builder("shells");
   for (int i = 0; i < 150; ++i) builder.add_sphere({0.0, 0.0, 0.0}, 1e-12 * std::pow(1.35, i));

@@ -61,7 +61,7 @@ TEST(GridBeam, PaintsEverySampleOfRandomScenesOnce) {
   }
 }
 
-// Planes of grids of all levels must have the numbers of one lattice.
+// The planes of grids of all levels must have indices in one lattice.
 TEST(GridBeam, TheLatticeHasThePlanesOfAllGrids) {
   GridBeamOptions options;
   options.grid.inner = HierarchicalGridOptions::Inner::kPowers;

@@ -2,13 +2,12 @@
 // Databases, TETRA at n = 6): 7,636,497 box tests and 964,567 polygon tests, for 263,169 eye rays
 // through the corners of 512 x 512 pixels (49,788 hit) and 46,112 shadow rays.
 //
-// What the comparison showed. Over a hierarchy of objects inserted at random, a traversal that
-// visits everything it meets, whether or not a nearer hit is known, and tests the objects of a
-// volume without boxes of their own costs within 7% of his box tests and 8% of his polygon tests:
-// that is the kind of traversal he must have counted. Kay and Kajiya's queue stops at the closest
-// hit, and then polygon tests are 42% fewer: a better traversal, not another tree. Insertion in the
-// scene's own order makes a tree that costs 30% more box tests; his text does not state which order
-// he took.
+// Result of the comparison: he must have counted a traversal that visits everything it meets, even
+// when a nearer hit is known, and that tests a volume's objects without testing their boxes. Over a
+// hierarchy of objects inserted in random order, such a traversal is within 7% of his box tests and
+// 8% of his polygon tests. Kay and Kajiya's queue stops at the closest hit and needs 42% fewer
+// polygon tests: a better traversal, not another tree. Insertion in scene order results in a tree
+// that costs 30% more box tests; his text does not state which order he used.
 
 #include <cmath>
 

@@ -1,20 +1,20 @@
-// Havran's and Sixta's published counts of grids ("Comparison of hierarchical grids", Ray Tracing
-// News 12(1), 1999), ours beside them: primitives by their bounding boxes, a grid over the scene's
-// own box.
+// Compares ours with Havran's and Sixta's published counts of grids ("Comparison of hierarchical
+// grids", Ray Tracing News 12(1), 1999): primitives by their bounding boxes, a grid over the
+// scene's own box.
 //
-// What the comparison showed.
-// - Uniform grids: empty voxels within 2.4%, references within 6.2%, most within 1%; where both are
-//   exact the boxes are the same. His scene boxes are a little larger than the scenes, which is
-//   what differs at resolutions whose planes the primitives touch. (gears is not explained: he has
-//   60% more references at 32x33x9, and more interior nodes of octrees.)
-// - Recursive grids: with the cube root of the number of primitives for the top grid (Woo 1992) and
-//   voxels divided that refer to more than 6, the numbers of grids of two levels agree within 1%
-//   for tetra and teapot, 2% for lattice and 5% for balls (voxels of equal numbers along the axes)
-//   and exactly for balls with cubic ones. By that rule again (one voxel for each reference) cubic
-//   inner grids have his voxels and empty voxels within 5%.
-// - How he rounds the root in voxels of few references is not printed: 37,984 voxels in tetra's
-//   1,056 inner grids are 256 grids of 4^3 and 800 of 3^3, where round(cbrt(n)) has 2^3 for the
-//   eight references of most, so that he has more voxels there, and more references. At depth 3 the
+// Results of the comparison:
+// - Uniform grids: empty voxels agree within 2.4% and references within 6.2%, most within 1%; where
+//   both are exact, the boxes are the same. His scene boxes are slightly larger than the scenes,
+//   which matters at resolutions whose planes touch primitives. (gears is unexplained: he has 60%
+//   more references at 32x33x9, and more interior nodes of octrees.)
+// - Recursive grids: with the cube root of the number of primitives for the top grid (Woo 1992),
+//   and voxels with more than 6 references divided, the numbers of grids on two levels agree within
+//   1% for tetra and teapot, 2% for lattice and 5% for balls (equal numbers of voxels along the
+//   axes), and exactly for balls with cubic voxels. With the same rule (one voxel per reference),
+//   cubic inner grids match his voxels and empty voxels within 5%.
+// - How he rounds the root for voxels with few references is not printed: 37,984 voxels in tetra's
+//   1,056 inner grids are 256 grids of 4^3 and 800 of 3^3. For the eight references of most,
+//   round(cbrt(n)) is only 2^3, so he has more voxels there, and more references. At depth 3 the
 //   difference multiplies, and the counts do not agree.
 
 #include <array>
@@ -75,7 +75,7 @@ constexpr std::array<UniformRow, 17> kUniform = {{
     {"teapot", "61x61x25", {93025, 83721, 52781}, {93025, 83870, 49551}, 0.062},
     {"tree", "52x52x3", {8112, 5400, 11102}, {8112, 5400, 11107}, 0.001},
     {"tree", "60", {216000, 212179, 14322}, {216000, 212179, 13970}, 0.05},
-    // Not explained.
+    // Unexplained.
     {"gears", "32x33x9", {9504, 6080, 39344}, {9504, 6544, 24456}, 0.4},
 }};
 

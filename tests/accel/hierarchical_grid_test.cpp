@@ -1,4 +1,4 @@
-// The hierarchy of grids: what its voxels must hold, which of them are divided, its limits.
+// The hierarchy of grids: the contents of its voxels, which of them are divided, and its limits.
 
 #include "accel/hierarchical_grid/hierarchical_grid.hpp"
 
@@ -33,7 +33,8 @@ using hierarchical_grid::Voxel;
 using tests::build;
 using tests::refusal;
 
-/// The options of a test, by number: coarse and fine grids, cubes and not, few and many levels.
+/// Returns the options of a test, by number: coarse and fine grids, cubic or not, few and many
+/// levels.
 HierarchicalGridOptions some_grid_options(std::uint64_t number) {
   HierarchicalGridOptions options;
   if (number % 3 != 0) {
@@ -64,7 +65,7 @@ double volume(const Box& box) {
   return size.x * size.y * size.z;
 }
 
-// The builder hands lists down and halves blocks of voxels; the definition does not.
+// The builder passes lists down and halves blocks of voxels; the definition does not.
 TEST(HierarchicalGrid, VoxelsReferToExactlyWhatOverlapsThem) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
@@ -77,7 +78,7 @@ TEST(HierarchicalGrid, VoxelsReferToExactlyWhatOverlapsThem) {
       const auto references = hierarchy.references(voxel);
       EXPECT_TRUE(std::is_sorted(references.begin(), references.end()));
       for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
-        // The overlap of cones is conservative, and not the same way for a voxel and its part.
+        // The overlap test of cones is conservative, in different ways for a voxel and its parts.
         if (scene.primitives[id].kind == scenes::PrimitiveKind::kCone) continue;
         const bool listed = std::binary_search(references.begin(), references.end(), id);
         EXPECT_TRUE(listed || !surface_overlaps(scene, id, box, 0.999 * tolerance)) << id;

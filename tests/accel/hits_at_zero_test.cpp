@@ -21,7 +21,7 @@
 namespace beambench::accel {
 namespace {
 
-/// A star with 15 corners, not in a plane of the axes.
+/// A star with 15 corners, not in an axis-aligned plane.
 scenes::Scene star() {
   scenes::SceneBuilder builder("star");
   std::vector<glm::dvec3> corners;
@@ -35,7 +35,7 @@ scenes::Scene star() {
   return std::move(builder).build();
 }
 
-/// Rays from the corners of triangles, from their edges and their faces.
+/// Returns rays from the corners, edges and faces of triangles.
 std::vector<Ray> rays_from_triangles(const scenes::Scene& scene, Random& random) {
   std::vector<Ray> rays;
   for (const scenes::Triangle& triangle : scene.triangles) {

@@ -1,4 +1,4 @@
-// An image or a list on several threads: the same hits and the same counts, whichever thread found
+// An image or a list on several threads: the hits and counts do not depend on which thread found
 // them.
 
 #include <algorithm>
@@ -30,7 +30,7 @@ namespace {
 
 constexpr int kThreads[] = {1, 2, 3, 8};
 
-/// All counters except times, which always differ.
+/// Returns all counters except times, which always differ.
 std::map<std::string, std::uint64_t, std::less<>> counts(const WorkCounters& counters) {
   auto all = counters.by_name();
   std::erase_if(all, [](const auto& counter) { return counter.first.ends_with("_ns"); });
@@ -58,7 +58,7 @@ void expect_same_on_threads(const StructureChoice& choice, const scenes::Scene& 
   }
 }
 
-/// Expects the same of a list, longer than what a thread takes at a time.
+/// Expects the same for a list that is longer than a thread's share.
 void expect_same_list_on_threads(const StructureChoice& choice, const scenes::Scene& scene) {
   SCOPED_TRACE(choice.label() + " over " + scene.name);
   if (!choice.info().support.batches) return;
@@ -187,7 +187,7 @@ TEST(TraceOn, DefaultThreadsAreThoseThatTheQuotaKeepsBusy) {
   EXPECT_EQ(allowed, 3);
 }
 
-// Embree limits TBB to the threads of its devices, and so would limit other structures, too.
+// Embree limits TBB to the threads of its devices, which would also limit other structures.
 TEST(TraceOn, EmbreeLeavesTheThreadsThatItsWorkloadHas) {
   const scenes::Scene scene = scenes::load_scene("escena1");
   Workload workload = usual_workload(scene);

@@ -1,5 +1,5 @@
-// Lists of rays in tile-beam, several of which are in flight at once in large hierarchies: results
-// and work are the same as for one ray after the other.
+// Lists of rays in tile-beam, with several rays in flight at once in large hierarchies: results and
+// work are the same as for one ray after another.
 
 #include <algorithm>
 #include <cstddef>
@@ -70,7 +70,7 @@ void expect_right(const Answers& answers, const scenes::Scene& scene, std::span<
   EXPECT_EQ(answers.some_left_any, some_left);
 }
 
-/// Lists shorter and longer than the number of rays in flight, some of which are left out.
+/// Lists shorter and longer than the number of rays in flight; some rays are skipped.
 std::vector<Ray> some_rays(const scenes::Scene& scene, std::uint64_t seed, std::size_t count) {
   Random random(seed);
   std::vector<Ray> rays = verify::random_rays(scene, count, random);
@@ -120,7 +120,7 @@ TEST(InterleavedRays, ContinueImagesAndPencils) {
   std::size_t hits = 0;
   image.for_each(0, 12, [&](std::size_t index, const Ray& ray) {
     const auto hit = structure.closest_hit(ray, nullptr);
-    // In an image 1/t is what is kept, and rounded.
+    // Images store 1/t, which is rounded.
     EXPECT_EQ(buffer.primitive()[index], hit ? hit->primitive : scenes::kNoPrimitive);
     hits += hit ? 1U : 0U;
   });

@@ -59,7 +59,7 @@ TEST(IntersectCone, CylinderBothWallsNoCaps) {
   EXPECT_EQ(hit(cylinder, ray({0, 0, 1}, {-1, 0, 0})), 1.0F);
   EXPECT_EQ(hit(cylinder, ray({0, 0, 5}, {0, 0, -1})), std::nullopt) << "down the open end";
   EXPECT_EQ(hit(cylinder, ray({3, 0, 2.001F}, {-1, 0, 0})), std::nullopt);
-  // In over the rim, out through the far wall.
+  // The ray enters over the rim and exits through the far wall.
   EXPECT_EQ(hit(cylinder, ray({1.5F, 0, 3}, {-1, 0, -1})), 2.5F);
 }
 
@@ -113,7 +113,8 @@ TEST(IntersectTriangle, ClosedMeshIsWatertight) {
   }
 }
 
-/// Distance of a point from a sphere's or cone's surface or a polygon's triangles, in double.
+/// Returns the distance of a point from a sphere's or cone's surface or a polygon's triangles, in
+/// double.
 double distance_to_triangle(const glm::dvec3& p, const glm::dvec3 (&v)[3]) {
   const glm::dvec3 normal = glm::normalize(glm::cross(v[1] - v[0], v[2] - v[0]));
   bool above = true;

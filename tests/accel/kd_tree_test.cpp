@@ -62,7 +62,7 @@ double volume(const scenes::Bounds& cell) {
   return size.x * size.y * size.z;
 }
 
-// The builder hands down clipped boxes; the definition is a test of the surface against the cell.
+// The builder passes down clipped boxes; the definition is a test of the surface against the cell.
 TEST(KdTree, LeavesReferToExactlyWhatOverlapsThem) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
@@ -81,10 +81,10 @@ TEST(KdTree, LeavesReferToExactlyWhatOverlapsThem) {
       const auto ids = primitives_of(tree, leaf);
       references += ids.size();
       for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
-        // The overlap of cones is conservative, and not the same way for a cell and its part.
+        // The overlap test of cones is conservative, in different ways for a cell and its parts.
         if (scene.primitives[id].kind == scenes::PrimitiveKind::kCone) continue;
         const bool referred = std::binary_search(ids.begin(), ids.end(), id);
-        // Planes lie at the tolerance from surfaces: there rounding decides.
+        // Planes are one tolerance away from surfaces, where rounding decides.
         EXPECT_TRUE(referred || !surface_overlaps(scene, id, box, 0.999 * tolerance)) << id;
         // More than the definition requires only within rounding of the boundary.
         if (referred && options.clip) {
@@ -119,7 +119,7 @@ TEST(KdTree, EveryInstructionSetGivesTheHitsOfExhaustive) {
   }
 }
 
-// Wald and Havran (2006, section 3.3) report some ten per cent.
+// Wald and Havran (2006, section 3.3) report about ten percent.
 TEST(KdTree, ClippingLowersTheCost) {
   for (const char* name : {"bumpy:triangles=5000", "teapot:n=4", "escena1"}) {
     SCOPED_TRACE(name);

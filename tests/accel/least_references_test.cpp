@@ -1,4 +1,4 @@
-// References predicted during construction: never more than there are, and in time.
+// References predicted during construction: never more than there are, and early enough.
 
 #include "accel/core/least_references.hpp"
 
@@ -37,7 +37,7 @@ scenes::Scene one_sphere() {
   return std::move(builder).build();
 }
 
-/// Two spheres so close to each other that the finest cells on them contain both.
+/// Two spheres so close together that the finest cells on their surfaces contain both.
 scenes::Scene two_spheres() {
   scenes::SceneBuilder builder("two spheres");
   builder.add_sphere({1.0, 2.0, 3.0}, 2.0);
@@ -51,7 +51,7 @@ std::uint64_t references_in(const scenes::Scene& scene, const CellGrid& grid) {
   return statistics.references;
 }
 
-/// Checks cells that are long along each axis in turn, so that every projection is decisive once.
+/// Checks cells elongated along each axis in turn, so that every projection is decisive once.
 void expect_no_more_than_there_are(const scenes::Scene& scene) {
   for (const auto& cells : std::vector<std::array<int, 3>>{
            {9, 9, 9}, {40, 7, 3}, {3, 40, 7}, {7, 3, 40}, {64, 64, 64}}) {
@@ -101,7 +101,7 @@ TEST(LeastReferences, AreOfTheRightSize) {
             static_cast<double>(references_in(quad, over_quad)));
 }
 
-/// The octree's own count, which refuses nothing within the limit.
+/// Uses the octree's own count, which refuses nothing within the limit.
 TEST(ReferenceLimit, RefusesNothingThatFits) {
   for (const char* name : {"escena1", "tetra:n=2", "jacks:n=1"}) {
     const scenes::Scene scene = scenes::load_scene(name);
@@ -157,7 +157,7 @@ TEST(ExpectedReferences, AreRightOnAverage) {
   }
 }
 
-/// Estimates that vary as much as they can: one in a thousand has the whole sum.
+/// Estimates with the largest possible variance: one in a thousand has the whole sum.
 TEST(SurelyMoreThan, IsNotDeceivedByFewLargeEstimates) {
   for (const std::uint64_t most : {1'000, 1'000'000}) {
     const auto all = static_cast<double>(most);
@@ -168,7 +168,7 @@ TEST(SurelyMoreThan, IsNotDeceivedByFewLargeEstimates) {
   }
 }
 
-/// Seconds of processor time until the structure is built or refused, and what `refusal` says.
+/// Seconds of processor time until the structure is built or refused, and the message.
 std::pair<double, std::string> seconds_to_build(const std::string& spec,
                                                 const scenes::Scene& scene) {
   const std::clock_t begin = std::clock();
@@ -176,9 +176,9 @@ std::pair<double, std::string> seconds_to_build(const std::string& spec,
   return {static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, std::move(message)};
 }
 
-/// The spheres have hundreds of millions of references in the finest cells, and 50 million are made
-/// before a structure is refused for those that it has. Each is paired with a smaller structure
-/// over the same scene that fits, with about a hundred thousand.
+/// The spheres have hundreds of millions of references in the finest cells; without prediction, a
+/// structure is refused only after making 50 million. Each is paired with a smaller structure over
+/// the same scene that fits, with about a hundred thousand.
 TEST(ReferenceLimit, IsKnownToBeExceededEarly) {
   const scenes::Scene sphere = one_sphere();
   const scenes::Scene spheres = two_spheres();

@@ -1,4 +1,4 @@
-// Properties of samples whose number is chosen by the leaf.
+// Properties of samples whose number the leaf determines.
 
 #include "accel/beam/object_space_sampling.hpp"
 

@@ -1,5 +1,6 @@
-// The counts of tables 5.2 and 5.3 on our stand-ins for the thesis's lost scenes, which are
-// reported beside the thesis's (results/published/thesis/stand-ins.md) and not fitted to them.
+// The counts of tables 5.2 and 5.3 for our stand-ins for the thesis's lost scenes. They are
+// reported next to the thesis's counts (results/published/thesis/stand-ins.md), but not fitted to
+// them.
 
 #include <array>
 #include <cstdint>

@@ -1,4 +1,5 @@
-// The net over an octree: its links are Samet's neighbors, and only the search for them is saved.
+// The net over an octree: its links lead to Samet's neighbors, and it saves only the search for
+// them.
 
 #include "accel/octree/octree_net.hpp"
 
@@ -104,7 +105,7 @@ TEST(OctreeNet, OneStepForEachNeighborWhereSametClimbs) {
     EXPECT_LE(net["neighbor_steps"], net["leaves"]);
     EXPECT_GT(net["neighbor_steps"], net["leaves"] / 2);
     EXPECT_GT(samet["neighbor_steps"], 2 * net["neighbor_steps"]);
-    // The search for the neighbor is saved, and nothing else.
+    // Only the search for the neighbor is saved.
     EXPECT_EQ(samet["traversal_steps"] - net["traversal_steps"],
               samet["neighbor_steps"] - net["neighbor_steps"]);
   }

@@ -52,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(Depths, Havran,
                            return "Depth" + std::to_string(info.param.depth);
                          });
 
-/// Walks all leaves with their places.
+/// Visits all leaves with their positions.
 void for_each_leaf(const octree::Octree& octree, std::uint32_t index, const glm::ivec3& corner,
                    std::int32_t size, const auto& visit) {
   const octree::OctreeNode& node = octree.nodes()[index];
@@ -67,7 +67,7 @@ void for_each_leaf(const octree::Octree& octree, std::uint32_t index, const glm:
   }
 }
 
-// The builder takes short cuts (integer cell ranges); the definition does not.
+// The builder takes shortcuts (integer cell ranges); the definition does not.
 TEST(Octree, LeavesReferToExactlyWhatOverlapsThem) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);

@@ -1,4 +1,4 @@
-// Objects kept outside of the octree: hits, counts and paths are those of the whole scene.
+// Objects kept outside the octree: hits, counts and paths are those of the whole scene.
 
 #include "accel/octree/outside_list.hpp"
 

@@ -1,4 +1,4 @@
-// Pencils whose rays begin on surfaces: tile-beam hits these at t = 0, as single rays do.
+// Pencils whose rays begin on surfaces: like single rays, tile-beam hits these surfaces at t = 0.
 
 #include <algorithm>
 #include <array>
@@ -40,7 +40,7 @@ scenes::Scene wall() {
   return std::move(builder).build();
 }
 
-/// A prism over a triangle, turned so that no face lies in a plane of the axes.
+/// A triangular prism, turned so that no face is axis-aligned.
 scenes::Scene prism() {
   scenes::SceneBuilder builder("prism");
   const auto corner = [](int i, double height) {
@@ -67,9 +67,9 @@ scenes::Scene spheres() {
   return std::move(builder).build();
 }
 
-/// Places on the surfaces of a scene, as exactly as floats allow: corners and faces of triangles,
-/// and the ends of spheres along the axes. Not on edges: rounded, they lie beside the faces, where
-/// neither outcome is required.
+/// Returns points on the surfaces of a scene, as exact as floats allow: corners and faces of
+/// triangles, and the extremes of spheres along the axes. Points on edges are excluded: rounded,
+/// they lie outside the faces, where neither outcome is required.
 std::vector<glm::vec3> places_on(const scenes::Scene& scene, Random& random, int of_each) {
   std::vector<glm::vec3> places;
   for (const scenes::Triangle& triangle : scene.triangles) {
@@ -101,12 +101,12 @@ struct Counts {
 
 bool is_at_origin(const std::optional<Hit>& hit) { return hit && hit->t < 1e-6F; }
 
-/// Casts shadow rays from the places toward a light: each must be hit if it is in exhaustive
-/// search, except at the very edge of a triangle.
+/// Casts shadow rays from the points toward a light: each must hit if it does in exhaustive search,
+/// except at the very edge of a triangle.
 Counts expect_shadows_of_exhaustive(const scenes::Scene& scene, const TileBeam& structure,
                                     const std::vector<glm::vec3>& places, const glm::vec3& light) {
   std::vector<Ray> rays;
-  // Enough of each that the pencil is not passed on to single rays.
+  // Enough of each that the pencil is not traced by single rays.
   for (int i = 0; i < 1 + 2000 / static_cast<int>(places.size()); ++i) {
     for (const glm::vec3& place : places) rays.push_back({place, 0.0F, light - place, 1.0F});
   }
@@ -123,7 +123,7 @@ Counts expect_shadows_of_exhaustive(const scenes::Scene& scene, const TileBeam& 
     const auto hit = exhaustive.closest_hit(rays[i], nullptr);
     counts.at_origin += is_at_origin(hit) ? 1U : 0U;
     if ((any[i] == 1) == hit.has_value()) continue;
-    // At an edge, float may find the ray beside the triangle.
+    // At an edge, float may place the ray outside the triangle.
     if (hit && verify::boundary_distance(scene, rays[i], hit->primitive) < 1e-6) continue;
     ADD_FAILURE() << "ray " << i << " from " << rays[i].origin.x << ' ' << rays[i].origin.y << ' '
                   << rays[i].origin.z << " to " << light.x << ' ' << light.y << ' ' << light.z
@@ -167,8 +167,8 @@ TEST(PencilsAtZero, HaveTheShadowsOfRaysFromAWall) { expect_shadows_at_zero(wall
 TEST(PencilsAtZero, HaveTheShadowsOfRaysFromAPrism) { expect_shadows_at_zero(prism()); }
 TEST(PencilsAtZero, HaveTheShadowsOfRaysFromSpheres) { expect_shadows_at_zero(spheres()); }
 
-/// Casts rays from the places away from an apex: the first hit of each must be that of exhaustive
-/// search, exactly at t = 0 and to the precision of float elsewhere.
+/// Casts rays from the points away from an apex: the first hit of each must be that of exhaustive
+/// search, exactly at t = 0 and up to float precision elsewhere.
 Counts expect_reflections_of_exhaustive(const scenes::Scene& scene, const TileBeam& structure,
                                         const std::vector<glm::vec3>& places,
                                         const glm::vec3& apex) {

@@ -1,5 +1,5 @@
-// The pinned work of each structure: a structure that gets worse fails here even if its hits stay
-// correct. An improvement fails once: then pin the new figures.
+// Pins the work of each structure: a structure that gets worse fails here even if its hits stay
+// correct. An improvement also fails; then pin the new figures.
 
 #include <algorithm>
 #include <cctype>

@@ -38,8 +38,8 @@ HitBuffer hits_of(const std::string& structure, const scenes::Scene& scene, cons
   return hits;
 }
 
-/// Expects the hits of exhaustive search from one leaf, from few polygons in a leaf, and from as
-/// many divisions as there can be. Returns how many samples hit something.
+/// Expects the hits of exhaustive search with a single leaf, with few polygons per leaf, and with
+/// the maximum number of divisions. Returns how many samples hit something.
 std::size_t expect_hits_of_exhaustive(const scenes::Scene& scene, const PrimaryRays& rays) {
   const HitBuffer expected = hits_of("exhaustive", scene, rays);
   for (const char* parameters :
@@ -81,8 +81,8 @@ glm::dvec3 tilted(const glm::dvec3& point, const glm::dvec3& axis) {
   return glm::length(axis) > 0.0 ? point - 2.0 * glm::dot(point, axis) * axis : point;
 }
 
-/// Layers one after the other, at distances from less than what float distinguishes to more than
-/// the slab by which cells overlap. Ids are in any order, so that ties must be found.
+/// Layers behind one another, at distances from below float resolution to above the slab by which
+/// cells overlap. Ids are in random order, so that ties must be found.
 TEST(PolygonBeam, SeesTheNearestOfLayersHoweverCloseTheyAre) {
   for (std::uint64_t seed = 1; seed <= 300 && !HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
@@ -96,7 +96,7 @@ TEST(PolygonBeam, SeesTheNearestOfLayersHoweverCloseTheyAre) {
       const double x = random.uniform(-1.0, 0.5);
       const double y = random.uniform(-1.0, 0.5);
       const double size = random.uniform(0.1, 1.0);
-      // Every third stands on the layers, or ends at them.
+      // Every third triangle stands on the layers or ends at them.
       const bool stands = i % 3 == 0;
       const double other = stands ? depth + (random.below(2) == 0 ? size : -size) : depth;
       builder.add_polygon(std::array{tilted({x, y, depth}, axis),
@@ -117,7 +117,7 @@ TEST(PolygonBeam, SeesTheNearestOfLayersHoweverCloseTheyAre) {
   }
 }
 
-/// Triangles through each other, the eye in their planes, on them, and among them.
+/// Intersecting triangles, with the eye in their planes, on them and among them.
 TEST(PolygonBeam, CutsPolygonsThatPassThroughEachOtherAndTheEye) {
   for (std::uint64_t seed = 1; seed <= 300 && !HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
@@ -127,7 +127,7 @@ TEST(PolygonBeam, CutsPolygonsThatPassThroughEachOtherAndTheEye) {
     for (int i = 0; i < 25; ++i) {
       const double size = std::array{0.1, 2.0, 100.0}[random.below(3)];
       std::array corners{point(size), point(size), point(size)};
-      if (random.below(4) == 0) corners[2] = -(corners[0] + corners[1]);  // the eye is its middle
+      if (random.below(4) == 0) corners[2] = -(corners[0] + corners[1]);  // the eye is its center
       if (random.below(8) == 0) corners[2] = 0.5 * (corners[0] + corners[1]) + point(1e-4);
       builder.add_polygon(corners);
     }

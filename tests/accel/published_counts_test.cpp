@@ -1,16 +1,16 @@
 // Havran's published counts for Samet's traversal ("A Summary of Octree Ray Traversal Algorithms",
 // Ray Tracing News 12(2), 1999; TETRA at n = 6), compared with ours.
 //
-// What the comparison showed. Leaves and empty leaves per ray agree within 1%, and so do the other
-// two once they are counted alike:
-// - Traversal steps: ours end with the leaf in which a ray leaves the root, because integer
+// Results of the comparison: leaves and empty leaves per ray agree within 1%, and so do the other
+// two once they are counted in the same way:
+// - Traversal steps: ours end with the leaf from which a ray leaves the root, because integer
 //   coordinates show that there is no neighbor; Samet's search climbs to the root first. With these
-//   climbs, which are counted separately here, the steps agree within 1%; without them ours are 4
-//   to 7% fewer.
-// - Intersection tests: his are not an average over the rays. Divided by the rays that hit (eye
-//   rays that see something, shadow rays that are blocked), ours are his within 1%; the average
-//   per ray is 5.6 times smaller at every depth. So his figure must be the ratio of the actual to
-//   the minimum number of tests.
+//   climbs, counted separately here, the steps agree within 1%; without them, ours are 4% to 7%
+//   fewer.
+// - Intersection tests: his are not averages over the rays. Divided by the number of rays that hit
+//   (eye rays that see something, shadow rays that are blocked), ours agree with his within 1%; the
+//   average per ray is 5.6 times smaller at every depth. So his figure must be the ratio of the
+//   actual to the minimum number of tests.
 
 #include <cmath>
 
@@ -24,7 +24,7 @@
 namespace beambench::accel {
 namespace {
 
-/// Averages, each under the definition of the paper (see above).
+/// Averages, each by the paper's definition (see above).
 struct Averages {
   double tests, steps, leaves, empty_leaves;
 };
@@ -32,7 +32,7 @@ struct Averages {
 /// Counts summed over all rays.
 struct Totals {
   std::uint64_t tests = 0, steps = 0, leaves = 0, empty_leaves = 0;
-  std::uint64_t climbs = 0;  ///< levels from the leaf in which a ray leaves the root up to the root
+  std::uint64_t climbs = 0;  ///< levels from the leaf where a ray leaves the root to the root
   std::uint64_t hits = 0;
 
   friend bool operator==(const Totals&, const Totals&) = default;

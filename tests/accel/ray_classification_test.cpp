@@ -1,4 +1,5 @@
-// Ray classification: no ray loses a primitive, and sets divide alike in every order.
+// Ray classification: no ray loses a primitive, and the division does not depend on the order of
+// rays.
 
 #include "accel/ray_classification/ray_classification.hpp"
 

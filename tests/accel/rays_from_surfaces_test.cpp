@@ -1,4 +1,4 @@
-// Rays that begin on triangles or beside them: the hits that float tests may reject there.
+// Rays that begin on or next to triangles: the hits that float tests may reject there.
 
 #include <array>
 #include <string>
@@ -36,8 +36,8 @@ scenes::Scene triangles_of_size(double size, std::uint64_t seed) {
   return std::move(builder).build();
 }
 
-/// Rays from a point of a triangle, rounded to float, and from one moved along the normal by
-/// `lift`.
+/// Returns rays from a point of a triangle, rounded to float, and from one moved along the normal
+/// by `lift`.
 std::vector<Ray> rays_from(const scenes::Scene& scene, double lift, Random& random) {
   std::vector<Ray> rays;
   for (const scenes::Triangle& triangle : scene.triangles) {
@@ -80,7 +80,7 @@ TEST_P(RaysFromSurfaces, HitWhatExhaustiveSearchHits) {
 INSTANTIATE_TEST_SUITE_P(All, RaysFromSurfaces,
                          ::testing::Values("sah-bvh", "sah-bvh:builder=spatial", "kd-tree"));
 
-// The triangle that a ray leaves is not confirmed: over closed meshes that was most of the work.
+// The triangle that a ray leaves is not confirmed: on closed meshes, that was most of the work.
 TEST(SecondaryRays, DoNotConfirmTheTriangleThatTheyLeave) {
   const scenes::Scene scene = scenes::load_scene("bumpy:triangles=5000");
   for (const char* name : {"sah-bvh", "kd-tree"}) {

@@ -1,4 +1,4 @@
-// Beams of rays that planes refract find what single rays find.
+// Beams of rays refracted by planes find what single rays find.
 
 #include <algorithm>
 #include <array>
@@ -34,7 +34,7 @@ struct Plane {
   dvec3 normal;
 };
 
-/// Rays of an image, after what planes have done to them.
+/// The rays of an image after reflection or refraction by planes.
 struct Rays {
   std::vector<Ray> rays;
   std::vector<std::uint32_t> samples;
@@ -97,7 +97,7 @@ TEST(RefractedBeams, FindWhatSingleRaysFindInRandomScenes) {
     scenes::Camera camera = scene.cameras.front();
     camera.angle = std::array{15.0F, 45.0F, 90.0F}[random.below(3)];
     const PrimaryRays image(camera, 120, 90, seed % 5 == 0 ? 4 : 1);
-    // Three planes between the camera and the middle, tilted, each of which may reflect.
+    // Three tilted planes between the camera and the center, each of which may reflect.
     Rays now = rays_of(image);
     for (int depth = 1; depth <= 3; ++depth) {
       const dvec3 normal = glm::normalize(dvec3(image.forward()) +
@@ -166,8 +166,8 @@ TEST(RefractedBeams, RaysThatAreNotLikeTheirNeighborsAreTracedAlone) {
   EXPECT_GT(std::ranges::count(tracer.traced_alone(glass.batch()), 0), 100);
 }
 
-// A plane of cells passes next to the eye of the view, which drifts from one side of it to the
-// other: samples on both sides of the image's middle go where their rays go.
+// A plane of cells passes next to the eye of the view, which drifts from one side of the plane to
+// the other: samples on both sides of the image's center must follow their rays.
 TEST(RefractedBeams, CrossPlanesNextToTheEye) {
   for (int turn = 0; turn < 60; ++turn) {
     SCOPED_TRACE(turn);
@@ -206,8 +206,8 @@ TEST(RefractedBeams, CrossPlanesNextToTheEye) {
   }
 }
 
-// What the beams rest on: beyond the band of a line, rays cross the planes in its order, unless
-// they cross both before their origins.
+// The basis of the beams: beyond the band of a line, rays cross the planes in its order unless they
+// cross both before their origins.
 TEST(RefractedBeams, CrossPlanesInTheOrderOfTheLines) {
   std::size_t sure = 0, beside = 0;
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
@@ -285,8 +285,8 @@ TEST(RefractedBeams, CrossPlanesInTheOrderOfTheLines) {
   EXPECT_GT(beside, 10'000U);
 }
 
-/// Returns the maximum deviation of the rays of a part of an image, in pixels, from the view that
-/// is fitted to them.
+/// Returns the maximum deviation, in pixels, of the rays of a part of an image from the view fitted
+/// to them.
 double deviation_of(const ThroughGlass& glass, int first, int size) {
   Rays part;
   for (std::size_t i = 0; i < glass.seen.rays.size(); ++i) {
@@ -305,7 +305,7 @@ double deviation_of(const ThroughGlass& glass, int first, int size) {
   return most;
 }
 
-// The view is right to the first order: in a part half as large, rays deviate a quarter as much.
+// The view is correct to first order: in a part half as large, rays deviate a quarter as much.
 TEST(DriftingViews, FitRefractedRaysToTheFirstOrder) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=2");
   const ThroughGlass glass(scene, 30.0, 512);

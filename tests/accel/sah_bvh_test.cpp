@@ -100,7 +100,7 @@ TEST_P(SahBvhBuilders, LoseNoSliverSeenFromAfar) {
     const scenes::Primitive& primitive = scene.primitives[random.below(scene.primitives.size())];
     glm::dvec3 target;
     if (primitive.kind == scenes::PrimitiveKind::kSphere) {
-      // A point on the silhouette, where one ray hits and its neighbor does not.
+      // Returns a point on the silhouette, where one ray hits and its neighbor does not.
       const glm::dvec3 center(scene.spheres[primitive.index].center);
       const glm::dvec3 beside = glm::cross(center - glm::dvec3(ray.origin), point());
       target = center + glm::normalize(beside) * 1e-4 * random.uniform(0.99, 1.0);

@@ -1,4 +1,4 @@
-// The beams of one sample: those that contain the image's samples, and the same hit.
+// The beams of one sample: they contain the image's samples, and the hit is the same.
 
 #include "accel/beam/sample_path.hpp"
 
@@ -83,7 +83,7 @@ TEST_P(SamplePaths, GiveTheImagesHitsAndEndWhereTheBeamEnds) {
             EXPECT_TRUE(path.steps.empty() || !options.continue_with_rays);
             continue;
           }
-          // The leaves of the ray's own path, as long as it is in beams.
+          // The leaves of the ray's own path while it is in beams.
           ASSERT_LT(i, alone.size());
           EXPECT_EQ(beam.node, alone[i].index);
           EXPECT_EQ(beam.level, alone[i].level);
@@ -103,7 +103,7 @@ TEST_P(SamplePaths, GiveTheImagesHitsAndEndWhereTheBeamEnds) {
   }
   EXPECT_FALSE(samples.empty());
   for (const auto& [name, counts] : samples) {
-    if (shared) continue;  // a corner is one sample of the beam but is found from four pixels
+    if (shared) continue;  // a corner is one sample of the beam but belongs to four pixels
     EXPECT_EQ(counts.first, counts.second) << "leaf " << std::get<1>(name);
   }
 }

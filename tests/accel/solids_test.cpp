@@ -1,4 +1,4 @@
-// The surfaces that are proven to hide their backs, and the places from which they do.
+// The surfaces proven to hide their backs, and the viewpoints from which they do.
 
 #include "accel/tile_beam/solids.hpp"
 
@@ -36,7 +36,7 @@ PolygonMesh moved(PolygonMesh mesh, const dvec3& shift, const dvec3& scale = dve
   return mesh;
 }
 
-/// The number of triangles of each solid in some meshes.
+/// Returns the number of triangles of each solid in some meshes.
 std::vector<std::uint32_t> sizes(const std::vector<PolygonMesh>& meshes) {
   std::vector<std::uint32_t> counts;
   for (const Solid& solid : find_solids(scene_of(meshes)).solids) {
@@ -82,13 +82,13 @@ TEST(Solids, AreNotOpenNorTwistedNorFlat) {
   PolygonMesh flat = whole;  // folded paper: the same triangle from both sides
   flat.polygons = {{0, 1, 2}, {2, 1, 0}};
   EXPECT_EQ(sizes({flat}), Sizes{});
-  // The first is valid, whatever lies beside it.
+  // The first is valid, whatever is next to it.
   EXPECT_EQ(sizes({open, moved(whole, dvec3(4.0)), moved(twisted, dvec3(8.0))}), Sizes{4});
 }
 
 TEST(Solids, AreNotSurfacesThatCrossThemselves) {
-  // A ball with a vertex pulled through its middle and out on the other side, where the backs of
-  // the triangles about it can be seen.
+  // A ball with a vertex pulled through its center and out on the other side, where the backs of
+  // the triangles around it are visible.
   const PolygonMesh ball =
       scenes::modelling::triangulated(scenes::modelling::ellipsoid(dvec3(1.0), 16, 10));
   ASSERT_EQ(sizes({ball}).size(), 1U);
@@ -97,11 +97,11 @@ TEST(Solids, AreNotSurfacesThatCrossThemselves) {
     PolygonMesh pulled = ball;
     pulled.vertices[i] = -1.5 * at;
     EXPECT_EQ(sizes({pulled}), Sizes{}) << "vertex " << i;
-    // Beside its neighbors, so that triangles are folded over.
+    // Past its neighbors, so that triangles are folded over.
     pulled.vertices[i] = at + dvec3(-at.y, at.z, at.x);
     EXPECT_EQ(sizes({pulled}), Sizes{}) << "vertex " << i;
   }
-  // Twice about the axis: all volumes are positive, but a ray from the middle meets two triangles.
+  // Twice around the axis: all volumes are positive, but a ray from the center meets two triangles.
   PolygonMesh star;
   for (int i = 0; i < 5; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / 5.0;
@@ -136,7 +136,7 @@ TEST(Solids, DoNotCareForTheSignOfZero) {
   PolygonMesh mesh = moved(tests::tetrahedron(), dvec3(1.0));
   const auto origin = std::ranges::find(mesh.vertices, dvec3(2.0, 0.0, 0.0));
   ASSERT_NE(origin, mesh.vertices.end());
-  // For one triangle, a second vertex at the same place, with zeros of the other sign.
+  // For one triangle, a second vertex at the same position, with zeros of the opposite sign.
   mesh.vertices.emplace_back(2.0, -0.0, -0.0);
   auto& corners = mesh.polygons.front();
   std::ranges::replace(corners, static_cast<std::uint32_t>(origin - mesh.vertices.begin()),
@@ -182,7 +182,7 @@ TEST(Solids, AreLeftByEyesOutside) {
           ASSERT_TRUE(from_center.has_value()) << body.name;
           EXPECT_GT(from_center->t, 0.99F) << body.name;
         }
-        // Without looking at triangles: outside of the box.
+        // Outside the box, without examining triangles.
         EXPECT_TRUE(outside || !is_outside(scene, found, solid, out.origin, 0));
       }
     }

@@ -91,7 +91,7 @@ TEST_P(StandIns, HaveNoPolygonWithoutArea) {
   }
 }
 
-/// Looks for an unobstructed line of sight from a polygon to a plausible viewpoint.
+/// Searches for an unobstructed line of sight from a polygon to a plausible viewpoint.
 class Onlooker {
  public:
   Onlooker(const scenes::Scene& scene, bool inside)
@@ -100,7 +100,7 @@ class Onlooker {
     const glm::dvec3 extent(glm::dvec3(scene.bounds.upper) - lower);
     size_ = glm::length(extent);
     if (!inside) return;
-    // Eyes in a closed room: places that its camera sees.
+    // Eyes in a closed room: points that its camera sees.
     const glm::dvec3 camera(scene.cameras[0].from);
     while (eyes_.size() < 64) {
       const glm::dvec3 eye =

@@ -1,5 +1,5 @@
-// Lists of rays that go down a hierarchy together, in sah-bvh and tile-beam: the hits of exhaustive
-// search, whatever the instruction set, the length of the list and the number of threads.
+// Lists of rays that traverse a hierarchy together, in sah-bvh and tile-beam: the hits of
+// exhaustive search for any instruction set, length of the list and number of threads.
 
 #include <algorithm>
 #include <array>
@@ -47,8 +47,8 @@ void expect_hits_of_exhaustive(const scenes::Scene& scene, const Accelerator& st
   }
 }
 
-/// Difficult rays, some of which end at their own hits, have lengths that no stream takes, or come
-/// from far away.
+/// Difficult rays, some of which end at their own hits, have lengths that streams cannot trace, or
+/// come from far away.
 std::vector<Ray> difficult_rays(const scenes::Scene& scene, std::uint64_t seed, std::size_t count) {
   Random random(seed);
   std::vector<Ray> rays = verify::random_rays(scene, count, random);
@@ -104,7 +104,7 @@ TEST_P(Streams, GiveTheHitsOfExhaustiveOverDifficultScenes) {
 }
 
 /// Triangles from compact to long and thin, far from the coordinate origin for their size; rays
-/// from places near and far that are aimed at points inside, near edges and at corners.
+/// from near and far that are aimed at points inside, near edges and at corners.
 struct NeedlesAndRays {
   explicit NeedlesAndRays(std::uint64_t seed) {
     Random random(seed);
@@ -148,7 +148,7 @@ struct NeedlesAndRays {
   std::vector<Ray> rays;
 };
 
-// What is certain in float must be what the canonical test accepts.
+// The canonical test must accept every hit that is certain in float.
 TEST_P(Streams, AgreeWithExhaustiveAboutNeedles) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE(seed);
@@ -168,7 +168,7 @@ TEST_P(Streams, LoseNothingOnMeshes) {
   }
 }
 
-// Lists for which there is no room go on in packets; several parts of a list have one result.
+// Lists for which there is no room continue as packets; several parts of a list have one result.
 TEST_P(Streams, TakeListsOfAnyLength) {
   const scenes::Scene scene = scenes::load_scene("bumpy:triangles=3072");
   const SahBvh streams(scene, {});
@@ -214,7 +214,7 @@ TEST_P(Streams, AreTheSameOnThreads) {
   expect_same_on_threads(scene, TileBeam(scene, {}));
 }
 
-// The rays of a batch before, between and behind its pencils, the short ranges among them too.
+// The rays of a batch before, between and after its pencils, including short ranges.
 TEST_P(Streams, TakeTheRaysBesidePencils) {
   const scenes::Scene scene = scenes::load_scene("bumpy:triangles=3072");
   const TileBeam streams(scene, {});
@@ -244,7 +244,7 @@ TEST_P(Streams, TakeTheRaysBesidePencils) {
   EXPECT_GT(counters["stream_lists"], 2U);
 }
 
-// Where images alone are traced, nothing is built for lists.
+// If only images are traced, nothing is built for lists.
 TEST(StreamsOfTileBeam, AreBuiltForLists) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=2");
   const auto bytes = [&](const char* lists, bool has_lists) {
@@ -262,7 +262,7 @@ rays::TraceInput diffuse_rays(const scenes::Scene& scene, int side) {
   return rays::make_trace_input(scene, image, rays::parse_ray_choice("diffuse"));
 }
 
-/// The closest hits of a list, and the work for them.
+/// Returns the closest hits of a list, and the work for them.
 struct CountedHits {
   HitBuffer hits;
   WorkCounters work;
@@ -283,13 +283,13 @@ TEST_P(Streams, LeaveFewHitsToTheCanonicalTest) {
   EXPECT_EQ(work.by_name().at("stream_left"), 0U);
 }
 
-// Memory that an earlier stream needed is no room for another one.
+// Memory that an earlier stream needed does not count as room for another one.
 TEST(StreamCounters, DoNotDependOnEarlierStreams) {
   const scenes::Scene scene = scenes::load_scene("closed-room:detail=4");
   const SahBvh structure(scene, {});
   const rays::TraceInput few = diffuse_rays(scene, 24);
   std::vector<std::map<std::string, std::uint64_t, std::less<>>> works;
-  std::jthread([&] {  // with memory of its own
+  std::jthread([&] {  // with its own memory
     for (const rays::TraceInput& input : {few, diffuse_rays(scene, 128), few}) {
       works.push_back(CountedHits(structure, input).work.by_name());
     }

@@ -1,4 +1,4 @@
-// Properties of every structure in the registry: a new one is tested by being registered.
+// Properties of every structure in the registry: registering a new one is enough to test it.
 
 #include <algorithm>
 #include <cstdint>

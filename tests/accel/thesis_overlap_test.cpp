@@ -1,10 +1,10 @@
-// The thesis's own test whether a cube and a polygon overlap (section 3.3.2), beside ours.
+// Compares the thesis's test of whether a cube and a polygon overlap (section 3.3.2) with ours.
 //
-// It looks for a side of the polygon that meets the cube, and else for a diagonal of the cube that
-// meets the polygon. That is exact, too: a plane that cuts a cube separates the ends of one of its
-// diagonals, since all of them have the same middle; and if no side meets the cube, the plane's
-// section of the cube lies wholly inside the polygon or outside. So an octree by this test has the
-// references of ours, and no claim of the thesis depends on which one is used.
+// It searches for a side of the polygon that meets the cube or else for a diagonal of the cube that
+// meets the polygon. This is also exact: a plane that cuts a cube separates the ends of one of its
+// diagonals, since all of them have the same midpoint; and if no side meets the cube, the plane's
+// section of the cube lies entirely inside or outside the polygon. So an octree built by this test
+// has the same references as ours, and no claim of the thesis depends on which test is used.
 
 #include <algorithm>
 #include <array>
@@ -75,7 +75,7 @@ bool thesis_overlaps(const Corners& corners, const Box& cube) {
 
 Box widened(const Box& box, double by) { return {box.lower - by, box.upper + by}; }
 
-/// Expects both tests to agree except for what lies within the tolerance of the boundary.
+/// Expects both tests to agree except within the tolerance of the boundary.
 void expect_both_agree(const Corners& corners, const Box& cube, double tolerance) {
   const bool ours = triangle_overlaps(corners, cube, tolerance);
   if (thesis_overlaps(corners, cube)) {
@@ -106,7 +106,7 @@ TEST(ThesisOverlapOfTriangles, AgreesWithOursOnRandomTriangles) {
 
 class ThesisOverlap : public testing::TestWithParam<const char*> {};
 
-// The cells of level 6, 32 along each axis, in the box about each triangle of the surface.
+// Tests the cells of level 6, 32 along each axis, in the box of each triangle of the surface.
 TEST_P(ThesisOverlap, AddsNoReferences) {
   const scenes::Scene scene = scenes::load_scene(GetParam());
   const double tolerance = overlap_tolerance(scene);

@@ -1,4 +1,4 @@
-// tile-beam: images correct to within rounding, without gaps, and single rays bit for bit.
+// tile-beam: images are correct up to rounding and without gaps; single rays are exact bit for bit.
 
 #include "accel/tile_beam/tile_beam.hpp"
 
@@ -35,14 +35,14 @@ scenes::Camera random_camera(const scenes::Scene& scene, Random& random) {
   return camera;
 }
 
-/// The distance below which float cannot distinguish two places: K u of the differ.
+/// The distance below which float cannot distinguish two points: K u of the differ.
 double indistinct(const scenes::Scene& scene, const glm::vec3& eye) {
   return 16.0 * 0x1p-24 *
          (static_cast<double>(scene.bounds.largest_coordinate()) + glm::length(glm::dvec3(eye)));
 }
 
-/// Returns whether rays near the given one, at the distance of the hits in question, produce both
-/// results. If so, the results differ only by rounding.
+/// Returns whether rays close to the given one, at the distance of the hits in question, produce
+/// both results. If so, the results differ only by rounding.
 bool is_close_call(const exhaustive::Exhaustive& exhaustive, const Ray& ray,
                    const std::optional<Hit>& answer, double slack) {
   const float t = answer ? answer->t : 1.0F;
@@ -107,7 +107,7 @@ Comparison compare(const scenes::Scene& scene, const PrimaryRays& rays, const Hi
 
 HitBuffer image_of(const tile_beam::TileBeam& structure, const PrimaryRays& rays) {
   HitBuffer image(rays.width(), rays.height(), rays.samples());
-  std::fill_n(image.t(), image.size(), -1.0F);  // reveals entries that are not written
+  std::fill_n(image.t(), image.size(), -1.0F);  // reveals entries that were not written
   structure.closest_hits(rays, image, {});
   return image;
 }
@@ -235,7 +235,7 @@ std::size_t wrong_at_eye(const scenes::Scene& scene, const PrimaryRays& rays,
         const auto actual = image.get(image.index(x, y, sample));
         const auto at_eye = [](const auto& hit) { return hit && !(hit->t > 1e-5F); };
         if (!at_eye(expected) && !at_eye(actual)) continue;
-        // Any of several at one place is valid.
+        // Any of several hits at one point is valid.
         if (!expected || !actual || !(std::abs(expected->t - actual->t) <= 1e-12F)) ++wrong;
       }
     }
@@ -299,7 +299,7 @@ TEST(TileBeam, OnePixelIsAnImage) {
   }
 }
 
-/// A closed mesh seen from inside: every sample must be covered, wherever edges and vertices lie.
+/// A closed mesh seen from inside: every sample must be covered, wherever edges and vertices are.
 TEST(TileBeam, AClosedMeshHasNoGap) {
   for (const char* name : {"bumpy:triangles=768", "bumpy:triangles=12288"}) {
     const scenes::Scene scene = scenes::load_scene(name);
@@ -439,7 +439,7 @@ TEST(TileBeam, EveryInstructionSetIsRight) {
       const scenes::Scene scene = scenes::load_scene(name);
       const tile_beam::TileBeam structure(scene, {});
       ASSERT_STREQ(structure.instruction_set(), hwy::TargetName(target));
-      for (const int width : {131, 512}) {  // of which the rows of one are whole cache lines
+      for (const int width : {131, 512}) {  // in one, rows are whole cache lines
         const PrimaryRays rays(scene.cameras.front(), width, 21, 1);
         const Comparison found = compare(scene, rays, image_of(structure, rays));
         EXPECT_EQ(found.errors, 0U) << name << " first " << found.first;

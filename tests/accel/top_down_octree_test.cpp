@@ -1,4 +1,4 @@
-// The traversals of the octree from the root: they find the same leaves as Samet's.
+// The traversals of the octree from the root find the same leaves as Samet's.
 
 #include <cstddef>
 #include <cstdint>
@@ -25,7 +25,7 @@ octree::OctreeOptions some_octree_options(std::uint64_t number) {
   return options;
 }
 
-/// Nodes from the root to each leaf of a path, the leaves included.
+/// Counts the nodes from the root to each leaf of a path, including the leaves.
 std::uint64_t levels_of(const std::vector<TraceStep>& path) {
   std::uint64_t levels = 0;
   for (const TraceStep& step : path) levels += static_cast<std::uint64_t>(step.level);

@@ -56,13 +56,13 @@ TEST(TreeQuality, DisjointLeavesDoNotOverlap) {
 }
 
 TEST(TreeQuality, WeighsTheAreaInsideOtherLeaves) {
-  // The left leaf reaches to the middle of the right triangle, of which 3/8 are in it.
+  // The left leaf extends to the middle of the right triangle, 3/8 of which is inside it.
   const scenes::Scene scene = triangles_at({0, 2});
   EXPECT_NEAR(pair_of(box(0, 2.5F), box(2, 3)).epo(scene), 0.375 / 1.0, 1e-12);
 }
 
 TEST(TreeQuality, WeighsInteriorNodesByTheirChildren) {
-  // The second triangle lies in an interior node of three leaves that do not hold it.
+  // The second triangle lies in an interior node with three leaves that do not contain it.
   const scenes::Scene scene = triangles_at({0, 0, 0, 0});
   TreeQuality tree;
   tree.open(box(0, 9));
@@ -115,7 +115,7 @@ TEST(TreeQuality, SahCostIsThatOfTheModel) {
 }
 
 TEST(TreeQuality, SamplesLargeScenes) {
-  // 20,000 primitives in a flat tree whose leaves each have their neighbor's triangle inside.
+  // 20,000 primitives in a flat tree in which each leaf's box contains its neighbor's triangle.
   scenes::SceneBuilder builder("many");
   constexpr std::uint32_t kMany = 20'000;
   TreeQuality tree;

@@ -1,5 +1,5 @@
-// Structures over scenes that move: after an update they return the hits of exhaustive search, and
-// those of a structure that was built anew.
+// Structures over moving scenes: after an update they return the hits of exhaustive search and of a
+// rebuilt structure.
 
 #include <algorithm>
 #include <cstdint>
@@ -27,7 +27,7 @@ using scenes::Animation;
 using scenes::Pose;
 using scenes::Scene;
 
-/// The structures that can be updated and are exact, each with the options that change how.
+/// The exact structures that can be updated, each with the options that affect updates.
 const std::vector<std::string> kExact{"goldsmith-salmon",
                                       "goldsmith-salmon:insert=terminal",
                                       "sah-bvh",
@@ -45,7 +45,7 @@ std::unique_ptr<Accelerator> build(const Scene& scene, const std::string& spec) 
   return registry().choose(parse_spec(spec)).build(scene);
 }
 
-/// A random scene whose points all move: together, each for itself, or to one place.
+/// A random scene whose points all move: together, independently, or to one position.
 Animation random_animation(std::uint64_t seed, std::uint32_t frames) {
   Animation animation{tests::random_scene(seed, 60), frames, {}};
   animation.pose = [first = scenes::pose_of(animation.scene), seed](std::uint32_t frame) {
@@ -73,7 +73,7 @@ Animation random_animation(std::uint64_t seed, std::uint32_t frames) {
   return animation;
 }
 
-/// Expects the hits of exhaustive search for lists of rays, long enough for streams.
+/// Expects the hits of exhaustive search for lists of rays long enough for streams.
 void expect_lists_of_exhaustive(const Scene& scene, const Accelerator& structure,
                                 std::uint64_t seed) {
   Random random(seed);
@@ -133,7 +133,7 @@ TEST(Update, FramesOfTheCatalogueHaveTheHitsOfANewStructure) {
         for (std::size_t i = 0; i < rays.count(); ++i) {
           if (hits.get(i) != anew.get(i)) ++other;
         }
-        // Within its tolerance, which only matters where two surfaces meet.
+        // Equal up to the tolerance, which only matters where two surfaces meet.
         EXPECT_LE(other, 5U);
       }
     }

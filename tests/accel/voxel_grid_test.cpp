@@ -1,4 +1,4 @@
-// The voxel grid: its lists, its two ways to fill them, its caps, its mailboxes, its threads.
+// The voxel grid: its lists, the two ways to fill them, caps, mailboxes and threads.
 
 #include "accel/grid/voxel_grid.hpp"
 
@@ -39,7 +39,7 @@ double more(const Statistics& statistics, std::string_view name) {
   return found == statistics.more.end() ? -1.0 : found->second;
 }
 
-// The builder halves blocks of voxels and takes short cuts; the definition does not.
+// The builder halves blocks of voxels and takes shortcuts; the definition does not.
 TEST(VoxelGrid, ListsHoldExactlyWhatOverlapsTheVoxel) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);

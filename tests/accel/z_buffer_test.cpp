@@ -1,4 +1,4 @@
-// The rasterizer: the hits of exhaustive search, wherever the eye is and however wide it sees.
+// The rasterizer: the hits of exhaustive search for any eye position and field of view.
 
 #include <array>
 #include <cstdint>

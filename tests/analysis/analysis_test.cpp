@@ -134,7 +134,7 @@ TEST(ExitCode, OfAWholeSweepWithoutRaysIsInvalidInput) {
   EXPECT_EQ(exit_code_of(analyze(run)), base::kSuccess);
 }
 
-/// A cell of that camera, to give it a name, traced by a query path with that harness share.
+/// A cell with a camera of this name, traced by a query path with this harness share.
 CellRecord with_share(const char* camera, QueryPath path, double harness_ms, double trace_ms) {
   CellRecord cell = cell_of({"samet", {trace_ms}});
   cell.id.camera = camera;
@@ -223,8 +223,8 @@ TEST(AnalysisJson, HasEachViewWithItsRatios) {
 }
 
 TEST(AnalysisJson, HasNoNumberForABuildThatNeverPaysOff) {
-  // samet is faster in each round, but as slow by its median time: no number of rays makes up for
-  // its build.
+  // samet is faster in each round, but its median time is the same: no number of rays compensates
+  // for its build.
   const measure::Run run = run_of(
       {cell_of({"samet", {1, 1, 1, 1, 1, 1}, 9.0}), cell_of({"embree", {2, 2, 2, 2, 2, 2}})});
   Analysis analysis = analyze(run);

@@ -1,4 +1,4 @@
-// What contenders and views are called.
+// The names of contenders and views.
 
 #include "harness/analysis/names.hpp"
 

@@ -70,7 +70,8 @@ TEST(Standings, WhatTheNoiseHidesIsUndecided) {
   EXPECT_NE(describe(views).find("undecided: "), std::string::npos);
 }
 
-/// Equivalent: the whole interval is within the margin of 3%, whether it contains 1 or not.
+/// Equivalent means that the whole interval is within the margin of 3%, whether or not it contains
+/// 1.
 TEST(Standings, WhatIsWithinTheMarginIsATie) {
   const auto rank_of = [](double factor) {
     const std::vector<CellRecord> cells{cell_of({"samet", rounds(1.0)}),
@@ -162,7 +163,7 @@ TEST(Standings, MeansAreGeometricAndCountVictories) {
   EXPECT_EQ(all.views, 2);
 }
 
-/// The cell as measured by the shard of that number.
+/// Returns the cell as measured by the shard with this number.
 CellRecord of_shard(int shard, CellRecord cell) {
   cell.shard = shard;
   return cell;
@@ -200,7 +201,7 @@ TEST(Standings, AViewWithoutTimesIsReportedAsSuch) {
   EXPECT_NE(describe_contenders(views).find("error: two hits are wrong"), std::string::npos);
 }
 
-/// The sweep may name a scene as its user does, but the record has all parameters.
+/// The sweep may name a scene in any form, but the record has all parameters.
 TEST(Standings, ASceneIsExcludedInWhicheverFormTheSweepNamesIt) {
   const std::string whole = "escena1:seed=1999,spheres=430";
   const measure::Run run =

@@ -150,7 +150,7 @@ TEST(Paths, EndInTheHitOfTheImage) {
         if (accel::is_hit(paths.t[i])) best = std::min(best, paths.t[i]);
       }
       const auto hit = hits.get(ray);
-      if (std::string_view(name) == "tile-beam") {  // has arithmetic of its own for images
+      if (std::string_view(name) == "tile-beam") {  // images use different arithmetic
         EXPECT_EQ(best < accel::kInfinity, hit.has_value()) << name << ' ' << ray;
       } else {
         EXPECT_EQ(best, hit ? hit->t : accel::kInfinity) << name << ' ' << ray;
@@ -229,7 +229,7 @@ TEST(Explanation, HasWhatEachStructureHas) {
   EXPECT_FALSE(tiles["pencils"].empty());
 }
 
-// The page works for every structure, those without an inspector too.
+// The page works for every structure, including those without an inspector.
 TEST(Explanation, WorksForEveryStructure) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=2");
   for (const accel::StructureInfo& info : accel::registry().structures()) {

@@ -30,7 +30,7 @@ void forget_fuzzer() {
   if (__sanitizer_set_death_callback != nullptr) __sanitizer_set_death_callback(nullptr);
 }
 
-/// Runs once per process. Without a place for the cache, each input is imported.
+/// Runs once per process. Without a cache folder, each input is imported.
 bool prepare() {
   for (const char* place : {"BEAMBENCH_CACHE", "XDG_CACHE_HOME", "HOME"}) ::unsetenv(place);
   return ::pthread_atfork(nullptr, nullptr, forget_fuzzer) == 0;

@@ -27,8 +27,8 @@
 
 namespace beambench::fuzz {
 
-/// Draws numbers: from the bytes of an input, then at random, seeded with all of the bytes, so that
-/// every input, however short, yields a different file.
+/// Draws numbers from the bytes of an input, then at random, seeded with all bytes, so that every
+/// input, however short, yields a different file.
 class Draw {
  public:
   explicit Draw(std::string_view bytes) : bytes_(bytes), state_(0xcbf29ce484222325U) {
@@ -197,8 +197,8 @@ inline std::optional<std::uint64_t> hash_of(const std::vector<Corners>& triangle
   });
 }
 
-/// Throws std::logic_error, with the file, unless reading gives the scene of these triangles, or is
-/// refused if there are none. `read` returns an imported mesh.
+/// Throws std::logic_error, with the file, unless reading returns the scene of these triangles or,
+/// if there are none, is refused. `read` returns an imported mesh.
 template <class Read>
 void check_scene(const std::vector<Corners>& expected, std::string_view file, Read&& read) {
   const auto fail = [&](std::string_view how) {

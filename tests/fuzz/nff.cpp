@@ -1,4 +1,4 @@
-// NFF: a scene that was read can be written, and is the same when read again.
+// NFF: a scene that was read can be written and read back unchanged.
 
 #include <sstream>
 #include <string>

@@ -1,5 +1,4 @@
-// Files of rays, binary and CSV: rays that were read can be written, and have the same bits when
-// read again.
+// Files of rays, binary and CSV: rays that were read can be written and read back bit for bit.
 
 #include <algorithm>
 #include <cstring>

@@ -1,5 +1,5 @@
-// The log of a run, from which the run is resumed and all of its files are made. An input consists
-// of lines of events, in which `"manifest":{}` stands for a complete manifest.
+// The log of a run, from which the run is resumed and all of its files are generated. An input
+// consists of lines of events, in which `"manifest":{}` denotes a complete manifest.
 
 #include "harness/measure/record/run_log.hpp"
 
@@ -21,7 +21,7 @@ namespace {
 
 using namespace beambench;
 
-/// Returns the input with the whole manifest in place of an empty one.
+/// Returns the input with the empty manifest replaced by a complete one.
 std::string with_manifest(std::string text) {
   static const std::string manifest =
       to_json(measure::begin_manifest("fuzz", {}, -1, 1, std::chrono::seconds(0))).dump();

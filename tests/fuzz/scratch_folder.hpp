@@ -12,8 +12,8 @@
 
 namespace beambench::fuzz {
 
-/// An empty folder in $TMPDIR that is removed with this object. A target writes its input into it
-/// thousands of times a second, so scripts/campaign sets a folder in memory.
+/// An empty folder in $TMPDIR that is removed with this object. A target writes its input there
+/// thousands of times per second, so scripts/campaign uses a folder in memory.
 class ScratchFolder {
  public:
   ScratchFolder() {

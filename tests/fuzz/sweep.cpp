@@ -1,4 +1,4 @@
-// Sweeps: a configuration is read, checked and multiplied out; nothing is measured.
+// Sweeps: a configuration is read, checked and expanded; nothing is measured.
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@ namespace {
 
 using namespace beambench;
 
-/// Returns whether the plan's scenes are quick to make and need no files of this machine.
+/// Returns whether the plan's scenes are quick to generate and need no files.
 bool has_small_scenes(const measure::SweepConfig& config) {
   constexpr std::array<std::string_view, 3> kSmall{"tetra:n=1", "balls:n=1", "stetra"};
   return std::ranges::all_of(config.scenes, [&](const measure::SceneEntry& entry) {

@@ -24,7 +24,7 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
 }
 
 /// Returns the result of a reader for an input; nothing if the reader refuses it with InputError,
-/// the only allowed way. Passes on anything else that it throws.
+/// the only allowed way. Propagates all other exceptions.
 template <class Read>
 std::optional<std::invoke_result_t<Read>> accepted(Read&& read) {
   try {
@@ -34,7 +34,7 @@ std::optional<std::invoke_result_t<Read>> accepted(Read&& read) {
   }
 }
 
-/// Throws std::logic_error unless the property holds that must be true of every input.
+/// Throws std::logic_error unless a property that every input must have holds.
 inline void require(bool holds, const char* claim) {
   if (!holds) throw std::logic_error(claim);
 }

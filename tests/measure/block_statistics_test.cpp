@@ -70,8 +70,8 @@ TEST(Blocks, TheNumberFollowsFromTheSpreadAndThePrecision) {
   EXPECT_GT(half(blocks - 1), 0.02);
 }
 
-/// A simulated contender: every process is faster or slower by a normal factor of 1.5%, one
-/// repetition in ten is slower by 25%, and each by an exponential part of 0.5%.
+/// A simulated contender: every process varies by a normal factor of 1.5%, one repetition in ten is
+/// slower by 25%, and each repetition is slower by an exponential amount of 0.5%.
 class Simulated {
  public:
   explicit Simulated(Random& random) : random_(random) {}

@@ -10,7 +10,7 @@
 namespace beambench::measure {
 namespace {
 
-/// Half the smallest normal float: a denormal, or zero where those are flushed.
+/// Returns half the smallest normal float: a subnormal number, or zero if those are flushed.
 float half_of_the_smallest() {
   volatile float smallest = std::numeric_limits<float>::min();
   return smallest * 0.5F;

@@ -176,7 +176,7 @@ TEST_F(Config, TooManyCombinationsAreRefused) {
                                                "more than 100000", "shorten them"}));
 }
 
-/// The review's sweep took 9.9 GB and half a minute.
+/// The sweep of a review took 9.9 GB and half a minute.
 TEST_F(Config, TooManyCellsAreRefusedBeforeAnyIsMade) {
   json document = fine();
   document["structures"] = json::array();

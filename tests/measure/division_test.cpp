@@ -1,4 +1,4 @@
-// The division of a sweep: every group is in one shard as a whole, and the work in even parts.
+// The division of a sweep: every group is entirely in one shard, and the work is divided evenly.
 
 #include "harness/measure/division.hpp"
 

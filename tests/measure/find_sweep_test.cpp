@@ -1,4 +1,4 @@
-// What must be true of sweeps that are found by name.
+// Properties of sweeps that are found by name.
 
 #include "harness/measure/find_sweep.hpp"
 

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the lines up to the hash of all: the last ones differ from machine to machine.
+/// Returns the lines up to the total hash; the last lines differ between machines.
 std::set<std::string> lines_of(const fs::path& file) {
   std::set<std::string> lines;
   std::istringstream text(read_text(file));

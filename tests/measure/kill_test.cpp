@@ -81,7 +81,7 @@ bool has_number(const std::string& line, double number) {
   return false;
 }
 
-/// The events of that kind in a log of whole lines.
+/// Returns the events of this kind in a log of whole lines.
 std::vector<json> events_of(const std::string& log, const char* kind) {
   std::istringstream lines(log);
   std::vector<json> found;
@@ -115,18 +115,18 @@ class Kill : public testing::Test {
 
   std::string err() const { return read_text(folder_.path() / "err"); }
 
-  /// The whole lines of a run's log; empty where there is none.
+  /// Returns the whole lines of a run's log; empty if there is none.
   std::string log(const std::string& name) const {
     const std::string text = read_text(folder_.path() / name / "run.jsonl");
     return text.substr(0, text.rfind('\n') + 1);
   }
 
-  /// The events of that kind in a run's log.
+  /// Returns the events of this kind in a run's log.
   std::vector<json> events(const std::string& name, const char* kind) const {
     return events_of(log(name), kind);
   }
 
-  /// The rows of results.csv without the header.
+  /// Returns the rows of results.csv without the header.
   std::vector<std::string> rows(const std::string& name) const {
     std::istringstream table(read_text(folder_.path() / name / "results.csv"));
     std::vector<std::string> lines;
@@ -135,7 +135,7 @@ class Kill : public testing::Test {
     return lines;
   }
 
-  /// The repetitions in a run's log, by cell.
+  /// Returns the repetitions in a run's log, by cell.
   std::map<int, std::vector<Repetition>> repetitions(const std::string& name) const {
     std::map<int, std::vector<Repetition>> found;
     for (const json& one : events(name, "repetition")) {
@@ -144,7 +144,7 @@ class Kill : public testing::Test {
     return found;
   }
 
-  /// Expects the log to be preserved, and no repetition to have been repeated but one that another
+  /// Expects the log to be preserved and no repetition to be repeated except those that another
   /// process disturbed.
   void expect_kept(const std::string& before, const std::string& name) {
     EXPECT_TRUE(log(name).starts_with(before)) << before << "became\n" << log(name);
@@ -160,8 +160,7 @@ class Kill : public testing::Test {
     }
   }
 
-  /// Expects every cell once, every verdict right, each row to match its cell, and nothing left
-  /// over.
+  /// Expects every cell once, correct verdicts, each row to match its cell, and nothing else.
   void expect_complete(const std::string& name) {
     EXPECT_EQ(rows(name).size(), kCells);
     for (const std::string& row : rows(name)) {
@@ -304,7 +303,7 @@ TEST_F(Kill, AChangedSceneFileIsNoticed) {
   EXPECT_EQ(events("run", "repetition"), events_of(before, "repetition"));
 }
 
-/// A small disk, where this process may mount one.
+/// A small disk, if this process may mount one.
 class TinyDisk {
  public:
   TinyDisk(fs::path path, const char* size) : path_(std::move(path)) {

@@ -102,7 +102,7 @@ TEST_F(RunCommand, TheFilesAreMadeAgainFromTheLog) {
   EXPECT_FALSE(std::filesystem::exists(record / "results.csv"));
   EXPECT_EQ(call("analyze record --write").exit_code, 0);
   for (const auto& [name, text] : files) {
-    if (name == "google-benchmark.json") {  // its context is that of the program that writes it
+    if (name == "google-benchmark.json") {  // its context describes the program that writes it
       EXPECT_EQ(json::parse(read_text(record / name))["benchmarks"],
                 json::parse(text)["benchmarks"]);
     } else {

@@ -39,7 +39,7 @@ std::vector<PlannedName> plan_of(std::span<const CellRecord> cells) {
   return plan;
 }
 
-/// The cell as it is after that many repetitions.
+/// Returns the cell after this many repetitions.
 CellRecord after(CellRecord cell, std::size_t repetitions) {
   cell.repetitions.resize(repetitions);
   return cell;
@@ -303,7 +303,7 @@ TEST(RunLog, LaterEventsChangeTheManifest) {
   EXPECT_EQ(run.manifest.at("finished_utc"), "2026-01-01T00:00:00Z");
 }
 
-/// The log of two cells, the second one not finished.
+/// The log of two cells, the second unfinished.
 class WrittenLog : public testing::Test {
  protected:
   WrittenLog() {
@@ -325,7 +325,7 @@ class WrittenLog : public testing::Test {
   std::filesystem::path folder() const { return folder_.path() / "run"; }
   std::filesystem::path file() const { return folder() / kLogName; }
   void write(const std::string& text) const { folder_.write("run/run.jsonl", text); }
-  /// Returns the message that refuses a log with that text.
+  /// Returns the message that refuses a log with this text.
   std::string refusal(const std::string& text) const {
     write(text);
     return thrown_message([&] { read_run(folder()); });

@@ -1,4 +1,4 @@
-// What must be true of the growth of a generated scene.
+// Properties of the growth of a generated scene.
 
 #include "harness/measure/scene_growth.hpp"
 

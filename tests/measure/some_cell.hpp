@@ -1,5 +1,5 @@
 #pragma once
-// A finished cell whose figures have simple sums.
+// A finished cell whose numbers have simple sums.
 
 #include "harness/measure/record/cell_record.hpp"
 

@@ -47,7 +47,7 @@ using nlohmann::json;
 struct Traced {
   const accel::HitSpan& buffer;    ///< with the right hits
   const accel::HitBuffer& before;  ///< the contents before the trace
-  int pass;  ///< counts the traces: the counting one is 0, the two of repetition n 2n - 1 and 2n
+  int pass;  ///< number of the trace: the counting pass is 0; repetition n has 2n - 1 and 2n
 };
 using Fault = std::function<void(const Traced&)>;
 
@@ -158,8 +158,8 @@ class Sweep : public testing::Test {
   TemporaryFolder folder_;
 };
 
-/// Excludes intervals: four repetitions have none. A quick trace may take no longer than the
-/// harness.
+/// Excludes intervals, which four repetitions do not have. A quick trace may take no longer than
+/// the harness.
 bool is_time(const std::string& column) {
   return column.find("_ms_") != std::string::npos && column.find("_ci_") == std::string::npos &&
          column.find("_pi_") == std::string::npos && column != "trace_net_ms_median" &&
@@ -270,7 +270,7 @@ std::uint64_t resident_bytes() {
   return 0;
 }
 
-/// Formerly, a cell took 20 kB or more during the run, and as much again at its end.
+/// In the past, a cell took 20 kB or more during the run and as much again at its end.
 TEST_F(Sweep, MemoryDoesNotGrowWithTheCells) {
   json document = config({"null", "exhaustive"});
   document["scenes"] = {"tetra:n=1"};
@@ -328,7 +328,7 @@ TEST_F(Sweep, ContendersTakeTurns) {
   for (const auto& [round, taken] : positions) EXPECT_EQ(taken, (std::set<int>{0, 1, 2}));
 }
 
-/// Ensures that a slow half-minute affects some blocks of each view, not all of one.
+/// Ensures that a slow half-minute affects some blocks of every view, not all blocks of one.
 TEST_F(Sweep, BlocksOfAllViewsAreSpreadOverTheRun) {
   std::vector<std::size_t> rays;  // of each trace
   add_faulty([&](const Traced& traced) { rays.push_back(traced.buffer.size()); });
@@ -620,7 +620,7 @@ TEST_F(Sweep, RaysThatASceneHasNoneOfAreRowsThatSaySo) {
   EXPECT_TRUE(scenes::says(messages(), {"has no lights"}));
   EXPECT_TRUE(scenes::says(messages(), {"primary/exhaustive: build"}));
 
-  // A record of these rays alone has the rows, too.
+  // A record of only these rays also has the rows.
   std::filesystem::remove_all(results());
   config["rays"] = {"shadow"};
   EXPECT_EQ(run(config).without_rays, 2U);
@@ -764,8 +764,8 @@ TEST_F(Resume, MakesUpForTheCellsThatAreMissing) {
 }
 
 /// Returns the number of traces missing for the cell `faulty` of a resumed run: none for a finished
-/// cell; otherwise the counting pass where its hits are not verified yet, and two for each
-/// repetition not in the log.
+/// cell; otherwise the counting pass, if its hits are not yet verified, and two for each repetition
+/// not in the log.
 int owed_traces(std::span<const std::string> lines, int index) {
   const auto count = [&](const char* kind) {
     return static_cast<int>(std::ranges::count_if(lines, [&](const std::string& line) {
@@ -811,7 +811,7 @@ TEST_F(Resume, NoRepetitionInTheLogIsMadeAgain) {
   }
 }
 
-/// Ensures that a contender's repetitions still form rounds with those of the others.
+/// Ensures that a contender's repetitions still form rounds with the others'.
 TEST_F(Resume, RoundsOfOneViewGoOnBehindTheLastOfAll) {
   run(config_);
   const std::vector<std::string> lines = log();
@@ -842,7 +842,7 @@ TEST_F(Resume, OtherAnswersThanBeforeAreAMismatch) {
   expect_times(faulty, false);
 }
 
-/// Otherwise a time without correct hits would remain.
+/// Otherwise a time with wrong hits would remain.
 TEST_F(Resume, AWrongRepetitionIsNotForgotten) {
   for (const int wrong : {1, 2, 3, 5}) {
     std::filesystem::remove_all(results());

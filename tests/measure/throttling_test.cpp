@@ -78,7 +78,7 @@ struct CutOff : std::runtime_error {
   CutOff() : std::runtime_error("cut off") {}
 };
 
-/// Sweeps of a few quick cells on a system with a quota, which throttles the process once for each
+/// Sweeps of a few quick cells on a system with a quota that throttles the process once for each
 /// piece of work.
 class ThrottledSweep : public testing::Test {
  protected:
@@ -110,7 +110,7 @@ class ThrottledSweep : public testing::Test {
 
   std::filesystem::path folder() const { return system_.root() / "run"; }
   Json manifest() const { return Json::parse(read_text(folder() / "manifest.json")); }
-  /// Returns the periods in the log, which an interrupted run has, too.
+  /// Returns the periods in the log, which interrupted runs also have.
   int recorded() const {
     return static_cast<int>(
         conditions_of(read_run(folder()).manifest).throttling.value().throttled);

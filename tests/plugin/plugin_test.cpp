@@ -1,4 +1,4 @@
-// Plug-ins from the inside; from the outside they are tested by tests/python/test_plugins.py.
+// Plug-in internals; tests/python/test_plugins.py tests plug-ins from the outside.
 
 #include "harness/plugin/plugin.hpp"
 
@@ -54,7 +54,7 @@ TEST(PluginStamp, TheLayoutIsThatOfAllTypes) {
   EXPECT_EQ((plugin_stamp::layout_of<Small, Large>()), (plugin_stamp::layout_of<Small, Large>()));
 }
 
-// With an adapter for only the older interface, every closest hit was the last of its leaf.
+// An adapter for the older interface only returned the last hit of a leaf as the closest hit.
 TEST(Madmann91Adapter, TakesTFromTheHitOrFindsItInTheRay) {
   struct {
     float tmax = 2.0F;

@@ -57,8 +57,8 @@ TEST(HitCheck, PassesOnlyHitsThatARayCanHave) {
   for (const accel::Hit& hit : impossible_hits()) EXPECT_FALSE(check.passes(ray, hit)) << hit.t;
 }
 
-/// The hits of exhaustive search, except that those of rays from `origin` that `chosen` picks are
-/// replaced.
+/// The hits of exhaustive search, except for rays from `origin` that `chosen` selects, whose hits
+/// are replaced.
 class Planted : public accel::TraversalAccelerator<Planted> {
  public:
   using Chosen = std::function<bool(const accel::Ray&)>;
@@ -81,7 +81,7 @@ class Planted : public accel::TraversalAccelerator<Planted> {
   Chosen chosen_;
 };
 
-/// Returns the errors thrown while a picture is drawn by a faulty structure, alone and recorded.
+/// Returns the errors thrown while a faulty structure draws a picture, alone and recorded.
 std::vector<std::string> complaints(const scenes::Scene& scene, const accel::Hit& fault,
                                     const Planted::Chosen& chosen) {
   scenes::Camera camera;
@@ -154,7 +154,7 @@ TEST(HitCheck, NamesThePixel) {
   }
 }
 
-/// Primitives so small that t is rounded to their very center, where a normal is not defined.
+/// Primitives so small that t rounds to their exact center, where the normal is undefined.
 TEST(HitCheck, RaysFromTheSmallestThingsAreFinite) {
   scenes::SceneBuilder builder = with_light({4.0, 6.0, 8.0});
   builder.set_surface({.diffuse = 0.2F, .specular = 0.5F, .transmittance = 0.3F});

@@ -1,4 +1,4 @@
-// Rays other than primary rays: made, verified, saved and loaded.
+// Rays other than primary rays: generated, verified, saved and loaded.
 
 #include <chrono>
 #include <cmath>
@@ -60,7 +60,7 @@ TEST(Order, ALabelIsDividedIntoRaysAndOrder) {
   EXPECT_EQ(divided("order=sorted.rays"), Both("order=sorted.rays", "list"));
 }
 
-/// All rays of a list as texts, which can be sorted.
+/// Returns all rays of a list as strings, which can be sorted.
 std::vector<std::string> texts_of(const TraceInput& input) {
   std::vector<std::string> texts;
   for (const accel::Ray& ray : input.list()->rays) {
@@ -85,7 +85,7 @@ TEST(Order, SortedRaysAreTheSameRaysAndMoreCoherent) {
     EXPECT_NE(fingerprint(list), fingerprint(sorted)) << kind;
     EXPECT_TRUE(sorted.list()->pencils.empty()) << kind;
     if (kind == std::string_view("shadow") || std::string_view(kind).starts_with("area")) {
-      continue;  // of few lights: coherent as they are
+      continue;  // from few lights: already coherent
     }
     EXPECT_GT(coherence(sorted), coherence(list)) << kind;
   }
@@ -180,7 +180,7 @@ TEST(ReflectionRays, LeaveAsTheyCame) {
   }
 }
 
-/// Rays of a list in the order of their samples.
+/// Returns the rays of a list in the order of their samples.
 std::vector<accel::Ray> by_sample(const RayList& list) {
   std::vector<std::size_t> order(list.rays.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -239,7 +239,8 @@ TEST(DiffuseRays, FollowTheCosineAndTheSeed) {
       ++count;
     }
   }
-  // With density cos / pi the mean of cos is 2/3 and that of its square 1/2; five standard errors.
+  // With density cos / pi, the mean of cos is 2/3 and that of its square is 1/2; the tolerance is
+  // five standard errors.
   EXPECT_NEAR(cosines / static_cast<double>(count), 2.0 / 3.0,
               5.0 * std::sqrt(1.0 / 18.0 / static_cast<double>(count)));
   EXPECT_NEAR(squares / static_cast<double>(count), 0.5,
@@ -248,7 +249,7 @@ TEST(DiffuseRays, FollowTheCosineAndTheSeed) {
   EXPECT_NE(fingerprint(diffuse_rays(points, 1).rays), fingerprint(diffuse_rays(points, 2).rays));
 }
 
-/// A camera between a floor at y = 0 and a ceiling above, which looks down.
+/// A camera that looks down, between a floor at y = 0 and a ceiling.
 scenes::Scene floor_and_ceiling(double height) {
   scenes::SceneBuilder builder("floor and ceiling");
   for (const double y : {0.0, height}) {
@@ -515,7 +516,8 @@ TEST(AnyHitOfAGrazingRay, MayBeEither) {
   const auto class_of = [](const std::vector<verify::Mismatch>& examples) {
     return examples.empty() ? verify::DiffClass::kAgree : examples[0].diff_class;
   };
-  // Along the near triangle's edge: either result is allowed, unless the far one is in reach.
+  // Along the near triangle's edge, either result is allowed unless the far triangle is within
+  // reach.
   for (const std::uint8_t answer : {std::uint8_t{0}, std::uint8_t{1}}) {
     EXPECT_NE(class_of(verdict_on(0.0F, 6.0F, answer)), verify::DiffClass::kStructureError);
     EXPECT_NE(class_of(verdict_on(-1e-7F, 6.0F, answer)), verify::DiffClass::kStructureError);
@@ -620,7 +622,7 @@ TEST_F(RayFile, ThatIsDamagedIsRefused) {
   EXPECT_TRUE(scenes::says(refusal(), {"some.rays", "bytes of rays"}));
 }
 
-/// The header of a pipe may claim gigabytes of rays that never come.
+/// The header from a pipe may claim gigabytes of rays that never arrive.
 TEST_F(RayFile, ThroughAPipeTakesNoMoreMemoryThanWhatCame) {
   const std::filesystem::path pipe = folder_.path() / "pipe.rays";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
@@ -630,7 +632,7 @@ TEST_F(RayFile, ThroughAPipeTakesNoMoreMemoryThanWhatCame) {
   const auto before = mapped_data_bytes();
   std::optional<std::uint64_t> meanwhile;
   std::thread closing([&] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // by then the reader waits
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // by then, the reader is waiting
     meanwhile = mapped_data_bytes();
     ::close(writer);
   });

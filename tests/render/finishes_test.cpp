@@ -24,7 +24,7 @@ TEST(Noise, IsNothingAtTheLatticeAndStaysInItsRange) {
     least = std::min(least, noise);
     most = std::max(most, noise);
     EXPECT_EQ(gradient_noise(glm::floor(point)), 0.0);
-    // Smooth: a step of 1e-6 changes it by about as little.
+    // Smooth: a step of 1e-6 changes it by about as much.
     EXPECT_NEAR(gradient_noise(point + dvec3(1e-6)), noise, 1e-5);
   }
   EXPECT_LT(most, 1.1);

@@ -82,9 +82,9 @@ INSTANTIATE_TEST_SUITE_P(
       return scene.substr(0, scene.find(':'));
     });
 
-// The reason why our counts are up to 0.4% above his: his 513 rays per row seem to be spread over
-// 513 pixels, not over the 512 of the frame. With that spread, the number of eye rays that hit
-// agrees with his to one in 5,000.
+// Explains why our counts are up to 0.4% above his: his 513 rays per row seem to be spread over 513
+// pixels, not over the 512 of the frame. With that spread, the number of eye rays that hit agrees
+// with his to within one in 5,000.
 TEST(PublishedCounts, AreThoseOfRaysSpreadOverOnePixelMore) {
   for (const PublishedCounts& published : kPublishedSpdCounts) {
     SCOPED_TRACE(published.scene);

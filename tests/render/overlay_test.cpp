@@ -207,8 +207,8 @@ TEST(OverlayCells, ACellAroundTheEyeShowsItsEdgesAndHidesNothing) {
   const accel::Box before{{2, -1, -1}, {4, 1, 1}};
   const Image image = picture_of({around, before});
   EXPECT_NEAR(yellow_across(image, 50, 22, 27), 1.0F, 0.01F);
-  // Its far face spans 25 ... 75, too, and lies behind the other cell; its edges toward the eye
-  // run from there into the corners of the image.
+  // Its far face also spans 25 ... 75 and lies behind the other cell; its edges toward the eye run
+  // from there into the corners of the image.
   EXPECT_GT(share_of(okabe_ito::kYellow, image, 10, 10), 0.9F);
   EXPECT_GT(share_of(okabe_ito::kYellow, image, 90, 9), 0.9F);
   EXPECT_TRUE(is_ground(image, 10, 50));
@@ -239,7 +239,7 @@ TEST(OverlayCells, CountsAllCells) {
   EXPECT_EQ(legend[0].count, 2U);
 }
 
-// Any eye, including near faces and edges of cells: nothing is drawn where no cell can be.
+// For any eye, even close to faces and edges of cells, nothing is drawn where there is no cell.
 TEST(OverlayCells, WhereRaysMissAllCellsNothingIsDrawnButNextToThem) {
   const scenes::Scene scene = scenes::load_scene("balls:n=1");
   const auto structure = accel::registry().choose(parse_spec("samet:max_level=4")).build(scene);

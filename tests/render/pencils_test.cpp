@@ -78,7 +78,7 @@ RecordedPicture recorded(const scenes::Scene& scene, const accel::Accelerator& s
                         std::move(hits), options, rays::HitCheck(scene));
 }
 
-/// A room of planar mirrors with a ball in it, rotated against the axes.
+/// A room of planar mirrors containing a ball, rotated relative to the axes.
 scenes::Scene mirror_room() {
   scenes::SceneBuilder builder = with_light({0.3, 0.2, 0.4});
   builder.set_surface({.diffuse = 0.3F, .specular = 0.7F});
@@ -217,7 +217,8 @@ TEST(Pencils, AreNotOfMirrorsSeenFromTheirEdge) {
   EXPECT_EQ(behind(0.5F)->place, dvec3(5.0, 0.0, 1.5 - lift));
 }
 
-// A bit-exact structure that uses the marks finds the same hits, so the same rays follow.
+// A bit-exact structure that uses the marks finds the same hits, so the subsequent rays are the
+// same.
 TEST(Pencils, ChangeNothingThatAPictureDependsOn) {
   std::vector<scenes::Scene> all;
   all.push_back(mirror_room());
@@ -241,7 +242,7 @@ TEST(Pencils, ChangeNothingThatAPictureDependsOn) {
   }
 }
 
-/// A structure's picture, and the work of the rays that follow camera rays.
+/// A structure's picture, and the work for the rays after the camera rays.
 struct Worked {
   WhittedPicture picture;
   std::map<std::string, std::uint64_t, std::less<>> work;
@@ -276,7 +277,7 @@ TEST(Pencils, AreBeamsOfAnyDepth) {
   }
 }
 
-/// Returns the number of pixels that a viewer could distinguish.
+/// Returns the number of pixels whose difference is visible.
 int visibly_different(const Image& a, const Image& b) {
   int count = 0;
   for (int y = 0; y < a.height(); ++y) {

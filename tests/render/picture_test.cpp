@@ -1,4 +1,4 @@
-// Pictures: written pictures can be read back, and heat maps state the meaning of their colors.
+// Pictures: written pictures can be read back, and heat maps explain their colors.
 
 #include <algorithm>
 #include <chrono>

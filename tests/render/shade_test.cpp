@@ -85,7 +85,7 @@ RC_GTEST_PROP(GeometricNormal, OfAConeIsUprightOnItsLinesAndItsCircles, ()) {
 }
 
 RC_GTEST_PROP(GeometricNormal, OfABentPolygonIsThatOfTheTriangleHit, ()) {
-  // Two triangles that meet in an edge over the diagonal: only the right one has this normal.
+  // Two triangles that meet along the diagonal: only the correct one has this normal.
   scenes::SceneBuilder builder("bent quadrilateral");
   const std::vector<glm::dvec3> corners{{0, 0, 0}, {1, 0, 0.4}, {1, 1, 0}, {0, 1, 0.4}};
   builder.add_polygon(corners);
@@ -119,7 +119,7 @@ TEST(ShadingNormal, OfASmoothPolygonRunsBetweenItsCorners) {
   const accel::Hit hit = shoot(scene, ray).value();
   EXPECT_NEAR(glm::length(rays::geometric_normal(scene, ray, hit) - glm::dvec3(0, 0, 1)), 0.0,
               1e-6);
-  // Halfway to the corner whose normal leans by 45 degrees.
+  // Halfway to the corner whose normal is tilted by 45 degrees.
   const double s = std::sqrt(0.5);
   const glm::dvec3 expected = glm::normalize(glm::dvec3(0.5 * s, 0.0, 0.5 + 0.5 * s));
   EXPECT_NEAR(glm::length(rays::shading_normal(scene, ray, hit) - expected), 0.0, 1e-6);

@@ -28,9 +28,9 @@ TEST(ShadingOrder, HoldsEverySampleOnce) {
 }
 
 TEST(ShadingOrder, KeepsTheSamplesOfABeamTogether) {
-  // Within a beam the samples are in row order, so a place that precedes its predecessor begins
-  // another beam. There are at most as many such places as beams at occupied leaves, plus the rest
-  // behind them.
+  // Within a beam the samples are in row order, so a position that precedes its predecessor begins
+  // another beam. There are at most as many such positions as beams at occupied leaves, plus one
+  // for the remaining samples.
   const scenes::Scene scene = scenes::load_scene("maceta");
   const accel::PrimaryRays rays(scene.cameras.front(), 160, 128, 1);
   const auto beam = built(scene, "beam:max_level=5");

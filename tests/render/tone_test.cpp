@@ -1,5 +1,5 @@
-// The tone curve chosen for a picture: what it preserves, what it bounds, and its effect on
-// pictures that need none.
+// The tone curve chosen for a picture: what it preserves and bounds, and its effect on pictures
+// that do not need one.
 
 #include "harness/render/picture/tone.hpp"
 
@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kSize = 100;
 
-/// A ramp of the brightest component in many hues, over `stops` stops around `middle`.
+/// A ramp of the brightest component in many hues, spanning `stops` stops around `middle`.
 Image ramp(double middle, double stops) {
   Image image(kSize, kSize);
   for (int y = 0; y < kSize; ++y) {

@@ -136,7 +136,7 @@ TEST(Waves, GiveTheSamePictureForAnyBatch) {
   }
 }
 
-// No batch has more rays than asked for, however many are spawned.
+// No batch has more rays than requested, however many are spawned.
 TEST(Waves, KeepBatchesSmall) {
   scenes::SceneBuilder builder = with_light({0.0, 0.0, 50.0});
   builder.set_surface({.specular = 0.9F, .transmittance = 0.9F, .refraction_index = 1.01F});
@@ -164,7 +164,7 @@ TEST(Waves, KeepBatchesSmall) {
   for (const glm::dvec3& color : colors) ASSERT_EQ(color, colors.front());
 }
 
-// SIMD gives the same bits as glm, on every instruction set.
+// SIMD returns the same bits as glm on every instruction set.
 TEST(Places, AreThoseOfSingleRays) {
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     SCOPED_TRACE(hwy::TargetName(target));

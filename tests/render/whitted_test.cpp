@@ -31,7 +31,7 @@ TEST(Whitted, AMatteFloorHasTheCosineOfTheLight) {
 TEST(Whitted, LightsWithoutAColorShareOneOverTheRootOfTheirNumber) {
   scenes::SceneBuilder builder = with_light({0.0, 0.0, 4.0});
   builder.add_light({0.0, 0.0, 9.0});
-  builder.add_light({0.0, 0.0, 6.0}, {0.1, 0.2, 0.3});  // an explicit color is taken as it is
+  builder.add_light({0.0, 0.0, 6.0}, {0.1, 0.2, 0.3});  // an explicit color is used as it is
   builder.set_surface({.color = {1, 1, 1}, .diffuse = 1.0F});
   add_floor(builder, 0.0);
   const scenes::Scene scene = std::move(builder).build();
@@ -117,7 +117,7 @@ TEST(Refracted, FollowsSnell) {
     EXPECT_NEAR(behind->x, sine / 1.5, 1e-12);
     EXPECT_NEAR(glm::length(*behind), 1.0, 1e-12);
     EXPECT_LT(behind->z, 0.0);
-    // And back along the same path.
+    // And reversed along the same path.
     const auto before = refracted(-*behind, -normal, 1.5);
     ASSERT_TRUE(before.has_value());
     EXPECT_NEAR(glm::length(*before + incoming), 0.0, 1e-9);
@@ -193,17 +193,18 @@ scenes::Scene prism_below_a_ceiling(float index) {
 }
 
 TEST(Whitted, APrismTurnsARayByTotalReflection) {
-  // In at right angles at x = 0, onto the long side at 45 degrees, up and out at right angles at z
-  // = 2: three rays follow the camera ray. The light is directly below the place they hit.
+  // The ray enters perpendicularly at x = 0, meets the long side at 45 degrees, and leaves upward,
+  // perpendicularly, at z = 2: three rays follow the camera ray. The light is directly below the
+  // point they hit.
   expect_color(seen(prism_below_a_ceiling(1.5F), {-5, 0, 1}, {1, 0, 0}), dvec3(kAmbient + 1.0));
   expect_color(seen(prism_below_a_ceiling(1.5F), {-5, 0, 1}, {1, 0, 0}, {.max_depth = 3}),
                dvec3(0.0));
-  // With this index the critical angle is 56 degrees: the ray goes on to the sky.
+  // With this index the critical angle is 56 degrees: the ray continues to the sky.
   expect_color(seen(prism_below_a_ceiling(1.2F), {-5, 0, 1}, {1, 0, 0}), linear(0.2, 0.4, 0.8));
 }
 
-/// Returns the census of a ray that meets a plane at 60 degrees, behind which light is 1.5 times as
-/// fast: past the critical angle of 41.8.
+/// Returns the census of a ray that meets a plane at 60 degrees, behind which light is 1.5 times
+/// faster; the critical angle is 41.8 degrees.
 RayCensus census_at_total_reflection(double specular, const WhittedOptions& options) {
   scenes::SceneBuilder builder = with_light({0.0, 0.0, -50.0});
   builder.set_background({1, 1, 1});
@@ -267,8 +268,8 @@ TEST(Whitted, AShadingNormalSendsNoRefractedRayBackThroughItsSurface) {
   const dvec3 leaning(-0.6, 0.0, 0.8);
   builder.add_polygon(corners, std::array<dvec3, 3>{leaning, leaning, leaning});
   const scenes::Scene scene = std::move(builder).build();
-  // 75 degrees from the plane's normal, 38 from the shading normal, about which Snell's law gives
-  // an upward direction. About the plane's own normal it gives none: all light is reflected.
+  // 75 degrees from the plane's normal and 38 from the shading normal. For the latter, Snell's law
+  // yields an upward direction; for the plane's own normal it yields none: all light is reflected.
   const auto structure = built(scene, "exhaustive");
   const Whitted tracer(scene, *structure, WhittedOptions{});
   Whitted::Progress progress = tracer.begin();

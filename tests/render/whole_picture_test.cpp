@@ -20,7 +20,7 @@ namespace {
 measure::CellGroup group_of(scenes::Scene scene, const std::string& rays = "whitted") {
   const scenes::Camera camera = scene.cameras.front();
   return {std::make_shared<const scenes::Scene>(std::move(scene)),
-          7,  // for its hash
+          7,  // arbitrary hash
           camera,
           {40, 30},
           1,

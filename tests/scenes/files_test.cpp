@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A pseudoterminal: text written at one end can be read at the other, and when the first end is
+/// A pseudoterminal: text written at one end can be read at the other. When the first end is
 /// closed, reading fails with an input error (EIO), as with a failing disk.
 class HungUpTerminal {
  public:

@@ -222,8 +222,8 @@ TEST(Tetra, FacesLookOutward) {
   }
 }
 
-/// Calls check(parent, child, number of the child) for every parent and child of a sphereflake of
-/// `depth` levels, whose spheres are listed parents first.
+/// Calls check(parent, child, number of the child) for every parent and child in a sphereflake of
+/// `depth` levels, which lists parents first.
 template <typename Check>
 void for_each_child(const std::vector<Sphere>& spheres, std::size_t& next, int depth, Check check) {
   const std::size_t parent = next++;
@@ -259,7 +259,7 @@ TEST(Balls, FirstChildrenStandAtTheirAzimuthAndElevation) {
 }
 
 TEST(Balls, GrandchildrenFollowTheSmallestRotationFromZ) {
-  // The three upper children of a child keep the angle whose sine is sqrt(2/3) to its equator.
+  // The three upper children of a child are at an angle to its equator whose sine is sqrt(2/3).
   const Scene scene = load_scene("balls:n=2");
   std::size_t next = 0;
   glm::dvec3 axis(0.0, 0.0, 1.0);
@@ -297,7 +297,7 @@ TEST(Escena1, FillsItsVolumeEvenlyWithSpheresThatDoNotMeet) {
   EXPECT_GT(largest->radius, 2.0F * least->radius);
 }
 
-// The positions found by the plain search for the nearest of all balls, before a grid was used.
+// The positions found by a plain search for the nearest ball, before the grid was introduced.
 TEST(Escena1, StandsWhereItStoodBeforeItsGrid) {
   EXPECT_EQ(scene_hash(load_scene("escena1:spheres=7")), 0x2a7353dd7127c1eaU);
   EXPECT_EQ(scene_hash(load_scene("escena1:spheres=2000")), 0xc0a046104b83e4feU);
@@ -321,7 +321,7 @@ TEST(Escena2, FlakeIsTinyInAHugeVolume) {
   EXPECT_LT(flake.upper.y, scene.bounds.upper.y) << "the polygon stands behind";
 }
 
-/// Returns the number of edges, of triangles over shared vertices, that do not belong to two
+/// Returns the number of edges of triangles over shared vertices that do not belong to exactly two
 /// triangles, once in each direction.
 std::size_t count_open_edges(std::span<const Triangle> triangles) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;

@@ -55,7 +55,7 @@ std::vector<Face> glass_faces(const Scene& scene) {
   return faces;
 }
 
-/// Returns how far a point of a convex face's plane is inside of its edges; negative outside.
+/// Returns how far a point in a convex face's plane is inside its edges; negative outside.
 double depth_inside(const Face& face, const dvec3& point) {
   double depth = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < face.places.size(); ++i) {

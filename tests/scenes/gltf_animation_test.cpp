@@ -33,7 +33,7 @@ int add_floats(GltfFile& file, const std::vector<float>& numbers, std::size_t ea
   return file.add_accessor(file.add_view(bytes), GltfType::kFloat, numbers.size() / each, shape);
 }
 
-/// The numbers that a value of the path has.
+/// Returns how many numbers a value of the path has.
 std::size_t size_of(const std::string& path) { return path == "rotation" ? 4 : 3; }
 
 /// Adds a channel to the file's only animation.
@@ -65,7 +65,7 @@ class GltfAnimations : public testing::Test {
   std::string message(const GltfFile& file) {
     return thrown_message([&] { load(file); });
   }
-  /// The file's corners in a frame.
+  /// Returns the file's corners in a frame.
   std::vector<glm::vec3> corners(const GltfFile& file, std::uint32_t frame) {
     Animation animation = load(file);
     show_frame(animation, frame);
@@ -179,7 +179,7 @@ TEST_F(GltfAnimations, LongOnesHaveAThousandFrames) {
   expect_near(corners(file, 400)[0], {400, 0, 0});
 }
 
-/// Two triangles, each moved by one joint, and a third corner between them by both.
+/// Two triangles, each moved by one joint, and a shared corner moved by both.
 GltfFile with_skin() {
   GltfFile file;
   const int positions = file.add_positions({{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {1, 2, 0}});

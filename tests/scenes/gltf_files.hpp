@@ -11,7 +11,7 @@
 
 namespace beambench::scenes {
 
-/// glTF's numbers for the types of components.
+/// glTF's codes for component types.
 enum class GltfType { kByte = 5120, kUByte, kShort, kUShort, kUInt = 5125, kFloat };
 
 /// A file under construction: its JSON, and one buffer. Begins with a default scene without nodes.

@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder for mesh files, and a cache of its own in it.
+/// A folder for mesh files, which contains its own cache.
 class Meshes : public testing::Test {
  protected:
   Meshes() { ::setenv("BEAMBENCH_CACHE", cache().c_str(), 1); }

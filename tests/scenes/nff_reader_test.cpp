@@ -140,7 +140,7 @@ TEST(Finish, EachHasItsWordAndItsNumbers) {
   EXPECT_GT(finished_surface(Finish::kGlass).refraction_index, 1.0F);
 }
 
-/// Words of other programs before, between and after commands that must still be read.
+/// Other programs' words before, between and after commands that must still be read.
 class PrivateWord : public testing::TestWithParam<const char*> {};
 
 TEST_P(PrivateWord, IsSkippedAndReportedOnce) {
@@ -187,7 +187,7 @@ TEST(NffReader, DefaultsAreBlackBehindWhiteLights) {
 }
 
 TEST(NffReader, NumbersAreRoundedOnce) {
-  // By way of double, 7.038531e-26 becomes the next float: double rounding at a tie.
+  // Via double, 7.038531e-26 becomes the next float: double rounding at a tie.
   const Scene scene = parse("s 7.038531e-26 1.5e-005 1E+004 2.5e000\ns 0 1e-60 -.0 1\n").scene;
   EXPECT_EQ(scene.spheres[0].center, glm::vec3(7.038531e-26F, 1.5e-5F, 1e4F));
   EXPECT_EQ(scene.spheres[0].radius, 2.5F);
@@ -422,7 +422,7 @@ TEST(NffReader, UnreadableFilesAreRefused) {
   EXPECT_TRUE(says(thrown_message([] { nff::read_nff(kFolder); }), {kFolder, "folder"}));
 }
 
-/// Parses arbitrary text: it gives a scene or an InputError that names the place.
+/// Parses arbitrary text: the result is a scene or an InputError that names the place.
 void expect_scene_or_refusal(const std::string& text) {
   try {
     const Scene scene = parse(text).scene;

@@ -22,8 +22,9 @@ std::string written(const Scene& scene) {
   return stream.str();
 }
 
-/// Everything that NFF must preserve, as words that are equal if the bits are. Polygons are
-/// represented by the places of their vertices, because the sharing of vertices is not preserved.
+/// Returns everything that NFF must preserve, as words that are equal if the bits are. Polygons are
+/// represented by the positions of their vertices, because the sharing of vertices is not
+/// preserved.
 class Contents {
  public:
   explicit Contents(const Scene& scene) : scene_(scene) {
@@ -211,8 +212,7 @@ RC_GTEST_PROP(NffWriter, AnySceneReadsBackTheSame, (std::uint64_t seed)) {
     try {
       add_something(builder, numbers);
     } catch (const InputError&) {
-      // Numbers that do not give a camera or primitive are refused by the builder; skip them here,
-      // too.
+      // The builder refuses numbers that do not form a camera or primitive; skip them here as well.
     }
   }
   std::optional<Scene> built;

@@ -135,7 +135,7 @@ TEST(PlyRows, CoordinatesAreTheNearestFloats) {
   }
 }
 
-/// A decimal that is first rounded to double becomes the even one of two floats.
+/// A decimal that is first rounded to double would become the even one of two floats.
 TEST(PlyRows, AFloatIsRoundedOnce) {
   const auto x = [](const std::string& text) {
     return triangles_of(imported(triangle_ply(text + " 0 0"), "ply"))[0][0].x;

@@ -192,7 +192,7 @@ TEST(Ply, TheFormatMayStandAnywhereInTheHeader) {
             tetrahedron_hash());
 }
 
-/// Assimp issue 4755: what looks like the end of a line was taken off the data.
+/// Assimp issue 4755: bytes that look like a line end were removed from the data.
 TEST(Ply, BinaryDataMayBeginWithAnyByte) {
   for (const std::string_view encoding : {kPlyEncodings[1], kPlyEncodings[2]}) {
     for (int first = 0; first < 256; ++first) {

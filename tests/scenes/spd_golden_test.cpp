@@ -17,7 +17,7 @@
 namespace beambench::scenes {
 namespace {
 
-/// Returns the numbers that NFF prints of a primitive, in one list.
+/// Returns the numbers that NFF prints for a primitive, in one list.
 std::vector<float> numbers(const Scene& scene, PrimitiveId id, bool sorted_corners) {
   const Primitive& primitive = scene.primitives[id];
   if (primitive.kind == PrimitiveKind::kSphere) {
@@ -39,8 +39,9 @@ std::vector<float> numbers(const Scene& scene, PrimitiveId id, bool sorted_corne
   return all;
 }
 
-/// Returns whether ours would be printed as that number: within half a unit of its sixth digit and
-/// the rounding of both to float. Numbers that the SPD printed as about 1e-15 count as 0.
+/// Returns whether our number would be printed as the other one: equal within half a unit of the
+/// sixth digit plus the rounding of both to float. Numbers that the SPD printed as about 1e-15
+/// count as 0.
 bool agrees(float ours, float printed) {
   const double size = std::abs(double{printed});
   if (size < 1e-13) return std::abs(ours) < 1e-12F;

@@ -104,8 +104,8 @@ TEST(Spd, CountsFollowTheFormulas) {
   }
 }
 
-// At size 1 four of the 56 triangles of the SPD's teapot lie on a line, which no scene here may
-// hold; the SPD's own program warns of that size.
+// At size 1, four of the 56 triangles of the SPD's teapot are degenerate, which is not allowed
+// here; the SPD's own program warns about that size.
 TEST(Spd, OnlyTheTeapotStartsAtSizeTwo) {
   for (const auto& [name, formula] : formulas()) {
     EXPECT_EQ(std::max<std::int64_t>(smallest(name), 1), name == "teapot" ? 2 : 1) << name;
@@ -351,7 +351,7 @@ TEST(Sombrero, IsASquareWithItsPeakNearTheMiddle) {
   }
 }
 
-/// A primitive by its places alone, the same however its corners or ends are ordered.
+/// A primitive represented by its positions alone, regardless of the order of its corners or ends.
 std::vector<std::array<float, 3>> places(const Scene& scene, PrimitiveId id) {
   const Primitive& primitive = scene.primitives[id];
   std::vector<std::array<float, 3>> all;

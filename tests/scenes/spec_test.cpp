@@ -111,7 +111,7 @@ TEST(NearestName, IsTheMeaningThatIsAmongTheNames) {
   EXPECT_EQ(nearest_name("picture", std::vector<std::string>{"primary", "whitted"}), "whitted");
 }
 
-// max is a part of two names, and neither is meant.
+// max is part of two names, and neither is meant.
 TEST(NearestName, IsNoneOfSeveralThatTheWordIsAPartOf) {
   EXPECT_EQ(nearest_name("max", std::vector<std::string>{"max_level", "max_objects"}), "");
 }

@@ -155,8 +155,8 @@ TEST(Triangulate, PolygonThatCrossesItselfStillEnds) {
   }
 }
 
-/// The same clipping by looking at all corners at each step, for polygons in the plane z = 0 that
-/// run counter-clockwise: the search for the next corner must not change the result.
+/// The same ear clipping, but examining all corners at each step, for counter-clockwise polygons in
+/// the plane z = 0: the search for the next corner must not change the result.
 Triangles triangulate_by_looking_at_all(const Corners& corners) {
   struct Corner {
     std::uint32_t number;
@@ -214,7 +214,8 @@ TEST(Triangulate, TheSearchForEarsChangesNoTriangle) {
     SCOPED_TRACE(seed);
     Random random(seed);
     const std::size_t count = 3 + random.below(seed % 10 == 0 ? 300 : 40);
-    // Places on a small lattice give straight edges, equal corners and crossings; others do not.
+    // Positions on a small lattice cause straight edges, equal corners and crossings; others do
+    // not.
     const std::uint64_t lattice = std::array<std::uint64_t, 4>{4, 12, 100, 1U << 20U}[seed % 4];
     const bool crosses_itself = seed % 3 == 0;
     Corners corners;
@@ -236,8 +237,8 @@ TEST(Triangulate, TheSearchForEarsChangesNoTriangle) {
   EXPECT_GT(compared, 400U);
 }
 
-// Looking at all corners took 28 s for such a star, 60 s and more for 20,000 corners anywhere. The
-// limit is generous, for the sanitizers.
+// Examining all corners took 28 s for such a star, and 60 s or more for 20,000 random corners. The
+// limit is generous for the sanitizers.
 TEST(Triangulate, AHundredThousandCornersAreQuick) {
   const auto begin = std::chrono::steady_clock::now();
   Random random(11);

@@ -1,4 +1,4 @@
-// tile-beam leaves out the backs of closed surfaces: no image may reveal it.
+// tile-beam culls the backs of closed surfaces: no image may reveal it.
 
 #include <algorithm>
 #include <cmath>
@@ -56,7 +56,7 @@ class Exhibit {
 
   const scenes::Scene& scene() const { return scene_; }
 
-  /// Returns an eye anywhere around, in the middle, on a surface, or slightly beside one.
+  /// Returns an eye anywhere around, in the center, on a surface, or slightly off one.
   PrimaryRays view() {
     const double extent = glm::length(dvec3(scene_.bounds.extent()));
     scenes::Camera camera;
@@ -187,7 +187,7 @@ void expect_right_views(std::uint64_t exhibits) {
   EXPECT_GT(solids, exhibits);  // otherwise nothing was tested
   EXPECT_EQ(culled.errors, 0U) << culled.first;
   EXPECT_EQ(whole.errors, 0U) << whole.first;
-  // At silhouettes, a sample between two triangles may show either side due to rounding.
+  // At silhouettes, rounding may let a sample between two triangles show either side.
   EXPECT_LE(culled.grazes, whole.grazes + culled.rays / 100'000 + 2);
 }
 

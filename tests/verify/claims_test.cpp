@@ -67,7 +67,7 @@ struct Traced {
   HitTable hits;
 };
 
-/// A way to state hits.
+/// A form of stating hits.
 struct Form {
   std::string name;
   std::function<ClaimedHits(const HitTable&)> claims;
@@ -104,7 +104,7 @@ TEST(Claims, RightHitsPassInEveryForm) {
       }
       const DiffReport report = traced.verify(form.claims(traced.hits));
       EXPECT_EQ(report.count(DiffClass::kStructureError), 0U) << name << ", " << form.name;
-      // Rays aimed at edges graze, whatever the form of their hits.
+      // Rays aimed at edges graze in any form of hits.
       EXPECT_LE(report.count(DiffClass::kGraze), 20U) << name << ", " << form.name;
       EXPECT_EQ(report.rays, traced.rays.size());
       EXPECT_GT(report.hits, 100U);
@@ -290,8 +290,8 @@ TEST(Claims, ArraysThatDoNotGoTogetherAreRefused) {
   }
 }
 
-// The ray just misses an upright triangle, which the program reports. Behind it, at grazing
-// incidence, the ray meets a level one, whose plane nearly contains the claimed place.
+// The ray just misses an upright triangle, which the program reports as hit. Behind it, at grazing
+// incidence, the ray meets a horizontal triangle, whose plane nearly contains the claimed point.
 TEST(Claims, APlaceFarBesideThePrimitiveInItsPlaneIsNotOnIt) {
   scenes::SceneBuilder builder("level and upright");
   const glm::dvec3 level[] = {{5, 0, -2}, {9, 0, 0}, {5, 0, 2}};

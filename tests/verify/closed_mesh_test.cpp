@@ -1,5 +1,4 @@
-// Closed meshes do not leak light: each shadow ray between inside and outside is stopped, as a
-// pencil.
+// Closed meshes do not leak light: pencils stop each shadow ray between inside and outside.
 
 #include <algorithm>
 #include <cstdint>

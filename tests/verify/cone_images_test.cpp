@@ -86,7 +86,7 @@ scenes::Scene cones_of(const Shape& shape, double scale, const dvec3& place, Ran
   return std::move(builder).build();
 }
 
-/// The eye and what it looks at.
+/// The eye and its target.
 using View = std::pair<dvec3, dvec3>;
 
 /// Views in which cones are difficult: in and on the axis, beyond the tip, in the continued

@@ -332,7 +332,7 @@ class Grazing : public ::testing::Test {
     EXPECT_TRUE(exact && exact->primitive == id) << x << " " << y;
     return tests::class_of(scene_, ray, std::nullopt);
   }
-  /// Returns K u near a place that is passed by a ray from 2 in front of it.
+  /// Returns K u near a point passed by a ray that starts 2 in front of it.
   static double unit(double x, double y) {
     const accel::Ray ray{{static_cast<float>(x), static_cast<float>(y), 2.0F}};
     return tolerance(ray, glm::dvec3(x, y, 0.0));
@@ -380,14 +380,14 @@ class EndsAtASurface : public ::testing::Test {
     return std::move(builder).build();
   }
 
-  /// Returns a ray above the surface except for one of its ends, which is at a plane distance (in K
-  /// u, upward) from the place; the ray slopes so that it ends at twice the distance along its
-  /// line.
+  /// Returns a ray above the surface except for one end, which is at a distance from the point's
+  /// plane (in K u, upward); the ray is inclined so that this end is at twice that distance along
+  /// its line.
   accel::Ray ray_at(const Place& place, End end, double tolerances, double length = 0.5) const {
     const glm::dvec3 slope(std::sqrt(0.75), 0.0, 0.5);
     const glm::dvec3 above = place.point + length * slope;
     const glm::dvec3 below = place.point - length * slope;
-    // The tolerance depends on the origin, so a first ray without an offset finds it.
+    // The tolerance depends on the origin, so a first ray without an offset determines it.
     double offset = 0.0;
     accel::Ray ray;
     for (int turn = 0; turn < 2; ++turn) {
@@ -468,7 +468,7 @@ TEST_F(EndsAtASurface, AnotherHitThatIsLostIsAnError) {
   }
 }
 
-// Within K u of the plane and in the box, but beside the triangle.
+// Within K u of the plane and in the box, but outside the triangle.
 TEST_F(EndsAtASurface, AnyHitReportedBesideATriangleIsAnError) {
   const Place beside{"beside", {0.75, 0.75, 0.0}};
   for (const End end : {End::kOrigin, End::kTMin, End::kTMax}) {
@@ -481,8 +481,8 @@ TEST_F(EndsAtASurface, AnyHitReportedBesideATriangleIsAnError) {
 }
 
 TEST(GrazeBudget, IsTwoForASmallImage) {
-  // The middle column of pixels looks exactly along an edge of a triangle: a structure may see it
-  // or not.
+  // The middle column of pixels looks exactly along an edge of a triangle, which a structure may or
+  // may not see.
   scenes::SceneBuilder builder("edge");
   const glm::dvec3 corners[] = {{0.0, -1.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
   builder.add_polygon(corners);

@@ -28,7 +28,7 @@ inline std::optional<verify::DiffClass> class_of(const scenes::Scene& scene, con
   switch (found.diff_class) {
     case verify::DiffClass::kStructureError:
       return std::nullopt;
-    case verify::DiffClass::kOracleError:  // of the miss that stands in for the oracle's answer
+    case verify::DiffClass::kOracleError:  // of the miss that replaces the oracle's result
       return verify::DiffClass::kAgree;
     default:
       return found.diff_class;

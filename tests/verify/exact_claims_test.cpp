@@ -1,9 +1,9 @@
 // The judge against exact arithmetic: it accepts no claim that is wrong by more than 4 K u, and
 // refuses none within K u / 4.
 //
-// BEAMBENCH_EXACT_CLAIMS=1000000 in the environment requests that many claims, which take a minute,
-// BEAMBENCH_EXACT_SEED=N others. BEAMBENCH_EXACT_REPORT=N prints that many violations of each
-// family instead of 3.
+// In the environment, BEAMBENCH_EXACT_CLAIMS=1000000 requests that many claims, which take a
+// minute; BEAMBENCH_EXACT_SEED=N selects others; BEAMBENCH_EXACT_REPORT=N prints that many
+// violations of each family instead of 3.
 
 #include <map>
 #include <string>

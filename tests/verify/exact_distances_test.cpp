@@ -18,7 +18,7 @@
 namespace beambench::exact {
 namespace {
 
-/// Returns the unit normal of a surface at one of its points, in doubles; nothing at the apex of a
+/// Returns the unit normal of a surface at one of its points, in double; nothing at the apex of a
 /// cone.
 std::optional<glm::dvec3> normal_at(const Solid& solid, const glm::dvec3& x) {
   if (const auto* sphere = std::get_if<Sphere>(&solid.shape)) {

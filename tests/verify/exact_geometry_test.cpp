@@ -85,7 +85,7 @@ TEST_F(ExactGeometry, OnARayAlongTheAxisTheApexIsMetTwice) {
 
 TEST_F(ExactGeometry, IntervalTakesTheNearestFloat) {
   const float t = 1.0F / 3.0F;
-  // The square is met at t = 1, exactly; the interval ends a unit before it, and so on.
+  // The ray meets the square at exactly t = 1; the interval ends one unit before it, and so on.
   const glm::vec3 origin(0.25F, 1.0F, 0.125F);
   const glm::vec3 down(0.0F, -1.0F, 0.0F);
   const auto met = [&](float t_min, float t_max, glm::vec3 from, glm::vec3 along) {
@@ -138,7 +138,7 @@ TEST_F(ExactGeometry, MovedHitsAreRightWithinAQuarterAndWrongBeyondFour) {
   }
 }
 
-// The surface of a flat cone, continued beyond its rim, stays close to the ray for a long way.
+// The surface of a flat cone, extended beyond its rim, stays close to the ray for a long distance.
 TEST(ExactCones, APlaceBesideTheRimOfAFlatConeIsNotRight) {
   scenes::SceneBuilder builder("flat");
   builder.add_cone({-0.868675351, 0, 0.27275753}, 0.0488567129,
@@ -169,7 +169,7 @@ TEST_F(ExactGeometry, WhatLiesBehindAClearHitIsWrong) {
 }
 
 TEST_F(ExactGeometry, BehindAGrazedHitEverythingIsJudgedAsAlways) {
-  // Beside the sphere's silhouette, then clearly through the square.
+  // Just outside the sphere's silhouette, then clearly through the square.
   const accel::Ray down = ray({1.0F, 4.5F, 0.0F}, {-0x1p-40F, -1.0F, 0.0F});
   EXPECT_TRUE(right(down, accel::Hit{4.5F, 0}));
   EXPECT_FALSE(wrong(down, accel::Hit{1.5F, 1}));

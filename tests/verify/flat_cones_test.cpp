@@ -48,8 +48,8 @@ accel::HitBuffer traced(const std::string& structure, const scenes::Scene& scene
   return std::get<accel::HitBuffer>(std::move(results));
 }
 
-/// The expected hit with the ring that the cone resembles, to sufficient accuracy; nothing beside
-/// it. `unsure` if the ray passes within `margin` of a rim, or so nearly in the ring's plane that
+/// The expected hit of the ring that the cone resembles, to sufficient accuracy; nothing outside
+/// it. `unsure` if the ray passes within `margin` of a rim or is so close to the ring's plane that
 /// the cone's height matters.
 struct Expected {
   std::optional<double> t;

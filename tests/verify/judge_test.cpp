@@ -1,6 +1,6 @@
-// The judge in situations in which it was once wrong: ends of rays on surfaces, huge floors beside
+// The judge in situations where it was once wrong: ends of rays on surfaces, huge floors next to
 // small objects, crossings behind grazed ones, short directions. Then all structures over random
-// scenes: BEAMBENCH_JUDGE_SCENES=N in the environment requests that many.
+// scenes; BEAMBENCH_JUDGE_SCENES=N in the environment sets their number.
 
 #include <algorithm>
 #include <cmath>
@@ -246,7 +246,7 @@ TEST(Grazes, DoNotExcuseWhatLiesBehind) {
   }
 }
 
-/// Twenty triangles in a row behind each other, which all rays of the tests cross.
+/// Twenty triangles one behind another, which all rays of the tests cross.
 scenes::Scene stack_of_triangles() {
   scenes::SceneBuilder builder("stack");
   for (int i = 0; i < 20; ++i) {
@@ -283,7 +283,7 @@ TEST(ShortAndLongDirections, AreJudgedAlike) {
   }
 }
 
-// Embree flushes denormals during its builds, and parallel loops inherit that mode from a thread
+// Embree flushes subnormals during its builds, and parallel loops inherit that mode from a thread
 // whose first loop was Embree's. The judge's loops must not.
 TEST(ShortAndLongDirections, DenormalComponentsCount) {
   scenes::SceneBuilder builder("ceiling");
@@ -293,7 +293,7 @@ TEST(ShortAndLongDirections, DenormalComponentsCount) {
   set.rays = {{{1.0F, 1.5F, 2.0F}, 0.0F, {-2e-24F, 4e-44F, -2e-24F}, 0.0F}};  // not in the plane
   set.query = rays::Query::kAnyHit;
   const rays::TraceInput input(std::move(set));
-  std::thread([&] {  // has had no parallel loop before
+  std::thread([&] {  // has not run a parallel loop yet
     EXPECT_EQ(report_of(scene, input, rays::AnyHits{1}).verdict, Verdict::kOk);
   })
       .join();
@@ -332,7 +332,7 @@ TEST(Disputes, ExactAnswersAreNeverGrazes) {
   EXPECT_EQ(report.count(DiffClass::kAgree), input.size());
 }
 
-/// Lights on, in and just beside the surfaces of random scenes.
+/// Lights on, in and just off the surfaces of random scenes.
 scenes::Scene with_lights_at_surfaces(std::uint64_t seed) {
   const scenes::Scene plain = tests::random_scene(seed, 25);
   const rays::TraceInput image(accel::PrimaryRays(plain.cameras.front(), 5, 5, 1));

@@ -1,4 +1,4 @@
-// Reducing wrong answers, and parts of scenes.
+// Reduction of wrong results, and subsets of scenes.
 
 #include "harness/verify/minimize.hpp"
 
@@ -33,7 +33,7 @@ rays::TraceInput as_list(const rays::TraceInput& input) {
   return rays::TraceInput(std::move(set));
 }
 
-/// A correct structure, except that it loses the hits for which `loses` is true.
+/// A structure that is correct except that it loses the hits for which `loses` is true.
 template <class Loses>
 Tracer losing(Loses loses) {
   return [loses](const scenes::Scene& scene, const rays::TraceInput& input) {

@@ -89,8 +89,8 @@ rays::ImageOfRays image_over(const scenes::Scene& scene, int width, int height, 
   return rays::image_of(scene.cameras.front(), rays::Resolution{width, height}, samples);
 }
 
-/// Returns the number of parts of pencils: tests with too few rays for pencils must not pass
-/// unnoticed.
+/// Returns the number of parts of pencils, so that a test with too few rays for pencils does not
+/// pass unnoticed.
 std::uint64_t expect_right_over(const scenes::Scene& scene, const rays::ImageOfRays& image,
                                 const char* kind) {
   try {
@@ -170,8 +170,8 @@ TEST(PencilHits, OfAreaLightsAreRight) {
   EXPECT_GT(beams, 1500U);
 }
 
-/// Lights at every power of ten from 1e-6 to 1e6 scene sizes: from the scene's center, from a
-/// triangle on both of its sides, and from a sphere and a cone, inside and outside.
+/// Lights at distances of every power of ten from 1e-6 to 1e6 scene sizes: from the scene's center,
+/// from both sides of a triangle, and from a sphere and a cone, inside and outside.
 std::vector<scenes::Light> lights_at_every_distance(const scenes::Scene& scene, Random& random) {
   const dvec3 middle = 0.5 * (dvec3(scene.bounds.lower) + dvec3(scene.bounds.upper));
   std::vector<scenes::Light> lights;
@@ -206,8 +206,7 @@ std::vector<scenes::Light> lights_at_every_distance(const scenes::Scene& scene, 
   return lights;
 }
 
-/// Returns whether the seed gives a scene whose coordinates are much larger than its size: one in
-/// four.
+/// Returns whether the seed's scene has coordinates much larger than its size, as one in four does.
 bool is_remote(std::uint64_t seed) { return seed % 4 == 2; }
 
 TEST(PencilHits, OfLightsAtEveryDistanceAreRight) {
@@ -264,9 +263,9 @@ scenes::Scene grass(std::uint64_t seed) {
   return std::move(builder).build();
 }
 
-// Here, float rounds places on the side of the cube around the light to a quarter of a millimeter,
-// and rays that missed a blade by that distance were reported as shadowed: 14 with the first seed.
-// For needles, a few still are.
+// Here, float rounds positions on the side of the cube around the light to a quarter of a
+// millimeter, and rays that missed a blade by that distance were reported as shadowed: 14 with the
+// first seed. For needles, a few still are.
 TEST(PencilHits, OfSmallDetailsInLargeScenesAreRight) {
   for (const std::uint64_t seed : {1, 2}) {
     const scenes::Scene scene = grass(seed);
@@ -279,8 +278,8 @@ TEST(PencilHits, OfSmallDetailsInLargeScenesAreRight) {
   }
 }
 
-// A triangle that a light sees almost edge-on, at a ten-thousandth of its extent, is narrower from
-// there than the margin of its edges: two of 34,011 rays were reported as shadowed by it.
+// A triangle that a light sees almost edge-on, at a ten-thousandth of its extent, appears narrower
+// than the margin of its edges: two of 34,011 rays were reported as shadowed by it.
 TEST(PencilHits, OfTrianglesSeenEdgeOnAreRight) {
   const scenes::Scene scene = scenes::load_scene("delfines");
   const Outcome outcome = verified(scene, rays::make_trace_input(scene, image_over(scene, 320, 240),
@@ -289,7 +288,7 @@ TEST(PencilHits, OfTrianglesSeenEdgeOnAreRight) {
   EXPECT_EQ(outcome.differing, 0U);
 }
 
-/// Corners of the octree's cells, places on their edges and faces, and the same for the boxes of
+/// Corners of the octree's cells, points on their edges and faces, and the same for the boxes of
 /// the hierarchy that the pencils traverse; both also beyond the scene.
 std::vector<scenes::Light> lights_on_borders(const scenes::Scene& scene, Random& random) {
   std::vector<scenes::Light> lights;
@@ -393,7 +392,7 @@ TEST(PencilHits, OfEveryInstructionSetAreRight) {
   }
 }
 
-// Most origins see all of a light or nothing of it, and few are left to the pencils.
+// Most origins see a light completely or not at all, and few are left to the pencils.
 TEST(PencilHits, OfBundlesAreMostlyFoundOnce) {
   for (const auto& [name, most_open] :
        {std::pair{"bumpy:triangles=20000", 0.5}, {"casa-de-campo", 0.5}, {"balls:n=2", 0.5}}) {
@@ -497,7 +496,7 @@ TEST(PencilHits, DoNotDependOnTheThreads) {
     EXPECT_EQ(found_by(parallel, input, &counters), expected);
     EXPECT_EQ(counters.by_name(), expected_counters.by_name());
     EXPECT_GT(counters.by_name()["beams"], 0U);
-    // One structure, called by several threads at once.
+    // One structure, queried by several threads at once.
     std::vector<rays::TraceResults> at_once(4, rays::make_results(input));
     {
       std::vector<std::jthread> threads;

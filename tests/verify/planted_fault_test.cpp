@@ -14,7 +14,7 @@
 namespace beambench::verify {
 namespace {
 
-/// A scene, and the level at which some leaf is the only one that finds the primitive hit in it. A
+/// A scene, and the level at which some leaf is the only one in which a primitive's hit is found. A
 /// sphere is also found where the ray leaves it, so it needs large leaves.
 struct SceneAndLevel {
   const char* scene;
@@ -104,7 +104,7 @@ class PlantedFault : public ::testing::TestWithParam<SceneAndLevel> {
       };
       accel::octree::walk_leaves(octree, accel::octree::AncestorNeighbors(octree), ray, none,
                                  look_for_hit);
-      if (leaves == 1) return fault;  // no other leaf on the whole path refers to the primitive
+      if (leaves == 1) return fault;  // no other leaf on the path refers to the primitive
     }
     ADD_FAILURE() << "no ray finds its hit in one leaf alone";
     return fault;

@@ -102,7 +102,7 @@ std::string line_of(const std::string& text, const std::string& beginning) {
   return "no line begins with '" + beginning + "' in: " + text;
 }
 
-/// A scene whose name a shell would split, and hits that a test corrupts.
+/// A scene whose name a shell would split, with hits that a test corrupts.
 class PlantedMismatch : public ::testing::Test {
  protected:
   static constexpr int kSamples = 4;

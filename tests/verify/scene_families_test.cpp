@@ -1,7 +1,7 @@
 // Awkward scenes: no structure fails on them, with any kind of rays, on any instruction set.
 //
-// BEAMBENCH_FAMILY_SCENES=1000 in the environment requests more of them, BEAMBENCH_FAMILY_SEED=N
-// for others.
+// In the environment, BEAMBENCH_FAMILY_SCENES=1000 requests more scenes, and
+// BEAMBENCH_FAMILY_SEED=N selects others.
 
 #include <algorithm>
 #include <map>

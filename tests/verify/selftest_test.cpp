@@ -166,7 +166,7 @@ TEST(Selftest, TracesThePrimitivesThatAreTaken) {
   }
 }
 
-/// Snapping makes one primitive in a hundred degenerate. Over an empty scene, places would not be
+/// Snapping makes one primitive in a hundred degenerate. In an empty scene, positions would not be
 /// numbers.
 TEST(Selftest, RandomScenesAreNotEmptyAndTheirRaysAreNumbers) {
   for (std::uint64_t seed = 102'500; seed < 104'500; ++seed) {
@@ -220,7 +220,7 @@ TEST(Selftest, WrongHitsAreReducedToTheRayAndThePrimitivesThatTheyTake) {
   const accel::StructureInfo info = faulty(Fault::kNoCones);
   for (const char* name : {"random scenes", "scene families", "views", "heap"}) {
     const CheckOutcome outcome = outcome_of(name, info);
-    if (name == std::string("heap")) {  // of spheres: it is right
+    if (name == std::string("heap")) {  // of spheres: correct
       EXPECT_FALSE(outcome.failed.has_value());
       continue;
     }

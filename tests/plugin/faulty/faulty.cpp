@@ -1,4 +1,4 @@
-// A plug-in with the fault that the environment variable FAULT names; none if it is empty.
+// A plug-in with the fault named by the environment variable FAULT; none if it is empty.
 
 #include <csignal>
 #include <cstdlib>

@@ -61,7 +61,7 @@ class MedianBvh : public beambench::accel::TraversalAccelerator<MedianBvh> {
   struct Node {
     beambench::scenes::Bounds box;
     std::uint32_t first;  ///< of a leaf: its primitives in order_; else the second child's index
-    std::uint32_t count;  ///< 0: an inner node, whose first child comes right behind it
+    std::uint32_t count;  ///< 0: an interior node, directly followed by its first child
   };
 
   void build(std::uint32_t begin, std::uint32_t end, std::uint32_t max_leaf, std::uint64_t level) {

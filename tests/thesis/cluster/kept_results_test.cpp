@@ -30,7 +30,7 @@ Bytes bytes_of(std::string_view text) {
   return bytes;
 }
 
-/// A place for a picture, initially empty.
+/// A folder for a picture, initially empty.
 class KeptResults : public ::testing::Test {
  protected:
   static std::size_t count(const KeptFolder& folder, const std::string& key) {

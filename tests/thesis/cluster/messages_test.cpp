@@ -124,7 +124,7 @@ TEST(TaskMessage, RefusesInvalidTasks) {
     EXPECT_THROW(read_task(std::span(task).first(length), tracer.octree(), view), ProtocolError);
   }
   Random random(1);
-  for (int i = 0; i < 20000; ++i) {  // any input is refused or is a beam: no crash
+  for (int i = 0; i < 20000; ++i) {  // any input is either refused or a beam: no crash
     Bytes spoilt = task;
     const std::size_t at = random.below(static_cast<std::uint32_t>(task.size()));
     spoilt[at] = static_cast<std::byte>(random.below(256));

@@ -1,5 +1,5 @@
-// Properties of a simulation's parts: costs as recorded, played in their order, and messages that
-// are paid for.
+// Properties of a simulation's parts: recorded costs, replayed in order, and messages that cost
+// time.
 
 #include <string>
 #include <vector>

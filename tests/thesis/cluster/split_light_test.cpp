@@ -194,7 +194,7 @@ auto led_light(const Parts& parts, LocalNetwork& network, Lead lead) {
   return lead(leader);
 }
 
-/// The hits are there.
+/// The hits have arrived.
 DrawnLight drawn_in_parts(const Drawing& drawing, int level, SceneDivision division, int processes,
                           unsigned seed) {
   LocalNetwork network(processes, seed, 0.0003);

@@ -1,5 +1,5 @@
-// Properties of a divided scene: its parts hold it all, and together its processes find the hits of
-// one process.
+// Properties of a divided scene: its parts contain the whole scene, and together its processes find
+// the hits of a single process.
 
 #include <algorithm>
 #include <array>
@@ -159,7 +159,7 @@ TEST(SampledCosts, AreWhereTheRaysAre) {
       EXPECT_EQ(found[i], 0.0);
     }
   }
-  // The same number of rays in the sample, each standing for four times as many of the image.
+  // The same number of rays in the sample, each representing four times as many of the image.
   const std::vector<double> finer = costs(400, 400);
   EXPECT_GT(std::accumulate(finer.begin(), finer.end(), 0.0),
             std::accumulate(found.begin(), found.end(), 0.0));

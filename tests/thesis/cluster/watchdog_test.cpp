@@ -13,7 +13,7 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-/// How a process that runs `program` ended, and after how long.
+/// Returns how a process that runs `program` ended, and after how long.
 struct Ended {
   int status;
   double seconds;

@@ -1,4 +1,4 @@
-// Properties of the pool: the process that waited longest is next, and silence is noticed.
+// Properties of the pool: the process that has waited longest is next, and silence is detected.
 
 #include "harness/thesis/cluster/worker_pool.hpp"
 

@@ -15,7 +15,7 @@
 
 namespace beambench::exact {
 
-/// The distance by which a claim may be wrong: `factor` times K u, where u = 2^-24 (largest
+/// The allowed error of a claim: `factor` times K u, where u = 2^-24 (largest
 /// |coordinate| of the point + distance of the ray's origin) and K = 16.
 struct Leniency {
   double factor;
@@ -69,7 +69,7 @@ class Acceptance {
                                [&](const Solid& solid) { return is_grazed(solid); });
   }
 
-  /// Returns whether the crossing might as well be missed.
+  /// Returns whether missing the crossing is also acceptable.
   bool is_graze(const Crossing& crossing) const {
     return touches_an_end(crossing) ||
            is_near_boundary(solid_of(crossing), traced_.ray, within(crossing), leniency_.doubt);
@@ -81,7 +81,7 @@ class Acceptance {
     return traced_.solids[crossing.primitive];
   }
 
-  /// Returns e(x) for the solid. The guard for double arithmetic only ever favors the claim.
+  /// Returns e(x) for the solid. The guard for double arithmetic always favors the claim.
   double within_at(const Solid& solid, double largest_coordinate) const {
     const glm::dvec3 origin(traced_.ray.given.origin);
     const double u = 0x1p-24 * (largest_coordinate + glm::length(origin));
@@ -98,13 +98,13 @@ class Acceptance {
     return within(solid_of(crossing), crossing.at.rounded());
   }
 
-  /// Returns `Crossing::is_across`. Within e of a cone's apex any cosine is possible.
+  /// Returns `Crossing::is_across`. Within e of a cone's apex, any cosine is possible.
   bool is_across(const Crossing& crossing, const Number& s, double e) const {
     if (crossing.radius > e) return crossing.is_across(s, e);
     return favors() || crossing.is_along(s, e / traced_.ray.speed);
   }
 
-  /// Returns whether the parameter and the crossing are at one place, measured across the
+  /// Returns whether the parameter and the crossing are at the same point, measured across the
   /// crossing's surface.
   bool is_one_place(const Crossing& crossing, const Number& s) const {
     const double there = within(crossing);
@@ -137,7 +137,7 @@ class Acceptance {
     return favors() || !crossing.curved || leaves(solid_of(crossing), s) == crossing.leaves;
   }
 
-  /// Returns whether the ray at the parameter goes away from a sphere's center or a cone's axis.
+  /// Returns whether the ray at the parameter moves away from a sphere's center or a cone's axis.
   bool leaves(const Solid& solid, const Number& s) const {
     if (const auto* sphere = std::get_if<Sphere>(&solid.shape)) {
       return dot(traced_.ray.at(s) - sphere->center, traced_.ray.direction).sign() > 0;
@@ -146,8 +146,8 @@ class Acceptance {
     return (e.a * s + e.b).sign() > 0;
   }
 
-  /// Walks through the crossings before the claim. Among crossings at one parameter, the claim's
-  /// own comes first if doubts favor the claim, and last if not.
+  /// Visits the crossings before the claim. Among crossings at one parameter, the claim's own comes
+  /// first if doubts favor the claim, and last otherwise.
   bool nothing_is_lost_before(const accel::Hit& claim) const {
     const Number s = traced_.ray.parameter(claim.t);
     const std::vector<Crossing>& all = traced_.crossings;
@@ -160,7 +160,7 @@ class Acceptance {
         if (is_same(all[last], claim, s)) {
           found = true;
         } else if (compare(all[last].at, s) >= 0) {
-          found = true;  // nothing before the claim is left
+          found = true;  // nothing before the claim remains
         } else if (!is_one_place(all[last], s) && !is_graze(all[last])) {
           lost = true;
         }
@@ -261,13 +261,13 @@ class Acceptance {
   }
 
   /// Returns whether the ray meets the visible side: a solid visible from the inside only is hit
-  /// where the ray leaves it. Beside its silhouette, entering and leaving cannot be distinguished.
+  /// where the ray leaves it. Near its silhouette, entering and leaving cannot be distinguished.
   bool is_visible_side(const Solid& solid, bool inside_only, const Number& s, double e) const {
     return !inside_only || leaves(solid, s) ||
            (favors() && is_near_boundary(solid, traced_.ray, e, leniency_.doubt));
   }
 
-  /// Returns whether the ray passes so close to the solid that it might as well hit it.
+  /// Returns whether the ray passes so close to the solid that a hit is also acceptable.
   bool is_grazed(const Solid& solid) const {
     const glm::dvec3 middle = 0.5 * (solid.lower + solid.upper);
     const double most = largest(glm::max(glm::abs(solid.lower), glm::abs(solid.upper)));

@@ -13,8 +13,7 @@
 
 namespace beambench::exact {
 
-/// The outcome of a decision that would cost too much exact arithmetic: for the claim or against
-/// it.
+/// The outcome of a decision that would need too much exact arithmetic: for or against the claim.
 enum class Doubt { kFavors, kOpposes };
 
 inline bool is_near_point(const ExactRay& ray, const Vector& point, const Number& within_2) {
@@ -123,8 +122,8 @@ inline std::array<int, 2> crossing_counts(const Cone& cone, const ExactRay& ray)
   return counts;
 }
 
-/// Against the claim: near only if a ray shifted by `within` crosses the cone differently. In
-/// favor: far only if no function that vanishes on the boundary can vanish so close.
+/// Against the claim: near only if a ray shifted by `within` crosses the cone differently. In favor
+/// of it: far only if no function that vanishes on the boundary can vanish that close.
 inline bool is_near_boundary(const Cone& cone, const ExactRay& ray, double within, Doubt doubt) {
   if (doubt == Doubt::kFavors) {
     return !(is_far_from_silhouette(ray, cone, within) &&

@@ -1,5 +1,5 @@
 #pragma once
-// Rays at places where hits are hard to judge.
+// Rays for which hits are hard to judge.
 
 #include <algorithm>
 #include <array>
@@ -139,7 +139,7 @@ inline glm::vec3 start_of(const scenes::Scene& scene, scenes::PrimitiveId target
 }
 
 /// Multiplies the direction by a power of two, so that its longest component is from 1e-30 to 1e9,
-/// and keeps the end of the ray in place; sometimes sets one component to any smaller size.
+/// and keeps the end of the ray in place; sometimes sets one component to a smaller size.
 inline void set_any_size(accel::Ray& ray, Random& random) {
   if (random.below(6) == 0) {
     ray.direction[static_cast<int>(random.below(3))] =

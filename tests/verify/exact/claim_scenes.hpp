@@ -35,7 +35,7 @@ inline glm::dvec3 snapped(const glm::dvec3& v) {
   return {snapped(v.x), snapped(v.y), snapped(v.z)};
 }
 
-/// Adds primitives in coordinates with y up; `turn` makes it any axis of the scene.
+/// Adds primitives in coordinates with y up; `turn` maps y to any axis of the scene.
 class Modeller {
  public:
   Modeller(const char* name, std::size_t turn) : builder_(name), turn_(turn % 3) {}

@@ -31,7 +31,7 @@ class ClaimMaker {
       if (met > 1 && random_.below(2) == 0) continue;
       add(moved(crossing), crossing.primitive);
       if (met == 1) add(moved(crossing), crossing.primitive);
-      add(crossing.at.rounded(), any_primitive());  // another primitive at this place
+      add(crossing.at.rounded(), any_primitive());  // another primitive at this point
     }
     add_outside();
     add_anywhere();
@@ -91,7 +91,7 @@ class ClaimMaker {
     add_t(ray.t_min, any_primitive());
     add_t(ray.t_max, any_primitive());
     add(random_.uniform(0.0, 5.0) / traced_.ray.speed, any_primitive());
-    // The point where the ray comes closest to the middle of a primitive, which it may just miss.
+    // The point where the ray comes closest to the center of a primitive, which it may just miss.
     const scenes::PrimitiveId id = any_primitive();
     const Solid& solid = traced_.solids[id];
     const glm::dvec3 middle = 0.5 * (solid.lower + solid.upper);

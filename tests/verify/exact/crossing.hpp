@@ -106,7 +106,7 @@ struct ConeEquation {
 
   Vector offset;            ///< from the base to the origin
   Number height, climb;     ///< along the axis: height + s climb, in units of 1 / |axis|
-  Number radius, widening;  ///< there: radius + s widening, times |axis|^2
+  Number radius, widening;  ///< at that height: radius + s widening, times |axis|^2
   Number a, b, c;
 };
 

@@ -88,7 +88,7 @@ inline int sign_with_roots(const Number& a, const Number& b, const Number& d, co
   return first * sign_with_root(rational, Number(2.0) * a * b, d);
 }
 
-/// The number (p + q sqrt(d)) / w, with d >= 0 and w > 0: a rational one where d = 0.
+/// The number (p + q sqrt(d)) / w, with d >= 0 and w > 0; rational if d = 0.
 struct Root {
   Number p;
   Number q;
