@@ -35,7 +35,7 @@ std::uint64_t tests_of(const StructureChoice& choice, const scenes::Scene& scene
   return counters.get(Counter::kPrimitiveTests);
 }
 
-TEST_P(LeafTests, HaveTheHitsOfExhaustiveAndRejectAlike) {
+TEST_P(LeafTests, MatchExhaustiveAndRejectEqually) {
   std::uint64_t rejected = 0;
   for (std::uint64_t seed = 1; seed <= 120 && !HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
@@ -75,7 +75,7 @@ std::string name_of_case(const ::testing::TestParamInfo<std::string>& info) {
 
 INSTANTIATE_TEST_SUITE_P(All, LeafTests, ::testing::Values("beam", "grid-beam"), name_of_case);
 
-TEST(InstructionSets, AreStatedWhereQueriesUseSimd) {
+TEST(InstructionSets, AreStatedIfQueriesUseSimd) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=2");
   for (const char* scalar : {"exhaustive", "samet", "samet-net", "glassner", "gargantini",
                              "voxel-grid", "hierarchical-grid", "goldsmith-salmon", "null"}) {

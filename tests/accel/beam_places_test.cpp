@@ -62,7 +62,7 @@ TracedImage traced(const scenes::Scene& scene, int width, int height, int sample
   return image;
 }
 
-TEST(BeamPlaces, EverySampleOfAnImageLiesInOneTile) {
+TEST(BeamPlaces, EverySampleOfAnImageIsInOneTile) {
   const scenes::Scene scene = scenes::load_scene("teapot:n=4");
   for (const int samples : {1, 4, 5}) {
     const TracedImage image = traced(scene, 301, 203, samples);
@@ -168,7 +168,7 @@ TEST_P(PencilPlaces, EveryShadowRayIsInOneBlockOfItsPencil) {
   for (const auto& [part, rays] : parts) EXPECT_LE(rays, 256U * 16U) << part;
 }
 
-TEST_P(PencilPlaces, TheSideIsTheOneThatTheLinePasses) {
+TEST_P(PencilPlaces, TheSideIsTheOneThatTheLineCrosses) {
   const TracedShadows shadows = shadows_over(scenes::load_scene(GetParam()));
   for (std::size_t i = 0; i < shadows.places.size(); ++i) {
     const glm::vec3 from_apex = shadows.list.rays[i].origin - glm::vec3(shadows.pencil_of(i).apex);
@@ -212,7 +212,7 @@ TEST_P(PencilPlaces, RaysAreHandedOverWhereTheyAreCounted) {
 INSTANTIATE_TEST_SUITE_P(Scenes, PencilPlaces,
                          ::testing::Values("balls:n=3", "teapot:n=6", "closed-room:detail=3"));
 
-TEST(PencilPlaces, RaysThatNoPencilTakesAreSingle) {
+TEST(PencilPlaces, RaysOutsidePencilsAreSingle) {
   const scenes::Scene scene = scenes::load_scene("teapot:n=4");
   TracedShadows shadows = shadows_over(scene, 64, 48);
   const auto structure = tile_beam_over(scene);

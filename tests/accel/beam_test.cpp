@@ -95,7 +95,7 @@ scenes::Scene lattice_scene() {
 
 class EyeOnPlanes : public ::testing::TestWithParam<double> {};  // the root's margin
 
-TEST_P(EyeOnPlanes, LosesNoSampleAtFacesEdgesAndCorners) {
+TEST_P(EyeOnPlanes, KeepsEverySampleAtFacesEdgesAndCorners) {
   const scenes::Scene scene = lattice_scene();
   beam::BeamOptions options = options_with(5);
   options.octree.pad = GetParam();
@@ -146,7 +146,7 @@ std::map<std::string, std::uint64_t, std::less<>> counters_of(const scenes::Scen
   return counters.by_name();
 }
 
-TEST(Beam, MakesTheSameBeamsAtEveryResolution) {
+TEST(Beam, CreatesTheSameBeamsAtEveryResolution) {
   for (const char* name : {"tetra:n=5", "escena1", "escena2", "bumpy:triangles=768"}) {
     SCOPED_TRACE(name);
     const scenes::Scene scene = scenes::load_scene(name);
@@ -166,7 +166,7 @@ TEST(Beam, MakesTheSameBeamsAtEveryResolution) {
 }
 
 /// Every beam ends: it is divided, reaches an occupied leaf, or leaves the root.
-TEST(Beam, CountsABeamWhenItIsMade) {
+TEST(Beam, CountsABeamWhenItIsCreated) {
   for (const char* name : {"tetra:n=5", "escena1", "escena2", "habitacion", "closed-room"}) {
     SCOPED_TRACE(name);
     const scenes::Scene scene = scenes::load_scene(name);
@@ -216,7 +216,7 @@ TEST(Beam, CountsTheSameOnSeveralThreads) {
   }
 }
 
-TEST(Beam, MakesRaysOnlyBehindOccupiedLeaves) {
+TEST(Beam, CreatesRaysOnlyBehindOccupiedLeaves) {
   const scenes::Scene scene = scenes::load_scene("escena1");
   const PrimaryRays rays(scene.cameras.front(), 160, 100, 1);
   const auto counters = counters_of(scene, options_with(6), rays);
@@ -247,7 +247,7 @@ TEST(Beam, SharesCornersBetweenPixels) {
   expect_painted_once(scene, shared, rays);
 }
 
-TEST(Beam, ContinuesBehindOccupiedLeavesWhereRequested) {
+TEST(Beam, ContinuesBehindOccupiedLeavesOnRequest) {
   const scenes::Scene scene = scenes::load_scene("escena1");
   const PrimaryRays rays(scene.cameras.front(), 160, 100, 1);
   beam::BeamOptions beams = options_with(6);

@@ -119,7 +119,7 @@ TEST_P(Builders, HoldEveryBoxOnce) {
   EXPECT_TRUE(build({}, {}).nodes.empty());
 }
 
-TEST_P(Builders, BoundTheDepthWhateverTheBoxes) {
+TEST_P(Builders, BoundTheDepthForAnyBoxes) {
   for (const Boxes& boxes : difficult_boxes()) {
     for (const BvhOptions& options : some_options()) {
       SCOPED_TRACE(::testing::Message() << boxes.size() << " boxes, " << options.max_leaf);
@@ -141,7 +141,7 @@ TEST_P(Builders, AreTheSameInParallel) {
   }
 }
 
-TEST_P(Builders, KeepItemsOfASubtreeTogether) {
+TEST_P(Builders, KeepItemsOfASubtreeContiguous) {
   const Boxes boxes = random_boxes(3000, 5);
   const BinaryBvh bvh = build(boxes, {});
   std::vector<std::uint32_t> first(bvh.nodes.size());
@@ -247,7 +247,7 @@ TEST(Reinsertion, RepairsABadTree) {
   expect_valid(repaired, boxes, {.max_leaf = 1});
 }
 
-TEST(MergedLeaves, AreAsLargeAsAllowedWhereTheyPay) {
+TEST(MergedLeaves, AreAsLargeAsAllowedIfTheyPay) {
   const Boxes boxes = random_boxes(2000, 6);
   BinaryBvh bvh = build_bvh(boxes, {.max_leaf = 1});
   merge_leaves(bvh, {});
@@ -277,7 +277,7 @@ INSTANTIATE_TEST_SUITE_P(
              (std::get<2>(info.param) == BvhCollapse::kArea ? "ByArea" : "ByCost");
     });
 
-TEST_P(BuiltStructures, GiveTheHitsOfExhaustive) {
+TEST_P(BuiltStructures, MatchExhaustive) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     SCOPED_TRACE(seed);
     const scenes::Scene scene = tests::random_scene(seed, 10 + 8 * static_cast<int>(seed));
@@ -285,7 +285,7 @@ TEST_P(BuiltStructures, GiveTheHitsOfExhaustive) {
   }
 }
 
-TEST_P(BuiltStructures, LoseNothingOnMeshes) {
+TEST_P(BuiltStructures, LoseNoHitsOnMeshes) {
   for (const char* name : {"bumpy:triangles=3072", "balls:n=3"}) {
     SCOPED_TRACE(name);
     const scenes::Scene scene = scenes::load_scene(name);

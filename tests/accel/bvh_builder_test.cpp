@@ -29,7 +29,7 @@ TEST(BvhBuilder, HoldsEveryBoxOnce) {
   }
 }
 
-TEST(BvhBuilder, NoBoxesMakeNoNodes) {
+TEST(BvhBuilder, NoBoxesYieldNoNodes) {
   const bvh::BinaryBvh bvh = bvh::build_bvh({}, {});
   EXPECT_TRUE(bvh.nodes.empty());
   EXPECT_EQ(bvh::sah_cost(bvh, {}), 0.0);
@@ -102,7 +102,7 @@ TEST(BvhBuilder, SplitsByAreaAndNotByCount) {
   EXPECT_EQ(bvh.nodes[2].count, 1U);
 }
 
-TEST(BvhBuilder, ManyBoxesInOnePlaceAreSplitInTheMiddle) {
+TEST(BvhBuilder, CoincidentBoxesAreSplitInHalf) {
   const std::vector<scenes::Bounds> boxes(10'000, scenes::Bounds{glm::vec3(1.0F), glm::vec3(2.0F)});
   const bvh::BvhOptions options;
   const bvh::BinaryBvh bvh = bvh::build_bvh(boxes, options);
@@ -110,7 +110,7 @@ TEST(BvhBuilder, ManyBoxesInOnePlaceAreSplitInTheMiddle) {
   EXPECT_LE(bvh.depth, 12U) << "1 + log2(10,000 / 8)";
 }
 
-TEST(BvhBuilder, DepthIsBoundedWhateverTheBoxes) {
+TEST(BvhBuilder, DepthIsBoundedForAnyBoxes) {
   std::vector<scenes::Bounds> boxes;  // each split removes only the few largest
   for (int i = 0; i < 250; ++i) {
     const auto at = static_cast<float>(std::pow(1.7, i % 125) * 1e-28);
@@ -121,7 +121,7 @@ TEST(BvhBuilder, DepthIsBoundedWhateverTheBoxes) {
   expect_valid(bvh::build_bvh(boxes, options), boxes, options);
 }
 
-TEST(BvhBuilder, GatheredChildrenAreTheNode) {
+TEST(BvhBuilder, GatheredChildrenCoverTheNode) {
   const auto boxes = random_boxes(3000, 2);
   const bvh::BinaryBvh bvh = bvh::build_bvh(boxes, {});
   for (const std::size_t width : {2U, 4U, 8U, 16U}) {

@@ -32,7 +32,7 @@ void expect_same(const octree::Octree& a, const octree::Octree& b) {
   }
 }
 
-TEST(DeepenedOctree, IsTheOneBuiltAtOnce) {
+TEST(DeepenedOctree, EqualsOneBuiltDirectly) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
     const scenes::Scene scene = tests::random_scene(seed, 40);
@@ -54,7 +54,7 @@ octree::Octree chosen(const scenes::Scene& scene, std::size_t rays) {
                                octree::samet_trace_cost);
 }
 
-TEST(ChooseOctree, MoreRaysAreWorthADeeperTree) {
+TEST(ChooseOctree, MoreRaysJustifyADeeperTree) {
   for (const char* name : {"delfines", "maceta", "tetra:n=6"}) {
     SCOPED_TRACE(name);
     const scenes::Scene scene = scenes::load_scene(name);
@@ -88,7 +88,7 @@ TEST(ChooseOctree, StopsBeforeTheCapOnReferences) {
   EXPECT_LE(octree.statistics().references, options.max_references);
 }
 
-TEST(ChooseOctree, ScenesWithNothingToSplitEnd) {
+TEST(ChooseOctree, ScenesWithNothingToSplitTerminate) {
   const scenes::Scene empty = scenes::SceneBuilder("empty").build();
   EXPECT_EQ(chosen(empty, 1'000'000).statistics().nodes, 1U);
 }
@@ -133,7 +133,7 @@ TEST(CountBeams, EstimatesWhatTheTracerCounts) {
   EXPECT_NEAR(estimated.occupied, traced.occupied, 0.15 * traced.occupied);
 }
 
-TEST(CountBeams, TakesSmallWindowsWhereManyAreExpected) {
+TEST(CountBeams, UsesSmallWindowsIfManyAreExpected) {
   const scenes::Scene scene = scenes::load_scene("stetra");
   const Workload workload{scene.cameras.front(), 64'000};
   octree::OctreeOptions options;
@@ -150,7 +150,7 @@ TEST(CountBeams, TakesSmallWindowsWhereManyAreExpected) {
   EXPECT_NE(small.nonterminal, wide.nonterminal);
 }
 
-TEST(BeamCost, CrowdsOfBeamsMakeItChooseAShallowerTreeThanRaysDo) {
+TEST(BeamCost, ManyBeamsFavorAShallowerTreeThanRays) {
   const scenes::Scene scene = scenes::load_scene("tetera");
   const Workload workload{scene.cameras.front(), 64'000};
   const auto depth = [&](const std::string& spec) {

@@ -58,7 +58,7 @@ CellRange point(std::uint16_t x) { return {{x, 8, 8}, {x, 8, 8}}; }
 // positions between, rounded, are 8, 7, 7, 6, 6, 5, 5, 4, 4, 3. At plane p (4 to 8) three of four
 // lie below, and half the areas are 256 + 32 p and 256 + 32 (16 - p): 3 (256 + 32 p) + 768 - 32 p =
 // 1536 + 64 p, least at 4: 1792. At 3 it is 2 (256 + 96) + 2 (256 + 416) = 2048.
-TEST(CostPlanes, LieWhereTheCostIsLeast) {
+TEST(CostPlanes, MinimizeTheCost) {
   EXPECT_EQ(planes_of({point(1), point(2), point(3), point(14)}).x, 4);
   EXPECT_EQ(planes_of({}), glm::ivec3(8)) << "nothing to choose by: the spatial median";
   EXPECT_EQ(planes_of({point(5)}).y, 8) << "both medians";
@@ -88,7 +88,7 @@ TEST(CostPlanes, LeavesTileTheRootAndReferToWhatOverlapsThem) {
   }
 }
 
-TEST(CostPlanes, HitsAreThoseOfExhaustive) {
+TEST(CostPlanes, HitsMatchExhaustive) {
   for (std::uint64_t seed = 1; seed <= 120; ++seed) {
     SCOPED_TRACE(seed);
     const scenes::Scene scene = tests::random_scene(seed, 60);
@@ -131,7 +131,7 @@ TEST(CostPlanes, ADeeperOctreeIsTheSameFromACoarserOne) {
   }
 }
 
-TEST(CostPlanes, AreRefusedWhereNeighborsAreFoundByHalving) {
+TEST(CostPlanes, AreRefusedByNeighborSearch) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=2");
   for (const char* name : {"samet", "samet-net", "beam"}) {
     EXPECT_TRUE(scenes::says(tests::refusal(std::string(name) + ":planes=cost", scene),
@@ -142,7 +142,7 @@ TEST(CostPlanes, AreRefusedWhereNeighborsAreFoundByHalving) {
 }
 
 // A ray passes through the same leaves, no matter which rays divided them.
-TEST(OnDemandOctree, WorkAndHitsAreThoseOfTheCompleteOctree) {
+TEST(OnDemandOctree, WorkAndHitsMatchTheCompleteOctree) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
     const scenes::Scene scene = tests::random_scene(seed, 60);
@@ -172,7 +172,7 @@ TEST(OnDemandOctree, WorkAndHitsAreThoseOfTheCompleteOctree) {
 }
 
 // Without rays, only the upper levels exist; once all leaves are entered, the octree is complete.
-TEST(OnDemandOctree, DividesWhereRaysCome) {
+TEST(OnDemandOctree, DividesWhereRaysEnter) {
   const scenes::Scene scene = scenes::load_scene("balls:n=2");
   OctreeOptions options;
   options.built_level = 3;
@@ -218,7 +218,7 @@ TEST(OnDemandOctree, ThreadsDivideTheSameNodesTogether) {
   }
 }
 
-TEST(OnDemandOctree, RefusesWhatItCannotDo) {
+TEST(OnDemandOctree, RefusesUnsupportedOptions) {
   EXPECT_TRUE(scenes::says(
       tests::refusal("glassner:build=on-demand,max_level=auto", scenes::load_scene("tetra:n=2")),
       {"build=on-demand", "max_level", "a number from 1 to 16"}));

@@ -58,7 +58,7 @@ void expect_hit(const std::optional<oracle::ExactHit>& hit, double t,
   EXPECT_EQ(hit->primitive, primitive);
 }
 
-TEST(EmbreeOracle, HitsEachKindWhereItsDefinitionSays) {
+TEST(EmbreeOracle, HitsEachKindAccordingToItsDefinition) {
   const scenes::Scene scene = row_of_primitives();
   const oracle::Oracle oracle(scene, 10.0);
   Ray along = ray_from({-5.0F, 0.0F, 0.25F}, {2.0F, 0.0F, 0.0F});
@@ -80,7 +80,7 @@ TEST(EmbreeOracle, HitsEachKindWhereItsDefinitionSays) {
   EXPECT_FALSE(oracle.closest_hit(along).has_value());
 }
 
-TEST(EmbreeOracle, TakesTheRangeAsClosed) {
+TEST(EmbreeOracle, TreatsTheIntervalAsClosed) {
   const scenes::Scene scene = row_of_primitives();
   const oracle::Oracle oracle(scene, 10.0);
   Ray exact = ray_from({10.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F});
@@ -212,7 +212,7 @@ scenes::Scene user_primitives(Random& random) {
   return std::move(builder).build();
 }
 
-TEST_P(EmbreeModes, TraceTheVeryRaysOfTheImageOnEveryInstructionSet) {
+TEST_P(EmbreeModes, TraceTheExactRaysOfTheImageOnEveryInstructionSet) {
   Random random(7);
   const scenes::Scene scene = user_primitives(random);
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
@@ -286,7 +286,7 @@ void expect_as_exact(const Accelerator& exact, const Ray& ray, const std::option
 }
 
 // Curves require directions of unit length, but images and lists have directions of any length.
-TEST_P(EmbreeModes, ConesAsCurvesAreHitWhereTheyAreByRaysOfAnyLength) {
+TEST_P(EmbreeModes, ConesAsCurvesAreHitCorrectlyByDirectionsOfAnyLength) {
   const scenes::Scene scene = scenes::load_scene("rings:n=2");
   const auto structure = embree(mode() + ",cones=curves", scene);
   const auto exact = registry().choose(parse_spec("exhaustive")).build(scene);
@@ -351,7 +351,7 @@ TEST(Embree, AnyHitAgreesWithClosestHit) {
   }
 }
 
-TEST(Embree, ReportsItsMemoryAndWhatItHolds) {
+TEST(Embree, ReportsItsMemoryAndContents) {
   const scenes::Scene scene = scenes::load_scene("balls:n=3");
   const Statistics statistics = embree("quality=medium", scene)->statistics();
   EXPECT_GT(statistics.bytes, scene.primitives.size() * 16);
@@ -380,7 +380,7 @@ constexpr const char* kPrinted = R"(
               SSE2 SSE4.2 AVX AVX2{} (compile time enabled)
 )";
 
-TEST(Embree, ReadsItsInstructionSetFromWhatItPrints) {
+TEST(Embree, ParsesItsInstructionSetFromItsOutput) {
   const auto with = [](const char* more) { return fmt::format(fmt::runtime(kPrinted), more); };
   EXPECT_EQ(embree::widest_target(with(" AVX512 ")), "AVX512");
   EXPECT_EQ(embree::widest_target(with("")), "AVX2");
@@ -406,7 +406,7 @@ TEST(Embree, IsRestrictedToAnInstructionSet) {
 }
 
 // Streams are made in packets as wide as the instruction set's registers: 4, 8 or 16 rays.
-TEST(Embree, OfEachInstructionSetEveryModeGivesTheHitsOfSingleRays) {
+TEST(Embree, EveryModeMatchesSingleRaysOnEveryInstructionSet) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=3");
   const PrimaryRays rays(scene.cameras.front(), 45, 35, 5);  // with partial tiles and blocks
   for (const char* isa : {"best", "avx2", "sse4"}) {
@@ -478,7 +478,7 @@ TEST(Embree, NullWithSimdRaysWritesAMissForEveryRayOfAList) {
   }
 }
 
-TEST(Embree, HitsTheSameWhateverIsFlaggedAsCoherent) {
+TEST(Embree, CoherenceFlagsChangeNoHit) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=3");
   const PrimaryRays image(scene.cameras.front(), 40, 30, 1);
   std::vector<Ray> rays;

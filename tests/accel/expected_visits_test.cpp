@@ -38,7 +38,7 @@ TEST(ExpectedVisits, AreSumsOfAreas) {
                 {"sah_nodes", 1.0}, {"sah_leaves", 0.25}, {"sah_tests", 0.75}}));
 }
 
-TEST(ExpectedVisits, AreUnknownOfAFlatSceneWithoutArea) {
+TEST(ExpectedVisits, AreUnknownForAFlatSceneWithoutArea) {
   Statistics statistics;
   ExpectedVisits({{0, 0, 0}, {1, 0, 0}}).append_to(statistics);
   EXPECT_TRUE(statistics.more.empty());
@@ -132,7 +132,7 @@ TEST(TestsByKind, AddUpToThePrimitiveTests) {
   }
 }
 
-TEST(TestsByKind, AreNotReportedOfAStructureThatDoesNotSplitThem) {
+TEST(TestsByKind, AreNotReportedIfAStructureDoesNotSplitThem) {
   WorkCounters work;
   work.add_tests(scenes::PrimitiveKind::kCone, 2);
   EXPECT_EQ(work.by_name().at("cone_tests"), 2U);

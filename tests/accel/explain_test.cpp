@@ -65,7 +65,7 @@ TEST(Explain, SametTraversesASmallOctreeAsByHand) {
   EXPECT_EQ(steps[1].tests[0].t, 3.0F);
 }
 
-TEST(Explain, ATestThatFindsNothingIsAMiss) {
+TEST(Explain, ATestWithoutAHitIsAMiss) {
   const scenes::Scene scene = triangles_in_two_corners();
   const octree::Samet samet(scene, eight_cells());
   Ray ray;
@@ -100,7 +100,7 @@ std::optional<Hit> nearest(const std::vector<TraceStep>& steps) {
 }
 
 // Holds for every structure that reports steps, including future ones.
-TEST(Explain, ReportsTheWorkThatIsCountedAndTheHitThatIsFound) {
+TEST(Explain, ReportsTheCountedWorkAndTheHit) {
   int reported = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const scenes::Scene scene = tests::random_scene(seed, 30);

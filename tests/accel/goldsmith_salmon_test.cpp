@@ -152,7 +152,7 @@ TEST(GoldsmithSalmon, ChoosesBesideTheTerminalNodeByHand) {
 
 // The thesis prints: bola-espacial 1,154 boxes, cost 372; tetera 731 and 130; escena1 cost 4.64
 // (section 5.4.2).
-TEST(GoldsmithSalmon, HasTheseSizesInScenesOfTheThesis) {
+TEST(GoldsmithSalmon, HasPinnedSizesInScenesOfTheThesis) {
   struct Sizes {
     const char* scene;
     bvh::Insertion insertion;
@@ -184,7 +184,7 @@ TEST(GoldsmithSalmon, StatisticsReportSizeAndCost) {
   EXPECT_EQ(statistics.more.front().second, structure.hierarchy().cost);
 }
 
-TEST(GoldsmithSalmon, OrderMattersToTheTreeAndNotToTheHits) {
+TEST(GoldsmithSalmon, OrderAffectsTheTreeButNotTheHits) {
   const scenes::Scene scene = scenes::load_scene("bumpy:triangles=3072");
   const exhaustive::Exhaustive exhaustive(scene);
   Random random(5);
@@ -207,7 +207,7 @@ TEST(GoldsmithSalmon, OrderMattersToTheTreeAndNotToTheHits) {
   }
 }
 
-TEST(GoldsmithSalmon, BothInsertionsGiveTheHitsOfExhaustiveSearch) {
+TEST(GoldsmithSalmon, BothInsertionsMatchExhaustive) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
     const scenes::Scene scene = tests::random_scene(seed, static_cast<int>(1 + seed * 3));
@@ -280,7 +280,7 @@ TEST(GoldsmithSalmon, ManyObjectsInOnePlaceAreBuiltInLinearTime) {
 }
 
 // Each sphere is larger than all before: volumes above volumes, as deep as possible.
-TEST(GoldsmithSalmon, TakesADeepHierarchy) {
+TEST(GoldsmithSalmon, SupportsADeepHierarchy) {
   scenes::SceneBuilder builder("shells");
   for (int i = 0; i < 150; ++i) builder.add_sphere({0.0, 0.0, 0.0}, 1e-12 * std::pow(1.35, i));
   const scenes::Scene scene = std::move(builder).build();

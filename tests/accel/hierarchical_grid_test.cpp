@@ -91,7 +91,7 @@ TEST(HierarchicalGrid, VoxelsReferToExactlyWhatOverlapsThem) {
   }
 }
 
-TEST(HierarchicalGrid, EveryOptionGivesTheHitsOfExhaustive) {
+TEST(HierarchicalGrid, EveryOptionMatchesExhaustive) {
   for (std::uint64_t seed = 0; seed < 80; ++seed) {
     SCOPED_TRACE(seed);
     const scenes::Scene scene = tests::random_scene(seed, 80);
@@ -160,7 +160,7 @@ TEST(HierarchicalGrid, DividesTheVoxelsThatReferToMore) {
   EXPECT_EQ(statistics.depth, 3U);
 }
 
-TEST(HierarchicalGrid, ALevelMoreIsMadeOnlyWhereItSavesTime) {
+TEST(HierarchicalGrid, AnotherLevelIsMadeOnlyIfItSavesTime) {
   scenes::SceneBuilder builder("pile");
   for (int i = 0; i < 50; ++i) builder.add_sphere({0.0, 0.0, 0.0}, 1.0);
   const scenes::Scene scene = std::move(builder).build();

@@ -73,13 +73,13 @@ int expect_bits_of_exhaustive(const std::string& spec, const scenes::Scene& scen
 
 class HitsAtZero : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(HitsAtZero, HaveTheBitsOfExhaustiveSearchAtTheCornersOfAPolygon) {
+TEST_P(HitsAtZero, MatchExhaustiveAtTheCornersOfAPolygon) {
   const scenes::Scene scene = star();
   Random random(1);
   EXPECT_GT(expect_bits_of_exhaustive(GetParam(), scene, rays_from_triangles(scene, random)), 50);
 }
 
-TEST_P(HitsAtZero, HaveTheBitsOfExhaustiveSearchInRandomScenes) {
+TEST_P(HitsAtZero, MatchExhaustiveInRandomScenes) {
   int at_zero = 0;
   for (std::uint64_t seed = 1; seed <= 24; ++seed) {
     SCOPED_TRACE(seed);

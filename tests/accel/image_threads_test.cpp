@@ -121,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(All, Threads, ::testing::ValuesIn(all_names()), name_of
 // Cases in which threads share more than the buffer: beams that continue behind leaves, corners of
 // several pixels, packets across the borders of threads' shares, lists that are filled on first
 // use.
-TEST(ThreadsOf, EveryModeChangeNoHitAndNoCount) {
+TEST(ThreadsOf, EveryModeChangesNoHitAndNoCount) {
   for (const char* spec :
        {"beam:continue=beams", "beam:handover=48", "beam:share_corners=true,continue=beams",
         "beam:max_level=8", "beam:max_level=1", "embree:mode=packet4", "embree:mode=packet16",
@@ -188,7 +188,7 @@ TEST(TraceOn, DefaultThreadsAreThoseThatTheQuotaKeepsBusy) {
 }
 
 // Embree limits TBB to the threads of its devices, which would also limit other structures.
-TEST(TraceOn, EmbreeLeavesTheThreadsThatItsWorkloadHas) {
+TEST(TraceOn, EmbreeAllowsTheThreadsOfItsWorkload) {
   const scenes::Scene scene = scenes::load_scene("escena1");
   Workload workload = usual_workload(scene);
   workload.threads = 2;

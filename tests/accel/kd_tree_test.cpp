@@ -98,7 +98,7 @@ TEST(KdTree, LeavesReferToExactlyWhatOverlapsThem) {
   }
 }
 
-TEST(KdTree, EveryInstructionSetGivesTheHitsOfExhaustive) {
+TEST(KdTree, EveryInstructionSetMatchesExhaustive) {
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     SCOPED_TRACE(hwy::TargetName(target));
     const tests::OnlyTarget only(target);
@@ -161,7 +161,7 @@ Statistics median_statistics(std::uint32_t max_objects, int max_depth) {
   return kd_tree::KdTracer(scene, options).statistics();
 }
 
-TEST(KdTree, TheMedianSplitsAsKaplanDoes) {
+TEST(KdTree, TheMedianSplitsLikeKaplan) {
   // Across x, once: each half has one triangle.
   const Statistics one = median_statistics(1, 10);
   EXPECT_EQ(one.nodes, 3U);

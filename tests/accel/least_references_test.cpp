@@ -86,7 +86,7 @@ TEST(LeastReferences, OfOneConeNeverExceedTheActualNumber) {
   }
 }
 
-TEST(LeastReferences, AreOfTheRightSize) {
+TEST(LeastReferences, AreCloseToTheActualNumber) {
   const scenes::Scene sphere = one_sphere();
   grid::GridLayout layout;
   layout.resolution = {100, 100, 100};
@@ -158,7 +158,7 @@ TEST(ExpectedReferences, AreRightOnAverage) {
 }
 
 /// Estimates with the largest possible variance: one in a thousand has the whole sum.
-TEST(SurelyMoreThan, IsNotDeceivedByFewLargeEstimates) {
+TEST(SurelyMoreThan, IsNotMisledByFewLargeEstimates) {
   for (const std::uint64_t most : {1'000, 1'000'000}) {
     const auto all = static_cast<double>(most);
     EXPECT_FALSE(surely_more_than(

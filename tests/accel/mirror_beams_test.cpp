@@ -219,7 +219,7 @@ TEST(MirrorBeams, OtherRaysOfABatchAreTracedSingly) {
   expect_same(std::array{left, right});
 }
 
-TEST(MirrorBeams, RaysThatAreNotThoseOfTheirSamplesAreTracedSingly) {
+TEST(MirrorBeams, RaysThatDoNotMatchTheirSamplesAreTracedSingly) {
   Floor floor("teapot:n=2");
   Random random(1);
   tests::disturb(floor.seen.rays, floor.seen.samples, 12, random);

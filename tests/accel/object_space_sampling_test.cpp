@@ -45,11 +45,11 @@ TEST_F(ObjectSpaceSampling, SamplesThatWereTakenHitWhatUniformSamplesHit) {
   EXPECT_GT(others, 0U) << "everything was sampled";
 }
 
-TEST_F(ObjectSpaceSampling, WhereAllLeavesWantAllSamplesNoHitIsMissing) {
+TEST_F(ObjectSpaceSampling, NoHitIsMissingIfAllLeavesTakeAllSamples) {
   EXPECT_EQ(sampled(0.0, 0.0).hits, all_);
 }
 
-TEST_F(ObjectSpaceSampling, NumbersAreThoseOfTheirPatterns) {
+TEST_F(ObjectSpaceSampling, NumbersMatchTheirPatterns) {
   const beam::SparseSamples some = sampled(1.0, 4.0);
   std::array<std::size_t, 26> of_number{};
   for (std::size_t i = 0; i < some.number.size(); ++i) {
@@ -73,7 +73,7 @@ TEST_F(ObjectSpaceSampling, LowerThresholdsTakeMoreSamples) {
   EXPECT_LE(least, 80U * 64U) << "at most one per pixel";
 }
 
-TEST_F(ObjectSpaceSampling, OnlyImagesOf25SamplesAreTaken) {
+TEST_F(ObjectSpaceSampling, OnlyImagesOf25SamplesAreAccepted) {
   const PrimaryRays five(scene_.cameras.front(), 8, 8, 5);
   EXPECT_THROW(beam::trace_object_space(tracer_, five, {}), std::invalid_argument);
 }

@@ -33,7 +33,7 @@ void for_each_node(const octree::Octree& octree, const octree::OctreeCursor& cur
   }
 }
 
-TEST(OctreeNet, EachLinkLeadsWhereSametsSearchLeads) {
+TEST(OctreeNet, EachLinkLeadsToSametsNeighbor) {
   std::uint64_t links = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     SCOPED_TRACE(seed);
@@ -62,7 +62,7 @@ TEST(OctreeNet, EachLinkLeadsWhereSametsSearchLeads) {
   EXPECT_GT(links, 10'000U);
 }
 
-TEST(OctreeNet, LeavesTheirOrderAndTheTestsAreThoseOfSamet) {
+TEST(OctreeNet, LeavesTheirOrderAndTestsMatchSamet) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
     const scenes::Scene scene = tests::random_scene(seed, 25);
@@ -85,7 +85,7 @@ TEST(OctreeNet, LeavesTheirOrderAndTheTestsAreThoseOfSamet) {
   }
 }
 
-TEST(OctreeNet, OneStepForEachNeighborWhereSametClimbs) {
+TEST(OctreeNet, TakesOneStepWhereSametClimbs) {
   for (const char* name : {"tetra:n=4", "balls:n=2", "escena1"}) {
     SCOPED_TRACE(name);
     const scenes::Scene scene = scenes::load_scene(name);

@@ -18,7 +18,7 @@ namespace {
 
 using Outside = WithOutsideList<Samet>;
 
-TEST(OutsideList, LosesNoHitWhateverStaysOutside) {
+TEST(OutsideList, LosesNoHitForAnyObjectsOutside) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
     const scenes::Scene scene = tests::random_scene(seed, 25);

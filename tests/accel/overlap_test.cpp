@@ -24,7 +24,7 @@ Box cube(double x, double y, double z, double half) {
   return {glm::dvec3(x, y, z) - half, glm::dvec3(x, y, z) + half};
 }
 
-TEST(OverlapSphere, SurfaceNotSolid) {
+TEST(OverlapSphere, TestsTheSurfaceNotTheSolid) {
   const scenes::Sphere sphere{{0, 0, 0}, 1.0F, false};
   EXPECT_FALSE(sphere_overlaps(sphere, cube(0, 0, 0, 0.5), 0.0)) << "box wholly inside";
   EXPECT_TRUE(sphere_overlaps(sphere, cube(0, 0, 0, 0.6), 0.0)) << "its corners stick out";

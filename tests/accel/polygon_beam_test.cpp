@@ -58,7 +58,7 @@ PrimaryRays random_image(const scenes::Camera& camera, Random& random) {
 }
 
 /// Soups of triangles and concave polygons, coplanar and equal ones, needles, eyes on polygons.
-TEST(PolygonBeam, HasTheHitsOfExhaustiveForCamerasAnywhere) {
+TEST(PolygonBeam, MatchesExhaustiveForCamerasAnywhere) {
   std::size_t hits = 0;
   for (std::uint64_t seed = 1; seed <= 800 && !HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
@@ -83,7 +83,7 @@ glm::dvec3 tilted(const glm::dvec3& point, const glm::dvec3& axis) {
 
 /// Layers behind one another, at distances from below float resolution to above the slab by which
 /// cells overlap. Ids are in random order, so that ties must be found.
-TEST(PolygonBeam, SeesTheNearestOfLayersHoweverCloseTheyAre) {
+TEST(PolygonBeam, SeesTheNearestOfArbitrarilyCloseLayers) {
   for (std::uint64_t seed = 1; seed <= 300 && !HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
@@ -141,7 +141,7 @@ TEST(PolygonBeam, CutsPolygonsThatPassThroughEachOtherAndTheEye) {
   }
 }
 
-TEST(PolygonBeam, HasTheHitsOfExhaustiveOverScenesOfTheCatalog) {
+TEST(PolygonBeam, MatchesExhaustiveOnCatalogScenes) {
   for (const char* name :
        {"tetra:n=4", "stetra", "gears:n=1", "misil", "bola-espacial", "tetera", "maceta",
         "closed-room:detail=4", "bumpy:triangles=3072", "soup:triangles=2000"}) {
@@ -166,7 +166,7 @@ TEST(PolygonBeam, FindsAnyHitsOfAnImage) {
   for (std::size_t i = 0; i < any.size(); ++i) ASSERT_EQ(any[i] != 0, hits.get(i).has_value()) << i;
 }
 
-TEST(PolygonBeam, TakesImagesOfPolygonsOnly) {
+TEST(PolygonBeam, AcceptsOnlyImagesOfPolygons) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=1");
   const auto structure = tests::build("polygon-beam", scene);
   EXPECT_THROW(structure->closest_hit(Ray{}), UnsupportedError);

@@ -88,7 +88,7 @@ std::vector<Ray> rays_through(const scenes::Scene& scene, std::size_t count) {
   return rays;
 }
 
-TEST(RayClassification, FindsTheHitsOfExhaustiveSearchWithEveryOption) {
+TEST(RayClassification, MatchesExhaustiveWithEveryOption) {
   for (const char* name : {"escena2", "misil", "tree:n=4"}) {
     const scenes::Scene scene = scenes::load_scene(name);
     const exhaustive::Exhaustive expected(scene);
@@ -123,7 +123,7 @@ TEST(RayClassification, CountsTheSameInEveryOrderOfRays) {
   EXPECT_EQ(counted(rays), forward);
 }
 
-TEST(RayClassification, DividesOnlyWhereRaysCome) {
+TEST(RayClassification, DividesOnlyWhereRaysArrive) {
   const scenes::Scene scene = scenes::load_scene("misil");
   const RayClassification structure(scene, {});
   EXPECT_EQ(structure.statistics().nodes, kFaces);
@@ -164,7 +164,7 @@ TEST(RayClassification, StopsDividingAtItsLimit) {
   EXPECT_EQ(structure.statistics().nodes, kFaces) << "the roots' lists are longer than that";
 }
 
-TEST(RayClassification, ShowsTheSetsOnTheWayOfARay) {
+TEST(RayClassification, ShowsTheSetsOnTheRaysPath) {
   const scenes::Scene scene = scenes::load_scene("misil");
   const RayClassification structure(scene, {});
   const Ray ray = rays_through(scene, 1).front();

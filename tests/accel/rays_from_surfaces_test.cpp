@@ -61,7 +61,7 @@ std::vector<Ray> rays_from(const scenes::Scene& scene, double lift, Random& rand
 
 class RaysFromSurfaces : public ::testing::TestWithParam<const char*> {};
 
-TEST_P(RaysFromSurfaces, HitWhatExhaustiveSearchHits) {
+TEST_P(RaysFromSurfaces, MatchExhaustive) {
   for (const double size : {1e-9, 1e-6, 1e-3, 1.0, 1e5, 1e8}) {
     SCOPED_TRACE(size);
     for (std::uint64_t seed = 0; seed < 3; ++seed) {
@@ -81,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(All, RaysFromSurfaces,
                          ::testing::Values("sah-bvh", "sah-bvh:builder=spatial", "kd-tree"));
 
 // The triangle that a ray leaves is not confirmed: on closed meshes, that was most of the work.
-TEST(SecondaryRays, DoNotConfirmTheTriangleThatTheyLeave) {
+TEST(SecondaryRays, DoNotConfirmTheirOwnTriangle) {
   const scenes::Scene scene = scenes::load_scene("bumpy:triangles=5000");
   for (const char* name : {"sah-bvh", "kd-tree"}) {
     SCOPED_TRACE(name);

@@ -144,7 +144,7 @@ struct ThroughGlass {
 };
 
 // Seen from inside a room, no ray misses the scene.
-TEST(RefractedBeams, LeaveFewRaysAlone) {
+TEST(RefractedBeams, LeaveFewRaysToSingleTracing) {
   const scenes::Scene scene = scenes::load_scene("closed-room:detail=2");
   const beam::BeamTracer tracer(scene, {});
   for (const auto& [degrees, most] : {std::pair(0.0, 0.01), {20.0, 0.02}, {40.0, 0.1}}) {
@@ -156,7 +156,7 @@ TEST(RefractedBeams, LeaveFewRaysAlone) {
   }
 }
 
-TEST(RefractedBeams, RaysThatAreNotLikeTheirNeighborsAreTracedAlone) {
+TEST(RefractedBeams, RaysUnlikeTheirNeighborsAreTracedSingly) {
   const scenes::Scene scene = scenes::load_scene("teapot:n=3");
   ThroughGlass glass(scene, 10.0, 100);
   Random random(1);
@@ -316,7 +316,7 @@ TEST(DriftingViews, FitRefractedRaysToTheFirstOrder) {
   EXPECT_LT(half, 2.5);
 }
 
-TEST(DriftingViews, OfAnImageAreTheImage) {
+TEST(DriftingViews, OfAnImageEqualTheImage) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=2");
   const PrimaryRays image(scene.cameras.front(), 40, 30, 1);
   Rays rays = rays_of(image);

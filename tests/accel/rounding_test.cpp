@@ -25,7 +25,7 @@ TEST(Rounding, ToFloatAndBackLosesBits) {
 
 // The case where it did damage: inlined into a structure's loop over pixels, rays kept unrounded
 // directions, and 7% of the hits in this scene differed from those of single rays.
-TEST(Rounding, ATraceShootsTheVeryRaysOfTheCamera) {
+TEST(Rounding, ATraceUsesTheExactRaysOfTheCamera) {
   const scenes::Scene scene = scenes::load_scene("escena1");
   const PrimaryRays rays(scene.cameras.front(), 64, 48, 4);
   const auto exhaustive = registry().choose({"exhaustive", {}}).build(scene);

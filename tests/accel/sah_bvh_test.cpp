@@ -38,7 +38,7 @@ INSTANTIATE_TEST_SUITE_P(
              (std::get<1>(info.param) == bvh::BvhCollapse::kArea ? "ByArea" : "ByCost");
     });
 
-TEST_P(SahBvhBuilders, GiveTheHitsOfExhaustive) {
+TEST_P(SahBvhBuilders, MatchExhaustive) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE(seed);
     const scenes::Scene scene = tests::random_scene(seed, 80);
@@ -69,7 +69,7 @@ TEST(SahBvh, PicksTheBestInstructionSet) {
 }
 
 // Closed meshes, with rays aimed at their vertices and the middles of their edges.
-TEST_P(SahBvhBuilders, LoseNothingOnMeshes) {
+TEST_P(SahBvhBuilders, LoseNoHitsOnMeshes) {
   for (const char* name : {"bumpy:triangles=3072", "tetra:n=5", "balls:n=3"}) {
     SCOPED_TRACE(name);
     const scenes::Scene scene = scenes::load_scene(name);
@@ -218,7 +218,7 @@ TEST_P(SahBvhBuilders, IsTheSameBuiltInParallel) {
   }
 }
 
-TEST(SahBvh, ReportsWhatItDid) {
+TEST(SahBvh, ReportsItsWork) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=3");
   const bvh::SahBvh structure(scene, {});
   const Ray ray = PrimaryRays(scene.cameras.front(), 64, 64, 1).ray(31, 32, 0);

@@ -52,7 +52,7 @@ std::vector<Case> cases() {
 
 class SamplePaths : public ::testing::TestWithParam<Case> {};
 
-TEST_P(SamplePaths, GiveTheImagesHitsAndEndWhereTheBeamEnds) {
+TEST_P(SamplePaths, HaveTheImagesHitsAndEndWithTheBeam) {
   const scenes::Scene scene = scenes::load_scene(GetParam().scene);
   const beam::BeamOptions& options = GetParam().options;
   const beam::BeamTracer tracer(scene, options);

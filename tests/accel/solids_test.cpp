@@ -71,7 +71,7 @@ TEST(Solids, ListTheirTriangles) {
   }
 }
 
-TEST(Solids, AreNotOpenNorTwistedNorFlat) {
+TEST(Solids, AreNeitherOpenNorTwistedNorFlat) {
   const PolygonMesh whole = tests::tetrahedron();
   PolygonMesh open = whole;
   open.polygons.pop_back();
@@ -117,7 +117,7 @@ TEST(Solids, AreNotSurfacesThatCrossThemselves) {
   EXPECT_EQ(sizes({star}), Sizes{});
 }
 
-TEST(Solids, AreApartWhereTheyTouchAtCorners) {
+TEST(Solids, AreSeparateIfTheyTouchAtCorners) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=3");
   const Solids found = find_solids(scene);
   EXPECT_EQ(found.solids.size(), 16U);
@@ -132,7 +132,7 @@ TEST(Solids, MayHaveAFinOnAnEdge) {
   for (const std::uint32_t size : sizes({mesh})) EXPECT_EQ(size, 4U);
 }
 
-TEST(Solids, DoNotCareForTheSignOfZero) {
+TEST(Solids, IgnoreTheSignOfZero) {
   PolygonMesh mesh = moved(tests::tetrahedron(), dvec3(1.0));
   const auto origin = std::ranges::find(mesh.vertices, dvec3(2.0, 0.0, 0.0));
   ASSERT_NE(origin, mesh.vertices.end());
@@ -144,13 +144,13 @@ TEST(Solids, DoNotCareForTheSignOfZero) {
   EXPECT_EQ(sizes({mesh}), Sizes{4});
 }
 
-TEST(Solids, OfAnEmptySceneAreNone) {
+TEST(Solids, DoNotExistInAnEmptyScene) {
   EXPECT_TRUE(find_solids(scenes::SceneBuilder("empty").build()).solids.empty());
   EXPECT_TRUE(find_solids(scenes::load_scene("balls:n=1")).solids.empty());
 }
 
 /// Checks a star-shaped body: an eye is inside if the surface lies behind it, seen from the center.
-TEST(Solids, AreLeftByEyesOutside) {
+TEST(Solids, KnowEyesOutside) {
   Random random(3);
   for (const Body& body : tests::bodies()) {
     for (int i = 0; i < 40; ++i) {
@@ -189,7 +189,7 @@ TEST(Solids, AreLeftByEyesOutside) {
   }
 }
 
-TEST(Solids, AreNotLeftByEyesOnTheirSurface) {
+TEST(Solids, DoNotCountEyesOnTheirSurfaceAsOutside) {
   const scenes::Scene scene = scenes::load_scene("bumpy:triangles=768");
   const Solids found = find_solids(scene);
   ASSERT_EQ(found.solids.size(), 1U);

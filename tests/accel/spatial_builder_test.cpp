@@ -187,7 +187,7 @@ TEST(SpatialBuilder, CostsLess) {
 }
 
 // Triangles that do not overlap are never worth dividing.
-TEST(SpatialBuilder, DividesNothingWithoutAReason) {
+TEST(SpatialBuilder, DividesNothingWithoutNeed) {
   scenes::SceneBuilder builder("apart");
   for (int i = 0; i < 64; ++i) {
     const glm::dvec3 a(3 * (i % 4), 3 * (i / 4 % 4), 3 * (i / 16));
@@ -199,7 +199,7 @@ TEST(SpatialBuilder, DividesNothingWithoutAReason) {
   EXPECT_EQ(bvh::sah_cost(built.spatial, {}), bvh::sah_cost(built.binned, {}));
 }
 
-TEST(SpatialBuilder, NoPiecesMakeNoNodes) {
+TEST(SpatialBuilder, NoPiecesYieldNoNodes) {
   const scenes::Scene scene = tests::random_scene(1, 5);
   EXPECT_TRUE(bvh::build_spatial_bvh(scene, {}, 0.0, {}).nodes.empty());
 }

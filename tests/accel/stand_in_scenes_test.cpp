@@ -175,7 +175,7 @@ INSTANTIATE_TEST_SUITE_P(Thesis, StandIns, testing::ValuesIn(kStandIns), [](cons
   return name;
 });
 
-TEST(Onlooker, SeesNothingOfABoxInABoxButFromInside) {
+TEST(Onlooker, SeesABoxInABoxOnlyFromInside) {
   scenes::SceneBuilder builder("boxes");
   builder.add_camera({.from = {0.9F, 0.5F, 0.5F}, .at = {0.0F, 0.5F, 0.5F}, .up = {0, 0, 1}});
   scenes::modelling::add_flat(builder, scenes::modelling::box({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}));
@@ -192,7 +192,7 @@ TEST(Onlooker, SeesNothingOfABoxInABoxButFromInside) {
 }
 
 // Whole images are verified by `beambench verify`; this test covers scenes too large for that.
-TEST_P(StandIns, GiveASampleOfRaysTheHitsOfExhaustiveSearch) {
+TEST_P(StandIns, MatchExhaustiveForASampleOfRays) {
   const scenes::Scene scene = scenes::load_scene(GetParam().name);
   const auto exhaustive = registry().choose({"exhaustive", {}}).build(scene);
   const auto sah = registry().choose({"sah-bvh", {}}).build(scene);

@@ -72,7 +72,7 @@ class Streams : public ::testing::TestWithParam<std::int64_t> {
 INSTANTIATE_TEST_SUITE_P(All, Streams, ::testing::ValuesIn(hwy::SupportedAndGeneratedTargets()),
                          [](const auto& info) { return hwy::TargetName(info.param); });
 
-TEST_P(Streams, GiveTheHitsOfExhaustive) {
+TEST_P(Streams, MatchExhaustive) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE(seed);
     const scenes::Scene scene = tests::random_scene(seed, 10 + 2 * static_cast<int>(seed));
@@ -88,7 +88,7 @@ TEST_P(Streams, GiveTheHitsOfExhaustive) {
   }
 }
 
-TEST_P(Streams, GiveTheHitsOfExhaustiveOverDifficultScenes) {
+TEST_P(Streams, MatchExhaustiveOnDifficultScenes) {
   for (std::uint64_t seed = 0; seed < 42; ++seed) {
     SCOPED_TRACE(seed);
     const scenes::Scene scene = verify::family_scene(seed);
@@ -149,7 +149,7 @@ struct NeedlesAndRays {
 };
 
 // The canonical test must accept every hit that is certain in float.
-TEST_P(Streams, AgreeWithExhaustiveAboutNeedles) {
+TEST_P(Streams, MatchExhaustiveOnNeedles) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE(seed);
     const NeedlesAndRays needles(seed);
@@ -158,7 +158,7 @@ TEST_P(Streams, AgreeWithExhaustiveAboutNeedles) {
 }
 
 // Long lists, deep hierarchies, rays aimed at vertices and edges of closed meshes.
-TEST_P(Streams, LoseNothingOnMeshes) {
+TEST_P(Streams, LoseNoHitsOnMeshes) {
   for (const char* name : {"bumpy:triangles=3072", "tetra:n=5", "balls:n=2", "rings:n=1"}) {
     SCOPED_TRACE(name);
     const scenes::Scene scene = scenes::load_scene(name);
@@ -169,7 +169,7 @@ TEST_P(Streams, LoseNothingOnMeshes) {
 }
 
 // Lists for which there is no room continue as packets; several parts of a list have one result.
-TEST_P(Streams, TakeListsOfAnyLength) {
+TEST_P(Streams, TraceListsOfAnyLength) {
   const scenes::Scene scene = scenes::load_scene("bumpy:triangles=3072");
   const SahBvh streams(scene, {});
   bvh::SahBvhOptions options;
@@ -215,7 +215,7 @@ TEST_P(Streams, AreTheSameOnThreads) {
 }
 
 // The rays of a batch before, between and after its pencils, including short ranges.
-TEST_P(Streams, TakeTheRaysBesidePencils) {
+TEST_P(Streams, TraceTheRaysOutsidePencils) {
   const scenes::Scene scene = scenes::load_scene("bumpy:triangles=3072");
   const TileBeam streams(scene, {});
   ASSERT_TRUE(streams.streams());
@@ -274,7 +274,7 @@ struct CountedHits {
 };
 
 // Nearly all hits are certain in float.
-TEST_P(Streams, LeaveFewHitsToTheCanonicalTest) {
+TEST_P(Streams, NeedTheCanonicalTestForFewHits) {
   const scenes::Scene scene = scenes::load_scene("bumpy:triangles=20000");
   const auto [hits, work] = CountedHits(SahBvh(scene, {}), diffuse_rays(scene, 128));
   std::uint64_t hit = 0;

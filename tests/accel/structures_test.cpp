@@ -69,7 +69,7 @@ TEST(Registry, NamesTheValidStructures) {
   EXPECT_TRUE(scenes::says(message, {"'sammet'", "did you mean 'samet'", "exhaustive"}));
 }
 
-TEST(Registry, EveryStructureExplainsItself) {
+TEST(Registry, EveryStructureIsDescribed) {
   for (const auto& info : registry().structures()) {
     EXPECT_FALSE(info.summary.empty()) << info.name;
     for (const auto& parameter : info.parameters) {

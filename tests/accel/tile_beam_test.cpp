@@ -112,7 +112,7 @@ HitBuffer image_of(const tile_beam::TileBeam& structure, const PrimaryRays& rays
   return image;
 }
 
-TEST(TileBeam, ImagesOfRandomScenesAreThoseOfExhaustive) {
+TEST(TileBeam, ImagesOfRandomScenesMatchExhaustive) {
   std::size_t hits = 0;
   std::size_t samples = 0;
   std::size_t close_calls = 0;
@@ -137,7 +137,7 @@ TEST(TileBeam, ImagesOfRandomScenesAreThoseOfExhaustive) {
   EXPECT_LT(close_calls, samples / 500);
 }
 
-TEST(TileBeam, ImagesOfCatalogueScenesAreThoseOfExhaustive) {
+TEST(TileBeam, ImagesOfCatalogScenesMatchExhaustive) {
   for (const char* name : {"tetra:n=4", "balls:n=2", "escena1", "escena2", "bumpy:triangles=768"}) {
     const scenes::Scene scene = scenes::load_scene(name);
     const tile_beam::TileBeam structure(scene, {});
@@ -360,7 +360,7 @@ TEST(TileBeam, BackgroundOfAnEmptySceneIsPainted) {
   EXPECT_EQ(image_of(tile_beam::TileBeam(scene, {}), rays), HitBuffer(70, 3, 5));
 }
 
-TEST(TileBeam, CrowdedTilesAreTracedByRays) {
+TEST(TileBeam, CrowdedTilesAreTracedBySingleRays) {
   const scenes::Scene scene = scenes::load_scene("bumpy:triangles=12288");
   const tile_beam::TileBeam structure(scene, {});
   const PrimaryRays rays(scene.cameras.front(), 7, 5, 1);
@@ -403,7 +403,7 @@ TEST(TileBeam, ThreadsChangeNoHitAndNoCount) {
   }
 }
 
-TEST(TileBeam, IsBuiltTheSameOnAllCores) {
+TEST(TileBeam, ParallelBuildsAreTheSame) {
   const scenes::Scene scene = scenes::load_scene("bumpy:triangles=100000");
   const tile_beam::TileHierarchy alone = tile_beam::build_tile_hierarchy(scene, {});
   const tile_beam::TileHierarchy together =
@@ -429,7 +429,7 @@ TEST(TileBeam, IsBuiltTheSameOnAllCores) {
   }
 }
 
-TEST(TileBeam, EveryInstructionSetIsRight) {
+TEST(TileBeam, EveryInstructionSetIsCorrect) {
   const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
   ASSERT_GE(targets.size(), 2U) << "no choice at run time was compiled in";
   for (const std::int64_t target : targets) {
@@ -469,7 +469,7 @@ TEST(TileBeam, CanBeRestrictedToAnInstructionSet) {
   EXPECT_EQ(held->statistics().instruction_set, "AVX2");
 }
 
-TEST(TileBeam, LargeImagesAreWrittenPastTheCaches) {
+TEST(TileBeam, LargeImagesUseStreamingStores) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=3");
   const tile_beam::TileBeam structure(scene, {});
   const PrimaryRays rays(scene.cameras.front(), 448, 301, 1);  // as many as are streamed, and odd

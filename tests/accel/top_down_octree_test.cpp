@@ -32,7 +32,7 @@ std::uint64_t levels_of(const std::vector<TraceStep>& path) {
   return levels;
 }
 
-TEST(TopDownOctree, LeavesTheirOrderAndTheTestsAreThoseOfSamet) {
+TEST(TopDownOctree, LeavesTheirOrderAndTestsMatchSamet) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
     const scenes::Scene scene = tests::random_scene(seed, 25);

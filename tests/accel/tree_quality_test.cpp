@@ -85,7 +85,7 @@ TEST(TreeQuality, CountsNoOverlapWithANodeThatHoldsAPart) {
   EXPECT_EQ(tree.epo(scene), 0.0);
 }
 
-TEST(TreeQuality, TakesPointsOfSolids) {
+TEST(TreeQuality, SamplesPointsOfSolids) {
   scenes::SceneBuilder builder("solids");
   builder.add_sphere(glm::dvec3(0.0), 1.0);
   builder.add_cone(glm::dvec3(0, 0, -1), 2.0, glm::dvec3(0, 0, 3), 0.0);
@@ -104,7 +104,7 @@ TEST(TreeQuality, TakesPointsOfSolids) {
   EXPECT_NEAR(tree.epo(scene), (0.5 * sphere + 0.5625 * cone) / (sphere + cone), 0.01);
 }
 
-TEST(TreeQuality, SahCostIsThatOfTheModel) {
+TEST(TreeQuality, SahCostFollowsTheModel) {
   // A root of 2 x 1 x 1, half of its area 5; leaves of area 3.
   TreeQuality tree;
   tree.open(box(0, 2));
@@ -140,7 +140,7 @@ std::map<std::string, double> quality(const std::string& spec, const scenes::Sce
   return {statistics.more.begin(), statistics.more.end()};
 }
 
-TEST(TreeQuality, IsThereForAllHierarchiesOfBoxesAndNoOthers) {
+TEST(TreeQuality, ExistsOnlyForHierarchiesOfBoxes) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const scenes::Scene scene = tests::random_scene(seed, 60);
     for (const char* spec : {"goldsmith-salmon", "goldsmith-salmon:insert=terminal", "sah-bvh",

@@ -86,7 +86,7 @@ void expect_lists_of_exhaustive(const Scene& scene, const Accelerator& structure
   }
 }
 
-TEST(Update, RandomAnimationsHaveTheHitsOfExhaustiveInEachFrame) {
+TEST(Update, RandomAnimationsMatchExhaustiveInEachFrame) {
   const std::uint64_t animations = tests::in_full(1000, 6);
   constexpr std::uint32_t kFrames = 20;
   for (std::uint64_t seed = 1; seed <= animations; ++seed) {
@@ -108,7 +108,7 @@ TEST(Update, RandomAnimationsHaveTheHitsOfExhaustiveInEachFrame) {
   }
 }
 
-TEST(Update, FramesOfTheCatalogueHaveTheHitsOfANewStructure) {
+TEST(Update, CatalogFramesMatchARebuiltStructure) {
   for (const scenes::SceneInfo& info : scenes::scene_catalogue()) {
     if (!info.animate) continue;
     for (const char* frame : {"@1", "@19"}) {
@@ -167,7 +167,7 @@ TEST(Update, WithoutMotionChangesNoHitAndNoWork) {
   }
 }
 
-TEST(Update, AStructureThatCannotBeUpdatedSaysSo) {
+TEST(Update, AStructureThatCannotBeUpdatedReportsIt) {
   Scene scene = scenes::load_scene("escena1");
   EXPECT_FALSE(build(scene, "samet")->update(scene));
   EXPECT_FALSE(build(scene, "tile-beam")->update(scene));

@@ -96,7 +96,7 @@ TEST(VoxelGrid, VoxelsFollowEachOtherAndTouch) {
   }
 }
 
-TEST(VoxelGrid, LazyEvaluatesWhatRaysVisitAndNoMore) {
+TEST(VoxelGrid, LazyEvaluatesOnlyWhatRaysVisit) {
   const scenes::Scene scene = scenes::load_scene("escena1");
   const auto lazy = build("voxel-grid:resolution=16,fill=lazy", scene);
   EXPECT_EQ(more(lazy->statistics(), "evaluated_voxels"), 0.0);
@@ -125,7 +125,7 @@ TEST(VoxelGrid, LazyAndEagerDoTheSameWork) {
   }
 }
 
-TEST(VoxelGrid, LazyIsRightOnManyThreadsAtOnce) {
+TEST(VoxelGrid, LazyIsCorrectOnManyThreadsAtOnce) {
   for (const std::uint64_t seed : {3U, 4U, 5U, 6U}) {
     const scenes::Scene scene = tests::random_scene(seed, 60);
     const exhaustive::Exhaustive exhaustive(scene);
@@ -157,7 +157,7 @@ TEST(VoxelGrid, LazyIsRightOnManyThreadsAtOnce) {
   }
 }
 
-TEST(VoxelGrid, MailboxesSaveTestsAndNoHit) {
+TEST(VoxelGrid, MailboxesSaveTestsButLoseNoHit) {
   const scenes::Scene scene = scenes::load_scene("balls:n=2");
   const PrimaryRays rays(scene.cameras.front(), 64, 64, 1);
   HitBuffer with(64, 64, 1);

@@ -36,7 +36,7 @@ std::size_t hit_count(const HitBuffer& hits) {
   return count;
 }
 
-TEST(ZBuffer, HasTheHitsOfExhaustiveForCamerasAnywhere) {
+TEST(ZBuffer, MatchesExhaustiveForCamerasAnywhere) {
   std::size_t hits = 0;
   for (std::uint64_t seed = 1; seed <= 600 && !HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
@@ -61,7 +61,7 @@ TEST(ZBuffer, HasTheHitsOfExhaustiveForCamerasAnywhere) {
 }
 
 /// Triangles, spheres and cones across the plane of the eye, behind it and around it.
-TEST(ZBuffer, ClipsWhatReachesBehindTheEye) {
+TEST(ZBuffer, ClipsPrimitivesBehindTheEye) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
@@ -91,7 +91,7 @@ TEST(ZBuffer, KeepsTheLowestOfEqualPrimitives) {
   EXPECT_EQ(found.hits, traced("exhaustive", scene, rays).hits);
 }
 
-TEST(ZBuffer, TestsLittleMoreThanWhatIsSeen) {
+TEST(ZBuffer, TestsLittleMoreThanIsVisible) {
   for (const char* name : {"escena1", "bumpy:triangles=3072", "closed-room"}) {
     SCOPED_TRACE(name);
     const scenes::Scene scene = scenes::load_scene(name);

@@ -30,7 +30,7 @@ measure::Run quiet_run() {
   return run_of({cell_of({"samet", rounds(1.0)}), cell_of({"embree", rounds(2.0)})});
 }
 
-TEST(ReasonsForCare, AreNoneWhereNothingDisturbed) {
+TEST(ReasonsForCare, AreNoneWithoutDisturbances) {
   const Analysis analysis = analyze(quiet_run());
   EXPECT_TRUE(analysis.reasons_for_care.empty());
   EXPECT_EQ(describe_verdicts(analysis),
@@ -93,7 +93,7 @@ TEST(ReasonsForCare, ARecordOfOneProcessIsNotRanked) {
   EXPECT_TRUE(reasons_for_care(run).at(0).starts_with("measured by one process, so unranked"));
 }
 
-TEST(ReasonsForCare, AreThatARunWasCutOff) {
+TEST(ReasonsForCare, IncludeAnInterruptedRun) {
   measure::Run run = quiet_run();
   run.manifest["finished_utc"] = nullptr;
   run.cells[1].is_finished = false;
@@ -142,7 +142,7 @@ CellRecord with_share(const char* camera, QueryPath path, double harness_ms, dou
   return cell;
 }
 
-TEST(Overhead, IsTheHarnessesPartWhereThatIsLargest) {
+TEST(Overhead, IsTheHarnesssLargestShare) {
   const auto single = QueryPath::kImageSingle;
   std::vector cells{with_share("a", single, 1.0, 200.0), with_share("b", single, 1.0, 50.0),
                     with_share("c", single, 2.0, 200.0),
@@ -270,7 +270,7 @@ measure::Run run_of_all_kinds() {
   return run;
 }
 
-TEST(Analysis, OfALogIsThatOfTheRun) {
+TEST(Analysis, OfALogEqualsThatOfTheRun) {
   const TemporaryFolder folder;
   measure::Run run = run_of_all_kinds();
   write_log(run, folder.path() / "whole");
@@ -283,7 +283,7 @@ TEST(Analysis, OfALogIsThatOfTheRun) {
   EXPECT_EQ(to_json(analyze(measure::read_run(folder.path() / "cut off"))), to_json(analyze(run)));
 }
 
-TEST(Conclude, MakesEveryFileFromOnlyTheLog) {
+TEST(Conclude, GeneratesEveryFileFromTheLogAlone) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "run";
   const measure::Run run = run_of_all_kinds();

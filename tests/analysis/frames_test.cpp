@@ -53,14 +53,14 @@ TEST(Frames, BothWaysAreComparedInEachFrame) {
   EXPECT_TRUE(last.total.is_paired);
 }
 
-TEST(Frames, WithoutLossUpdatesPayInAllFrames) {
+TEST(Frames, WithoutLossUpdatesPayOffInAllFrames) {
   const RebuildInterval interval = rebuild_interval(frame_series(run_with({0, 10}, 0.0))[0]);
   EXPECT_TRUE(interval.is_all);
   EXPECT_EQ(interval.frames, 11U);
   EXPECT_NEAR(interval.mean_ms, (15.0 + 10 * 7.0) / 11.0, 1e-12);
 }
 
-TEST(Frames, ANewStructurePaysAfterSomeFrames) {
+TEST(Frames, ARebuildPaysOffAfterSomeFrames) {
   // An update costs 7 ms and 2 ms more in each frame. The mean is 15; 24/2; 35/3; 48/4.
   const RebuildInterval interval = rebuild_interval(frame_series(run_with({0, 5, 10}, 2.0))[0]);
   EXPECT_FALSE(interval.is_all);
@@ -68,7 +68,7 @@ TEST(Frames, ANewStructurePaysAfterSomeFrames) {
   EXPECT_NEAR(interval.mean_ms, 35.0 / 3.0, 1e-12);
 }
 
-TEST(Frames, UpdatesThatCostMoreThanBuildsNeverPay) {
+TEST(Frames, UpdatesThatCostMoreThanBuildsNeverPayOff) {
   const RebuildInterval interval = rebuild_interval(frame_series(run_with({0, 1}, 20.0))[0]);
   EXPECT_EQ(interval.frames, 1U);
 }

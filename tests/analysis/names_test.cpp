@@ -74,7 +74,7 @@ TEST(Names, ATunedContenderIsNamedByItsNumberOfParameterSets) {
             (std::vector<std::string>{"embree (best of 8)", "embree"}));
 }
 
-TEST(Names, TheOrderOfTheRaysIsOfTheContenderNotOfTheView) {
+TEST(Names, TheOrderOfRaysBelongsToTheContenderNotTheView) {
   std::vector<NamedCell> cells{cell("samet", ""), cell("samet", "")};
   cells[0].ray_kind = "diffuse:seed=7";
   cells[1].ray_kind = "diffuse:order=sorted,seed=7";

@@ -137,7 +137,7 @@ TEST(CellRow, HasTheColumnsOfTheContract) {
   EXPECT_EQ(table.substr(0, table.find('\n') + 1), kContract);
 }
 
-TEST(CellRow, SumsUpTheRepetitions) {
+TEST(CellRow, SummarizesTheRepetitions) {
   const Row row = to_row(kRun, measure::some_cell());
   EXPECT_EQ(row.at("schema_version"), kSchemaVersion);
   EXPECT_EQ(row.at("repetitions"), 7);
@@ -175,7 +175,7 @@ TEST(CellRow, HardwareCountsAreEmptyWhereTheMachineCountsNone) {
   EXPECT_TRUE(row.at("build_instructions").is_null());
 }
 
-TEST(CellRow, TheHarnesssShareIsThatOfItsOwnPath) {
+TEST(CellRow, TheHarnesssShareIsThatOfTheSamePath) {
   CellRecord cell = measure::some_cell();
   Row row = to_row(kRun, cell);
   EXPECT_EQ(row.at("query_path"), "image-single");

@@ -42,7 +42,7 @@ TEST(Standings, RatiosArePairedBlockByBlock) {
   EXPECT_NEAR(behind.ratio.interval->high, 1.1, 1e-12);
 }
 
-TEST(BlockTotals, AreByTheClockOfAllThatAreCompared) {
+TEST(BlockTotals, UseTheClockCommonToAllContenders) {
   std::vector<CellRecord> cells{cell_of({"samet", {1.0, 2.0}, 0.5}),
                                 cell_of({"embree", {3.0, 4.0}}),
                                 cell_of({"null", {}, 1.0, "", Verdict::kMismatch})};
@@ -59,7 +59,7 @@ TEST(BlockTotals, AreByTheClockOfAllThatAreCompared) {
   EXPECT_EQ(block_totals(run_of(cells)).size(), 1U);
 }
 
-TEST(Standings, WhatTheNoiseHidesIsUndecided) {
+TEST(Standings, DifferencesBelowTheNoiseAreUndecided) {
   const std::vector<CellRecord> cells{
       cell_of({"samet", {1.0, 1.2, 0.9, 1.1, 1.0, 1.3, 0.8, 1.05}}),
       cell_of({"embree", {1.1, 1.0, 1.0, 1.0, 1.2, 1.0, 1.1, 1.0}})};
@@ -72,7 +72,7 @@ TEST(Standings, WhatTheNoiseHidesIsUndecided) {
 
 /// Equivalent means that the whole interval is within the margin of 3%, whether or not it contains
 /// 1.
-TEST(Standings, WhatIsWithinTheMarginIsATie) {
+TEST(Standings, DifferencesWithinTheMarginAreTies) {
   const auto rank_of = [](double factor) {
     const std::vector<CellRecord> cells{cell_of({"samet", rounds(1.0)}),
                                         cell_of({"embree", rounds(factor)})};
@@ -89,7 +89,7 @@ TEST(Standings, OneBlockDecidesNothingNotEvenATie) {
   EXPECT_EQ(view.ranked[1].rank(), Rank::kUnranked);
 }
 
-TEST(Standings, MeansLeaveOutViewsInWhichHardlyAnythingHappens) {
+TEST(Standings, MeansExcludeViewsWithHardlyAnyHits) {
   std::vector<CellRecord> cells{cell_of({"samet", rounds(1.0)}), cell_of({"embree", rounds(2.0)}),
                                 cell_of({"samet", rounds(1.0)}, "escena2"),
                                 cell_of({"embree", rounds(2.0)}, "escena2")};
@@ -114,7 +114,7 @@ TEST(Standings, NullAndExhaustiveAreReferencesAndNeverWin) {
   EXPECT_EQ(view.references.size(), 2U);
 }
 
-TEST(Standings, WhoHasNoTimeIsListedWithTheReason) {
+TEST(Standings, ContendersWithoutTimesAreListedWithTheReason) {
   const std::vector<CellRecord> cells{cell_of({"samet", rounds(1.0)}),
                                       cell_of({"embree", {}, 0.0, "", Verdict::kMismatch}),
                                       cell_of({"exhaustive", rounds(9.0)}, "escena1", 100),
@@ -139,7 +139,7 @@ TEST(Standings, ContendersAreNamedByTheParametersThatDiffer) {
   EXPECT_EQ(view.ranked[2].contender, "embree");
 }
 
-TEST(Standings, TheBuildPaysOffWhereTheLinesCross) {
+TEST(Standings, TheBuildPaysOffWhereTheLinesIntersect) {
   // 3 ms more to build, 1 ms less for each thousand rays.
   const std::vector<CellRecord> cells{cell_of({"samet", rounds(1.0), 4.0}),
                                       cell_of({"embree", rounds(2.0), 1.0})};
@@ -202,7 +202,7 @@ TEST(Standings, AViewWithoutTimesIsReportedAsSuch) {
 }
 
 /// The sweep may name a scene in any form, but the record has all parameters.
-TEST(Standings, ASceneIsExcludedInWhicheverFormTheSweepNamesIt) {
+TEST(Standings, ASceneIsExcludedInAnyFormOfItsName) {
   const std::string whole = "escena1:seed=1999,spheres=430";
   const measure::Run run =
       run_of({cell_of({"samet", rounds(1.0)}, whole), cell_of({"embree", rounds(2.0)}, whole),
@@ -219,7 +219,7 @@ TEST(Standings, ASceneIsExcludedInWhicheverFormTheSweepNamesIt) {
   EXPECT_EQ(reason("escena2"), "not in the record");
 }
 
-TEST(Standings, OfARunThatWasCutOffAreAtTheHighestResolutionOfTwoContenders) {
+TEST(Standings, OfAnInterruptedRunUseTheHighestResolutionOfTwoContenders) {
   const std::vector<CellRecord> cells{cell_of({"samet", rounds(1.0)}, "escena1", 1000),
                                       cell_of({"embree", rounds(2.0)}, "escena1", 1000),
                                       cell_of({"samet", rounds(5.0)}, "escena1", 4000),
@@ -234,7 +234,7 @@ TEST(Standings, OfARunThatWasCutOffAreAtTheHighestResolutionOfTwoContenders) {
   EXPECT_EQ(view.left_out.at(0).contender, "null");
 }
 
-TEST(Standings, OfOneContenderAreAtItsHighestResolution) {
+TEST(Standings, OfOneContenderUseItsHighestResolution) {
   const std::vector<CellRecord> cells{cell_of({"samet", rounds(1.0)}, "escena1", 1000),
                                       cell_of({"samet", rounds(5.0)}, "escena1", 4000)};
   const Standings view = standings(run_of(cells)).at(0);

@@ -53,13 +53,13 @@ double alarms(double shift) {
   return static_cast<double>(unsteady) / kRuns;
 }
 
-TEST(Steadiness, OfASteadyMachineIsDoubtedInOneRunOfTwenty) {
+TEST(Steadiness, OfASteadyMachineIsRejectedInOneRunOfTwenty) {
   const double share = alarms(0.0);
   EXPECT_GT(share, 0.03);
   EXPECT_LT(share, 0.07);  // 5%, and three standard errors of a thousand runs
 }
 
-TEST(Steadiness, AShiftOfThreePercentIsNoticed) { EXPECT_GT(alarms(0.03), 0.9); }
+TEST(Steadiness, AShiftOfThreePercentIsDetected) { EXPECT_GT(alarms(0.03), 0.9); }
 
 TEST(Steadiness, NeedsFourBlocks) {
   EXPECT_FALSE(steadiness(run_of({cell_of({"samet", rounds(1.0)})}))) << "of one process";

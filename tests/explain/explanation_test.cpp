@@ -119,7 +119,7 @@ TEST(ShownCells, AreTheNodesOfAHierarchyWithTheRootFirst) {
   }
 }
 
-TEST(ShownCells, AreThePlacesThatRaysEnteredWhereNothingElseIsKnown) {
+TEST(ShownCells, AreThePlacesThatRaysEnteredIfNothingElseIsKnown) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=1");
   const auto structure = chosen("exhaustive").front().build(scene);
   const std::vector<accel::Cell> visited(5);
@@ -160,7 +160,7 @@ TEST(Paths, EndInTheHitOfTheImage) {
 }
 
 // The inspector's path of one sample traces the whole image, and has the same leaves.
-TEST(Paths, PassTheLeavesInTheBeamsOfTheImage) {
+TEST(Paths, FollowTheLeavesInTheBeamsOfTheImage) {
   const scenes::Scene scene = scenes::load_scene("escena2");
   const accel::PrimaryRays rays = small_image(scene).rays();
   const auto structure = chosen("beam").front().build(scene);
@@ -215,7 +215,7 @@ TEST(Paths, OmitMissesBeyondTheLimitAndCountThem) {
   }
 }
 
-TEST(Explanation, HasWhatEachStructureHas) {
+TEST(Explanation, ContainsTheDataOfEachStructure) {
   const scenes::Scene scene = scenes::load_scene("escena2");
   const nlohmann::json page = explain(scene, small_image(scene), chosen("beam,tile-beam"));
   const nlohmann::json& beam = page["structures"][0];

@@ -39,7 +39,7 @@ TEST(Estimate, IsTheGeometricMeanWithBothIntervals) {
   EXPECT_NEAR(estimate(std::vector{3.0}).value, 3.0, 1e-12);
 }
 
-TEST(Preemption, SetsATraceAsideThatWaitedForAnotherProcess) {
+TEST(Preemption, ExcludesATraceThatWaitedForAnotherProcess) {
   EXPECT_TRUE(timed(0, 60.0, 59.0).is_undisturbed());
   EXPECT_FALSE(timed(0, 60.0, 57.0).is_undisturbed());
   EXPECT_TRUE(timed(0, 0.10, 0.085).is_undisturbed()) << "reading the clocks takes as long";
@@ -119,7 +119,7 @@ std::pair<double, double> coverage(int runs, double second) {
   return {static_cast<double>(confident) / runs, static_cast<double>(predicted) / runs};
 }
 
-TEST(Coverage, OfBothIntervalsIsAsStated) {
+TEST(Coverage, OfBothIntervalsIsCorrect) {
   const auto [confident, predicted] = coverage(20'000, 1.0);
   EXPECT_GT(confident, 0.93);
   EXPECT_LT(confident, 0.97);
@@ -128,7 +128,7 @@ TEST(Coverage, OfBothIntervalsIsAsStated) {
 }
 
 /// The interval of one run cannot show a drift: the figure is reported, not required.
-TEST(Coverage, FallsWhereTheMachineDrifts) {
+TEST(Coverage, FallsIfTheMachineDrifts) {
   const auto [confident, predicted] = coverage(20'000, 1.02);
   RecordProperty("predicted_with_2_percent_drift", std::to_string(predicted));
   std::printf("second runs within the prediction interval after a drift of 2%%: %.1f%%\n",

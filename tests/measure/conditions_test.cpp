@@ -16,7 +16,7 @@ float half_of_the_smallest() {
   return smallest * 0.5F;
 }
 
-TEST(MeasuringFloatMode, FlushesDenormalsAndIsPutBack) {
+TEST(MeasuringFloatMode, FlushesSubnormalsAndIsRestored) {
   if (!MeasuringFloatMode::available()) GTEST_SKIP() << "its control word is not known";
   EXPECT_GT(half_of_the_smallest(), 0.0F);
   {

@@ -120,7 +120,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"/exclude", {{{"structure", "samt"}}}, {"/exclude/0/structure: ", "samet"}},
         Wrong{"/exclude", {{{"rays_above", -3}}}, {"/exclude/0/rays_above: expected"}}));
 
-TEST_F(Config, FramesAreScenesOfTheirOwn) {
+TEST_F(Config, FramesAreSeparateScenes) {
   json document = fine();
   document["scenes"] = {{{"scene", "waving-sheet:triangles=200"}, {"frames", {0, 7}}}};
   document["structures"] = {
@@ -200,7 +200,7 @@ TEST_F(Config, AllStructuresAreCountedOneByOne) {
   EXPECT_TRUE(scenes::says(refusal(document), {"its lists multiply to"}));
 }
 
-TEST_F(Config, AsManyCellsAsAllowedAreRead) {
+TEST_F(Config, TheMaximumNumberOfCellsIsRead) {
   json document = fine();
   document["scenes"] = {"tetra:n=1"};
   document["samples"] = {1};
@@ -225,7 +225,7 @@ TEST_F(Config, CountingCellsLeavesMistakesToTheReader) {
   }
 }
 
-TEST_F(Config, SeveralThreadsAreNotForPictures) {
+TEST_F(Config, PicturesRefuseSeveralThreads) {
   EXPECT_EQ(read(fine()).threads, 1);
   json document = fine();
   document["threads"] = 3;
@@ -238,7 +238,7 @@ TEST_F(Config, SeveralThreadsAreNotForPictures) {
   EXPECT_EQ(read(document).threads, 1);
 }
 
-TEST_F(Config, ListsOfParametersAreMultipliedOut) {
+TEST_F(Config, ListsOfParametersAreExpanded) {
   json document = fine();
   document["structures"] = json::parse(
       R"([{"structure": "samet", "parameters": {"max_level": [3, 4], "root": ["cube", "box"]}}])");
@@ -270,7 +270,7 @@ TEST_F(Config, EachSceneIsLoadedOnce) {
   EXPECT_EQ(plan.groups[0].scene.get(), plan.groups[3].scene.get());
 }
 
-TEST_F(Config, CellsRequestedTwiceAreMadeOnce) {
+TEST_F(Config, CellsRequestedTwiceArePlannedOnce) {
   json document = fine();
   document["scenes"] = {"tetra:n=1", "tetra:n=1"};
   document["structures"] = {"null", "null"};
@@ -314,7 +314,7 @@ TEST_F(Config, APlanWithoutCellsIsRefused) {
       scenes::says(scenes::thrown_message([&] { make_plan(read(document)); }), {"exclude"}));
 }
 
-TEST_F(Config, ScenesAreRefusedAtTheirPlace) {
+TEST_F(Config, InvalidScenesAreRefusedAtTheirPlace) {
   json document = fine();
   document["scenes"][0] = "tetrra:n=1";
   EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { make_plan(read(document)); }),
@@ -327,7 +327,7 @@ TEST_F(Config, ScenesAreRefusedAtTheirPlace) {
                            {"/scenes/0: ", "'left'", "default"}));
 }
 
-TEST(BenchmarkFlags, AreSortedByWhatTheyMeanHere) {
+TEST(BenchmarkFlags, AreClassifiedByTheirMeaningHere) {
   const BenchmarkFlags flags =
       parse_benchmark_flags({"--benchmark_filter=samet", "--benchmark_repetitions=7",
                              "--benchmark_min_time=0.1", "--benchmark_list_tests"});
@@ -347,7 +347,7 @@ TEST(BenchmarkFlags, UnknownOnesAreRefused) {
       {"'no'", "whole number"}));
 }
 
-TEST(BenchmarkFlags, TheFilterSelectsByGoogleBenchmarksRules) {
+TEST(BenchmarkFlags, TheFilterFollowsGoogleBenchmarksRules) {
   const std::vector<std::string> names{"a/samet:max_level=5", "a/samet:max_level=6", "b/embree"};
   const auto select = [&](const std::string& filter) {
     return GoogleBenchmark(parse_benchmark_flags({"--benchmark_filter=" + filter})).select(names);
@@ -360,7 +360,7 @@ TEST(BenchmarkFlags, TheFilterSelectsByGoogleBenchmarksRules) {
       scenes::says(scenes::thrown_message([&] { select("bvh"); }), {"'bvh'", "none of the 3"}));
 }
 
-TEST(ClockRate, IsThatOfAProcessor) {
+TEST(ClockRate, IsThatOfTheProcessor) {
   const double before = clock_ghz();
   EXPECT_GT(before, 0.2);
   EXPECT_LT(before, 20.0);

@@ -19,7 +19,7 @@ TEST(FindSweep, EverySweepIsFoundByItsName) {
   }
 }
 
-TEST(FindSweep, TheFormerFolderGivesAWarning) {
+TEST(FindSweep, TheFormerFolderCausesAWarning) {
   testing::internal::CaptureStderr();
   const auto file = find_sweep("../harness/bench/sweeps/quick.json");
   EXPECT_EQ(file, find_sweep("quick"));
@@ -39,7 +39,7 @@ TEST(FindSweep, AnUnknownNameListsTheOthers) {
   }
 }
 
-TEST(FindSweep, AFileIsTakenAsItIs) {
+TEST(FindSweep, AFileIsUsedAsItIs) {
   const TemporaryFolder folder;
   const auto file = folder.write("own.json", "{}");
   EXPECT_EQ(find_sweep(file.string()), file);

@@ -50,7 +50,7 @@ TEST(HardwareCounters, ReportWhatWasCountedDuringTheWork) {
   EXPECT_EQ(counts[2], std::nullopt) << "it never ran";
 }
 
-TEST(HardwareCounters, WhereThereAreNoneTheWorkIsDoneAllTheSame) {
+TEST(HardwareCounters, WithoutThemTheWorkIsStillDone) {
   const HardwareCounters counters([](const perf_event_attr&) { return refused(ENOENT); });
   EXPECT_TRUE(scenes::says(counters.problem(), {"instructions", "no such counter"}));
   bool worked = false;
@@ -59,7 +59,7 @@ TEST(HardwareCounters, WhereThereAreNoneTheWorkIsDoneAllTheSame) {
   for (const auto& count : counts) EXPECT_FALSE(count);
 }
 
-TEST(HardwareCounters, OneThatIsForbiddenLeavesTheOthers) {
+TEST(HardwareCounters, AForbiddenOneDoesNotAffectTheOthers) {
   const HardwareCounters counters([](const perf_event_attr& attributes) {
     return attributes.config == PERF_COUNT_HW_CACHE_MISSES ? refused(EACCES)
                                                            : counter_that_tells({1, 1, 1, 3, 2, 2});
@@ -70,7 +70,7 @@ TEST(HardwareCounters, OneThatIsForbiddenLeavesTheOthers) {
   EXPECT_EQ(counts[2], std::nullopt);
 }
 
-TEST(HardwareCounters, OfThisMachineCountOrSayWhyNot) {
+TEST(HardwareCounters, OfThisMachineCountOrExplainWhyNot) {
   const HardwareCounters counters;
   const HardwareCounts counts = counters.count([] { warm_up(std::chrono::milliseconds(2)); });
   if (!counters.problem().empty()) GTEST_SKIP() << counters.problem();
@@ -92,7 +92,7 @@ TEST(Heap, GrowsByTheAllocatedAmount) {
   EXPECT_EQ(heap_growth(std::nullopt, 40), std::nullopt);
 }
 
-TEST(Noise, IsHowMuchLongerTheSlowestTwentiethTook) {
+TEST(Noise, IsTheExcessOfTheSlowestTwentieth) {
   std::vector<double> slices(100, 2.0);
   EXPECT_EQ(noise(slices), 0.0);
   for (std::size_t i = 0; i < 3; ++i) slices[10 * i] = 50.0;

@@ -209,7 +209,7 @@ class Kill : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(Kill, AtRandomMomentsLosesNothing) {
+TEST_F(Kill, AtRandomTimesLosesNothing) {
   const std::uint64_t kills = tests::in_full(625, 20);  // four of five by SIGKILL
   const auto begin = Clock::now();
   ASSERT_EQ(start("undisturbed").wait(), 0) << err();
@@ -251,7 +251,7 @@ TEST_F(Kill, AtRandomMomentsLosesNothing) {
 
 class Interrupted : public Kill, public testing::WithParamInterface<int> {};
 
-TEST_P(Interrupted, EndsAtOnceAndPrintsHowToContinue) {
+TEST_P(Interrupted, EndsImmediatelyAndPrintsHowToContinue) {
   make_second_cell_long();
   const Process process = start("my run");
   wait_for_a_repetition("my run");
@@ -281,7 +281,7 @@ TEST_F(Kill, TwoProcessesDoNotShareAFolder) {
   first.wait();
 }
 
-TEST_F(Kill, AChangedSceneFileIsNoticed) {
+TEST_F(Kill, AChangedSceneFileIsDetected) {
   const auto write_scene = [&](const char* radius) {
     folder_.write("ball.nff", std::string("v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 1\n"
                                           "resolution 8 8\nb 0 0 0\nl 9 9 9\n"

@@ -27,7 +27,7 @@ TEST(Statistics, MedianIsTheMiddle) {
   EXPECT_EQ(median(std::vector{7.0}), 7.0);
 }
 
-TEST(Statistics, OneWildRepetitionMovesNothing) {
+TEST(Statistics, OneOutlierChangesNothing) {
   const std::vector<double> calm{10.0, 11.0, 12.0, 13.0, 14.0};
   const std::vector<double> disturbed{10.0, 11.0, 12.0, 13.0, 1e6};
   EXPECT_EQ(median(disturbed), median(calm));
@@ -71,7 +71,7 @@ TEST(Statistics, IntervalCoversTheMedianOfASkewedDistribution) {
   EXPECT_LT(covered, kTrials * 99 / 100);  // an interval of everything would say nothing
 }
 
-TEST(Statistics, TheSpreadOfTheMinimumReachesToTheFifthOfFifteen) {
+TEST(Statistics, TheSpreadOfTheMinimumExtendsToTheFifthOfFifteen) {
   std::vector<double> samples{16, 15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 1};
   EXPECT_EQ(repeat_spread_of_minimum(samples), 5.0)
       << "6 - 1: 2.1% that a further minimum is above";
@@ -172,7 +172,7 @@ std::string cpuinfo(std::string_view maker, int model, double mhz) {
   return fmt::format("processor\t: 0\n{0}\nprocessor\t: 1\n{0}\n", core);
 }
 
-TEST(Machine, ProcessorsOfOneNameAreDistinguishedByMakerAndModel) {
+TEST(Machine, ProcessorsWithTheSameNameAreDistinguishedByMakerAndModel) {
   const std::string xeon = processor_identity(cpuinfo("GenuineIntel", 143, 2000));
   EXPECT_EQ(xeon,
             "vendor_id\t: GenuineIntel\ncpu family\t: 6\nmodel\t\t: 143\n"
@@ -186,7 +186,7 @@ TEST(Machine, ProcessorsOfOneNameAreDistinguishedByMakerAndModel) {
   EXPECT_EQ(processor_identity(""), "");
 }
 
-TEST(Machine, TheIdIsOfProcessorAndInstallation) {
+TEST(Machine, TheIdIdentifiesProcessorAndInstallation) {
   const std::string id = machine_id("xeon", "3d1219c7");
   EXPECT_EQ(id.size(), 16U);
   EXPECT_EQ(id, machine_id("xeon", "3d1219c7"));

@@ -69,7 +69,7 @@ TEST_F(RunCommand, MeasuresAndPrintsWhereTheRecordIs) {
   expect_refused("tiny.json -o record", {"already holds a run"});
 }
 
-TEST_F(RunCommand, WithoutAFolderItMakesOneOfItsOwn) {
+TEST_F(RunCommand, WithoutAFolderItCreatesOne) {
   write_sweep({"null"});
   const Result result = run("tiny.json");
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -85,7 +85,7 @@ TEST_F(RunCommand, EndsWith1WhenACellHasNoTimes) {
   EXPECT_EQ(result.out, "record/results.csv\n");
 }
 
-TEST_F(RunCommand, TheFilesAreMadeAgainFromTheLog) {
+TEST_F(RunCommand, TheFilesAreRegeneratedFromTheLog) {
   write_sweep({"samet:max_level=3", "null"});
   EXPECT_EQ(run("tiny.json -o record").exit_code, 0);
   const auto record = folder_.path() / "record";

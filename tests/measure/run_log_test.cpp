@@ -266,7 +266,7 @@ RC_GTEST_PROP(RunLog, CellsComeBackAsTheyWereWritten, ()) {
   for (std::size_t i = 0; i < cells.size(); ++i) expect_same(run.cells[i], cells[i]);
 }
 
-TEST(RunLog, HasOnlyTheCountsThatTheMachineCounts) {
+TEST(RunLog, HasOnlyTheCountsThatTheMachineProvides) {
   const auto repetition = repetition_json(some_cell().repetitions.front());
   EXPECT_EQ(repetition.at("trace_instructions"), 1000);
   EXPECT_FALSE(repetition.contains("trace_cache_misses"));
@@ -342,7 +342,7 @@ class WrittenLog : public testing::Test {
   std::string text_;
 };
 
-TEST_F(WrittenLog, CutAtAnyByteHasItsWholeLines) {
+TEST_F(WrittenLog, TruncatedAnywhereKeepsItsWholeLines) {
   const Events all = events_in(folder());
   ASSERT_EQ(all.size(), 12U);
   for (std::size_t bytes = 0; bytes <= text_.size(); ++bytes) {
@@ -365,7 +365,7 @@ TEST_F(WrittenLog, CutAtAnyByteHasItsWholeLines) {
   }
 }
 
-TEST_F(WrittenLog, CutAtAnyByteIsContinuedBehindItsLastWholeLine) {
+TEST_F(WrittenLog, TruncatedAnywhereIsContinuedAfterItsLastWholeLine) {
   for (std::size_t bytes = text_.find('\n') + 1; bytes <= text_.size(); ++bytes) {
     const std::string cut = text_.substr(0, bytes);
     write(cut);
@@ -376,7 +376,7 @@ TEST_F(WrittenLog, CutAtAnyByteIsContinuedBehindItsLastWholeLine) {
   }
 }
 
-TEST_F(WrittenLog, CutBeforeItsHeaderIsWholeIsRefused) {
+TEST_F(WrittenLog, TruncatedInItsHeaderIsRefused) {
   write(text_.substr(0, text_.find('\n')));
   EXPECT_TRUE(says(thrown_message([&] { read_run(RunLog::open(folder()).folder()); }),
                    {"run/run.jsonl", "no whole line"}));
@@ -434,7 +434,7 @@ TEST_F(WrittenLog, BelongsToOneAtATime) {
   }
 }
 
-TEST(RunLog, TakesAFolderWhereNothingWasMeasured) {
+TEST(RunLog, AcceptsAFolderWithoutMeasurements) {
   const TemporaryFolder folder;
   RunLog::create(folder.path() / "run");  // killed before its header was written
   folder.write("run/.run.123.partial.jsonl", "{");
@@ -450,7 +450,7 @@ TEST(RunLog, DoesNotReplaceTheResultsOfAnEarlierVersion) {
       says(thrown_message([&] { RunLog::create(folder.path()); }), {"already holds a run"}));
 }
 
-TEST(RunLog, RefusesAPlaceWhereNoFolderCanBe) {
+TEST(RunLog, RefusesAPathWhereNoFolderCanExist) {
   const TemporaryFolder folder;
   const auto file = folder.write("file", "");
   EXPECT_TRUE(says(thrown_message([&] { RunLog::create(file / "run"); }),

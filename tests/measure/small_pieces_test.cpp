@@ -34,7 +34,7 @@ TEST(RayCount, IsLimitedByPixelsTimesSamples) {
   EXPECT_THROW(rays::require_ray_count({16384, 16384}, 4), InputError);
 }
 
-TEST(RayKinds, AreReadFromAListEachOnce) {
+TEST(RayKinds, AreReadFromAListWithoutDuplicates) {
   EXPECT_EQ(rays::parse_ray_choices("primary,primary"), std::vector{rays::RayChoice()});
   const auto choices =
       rays::parse_ray_choices("shadow,diffuse:seed=7,diffuse,a/b.rays,diffuse:seed=1");
@@ -83,11 +83,11 @@ void two_cells(base::Progress& progress) {
   progress.finish("mismatch");
 }
 
-TEST(Progress, IsOneLineForEachCellWhereNobodyWatches) {
+TEST(Progress, IsOneLinePerCellWithoutATerminal) {
   EXPECT_EQ(written(false, two_cells), "[1/2] first: ok\n[2/2] second: mismatch\n");
 }
 
-TEST(Progress, IsARedrawnLineOnATerminalAndLeavesNothingBehind) {
+TEST(Progress, IsARedrawnLineOnATerminalAndIsRemovedAtTheEnd) {
   const std::string text = written(true, two_cells);
   EXPECT_EQ(text.find('\n'), std::string::npos);
   EXPECT_NE(text.find("1/2  estimating  first"), std::string::npos) << text;
@@ -96,7 +96,7 @@ TEST(Progress, IsARedrawnLineOnATerminalAndLeavesNothingBehind) {
   EXPECT_TRUE(text.ends_with("\r\033[K"));
 }
 
-TEST(Progress, ThatCannotBeWrittenChangesNothing) {
+TEST(Progress, ThatCannotBeWrittenIsIgnored) {
   for (const bool terminal : {false, true}) {
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> full(std::fopen("/dev/full", "w"),
                                                                &std::fclose);
@@ -119,7 +119,7 @@ TEST(Progress, EstimatesFromThePaceSoFar) {
   EXPECT_DOUBLE_EQ(base::remaining_seconds(10.0, 1.0), 0.0);
 }
 
-TEST(Progress, DurationsReadWell) {
+TEST(Progress, DurationsAreReadable) {
   EXPECT_EQ(base::format_duration(0.04), "0.0 s");
   EXPECT_EQ(base::format_duration(9.94), "9.9 s");
   EXPECT_EQ(base::format_duration(59.2), "59 s");

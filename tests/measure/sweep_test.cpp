@@ -173,7 +173,7 @@ void expect_times(const json& cell, bool has_times) {
   }
 }
 
-TEST_F(Sweep, RightStructuresKeepTheirTimes) {
+TEST_F(Sweep, CorrectStructuresKeepTheirTimes) {
   const analysis::Analysis outcome =
       run(config({"null", "exhaustive", "samet:max_level=4", "embree:mode=single"}));
   EXPECT_EQ(outcome.cells, 4U);
@@ -219,7 +219,7 @@ TEST_F(Sweep, TheHarnessesOwnTimeIsReported) {
             row["harness_ms"].get<double>() / row["trace_ms"].get<double>());
 }
 
-TEST_F(Sweep, EachQueryPathHasAShareOfItsOwn) {
+TEST_F(Sweep, EachQueryPathHasItsOwnShare) {
   json document =
       config({"null:rays=single", "samet:max_level=4", "beam", "tile-beam", "embree:mode=packet8"});
   document["resolutions"] = {"320x200"};
@@ -353,7 +353,7 @@ TEST_F(Sweep, BlocksOfAllViewsAreSpreadOverTheRun) {
   EXPECT_EQ(cell["row"]["trace_clock"].is_string(), true);
 }
 
-TEST_F(Sweep, AsManyBlocksAreMadeAsThePrecisionNeedsOrTheSweepWants) {
+TEST_F(Sweep, TheNumberOfBlocksFollowsThePrecisionOrTheSweep) {
   json document = config({"exhaustive"});
   document["repetitions"] = {{"minimum", 3}, {"maximum", 60}};
   document["budget_seconds"] = 1000;
@@ -383,7 +383,7 @@ struct Planted {
 
 class PlantedSweepFault : public Sweep, public testing::WithParamInterface<Planted> {};
 
-TEST_P(PlantedSweepFault, LosesItsTimesAndNobodyElses) {
+TEST_P(PlantedSweepFault, LosesItsOwnTimesOnly) {
   add_faulty(GetParam().fault);
   const analysis::Analysis outcome = run(config({"faulty", "exhaustive"}));
   EXPECT_EQ(outcome.cells, 2U);
@@ -458,7 +458,7 @@ TEST_F(Sweep, TracesEveryKindOfRays) {
   for (const auto& [kind, of_kind] : hashes) EXPECT_EQ(of_kind.size(), 1U) << kind;
 }
 
-TEST_F(Sweep, BothOrdersOfAListAreOneView) {
+TEST_F(Sweep, BothOrdersOfAListFormOneView) {
   json both = config({"exhaustive", "embree"});
   both["rays"] = {"diffuse", "diffuse:order=sorted"};
   const analysis::Analysis outcome = run(both);
@@ -518,7 +518,7 @@ TEST_F(Sweep, TunedContendersAreMeasuredWithTheirTwoFastestParameterSets) {
             2);
 }
 
-TEST_F(Sweep, ATunedRunIsResumedWithTheSetsThatWereChosen) {
+TEST_F(Sweep, ATunedRunIsResumedWithTheChosenSets) {
   const json tuned{
       {"structure", "samet"}, {"parameters", {{"max_level", {1, 2, 3, 4}}}}, {"tune", true}};
   const json document = config(json::array({tuned}));
@@ -557,7 +557,7 @@ TEST(Tuning, TheCameraIsTurnedAboutThePointThatItLooksAt) {
   EXPECT_NEAR(turned.from.y, 0.0, 1e-6);
 }
 
-TEST(Tuning, EmbreesModesKeepToTheBudget) {
+TEST(Tuning, EmbreesModesKeepWithinTheBudget) {
   const auto sets = best_embree(accel::registry());
   std::set<std::string> labels;
   for (const accel::StructureChoice& each : sets) labels.insert(each.label());
@@ -605,7 +605,7 @@ TEST_F(Sweep, AWrongAnyHitLosesItsTimes) {
       scenes::says(faulty["examples"][0].get<std::string>(), {"ray 0", "--rays shadow --ray 0"}));
 }
 
-TEST_F(Sweep, RaysThatASceneHasNoneOfAreRowsThatSaySo) {
+TEST_F(Sweep, KindsOfRaysThatASceneLacksAreReportedAsRows) {
   const auto dark = folder_.write("dark.nff",
                                   "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 0.1\n"
                                   "resolution 8 8\nf 1 0 0 1 0 0 0 0\ns 0 0 0 1\n");
@@ -632,7 +632,7 @@ TEST_F(Sweep, RaysThatASceneHasNoneOfAreRowsThatSaySo) {
   expect_times(cell, false);
 }
 
-TEST_F(Sweep, WarnsOfRaysThatNeverHit) {
+TEST_F(Sweep, WarnsAboutRaysThatNeverHit) {
   json config = this->config({"exhaustive"});
   config["scenes"] = {"escena2"};
   config["rays"] = {"reflection"};
@@ -741,7 +741,7 @@ TEST_F(Resume, RepeatsNoFinishedCell) {
   EXPECT_EQ(read_text(results() / "results.csv"), table);
 }
 
-TEST_F(Resume, MakesUpForTheCellsThatAreMissing) {
+TEST_F(Resume, MeasuresTheMissingCells) {
   config_["scenes"] = {"tetra:n=1", "tetra:n=2"};
   run(config_);
   const std::string run_id = read_json("manifest.json")["run_id"];
@@ -777,7 +777,7 @@ int owed_traces(std::span<const std::string> lines, int index) {
   return (count("verification") > 0 ? 0 : 1) + 2 * (4 - count("repetition"));
 }
 
-TEST_F(Resume, NoRepetitionInTheLogIsMadeAgain) {
+TEST_F(Resume, NoRepetitionInTheLogIsRepeated) {
   run(config_);
   const std::vector<std::string> lines = log();
   ASSERT_EQ(lines.size(), 17U) << "of each cell: itself, four repetitions, two more";
@@ -812,7 +812,7 @@ TEST_F(Resume, NoRepetitionInTheLogIsMadeAgain) {
 }
 
 /// Ensures that a contender's repetitions still form rounds with the others'.
-TEST_F(Resume, RoundsOfOneViewGoOnBehindTheLastOfAll) {
+TEST_F(Resume, RoundsOfAViewContinueAfterTheLastOfAll) {
   run(config_);
   const std::vector<std::string> lines = log();
   write_log(std::span(lines).first(9));
@@ -830,7 +830,7 @@ TEST_F(Resume, RoundsOfOneViewGoOnBehindTheLastOfAll) {
   }
 }
 
-TEST_F(Resume, OtherAnswersThanBeforeAreAMismatch) {
+TEST_F(Resume, ResultsThatDifferFromBeforeAreAMismatch) {
   run(config_);
   const std::vector<std::string> lines = log();
   write_log(std::span(lines).first(9));
@@ -882,7 +882,7 @@ TEST_F(Resume, RefusesAnotherBuildOrScene) {
                            {"tetra:n=2", "has changed"}));
 }
 
-TEST_F(Resume, RefusesRecordsThatAreNotAsTheyWereWritten) {
+TEST_F(Resume, RefusesModifiedRecords) {
   struct Change {
     const char* kind;
     const char* pointer;

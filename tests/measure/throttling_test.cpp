@@ -57,7 +57,7 @@ TEST(CpuQuota, IsInTheManifest) {
   EXPECT_EQ(preflight(without).front().find("quota"), std::string::npos);
 }
 
-TEST(Throttling, OfShardsIsAddedUp) {
+TEST(Throttling, OfShardsIsSummed) {
   const auto shard = [](int number, std::optional<Throttling> throttling) {
     Manifest manifest = begin_manifest("test", {}, -1, 1, std::chrono::seconds(0));
     manifest.finished_utc = manifest.begun_utc;
@@ -134,7 +134,7 @@ TEST_F(ThrottledSweep, IsReportedInSummaryAndManifest) {
   EXPECT_TRUE(scenes::says(messages(), {"warning: The process has a quota of 0.2 CPUs"}));
 }
 
-TEST_F(ThrottledSweep, ThatIsResumedAddsUpItsParts) {
+TEST_F(ThrottledSweep, ThatIsResumedSumsItsParts) {
   system_.count_throttling("/a", 0, 0);
   EXPECT_THROW(run(false, 7), CutOff);
   const int first = recorded();

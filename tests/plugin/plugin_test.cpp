@@ -65,7 +65,7 @@ TEST(Madmann91Adapter, TakesTFromTheHitOrFindsItInTheRay) {
   EXPECT_EQ(ray.tmax, 1.5F) << "the older version stored it there";
 }
 
-TEST(RequestedPlugins, AreTakenOffTheCommandLineWhereverTheyStand) {
+TEST(RequestedPlugins, AreRemovedFromAnywhereOnTheCommandLine) {
   ::unsetenv("BEAMBENCH_PLUGINS");
   std::vector<std::string> arguments{"beambench",     "--plugin", "a.so", "list", "--json",
                                      "--plugin=b.so", "--plugin", "a.so", "--",   "--plugin"};
@@ -73,7 +73,7 @@ TEST(RequestedPlugins, AreTakenOffTheCommandLineWhereverTheyStand) {
   EXPECT_EQ(arguments, (std::vector<std::string>{"beambench", "list", "--json", "--", "--plugin"}));
 }
 
-TEST(RequestedPlugins, TheEnvironmentsComeFirst) {
+TEST(RequestedPlugins, TheEnvironmentComesFirst) {
   ::setenv("BEAMBENCH_PLUGINS", "/x/a.so::/y/b.so", 1);
   std::vector<std::string> arguments{"beambench", "--plugin", "c.so"};
   EXPECT_EQ(take_requested_plugins(arguments),
@@ -91,7 +91,7 @@ TEST(Activity, KeepsLinesApartAndTruncatesLongOnes) {
   EXPECT_EQ(activity.read(Activity::Line::kForeign), "");
 }
 
-TEST(CheckScene, PassesWhatTheBuilderMakes) {
+TEST(CheckScene, AcceptsScenesFromTheBuilder) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     EXPECT_NO_THROW(check_scene(tests::random_scene(seed, 50))) << seed;
   }

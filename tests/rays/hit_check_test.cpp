@@ -111,7 +111,7 @@ std::vector<std::string> complaints(const scenes::Scene& scene, const accel::Hit
   return messages;
 }
 
-TEST(HitCheck, NoRayIsTracedOnFromAnInvalidHit) {
+TEST(HitCheck, NoRayContinuesFromAnInvalidHit) {
   const scenes::Scene scene = mirror_glass_and_wall();
   const glm::vec3 eye(0.0F, -6.0F, 0.0F);
   const auto of_the_eye = [&](const accel::Ray& ray) { return ray.origin == eye; };

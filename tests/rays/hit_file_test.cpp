@@ -80,7 +80,7 @@ TEST_F(HitFile, IsReadInPartsWithThePlacesOfItsHits) {
             fmt::format("{}: byte {}", (folder_.path() / "a.hits").string(), begin + 4 * 8));
 }
 
-TEST_F(HitFile, TakesWhatProgramsWriteAsCsv) {
+TEST_F(HitFile, AcceptsTheCsvDialectsOfPrograms) {
   const auto table = [&](const std::string& text) { return read(folder_.write("a.csv", text)); };
   const HitTable numpy = table("# t,primitive\n1.5e+00,7.000000000e+00\ninf,-1.0\n");
   EXPECT_EQ(numpy.t, (std::vector<float>{1.5F, accel::kInfinity}));

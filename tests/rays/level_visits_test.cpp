@@ -63,7 +63,7 @@ TEST(LevelVisits, CountARayOnceForEachNodeItPassesThrough) {
   }
 }
 
-TEST(LevelVisits, CountBeamsAtTheLeavesThatTheyComeTo) {
+TEST(LevelVisits, CountBeamsAtTheLeavesThatTheyReach) {
   const Visited found = visited("beam:max_level=6");
   const auto counters = found.work.by_name();
   std::uint64_t beams = 0;
@@ -72,7 +72,7 @@ TEST(LevelVisits, CountBeamsAtTheLeavesThatTheyComeTo) {
   EXPECT_EQ(beams, counters.at("beams_nonterminal") + counters.at("beams_occupied"));
 }
 
-TEST(LevelVisits, AreNoneWithoutAnOctree) {
+TEST(LevelVisits, AreEmptyWithoutAnOctree) {
   EXPECT_TRUE(visited("voxel-grid").levels.empty());
   EXPECT_TRUE(visited("sah-bvh").levels.empty());
 }

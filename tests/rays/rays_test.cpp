@@ -114,7 +114,7 @@ std::vector<SurfacePoint> points_of(const scenes::Scene& scene) {
   return surface_points(scene, {scene.cameras.front(), 64, 48, 1});
 }
 
-TEST(ShadowRays, LeadFromFacedSurfacesToTheLight) {
+TEST(ShadowRays, RunFromFacingSurfacesToTheLight) {
   const scenes::Scene scene = lonely_sphere();
   const auto points = points_of(scene);
   ASSERT_GT(points.size(), 100U);
@@ -166,7 +166,7 @@ TEST(AreaRays, OfPointsAreShadowRays) {
   }
 }
 
-TEST(ReflectionRays, LeaveAsTheyCame) {
+TEST(ReflectionRays, LeaveAtTheAngleOfIncidence) {
   const scenes::Scene scene = lonely_sphere();
   const auto points = points_of(scene);
   const auto rays = reflection_rays(points).rays;
@@ -297,7 +297,7 @@ TEST(OcclusionRays, AreMeasuredInDiagonalsOfTheScene) {
 }
 
 // In a closed room no path ends early, and each ray begins at the previous hit.
-TEST(PathRays, GoOnFromWhereTheyHit) {
+TEST(PathRays, ContinueFromTheirHits) {
   const scenes::Scene scene = scenes::load_scene("closed-room");
   const auto points = points_of(scene);
   ASSERT_EQ(points.size(), 64U * 48U);
@@ -328,7 +328,7 @@ TEST(PathRays, EndWhereNothingIsHit) {
   EXPECT_EQ(path_rays(scene, MirrorTable(scene), points, 5, 1).rays.size(), points.size());
 }
 
-TEST(MakeInput, RefusesListsThatWouldFillTheMemory) {
+TEST(MakeInput, RefusesListsThatWouldExceedMemory) {
   const scenes::Scene scene = floor_and_ceiling(1.0);
   // Each has slightly more than 2^28 rays: the sizes are checked before the rays are counted.
   const auto refusal = [&](const char* kind, const Resolution& resolution) {
@@ -360,7 +360,7 @@ TEST(RandomRays, HitAConvexBodyInProportionToItsSurface) {
   EXPECT_NEAR(share, expected, 5.0 * std::sqrt(expected * (1.0 - expected) / kCount));
 }
 
-TEST(RandomRays, TakeFlatAndEmptyBoxes) {
+TEST(RandomRays, AcceptFlatAndEmptyBoxes) {
   EXPECT_TRUE(random_rays(scenes::Bounds(), 10, 1).rays.empty());
   scenes::Bounds point;
   point.include(glm::vec3(5.0F, 0.0F, 0.0F));
@@ -414,7 +414,7 @@ TEST(MakeInput, ExplainsWhyThereAreNoMirrorRays) {
   EXPECT_TRUE(scenes::says(reason(scene), {"no mirror rays", "planar mirror", "another camera"}));
 }
 
-TEST(EveryKindOfRays, FindsExhaustiveAndEmbreeRight) {
+TEST(EveryKindOfRays, FindsExhaustiveAndEmbreeCorrect) {
   std::vector<std::string> structures{"exhaustive", "samet"};
   for (const std::string& mode : tests::embree_modes()) structures.push_back("embree:mode=" + mode);
   for (const char* name : {"tetra:n=3", "escena1:spheres=60", "balls:n=1", "teapot:n=2"}) {
@@ -459,13 +459,13 @@ class AnyHitAnswers : public ::testing::Test {
   TraceResults results_ = make_results(reference_.input());
 };
 
-TEST_F(AnyHitAnswers, AreOkWhenTheyAreRight) {
+TEST_F(AnyHitAnswers, AreOkIfCorrect) {
   const verify::DiffReport report = verified();
   EXPECT_EQ(report.verdict, verify::Verdict::kOk);
   EXPECT_EQ(report.count(verify::DiffClass::kAgree), report.rays);
 }
 
-TEST_F(AnyHitAnswers, AreAMismatchWhereOneIsWrong) {
+TEST_F(AnyHitAnswers, AreAMismatchIfOneIsWrong) {
   for (const std::uint8_t value : {std::uint8_t{0}, std::uint8_t{1}}) {
     const std::size_t at = first_that_is(value);
     answer(at) = 1 - value;
@@ -480,7 +480,7 @@ TEST_F(AnyHitAnswers, AreAMismatchWhereOneIsWrong) {
   }
 }
 
-TEST_F(AnyHitAnswers, AreAMismatchWhereOneIsInvalid) {
+TEST_F(AnyHitAnswers, AreAMismatchIfOneIsInvalid) {
   answer(7) = 2;
   EXPECT_EQ(verified().count(verify::DiffClass::kStructureError), 1U);
   poison(results_);
@@ -573,7 +573,7 @@ TEST_F(RayFile, HoldsTheSamePencils) {
   }
 }
 
-TEST_F(RayFile, NamesAPencilThatIsNone) {
+TEST_F(RayFile, NamesAnInvalidPencil) {
   const std::string rest = read_text(path_).substr(read_text(path_).find("}\n") + 2);
   const auto header = [&](const std::string& pencils) {
     return fmt::format("beambench-rays 1\n{{\"query\":\"any\",\"rays\":{},\"pencils\":{}}}\n",
@@ -623,7 +623,7 @@ TEST_F(RayFile, ThatIsDamagedIsRefused) {
 }
 
 /// The header from a pipe may claim gigabytes of rays that never arrive.
-TEST_F(RayFile, ThroughAPipeTakesNoMoreMemoryThanWhatCame) {
+TEST_F(RayFile, ThroughAPipeTakesOnlyTheMemoryOfItsData) {
   const std::filesystem::path pipe = folder_.path() / "pipe.rays";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   const int writer = ::open(pipe.c_str(), O_RDWR | O_CLOEXEC);
@@ -641,7 +641,7 @@ TEST_F(RayFile, ThroughAPipeTakesNoMoreMemoryThanWhatCame) {
   EXPECT_LT(meanwhile.value_or(0), before.value_or(0) + (std::uint64_t{1} << 30U));
 }
 
-TEST_F(RayFile, ThatIsNoneIsRefused) {
+TEST_F(RayFile, OfAnotherFormatIsRefused) {
   std::filesystem::remove(path_);
   EXPECT_TRUE(scenes::says(refusal(), {"some.rays: cannot be read: No such file"}));
   for (const char* text :
@@ -659,7 +659,7 @@ TEST_F(RayFile, ThatIsNoneIsRefused) {
   }
 }
 
-TEST_F(RayFile, NamesARayThatIsNone) {
+TEST_F(RayFile, NamesAnInvalidRay) {
   set_.rays[3].direction = glm::vec3(0.0F);
   write_ray_file(path_, set_, {});
   EXPECT_TRUE(scenes::says(refusal(), {"some.rays", "ray 3"}));

@@ -14,7 +14,7 @@ namespace {
 
 using glm::dvec3;
 
-TEST(Noise, IsNothingAtTheLatticeAndStaysInItsRange) {
+TEST(Noise, IsZeroAtTheLatticeAndStaysInItsRange) {
   Random random(7);
   double least = 0.0;
   double most = 0.0;

@@ -51,7 +51,7 @@ void expect_published(std::uint64_t found, std::uint64_t published, const char* 
 
 class SpdCensus : public ::testing::TestWithParam<HainesCounts> {};
 
-TEST_P(SpdCensus, IsWithinHalfAPercentOfHaines) {
+TEST_P(SpdCensus, MatchesHainesWithinHalfAPercent) {
   const HainesCounts& haines = GetParam();
   const RayCensus census = spd_census(haines.scene);
   EXPECT_EQ(census.eye, 263'169U);

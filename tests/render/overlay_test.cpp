@@ -138,7 +138,7 @@ TEST(OverlayBeams, DrawsEachKindInItsColorAndCounts) {
   EXPECT_EQ(image.at(45, 15), image.at(75, 50));
 }
 
-TEST(OverlayBeams, ATwofoldCoverIsSeen) {
+TEST(OverlayBeams, ATwofoldCoverIsDetected) {
   const accel::BeamOutline left{accel::BeamKind::kLeaving, {{0, 0}, {60, 0}, {60, 80}, {0, 80}}};
   const accel::BeamOutline right{accel::BeamKind::kLeaving,
                                  {{40, 0}, {100, 0}, {100, 80}, {40, 80}}};
@@ -240,7 +240,7 @@ TEST(OverlayCells, CountsAllCells) {
 }
 
 // For any eye, even close to faces and edges of cells, nothing is drawn where there is no cell.
-TEST(OverlayCells, WhereRaysMissAllCellsNothingIsDrawnButNextToThem) {
+TEST(OverlayCells, OnlyPixelsNextToCellsAreDrawnWhereRaysMiss) {
   const scenes::Scene scene = scenes::load_scene("balls:n=1");
   const auto structure = accel::registry().choose(parse_spec("samet:max_level=4")).build(scene);
   std::vector<accel::Box> cells;

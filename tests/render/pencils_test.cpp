@@ -191,7 +191,7 @@ TEST(RefractedRays, AreThoseBehindPlanarGlass) {
   }
 }
 
-TEST(Pencils, AreNotOfCurvedMirrors) {
+TEST(Pencils, AreNotMadeForCurvedMirrors) {
   const scenes::Scene scene = scenes::load_scene("balls:n=2");
   const accel::PrimaryRays image(scene.cameras.front(), 120, 90, 1);
   tests::CheckedPencils pencils(scene, image, 16.0);
@@ -201,7 +201,7 @@ TEST(Pencils, AreNotOfCurvedMirrors) {
 }
 
 // Rounding decides which side of such a mirror is seen.
-TEST(Pencils, AreNotOfMirrorsSeenFromTheirEdge) {
+TEST(Pencils, AreNotMadeForMirrorsSeenEdgeOn) {
   const scenes::PlanarSurface mirror{
       {0.0, 0.0, 1.0}, {0.0, 0.0, 1.0}, {0}, {{-4.0F, -4.0F, 1.0F}, {4.0F, 4.0F, 1.0F}}};
   const double lift = accel::mirror_lift(mirror.bounds);

@@ -101,7 +101,7 @@ TEST(Exposure, ScalesLinearLight) {
   EXPECT_EQ(image.at(1, 0), glm::vec3(0.25F, 0.125F, 0.75F));
 }
 
-TEST(Exposure, OfAPictureThatIsTooBrightIsFound) {
+TEST(Exposure, OfAnOverexposedPictureIsFound) {
   Image image(20, 10, glm::vec3(0.5F));
   EXPECT_EQ(overexposure(image).share, 0.0);
   EXPECT_EQ(overexposure(image).remedy, 0.0);
@@ -115,7 +115,7 @@ TEST(Exposure, OfAPictureThatIsTooBrightIsFound) {
   EXPECT_EQ(overexposure(image).remedy, 0.0);
 }
 
-TEST(ImageFile, HasTheSameBytesWheneverItIsWritten) {
+TEST(ImageFile, HasTheSameBytesAtAnyTime) {
   const TemporaryFolder folder;
   Image image(3, 2);
   image.at(1, 1) = {0.25F, 0.5F, 2.0F};
@@ -161,7 +161,7 @@ TEST(ImageFile, ReplacesAnOlderPictureAndLeavesNothingBeside) {
   EXPECT_EQ(files_in(folder.path()), 1U);
 }
 
-TEST(ImageFile, AFailedWriteLeavesTheOlderPictureAsItWas) {
+TEST(ImageFile, AFailedWriteLeavesTheOlderPictureUnchanged) {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "picture.exr";
   write_image(file, Image(2, 2));
@@ -191,7 +191,7 @@ TEST(HeatColor, GetsLighterWithEveryStepAndStaysInsideSrgb) {
   }
 }
 
-TEST(HeatColor, ClampsWhatIsOutsideItsRange) {
+TEST(HeatColor, ClampsValuesOutsideItsRange) {
   EXPECT_EQ(heat_color(-1.0F), heat_color(0.0F));
   EXPECT_EQ(heat_color(2.0F), heat_color(1.0F));
 }
@@ -210,7 +210,7 @@ TEST(HeatMap, OneOutlierDoesNotDarkenTheOthers) {
   EXPECT_EQ(draw_heat_map(map).at(0, 0), heat_color(1.0F));
 }
 
-TEST(HeatMap, ARareValueIsSeenWhereAllOthersAreZero) {
+TEST(HeatMap, ARareValueIsVisibleIfAllOthersAreZero) {
   HeatMap map{"tests", 1000, 1, std::vector<float>(1000, 0.0F)};
   map.values[500] = 7.0F;
   EXPECT_EQ(brightest_value(map), 7.0F);

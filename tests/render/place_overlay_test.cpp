@@ -62,7 +62,7 @@ TEST(OverlayTiles, DrawsOutlinesAndAMesh) {
   }
 }
 
-TEST(OverlayTiles, EachWayHasItsColor) {
+TEST(OverlayTiles, EachMethodHasItsColor) {
   std::vector<BeamPlace> places = two_tiles();
   places[2].way = Way::kHandedOver;
   for (std::size_t i = 0; i < places.size(); ++i) {

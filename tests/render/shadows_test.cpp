@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array kOtherWays{ShadowMethod::kCache, ShadowMethod::kLightBuffer};
 
-TEST(Whitted, AllWaysOfFindingShadowsGiveTheSameBits) {
+TEST(Whitted, AllShadowMethodsReturnTheSameBits) {
   const auto compare = [](const scenes::Scene& scene) {
     const WhittedPicture expected = picture(scene, "sah-bvh", {});
     for (const ShadowMethod method : kOtherWays) {
@@ -35,7 +35,7 @@ TEST(Whitted, AllWaysOfFindingShadowsGiveTheSameBits) {
   }
 }
 
-TEST(Whitted, WaysOfFindingShadowsDifferOnlyWhereSomethingTouchesGlass) {
+TEST(Whitted, ShadowMethodsDifferOnlyWhereSomethingTouchesGlass) {
   for (std::uint64_t seed = 2; seed <= 24; seed += 2) {
     SCOPED_TRACE(seed);
     const scenes::Scene scene = scene_of_all_surfaces(seed);

@@ -99,7 +99,7 @@ TEST(Tone, KeepsHueAndSaturation) {
   }
 }
 
-TEST(Tone, LeavesAWellExposedPictureAsItIs) {
+TEST(Tone, LeavesAWellExposedPictureUnchanged) {
   const Image image = ramp(0.25, 3.0);
   ASSERT_EQ(share_clipped(image), 0.0);
   EXPECT_EQ(choose_tone(image).stops(), 0.0);
@@ -120,7 +120,7 @@ TEST(Tone, LiftsADarkPicture) {
   EXPECT_LE(share_clipped(shown), 0.01);
 }
 
-TEST(Tone, OfAThingInTheDarkIsThatOfTheThing) {
+TEST(Tone, OfAnObjectInTheDarkIsThatOfTheObject) {
   Image image(kSize, kSize);
   for (int x = 0; x < kSize / 2; ++x) image.at(x, 50) = glm::vec3(x % 2 == 0 ? 0.05F : 0.15F);
   EXPECT_NEAR(choose_tone(image).stops(), std::log2(0.09 / std::sqrt(0.05 * 0.15)), 1e-3);
@@ -134,7 +134,7 @@ TEST(Tone, LeavesBlackBlack) {
   EXPECT_EQ(choose_tone(Image(kSize, kSize)).stops(), 0.0);
 }
 
-TEST(Tone, MakesNoNumberThatIsNone) {
+TEST(Tone, NeverYieldsNan) {
   constexpr float kLargest = std::numeric_limits<float>::max();
   constexpr float kSmallest = std::numeric_limits<float>::denorm_min();
   Image image = ramp(1.0, 40.0);

@@ -91,7 +91,7 @@ TEST(Waves, TraceOnlyInBatches) {
   EXPECT_GT(census.shadow + census.reflected + census.refracted, 50 * counted.batches);
 }
 
-TEST(Waves, GiveTheSameBitsHoweverRaysAreDivided) {
+TEST(Waves, ReturnTheSameBitsForAnyDivisionOfRays) {
   for (const ShadowMethod shadows : {ShadowMethod::kRays, ShadowMethod::kCache}) {
     const scenes::Scene scene = scene_of_all_surfaces(4);  // with glass: two rays from one place
     const auto structure = built(scene, "samet");
@@ -165,7 +165,7 @@ TEST(Waves, KeepBatchesSmall) {
 }
 
 // SIMD returns the same bits as glm on every instruction set.
-TEST(Places, AreThoseOfSingleRays) {
+TEST(Places, MatchSingleRays) {
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     SCOPED_TRACE(hwy::TargetName(target));
     const PlaceKernels& kernels = place_kernels(target);

@@ -39,7 +39,7 @@ TEST(Whitted, LightsWithoutAColorShareOneOverTheRootOfTheirNumber) {
                dvec3(kAmbient + 2.0 / std::sqrt(3.0)) + dvec3(0.1, 0.2, 0.3));
 }
 
-TEST(Whitted, WhatIsHiddenFromTheLightHasAmbientLightOnly) {
+TEST(Whitted, SurfacesHiddenFromTheLightHaveOnlyAmbientLight) {
   scenes::SceneBuilder builder = with_light({0.0, 0.0, 8.0});
   builder.set_surface({.color = {1, 1, 1}, .diffuse = 1.0F});
   add_floor(builder, 0.0);
@@ -63,7 +63,7 @@ TEST(Whitted, GlassLetsItsTransmittanceOfTheLightThroughTwice) {
   }
 }
 
-TEST(Whitted, AMirrorShowsWhatItSees) {
+TEST(Whitted, AMirrorShowsItsSurroundings) {
   scenes::SceneBuilder builder = with_light({0.0, 0.0, -5.0});  // behind the mirror
   builder.set_surface({.color = {1, 1, 1}, .diffuse = 0.0F, .specular = 0.9F});
   add_floor(builder, 0.0);
@@ -99,7 +99,7 @@ TEST(Whitted, TwoMirrorsEndAtTheDepth) {
   EXPECT_EQ(progress.census.too_faint, 1U);
 }
 
-TEST(Whitted, AGlassBallOfIndexOneIsNotThere) {
+TEST(Whitted, AGlassBallOfIndexOneIsInvisible) {
   scenes::SceneBuilder builder = with_light({0.0, 0.0, -50.0});
   builder.set_surface({.diffuse = 0.0F, .transmittance = 1.0F, .refraction_index = 1.0F});
   builder.add_sphere({0, 0, 0}, 1.0);
@@ -163,7 +163,7 @@ scenes::Scene slab_above_two_floors(double edge) {
   return std::move(builder).build();
 }
 
-TEST(Whitted, ASlabOfGlassMovesARayAside) {
+TEST(Whitted, ASlabOfGlassShiftsARay) {
   // Enters at x = 0 at 45 degrees; in the slab the sine is sqrt(1/2) / 1.5, so a depth of 2 moves
   // the ray 1.06904 sideways; it leaves at 45 degrees again, for 1 more. Through air it would be 3.
   const double aside = 2.0 * std::tan(std::asin(std::sqrt(0.5) / 1.5)) + 1.0;
@@ -325,7 +325,7 @@ TEST(Whitted, PictureAndCensusDoNotDependOnTheThreads) {
   EXPECT_EQ(one.census, many.census);
 }
 
-TEST(Whitted, DrawnInOrderItIsTheSamePicture) {
+TEST(Whitted, DrawingInOrderYieldsTheSamePicture) {
   const scenes::Scene scene = scenes::load_scene("balls:n=1");
   const auto structure = built(scene, "samet");
   const accel::PrimaryRays rays(scene.cameras.front(), 40, 30, 1);

@@ -50,7 +50,7 @@ std::uint64_t ray_count(const measure::CountedWork& work) {
   return rays;
 }
 
-TEST(WholePicture, EveryStructureIsRightInEveryRay) {
+TEST(WholePicture, EveryStructureIsCorrectForEveryRay) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const measure::CellGroup group = group_of(scene_of_all_surfaces(seed));
     const auto task = measure::make_task(group, group.rays, -1, std::nullopt);
@@ -97,7 +97,7 @@ TEST(WholePicture, CountsWorkByKindOfRays) {
   EXPECT_EQ(work.counters.at("primitive_tests"), tests);
 }
 
-TEST(WholePicture, ItsFactsAreThoseOfTheOraclesPicture) {
+TEST(WholePicture, ItsFactsMatchTheOraclesPicture) {
   const measure::CellGroup group = group_of(scenes::load_scene("balls:n=1"));
   const auto task = measure::make_task(group, group.rays, -1, std::nullopt);
   const measure::RaySetFacts& facts = task->facts();

@@ -170,7 +170,7 @@ TEST(Animation, AFrameMayBeDegenerate) {
   EXPECT_EQ(scene.bounds.upper, glm::vec3(3.5F, 0.5F, 0.5F));
 }
 
-TEST(Animation, AFrameThatIsNotThereIsRefused) {
+TEST(Animation, AMissingFrameIsRefused) {
   Animation moving = load_animation("falling-spheres:spheres=1,frames=5");
   EXPECT_TRUE(says(thrown_message([&] { show_frame(moving, 5); }),
                    {"falling-spheres", "the animation has frames 0 to 4"}));
@@ -180,7 +180,7 @@ TEST(Animation, AFrameThatIsNotThereIsRefused) {
   EXPECT_TRUE(says(thrown_message([&] { show_frame(still, 1); }), {"the scene does not move"}));
 }
 
-TEST(Animation, APerturbedSceneStaysStill) {
+TEST(Animation, APerturbedSceneIsStatic) {
   EXPECT_EQ(load_animation("waving-sheet:triangles=200,perturb=1").frames, 1U);
 }
 

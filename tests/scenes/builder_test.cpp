@@ -217,7 +217,7 @@ TEST(SceneBuilder, FittedEyeStaysWithinTheLimit) {
   }
 }
 
-TEST(SceneBuilder, RefusesAScenesExtentBelowTheLimit) {
+TEST(SceneBuilder, RefusesASceneBelowTheMinimumExtent) {
   const auto built = [](double size) {
     SceneBuilder builder("small");
     builder.add_polygon(Points{{0, 0, 0}, {size, 0, 0}, {0, size, 0}});

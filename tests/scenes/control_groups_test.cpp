@@ -39,7 +39,7 @@ TEST(CpuQuota, IsAbsentInAGroupWithoutOne) {
   EXPECT_EQ(throttling_between({}, read_throttling(system.root())), std::nullopt);
 }
 
-TEST(CpuQuota, OfVersion2IsTheLeastOfTheGroupAndThoseAbove) {
+TEST(CpuQuota, OfVersion2IsTheMinimumOfTheGroupAndItsAncestors) {
   const FakeSystem system;
   system.join_group("/a/b");
   system.write("sys/fs/cgroup/a/b/cpu.max", "150000 100000\n");
@@ -76,7 +76,7 @@ TEST(CpuQuota, OfAHybridSystemIsFoundInTheVersionThatHasTheController) {
   EXPECT_EQ(cpu_quota(system.root()), 0.7);
 }
 
-TEST(CpuQuota, OfAContainerIsThatOfTheMountWhichIsItsGroup) {
+TEST(CpuQuota, OfAContainerIsThatOfItsMountedGroup) {
   for (const char* group : {"/docker/x", "/", "/../../x", "/docker/elsewhere"}) {
     const FakeSystem system;
     system.write("proc/self/cgroup", std::string("4:cpu:") + group + "\n");
@@ -95,7 +95,7 @@ TEST(CpuQuota, IsFoundBelowAnyMountPoint) {
   EXPECT_EQ(cpu_quota(system.root()), 0.5);
 }
 
-TEST(CpuQuota, KeepsThatManyThreadsBusyAndAtLeastOne) {
+TEST(CpuQuota, DeterminesTheThreadsButAtLeastOne) {
   EXPECT_EQ(threads_within(8, std::nullopt), 8);
   EXPECT_EQ(threads_within(8, 0.2), 1);
   EXPECT_EQ(threads_within(8, 2.0), 2);
@@ -134,7 +134,7 @@ TEST(Throttling, OfVersion1IsCountedInNanoseconds) {
   EXPECT_DOUBLE_EQ(grown->seconds, 0.96);
 }
 
-TEST(Throttling, OfTwoPartsIsAddedUp) {
+TEST(Throttling, OfTwoPartsIsSummed) {
   const Throttling first{10, 4, 0.5};
   EXPECT_EQ(added_up(std::nullopt, std::nullopt), std::nullopt);
   EXPECT_EQ(added_up(first, std::nullopt), first);
@@ -142,7 +142,7 @@ TEST(Throttling, OfTwoPartsIsAddedUp) {
   EXPECT_EQ(added_up(first, Throttling{5, 1, 0.25}), (Throttling{15, 5, 0.75}));
 }
 
-TEST(AvailableMemory, IsWhatTheGroupAndThoseAboveLeave) {
+TEST(AvailableMemory, IsWhatTheGroupAndItsAncestorsLeave) {
   const FakeSystem system;
   system.join_group("/a/b");
   system.write("proc/meminfo", "MemTotal: 9000 kB\nMemAvailable: 8000 kB\n");

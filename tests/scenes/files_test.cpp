@@ -79,7 +79,7 @@ TEST(Input, ComesThroughPipes) {
   ::close(ends[0]);
 }
 
-TEST(Input, IsReadFromWhereADescriptorStands) {
+TEST(Input, IsReadFromADescriptorsPosition) {
   const TemporaryFolder folder;
   const int file = ::open(folder.write("a", "0123456789").c_str(), O_RDONLY);
   ASSERT_EQ(::lseek(file, 4, SEEK_SET), 4);
@@ -88,7 +88,7 @@ TEST(Input, IsReadFromWhereADescriptorStands) {
   ::close(file);
 }
 
-TEST(Input, CutByAnInputErrorIsRefused) {
+TEST(Input, TruncatedByAnInputErrorIsRefused) {
   EXPECT_TRUE(says(thrown_message([] { read_input("/proc/self/mem", kLargestFile); }),
                    {"/proc/self/mem: cannot be read: Input/output error"}));
   const HungUpTerminal terminal("s 0 0 0 1\n");
@@ -98,7 +98,7 @@ TEST(Input, CutByAnInputErrorIsRefused) {
            {"a.nff: cannot be read: Input/output error"}));
 }
 
-TEST(Input, ThatIsNoneIsRefused) {
+TEST(Input, OfAnotherFormatIsRefused) {
   const TemporaryFolder folder;
   EXPECT_TRUE(says(thrown_message([] { read_input("/no/such/file", kLargestFile); }),
                    {"/no/such/file: cannot be read: No such file or directory", "check the path"}));
@@ -132,7 +132,7 @@ TEST(Input, OfASceneIsRefusedInTheSameWords) {
                    {"/proc/self/mem: cannot be read: Input/output error"}));
 }
 
-TEST(Output, IsNotSeenBeforeItIsWhole) {
+TEST(Output, IsInvisibleUntilItIsComplete) {
   const TemporaryFolder folder;
   const fs::path target = folder.write("a.txt", "old");
   const auto fail_half_way = [&](std::ostream& file) {
@@ -151,7 +151,7 @@ TEST(Output, IsNotSeenBeforeItIsWhole) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
 }
 
-TEST(Output, IsRefusedWhereNoFileCanBe) {
+TEST(Output, IsRefusedWhereNoFileCanExist) {
   const TemporaryFolder folder;
   const fs::path file = folder.write("a.txt", "");
   for (const fs::path& target :

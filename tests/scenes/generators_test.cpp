@@ -29,7 +29,7 @@ void PrintTo(const Expected& expected, std::ostream* stream) { *stream << expect
 
 class Counts : public testing::TestWithParam<Expected> {};
 
-TEST_P(Counts, AreTheDefinitions) {
+TEST_P(Counts, MatchTheDefinitions) {
   const Scene scene = load_scene(GetParam().spec);
   EXPECT_EQ(scene.spheres.size(), GetParam().spheres);
   EXPECT_EQ(scene.polygons.size(), GetParam().polygons);
@@ -278,7 +278,7 @@ TEST(Balls, GrandchildrenFollowTheSmallestRotationFromZ) {
   });
 }
 
-TEST(Escena1, FillsItsVolumeEvenlyWithSpheresThatDoNotMeet) {
+TEST(Escena1, FillsItsVolumeEvenlyWithDisjointSpheres) {
   const Scene scene = load_scene("escena1");
   std::map<std::tuple<bool, bool, bool>, int> in_octant;
   for (std::size_t i = 0; i < scene.spheres.size(); ++i) {
@@ -298,7 +298,7 @@ TEST(Escena1, FillsItsVolumeEvenlyWithSpheresThatDoNotMeet) {
 }
 
 // The positions found by a plain search for the nearest ball, before the grid was introduced.
-TEST(Escena1, StandsWhereItStoodBeforeItsGrid) {
+TEST(Escena1, IsUnchangedByItsGrid) {
   EXPECT_EQ(scene_hash(load_scene("escena1:spheres=7")), 0x2a7353dd7127c1eaU);
   EXPECT_EQ(scene_hash(load_scene("escena1:spheres=2000")), 0xc0a046104b83e4feU);
 }
@@ -397,7 +397,7 @@ TEST(Bumpy, IsStarShapedAndLooksOutward) {
   }
 }
 
-TEST(Bumpy, ComesAsNearToTheWantedNumberAsItCan) {
+TEST(Bumpy, ComesAsCloseAsPossibleToTheRequestedNumber) {
   for (const int wanted : {12, 29, 31, 5000, 15680, 100000}) {
     const auto got = static_cast<double>(
         load_scene("bumpy:triangles=" + std::to_string(wanted)).triangles.size());

@@ -120,7 +120,7 @@ TEST_F(GltfAnimations, ChildrenMoveWithTheirParentAndOthersStay) {
   expect_near(middle[4], {1, 0, 0});
 }
 
-TEST_F(GltfAnimations, VerticesThatPartAreNotMerged) {
+TEST_F(GltfAnimations, VerticesThatSeparateAreNotMerged) {
   GltfFile file = gltf_triangle();
   file.add_node({{"mesh", 0}, {"scale", {-1, 1, 1}}});  // shares an edge with the first
   add_channel(file, 1, "translation", {0.0F, 1.0F}, {0, 0, 0, -4, 0, 0});
@@ -227,7 +227,7 @@ TEST_F(GltfAnimations, JointsMoveAndBlendTheVertices) {
   expect_near(last[4], {0, 2, 0});  // half of (1, 2, 0), half of (-1, 2, 0)
 }
 
-TEST_F(GltfAnimations, WhatIsLeftOutIsSaid) {
+TEST_F(GltfAnimations, OmittedPartsAreReported) {
   GltfFile file = gltf_triangle();
   const int offsets = file.add_positions({{0, 0, 1}, {0, 0, 1}, {0, 0, 1}});
   file.json["meshes"][0]["primitives"][0]["targets"] = Json::array({{{"POSITION", offsets}}});
@@ -244,7 +244,7 @@ TEST_F(GltfAnimations, WhatIsLeftOutIsSaid) {
   EXPECT_TRUE(says(warnings_[2], {"1 channels of its animation were left out"}));
 }
 
-TEST_F(GltfAnimations, OneOfACameraAloneMovesNothing) {
+TEST_F(GltfAnimations, OneOfOnlyACameraMovesNothing) {
   GltfFile file = gltf_triangle();
   file.add_node({{"name", "empty"}});
   add_channel(file, 1, "translation", {0.0F, 1.0F}, {0, 0, 0, 1, 0, 0});

@@ -207,7 +207,7 @@ RC_GTEST_FIXTURE_PROP(Gltf, NodesPlaceTheirMeshes, ()) {
   }
 }
 
-TEST_F(Gltf, AMeshOfTwoNodesIsThereTwice) {
+TEST_F(Gltf, AMeshOfTwoNodesOccursTwice) {
   GltfFile file = gltf_triangle();
   file.add_node({{"mesh", 0}, {"translation", {5, 0, 0}}});
   const ImportedMesh mesh = read(file);
@@ -440,7 +440,7 @@ TEST_F(Gltf, ARefusalStatesTheReason) {
   }
 }
 
-TEST_F(Gltf, LooksMayBeRequired) {
+TEST_F(Gltf, AppearanceExtensionsMayBeRequired) {
   GltfFile file = gltf_triangle();
   file.json["extensionsRequired"] = {"KHR_materials_unlit", "KHR_texture_transform",
                                      "KHR_texture_basisu", "EXT_texture_webp"};
@@ -468,7 +468,7 @@ TEST_F(Gltf, TooManyInstancesAreRefusedBeforeAnyIsMade) {
 
 // Companions
 
-TEST_F(Gltf, BuffersAreReadFromItsFolderAlone) {
+TEST_F(Gltf, BuffersAreReadOnlyFromItsFolder) {
   const GltfFile file = gltf_triangle();
   fs::create_directories(folder_.path() / "in" / "sub");
   const auto load = [&](const std::string& uri) {
@@ -605,7 +605,7 @@ GltfFile rich_file() {
   return file;
 }
 
-TEST_F(Gltf, ATruncatedOneIsRefused) {
+TEST_F(Gltf, ATruncatedFileIsRefused) {
   for (const std::string& whole : {glb(rich_file()), gltf(rich_file())}) {
     for (std::size_t size = 0; size < whole.size(); size += 1 + size / 50) {
       SCOPED_TRACE(size);
@@ -614,7 +614,7 @@ TEST_F(Gltf, ATruncatedOneIsRefused) {
   }
 }
 
-TEST_F(Gltf, ADamagedOneIsReadOrRefused) {
+TEST_F(Gltf, ADamagedFileIsReadOrRefused) {
   const std::array<std::string, 2> files{glb(rich_file()), gltf(rich_file())};
   Random random(2026);
   for (int i = 0; i < 3000; ++i) {

@@ -20,7 +20,7 @@ std::string refusal(const std::string& text) {
 
 std::string nested(std::size_t depth) { return std::string(depth, '[') + std::string(depth, ']'); }
 
-TEST(Json, IsReadAsItStands) {
+TEST(Json, IsReadVerbatim) {
   EXPECT_EQ(parse_json<json>(R"({"b": [1, 2.5, null, "x"], "a": true})", "a.json"),
             json({{"a", true}, {"b", {1, 2.5, nullptr, "x"}}}));
   const auto ordered = parse_json<nlohmann::ordered_json>(R"({"b": 1, "a": 2})", "a.json");
@@ -38,7 +38,7 @@ TEST(Json, RefusesNumbersBeyondADouble) {
   EXPECT_TRUE(says(refusal("{\n\"budget_seconds\": 1e400}"), {"a.json:2:", "1e400", "too large"}));
 }
 
-TEST(Json, RefusesToNestTooDeep) {
+TEST(Json, RefusesDeepNesting) {
   EXPECT_EQ(refusal(nested(64)), "(nothing thrown)");
   EXPECT_TRUE(says(refusal(nested(65)), {"a.json", "64 levels"}));
   EXPECT_TRUE(says(refusal(nested(400'000)), {"64 levels"}));
@@ -48,7 +48,7 @@ TEST(Json, RefusesToNestTooDeep) {
   EXPECT_TRUE(says(refusal(objects), {"64 levels"}));
 }
 
-TEST(Json, RefusesAKeyThatIsGivenTwice) {
+TEST(Json, RefusesDuplicateKeys) {
   EXPECT_TRUE(says(refusal(R"({"a": {"b": 1, "b": 2}})"), {"a.json", "\"b\"", "twice"}));
   EXPECT_EQ(refusal(R"([{"b": 1}, {"b": 2}])"), "(nothing thrown)");
 }
@@ -58,7 +58,7 @@ TEST(Json, FilesMayBeginWithAByteOrderMark) {
   EXPECT_EQ(read_json_file<json>(folder.write("a.json", "\xEF\xBB\xBF[1]")), json({1}));
 }
 
-TEST(Json, IsWrittenAsUtf8WhateverItHolds) {
+TEST(Json, IsAlwaysWrittenAsUtf8) {
   EXPECT_EQ(json_text(json("C\xE1mara"), -1), "\"C\xEF\xBF\xBDmara\"");
   EXPECT_EQ(json_text(json({{"a", 1}})), "{\n  \"a\": 1\n}");
   EXPECT_EQ(json_text(json("esc\x1B"), -1), "\"esc\\u001b\"");

@@ -79,7 +79,7 @@ void expect_tetrahedron(const Scene& scene) {
   EXPECT_FALSE(scene.lights.empty());
 }
 
-TEST_F(Meshes, OfEveryFormatAreTheSameScene) {
+TEST_F(Meshes, InEveryFormatAreTheSameScene) {
   for (const auto& [name, text] : tetrahedron_files()) {
     SCOPED_TRACE(name);
     const Scene scene = load_scene(write(name, text));
@@ -91,7 +91,7 @@ TEST_F(Meshes, OfEveryFormatAreTheSameScene) {
   expect_tetrahedron(load_scene(write("UPPER.OBJ", tetrahedron_obj())));
 }
 
-TEST_F(Meshes, AreWhatTheirFilesSayBitForBit) {
+TEST_F(Meshes, MatchTheirFilesBitForBit) {
   const Scene scene = load_scene(write("a.obj", "v 0.1 0 0\nv 1e-20 1 0\nv 0 0.3 -7\nf 1 2 3\n"));
   ASSERT_EQ(scene.triangles.size(), 1U);
   EXPECT_EQ(scene.vertices[scene.triangles[0].vertex[0]], glm::vec3(0.1F, 0.0F, 0.0F));
@@ -118,7 +118,7 @@ TEST_F(Meshes, TakeTheColorsOfTheirMaterials) {
   EXPECT_EQ(scene.surfaces[1].transmittance, 0.75F);
 }
 
-TEST_F(Meshes, WhatHasNoAreaIsLeftOutAndCounted) {
+TEST_F(Meshes, TrianglesWithoutAreaAreLeftOutAndCounted) {
   const std::string path = write("some.obj",
                                  "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nf 1 2 3\nf 1 2 2\nf 1 2 4\n"
                                  "f 3 2 1\nl 1 2\np 3\n");
@@ -198,7 +198,7 @@ TEST_F(Meshes, NothingUnpacksToNothing) {
 }
 
 /// 400 MiB of one byte.
-TEST_F(Meshes, WhatUnpacksToFarMoreThanItIsIsRefusedEarly) {
+TEST_F(Meshes, ExcessiveCompressionRatiosAreRefusedEarly) {
   const fs::path path = folder_.path() / "bomb.ply.gz";
   const gzFile file = ::gzopen(path.c_str(), "wb");
   const std::string block(std::size_t{1} << 20U, ' ');
@@ -213,7 +213,7 @@ TEST_F(Meshes, WhatUnpacksToFarMoreThanItIsIsRefusedEarly) {
 }
 
 /// Numbers in sequence compress well, as do the vertices of a regular grid.
-TEST_F(Meshes, WhatPacksWellIsRead) {
+TEST_F(Meshes, GoodCompressionRatiosAreAccepted) {
   std::string text;
   while (text.size() < (std::size_t{70} << 20U)) {
     text += fmt::format("v {} 1.000000 0.000000\n", text.size());
@@ -235,7 +235,7 @@ TEST_F(Meshes, AnImportThatTakesTooLongIsEnded) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
 }
 
-TEST(ImportLimits, GrowWithTheFileAndEndAtTheMemoryThereIs) {
+TEST(ImportLimits, GrowWithTheFileUpToTheAvailableMemory) {
   const std::string bytes(std::size_t{3} << 20U, ' ');
   EXPECT_EQ(mesh::import_limits(bytes, "obj").processor, std::chrono::seconds(5));
   EXPECT_EQ(mesh::import_limits(bytes, "glb").processor, std::chrono::seconds(123));
@@ -293,7 +293,7 @@ TEST_F(Meshes, AreReadAgainWhenTheirMaterialsChange) {
   EXPECT_EQ(load_scene(path).surfaces[0].color, without.surfaces[0].color);
 }
 
-TEST_F(Meshes, DamagedCacheFilesAreNoticedAndMadeAnew) {
+TEST_F(Meshes, DamagedCacheFilesAreDetectedAndReplaced) {
   const std::string path = write("a.obj", tetrahedron_obj());
   const std::uint64_t hash = scene_hash(load_scene(path));
   ASSERT_EQ(cached().size(), 1U);
@@ -387,7 +387,7 @@ RC_GTEST_PROP(FittedCameras, SeeAllPointsAndFillTheImage, ()) {
   }
 }
 
-TEST_F(Meshes, FarFromTheOriginAndHugeOnesHaveACamera) {
+TEST_F(Meshes, FarOrHugeOnesHaveACamera) {
   EXPECT_EQ(
       load_scene(write("far.obj", "v 1e8 0 0\nv 1e8 1 0\nv 1e8 0 1\nf 1 2 3\n")).cameras.size(),
       4U);
@@ -410,7 +410,7 @@ TEST_F(Meshes, AreFoundByTheirRegisteredName) {
   EXPECT_EQ(mesh::find_registered_mesh("shape").about, "A test.");
 }
 
-TEST_F(Meshes, AreSeenByTheCamerasAndLightsOfTheirEntry) {
+TEST_F(Meshes, HaveTheCamerasAndLightsOfTheirEntry) {
   write("a.obj", tetrahedron_obj());
   register_mesh("shape", R"({"path": "../../a.obj", "cameras": [
     {"name": "hall", "from": [5, 1, 2], "at": [0, 1, 2], "angle": 70},
@@ -459,7 +459,7 @@ TEST_F(Meshes, AnEntryWithAWrongCameraOrLightIsNamed) {
   }
 }
 
-TEST_F(Meshes, AnUnknownNameSaysHowToGetMore) {
+TEST_F(Meshes, AnUnknownNameExplainsHowToGetMore) {
   EXPECT_TRUE(says(thrown_message([] { load_scene("mesh:dragon"); }),
                    {"'dragon'", "none is", "scripts/meshes"}));
   register_mesh("dragon", R"({"path": "../gone.obj"})");
@@ -491,7 +491,7 @@ TEST(MeshFormat, IsRecognizedByTheEnding) {
   EXPECT_EQ(mesh::mesh_ending("obj"), "");
 }
 
-TEST(MeshCodec, GivesBackWhatItGot) {
+TEST(MeshCodec, ReturnsWhatItEncoded) {
   mesh::ImportedMesh mesh{
       {{{1.0F, 2.0F, 3.0F}, {0.0F, 1.0F, 0.0F}, {4.0F, 0.0F, 0.0F}},
        {{0, 1, 2}},
@@ -518,7 +518,7 @@ TEST(MeshCodec, GivesBackWhatItGot) {
   }
 }
 
-TEST(MeshCollector, JoinsWhatIsAtTheSamePlace) {
+TEST(MeshCollector, MergesCoincidentVertices) {
   mesh::MeshCollector collector;
   for (int i = 0; i < 100; ++i) {
     const auto x = static_cast<float>(i);

@@ -59,7 +59,7 @@ bool is_closed(const modelling::PolygonMesh& mesh) {
 
 const std::vector<glm::dvec2> kVase = {{0.0, 0.0}, {0.5, 0.1}, {0.8, 0.6}, {0.3, 1.2}, {0.0, 1.3}};
 
-TEST(Box, IsClosedAndAsLargeAsItsCornersSay) {
+TEST(Box, IsClosedAndSpansItsCorners) {
   const modelling::PolygonMesh mesh = modelling::box({-1, -2, -3}, {1, 2, 3});
   EXPECT_EQ(mesh.size(), 6U);
   EXPECT_TRUE(is_closed(mesh));
@@ -128,7 +128,7 @@ TEST(Ellipsoid, ApproachesItsVolume) {
   EXPECT_NEAR(volume(mesh), 4.0 / 3.0 * std::numbers::pi * 6.0, 0.15);
 }
 
-TEST(ParametricSurface, IsWeldedWhereItComesBackToItself) {
+TEST(ParametricSurface, IsWeldedWhereItMeetsItself) {
   const modelling::PolygonMesh torus = modelling::parametric_surface(
       [](double u, double v) {
         const double a = 2.0 * std::numbers::pi * u;
@@ -162,7 +162,7 @@ TEST(Letters, AreClosedBodiesOfTheirOutlines) {
   EXPECT_NEAR(modelling::text_width("IL", 2.0), 2.0 * (0.22 + 0.14 + 0.56), 1e-12);
 }
 
-TEST(Transformed, TurnsWindingsWhereItMirrors) {
+TEST(Transformed, ReversesWindingsIfItMirrors) {
   const modelling::PolygonMesh mesh = modelling::box({0, 0, 0}, {1, 1, 1});
   const glm::dmat4 mirror = glm::scale(glm::dmat4(1.0), glm::dvec3(-2.0, 1.0, 1.0));
   EXPECT_NEAR(volume(modelling::transformed(mesh, mirror)), 2.0, 1e-12);
@@ -191,7 +191,7 @@ TEST(AddSmooth, PaintsEachPolygon) {
   }
 }
 
-TEST(Welded, DropsWhatShrinksToNothing) {
+TEST(Welded, DropsDegeneratePolygons) {
   modelling::PolygonMesh mesh = modelling::box({0, 0, 0}, {1, 1, 1});
   modelling::append(mesh, modelling::box({1, 0, 0}, {2, 1, 1}));
   EXPECT_EQ(modelling::welded(mesh).vertices.size(), 12U);
@@ -220,7 +220,7 @@ RC_GTEST_PROP(Subdivided, HasTheExactCountOnTheSameSurface, ()) {
   }
 }
 
-TEST(Subdivided, AddsOneEvenToAClosedMeshOfTriangles) {
+TEST(Subdivided, AddsASinglePolygonEvenToAClosedMeshOfTriangles) {
   const modelling::PolygonMesh mesh = modelling::triangulated(vase(6));
   for (std::size_t more = 0; more < 20; ++more) {
     const modelling::PolygonMesh fine = modelling::subdivided_to(mesh, mesh.size() + more);
@@ -232,7 +232,7 @@ TEST(Subdivided, AddsOneEvenToAClosedMeshOfTriangles) {
   }
 }
 
-TEST(Subdivided, RefusesFewerThanThereAre) {
+TEST(Subdivided, RefusesFewerThanExist) {
   EXPECT_THROW(modelling::subdivided_to(modelling::box({0, 0, 0}, {1, 1, 1}), 5),
                std::invalid_argument);
   EXPECT_THROW(modelling::subdivided_to(modelling::PolygonMesh{}, 1), std::invalid_argument);

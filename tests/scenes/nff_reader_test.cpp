@@ -70,7 +70,7 @@ TEST(NffReader, ReadsOneOfEverything) {
   EXPECT_EQ(scene.surfaces[scene.primitives[0].surface].diffuse, 0.8F);
 }
 
-TEST(NffReader, ReadsFilesAsTheyAreFound) {
+TEST(NffReader, ReadsFilesFromTheWild) {
   const std::string file = kFolder + "quirks.nff";
   const nff::NffResult result = nff::read_nff(file);
   const Scene& scene = result.scene;
@@ -90,7 +90,7 @@ TEST(NffReader, ReadsFilesAsTheyAreFound) {
   EXPECT_TRUE(says(result.warnings[3], {file + ":12: ", "'st'", "line 13"}));
 }
 
-TEST(NffReader, CatalogueHandsOnTheWarnings) {
+TEST(NffReader, CatalogForwardsTheWarnings) {
   std::vector<std::string> warnings;
   const Scene scene = load_scene(kFolder + "quirks.nff", &warnings);
   EXPECT_EQ(scene.primitives.size(), 3U);
@@ -100,7 +100,7 @@ TEST(NffReader, CatalogueHandsOnTheWarnings) {
            {"quirks.nff:1: ", "'From'"}));
 }
 
-TEST(NffReader, WordsOfTheThesisHoldUntilTheNext) {
+TEST(NffReader, WordsOfTheThesisApplyUntilTheNext) {
   const nff::NffResult result = nff::read_nff(kFolder + "thesis.nff");
   EXPECT_TRUE(result.warnings.empty());
   const Scene& scene = result.scene;
@@ -217,7 +217,7 @@ TEST(NffReader, DegeneratePrimitivesAreSkippedAndCounted) {
                    {"test.nff:2: polygon (primitive 1): ", "no area", "--strict"}));
 }
 
-TEST(NffReader, OneDegenerateTriangleOfManyRefusesNoFile) {
+TEST(NffReader, OneDegenerateTriangleOfManyIsAccepted) {
   std::string text;
   for (int i = 0; i < 1844; ++i) {
     const std::string x = std::to_string(i);
@@ -239,7 +239,7 @@ TEST(NffReader, FillOfPhongSurfacesHasTheFieldsOfF) {
   EXPECT_EQ(result.scene.surfaces[0].color, glm::vec3(.2F, .4F, .6F));
 }
 
-TEST(NffReader, AreaLightsBecomePointsBeforeTheirMiddles) {
+TEST(NffReader, AreaLightsBecomePointsInFrontOfTheirCenters) {
   const nff::NffResult result =
       parse("la 4 10 4  2 0 0  0 0 8  5 4 3\nla 0 0 0 1 0 0 0 1 0\ns 0 0 0 1\nl 1 2 3\n");
   const std::vector<Light>& lights = result.scene.lights;
@@ -255,7 +255,7 @@ TEST(NffReader, AreaLightsBecomePointsBeforeTheirMiddles) {
   EXPECT_EQ(parse("s 0 0 0 1\nla 0 0 0 1 0 0 0 1 0").scene.lights.size(), 1U);
 }
 
-TEST(NffReader, AnimatedLightsStayWhereTheyBegin) {
+TEST(NffReader, AnimatedLightsStayAtTheirFirstPosition) {
   const nff::NffResult result =
       parse("la lamp 4 10 4\nla sun-2 1 2 3 .5 .25 1\ns 0 0 0 1\nl 1 2 3\n");
   const std::vector<Light>& lights = result.scene.lights;
@@ -290,7 +290,7 @@ TEST(NffReader, StrictReadingRefusesWhatItWouldRepair) {
   }
 }
 
-TEST(NffReader, OnlyTheLayoutThatCountsCounts) {
+TEST(NffReader, OnlySignificantLayoutMatters) {
   const std::uint64_t hash = scene_hash(parse("s 1 2 3 4\nc 0 0 0 1 0 0 1 2\n").scene);
   for (const char* text :
        {"s 1 2 3 4\r\nc 0 0 0 1 0 0 1 2", "s\n1\n2\n3\n4\nc\n0 0 0 1\n0 0 1 2\n",

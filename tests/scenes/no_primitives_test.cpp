@@ -28,7 +28,7 @@ class NoPrimitives : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(NoPrimitives, AreRefusedInNffWithWhatBecameOfThem) {
+TEST_F(NoPrimitives, AreRefusedInNffWithTheReason) {
   EXPECT_TRUE(says(message("a.nff", "b 0 0 0\n"),
                    {"a.nff: the scene has no primitives; give it at least one sphere"}));
   EXPECT_TRUE(says(message("a.nff", "b 0 0 0\nsphere 0 0 0 1\n"),
@@ -61,7 +61,7 @@ TEST_F(NoPrimitives, AreRefusedInMeshes) {
   }
 }
 
-TEST_F(NoPrimitives, Utf16IsNamedAsSuch) {
+TEST_F(NoPrimitives, Utf16IsIdentified) {
   const std::string wide(
       "s\0 \0"
       "1\0 \0"

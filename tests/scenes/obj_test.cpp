@@ -123,7 +123,7 @@ RC_GTEST_FIXTURE_PROP(Obj, ConcavePolygonsKeepTheirArea, ()) {
   RC_ASSERT(std::abs(area_of(read(text + face + "\n")) - area) < 1e-5 * area);
 }
 
-TEST_F(Obj, FacesNameVerticesInEveryWay) {
+TEST_F(Obj, FacesReferToVerticesInEveryForm) {
   for (const char* face : {"f 1 2 3", "f -3 -2 -1", "f 1/1 2/1 3/1", "f 1//1 2//1 3//1",
                            "f 1/1/1 2/1/1 3/1/1", "  f\t1  2\t3  ", "f 1 \\\n2 3", "f +1 2 3"}) {
     const ImportedMesh mesh = read(fmt::format("{}vt 0 0\nvn 0 0 1\n{}\n", kThreeVertices, face));
@@ -191,12 +191,12 @@ TEST_F(Obj, LinesThatAreNotUnderstoodAreCountedWithTheirNumbers) {
             "line 7 ('c') and 2 more");
 }
 
-TEST_F(Obj, AFileOfWhichNothingIsUnderstoodIsRefusedWithItsLines) {
+TEST_F(Obj, AnUnintelligibleFileIsRefusedWithItsLines) {
   EXPECT_TRUE(
       says(message("hello\nworld\n"), {"a.obj: ", "no face", "2 lines", "line 1 ('hello')"}));
 }
 
-TEST_F(Obj, StatementsOfTheFormatThatRaysDoNotMeetAreUnderstood) {
+TEST_F(Obj, StatementsIrrelevantToRaysAreUnderstood) {
   const std::string text =
       std::string("# a comment\n\n \t\no name\ng one two\ng\ns off\ns 1\nmg 1 0.5\nbevel on\n") +
       "c_interp off\nd_interp off\nlod 3\nmaplib a.map\nusemap off\nshadow_obj a.obj\n"
@@ -223,7 +223,7 @@ TEST_F(Obj, AByteOrderMarkIsSkipped) {
             glm::vec3(1.0F, 0.0F, 0.0F));
 }
 
-TEST_F(Obj, Utf16IsNamedAsSuch) {
+TEST_F(Obj, Utf16IsIdentified) {
   const std::string text = std::string(kThreeVertices) + "f 1 2 3\n";
   const auto wide = [&](bool low_first) {
     std::string bytes;
@@ -370,7 +370,7 @@ TEST_F(Obj, LibrariesOutsideOfItsFolderAreNotRead) {
 }
 
 /// Reads in this process, so that a sanitizer detects faults.
-TEST_F(Obj, ADamagedOneIsReadOrRefused) {
+TEST_F(Obj, ADamagedFileIsReadOrRefused) {
   folder_.write("m.mtl", "newmtl m\nKd 1 0 0\n");
   const std::string whole = "mtllib m.mtl\no name\ng a b\n" + tetrahedron_obj() +
                             "usemtl m\nf 1/1/1 2/2/2 3/3/3 4\nf -1 -2 -3\nl 1 2\nvt 0 1\n";

@@ -62,7 +62,7 @@ TEST(Off, ColorsNormalsAndTexturesAreSkipped) {
 }
 
 /// Assimp issue 2228, trimesh issue 542: a face was lost.
-TEST(Off, CommentsAndEmptyLinesMayStandAnywhere) {
+TEST(Off, CommentsAndEmptyLinesMayAppearAnywhere) {
   std::string text;
   for (const char c : "#!\nOFF\n4 4 0\n" + tetrahedron_rows("", "")) {
     text += c;
@@ -87,7 +87,7 @@ TEST(Off, LinesEndInEachWay) {
   EXPECT_EQ(off_hash(text.substr(0, text.size() - 1)), tetrahedron_hash()) << "no last line end";
 }
 
-TEST(Off, DialectsThatHaveNoPlaceInSpaceAreRefused) {
+TEST(Off, DialectsWithoutThreeDimensionsAreRefused) {
   for (const char* keyword : {"4OFF", "nOFF", "4nOFF", "ST4OFF", "CN4nOFF"}) {
     EXPECT_TRUE(
         says(off_refusal(std::string(keyword) + "\n4 4 0\n" + tetrahedron_rows(" 1", "")),
@@ -120,7 +120,7 @@ TEST(Off, AWrongHeaderIsRefusedWithItsLine) {
   }
 }
 
-TEST(Off, APointCloudIsRefusedInWordsOfOurOwn) {
+TEST(Off, APointCloudIsRefusedWithItsOwnMessage) {
   EXPECT_TRUE(says(off_refusal("OFF\n1 0 0\n0 0 0\n"),
                    {"a.off: ", "declares 1 vertex but no faces", "point cloud"}));
 }
@@ -150,7 +150,7 @@ TEST(Off, RowsThatAreTooShortOrTooLongAreRefused) {
   EXPECT_TRUE(says(off_refusal(triangle_off("0 0 0", "3.0 0 1 2")), {"line 6: ", "'3.0'"}));
 }
 
-TEST(Off, VerticesThatAreNotThereAreRefused) {
+TEST(Off, MissingVerticesAreRefused) {
   for (const char* index : {"3", "9", "-1", "4294967298", "1.5"}) {
     EXPECT_TRUE(
         says(off_refusal(triangle_off("0 0 0", fmt::format("3 0 1 {}", index))),
@@ -158,7 +158,7 @@ TEST(Off, VerticesThatAreNotThereAreRefused) {
   }
 }
 
-TEST(Off, AFileThatIsCutOffAnywhereIsRefused) {
+TEST(Off, AFileTruncatedAnywhereIsRefused) {
   const std::string text = tetrahedron_off();
   for (std::size_t size = 0; size + 1 < text.size(); ++size) {
     EXPECT_NE(off_refusal(text.substr(0, size)), "(nothing thrown)") << size;
@@ -172,7 +172,7 @@ TEST(Off, WhatFollowsTheLastFaceIsRefused) {
                    {"a.off: line 8: '3' follows the last face"}));
 }
 
-TEST(Off, AHugeCountTakesNoMemory) {
+TEST(Off, AHugeCountAllocatesNoMemory) {
   for (const char* counts : {"4000000000000 4 0", "4 4000000000000 0"}) {
     std::string message;
     const auto growth = peak_memory_growth(

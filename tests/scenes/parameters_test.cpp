@@ -20,7 +20,7 @@ const std::vector<ParameterInfo> kInfos = {
 
 Parameters with(const Given& given) { return Parameters("tree", kInfos, given); }
 
-TEST(Parameters, DefaultsStandWhereNothingIsGiven) {
+TEST(Parameters, DefaultsApplyIfNothingIsGiven) {
   const Parameters parameters = with({});
   EXPECT_EQ(parameters.integer("level"), 6);
   EXPECT_EQ(parameters.real("pad"), 0.5);
@@ -125,14 +125,14 @@ TEST(Parameters, UnknownNameListsTheValidOnes) {
                    {"null takes none"}));
 }
 
-TEST(Parameters, GivenButUnreadIsAnErrorOfTheOwner) {
+TEST(Parameters, UnreadParametersAreAnErrorOfTheOwner) {
   const Parameters parameters = with({{"level", "3"}});
   EXPECT_THROW(parameters.require_given_were_read(), std::logic_error);
   parameters.integer("level");
   EXPECT_NO_THROW(parameters.require_given_were_read());
 }
 
-TEST(Parameters, ReadingWhatWasNotDeclaredIsAnErrorOfTheOwner) {
+TEST(Parameters, ReadingUndeclaredParametersIsAnErrorOfTheOwner) {
   const Parameters parameters = with({});
   EXPECT_THROW(parameters.integer("depth"), std::logic_error);
   EXPECT_THROW(parameters.real("level"), std::logic_error);

@@ -31,7 +31,7 @@ TEST(Perturbed, KeepsPrimitivesAndTheirSurfacesInEveryCatalogueScene) {
   }
 }
 
-TEST(Perturbed, IsTheSameForASeedAndOtherwiseAnother) {
+TEST(Perturbed, DependsOnlyOnTheSeed) {
   EXPECT_EQ(scene_hash(load_scene("maceta:perturb=3")), scene_hash(load_scene("maceta:perturb=3")));
   EXPECT_NE(scene_hash(load_scene("maceta:perturb=3")), scene_hash(load_scene("maceta:perturb=4")));
   EXPECT_EQ(scene_hash(load_scene("maceta:perturb=0")), scene_hash(load_scene("maceta")));
@@ -57,7 +57,7 @@ TEST(Perturbed, KeepsTheShapeOfAnObject) {
   EXPECT_LT(moved, 0.2F * size);
 }
 
-TEST(Perturbed, LeavesFloorsWhereTheyAre) {
+TEST(Perturbed, LeavesFloorsInPlace) {
   const Scene scene = load_scene("balls:n=2");
   const Scene other = perturbed(scene, 2);
   ASSERT_EQ(other.vertices.size(), scene.vertices.size());
@@ -78,7 +78,7 @@ TEST(Perturbed, MovesCamerasOutsideAndTurnsThoseInside) {
   EXPECT_NE(turned.cameras.front().at, inside.cameras.front().at);
 }
 
-TEST(Perturbed, NamesTheSceneSoThatItIsLoadedAgain) {
+TEST(Perturbed, NamesTheSceneSoThatItCanBeReloaded) {
   const Scene scene = load_scene("escena1:perturb=2");
   EXPECT_EQ(scene.name, "escena1:seed=2001,spheres=430,perturb=2");
   EXPECT_EQ(scene_hash(load_scene(scene.name)), scene_hash(scene));
@@ -86,7 +86,7 @@ TEST(Perturbed, NamesTheSceneSoThatItIsLoadedAgain) {
   EXPECT_EQ(load_scene("maceta:perturb=0").name, "maceta");
 }
 
-TEST(Perturbed, RefusesSeedsThatAreNone) {
+TEST(Perturbed, RefusesInvalidSeeds) {
   for (const char* spec : {"maceta:perturb=-1", "maceta:perturb=x", "maceta:perturb=1,perturb=2"}) {
     EXPECT_THROW(load_scene(spec), InputError) << spec;
   }

@@ -81,7 +81,7 @@ TEST(PlanarGlass, IsOfOneTransparentSurface) {
 }
 
 // However a plane is tilted, rounding the corners of large polygons does not bend it.
-TEST(PlanarMirrors, OfTiltedPlanesAreWhole) {
+TEST(PlanarMirrors, OfTiltedPlanesAreNotSplit) {
   for (int turn = 1; turn < 40; ++turn) {
     const double angle = 0.1 * turn;
     const dvec3 u(std::cos(angle), 0.3 * std::sin(angle), std::sin(angle));

@@ -31,7 +31,7 @@ TEST(PlyRows, AnInvalidNumberIsRefusedWithItsLine) {
   EXPECT_TRUE(says(ply_refusal(triangle_ply("1e999 0 0")), {"coordinate inf", "1e9"}));
 }
 
-TEST(PlyRows, EveryWayToWriteANumberIsRead) {
+TEST(PlyRows, EveryNotationOfNumbersIsRead) {
   for (const char* word : {"0.5", ".5", "+.5", "5e-1", "5E-01", "0.50000000000000000000", "+0.5"}) {
     const auto mesh = imported(triangle_ply(fmt::format("{} 0 0", word)), "ply");
     EXPECT_EQ(triangles_of(mesh)[0][0], glm::vec3(0.5F, 0.0F, 0.0F)) << word;
@@ -48,7 +48,7 @@ TEST(PlyRows, RowsThatAreTooShortOrTooLongAreRefused) {
   EXPECT_NO_THROW(imported(triangle_ply("\n0 0 0\n", "\n\n3 0 1 2\n \n"), "ply")) << "empty lines";
 }
 
-TEST(PlyRows, VerticesThatAreNotThereAreRefused) {
+TEST(PlyRows, MissingVerticesAreRefused) {
   for (const char* index : {"3", "-1", "2147483647"}) {
     EXPECT_TRUE(says(ply_refusal(triangle_ply("0 0 0", fmt::format("3 0 1 {}", index))),
                      {"line 13: face 0: ", fmt::format("the vertex {},", index), "only 3"}));
@@ -80,7 +80,7 @@ TEST(PlyRows, AListOfNegativeLengthIsRefused) {
   }
 }
 
-TEST(PlyRows, AFileThatIsCutOffAnywhereIsRefused) {
+TEST(PlyRows, AFileTruncatedAnywhereIsRefused) {
   for (const std::string_view encoding : kPlyEncodings) {
     const std::string bytes =
         ply_file(encoding, vertices(4) + faces(4), corners() + tetrahedron_faces());
@@ -101,7 +101,7 @@ TEST(PlyRows, WhatFollowsTheLastRowIsRefused) {
   EXPECT_TRUE(says(ply_refusal(bytes + "end"), {"3 bytes follow"}));
 }
 
-TEST(PlyRows, AHugeCountTakesNoMemory) {
+TEST(PlyRows, AHugeCountAllocatesNoMemory) {
   for (const std::string_view encoding : kPlyEncodings) {
     for (const char* types : {"uchar int", "uint int"}) {
       for (const std::string& declarations :

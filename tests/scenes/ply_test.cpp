@@ -53,7 +53,7 @@ TEST(Ply, ListsAreOfEveryType) {
 }
 
 /// trimesh issue 724: another element's row became a vertex.
-TEST(Ply, OtherElementsAndPropertiesAreSkippedWhereverTheyStand) {
+TEST(Ply, OtherElementsAndPropertiesAreSkippedAnywhere) {
   const std::string camera =
       "element camera 2\nproperty double view\nproperty list ushort short p\n";
   const std::vector<PlyRow> camera_rows = {
@@ -131,7 +131,7 @@ TEST(Ply, TrianglesOfStripsWithoutAreaAreLeftOutAndCounted) {
 }
 
 /// Assimp issue 2864: the file was refused.
-TEST(Ply, AFaceWithoutVerticesIsNone) {
+TEST(Ply, AFaceWithoutVerticesIsIgnored) {
   for (const std::string_view encoding : kPlyEncodings) {
     const auto mesh = imported(
         ply_file(encoding, vertices(4) + faces(5),
@@ -154,7 +154,7 @@ TEST(Ply, FacesOfOneOrTwoVerticesAreLeftOutAndCounted) {
   EXPECT_TRUE(says(mesh.warnings[0], {"2 points and lines"}));
 }
 
-TEST(Ply, PolygonsAreTriangulatedAsThoseOfObjFiles) {
+TEST(Ply, PolygonsAreTriangulatedAsInObjFiles) {
   const std::string places = "0 0 0\n4 0 0\n4 4 0\n2 1 0\n0 4 0\n";
   const std::string ply =
       ply_file("ascii", vertices(5) + faces(2), {}) + places + "5 0 1 2 3 4\n4 3 2 1 0\n";
@@ -165,7 +165,7 @@ TEST(Ply, PolygonsAreTriangulatedAsThoseOfObjFiles) {
 // The header
 
 /// Assimp issues 4866 and 819: z was 0, or the file was refused.
-TEST(Ply, CommentsAndBlanksMayStandAnywhereInTheHeader) {
+TEST(Ply, CommentsAndBlanksMayAppearAnywhereInTheHeader) {
   const std::string declarations =
       "comment a\nobj_info b\nelement  vertex\t4 \ncomment element face 9\n\n"
       "  property float x\ncomment between\nobj_info\nproperty\tfloat  y\n \t\nproperty float z\n"
@@ -184,7 +184,7 @@ TEST(Ply, CommentsAndBlanksMayStandAnywhereInTheHeader) {
   }
 }
 
-TEST(Ply, TheFormatMayStandAnywhereInTheHeader) {
+TEST(Ply, TheFormatMayAppearAnywhereInTheHeader) {
   const std::string text = tetrahedron_ply();
   const std::string format = "format ascii 1.0\n";
   const std::string without = with_count(text, format, "");
@@ -257,7 +257,7 @@ TEST(Ply, AWrongHeaderIsRefusedWithItsLine) {
                    {"the file ends before 'end_header'"}));
 }
 
-TEST(Ply, APointCloudIsRefusedInWordsOfOurOwn) {
+TEST(Ply, APointCloudIsRefusedWithItsOwnMessage) {
   for (const std::string_view encoding : kPlyEncodings) {
     for (const std::string& declarations : {vertices(4), vertices(4) + faces(0)}) {
       EXPECT_TRUE(says(ply_refusal(ply_file(encoding, declarations, corners())),

@@ -14,7 +14,7 @@ namespace {
 
 using namespace std::string_literals;
 
-TEST(Printable, LeavesTextAsItIs) {
+TEST(Printable, LeavesPrintableTextUnchanged) {
   for (const std::string_view text :
        {"", "tetra:n=2", "C\xC3\xA1mara", "\xE6\xBC\xA2\xF0\x9F\x8E\xB2", "back\\slash", "\\x1b",
         "\"quoted\" 'twice'"}) {
@@ -30,7 +30,7 @@ TEST(Printable, EscapesBytesThatAreNotUtf8) {
   EXPECT_EQ(printable("\xF4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80") << "beyond Unicode";
 }
 
-TEST(Printable, EscapesWhatTerminalsActUpon) {
+TEST(Printable, EscapesControlSequences) {
   EXPECT_EQ(printable("\033[31mred\r\n\t\x07"), "\\x1b[31mred\\x0d\\x0a\\x09\\x07");
   EXPECT_EQ(printable("\0\x7F"s), "\\x00\\x7f");
   EXPECT_EQ(printable("\xC2\x9B"), "\\xc2\\x9b") << "C1";
@@ -61,7 +61,7 @@ TEST(MessageLine, KeepsBothEndsOfALongMessage) {
   EXPECT_NE(line.find(" ... "), std::string::npos);
 }
 
-TEST(MessageLine, IsWhatErrorsHold) {
+TEST(MessageLine, IsStoredInErrors) {
   EXPECT_STREQ(InputError("no scene '\033]0;title\x07\xFF'").what(),
                "no scene '\\x1b]0;title\\x07\\xff'");
   EXPECT_STREQ(PluginError("two\nlines").what(), "two lines");

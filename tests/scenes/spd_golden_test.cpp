@@ -78,7 +78,7 @@ class SpdOutput : public testing::TestWithParam<Golden> {
   Scene ours_ = load_scene(GetParam().spec);
 };
 
-TEST_P(SpdOutput, HasOurPrimitives) {
+TEST_P(SpdOutput, MatchesOurPrimitives) {
   const Golden& golden = GetParam();
   ASSERT_GE(printed_.primitives.size(), 8U) << "the golden file is cut short";
   if (golden.whole) {
@@ -107,7 +107,7 @@ TEST_P(SpdOutput, HasOurPrimitives) {
   }
 }
 
-TEST_P(SpdOutput, HasOurCameraLightsAndBackground) {
+TEST_P(SpdOutput, MatchesOurCameraLightsAndBackground) {
   const Camera& a = ours_.cameras.front();
   const Camera& b = printed_.cameras.front();
   for (int axis = 0; axis < 3; ++axis) {

@@ -221,7 +221,7 @@ TEST(Gears, FacesAreConcaveAndLookOutward) {
   }
 }
 
-TEST(Gears, TeethReachBetweenTheNeighborsTeeth) {
+TEST(Gears, TeethMeshWithTheNeighborsTeeth) {
   const Scene scene = load_scene("gears:n=2");
   const double radius = 1.0 / 1.95;
   const auto left = corners_of(scene, scene.polygons[1]);         // at x = 0, y = 0
@@ -282,7 +282,7 @@ TEST(Rings, PentagonsAreRegularAndFillAUnitSphere) {
   EXPECT_NEAR(nearest, 2.0 * circle * std::sin(std::acos(-1.0) / 10.0), 1e-6);
 }
 
-TEST(Tree, BranchesGrowOutOfTheirParentsEnds) {
+TEST(Tree, BranchesGrowFromTheirParentsEnds) {
   const Scene scene = load_scene("tree:n=3");
   const auto less = [](const glm::vec3& a, const glm::vec3& b) {
     return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};

@@ -75,7 +75,7 @@ RC_GTEST_PROP(SpecList, IsTheInverseOfJoining, ()) {
   RC_ASSERT(parsed == expected);
 }
 
-TEST(NearestName, IsTheOneWithFewestEdits) {
+TEST(NearestName, IsTheOneWithTheFewestEdits) {
   const std::vector<std::string> names = {"balls", "bumpy", "tetra"};
   EXPECT_EQ(nearest_name("ball", names), "balls");
   EXPECT_EQ(nearest_name("tetera", names), "tetra");
@@ -83,14 +83,14 @@ TEST(NearestName, IsTheOneWithFewestEdits) {
   EXPECT_EQ(nearest_name("x", {}), "");
 }
 
-TEST(NearestName, IsEmptyWhereNoneIsNear) {
+TEST(NearestName, IsEmptyIfNoneIsClose) {
   const std::vector<std::string> names = {"samet", "samet-net", "sah-bvh"};
   EXPECT_EQ(nearest_name("tinybvh", names), "");
   EXPECT_EQ(did_you_mean("tinybvh", names), "");
   EXPECT_EQ(did_you_mean("smet", names), "did you mean 'samet'? ");
 }
 
-TEST(NearestName, IsWhatOthersCallByThatWord) {
+TEST(NearestName, IsTheEquivalentOfAForeignName) {
   const std::vector<std::string> structures = {"exhaustive", "samet",   "samet-net", "voxel-grid",
                                                "beam",       "sah-bvh", "tile-beam"};
   EXPECT_EQ(nearest_name("bvh", structures), "sah-bvh");
@@ -106,13 +106,13 @@ TEST(NearestName, IsWhatOthersCallByThatWord) {
 }
 
 // `picture` is a command to some and a kind of rays to others.
-TEST(NearestName, IsTheMeaningThatIsAmongTheNames) {
+TEST(NearestName, IsTheMeaningAmongTheNames) {
   EXPECT_EQ(nearest_name("picture", std::vector<std::string>{"render", "run"}), "render");
   EXPECT_EQ(nearest_name("picture", std::vector<std::string>{"primary", "whitted"}), "whitted");
 }
 
 // max is part of two names, and neither is meant.
-TEST(NearestName, IsNoneOfSeveralThatTheWordIsAPartOf) {
+TEST(NearestName, IsEmptyIfSeveralNamesContainTheWord) {
   EXPECT_EQ(nearest_name("max", std::vector<std::string>{"max_level", "max_objects"}), "");
 }
 

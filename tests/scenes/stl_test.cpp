@@ -105,7 +105,7 @@ TEST(Stl, AttributesOfFacetsAreSkipped) {
 }
 
 /// numpy-stl issue 37: half of the loop was lost.
-TEST(Stl, ALoopOfOtherThanThreeVerticesIsRefused) {
+TEST(Stl, ALoopWithoutThreeVerticesIsRefused) {
   const auto solid = [](const std::string& loop) { return "solid\n" + facet(loop) + "endsolid\n"; };
   EXPECT_TRUE(says(stl_refusal(solid("vertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 0\n")),
                    {"a.stl: line 7: ", "more than three vertices", "triangles"}));
@@ -141,7 +141,7 @@ TEST(Stl, WordsOutOfPlaceAreRefusedWithTheirLine) {
   EXPECT_TRUE(says(stl_refusal(one_facet() + "more"), {"line 10: found 'more' where 'solid'"}));
 }
 
-TEST(Stl, ATextThatIsCutOffAnywhereIsRefused) {
+TEST(Stl, ATextTruncatedAnywhereIsRefused) {
   const std::string text = one_facet();
   const std::size_t end = text.find("endsolid") + std::string("endsolid").size();
   for (std::size_t size = 0; size < end; ++size) {
@@ -159,7 +159,7 @@ TEST(Stl, ABinaryFileOfAnotherLengthIsRefused) {
   EXPECT_TRUE(says(stl_refusal("solid" + bytes.substr(5) + "\n"), {"284 bytes", "has 285"}));
 }
 
-TEST(Stl, AFileWithoutFacetsIsRefusedInWordsOfOurOwn) {
+TEST(Stl, AFileWithoutFacetsIsRefusedWithItsOwnMessage) {
   std::string bytes(80, ' ');
   tests::put(bytes, std::uint32_t{0});
   for (const std::string& none : {bytes, std::string("solid a\nendsolid a\n")}) {

@@ -135,14 +135,14 @@ TEST(Triangulate, HoleJoinedByABridgeIsTiled) {
   EXPECT_DOUBLE_EQ(sum, 2.0 * (9.0 - 1.0));
 }
 
-TEST(Triangulate, NothingComesBackWithoutArea) {
+TEST(Triangulate, PolygonsWithoutAreaYieldNoTriangles) {
   EXPECT_TRUE(triangulate(Corners{}).empty());
   EXPECT_TRUE(triangulate(Corners{{0, 0, 0}, {1, 1, 1}}).empty());
   EXPECT_TRUE(triangulate(Corners{{0, 0, 0}, {1, 1, 1}, {3, 3, 3}}).empty());
   EXPECT_TRUE(triangulate(Corners{{2, 2, 2}, {2, 2, 2}, {2, 2, 2}, {2, 2, 2}}).empty());
 }
 
-TEST(Triangulate, PolygonThatCrossesItselfStillEnds) {
+TEST(Triangulate, SelfIntersectingPolygonTerminates) {
   const Corners bow = {{0, 0, 0}, {3, 3, 0}, {3, 0, 0}, {0, 2, 0}};
   EXPECT_LE(triangulate(bow).size(), 2U);
   Random random(7);
@@ -208,7 +208,7 @@ Triangles triangulate_by_looking_at_all(const Corners& corners) {
   return triangles;
 }
 
-TEST(Triangulate, TheSearchForEarsChangesNoTriangle) {
+TEST(Triangulate, TheSearchForEarsDoesNotChangeTheTriangles) {
   std::size_t compared = 0;
   for (std::uint64_t seed = 0; seed < 600; ++seed) {
     SCOPED_TRACE(seed);

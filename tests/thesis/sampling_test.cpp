@@ -30,7 +30,7 @@ class Sampling : public ::testing::Test {
   accel::PrimaryRays rays_{scene_.cameras.front(), 60, 48, 25};
 };
 
-TEST_F(Sampling, AllSamplesMakeTheUniformPicture) {
+TEST_F(Sampling, AllSamplesYieldTheUniformPicture) {
   accel::HitBuffer hits(60, 48, 25);
   tracer_.closest_hits(rays_, hits, {});
   const render::Image uniform = render::shade(scene_, rays_, hits, render::Shading::kPreview);
@@ -52,7 +52,7 @@ TEST_F(Sampling, ImageSpaceTakesMoreWhereThePictureChanges) {
   EXPECT_EQ(counts.front(), 1.0F) << "a corner of nothing but background";
 }
 
-TEST_F(Sampling, MoreRaysMakeABetterPictureByEveryMethod) {
+TEST_F(Sampling, MoreRaysImproveThePictureByEveryMethod) {
   base::Progress progress(sampling_steps());
   const rays::ImageOfRays image{scene_.cameras.front(), {60, 48}, 1};
   const auto results = compare_sampling(tracer_, scene_, image, 1, progress);

@@ -192,9 +192,9 @@ void expect_right_views(std::uint64_t exhibits) {
 }
 
 // In full, ten thousand views.
-TEST(BackfaceCulling, IsSeenInNoView) { expect_right_views(tests::in_full(400, 120)); }
+TEST(BackfaceCulling, IsInvisibleInEveryView) { expect_right_views(tests::in_full(400, 120)); }
 
-TEST(BackfaceCulling, IsSeenOnNoInstructionSet) {
+TEST(BackfaceCulling, IsInvisibleOnEveryInstructionSet) {
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     SCOPED_TRACE(hwy::TargetName(target));
     const tests::OnlyTarget only(target);

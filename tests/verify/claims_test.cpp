@@ -95,7 +95,7 @@ const std::vector<Form>& forms() {
 bool names_triangles(const Form& form) { return form.name.find("triangle") != std::string::npos; }
 bool names_ids(const Form& form) { return form.name.find(',') != std::string::npos; }
 
-TEST(Claims, RightHitsPassInEveryForm) {
+TEST(Claims, CorrectHitsPassInEveryForm) {
   for (const char* name : {"teapot:n=3", "gears:n=2", "balls:n=2", "tree:n=3", "tetra:n=3"}) {
     const Traced traced(scenes::load_scene(name));
     for (const Form& form : forms()) {
@@ -162,7 +162,7 @@ TEST(Claims, PlantedFaultsAreFoundInEveryForm) {
   }
 }
 
-TEST(Claims, AHitWhereThereIsNoneIsFound) {
+TEST(Claims, AnInventedHitIsFound) {
   const Traced traced(scenes::load_scene("tetra:n=3"));
   std::size_t miss = 0;
   while (traced.hits.occluded[miss] != 0) ++miss;
@@ -224,7 +224,7 @@ TEST(Claims, PartsAddUpToTheWhole) {
   EXPECT_EQ(observed.size(), whole.rays - whole.count(DiffClass::kAgree));
 }
 
-TEST(Claims, WhatNoHitCanBeIsRefusedWithItsIndex) {
+TEST(Claims, ImpossibleHitsAreRefusedWithTheirIndex) {
   const Traced traced(scenes::load_scene("tetra:n=2"));
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
   const auto refusal = [&](const std::function<void(HitTable&)>& spoil, const Form& form) {
@@ -276,7 +276,7 @@ TEST(Claims, WhatNoHitCanBeIsRefusedWithItsIndex) {
   EXPECT_THROW(verifier.add(rays, {.t = traced.hits.t}), InvalidClaim);
 }
 
-TEST(Claims, ArraysThatDoNotGoTogetherAreRefused) {
+TEST(Claims, InconsistentArraysAreRefused) {
   const Traced traced(scenes::load_scene("tetra:n=2"));
   const HitTable& h = traced.hits;
   ClaimVerifier verifier(traced.scene);
@@ -292,7 +292,7 @@ TEST(Claims, ArraysThatDoNotGoTogetherAreRefused) {
 
 // The ray just misses an upright triangle, which the program reports as hit. Behind it, at grazing
 // incidence, the ray meets a horizontal triangle, whose plane nearly contains the claimed point.
-TEST(Claims, APlaceFarBesideThePrimitiveInItsPlaneIsNotOnIt) {
+TEST(Claims, APointInThePlaneButFarFromThePrimitiveIsNotOnIt) {
   scenes::SceneBuilder builder("level and upright");
   const glm::dvec3 level[] = {{5, 0, -2}, {9, 0, 0}, {5, 0, 2}};
   const glm::dvec3 upright[] = {{1, -1, 5e-7}, {1, 1, 5e-7}, {1, 0, 1}};
@@ -310,7 +310,7 @@ TEST(Claims, APlaceFarBesideThePrimitiveInItsPlaneIsNotOnIt) {
 }
 
 // A program that computes points in double may place them one rounding before t_min.
-TEST(Claims, APointAtTheBeginningOfTheRayIsInTheInterval) {
+TEST(Claims, APointAtTheStartOfTheRayIsInTheInterval) {
   const Traced traced(scenes::load_scene("tetra:n=2"));
   const std::size_t i = clear_hit(traced);
   accel::Ray ray = traced.rays[i];

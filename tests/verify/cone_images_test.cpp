@@ -160,7 +160,7 @@ bool is_possible(const scenes::Camera& camera) {
 
 class ConeImages : public ::testing::TestWithParam<std::size_t> {};
 
-TEST_P(ConeImages, AreRightFromEverywhere) {
+TEST_P(ConeImages, AreCorrectFromEverywhere) {
   const Shape& shape = shapes()[GetParam()];
   Tally tally;
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
@@ -196,7 +196,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, ConeImages, ::testing::Range(std::size_t{0}, sh
                          });
 
 /// Float decides nearly all samples: the canonical test takes fifty times as long.
-TEST(ConeImages, AreSeldomDoubtful) {
+TEST(ConeImages, AreRarelyDoubtful) {
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     SCOPED_TRACE(hwy::TargetName(target));
     const tests::OnlyTarget only(target);

@@ -34,7 +34,7 @@ accel::HitBuffer traced(const std::string& structure, const scenes::Scene& scene
   return buffer;
 }
 
-TEST(Oracle, GivesTheExactAnswer) {
+TEST(Oracle, ReturnsTheExactAnswer) {
   std::uint64_t rays = 0;
   std::uint64_t not_equal = 0;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
@@ -171,7 +171,7 @@ class FaultyBuffer : public ::testing::Test {
   accel::HitBuffer buffer_ = traced("exhaustive", scene_, rays_);
 };
 
-TEST_F(FaultyBuffer, NoneIsFoundWhereNoneIs) {
+TEST_F(FaultyBuffer, CorrectBufferHasNoFaults) {
   const DiffReport report = verified();
   EXPECT_EQ(report.verdict, Verdict::kOk);
   EXPECT_EQ(report.count(DiffClass::kAgree), report.rays);
@@ -213,12 +213,12 @@ TEST_F(FaultyBuffer, FartherPrimitiveBehindTheRightOne) {
   expect_structure_error();
 }
 
-TEST_F(FaultyBuffer, HitWhereThereIsNone) {
+TEST_F(FaultyBuffer, InventedHit) {
   buffer_.set(on_wall(), accel::Hit{4.0F, kTile});
   expect_structure_error();
 }
 
-TEST_F(FaultyBuffer, RightPlaceWithTheWrongPrimitive) {
+TEST_F(FaultyBuffer, RightPointWithTheWrongPrimitive) {
   buffer_.set(on_tile(), accel::Hit{buffer_.get(on_tile())->t, kSphere});
   expect_structure_error();
 }
@@ -258,7 +258,7 @@ TEST_F(FaultyBuffer, InvalidAnswers) {
   EXPECT_EQ(verified().verdict, Verdict::kOk);
 }
 
-TEST_F(FaultyBuffer, ErrorOfTheOracleIsNotTheStructures) {
+TEST_F(FaultyBuffer, ErrorOfTheOracleIsNotAttributedToTheStructure) {
   std::vector<std::optional<accel::oracle::ExactHit>> hits(reference_.hits().begin(),
                                                            reference_.hits().end());
   hits[on_tile()] = std::nullopt;
@@ -283,7 +283,7 @@ TEST_F(FaultyBuffer, DescriptionNamesPixelRayBothHitsAndTheExactAnswer) {
   EXPECT_NE(text.find("lost"), std::string::npos) << text;
 }
 
-TEST_F(FaultyBuffer, ManyAreAllCountedAndAFewShown) {
+TEST_F(FaultyBuffer, AllAreCountedAndAFewShown) {
   for (std::size_t i = 0; i < buffer_.size(); ++i) buffer_.set(i, std::nullopt);
   const DiffReport report = verified();
   EXPECT_EQ(report.verdict, Verdict::kMismatch);
@@ -293,13 +293,13 @@ TEST_F(FaultyBuffer, ManyAreAllCountedAndAFewShown) {
   EXPECT_EQ(report.examples.front().diff_class, DiffClass::kStructureError);
 }
 
-TEST_F(FaultyBuffer, BufferOfAnotherSizeIsAMistakeOfTheCaller) {
+TEST_F(FaultyBuffer, BufferOfAnotherSizeIsACallersError) {
   EXPECT_THROW(
       verify_results(reference_, accel::HitBuffer(64, 65, 1), accel::Conformance::kTolerance),
       std::logic_error);
 }
 
-TEST_F(FaultyBuffer, BaselineMustBeSilent) {
+TEST_F(FaultyBuffer, BaselineMustReportOnlyMisses) {
   EXPECT_EQ(verify_results(reference_, buffer_, accel::Conformance::kBaseline).verdict,
             Verdict::kMismatch);
   const DiffReport silent =
@@ -456,7 +456,7 @@ TEST_F(EndsAtASurface, AnyHitLostFartherBeforeIsAnError) {
 }
 
 // Surfaces beyond one end excuse neither a hit on the way nor one beyond the other end.
-TEST_F(EndsAtASurface, AnotherHitThatIsLostIsAnError) {
+TEST_F(EndsAtASurface, LosingAnotherHitIsAnError) {
   for (const Place& place : kPlaces) {
     SCOPED_TRACE(place.kind);
     for (const double tolerances : {0.5, -0.5}) {

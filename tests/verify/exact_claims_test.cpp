@@ -210,7 +210,7 @@ class Comparison {
 
 class ExactClaims : public ::testing::TestWithParam<Family> {};
 
-TEST_P(ExactClaims, JudgeAcceptsRightOnesAndRefusesWrongOnes) {
+TEST_P(ExactClaims, JudgeAcceptsCorrectClaimsAndRefusesWrongOnes) {
   const std::uint64_t wanted =
       tests::number_from("BEAMBENCH_EXACT_CLAIMS", 26'000) / std::size(kFamilies);
   const std::uint64_t first = tests::number_from("BEAMBENCH_EXACT_SEED", 1) * 10'000'000;

@@ -82,7 +82,7 @@ bool is_near_by_trial(const Cone& cone, const ExactRay& ray, double within, Rand
   return false;
 }
 
-TEST(ExactDistances, ConesHaveNoBoundaryWhereItIsRuledOut) {
+TEST(ExactDistances, ConesHaveNoBoundaryWhereItIsExcluded) {
   int far = 0;
   int near = 0;
   int open = 0;

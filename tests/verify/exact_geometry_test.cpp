@@ -83,7 +83,7 @@ TEST_F(ExactGeometry, OnARayAlongTheAxisTheApexIsMetTwice) {
   EXPECT_EQ(met, 2);
 }
 
-TEST_F(ExactGeometry, IntervalTakesTheNearestFloat) {
+TEST_F(ExactGeometry, IntervalUsesTheNearestFloat) {
   const float t = 1.0F / 3.0F;
   // The ray meets the square at exactly t = 1; the interval ends one unit before it, and so on.
   const glm::vec3 origin(0.25F, 1.0F, 0.125F);
@@ -123,7 +123,7 @@ TEST_F(ExactGeometry, ARayInThePlaneOfAPolygonDoesNotCrossIt) {
   EXPECT_TRUE(wrong(in_plane, accel::Hit{1.0F, 0})) << "before the square";
 }
 
-TEST_F(ExactGeometry, MovedHitsAreRightWithinAQuarterAndWrongBeyondFour) {
+TEST_F(ExactGeometry, MovedHitsAreCorrectWithinAQuarterAndWrongBeyondFour) {
   // At the square |x| = 0.25 and |o| = 7.75: u counts 8 lengths.
   const accel::Ray down = ray({0.25F, 7.746F, 0.0F}, {0.0F, -1.0F, 0.0F}, 5.75F);
   for (const double units : {-0.2, 0.0, 0.2}) {
@@ -139,7 +139,7 @@ TEST_F(ExactGeometry, MovedHitsAreRightWithinAQuarterAndWrongBeyondFour) {
 }
 
 // The surface of a flat cone, extended beyond its rim, stays close to the ray for a long distance.
-TEST(ExactCones, APlaceBesideTheRimOfAFlatConeIsNotRight) {
+TEST(ExactCones, APointOutsideTheRimOfAFlatConeIsWrong) {
   scenes::SceneBuilder builder("flat");
   builder.add_cone({-0.868675351, 0, 0.27275753}, 0.0488567129,
                    {-0.868675351, 7.11437388e-05, 0.27275753}, 0);
@@ -156,7 +156,7 @@ TEST(ExactCones, APlaceBesideTheRimOfAFlatConeIsNotRight) {
   EXPECT_TRUE(right({-0.868675351F, 0.25F, 0.25F}, 1.0F)) << "0.25 above the surface";
 }
 
-TEST_F(ExactGeometry, WhatLiesBehindAClearHitIsWrong) {
+TEST_F(ExactGeometry, HitsBehindAClearHitAreWrong) {
   const accel::Ray down = ray({0.25F, 4.5F, 0.125F}, {0.0F, -1.0F, 0.0F});
   EXPECT_TRUE(wrong(down, accel::Hit{4.5F, 0}));
   EXPECT_TRUE(wrong(down, std::nullopt));
@@ -168,7 +168,7 @@ TEST_F(ExactGeometry, WhatLiesBehindAClearHitIsWrong) {
   EXPECT_TRUE(wrong(down, accel::Hit{static_cast<float>(second), 1}));
 }
 
-TEST_F(ExactGeometry, BehindAGrazedHitEverythingIsJudgedAsAlways) {
+TEST_F(ExactGeometry, HitsBehindAGrazedHitAreJudgedAsUsual) {
   // Just outside the sphere's silhouette, then clearly through the square.
   const accel::Ray down = ray({1.0F, 4.5F, 0.0F}, {-0x1p-40F, -1.0F, 0.0F});
   EXPECT_TRUE(right(down, accel::Hit{4.5F, 0}));

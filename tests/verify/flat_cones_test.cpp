@@ -74,7 +74,7 @@ class FlatCone : public ::testing::TestWithParam<double> {
   scenes::Scene scene_ = ring(0.0, GetParam());
 };
 
-TEST_P(FlatCone, IsHitAsTheRingThatItIs) {
+TEST_P(FlatCone, IsHitLikeARing) {
   const double tolerance = 1e-5 + 2.0 * height();
   for (const std::string kind : {"primary", "random"}) {
     const rays::TraceInput input = rays_over(scene_, kind, 64);

@@ -105,7 +105,7 @@ TEST(EndsOfRays, ALightOnASurfaceShines) {
   expect_right(empty, rays, {"exhaustive", "samet", "kd-tree", "sah-bvh", "embree", "tile-beam"});
 }
 
-TEST(EndsOfRays, StructuresAreRightAboutALightOnASurface) {
+TEST(EndsOfRays, StructuresAreCorrectForALightOnASurface) {
   const scenes::Scene scene = room_lit_from_its_ceiling(true);
   const rays::TraceInput rays = made_rays(scene, "shadow", 65);
   const auto answers = std::get<rays::AnyHits>(results_of(scene, rays, "exhaustive"));
@@ -229,7 +229,7 @@ TEST(Tolerances, AreNotThoseOfAHugeFloor) {
   }
 }
 
-TEST(Grazes, DoNotExcuseWhatLiesBehind) {
+TEST(Grazes, DoNotExcuseHitsBehindThem) {
   scenes::SceneBuilder builder("three");
   const dvec3 triangle[] = {{0.0, -1.0, 2.0}, {1.0, 0.0, 2.0}, {0.0, 1.0, 2.0}};
   builder.add_polygon(triangle);
@@ -257,7 +257,7 @@ scenes::Scene stack_of_triangles() {
   return std::move(builder).build();
 }
 
-TEST(ShortAndLongDirections, AreJudgedAlike) {
+TEST(ShortAndLongDirections, AreJudgedEqually) {
   const scenes::Scene scene = stack_of_triangles();
   for (int exponent = -99; exponent <= 29; ++exponent) {
     SCOPED_TRACE(exponent);
@@ -349,7 +349,7 @@ scenes::Scene with_lights_at_surfaces(std::uint64_t seed) {
   return lit;
 }
 
-TEST(RandomScenes, NoStructureIsWrongWithLightsAtSurfaces) {
+TEST(RandomScenes, StructuresAreCorrectWithLightsAtSurfaces) {
   const std::uint64_t scenes = tests::number_from("BEAMBENCH_JUDGE_SCENES", 150);
   std::uint64_t rays = 0;
   for (std::uint64_t seed = 0; seed < scenes && !HasFailure(); ++seed) {

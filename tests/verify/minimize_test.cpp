@@ -63,7 +63,7 @@ class Minimize : public ::testing::Test {
   rays::TraceInput list_ = as_list(primary_rays(scene_));
 };
 
-TEST_F(Minimize, OnePrimitiveAndOneRayAreLeft) {
+TEST_F(Minimize, OnePrimitiveAndOneRayRemain) {
   const MinimalCase found =
       reduced(scene_, list_, losing([](auto&, auto&, auto&, std::size_t) { return true; }));
   EXPECT_EQ(found.primitives.size(), 1U);
@@ -72,7 +72,7 @@ TEST_F(Minimize, OnePrimitiveAndOneRayAreLeft) {
   EXPECT_EQ(found.mismatch.diff_class, DiffClass::kStructureError);
 }
 
-TEST_F(Minimize, AsManyPrimitivesAreLeftAsTheFaultTakes) {
+TEST_F(Minimize, AsManyPrimitivesRemainAsTheFaultNeeds) {
   const MinimalCase found =
       reduced(scene_, list_, losing([](const scenes::Scene& scene, auto&, auto&, std::size_t) {
                 return scene.primitives.size() >= 5;
@@ -82,7 +82,7 @@ TEST_F(Minimize, AsManyPrimitivesAreLeftAsTheFaultTakes) {
   EXPECT_EQ(found.input.size(), 1U);
 }
 
-TEST_F(Minimize, AsManyRaysAreLeftAsTheFaultTakes) {
+TEST_F(Minimize, AsManyRaysRemainAsTheFaultNeeds) {
   const MinimalCase found =
       reduced(scene_, list_, losing([](auto&, const rays::TraceInput& input, auto&, std::size_t) {
                 return input.size() >= 3;
@@ -91,7 +91,7 @@ TEST_F(Minimize, AsManyRaysAreLeftAsTheFaultTakes) {
   EXPECT_EQ(found.primitives.size(), 1U);
 }
 
-TEST_F(Minimize, AnImageStaysWholeWhereItTakesTheImage) {
+TEST_F(Minimize, AnImageStaysWholeIfTheFaultNeedsIt) {
   const MinimalCase found = reduced(scene_, primary_rays(scene_),
                                     losing([](auto&, const rays::TraceInput& input, auto&,
                                               std::size_t) { return input.image() != nullptr; }));
@@ -100,7 +100,7 @@ TEST_F(Minimize, AnImageStaysWholeWhereItTakesTheImage) {
   EXPECT_EQ(found.primitives.size(), 1U);
 }
 
-TEST_F(Minimize, NothingIsReducedThatIsRightTheNextTime) {
+TEST_F(Minimize, FaultsThatDisappearAreNotReduced) {
   const Tracer wrong = losing([](auto&, auto&, auto&, std::size_t) { return true; });
   const DiffReport report = verify_tracer(scene_, list_, wrong);
   base::Progress progress(1);
@@ -108,7 +108,7 @@ TEST_F(Minimize, NothingIsReducedThatIsRightTheNextTime) {
       minimize(scene_, list_, report.examples.front(), wrong_by_differ(exhaustive()), progress));
 }
 
-TEST_F(Minimize, NumbersThatNoHitHasAreFaultsToo) {
+TEST_F(Minimize, ImpossibleNumbersAreAlsoFaults) {
   const Tracer wrong = [](const scenes::Scene& scene, const rays::TraceInput& input) {
     rays::HitTable hits = exhaustive()(scene, input);
     for (auto& id : hits.primitives) {
@@ -148,7 +148,7 @@ TEST_F(Minimize, TheCaseIsWrittenAndReadsBack) {
   EXPECT_EQ(json["primitives"].size(), 1U);
 }
 
-TEST(Subset, OfAllPrimitivesIsTheSceneAndOfSomeHoldsTheirBits) {
+TEST(Subset, OfAllPrimitivesIsTheSceneAndOfSomeHasTheirBits) {
   for (const char* name : {"balls:n=2", "tree:n=3", "gears:n=2", "teapot:n=2"}) {
     const scenes::Scene scene = scenes::load_scene(name);
     std::vector<scenes::PrimitiveId> all(scene.primitives.size());

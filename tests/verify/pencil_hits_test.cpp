@@ -143,7 +143,7 @@ std::vector<scenes::Light> awkward_lights(const scenes::Scene& scene, Random& ra
   return lights;
 }
 
-TEST(PencilHits, OfRandomScenesAndAwkwardLightsAreRight) {
+TEST(PencilHits, OfRandomScenesAndDifficultLightsAreCorrect) {
   std::uint64_t beams = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
@@ -156,7 +156,7 @@ TEST(PencilHits, OfRandomScenesAndAwkwardLightsAreRight) {
 }
 
 /// Balls of light that touch surfaces, enclose objects and lie inside solids.
-TEST(PencilHits, OfAreaLightsAreRight) {
+TEST(PencilHits, OfAreaLightsAreCorrect) {
   std::uint64_t beams = 0;
   for (std::uint64_t seed = 200; seed < 224; ++seed) {
     SCOPED_TRACE(seed);
@@ -209,7 +209,7 @@ std::vector<scenes::Light> lights_at_every_distance(const scenes::Scene& scene, 
 /// Returns whether the seed's scene has coordinates much larger than its size, as one in four does.
 bool is_remote(std::uint64_t seed) { return seed % 4 == 2; }
 
-TEST(PencilHits, OfLightsAtEveryDistanceAreRight) {
+TEST(PencilHits, OfLightsAtEveryDistanceAreCorrect) {
   std::uint64_t beams = 0;
   std::size_t most_lights = 0;
   for (std::uint64_t seed = 100; seed < 124; ++seed) {
@@ -225,7 +225,7 @@ TEST(PencilHits, OfLightsAtEveryDistanceAreRight) {
   EXPECT_GT(beams, 2000U);
 }
 
-TEST(PencilHits, OfLightsAtEveryDistanceFromRemoteScenesAreRight) {
+TEST(PencilHits, OfLightsAtEveryDistanceFromRemoteScenesAreCorrect) {
   std::uint64_t beams = 0;
   for (std::uint64_t seed = 102; seed < 302; seed += 4) {
     ASSERT_TRUE(is_remote(seed));
@@ -266,7 +266,7 @@ scenes::Scene grass(std::uint64_t seed) {
 // Here, float rounds positions on the side of the cube around the light to a quarter of a
 // millimeter, and rays that missed a blade by that distance were reported as shadowed: 14 with the
 // first seed. For needles, a few still are.
-TEST(PencilHits, OfSmallDetailsInLargeScenesAreRight) {
+TEST(PencilHits, OfSmallDetailsInLargeScenesAreCorrect) {
   for (const std::uint64_t seed : {1, 2}) {
     const scenes::Scene scene = grass(seed);
     const Outcome outcome =
@@ -280,7 +280,7 @@ TEST(PencilHits, OfSmallDetailsInLargeScenesAreRight) {
 
 // A triangle that a light sees almost edge-on, at a ten-thousandth of its extent, appears narrower
 // than the margin of its edges: two of 34,011 rays were reported as shadowed by it.
-TEST(PencilHits, OfTrianglesSeenEdgeOnAreRight) {
+TEST(PencilHits, OfTrianglesSeenEdgeOnAreCorrect) {
   const scenes::Scene scene = scenes::load_scene("delfines");
   const Outcome outcome = verified(scene, rays::make_trace_input(scene, image_over(scene, 320, 240),
                                                                  rays::parse_ray_choice("shadow")));
@@ -325,7 +325,7 @@ std::vector<scenes::Light> lights_on_borders(const scenes::Scene& scene, Random&
   return lights;
 }
 
-TEST(PencilHits, OfLightsOnBordersOfCellsAreRight) {
+TEST(PencilHits, OfLightsOnBordersOfCellsAreCorrect) {
   std::uint64_t beams = 0;
   for (std::uint64_t seed = 200; seed < 216; ++seed) {
     SCOPED_TRACE(seed);
@@ -341,7 +341,7 @@ TEST(PencilHits, OfLightsOnBordersOfCellsAreRight) {
   EXPECT_GT(beams, 2000U);
 }
 
-TEST(PencilHits, OfMirrorsInRandomScenesAreRight) {
+TEST(PencilHits, OfMirrorsInRandomScenesAreCorrect) {
   std::uint64_t beams = 0;
   for (std::uint64_t seed = 1; seed <= 80; ++seed) {
     SCOPED_TRACE(seed);
@@ -352,7 +352,7 @@ TEST(PencilHits, OfMirrorsInRandomScenesAreRight) {
   EXPECT_GT(beams, 150U);
 }
 
-TEST(PencilHits, OfTheCatalogueAreRight) {
+TEST(PencilHits, OfTheCatalogAreCorrect) {
   std::uint64_t beams = 0;
   for (const char* name :
        {"tetra:n=4", "tessellated-balls:slices=8", "casa-de-campo", "habitacion", "teapot",
@@ -366,7 +366,7 @@ TEST(PencilHits, OfTheCatalogueAreRight) {
   EXPECT_GT(beams, 150U);
 }
 
-TEST(PencilHits, OfEveryInstructionSetAreRight) {
+TEST(PencilHits, OfEveryInstructionSetAreCorrect) {
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     std::uint64_t beams = 0;
     SCOPED_TRACE(hwy::TargetName(target));
@@ -411,7 +411,7 @@ TEST(PencilHits, OfBundlesAreMostlyFoundOnce) {
 }
 
 // A mark that does not fit the pencils is ignored.
-TEST(PencilHits, OfMarksThatDoNotFitAreRight) {
+TEST(PencilHits, WithMismatchedMarksAreCorrect) {
   const scenes::Scene scene = scenes::load_scene("casa-de-campo");
   const rays::TraceInput input = rays::make_trace_input(scene, image_over(scene, 64, 48),
                                                         rays::parse_ray_choice("area:samples=3"));
@@ -425,7 +425,7 @@ TEST(PencilHits, OfMarksThatDoNotFitAreRight) {
   }
 }
 
-TEST(PencilHits, RaysAroundPencilsAreTracedToo) {
+TEST(PencilHits, RaysAroundPencilsAreAlsoTraced) {
   const scenes::Scene scene = scenes::load_scene("casa-de-campo");
   const rays::TraceInput input =
       rays::make_trace_input(scene, image_over(scene, 64, 48), rays::parse_ray_choice("shadow"));
@@ -436,7 +436,7 @@ TEST(PencilHits, RaysAroundPencilsAreTracedToo) {
   expect_right(verified(scene, rays::TraceInput(std::move(some))));
 }
 
-TEST(PencilHits, OfRaysWithShorterIntervalsAreRight) {
+TEST(PencilHits, OfRaysWithShorterIntervalsAreCorrect) {
   const scenes::Scene scene = scenes::load_scene("teapot");
   for (const char* kind : {"shadow", "mirror"}) {
     const rays::TraceInput input =
@@ -511,7 +511,7 @@ TEST(PencilHits, DoNotDependOnTheThreads) {
 /// Shadow rays that pass edges of triangles within several roundings, seen from a light several
 /// times as far away as the triangles are from the coordinate origin, where these roundings exceed
 /// K u.
-TEST(PencilHits, PassEdgesFarFromTheLightAsSingleRaysDo) {
+TEST(PencilHits, MatchSingleRaysAtEdgesFarFromTheLight) {
   constexpr int kScenes = 60;
   constexpr std::size_t kRays = 4096;
   Random random(7);

@@ -21,7 +21,7 @@ TEST(ShellQuoted, LeavesPlainWordsAlone) {
   EXPECT_EQ(shell_quoted("a/b.nff"), "a/b.nff");
 }
 
-TEST(ShellQuoted, GivesTheShellBackEveryCharacter) {
+TEST(ShellQuoted, PreservesEveryCharacter) {
   const TemporaryFolder folder;
   for (const std::string word :
        {"", "two words", "it's", R"($HOME `ls` "x" \ ; & | * ~ #)", "''"}) {
@@ -32,7 +32,7 @@ TEST(ShellQuoted, GivesTheShellBackEveryCharacter) {
   }
 }
 
-TEST(ShellQuoted, GivesBashBackWhatIsNotPrintable) {
+TEST(ShellQuoted, PreservesUnprintableCharactersInBash) {
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "out").string();
   for (const std::string word : {"esc\x1B[31m.nff", "C\xE1mara", "it's\n\\x41 \xFF",
@@ -45,7 +45,7 @@ TEST(ShellQuoted, GivesBashBackWhatIsNotPrintable) {
   }
 }
 
-TEST(ReplayCommand, OpensTheFileThatWasOpened) {
+TEST(ReplayCommand, OpensTheSameFile) {
   const TemporaryFolder folder;
   const std::string file =
       folder

@@ -156,7 +156,7 @@ class Trial {
   std::size_t verified_ = 0;
 };
 
-TEST(SceneFamilies, NoStructureErrs) {
+TEST(SceneFamilies, AllStructuresAreCorrect) {
   const std::uint64_t scenes = tests::number_from("BEAMBENCH_FAMILY_SCENES", 28);
   const std::uint64_t first = tests::number_from("BEAMBENCH_FAMILY_SEED", 1);
   std::size_t verified = 0;
@@ -183,7 +183,7 @@ accel::HitBuffer image_on(std::int64_t target, const std::string& name, const sc
 
 /// Compares every instruction set with every other, sample by sample: equal bits for bit-exact
 /// structures, otherwise both correct by the exact crossings.
-TEST(SceneFamilies, EveryInstructionSetReturnsTheSame) {
+TEST(SceneFamilies, EveryInstructionSetReturnsTheSameHits) {
   const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
   ASSERT_GE(targets.size(), 2U);
   std::size_t compared = 0;
@@ -227,7 +227,7 @@ TEST(SceneFamilies, EveryInstructionSetReturnsTheSame) {
   EXPECT_GT(compared, 0U) << "no two instruction sets round differently: are they different?";
 }
 
-TEST(SceneFamilies, AreTheSameForASeedAndOfTheKindsThatAreTaken) {
+TEST(SceneFamilies, AreDeterminedByTheSeedAndHaveOnlySupportedKinds) {
   for (std::uint64_t seed = 0; seed < 70; ++seed) {
     const scenes::Scene scene = family_scene(seed);
     EXPECT_EQ(scenes::scene_hash(scene), scenes::scene_hash(family_scene(seed))) << seed;

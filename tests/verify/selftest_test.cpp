@@ -147,7 +147,7 @@ accel::StructureInfo picky(PrimitiveKinds takes) {
           }};
 }
 
-TEST(Selftest, TracesThePrimitivesThatAreTaken) {
+TEST(Selftest, TracesOnlySupportedPrimitives) {
   for (const PrimitiveKinds takes :
        {PrimitiveKinds{.cones = false}, PrimitiveKinds{false, true, false},
         PrimitiveKinds{true, false, false}, PrimitiveKinds{false, false, true}}) {
@@ -178,7 +178,7 @@ TEST(Selftest, RandomScenesAreNotEmptyAndTheirRaysAreNumbers) {
   }
 }
 
-TEST(Selftest, FindsAFaultByEachCheck) {
+TEST(Selftest, DetectsAFaultInEachCheck) {
   const std::pair<const char*, Fault> expected[] = {
       {"random scenes", Fault::kNoCones},
       {"random scenes", Fault::kHighestIdAtTies},
@@ -216,7 +216,7 @@ TEST(Selftest, FindsAFaultByEachCheck) {
   }
 }
 
-TEST(Selftest, WrongHitsAreReducedToTheRayAndThePrimitivesThatTheyTake) {
+TEST(Selftest, WrongHitsAreReducedToTheNecessaryRayAndPrimitives) {
   const accel::StructureInfo info = faulty(Fault::kNoCones);
   for (const char* name : {"random scenes", "scene families", "views", "heap"}) {
     const CheckOutcome outcome = outcome_of(name, info);
@@ -248,7 +248,7 @@ TEST(Selftest, AFaultOfTheWholeImageIsReducedToItsPrimitives) {
   EXPECT_EQ(minimal->scene.primitives.size(), 1U);
 }
 
-TEST(Selftest, MoreRaysAreTracedWhereMoreAreWanted) {
+TEST(Selftest, TheNumberOfRaysIsConfigurable) {
   const accel::StructureInfo info = faulty(Fault::kNone);
   const Subject subject = subject_of(info);
   for (const Check& check : selftest_checks()) {

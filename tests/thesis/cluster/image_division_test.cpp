@@ -75,7 +75,7 @@ TEST(TileOrder, HasEveryPixelOnce) {
   }
 }
 
-TEST(TileOrder, SpreadsWhatFollowsOverTheImage) {
+TEST(TileOrder, SpreadsTheRemainingTilesOverTheImage) {
   const TileOrder order(1024, 1024, 16);
   for (std::size_t first = 0; first < order.count(); first += 64) {
     std::vector<int> in_part(16, 0);  // of 4 x 4 parts of the image

@@ -44,7 +44,7 @@ class KeptResults : public ::testing::Test {
   fs::path picture_ = place_ / "picture.png";
 };
 
-TEST_F(KeptResults, AreReadOnceAndNotWhereCutOffOrDamaged) {
+TEST_F(KeptResults, AreReadOnceUnlessTruncatedOrDamaged) {
   {
     KeptFolder folder(picture_, false);
     KeptFile first(folder.path(), 0, "key\n");
@@ -65,7 +65,7 @@ TEST_F(KeptResults, AreReadOnceAndNotWhereCutOffOrDamaged) {
   EXPECT_EQ(count(KeptFolder(picture_, true), "key\n"), 0U);
 }
 
-TEST_F(KeptResults, OfAnotherPictureAreRefusedWithWhatDiffers) {
+TEST_F(KeptResults, OfAnotherPictureAreRefusedWithTheDifference) {
   KeptFolder folder(picture_, false);
   KeptFile file(folder.path(), 0, "scene a\nimage 10x10\n");
   file.add(bytes_of("a"), {});
@@ -79,7 +79,7 @@ TEST_F(KeptResults, OfAnotherPictureAreRefusedWithWhatDiffers) {
   }
 }
 
-TEST_F(KeptResults, LeaveNoFolderWhereThereAreNone) {
+TEST_F(KeptResults, LeaveNoEmptyFolder) {
   {
     const KeptFolder folder(picture_, false);
     const KeptFile file(folder.path(), 0, "key\n");
@@ -109,7 +109,7 @@ ClusterRun run(const ClusterRequest& request, int processes) {
   return led(lead, request, network);
 }
 
-TEST_F(KeptResults, GiveTheSamePictureWhereverTheRunWasInterrupted) {
+TEST_F(KeptResults, YieldTheSamePictureAfterAnyInterruption) {
   const std::uint64_t expected =
       run(request_for(Work::kBeams, picture_, false, false), 1).result_hash;
   for (const Work work : {Work::kBeams, Work::kBlocks, Work::kTiles, Work::kInterlaced}) {

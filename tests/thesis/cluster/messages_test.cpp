@@ -84,7 +84,7 @@ void expect_same(const accel::beam::Beam& a, const accel::beam::Beam& b) {
   }
 }
 
-TEST(TaskMessage, BringsABeamBackBitForBit) {
+TEST(TaskMessage, RestoresABeamBitForBit) {
   std::size_t beams = 0;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     const scenes::Scene scene = verify::random_scene(seed, 40);
@@ -211,7 +211,7 @@ Bytes from_another_version(Bytes bytes) {
   return bytes;
 }
 
-TEST(ReadyReport, IsRefusedUnlessTheProcessIsAlike) {
+TEST(ReadyReport, IsRefusedUnlessTheProcessMatches) {
   const Identity mine{1, 2, 3, 4};
   ReadyReport ready_report{"node7", "", mine, 0.5, 100};
   const auto problem = [&](const Bytes& bytes) {
@@ -238,7 +238,7 @@ TEST(JobMessage, OfAnotherVersionIsRefused) {
             std::string::npos);
 }
 
-TEST(LookHash, SeesWhatThePictureDependsOn) {
+TEST(LookHash, DependsOnEverythingThatAffectsThePicture) {
   const scenes::Scene scene = verify::random_scene(5, 10);
   const std::uint64_t before = visible_hash(scene);
   EXPECT_EQ(visible_hash(scene), before);

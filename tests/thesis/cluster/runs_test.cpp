@@ -95,7 +95,7 @@ bool same_picture(const render::Image& a, const render::Image& b) {
   return true;
 }
 
-TEST(Cluster, FindsTheSequentialHitsWhateverTheOrderOfMessages) {
+TEST(Cluster, FindsTheSequentialHitsForAnyOrderOfMessages) {
   for (unsigned seed = 0; seed < 8; ++seed) {
     const scenes::Scene scene = verify::random_scene(seed, 40);
     const Workplace place(scene, options_with(5, seed % 2 == 0 ? 0 : 60), seed % 2 == 0 ? 1 : 5);
@@ -148,7 +148,7 @@ TEST(Cluster, MakesTheSequentialPicture) {
   }
 }
 
-TEST(Cluster, ReportsWhatEachProcessDid) {
+TEST(Cluster, ReportsTheWorkOfEachProcess) {
   const scenes::Scene scene = verify::random_scene(2, 40);
   const Workplace place(scene, options_with(5), 1);
   LocalNetwork network(3, 1, 0.0001);
@@ -183,7 +183,7 @@ ProducerOptions impatient() {
   return options;
 }
 
-TEST(Cluster, DoesWithoutAConsumerThatFallsSilent) {
+TEST(Cluster, ContinuesWithoutASilentConsumer) {
   const scenes::Scene scene = verify::random_scene(6, 60);
   const Workplace place(scene, options_with(5), 1);
   const accel::HitBuffer expected = place.sequential_hits();
@@ -203,7 +203,7 @@ TEST(Cluster, DoesWithoutAConsumerThatFallsSilent) {
   }
 }
 
-TEST(Cluster, FinishesAloneWhereAllFallSilentOrNobodyComes) {
+TEST(Cluster, FinishesAloneIfAllConsumersAreSilentOrMissing) {
   const scenes::Scene scene = verify::random_scene(6, 60);
   const Workplace place(scene, options_with(5), 1);
   const accel::HitBuffer expected = place.sequential_hits();
@@ -217,7 +217,7 @@ TEST(Cluster, FinishesAloneWhereAllFallSilentOrNobodyComes) {
   }
 }
 
-TEST(Cluster, EndsWithAnErrorWhereAProcessDoesNotFit) {
+TEST(Cluster, EndsWithAnErrorIfAProcessDoesNotMatch) {
   const scenes::Scene scene = verify::random_scene(6, 20);
   const accel::beam::BeamTracer tracer(scene, options_with(4));
   const accel::PrimaryRays rays(scene.cameras.front(), 20, 20, 1);
@@ -255,7 +255,7 @@ TEST(Cluster, RunsFromACommandLineToItsEnd) {
   EXPECT_EQ(run.ready_reports[2].identity, run.ready_reports[0].identity);
 }
 
-TEST(Cluster, FindsTheSequentialHitsHoweverTheImageIsDivided) {
+TEST(Cluster, FindsTheSequentialHitsForAnyDivisionOfTheImage) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=3");
   for (const char* structure :
        {"beam:max_level=5", "beam:max_level=5,share_corners=true,handover=40"}) {
@@ -285,7 +285,7 @@ TEST(Cluster, FindsTheSequentialHitsHoweverTheImageIsDivided) {
   }
 }
 
-TEST(Cluster, ShutsAllDownWhereTheSceneIsMissing) {
+TEST(Cluster, ShutsAllDownIfTheSceneIsMissing) {
   ClusterRequest request;
   request.job.scene = "no-such-scene";
   request.job.structure = "beam";

@@ -48,7 +48,7 @@ TEST(TaskCosts, AreReadByTheNamesOfTheirColumns) {
   EXPECT_EQ(costs.last_walk_seconds, 0.5);
 }
 
-TEST(TaskCosts, AreScaledByWhatTheWorkIs) {
+TEST(TaskCosts, AreScaledByTheWork) {
   const TaskCosts slow = slowed(two_tasks(), 10.0, 100.0);
   EXPECT_DOUBLE_EQ(slow.walk_seconds(), 10.0 * (0.1 + 0.2 + 0.4));
   EXPECT_DOUBLE_EQ(slow.work_seconds(), 100.0 * (1.0 + 2.0));
@@ -63,7 +63,7 @@ TEST(TaskCosts, HaveWholeBytesForSamples) {
   EXPECT_EQ(costs.tasks[1].task_bytes, 2U);
 }
 
-TEST(Replay, MakesTheTasksInTheirOrderAndTakesTheirTime) {
+TEST(Replay, RunsTheTasksInOrderAndTakesTheirTime) {
   const TaskCosts costs = two_tasks();
   Purse purse;
   ReplayedSource source(costs, purse.spend());
@@ -97,7 +97,7 @@ TEST(Replay, UsesTheMeasuredTimeOfEachTaskInAnyOrder) {
   EXPECT_THROW(sink.accept(results[0]), ProtocolError);  // came before
 }
 
-TEST(Replay, RefusesATaskThatIsNone) {
+TEST(Replay, RefusesAnInvalidTask) {
   const TaskCosts costs = two_tasks();
   ReplayedWorker worker(costs, [](double) {});
   Bytes result;
@@ -107,7 +107,7 @@ TEST(Replay, RefusesATaskThatIsNone) {
   EXPECT_THROW(worker.perform(Bytes(2), result, [] {}), ProtocolError);
 }
 
-TEST(Replay, SendsWhatWasPlannedAndFirstSpendsThePrePass) {
+TEST(Replay, SendsThePlanAfterThePrePass) {
   TaskCosts costs = two_tasks();
   costs.tasks.push_back({0.3, 3.0, 0.03, 10, 11, 5});
   Purse purse;
@@ -120,7 +120,7 @@ TEST(Replay, SendsWhatWasPlannedAndFirstSpendsThePrePass) {
   EXPECT_EQ(purse.spent, (std::vector<double>{7.0, 0.3, 0.1, 0.2, 0.4}));
 }
 
-TEST(Replay, OfARangeOfTilesAddsUpWhatEachOfThemTook) {
+TEST(Replay, OfARangeOfTilesSumsTheirTimes) {
   const TaskCosts sent = merged(two_tasks(), {{0, 1}}, false);
   ASSERT_EQ(sent.tasks.size(), 1U);
   EXPECT_DOUBLE_EQ(sent.work_seconds(), 3.0);
@@ -141,7 +141,7 @@ TEST(Replay, NeedsEstimatesForSharesOfEqualCost) {
   EXPECT_EQ(planned(ImageDivision::kEqualCost, costs, 2), (std::vector<Share>{{1}, {0}}));
 }
 
-TEST(ChargedTransport, IsPaidForBySenderAndReceiverAndForLooks) {
+TEST(ChargedTransport, ChargesSenderReceiverAndPolling) {
   LocalNetwork network(2, 1, 0.0);
   Purse sender;
   Purse receiver;

@@ -133,7 +133,7 @@ SceneWithRays ties_across_a_border() {
   return made;
 }
 
-TEST(PartTracer, GivesTiesToTheLowestIdOfTheWholeScene) {
+TEST(PartTracer, ResolvesTiesByTheLowestIdOfTheWholeScene) {
   for (const int processes : {2, 3, 5}) {
     expect_the_hits_of_one_process(ties_across_a_border(), 2, processes);
   }
@@ -232,7 +232,7 @@ void expect_the_answers_of_one_process(const SceneWithRays& given, int level, in
   }
 }
 
-TEST(DividedScene, GivesTheHitsOfOneProcess) {
+TEST(DividedScene, FindsTheHitsOfOneProcess) {
   for (const int processes : {1, 2, 5}) {
     expect_the_answers_of_one_process(ties_across_a_border(), 2, processes);
     expect_the_answers_of_one_process(verify::cubes_on_a_lattice(), 3, processes);
@@ -284,7 +284,7 @@ TEST(SplitLight, IsThatOfOneProcessBitForBit) {
   EXPECT_GT(hidden, 1000U);
 }
 
-TEST(SplitLight, IsThatOfOneProcessInScenesThatLookForTrouble) {
+TEST(SplitLight, IsThatOfOneProcessInDifficultScenes) {
   for (unsigned seed = 0; seed < 2 * verify::kSceneFamilies.size(); ++seed) {
     expect_the_picture_of_one_process(drawing_of(verify::family_scene(seed), 40, 30, 1), 3, seed);
   }
@@ -308,7 +308,7 @@ TEST(SplitLight, RunsFromACommandLineToItsEnd) {
   EXPECT_GT(run.shading_bytes, 0U);
 }
 
-TEST(SplitLight, EndsWithAnErrorWhereAProcessIsSilent) {
+TEST(SplitLight, EndsWithAnErrorIfAProcessIsSilent) {
   const Drawing drawing = drawing_of(with_light(verify::random_scene(2, 60), 2), 60, 60, 1);
   LocalNetwork network(2, 1, 0.0);
   const Parts parts(drawing.scene, drawing.options, drawing.rays, 3, SceneDivision::kScattered,
@@ -327,7 +327,7 @@ TEST(SplitLight, EndsWithAnErrorForAnInvalidHit) {
   EXPECT_THROW(drawn_in_parts(drawing, 3, SceneDivision::kScattered, 2, 1), rays::InvalidHit);
 }
 
-TEST(SplitLight, HasSignsOfLifeFromProcessesWithoutWork) {
+TEST(SplitLight, ReceivesHeartbeatsFromIdleProcesses) {
   const scenes::Scene scene = verify::random_scene(2, 60);
   const accel::PrimaryRays rays(scene.cameras.front(), 8, 8, 1);
   LocalNetwork network(2, 1, 0.0);
@@ -341,7 +341,7 @@ TEST(SplitLight, HasSignsOfLifeFromProcessesWithoutWork) {
   network.at(kProducer).send(1, Tag::kEnd, {});
 }
 
-TEST(LightExchange, GivesEachThreadTheHitsOfItsRays) {
+TEST(LightExchange, ReturnsToEachThreadTheHitsOfItsRays) {
   LightExchange exchange;
   std::vector<std::jthread> threads;
   for (unsigned thread = 0; thread < 4; ++thread) {
@@ -367,7 +367,7 @@ TEST(LightExchange, GivesEachThreadTheHitsOfItsRays) {
   }
 }
 
-TEST(LightExchange, RefusesAnAnswerThatNoRayWaitsFor) {
+TEST(LightExchange, RefusesAnUnexpectedAnswer) {
   LightExchange exchange;
   EXPECT_THROW(exchange.answer({0, kNoHit}), ProtocolError);
   std::jthread asking([&] { exchange.nearest_hits(std::vector<LightRay>(1)); });
@@ -377,7 +377,7 @@ TEST(LightExchange, RefusesAnAnswerThatNoRayWaitsFor) {
   EXPECT_THROW(exchange.answer({rays.front().number, kNoHit}), ProtocolError);
 }
 
-TEST(LightExchange, LetsNoThreadWaitOnceItIsClosed) {
+TEST(LightExchange, ReleasesAllThreadsOnceItIsClosed) {
   LightExchange exchange;
   std::jthread asking(
       [&] { EXPECT_THROW(exchange.nearest_hits(std::vector<LightRay>(3)), std::runtime_error); });
@@ -386,7 +386,7 @@ TEST(LightExchange, LetsNoThreadWaitOnceItIsClosed) {
   exchange.close();
 }
 
-TEST(LightRays, OfOtherFormsOrPlacesAreRefused) {
+TEST(LightRays, WithInvalidFormsOrIndicesAreRefused) {
   const scenes::Scene scene = verify::random_scene(2, 60);
   const accel::PrimaryRays rays(scene.cameras.front(), 8, 8, 1);
   LocalNetwork network(2, 1, 0.0);

@@ -43,7 +43,7 @@ SceneSplit split_of(const scenes::Scene& scene, int max_level, int level, SceneD
   return split_scene(scene, options_with(max_level).octree, rays, level, division, processes);
 }
 
-TEST(SceneDivision, HasANameEach) {
+TEST(SceneDivision, HasDistinctNames) {
   ASSERT_EQ(division_names().size(), kSceneDivisions.size());
   for (const SceneDivision division : kSceneDivisions) {
     EXPECT_EQ(parse_scene_division(division_names()[static_cast<std::size_t>(division)]), division);
@@ -51,7 +51,7 @@ TEST(SceneDivision, HasANameEach) {
   EXPECT_THROW(parse_scene_division("halves"), InputError);
 }
 
-TEST(SceneSplit, GivesEveryCellToOneProcessAndWorkToEach) {
+TEST(SceneSplit, AssignsEveryCellToOneProcessAndWorkToEach) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=4");
   for (const SceneDivision division : kSceneDivisions) {
     for (const int processes : {1, 2, 3, 7}) {
@@ -82,7 +82,7 @@ TEST(SceneSplit, IsBalancedByPrimitives) {
   }
 }
 
-TEST(SceneDivision, DoesNotGiveAProcessMoreThanItsShareAndOneCell) {
+TEST(SceneDivision, AssignsAtMostTheShareAndOneCell) {
   const LevelCells cells(4);
   for (unsigned seed = 0; seed < 20; ++seed) {
     std::mt19937 random(seed);
@@ -133,7 +133,7 @@ TEST(SceneDivision, BisectsIntoBoxesOfCells) {
   }
 }
 
-TEST(SceneDivision, DealsCellsWithPrimitivesInTurn) {
+TEST(SceneDivision, AssignsCellsWithPrimitivesInTurn) {
   const LevelCells cells(3);
   CellLoads loads{std::vector<std::uint32_t>(64), {}};
   for (const std::uint32_t i : {1U, 5U, 17U, 20U, 33U, 60U, 63U}) loads.primitives[i] = 9;
@@ -223,7 +223,7 @@ accel::HitBuffer traced_in_parts(const scenes::Scene& scene,
   return hits;
 }
 
-TEST(SplitScene, GivesTheHitsOfOneProcessBitForBit) {
+TEST(SplitScene, FindsTheHitsOfOneProcessBitForBit) {
   for (unsigned seed = 0; seed < 12; ++seed) {
     const scenes::Scene scene = verify::random_scene(seed, 60);
     const accel::beam::BeamOptions options = options_with(5, seed % 3 == 0 ? 50 : 0);
@@ -242,7 +242,7 @@ TEST(SplitScene, GivesTheHitsOfOneProcessBitForBit) {
   }
 }
 
-TEST(SplitScene, SeesTheSameFromInside) {
+TEST(SplitScene, FindsTheSameHitsFromInside) {
   const scenes::Scene scene = verify::random_scene(1, 40);
   const auto size = glm::vec3(scene.bounds.upper - scene.bounds.lower);
   const auto middle = scene.bounds.lower + 0.5F * size;
@@ -261,7 +261,7 @@ TEST(SplitScene, SeesTheSameFromInside) {
   }
 }
 
-TEST(SplitScene, AccountsForWhatCrossed) {
+TEST(SplitScene, AccountsForAllCrossings) {
   const scenes::Scene scene = verify::random_scene(2, 200);
   const accel::PrimaryRays rays(scene.cameras.front(), 80, 60, 1);
   std::vector<PartReport> reports;
@@ -298,7 +298,7 @@ TEST(SplitScene, RunsFromACommandLineToItsEnd) {
   EXPECT_EQ(led(lead_split, request, network).result_hash, rays::fingerprint(expected));
 }
 
-TEST(SplitScene, EndsWithAnErrorWhereAProcessIsSilent) {
+TEST(SplitScene, EndsWithAnErrorIfAProcessIsSilent) {
   const scenes::Scene scene = verify::random_scene(2, 60);
   const accel::beam::BeamOptions options = options_with(5);
   const accel::PrimaryRays rays(scene.cameras.front(), 60, 60, 1);

@@ -45,7 +45,7 @@ TEST(Watchdog, KillsAProcessThatIsStoppedWhileItEnds) {
             "for is written\n");
 }
 
-TEST(Watchdog, LeavesAProcessThatEndsInTimeAlone) {
+TEST(Watchdog, SparesAProcessThatEndsInTime) {
   const Ended in_time = ended([] {
     const Watchdog watchdog(60.0);
     watchdog.require_end();
@@ -54,7 +54,7 @@ TEST(Watchdog, LeavesAProcessThatEndsInTimeAlone) {
   EXPECT_EQ(WEXITSTATUS(in_time.status), 7);
 }
 
-TEST(Watchdog, LeavesAProcessThatMustNotEndYetAlone) {
+TEST(Watchdog, SparesAProcessThatMustNotEndYet) {
   const Ended long_running = ended([] {
     const Watchdog watchdog(0.1);
     ::usleep(1'500'000);  // longer than the limit and the grace period

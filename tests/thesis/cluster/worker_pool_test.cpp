@@ -9,7 +9,7 @@ namespace {
 
 using Processes = std::vector<ProcessId>;
 
-TEST(WorkerPool, GivesToTheOneThatWaitedLongest) {
+TEST(WorkerPool, AssignsToTheLongestWaiting) {
   WorkerPool pool(4, 1, 10.0);
   EXPECT_TRUE(pool.nobody_present());
   EXPECT_EQ(pool.longest_waiting(), std::nullopt);
@@ -29,7 +29,7 @@ TEST(WorkerPool, GivesToTheOneThatWaitedLongest) {
   EXPECT_FALSE(pool.idle(1));
 }
 
-TEST(WorkerPool, FillsIdleConsumersBeforeOthersGetASecondParcel) {
+TEST(WorkerPool, ServesIdleConsumersBeforeSecondParcels) {
   WorkerPool pool(3, 2, 10.0);
   pool.join(1, 0.0);
   pool.join(2, 0.0);
@@ -45,7 +45,7 @@ TEST(WorkerPool, FillsIdleConsumersBeforeOthersGetASecondParcel) {
   EXPECT_EQ(pool.longest_waiting(), 1);
 }
 
-TEST(WorkerPool, NoticesSilenceOfThoseThatHaveWork) {
+TEST(WorkerPool, DetectsSilentConsumersWithWork) {
   WorkerPool pool(3, 1, 10.0);
   pool.join(1, 0.0);
   pool.join(2, 0.0);
@@ -61,7 +61,7 @@ TEST(WorkerPool, NoticesSilenceOfThoseThatHaveWork) {
   EXPECT_EQ(pool.declare_silent_lost(1000.0), Processes{});
 }
 
-TEST(WorkerPool, TakesBackWhoIsHeardAgain) {
+TEST(WorkerPool, ReadmitsConsumersThatAnswerAgain) {
   WorkerPool pool(2, 1, 10.0);
   pool.join(1, 0.0);
   pool.gave(1, 0.0);
@@ -74,7 +74,7 @@ TEST(WorkerPool, TakesBackWhoIsHeardAgain) {
   EXPECT_EQ(pool.longest_waiting(), 1);
 }
 
-TEST(WorkerPool, ForgetsWhoWasShutDown) {
+TEST(WorkerPool, ForgetsShutDownConsumers) {
   WorkerPool pool(3, 1, 10.0);
   pool.join(1, 0.0);
   pool.shut_down(1);
