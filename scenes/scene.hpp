@@ -24,8 +24,8 @@ struct Light {
 };
 
 /// A scene in single precision, rounded once, so that all structures receive the same bits. Built
-/// by `SceneBuilder`, which ensures that there are no NaNs, infinities, coordinates beyond 1e9 or
-/// degenerate primitives. All indices have 32 bits. Treat it as read-only once built.
+/// by `SceneBuilder`, which excludes NaNs, infinities, coordinates beyond 1e9 and degenerate
+/// primitives. All indices have 32 bits. Treat it as read-only once built.
 struct Scene {
   std::string name;             ///< printable; for a file, `path_of_name` restores the path
   std::vector<Camera> cameras;  ///< never empty; the first is the default

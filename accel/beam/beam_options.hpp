@@ -11,7 +11,7 @@
 
 namespace beambench::accel::beam {
 
-/// How samples are tested in an occupied leaf; the hits are the same.
+/// The method of testing samples in an occupied leaf; the hits are the same.
 enum class LeafTest : std::uint8_t {
   kSimd,    ///< against the images of primitives, a register of samples at a time
   kScalar,  ///< against the images, one sample at a time
@@ -24,7 +24,7 @@ const ProbeKernels* kernels_of(LeafTest leaf);
 /// (`Statistics::instruction_set`).
 std::string instruction_set_of(LeafTest leaf);
 
-/// How a beam's samples are treated, whatever cells the beam passes through.
+/// The rules for a beam's samples, whatever cells the beam passes through.
 struct BeamRules {
   std::int64_t handover = 0;       ///< beams with fewer samples become individual rays
   bool share_corners = false;      ///< samples in the corners of pixels are shared between pixels

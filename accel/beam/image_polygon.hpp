@@ -84,8 +84,8 @@ inline LineRange range_over(const ImagePolygon& polygon, const ImageLine& line) 
 }
 
 /// Returns the part of a nonempty polygon where the line is at most `slack` (Sutherland and
-/// Hodgman, "Reentrant polygon clipping", CACM 17(1), 1974; one line per call). If there is no
-/// space for another corner, returns the whole polygon, which covers more than necessary.
+/// Hodgman, "Reentrant polygon clipping", CACM 17(1), 1974; one line per call). If another corner
+/// does not fit, returns the whole polygon, which covers more than necessary.
 inline ImagePolygon clip(const ImagePolygon& polygon, const ImageLine& line, double slack) {
   ImagePolygon part;
   glm::dvec2 last = polygon[polygon.size() - 1];

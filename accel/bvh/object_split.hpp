@@ -15,7 +15,7 @@ namespace beambench::accel::bvh {
 
 /// Nodes at this depth and below are split in half, since 2^32 items can then need 32 more levels.
 inline constexpr std::uint32_t kDeepestSahSplit = kMaxBvhDepth - 34;
-/// With fewer items, tasks cost more than they save.
+/// The minimum number of items for which tasks save time.
 inline constexpr std::size_t kParallelItems = 4096;
 
 /// Maps centers to bins, on all axes.

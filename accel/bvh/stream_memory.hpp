@@ -31,7 +31,7 @@ struct StreamMemory {
   /// The maximum number of rays in a packet, and the entries that may be written past a list's end.
   static constexpr std::size_t kPacket = 16;
   /// A node's lists take eight entries for each of its rays; all entries of the nodes above it
-  /// usually need less than half of these. Lists for which there is no room continue as packets.
+  /// usually need less than half of these. Lists that do not fit continue as packets.
   static constexpr std::size_t kEntriesPerRay = 32;
 
   LargePageVector<Ray> rows;             ///< t_max: only nearer hits count

@@ -12,7 +12,7 @@
 namespace beambench::accel::embree {
 namespace {
 
-/// Which queries are flagged as coherent.
+/// The queries that are flagged as coherent.
 enum class Coherence { kAuto, kAll, kNone };
 
 Coherence parse_coherence(const std::string& name) {

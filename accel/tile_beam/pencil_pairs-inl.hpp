@@ -193,7 +193,7 @@ class PencilPairs {
   std::size_t by_shape_count_ = 0;
   std::size_t by_block_count_ = 0;
   std::size_t count_ = 0;
-  /// With room for a register after the last one.
+  /// The list has room for a register after the last entry.
   std::array<std::uint32_t, PencilUnit::kGroups * SeenShapes::kMax + 16> by_shape_;
   std::array<std::uint32_t, PencilUnit::kPlaces + 16> by_block_;
   std::array<std::uint32_t, PencilUnit::kPlaces * SeenShapes::kMax + 16> pairs_;

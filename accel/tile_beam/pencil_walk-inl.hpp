@@ -27,7 +27,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// For parts with at most this many leaves, counting rays is not worthwhile.
+/// The maximum number of leaves in a part for which counting rays is not worthwhile.
 inline constexpr std::uint32_t kFewLeaves = 2;
 
 template <class Policy, class Counting>

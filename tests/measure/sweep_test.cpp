@@ -270,7 +270,7 @@ std::uint64_t resident_bytes() {
   return 0;
 }
 
-/// In the past, a cell took 20 kB or more during the run and as much again at its end.
+/// Cells used to take 20 kB or more during the run and as much again at its end.
 TEST_F(Sweep, MemoryDoesNotGrowWithTheCells) {
   json document = config({"null", "exhaustive"});
   document["scenes"] = {"tetra:n=1"};
