@@ -38,7 +38,7 @@ bool has_ending(std::string_view file_name, std::string_view ending) {
   return name.ends_with(ending);
 }
 
-/// A plug-in's reader as a format.
+/// Returns a plug-in's reader as a format.
 SceneFormat format_of(const SceneReader& reader) {
   return {[ending = reader.ending](std::string_view spec) { return has_ending(spec, ending); },
           [read = reader.read](std::string_view spec, ReadOptions options,
@@ -57,7 +57,7 @@ const SceneFormat* find_format(std::string_view spec) {
 }
 
 /// A scene without primitives would make every structure agree and a comparison meaningless. For a
-/// file, the first warning says why its primitives were skipped.
+/// file, the first warning explains why its primitives were skipped.
 void require_primitives(const Scene& scene, const std::vector<std::string>& noticed) {
   if (!scene.primitives.empty()) return;
   throw InputError(

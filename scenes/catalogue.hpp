@@ -78,7 +78,7 @@ class Catalogue {
 
 /// All generated scenes, sorted by name: the built-in ones and those of plug-ins.
 std::span<const SceneInfo> scene_catalogue();
-/// The formats that plug-ins read, in addition to the built-in ones (NFF and meshes).
+/// Returns the formats that plug-ins read, in addition to the built-in ones (NFF and meshes).
 std::span<const SceneReader> scene_readers();
 
 /// Returns the parameter that every catalogue scene has in addition to its own: `perturb`, the seed

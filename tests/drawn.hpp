@@ -1,5 +1,5 @@
 #pragma once
-// Shared by the tests of the whole ray tracer: rays and pictures drawn, colors by hand.
+// Shared by the tests of the whole ray tracer: drawn rays and pictures, and hand-computed colors.
 
 #include <array>
 #include <cstddef>
@@ -59,7 +59,7 @@ inline glm::dvec3 linear(double r, double g, double b) {
       glm::vec3(static_cast<float>(r), static_cast<float>(g), static_cast<float>(b)))};
 }
 
-/// A square of the plane z = height, 40 wide.
+/// Adds a square of the plane z = height, 40 wide.
 inline void add_floor(scenes::SceneBuilder& builder, double height) {
   const std::array<glm::dvec3, 4> corners{glm::dvec3(-20, -20, height), glm::dvec3(20, -20, height),
                                           glm::dvec3(20, 20, height), glm::dvec3(-20, 20, height)};
@@ -74,7 +74,7 @@ inline scenes::SceneBuilder with_light(const glm::dvec3& position,
   return builder;
 }
 
-/// A random scene with lights and mirrors, and with glass if the seed is even.
+/// Returns a random scene with lights and mirrors, and with glass if the seed is even.
 inline scenes::Scene scene_of_all_surfaces(std::uint64_t seed) {
   scenes::Scene scene = tests::random_scene(seed, 60);
   Random random(seed);

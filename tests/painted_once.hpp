@@ -78,7 +78,7 @@ PaintWatch expect_painted_once(const scenes::Scene& scene, const Tracer& tracer,
   return watch;
 }
 
-/// A random view, narrow or wide.
+/// Returns a random view, narrow or wide.
 inline scenes::Camera random_camera(const scenes::Scene& scene, Random& random) {
   scenes::Camera camera = random_view(scene, random);
   const glm::vec3 view = camera.at - camera.from;

@@ -19,7 +19,7 @@ struct SpdRays {
   std::size_t size() const { return eye.size() + shadow.size(); }
 };
 
-/// The rays over a scene of polygons.
+/// Returns the rays over a scene of polygons.
 SpdRays spd_rays(const scenes::Scene& scene);
 
 }  // namespace beambench::tests

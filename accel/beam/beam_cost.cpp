@@ -11,14 +11,14 @@ namespace {
 
 constexpr int kWindows = 8;  // per row and per column
 
-/// The ratio of a window's side to that of its part of the image: chosen for four beams per
+/// Returns the ratio of a window's side to that of its part of the image: chosen for four beams per
 /// thousand rays, so that counting takes about 1% of the tracing time.
 double window_size(double rays, double beams) {
   return std::clamp(std::sqrt(0.004 * rays / std::max(1.0, beams)), 1.0 / 32.0, 1.0 / 4.0);
 }
 
-/// A window in its part of the image, but not in the middle, which may show the scene's middle
-/// planes edge-on.
+/// Returns a window in its part of the image, but not in the middle, which may show the scene's
+/// middle planes edge-on.
 ImagePolygon window(int column, int row, double size) {
   // Kronecker sequence of the plastic number: evenly distributed in both directions.
   const double number = row * kWindows + column + 1.0;

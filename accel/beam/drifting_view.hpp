@@ -54,7 +54,7 @@ struct DriftingView {
   /// Returns how a ray deviates; the deviation is infinite if it runs toward the eye or comes from
   /// behind it.
   Course course_of(const Ray& ray, const SamplePlace& place) const;
-  /// The smaller of a pixel's width and height at view depth 1.
+  /// Returns the smaller of a pixel's width and height at view depth 1.
   double pixel() const;
 };
 

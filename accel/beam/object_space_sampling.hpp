@@ -12,7 +12,7 @@
 
 namespace beambench::accel::beam {
 
-/// The thesis (section 5.3.2) gives no samples to pixels of leaving beams and the same number to
+/// The thesis (section 5.3.2) takes no samples in pixels of leaving beams and the same number in
 /// all others. It proposes that the leaf at which a beam ends determine the number, which this
 /// implements. A leaf with `n` references that is `w` pixels wide (depending on its depth and
 /// distance) shows an estimated n edges of length w in w x w pixels: n / w edges per pixel. At the

@@ -19,7 +19,7 @@ class OctreeCells {
   /// `tracer` must outlive it.
   OctreeCells(const octree::Samet& tracer) : tracer_(&tracer) {}  // NOLINT: stands for the tracer
 
-  /// The grid whose planes contain the faces of all cells.
+  /// Returns the grid whose planes contain the faces of all cells.
   const CellGrid& grid() const { return octree().grid(); }
   /// Pushes the first beams, through a part of the image (`begin_beams`).
   void begin(const EyeView& view, const ImagePolygon& part, BeamQueue& queue) const {

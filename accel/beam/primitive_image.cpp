@@ -113,7 +113,7 @@ SphereImage PrimitiveImages::image_of_sphere(const scenes::Sphere& sphere) const
   // Around, next to or behind the eye: its outline is not an ellipse, or a very long one.
   if (!(depth > 0.1 * distance) || !(radius < 0.9 * distance)) return kAnywhereRound;
 
-  const glm::dvec3 middle = center / depth;  // view depth 1, as all directions
+  const glm::dvec3 middle = center / depth;  // at view depth 1, like all directions
   // The steps right and down need not be perpendicular.
   const glm::dmat2 steps(glm::dot(right_, right_), glm::dot(right_, down_), glm::dot(right_, down_),
                          glm::dot(down_, down_));

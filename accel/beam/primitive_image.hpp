@@ -60,7 +60,7 @@ struct SampleBatch {
 /// hit.
 using SampleMask = std::uint64_t;
 
-/// The mask of all samples of a batch.
+/// Returns the mask of all samples of a batch.
 inline SampleMask all_samples(const SampleBatch& batch) {
   return batch.size == SampleBatch::kCapacity ? ~SampleMask{0} : (SampleMask{1} << batch.size) - 1;
 }

@@ -1,4 +1,4 @@
-// The hierarchies that the registry knows.
+// The hierarchies in the registry.
 
 #include "accel/bvh/goldsmith_salmon.hpp"
 #include "accel/bvh/sah_bvh.hpp"

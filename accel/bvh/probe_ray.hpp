@@ -35,7 +35,7 @@ namespace beambench::accel::bvh {
 /// longest side of the box of any triangle of the leaf. If a ray hits one of them, its corners are
 /// within s of the hit along each axis: sheared, they are at most P = 2 s + 20 e R. The areas a.x
 /// b.y - a.y b.x are then wrong by at most 4 P 7eR + 2 (7eR)^2 + 4 e P^2, which 40 e R (P + 12 e R)
-/// exceeds (P <= 2 R). Depths along the main axis are wrong by 3 e R, and the canonical hit is
+/// exceeds (P <= 2 R). Depths along the main axis are off by 3 e R, and the canonical hit is
 /// within 2^-10 e R x 20 of its triangle: 5 e R over |direction| covers both.
 ///
 /// **Triangles behind the origin.** Let o be the origin, a a corner, e1 and e2 the edges from it,
@@ -43,18 +43,18 @@ namespace beambench::accel::bvh {
 /// volume V = (a - o).(e1 x e2) and N = direction.(e1 x e2). With d, the direction along the main
 /// axis, and D, the sum of the sheared areas, N = -d D: the shear preserves volumes, and the axes
 /// are in cyclic order. So t < 0 where V D / d > 0, if both signs are certain:
-/// - V in float is wrong by at most 8 e |a - o| |e1| |e2|: three differences, each with a relative
+/// - V in float is off by at most 8 e |a - o| |e1| |e2|: three differences, each with a relative
 ///   error of e, and five more roundings. 16 e is allowed, and 2^-120 for products that underflow.
-/// - D is wrong by 3 m and the rounding of its sums, m being the bound of the areas' error. Beyond
+/// - D is off by 3 m and the rounding of its sums, m being the bound of the areas' error. Beyond
 ///   4 m its sign is right, and it is nearly m or more.
 ///
-/// They are then also the canonical test's signs: in double V is wrong by 2^-50 |a - o| |e1| |e2|,
+/// They are then also the canonical test's signs: in double V is off by 2^-50 |a - o| |e1| |e2|,
 /// and N by 2^-50 |direction| |e1| |e2| <= 2^-44 |d| R s, while |d| m > 2^-18 |d| R s. The hit's
 /// computed point does not matter, because that test only rejects more. One case remains: a
 /// negative t that underflows is -0, which t_min = 0 accepts. Another 2^-33 R |e1| |e2| is
 /// therefore allowed: t is then beyond -2^-33 R / |direction|.
 ///
-/// **Spheres.** The vector from the center to the nearest point of the line is wrong by at most
+/// **Spheres.** The vector from the center to the nearest point of the line is off by at most
 /// 21 e R: 32 e R is added to the radius, and as much to the depth of the sphere.
 class ProbeRay {
  public:

@@ -119,7 +119,7 @@ class Reinsertion {
     const scenes::Bounds& box = nodes_[from].box;
     const double own = half_area(box);
     std::uint32_t pivot = parents_[from];
-    scenes::Bounds rest = nodes_[sibling_of(from)].box;  // what is left of the pivot
+    scenes::Bounds rest = nodes_[sibling_of(from)].box;  // the rest of the pivot
     double removed = area(pivot);                        // of area, by taking the node out
     waiting.push_back({removed, sibling_of(from)});
     for (;;) {
@@ -154,7 +154,7 @@ class Reinsertion {
   double try_move(const Move& move) {
     const std::uint32_t parent = parents_[move.from];
     const std::uint32_t sibling = sibling_of(move.from);
-    // Earlier moves may have changed what is in these places.
+    // Earlier moves may have changed the contents of these slots.
     if (move.to == parent || move.to == sibling || is_below(move.to, move.from)) return 0.0;
     const double gain = moved(move.from, move.to);
     if (gain > 0.0) return gain;

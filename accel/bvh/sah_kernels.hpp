@@ -20,7 +20,7 @@ struct SahQueries {
 
 /// The queries for one instruction set.
 struct SahKernels : SahQueries<NoCounting>, SahQueries<WorkCounters>, SahQueries<StepRecorder> {
-  std::int64_t target;  ///< HWY_TARGET: hwy::TargetName gives its name
+  std::int64_t target;  ///< HWY_TARGET; hwy::TargetName returns its name
 
   template <class Counting>
   const SahQueries<Counting>& queries() const {

@@ -88,7 +88,7 @@ struct LaneRays {
 
 /// **Boxes.** On each axis t = (c - (o - center)) / d -+ h / |d|, with the child's center c and
 /// half size h. The roundings of o - center, of its product with 1 / d, of that of c and of h, and
-/// of the two sums move a plane by at most (4 + 4 + 1 + 1 + 5 + 6) e S; 1 / d is wrong by 5 e,
+/// of the two sums move a plane by at most (4 + 4 + 1 + 1 + 5 + 6) e S; 1 / d is off by 5 e,
 /// which moves it by 30 e S; and a t that was rounded to float lies up to 6 e S from its own place.
 /// Boxes are widened by 64 e S, so that a hit in a box is never outside the computed interval.
 template <class D>
@@ -140,17 +140,17 @@ class SlabLanes {
 /// triangle (`near_triangle`): its signs and t are those of exact arithmetic up to 2^-50 of the
 /// sizes below.
 /// - u and v are sums of six products of at most R |d| s in all 2 R s |d|, each of which is wrong
-///   by 7 e: by 14 e R s |d|. d . n is wrong by 4 e M |d|, where M <= 6 s^2; w by the sum of these
+///   by 7 e: by 14 e R s |d|. d . n is off by 4 e M |d|, where M <= 6 s^2; w by the sum of these
 ///   and 8 e R s |d| for two roundings more: 36 e R s |d| + 24 e s^2 |d|.
 /// - The sign of d . n, by which u, v and w are turned, is uncertain if d . n is within its error.
 ///   All three of a hit are then within 2 x 24 e s^2 |d|, and their signs do not matter.
 ///   So min(u, v, w) >= -m with m = e s |d| (40 R + 80 s) for every hit.
-/// - The numerator of t is wrong by 6 e M R. If |d . n| is more than 16 times its error, then t is
+/// - The numerator of t is off by 6 e M R. If |d . n| is more than 16 times its error, then t is
 ///   wrong by (6 e R + 4 e |t| |d|) M / |d . n| x 16 / 15 and some roundings, at most 16 e |t|.
 ///   Since M |d| >= |d . n|, these are at most (7 e R + 21 e |t| |d|) M / |d . n|.
 /// - Let |d . n| >= 2^-7 M |d| and min(u, v, w) >= 2 m as computed, so that they are at least m.
-///   Then the point is inside by 2^-20 R. In double, n is wrong by 2^-46 M, and t |d| by less than
-///   2^-43 M |d| / |d . n| <= 2^-36 of the distance to the point. The point is wrong by as much,
+///   Then the point is inside by 2^-20 R. In double, n is off by 2^-46 M, and t |d| by less than
+///   2^-43 M |d| / |d . n| <= 2^-36 of the distance to the point. The point is off by as much,
 ///   and by 2^-52 of its coordinates: these are at most 2^13 times the distance if t |d| >= 2^-12
 ///   (R + |center|). Both together are less than `kHitSlack`, so the canonical test accepts if t is
 ///   in the interval.

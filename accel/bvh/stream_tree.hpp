@@ -25,7 +25,7 @@ struct alignas(64) StreamNode {
 static_assert(sizeof(StreamNode) == 256);
 
 /// A PrimitiveBlock as streams test it (stream_tests-inl.hpp). The numbers for triangles are those
-/// of the canonical test in double, rounded once. Solids have only what is not in lanes.
+/// of the canonical test in double, rounded once. Solids have only the data that is not in lanes.
 struct alignas(64) StreamBlock {
   std::array<std::array<float, kBvhLanes>, 3> a;       ///< x, y, z
   std::array<std::array<float, kBvhLanes>, 3> from_c;  ///< a - c

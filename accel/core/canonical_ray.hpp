@@ -54,7 +54,7 @@ inline float accept(double t, float t_min, float t_max) {
   return rounded >= t_min && rounded <= t_max ? rounded : kMiss;
 }
 
-/// The end of an interval for `accept`: a t that rounds to infinity is not a hit.
+/// Returns the end of an interval for `accept`: a t that rounds to infinity is not a hit.
 inline float finite(float t_max) { return std::min(t_max, std::numeric_limits<float>::max()); }
 
 /// A ray widened to double. `t_max` is finite and shrinks while a traversal finds nearer hits.

@@ -44,8 +44,8 @@ class HitBuffer {
     return Hit{t_[index], primitive_[index]};
   }
 
-  /// The raw arrays, for structures that write whole packets. They begin at a cache line, so that
-  /// streaming stores can bypass the caches.
+  /// Returns the raw arrays, for structures that write whole packets. They begin at a cache line,
+  /// so that streaming stores can bypass the caches.
   float* t() { return t_.data(); }
   const float* t() const { return t_.data(); }
   scenes::PrimitiveId* primitive() { return primitive_.data(); }
@@ -113,7 +113,7 @@ class HitSpan {
     if (primitive_[index] == scenes::kNoPrimitive) return std::nullopt;
     return Hit{t_[index], primitive_[index]};
   }
-  /// The raw arrays, for structures that write whole packets.
+  /// Returns the raw arrays, for structures that write whole packets.
   float* t() const { return t_; }
   scenes::PrimitiveId* primitive() const { return primitive_; }
 

@@ -87,7 +87,7 @@ class PrimaryRays {
   const glm::dvec3& top_left() const { return top_left_; }
   const glm::dvec3& right() const { return right_; }
   const glm::dvec3& down() const { return down_; }
-  /// The vector from one side of the image to the other, the same at every resolution.
+  /// Returns the vector from one side of the image to the other, the same at every resolution.
   const glm::dvec3& across() const { return across_; }
   const glm::dvec3& all_down() const { return all_down_; }
   const std::vector<glm::dvec2>& offsets() const { return offsets_; }

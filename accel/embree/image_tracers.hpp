@@ -41,7 +41,7 @@ struct ImageTracers {
   /// Generates the rays in packets of 16 and stores a miss for each, without a query.
   void (*untraced)(const OwnerTable& owners, const PrimaryRays& rays, const Band& band,
                    const HitSpan& buffer);
-  std::int64_t target;  ///< HWY_TARGET: hwy::TargetName gives its name
+  std::int64_t target;  ///< HWY_TARGET; hwy::TargetName returns its name
 };
 
 /// Returns the tracers for the best of Highway's `targets` that this machine supports.

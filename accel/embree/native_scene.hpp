@@ -60,14 +60,14 @@ class NativeScene {
 
   std::size_t triangle_count() const { return owners_.first[kSpheres]; }
   std::size_t sphere_count() const { return owners_.first[kCurves] - owners_.first[kSpheres]; }
-  /// The number of curves. If there are any, rays must have directions of unit length: Embree 3
-  /// assumes it for the rays that meet them (kernels/geometry/coneline_intersector.h, where the
-  /// square of the length is missing in the coefficient A).
+  /// Returns the number of curves. If there are any, rays must have directions of unit length:
+  /// Embree 3 assumes it for the rays that meet them (kernels/geometry/coneline_intersector.h,
+  /// where the square of the length is missing in the coefficient A).
   std::size_t curve_count() const { return owners_.first[kUser] - owners_.first[kCurves]; }
   std::size_t user_count() const { return user_.ids().size(); }
-  /// The geometry types of the scene, joined by '+': "triangles"; "points", which are spheres;
-  /// "curves", which are cones; "callbacks" of user geometry, for cones and for spheres seen from
-  /// the inside only.
+  /// Returns the geometry types of the scene, joined by '+': "triangles"; "points", which are
+  /// spheres; "curves", which are cones; "callbacks" of user geometry, for cones and for spheres
+  /// seen from the inside only.
   std::string geometry_types() const;
   std::uint64_t bytes() const;
 

@@ -22,7 +22,7 @@ class UserGeometry {
   UserGeometry& operator=(const UserGeometry&) = delete;
   ~UserGeometry() = default;
 
-  /// The ids by the primitive number that Embree reports.
+  /// Returns the ids by the primitive number that Embree reports.
   const std::vector<scenes::PrimitiveId>& ids() const { return ids_; }
   /// Creates a geometry over the primitives, which must outlive it; it is not yet committed.
   GeometryHandle make(RTCDevice device);

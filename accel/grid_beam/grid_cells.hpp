@@ -25,7 +25,7 @@ class GridCells {
   GridCells(const Tracer& tracer, const GridLattice& lattice)
       : tracer_(&tracer), lattice_(&lattice) {}
 
-  /// The grid whose planes contain the faces of all voxels.
+  /// Returns the grid whose planes contain the faces of all voxels.
   const CellGrid& grid() const { return lattice_->cells(); }
   /// Pushes the first beams (thesis, section 3.4). From outside: one for each visible face of the
   /// top grid, divided among the voxels behind it. From inside: one in the voxel that contains the

@@ -20,7 +20,7 @@ struct KdQueries {
 
 /// The queries for one instruction set.
 struct KdKernels : KdQueries<NoCounting>, KdQueries<WorkCounters>, KdQueries<StepRecorder> {
-  std::int64_t target;  ///< HWY_TARGET: hwy::TargetName gives its name
+  std::int64_t target;  ///< HWY_TARGET; hwy::TargetName returns its name
 
   template <class Counting>
   const KdQueries<Counting>& queries() const {

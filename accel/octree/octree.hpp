@@ -106,7 +106,7 @@ class Octree {
   /// own cells.
   Octree(const scenes::Scene& scene, const OctreeOptions& options, const OctreePart& part);
 
-  /// The finest cells, equally many along each axis (`octree_grid`).
+  /// Returns the finest cells, equally many along each axis (`octree_grid`).
   const CellGrid& grid() const { return grid_; }
   /// Returns whether each node is halved along each axis, as required to find neighbors by
   /// coordinates.

@@ -66,8 +66,8 @@ class Renumbered {
 };
 
 /// A structure over an octree whose largest objects stay in a list (thesis, section 4.4: the world
-/// keeps objects that belong to no cube, such as infinite planes, in a list of its own). Each ray
-/// is tested against all of them first. A large floor then no longer enlarges the root, so that the
+/// keeps objects outside all cubes, such as infinite planes, in a separate list). Each ray is
+/// tested against all of them first. A large floor then no longer enlarges the root, so that the
 /// same levels divide the rest more finely.
 template <class Inner>
 class WithOutsideList : public TraversalAccelerator<WithOutsideList<Inner>> {

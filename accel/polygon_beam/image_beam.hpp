@@ -51,7 +51,7 @@ class SampleRows {
   explicit SampleRows(const PrimaryRays& rays)
       : rays_(&rays), all_{{0, 0}, {rays.width() - 1, rays.height() - 1}, 0.0} {}
 
-  /// The pixels of the image.
+  /// Returns the pixels of the image.
   const z_buffer::PixelBox& all() const { return all_; }
 
   /// Calls `visit(y, sample, first_x, last_x)` for the runs of samples in a polygon and in a box,

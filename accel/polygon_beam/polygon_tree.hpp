@@ -76,8 +76,9 @@ class PolygonTree {
     return std::span(corners_).subspan(fragment.first + fragment.outer, fragment.inner);
   }
 
-  /// The width by which cells overlap on each side of a plane: 2^-16 of the scene's diagonal. It is
-  /// far larger than the spacing of float in the t of hits from an eye that is not far away.
+  /// Returns the width by which cells overlap on each side of a plane: 2^-16 of the scene's
+  /// diagonal. It is far larger than the spacing of float in the t of hits from an eye that is not
+  /// far away.
   double slab() const { return slab_; }
   std::size_t depth() const { return depth_; }
   std::size_t bytes() const;

@@ -15,10 +15,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// The largest distance from the apex at which a part is traced together. Beyond a few scene sizes,
-/// float rarely distinguishes the origins of rays from nearby surfaces. For any hits, it is still
-/// worthwhile to decide them one by one, but in a scene that is small relative to its coordinates,
-/// all places round to the same values.
+/// Returns the largest distance from the apex at which a part is traced together. Beyond a few
+/// scene sizes, float rarely distinguishes the origins of rays from nearby surfaces. For any hits,
+/// it is still worthwhile to decide them one by one, but in a scene that is small relative to its
+/// coordinates, all places round to the same values.
 template <class Policy>
 float farthest(const scenes::Bounds& scene) {
   const float size = scene.largest_coordinate();

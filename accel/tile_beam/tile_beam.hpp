@@ -43,9 +43,9 @@ class TileBeam : public TraversalAccelerator<TileBeam>, public BoxHierarchy {
         parallel_(options.parallel),
         moves_(options.moves) {}
 
-  /// The minimum number of rays of a pencil; smaller ones are traced singly, because the fixed cost
-  /// of a part exceeds the gain. Rays toward an apex come from everywhere in the picture; those
-  /// away from one see what their mirror shows, which may be in a few leaves.
+  /// Returns the minimum number of rays of a pencil; smaller ones are traced singly, because the
+  /// fixed cost of a part exceeds the gain. Rays toward an apex come from everywhere in the
+  /// picture; those away from one see what their mirror shows, which may be in a few leaves.
   static constexpr std::size_t least_pencil(bool toward) { return toward ? 512 : 32; }
 
   const TileHierarchy& hierarchy() const { return hierarchy_; }

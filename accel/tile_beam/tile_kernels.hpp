@@ -62,7 +62,7 @@ struct TileKernels : TileRayQueries<NoCounting>,
                      TileListQueries<WorkCounters>,
                      TileDrawing<NoCounting>,
                      TileDrawing<WorkCounters> {
-  std::int64_t target;  ///< HWY_TARGET: hwy::TargetName gives its name
+  std::int64_t target;  ///< HWY_TARGET; hwy::TargetName returns its name
 
   template <class Counting>
   const TileRayQueries<Counting>& queries() const {

@@ -21,7 +21,7 @@ struct Ball {
 };
 
 /// The pixels from `first` to `last` along both axes of an image, and a lower bound on the view
-/// depth of what is seen there.
+/// depth of everything visible there.
 struct PixelBox {
   std::array<int, 2> first{0, 0};
   std::array<int, 2> last{-1, -1};
@@ -56,7 +56,7 @@ class Screen {
     }
   }
 
-  /// The length of the longest direction.
+  /// Returns the length of the longest direction.
   double longest() const { return longest_; }
   /// Returns a bound on the distance between a ray's direction, rounded to float, and that of its
   /// sample: four times the effect of components with relative errors of 2^-24.

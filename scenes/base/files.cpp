@@ -194,8 +194,8 @@ OutputTarget file_target(const fs::path& path, const struct stat& status) {
   return {OutputTarget::Kind::kFile, real};
 }
 
-/// Follows symbolic links, dangling ones too. Throws std::filesystem::filesystem_error when that is
-/// impossible, for example when links form a cycle.
+/// Follows symbolic links, including dangling ones. Throws std::filesystem::filesystem_error when
+/// that is impossible, for example when links form a cycle.
 OutputTarget find_output_target(const fs::path& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) {

@@ -12,8 +12,8 @@ namespace {
 constexpr double kGap = 0.14;    // between two letters
 constexpr double kBlank = 0.45;  // a blank's width
 
-/// A ring between an outer and an inner outline (counter-clockwise, with equal numbers of points):
-/// two concave halves with seams from outer to inner at point 0 and at point `half`.
+/// Returns a ring between an outer and an inner outline (counter-clockwise, with equal numbers of
+/// points): two concave halves with seams from outer to inner at point 0 and at point `half`.
 FlatShape ring(const std::vector<glm::dvec2>& outer, const std::vector<glm::dvec2>& inner,
                std::uint32_t half) {
   const auto n = static_cast<std::uint32_t>(outer.size());

@@ -1,7 +1,7 @@
 #pragma once
 // Polygon meshes, the type that the functions in this folder take and return.
 //
-// A generator models in double and hands the result to a `SceneBuilder`, which rounds once:
+// A generator models in double and passes the result to a `SceneBuilder`, which rounds once:
 //   polygon_mesh.hpp        the value; append, transform, weld
 //   box.hpp                 boxes, square rings, bars and bracing
 //   walls.hpp               walls with openings, moldings

@@ -8,7 +8,7 @@
 namespace beambench::scenes::modelling {
 namespace {
 
-/// A quad between two corners of a plane, at the height z.
+/// Adds a quad between two corners of a plane, at the height z.
 void add_flat_quad(PolygonMesh& mesh, const Rectangle& place, double z) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), {{place.lower.x, place.lower.y, z},
@@ -18,7 +18,7 @@ void add_flat_quad(PolygonMesh& mesh, const Rectangle& place, double z) {
   mesh.polygons.push_back({first, first + 1, first + 2, first + 3});
 }
 
-/// The front, cut along the edges of all openings.
+/// Returns the front, cut along the edges of all openings.
 PolygonMesh front(const glm::dvec2& size, std::span<const Rectangle> openings) {
   std::set<double> across = {0.0, size.x};
   std::set<double> up = {0.0, size.y};

@@ -29,7 +29,7 @@ std::vector<Rectangle> panes(const glm::dvec2& size, int columns, int rows, doub
 
 /// Returns a profile of points (inset, z) swept around the rectangle from (0, 0) to `size`, with
 /// mitered corners: four quads from each point to the next, along y = 0, x = size.x, y = size.y and
-/// x = 0 in that order. It faces up where the profile goes inward.
+/// x = 0 in that order. It faces upward where the profile runs inward.
 PolygonMesh molding(const glm::dvec2& size, std::span<const glm::dvec2> profile);
 
 /// Removes one of the rectangle's sides (0 ... 3, in the order above).

@@ -122,7 +122,7 @@ struct TracedShadows {
   std::vector<BeamPlace> places;
   std::map<std::string, std::uint64_t, std::less<>> counters;
 
-  /// The pencil of a ray.
+  /// Returns the pencil of a ray.
   const Pencil& pencil_of(std::size_t i) const {
     return *std::ranges::find_if(list.pencils,
                                  [i](const Pencil& each) { return i < each.first + each.count; });

@@ -72,8 +72,8 @@ TEST(Beam, PaintsEverySampleOfRandomScenesOnce) {
   }
 }
 
-/// The faces of a block of 4x4x4 cubes over [0, 8]^3. With a margin of an eighth, the root is [-1,
-/// 9]^3 and the planes of its cells are floats, so that eyes can be placed on them.
+/// Returns the faces of a block of 4x4x4 cubes over [0, 8]^3. With a margin of an eighth, the root
+/// is [-1, 9]^3 and the planes of its cells are floats, so that eyes can be placed on them.
 scenes::Scene lattice_scene() {
   scenes::SceneBuilder builder("lattice");
   for (int cell = 0; cell < 64; ++cell) {
@@ -115,7 +115,8 @@ TEST_P(EyeOnPlanes, KeepsEverySampleAtFacesEdgesAndCorners) {
     if (look.x == 0.0F && look.y == 0.0F) camera.up = {0.0F, 1.0F, 0.0F};
     camera.angle = std::array{45.0F, 90.0F, 170.0F}[random.below(3)];
     camera.aspect = std::array{1.0F, 2.0F}[random.below(2)];
-    // Odd sizes have samples on the axis of view; five samples per pixel lie on its borders too.
+    // With odd sizes, samples lie on the view axis; with five samples per pixel, also on pixel
+    // borders.
     const int size = std::array{1, 16, 17}[random.below(3)];
     SCOPED_TRACE(fmt::format("camera {}: from ({}, {}, {}) at ({}, {}, {}), {} degrees, {}", i,
                              camera.from.x, camera.from.y, camera.from.z, camera.at.x, camera.at.y,

@@ -71,7 +71,7 @@ std::vector<BvhOptions> some_options() {
   return all;
 }
 
-/// Boxes that are difficult to divide.
+/// Returns boxes that are difficult to divide.
 std::vector<Boxes> difficult_boxes() {
   std::vector<Boxes> all;
   all.emplace_back(5000, scenes::Bounds{glm::vec3(1.0F), glm::vec3(2.0F)});

@@ -93,7 +93,7 @@ TEST(ChooseOctree, ScenesWithNothingToSplitTerminate) {
   EXPECT_EQ(chosen(empty, 1'000'000).statistics().nodes, 1U);
 }
 
-/// The beams of an image as the tracer counts them.
+/// Returns the beams of an image as the tracer counts them.
 octree::OctreeWork traced_beams(const beam::BeamTracer& tracer, const scenes::Camera& camera) {
   const PrimaryRays rays(camera, 64, 48, 1);
   HitBuffer hits(64, 48, 1);

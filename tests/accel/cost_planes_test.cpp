@@ -43,7 +43,7 @@ OctreeOptions some_cost_options(std::uint64_t number) {
   return options;
 }
 
-/// The planes of a cube of 16 cells along each axis, all primitives in it.
+/// Returns the planes of a cube of 16 cells along each axis, all primitives in it.
 glm::ivec3 planes_of(const std::vector<CellRange>& ranges) {
   CellGrid grid;
   grid.cells = glm::ivec3(16);

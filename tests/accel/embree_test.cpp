@@ -157,7 +157,7 @@ class EmbreeModes : public ::testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(All, EmbreeModes, ::testing::ValuesIn(tests::embree_modes()));
 
 TEST_P(EmbreeModes, WriteEverySampleOfAnImageOfAnySize) {
-  const scenes::Scene scene = row_of_primitives();  // user geometry meets packets, too
+  const scenes::Scene scene = row_of_primitives();  // packets also meet user geometry
   const auto structure = embree(mode(), scene);
   for (const auto& [width, height, samples] :
        {std::tuple(1, 1, 1), std::tuple(17, 5, 1), std::tuple(3, 18, 4), std::tuple(33, 31, 5)}) {
@@ -185,7 +185,7 @@ TEST_P(EmbreeModes, WriteEverySampleOfAnImageOfAnySize) {
   }
 }
 
-/// A camera at some distance and a random angle.
+/// Returns a camera at some distance and a random angle.
 scenes::Camera random_camera(Random& random) {
   scenes::Camera camera;
   const auto number = [&] { return static_cast<float>(random.uniform(-1.0, 1.0)); };

@@ -14,7 +14,8 @@
 namespace beambench::accel {
 namespace {
 
-/// Two triangles in opposite corners of [0, 4]^3: eight leaves of size 2, six of them empty.
+/// Returns two triangles in opposite corners of [0, 4]^3: eight leaves of size 2, six of them
+/// empty.
 scenes::Scene triangles_in_two_corners() {
   scenes::SceneBuilder builder("two corners");
   const std::array<glm::dvec3, 3> low{{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}}};

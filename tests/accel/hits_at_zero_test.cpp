@@ -21,7 +21,7 @@
 namespace beambench::accel {
 namespace {
 
-/// A star with 15 corners, not in an axis-aligned plane.
+/// Returns a star with 15 corners, not in an axis-aligned plane.
 scenes::Scene star() {
   scenes::SceneBuilder builder("star");
   std::vector<glm::dvec3> corners;

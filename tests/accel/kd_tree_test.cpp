@@ -35,7 +35,8 @@ namespace {
 
 using kd_tree::KdTreeOptions;
 
-/// The options of a test, by number: both builders, with and without clipping, deep and shallow.
+/// Returns the options of a test, by number: both builders, with and without clipping, deep and
+/// shallow.
 KdTreeOptions some_kd_options(std::uint64_t number) {
   KdTreeOptions options;
   if (number % 3 == 1) options.builder = KdTreeOptions::Builder::kMedian;

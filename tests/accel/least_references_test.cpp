@@ -37,7 +37,7 @@ scenes::Scene one_sphere() {
   return std::move(builder).build();
 }
 
-/// Two spheres so close together that the finest cells on their surfaces contain both.
+/// Returns two spheres so close together that the finest cells on their surfaces contain both.
 scenes::Scene two_spheres() {
   scenes::SceneBuilder builder("two spheres");
   builder.add_sphere({1.0, 2.0, 3.0}, 2.0);
@@ -168,7 +168,7 @@ TEST(SurelyMoreThan, IsNotMisledByFewLargeEstimates) {
   }
 }
 
-/// Seconds of processor time until the structure is built or refused, and the message.
+/// Returns seconds of processor time until the structure is built or refused, and the message.
 std::pair<double, std::string> seconds_to_build(const std::string& spec,
                                                 const scenes::Scene& scene) {
   const std::clock_t begin = std::clock();

@@ -38,7 +38,7 @@ struct Reflected {
   Pencil pencil(std::size_t first = 0) const { return {first, rays.size(), apex, false, &image}; }
 };
 
-/// The rays of an image, none of them reflected yet.
+/// Returns the rays of an image, none of them reflected yet.
 Reflected seen_directly(const PrimaryRays& image) {
   Reflected seen{image, dvec3(image.eye()), {}, {}};
   image.for_each(0, image.height(), [&](std::size_t index, const Ray& ray) {
@@ -123,15 +123,15 @@ void compare(const scenes::Scene& scene, const beam::BeamTracer& tracer, const R
   }
 }
 
-/// A random scene of mirrors.
+/// Returns a random scene of mirrors.
 scenes::Scene mirrors(std::uint64_t seed) {
   scenes::Scene scene = tests::random_scene(seed, 20);
   for (scenes::Surface& surface : scene.surfaces) surface.specular = 0.5F;
   return scene;
 }
 
-/// The scene's camera, or one in the middle planes of the scene. These are also planes of cells, in
-/// which the virtual eyes of many mirrors then lie.
+/// Returns the scene's camera, or one in the middle planes of the scene. These are also planes of
+/// cells, in which the virtual eyes of many mirrors then lie.
 scenes::Camera camera_of(const scenes::Scene& scene, Random& random) {
   scenes::Camera camera = scene.cameras.front();
   const glm::vec3 middle = 0.5F * (scene.bounds.lower + scene.bounds.upper);

@@ -63,7 +63,7 @@ TEST(OverlapCone, HollowAndOpen) {
   EXPECT_FALSE(cone_overlaps(cylinder, cube(3, 0, 2, 0.5), 0.0)) << "far from the axis";
 }
 
-/// A random box around a point, which may lie on the box's boundary.
+/// Returns a random box around a point, which may lie on the box's boundary.
 Box box_with(const glm::dvec3& point, Random& random) {
   Box box{point, point};
   for (int axis = 0; axis < 3; ++axis) {

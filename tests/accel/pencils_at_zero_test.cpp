@@ -32,7 +32,7 @@ void add_floor(scenes::SceneBuilder& builder) {
   builder.add_polygon(Corners{{-4, 0, -4}, {-4, 0, 4}, {4, 0, 4}, {4, 0, -4}});
 }
 
-/// A floor, and a wall in the plane x = 0.
+/// Returns a floor, and a wall in the plane x = 0.
 scenes::Scene wall() {
   scenes::SceneBuilder builder("wall");
   add_floor(builder);
@@ -40,7 +40,7 @@ scenes::Scene wall() {
   return std::move(builder).build();
 }
 
-/// A triangular prism, turned so that no face is axis-aligned.
+/// Returns a triangular prism, turned so that no face is axis-aligned.
 scenes::Scene prism() {
   scenes::SceneBuilder builder("prism");
   const auto corner = [](int i, double height) {
@@ -133,7 +133,7 @@ Counts expect_shadows_of_exhaustive(const scenes::Scene& scene, const TileBeam& 
   return counts;
 }
 
-/// Lights around a scene at several distances, and one within it.
+/// Returns lights around a scene at several distances, and one within it.
 std::vector<glm::vec3> lights_around(Random& random) {
   std::vector<glm::vec3> lights;
   for (const double distance : {0.3, 3.0, 7.0, 30.0}) {

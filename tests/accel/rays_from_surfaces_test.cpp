@@ -20,7 +20,7 @@
 namespace beambench::accel {
 namespace {
 
-/// Triangles of all shapes, including needles, in a box of that size.
+/// Returns triangles of all shapes, including needles, in a box of that size.
 scenes::Scene triangles_of_size(double size, std::uint64_t seed) {
   scenes::SceneBuilder builder("triangles");
   Random random(seed);

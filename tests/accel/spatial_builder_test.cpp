@@ -49,7 +49,7 @@ bool holds(const scenes::Bounds& outer, const scenes::Bounds& inner) {
   return united(outer, inner).lower == outer.lower && united(outer, inner).upper == outer.upper;
 }
 
-/// Triangles of a tenth of the scene's size, and as thin as a hundredth.
+/// Returns triangles of a tenth of the scene's size, and as thin as a hundredth.
 scenes::Scene long_triangles(std::uint64_t seed) {
   scenes::SceneBuilder builder("long triangles");
   Random random(seed);
@@ -105,7 +105,7 @@ TEST(SpatialBuilder, EachPointOfATriangleIsInALeafThatRefersToIt) {
       const auto& corner = scene.triangles[built.pieces[item].index].vertex;
       for (int i = 0; i < 40; ++i) {
         double u = random.unit();
-        double v = random.unit() * 1.2 - 0.1;  // on edges, too
+        double v = random.unit() * 1.2 - 0.1;  // also on edges
         v = std::clamp(v, 0.0, 1.0 - u);
         const glm::dvec3 point = (1 - u - v) * glm::dvec3(scene.vertices[corner[0]]) +
                                  u * glm::dvec3(scene.vertices[corner[1]]) +

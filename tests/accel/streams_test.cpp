@@ -256,7 +256,7 @@ TEST(StreamsOfTileBeam, AreBuiltForLists) {
   EXPECT_EQ(bytes("auto", false), bytes("single", true));
 }
 
-/// The diffuse rays of a square image with that many pixels a side.
+/// Returns the diffuse rays of a square image with that many pixels a side.
 rays::TraceInput diffuse_rays(const scenes::Scene& scene, int side) {
   const rays::ImageOfRays image = rays::image_of(scene.cameras.front(), {{side, side}}, 1);
   return rays::make_trace_input(scene, image, rays::parse_ray_choice("diffuse"));

@@ -35,7 +35,7 @@ scenes::Camera random_camera(const scenes::Scene& scene, Random& random) {
   return camera;
 }
 
-/// The distance below which float cannot distinguish two points: K u of the differ.
+/// Returns the distance below which float cannot distinguish two points: K u of the differ.
 double indistinct(const scenes::Scene& scene, const glm::vec3& eye) {
   return 16.0 * 0x1p-24 *
          (static_cast<double>(scene.bounds.largest_coordinate()) + glm::length(glm::dvec3(eye)));
@@ -208,7 +208,7 @@ std::vector<Touching> touching_eyes() {
   return all;
 }
 
-/// Cameras that look along an axis, along a diagonal, and in another direction.
+/// Returns cameras that look along an axis, along a diagonal, and in another direction.
 std::vector<scenes::Camera> cameras_at(const glm::vec3& eye) {
   std::vector<scenes::Camera> cameras;
   for (const glm::vec3& direction : {glm::vec3(1, 0, 0), glm::vec3(0, 0, -1), glm::vec3(-1, 1, 0),

@@ -39,7 +39,7 @@ void add_leaf(TreeQuality& tree, const scenes::Bounds& box,
   tree.close();
 }
 
-/// A root with two leaves.
+/// Returns a root with two leaves.
 TreeQuality pair_of(const scenes::Bounds& left, const scenes::Bounds& right) {
   TreeQuality tree;
   scenes::Bounds whole = left;

@@ -45,7 +45,7 @@ std::unique_ptr<Accelerator> build(const Scene& scene, const std::string& spec) 
   return registry().choose(parse_spec(spec)).build(scene);
 }
 
-/// A random scene whose points all move: together, independently, or to one position.
+/// Returns a random scene whose points all move: together, independently, or to one position.
 Animation random_animation(std::uint64_t seed, std::uint32_t frames) {
   Animation animation{tests::random_scene(seed, 60), frames, {}};
   animation.pose = [first = scenes::pose_of(animation.scene), seed](std::uint32_t frame) {

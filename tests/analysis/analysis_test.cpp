@@ -134,7 +134,7 @@ TEST(ExitCode, OfAWholeSweepWithoutRaysIsInvalidInput) {
   EXPECT_EQ(exit_code_of(analyze(run)), base::kSuccess);
 }
 
-/// A cell with a camera of this name, traced by a query path with this harness share.
+/// Returns a cell with a camera of this name, traced by a query path with this harness share.
 CellRecord with_share(const char* camera, QueryPath path, double harness_ms, double trace_ms) {
   CellRecord cell = cell_of({"samet", {trace_ms}});
   cell.id.camera = camera;

@@ -16,7 +16,7 @@ namespace {
 
 using measure::CellRecord;
 
-/// A cell of a frame: rebuilt in 10 ms or updated in 2 ms.
+/// Returns a cell of a frame: rebuilt in 10 ms or updated in 2 ms.
 CellRecord cell_in(int frame, bool updated, double trace_ms) {
   CellRecord cell = cell_of({.structure = "sah-bvh",
                              .trace_ms = std::vector<double>(6, trace_ms),
@@ -29,7 +29,7 @@ CellRecord cell_in(int frame, bool updated, double trace_ms) {
   return cell;
 }
 
-/// A structure whose trace after an update takes 5 ms plus `slower` per frame.
+/// Returns a structure whose trace after an update takes 5 ms plus `slower` per frame.
 measure::Run run_with(const std::vector<int>& frames, double slower) {
   std::vector<CellRecord> cells;
   for (const int frame : frames) {

@@ -44,7 +44,7 @@ TEST(Names, AFlagThatChangesHitsIsShownWhereEveryVariantHasIt) {
       (std::vector<std::string>{"embree", "tile-beam"}));
 }
 
-/// The views of two cells that differ in one member.
+/// Returns the views of two cells that differ in one member.
 template <class Value>
 std::vector<std::string> views(Value NamedCell::*member, const Value& first, const Value& second) {
   std::vector<NamedCell> cells{cell("samet", ""), cell("samet", "")};

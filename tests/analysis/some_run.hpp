@@ -22,7 +22,7 @@ struct Entrant {
   verify::Verdict verdict = verify::Verdict::kOk;
 };
 
-/// A finished cell: `rays` rays in ten rows.
+/// Returns a finished cell: `rays` rays in ten rows.
 inline measure::CellRecord cell_of(const Entrant& entrant, const std::string& scene = "escena1",
                                    std::uint64_t rays = 1000) {
   measure::CellRecord cell{};
@@ -53,13 +53,13 @@ inline measure::CellRecord cell_of(const Entrant& entrant, const std::string& sc
   return cell;
 }
 
-/// A cell as records of one process have it, without blocks.
+/// Returns a cell as records of one process have it, without blocks.
 inline measure::CellRecord of_one_process(measure::CellRecord cell) {
   for (measure::Repetition& one : cell.repetitions) one.block = -1;
   return cell;
 }
 
-/// The manifest of a run on a quiet machine that has ended.
+/// Returns the manifest of a run on a quiet machine that has ended.
 inline nlohmann::ordered_json quiet_manifest() {
   return {{"run_id", "20260101-000000.000-test"},
           {"time_utc", "2026-01-01T00:00:00Z"},
@@ -72,7 +72,7 @@ inline nlohmann::ordered_json quiet_manifest() {
           {"uncontrolled", nlohmann::ordered_json::array()}};
 }
 
-/// A run of exactly these cells, in this order.
+/// Returns a run of exactly these cells, in this order.
 inline measure::Run run_of(std::vector<measure::CellRecord> cells,
                            nlohmann::json config = nlohmann::json::object()) {
   measure::Run run{quiet_manifest(), std::move(config), {}, {}, std::move(cells)};

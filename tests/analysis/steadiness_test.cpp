@@ -19,8 +19,8 @@ double normal(Random& random) {
   return std::sqrt(-2.0 * std::log(1.0 - random.unit())) * std::cos(2.0 * M_PI * random.unit());
 }
 
-/// A run of twelve views with four contenders and eight blocks, whose processes differ by 1.5%; its
-/// second half is slower by `shift`.
+/// Returns a run of twelve views with four contenders and eight blocks, whose processes differ by
+/// 1.5%; its second half is slower by `shift`.
 measure::Run simulated(Random& random, double shift) {
   constexpr int kBlocks = 8;
   std::vector<measure::CellRecord> cells;

@@ -94,7 +94,7 @@ inline std::string exact_text(double value) {
                      all.substr(digits.size()));
 }
 
-/// A float from -1e9 to 1e9, often a small whole number.
+/// Returns a float from -1e9 to 1e9, often a small whole number.
 inline float drawn_float(Draw& draw) {
   if (draw.once_in(2)) return static_cast<float>(draw.below(9)) - 4.0F;
   constexpr std::uint32_t kLimit = 0x4e6e6b28;  // 1e9
@@ -102,8 +102,8 @@ inline float drawn_float(Draw& draw) {
   return draw.once_in(2) ? size : -size;
 }
 
-/// A double near a float: the float itself, a double close to it, or the midpoint between it and
-/// the next.
+/// Returns a double near a float: the float itself, a double close to it, or the midpoint between
+/// it and the next.
 inline double drawn_double(Draw& draw) {
   const float base = drawn_float(draw);
   const double value = base;
@@ -133,7 +133,7 @@ inline float rounded_beyond(double value) {
   return is_middle ? farther : nearest;
 }
 
-/// A coordinate of a text that is read as a float.
+/// Returns a coordinate of a text that is read as a float.
 inline DrawnNumber drawn_decimal(Draw& draw) {
   const double value = drawn_double(draw);
   const auto nearest = static_cast<float>(value);
@@ -173,7 +173,7 @@ inline void expect_face(std::vector<Corners>& triangles, const std::vector<glm::
   }
 }
 
-/// Faces of 0 to 5 corners of `vertices` vertices.
+/// Returns faces of 0 to 5 corners of `vertices` vertices.
 inline std::vector<std::vector<std::uint32_t>> drawn_faces(Draw& draw, std::size_t vertices) {
   std::vector<std::vector<std::uint32_t>> faces(draw.below(6));
   for (auto& face : faces) {

@@ -25,7 +25,7 @@ std::string changed(const nlohmann::ordered_json& manifest, std::string_view inp
   return result.dump();
 }
 
-/// A log with only a header.
+/// Returns a log with only a header.
 std::string header_with(const std::string& manifest) {
   return R"({"event":"header","schema_version":1,"manifest":)" + manifest +
          R"(,"config":{},"plan":[]})" + '\n';

@@ -101,7 +101,7 @@ void put_extra(Draw& draw, PlyRow& row, const Extra& extra) {
   for (; count > 0; --count) put_number(draw, row, extra.type);
 }
 
-/// The vertices: x, y and z in any order, with other properties between them.
+/// Returns the vertices: x, y and z in any order, with other properties between them.
 Element drawn_vertices(Draw& draw, std::vector<glm::vec3>& vertices) {
   struct Property {
     int axis = 3;  // of an extra
@@ -138,7 +138,7 @@ Element drawn_vertices(Draw& draw, std::vector<glm::vec3>& vertices) {
   return element;
 }
 
-/// An element whose rows are lists of vertices, with other properties around each.
+/// Returns an element whose rows are lists of vertices, with other properties around each.
 Element listed(Draw& draw, std::string name, const std::vector<std::vector<double>>& lists,
                std::string_view type) {
   Element element{std::move(name), {}, {}};

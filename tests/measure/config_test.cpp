@@ -25,7 +25,7 @@ namespace {
 
 using nlohmann::json;
 
-/// A valid sweep, in which each test changes one thing.
+/// Returns a valid sweep, in which each test changes one thing.
 json fine() {
   return json::parse(R"({
     "name": "test",

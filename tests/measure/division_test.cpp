@@ -68,7 +68,7 @@ TEST_P(Divided, EveryCellIsInOneShardAndGroupsAreWhole) {
   EXPECT_EQ(found, wanted);
 }
 
-/// The largest share of the estimated work among `count` shards.
+/// Returns the largest share of the estimated work among `count` shards.
 double largest_share(const SweepConfig& config, int count) {
   double most = 0.0;
   for (int number = 1; number <= count; ++number) {

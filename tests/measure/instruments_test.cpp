@@ -14,7 +14,7 @@
 namespace beambench::measure {
 namespace {
 
-/// A counter that returns these numbers, 8 bytes each, when read.
+/// Returns a counter that returns these numbers, 8 bytes each, when read.
 int counter_that_tells(const std::vector<std::uint64_t>& numbers) {
   std::array<int, 2> ends{};
   EXPECT_EQ(::pipe(ends.data()), 0);

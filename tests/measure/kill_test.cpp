@@ -324,7 +324,7 @@ class TinyDisk {
   bool mounted_ = false;
 };
 
-/// What a full disk could not store, and the number of repetitions at that time.
+/// The data that a full disk could not store, and the number of repetitions at that time.
 struct FullDisk {
   const char* name;
   const char* size;

@@ -68,7 +68,7 @@ TEST(Statistics, IntervalCoversTheMedianOfASkewedDistribution) {
     covered += interval->low <= true_median && true_median <= interval->high ? 1 : 0;
   }
   EXPECT_GT(covered, kTrials * 94 / 100);
-  EXPECT_LT(covered, kTrials * 99 / 100);  // an interval of everything would say nothing
+  EXPECT_LT(covered, kTrials * 99 / 100);  // an interval of everything would be useless
 }
 
 TEST(Statistics, TheSpreadOfTheMinimumExtendsToTheFifthOfFifteen) {
@@ -163,7 +163,7 @@ TEST(Preflight, ShowsTheMachineAndEachWarning) {
   EXPECT_FALSE(noise_warning(std::nullopt));
 }
 
-/// The text that Linux writes for a machine with two cores.
+/// Returns the text that Linux writes for a machine with two cores.
 std::string cpuinfo(std::string_view maker, int model, double mhz) {
   const std::string core = fmt::format(
       "vendor_id\t: {}\ncpu family\t: 6\nmodel\t\t: {}\nmodel name\t: Processor\n"

@@ -25,7 +25,7 @@ using scenes::says;
 using scenes::thrown_message;
 using Events = std::vector<nlohmann::ordered_json>;
 
-/// A manifest with the members that events change.
+/// Returns a manifest with the members that events change.
 nlohmann::ordered_json small_manifest() {
   return {{"run_id", "id"},
           {"finished_utc", nullptr},
@@ -330,7 +330,7 @@ class WrittenLog : public testing::Test {
     write(text);
     return thrown_message([&] { read_run(folder()); });
   }
-  /// The log with a part replaced.
+  /// Returns the log with a part replaced.
   std::string with(const std::string& part, const std::string& other) const {
     std::string changed = text_;
     const auto place = changed.find(part);

@@ -147,7 +147,7 @@ class Sweep : public testing::Test {
     }
     return found;
   }
-  /// The cells by the bare name of their structure.
+  /// Returns the cells by the bare name of their structure.
   std::map<std::string, json> cells() const {
     std::map<std::string, json> found;
     for (const json& cell : all_cells()) found[cell["row"]["structure"].get<std::string>()] = cell;
@@ -481,7 +481,7 @@ TEST_F(Sweep, BothOrdersOfAListFormOneView) {
   EXPECT_EQ(rays.at("list"), rays.at("sorted"));
 }
 
-/// The events of one kind in a log.
+/// Returns the events of one kind in a log.
 std::vector<json> log_events(const std::filesystem::path& run, const std::string& kind) {
   std::vector<json> found;
   for_each_event(run, [&](const nlohmann::ordered_json& event) {

@@ -23,7 +23,8 @@ namespace {
 
 constexpr float kNoNumber = std::numeric_limits<float>::quiet_NaN();
 
-/// Hits that are impossible for rays with the interval [0.5, 2] in a scene of three primitives.
+/// Returns hits that are impossible for rays with the interval [0.5, 2] in a scene of three
+/// primitives.
 std::vector<accel::Hit> impossible_hits() {
   return {{1.0F, 3},
           {1.0F, 4'000'000'000U},

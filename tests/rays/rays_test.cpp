@@ -96,7 +96,7 @@ TEST(Order, ImagesHaveNone) {
   EXPECT_THROW(parse_ray_choice("whitted:order=sorted"), InputError);
 }
 
-/// One sphere, lit from two sides and seen from the front.
+/// Returns one sphere, lit from two sides and seen from the front.
 scenes::Scene lonely_sphere() {
   scenes::SceneBuilder builder("sphere");
   builder.add_sphere({1.0, 2.0, 3.0}, 2.0);
@@ -249,7 +249,7 @@ TEST(DiffuseRays, FollowTheCosineAndTheSeed) {
   EXPECT_NE(fingerprint(diffuse_rays(points, 1).rays), fingerprint(diffuse_rays(points, 2).rays));
 }
 
-/// A camera that looks down, between a floor at y = 0 and a ceiling.
+/// Returns a camera that looks down, between a floor at y = 0 and a ceiling.
 scenes::Scene floor_and_ceiling(double height) {
   scenes::SceneBuilder builder("floor and ceiling");
   for (const double y : {0.0, height}) {

@@ -62,8 +62,8 @@ TEST(Texture, VariesAboutTheColorOfItsSurface) {
   }
 }
 
-/// The color of a finish at the middle of its scene, where all noise is 0: marble has veins of
-/// (1/2)^6 of the color, wood begins a ring, clouds are a smooth step, granite shows no grain.
+/// Returns the color of a finish at the middle of its scene, where all noise is 0: marble has veins
+/// of (1/2)^6 of the color, wood begins a ring, clouds are a smooth step, granite shows no grain.
 dvec3 color_in_the_middle(scenes::Finish finish) {
   const dvec3 own(scenes::finished_surface(finish).color);
   const auto marble = [&](const dvec3& vein) { return own + (vein - own) / 64.0; };

@@ -1,4 +1,4 @@
-// Overlays: lines are in the right place, boxes hide what is behind them, legends count.
+// Overlays: lines are in the right place, boxes hide objects behind them, and legends show counts.
 
 #include "harness/render/picture/overlay.hpp"
 
@@ -21,8 +21,8 @@ namespace {
 
 const glm::vec3 kGround(0.2F);
 
-/// An eye at the origin that looks along +x with y to the left and z up. A point (x, y, z) appears
-/// at 50 - 50 y / x, 50 - 50 z / x.
+/// Returns an eye at the origin that looks along +x with y to the left and z up. A point (x, y, z)
+/// appears at 50 - 50 y / x, 50 - 50 z / x.
 accel::PrimaryRays view_along_x() {
   scenes::Camera camera;
   camera.at = {1.0F, 0.0F, 0.0F};

@@ -78,7 +78,7 @@ RecordedPicture recorded(const scenes::Scene& scene, const accel::Accelerator& s
                         std::move(hits), options, rays::HitCheck(scene));
 }
 
-/// A room of planar mirrors containing a ball, rotated relative to the axes.
+/// Returns a room of planar mirrors containing a ball, rotated relative to the axes.
 scenes::Scene mirror_room() {
   scenes::SceneBuilder builder = with_light({0.3, 0.2, 0.4});
   builder.set_surface({.diffuse = 0.3F, .specular = 0.7F});

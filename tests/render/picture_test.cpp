@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A picture in which every pixel has a different color.
+/// Returns a picture in which every pixel has a different color.
 Image colorful(int width, int height) {
   Image image(width, height);
   for (int y = 0; y < height; ++y) {
@@ -39,7 +39,7 @@ Image colorful(int width, int height) {
   return image;
 }
 
-/// A file's channels as they are stored, each value 32 bits wide.
+/// Returns a file's channels as they are stored, each value 32 bits wide.
 template <class Value>
 std::vector<Value> read_channel(const fs::path& file, const std::string& name,
                                 OIIO::TypeDesc type) {

@@ -24,7 +24,7 @@ using Way = BeamPlace::Way;
 
 const glm::vec3 kBackground(0.2F);
 
-/// Two adjacent tiles of 8 x 4 pixels each, in blocks of 4 x 4.
+/// Returns two adjacent tiles of 8 x 4 pixels each, in blocks of 4 x 4.
 std::vector<BeamPlace> two_tiles() {
   std::vector<BeamPlace> places;
   for (int y = 0; y < 4; ++y) {

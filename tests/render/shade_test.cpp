@@ -125,7 +125,7 @@ TEST(ShadingNormal, OfASmoothPolygonRunsBetweenItsCorners) {
   EXPECT_NEAR(glm::length(rays::shading_normal(scene, ray, hit) - expected), 0.0, 1e-6);
 }
 
-/// A red sphere in front of a blue sky, seen down the z axis.
+/// Returns a red sphere in front of a blue sky, seen down the z axis.
 scenes::Scene red_ball() {
   scenes::SceneBuilder builder("red ball");
   builder.set_background({0.0, 0.0, 1.0});

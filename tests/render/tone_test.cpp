@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kSize = 100;
 
-/// A ramp of the brightest component in many hues, spanning `stops` stops around `middle`.
+/// Returns a ramp of the brightest component in many hues, spanning `stops` stops around `middle`.
 Image ramp(double middle, double stops) {
   Image image(kSize, kSize);
   for (int y = 0; y < kSize; ++y) {

@@ -122,7 +122,7 @@ TEST(Refracted, FollowsSnell) {
     ASSERT_TRUE(before.has_value());
     EXPECT_NEAR(glm::length(*before + incoming), 0.0, 1e-9);
   }
-  // From glass, past the critical angle of 41.8 degrees, nothing comes out.
+  // Beyond the critical angle of 41.8 degrees, no light leaves the glass.
   EXPECT_FALSE(refracted(glm::normalize(dvec3(0.7, 0.0, -0.7)), normal, 1.5).has_value());
 }
 
@@ -147,7 +147,7 @@ TEST(Whitted, ASmoothPolygonIsLitByItsShadingNormal) {
   expect_color(seen(scene, {0, 0, 5}, {0, 0, -1}), dvec3(kAmbient + 0.8));
 }
 
-/// A slab of glass, 2 thick, above a floor whose color changes at x = `edge`.
+/// Returns a slab of glass, 2 thick, above a floor whose color changes at x = `edge`.
 scenes::Scene slab_above_two_floors(double edge) {
   scenes::SceneBuilder builder = with_light({0.0, 0.0, 90.0});
   builder.set_surface({.diffuse = 0.0F, .transmittance = 1.0F, .refraction_index = 1.5F});
@@ -174,8 +174,8 @@ TEST(Whitted, ASlabOfGlassShiftsARay) {
   }
 }
 
-/// A glass bar along y whose section is the right angle (0, 0), (2, 2), (0, 2) of x and z, below a
-/// small white ceiling at z = 4, with the light between.
+/// Returns a glass bar along y whose section is the right angle (0, 0), (2, 2), (0, 2) of x and z,
+/// below a small white ceiling at z = 4, with the light between.
 scenes::Scene prism_below_a_ceiling(float index) {
   scenes::SceneBuilder builder = with_light({1.0, 0.0, 3.0});
   builder.set_surface({.diffuse = 0.0F, .transmittance = 1.0F, .refraction_index = index});

@@ -16,7 +16,7 @@
 namespace beambench::render {
 namespace {
 
-/// A group that requests a whole picture of a scene.
+/// Returns a group that requests a whole picture of a scene.
 measure::CellGroup group_of(scenes::Scene scene, const std::string& rays = "whitted") {
   const scenes::Camera camera = scene.cameras.front();
   return {std::make_shared<const scenes::Scene>(std::move(scene)),

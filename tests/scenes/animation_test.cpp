@@ -121,7 +121,7 @@ TEST_P(Moving, SizesAndFramesAreParameters) {
   EXPECT_TRUE(says(thrown_message([&] { load_animation(info.name + ":frames=1"); }), {"frames"}));
 }
 
-/// A triangle and a sphere.
+/// Returns a triangle and a sphere.
 Scene two_primitives() {
   SceneBuilder builder("two");
   builder.add_polygon(std::array<glm::dvec3, 3>{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}});

@@ -14,7 +14,7 @@
 namespace beambench {
 namespace {
 
-/// A mount of version 1 in /proc/self/mountinfo.
+/// Returns a mount of version 1 in /proc/self/mountinfo.
 std::string mount_of(const std::string& controllers, const std::string& mounted,
                      const std::string& point) {
   return "32 31 0:29 " + mounted + " " + point + " rw,relatime - cgroup cgroup rw," + controllers +

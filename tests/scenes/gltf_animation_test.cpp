@@ -179,7 +179,7 @@ TEST_F(GltfAnimations, LongOnesHaveAThousandFrames) {
   expect_near(corners(file, 400)[0], {400, 0, 0});
 }
 
-/// Two triangles, each moved by one joint, and a shared corner moved by both.
+/// Returns two triangles, each moved by one joint, and a shared corner moved by both.
 GltfFile with_skin() {
   GltfFile file;
   const int positions = file.add_positions({{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {1, 2, 0}});

@@ -18,7 +18,7 @@ enum class GltfType { kByte = 5120, kUByte, kShort, kUShort, kUInt = 5125, kFloa
 struct GltfFile {
   GltfFile();
 
-  /// Each function returns the index of what it added.
+  /// Each function returns the index of the object that it added.
   int add_view(const std::string& bytes, std::size_t stride = 0);
   int add_accessor(int view, GltfType type, std::size_t count, const char* shape);
   int add_positions(const std::vector<glm::vec3>& positions, std::size_t stride = 0);
@@ -32,12 +32,12 @@ struct GltfFile {
   std::string buffer;
 };
 
-/// A .glb file.
+/// Returns a .glb file.
 std::string glb(const GltfFile& file);
-/// A .gltf file whose buffer is at a URI; by default, in the text.
+/// Returns a .gltf file whose buffer is at a URI; by default, in the text.
 std::string gltf(const GltfFile& file, const std::string& uri = "");
 
-/// One triangle, (0,0,0) (1,0,0) (0,1,0), in one node.
+/// Returns one triangle, (0,0,0) (1,0,0) (0,1,0), in one node.
 GltfFile gltf_triangle();
 
 }  // namespace beambench::scenes

@@ -69,7 +69,7 @@ std::vector<TriangleCorners> triangles_of(const ImportedMesh& mesh) {
   return triangles;
 }
 
-/// The triangles of lists, strips and fans according to glTF 2.0, 3.7.2.1.
+/// Returns the triangles of lists, strips and fans according to glTF 2.0, 3.7.2.1.
 std::vector<TriangleCorners> triangles_by_the_book(const std::vector<glm::vec3>& p, int mode) {
   std::vector<TriangleCorners> triangles;
   if (mode == 4) {
@@ -585,7 +585,7 @@ void expect_mesh_or_refusal(const std::string& bytes, const fs::path& path) {
   }
 }
 
-/// A file that uses every feature of glTF that is read.
+/// Returns a file that uses every feature of glTF that is read.
 GltfFile rich_file() {
   GltfFile file = with_camera({{"name", "eye"}, {"camera", 0}}, {{"yfov", 0.5}, {"znear", 0.1}});
   const int strip = file.add_indices({0, 1, 2, 0}, GltfType::kUByte);

@@ -7,7 +7,7 @@
 
 namespace beambench::scenes {
 
-/// Corners (0,0,0), (1,0,0), (0,2,0), (0,0,3).
+/// Returns corners (0,0,0), (1,0,0), (0,2,0), (0,0,3).
 std::string tetrahedron_obj();
 std::string tetrahedron_off();
 std::string tetrahedron_ply();

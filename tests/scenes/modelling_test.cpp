@@ -202,7 +202,7 @@ TEST(Welded, DropsDegeneratePolygons) {
       4U);
 }
 
-/// A closed mesh of quads and triangles with `sides` around.
+/// Returns a closed mesh of quads and triangles with `sides` around.
 modelling::PolygonMesh vase(int sides) { return modelling::lathe(kVase, sides); }
 
 RC_GTEST_PROP(Subdivided, HasTheExactCountOnTheSameSurface, ()) {

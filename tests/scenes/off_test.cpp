@@ -17,7 +17,7 @@ std::uint64_t off_hash(const std::string& text) { return imported_hash(text, "of
 
 std::string off_refusal(const std::string& text) { return refusal(text, "off"); }
 
-/// A tetrahedron after the header, with a text at the end of each vertex and each face.
+/// Returns a tetrahedron after the header, with a text at the end of each vertex and each face.
 std::string tetrahedron_rows(std::string_view of_vertex, std::string_view of_face) {
   std::string text;
   for (const char* vertex : {"0 0 0", "1 0 0", "0 2 0", "0 0 3"}) {

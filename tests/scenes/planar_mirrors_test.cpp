@@ -22,7 +22,7 @@ Surface mirror() {
   return surface;
 }
 
-/// A square of the plane through `corner`, with sides along `u` and `v`.
+/// Adds a square of the plane through `corner`, with sides along `u` and `v`.
 void add_square(SceneBuilder& builder, const dvec3& corner, const dvec3& u, const dvec3& v) {
   const dvec3 corners[] = {corner, corner + u, corner + u + v, corner + v};
   builder.add_polygon(corners);

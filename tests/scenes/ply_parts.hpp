@@ -17,18 +17,18 @@ namespace beambench::scenes::ply_parts {
 using tests::ply_file;
 using tests::PlyRow;
 
-/// The header lines for vertices.
+/// Returns the header lines for vertices.
 inline std::string vertices(std::size_t count, std::string_view type = "float") {
   return fmt::format("element vertex {}\nproperty {} x\nproperty {} y\nproperty {} z\n", count,
                      type, type, type);
 }
 
-/// The header lines for faces.
+/// Returns the header lines for faces.
 inline std::string faces(std::size_t count, std::string_view types = "uchar int") {
   return fmt::format("element face {}\nproperty list {} vertex_indices\n", count, types);
 }
 
-/// The corners of a tetrahedron (0,0,0), (1,0,0), (0,2,0), (0,0,3).
+/// Returns the corners of a tetrahedron (0,0,0), (1,0,0), (0,2,0), (0,0,3).
 inline std::vector<PlyRow> corners(std::string_view type = "float") {
   return {{{type, 0}, {type, 0}, {type, 0}},
           {{type, 1}, {type, 0}, {type, 0}},
@@ -36,7 +36,7 @@ inline std::vector<PlyRow> corners(std::string_view type = "float") {
           {{type, 0}, {type, 0}, {type, 3}}};
 }
 
-/// A row that is one list.
+/// Returns a row that is one list.
 inline PlyRow list(std::string_view length_type, std::string_view type,
                    const std::vector<int>& numbers) {
   PlyRow row = {{length_type, static_cast<double>(numbers.size())}};
@@ -60,7 +60,7 @@ inline std::vector<PlyRow> operator+(std::vector<PlyRow> rows, const std::vector
   return rows;
 }
 
-/// A text file with three vertices, the first of which is given, and a triangle.
+/// Returns a text file with three vertices, the first of which is given, and a triangle.
 inline std::string triangle_ply(const std::string& first, const std::string& face = "3 0 1 2") {
   return ply_file("ascii", vertices(3) + faces(1), {}) + first + "\n1 0 0\n0 1 0\n" + face + "\n";
 }

@@ -351,7 +351,8 @@ TEST(Sombrero, IsASquareWithItsPeakNearTheMiddle) {
   }
 }
 
-/// A primitive represented by its positions alone, regardless of the order of its corners or ends.
+/// Returns a primitive represented by its positions alone, regardless of the order of its corners
+/// or ends.
 std::vector<std::array<float, 3>> places(const Scene& scene, PrimitiveId id) {
   const Primitive& primitive = scene.primitives[id];
   std::vector<std::array<float, 3>> all;

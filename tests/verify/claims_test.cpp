@@ -112,7 +112,7 @@ TEST(Claims, CorrectHitsPassInEveryForm) {
   }
 }
 
-/// A ray that hits a face well inside, steeply: no fault there can be a graze or a tie.
+/// Returns a ray that hits a face well inside, steeply: no fault there can be a graze or a tie.
 std::size_t clear_hit(const Traced& traced) {
   for (std::size_t i = 0; i < traced.rays.size(); ++i) {
     if (traced.hits.primitives[i] == scenes::kNoPrimitive) continue;

@@ -37,7 +37,7 @@ class Sealed {
       : body_(&body), random_(seed), placement_(random_), scene_(placed()) {}
 
   static constexpr std::size_t kRays = TileBeam::least_pencil(true);
-  /// The targets of half of the rays to a light inside; all others go anywhere.
+  /// The targets of half of the rays toward a light inside; the others have random targets.
   enum class Aim { kNearEdges, kAtEdgesAndCorners };
 
   const scenes::Scene& scene() const { return scene_; }

@@ -66,7 +66,7 @@ const std::vector<Shape>& shapes() {
   return kShapes;
 }
 
-/// A few cones of one shape around a place, some of them visible only from the inside.
+/// Returns a few cones of one shape around a place, some of them visible only from the inside.
 scenes::Scene cones_of(const Shape& shape, double scale, const dvec3& place, Random& random) {
   scenes::SceneBuilder builder("cones");
   const auto count = 1 + random.below(8);
@@ -89,7 +89,7 @@ scenes::Scene cones_of(const Shape& shape, double scale, const dvec3& place, Ran
 /// The eye and its target.
 using View = std::pair<dvec3, dvec3>;
 
-/// Views in which cones are difficult: in and on the axis, beyond the tip, in the continued
+/// Returns views in which cones are difficult: in and on the axis, beyond the tip, in the continued
 /// surface, at the continued tip, next to the surface.
 std::vector<View> views_of(const scenes::Cone& cone, Random& random) {
   const dvec3 base(cone.base);

@@ -308,7 +308,7 @@ TEST_F(FaultyBuffer, BaselineMustReportOnlyMisses) {
   EXPECT_EQ(silent.count(DiffClass::kStructureError), 0U);
 }
 
-/// One of each kind, numbered 0, 1 and 2.
+/// Adds one of each kind, numbered 0, 1 and 2.
 void add_triangle_sphere_and_cone(scenes::SceneBuilder& builder) {
   const glm::dvec3 corners[] = {{0.0, -1.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
   builder.add_polygon(corners);

@@ -1,4 +1,4 @@
-// The judge against exact arithmetic: it accepts no claim that is wrong by more than 4 K u, and
+// The judge against exact arithmetic: it accepts no claim that is off by more than 4 K u, and
 // refuses none within K u / 4.
 //
 // In the environment, BEAMBENCH_EXACT_CLAIMS=1000000 requests that many claims, which take a

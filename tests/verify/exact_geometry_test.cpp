@@ -20,9 +20,9 @@ namespace {
 
 constexpr float kLargest = std::numeric_limits<float>::max();
 
-/// A square of side 2 in y = 0 (primitive 0), a sphere of radius 1 around (0, 3, 0) (1), a cone
-/// with its base of radius 1 in y = 5 and its apex at (0, 7, 0) (2), a sphere of radius 1 around
-/// (0, 9, 0) seen from the inside only (3).
+/// Returns a square of side 2 in y = 0 (primitive 0), a sphere of radius 1 around (0, 3, 0) (1), a
+/// cone with its base of radius 1 in y = 5 and its apex at (0, 7, 0) (2), a sphere of radius 1
+/// around (0, 9, 0) seen from the inside only (3).
 scenes::Scene tower() {
   scenes::SceneBuilder builder("tower");
   const glm::dvec3 corners[] = {{-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}};

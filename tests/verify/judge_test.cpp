@@ -41,7 +41,7 @@ void add_rectangle(scenes::SceneBuilder& builder, const dvec3& corner, const dve
   const dvec3 corners[] = {corner, corner + side, corner + side + other, corner + other};
   builder.add_polygon(corners);
 }
-/// A square in a plane of constant y.
+/// Adds a square in a plane of constant y.
 void add_level(scenes::SceneBuilder& builder, double y, double half) {
   add_rectangle(builder, {-half, y, -half}, {2.0 * half, 0.0, 0.0}, {0.0, 0.0, 2.0 * half});
 }
@@ -332,7 +332,7 @@ TEST(Disputes, ExactAnswersAreNeverGrazes) {
   EXPECT_EQ(report.count(DiffClass::kAgree), input.size());
 }
 
-/// Lights on, in and just off the surfaces of random scenes.
+/// Returns lights on, in and just off the surfaces of random scenes.
 scenes::Scene with_lights_at_surfaces(std::uint64_t seed) {
   const scenes::Scene plain = tests::random_scene(seed, 25);
   const rays::TraceInput image(accel::PrimaryRays(plain.cameras.front(), 5, 5, 1));

@@ -33,7 +33,7 @@ rays::TraceInput as_list(const rays::TraceInput& input) {
   return rays::TraceInput(std::move(set));
 }
 
-/// A structure that is correct except that it loses the hits for which `loses` is true.
+/// Returns a structure that is correct except that it loses the hits for which `loses` is true.
 template <class Loses>
 Tracer losing(Loses loses) {
   return [loses](const scenes::Scene& scene, const rays::TraceInput& input) {

@@ -242,8 +242,8 @@ TEST(PencilHits, OfLightsAtEveryDistanceFromRemoteScenesAreCorrect) {
   EXPECT_GT(beams, 2000U);
 }
 
-/// Blades of grass in front of the camera, on four kilometers of ground under an equally distant
-/// light.
+/// Returns blades of grass in front of the camera, on four kilometers of ground under an equally
+/// distant light.
 scenes::Scene grass(std::uint64_t seed) {
   scenes::SceneBuilder builder("grass");
   const auto ground = [](double x, double z) { return dvec3(x, 0.0, z); };
@@ -288,8 +288,8 @@ TEST(PencilHits, OfTrianglesSeenEdgeOnAreCorrect) {
   EXPECT_EQ(outcome.differing, 0U);
 }
 
-/// Corners of the octree's cells, points on their edges and faces, and the same for the boxes of
-/// the hierarchy that the pencils traverse; both also beyond the scene.
+/// Returns corners of the octree's cells, points on their edges and faces, and the same for the
+/// boxes of the hierarchy that the pencils traverse; both also beyond the scene.
 std::vector<scenes::Light> lights_on_borders(const scenes::Scene& scene, Random& random) {
   std::vector<scenes::Light> lights;
   // Puts one, two or all three axes on a border.

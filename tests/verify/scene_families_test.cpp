@@ -170,7 +170,7 @@ TEST(SceneFamilies, AllStructuresAreCorrect) {
   EXPECT_GT(verified, scenes * 10'000);
 }
 
-/// The image of a structure compiled for one of Highway's targets.
+/// Returns the image of a structure compiled for one of Highway's targets.
 accel::HitBuffer image_on(std::int64_t target, const std::string& name, const scenes::Scene& scene,
                           const accel::PrimaryRays& rays) {
   const tests::OnlyTarget only(target);

@@ -54,7 +54,7 @@ class Faulty : public accel::TraversalAccelerator<Faulty> {
       std::reverse(hits.t(), hits.t() + hits.size());
     }
     if (rays.batch() != nullptr && fault_ == Fault::kOtherInLists) {
-      hits.t()[hits.size() - 1] = 1.0F;  // of a miss, too
+      hits.t()[hits.size() - 1] = 1.0F;  // also of a miss
     }
   }
 

@@ -20,7 +20,7 @@ constexpr std::array<unsigned char, 64> kZeros{};
 
 std::string name_of(int accessor) { return fmt::format("accessor {}", accessor); }
 
-/// Bytes of a buffer.
+/// Returns bytes of a buffer.
 std::span<const unsigned char> bytes_of_view(const tinygltf::Model& model, int view,
                                              std::string_view user) {
   const tinygltf::BufferView& found = element_of(model.bufferViews, view, "buffer view", user);

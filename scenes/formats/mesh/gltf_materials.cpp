@@ -20,7 +20,7 @@ double within(double number, double least, double largest) {
   return number >= least ? std::min(number, largest) : least;  // least for NaN
 }
 
-/// The sRGB transfer function.
+/// Returns the sRGB transfer function.
 float displayed(double linear) {
   const double light = within(linear, 0.0, 1.0);
   return static_cast<float>(light <= 0.0031308 ? 12.92 * light

@@ -85,7 +85,7 @@ std::uint32_t cells_per_edge(std::int64_t triangles) {
       std::max<std::int64_t>(1, below + (over_by < short_by ? 1 : 0)));
 }
 
-/// The two sides of the cube across one axis, two triangles per cell, counter-clockwise from
+/// Adds the two sides of the cube across one axis, two triangles per cell, counter-clockwise from
 /// outside.
 void add_sides(BumpyMesh& mesh, const CubeGrid& grid, std::uint32_t k, std::size_t axis) {
   const std::size_t u = (axis + 1) % 3;

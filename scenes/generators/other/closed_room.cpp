@@ -24,7 +24,8 @@ modelling::PolygonMesh ball(double radius, int slices, int stacks) {
   return modelling::ellipsoid(glm::dvec3(radius), slices, stacks);
 }
 
-/// The room's six sides, facing inward, of 3 d x 2 d x d squares: closed, with shared edges.
+/// Returns the room's six sides, facing inward, of 3 d x 2 d x d squares: closed, with shared
+/// edges.
 modelling::PolygonMesh shell(int detail) {
   modelling::PolygonMesh sides;
   for (int axis = 0; axis < 3; ++axis) {
@@ -49,7 +50,7 @@ modelling::PolygonMesh shell(int detail) {
   return modelling::welded(sides);
 }
 
-/// A column from floor to ceiling with a gentle wave.
+/// Returns a column from floor to ceiling with a gentle wave.
 modelling::PolygonMesh column(int detail) {
   const int stacks = 2 * detail;
   std::vector<glm::dvec2> profile;
@@ -60,7 +61,7 @@ modelling::PolygonMesh column(int detail) {
   return modelling::lathe(profile, 4 * detail);
 }
 
-/// A table top on four square legs, centered at the origin on the floor.
+/// Returns a table top on four square legs, centered at the origin on the floor.
 modelling::PolygonMesh table() {
   constexpr double kTop = 0.71;
   const std::vector<glm::dvec2> leg = {{0.06, 0.0}, {0.06, kTop}};

@@ -20,7 +20,7 @@ namespace {
 constexpr double kTailRoot = -0.30;  // the x where the body ends
 constexpr double kFlatness = 0.48;   // width of the body over its height
 
-/// The body, revolved about z and then laid along x and flattened.
+/// Returns the body, revolved about z and then laid along x and flattened.
 modelling::PolygonMesh body(int detail) {
   const int pieces = 2 * detail;
   std::vector<glm::dvec2> profile;
@@ -37,7 +37,7 @@ modelling::PolygonMesh body(int detail) {
   return mesh;
 }
 
-/// A flat fin in the plane of symmetry, with an outline of points (x, z).
+/// Returns a flat fin in the plane of symmetry, with an outline of points (x, z).
 modelling::PolygonMesh fin(std::vector<glm::dvec2> outline) {
   constexpr double kThickness = 0.016;
   return modelling::transformed(

@@ -7,7 +7,7 @@
 namespace beambench::scenes::generators {
 namespace {
 
-/// A random point of the cube [-half, half]^3.
+/// Returns a random point of the cube [-half, half]^3.
 glm::dvec3 point_in_cube(Random& random, double half) {
   const double x = random.uniform(-half, half);
   const double y = random.uniform(-half, half);

@@ -13,9 +13,9 @@ namespace {
 
 using Directions = std::array<glm::dvec3, 9>;
 
-/// The positions of the nine children in their parent's frame: six on the equator at azimuth 15 +
-/// 60 k degrees, three at an elevation whose tangent is sqrt 2, at azimuth 45 + 120 k degrees.
-/// Computed with square roots only, which are the same on every machine.
+/// Returns the positions of the nine children in their parent's frame: six on the equator at
+/// azimuth 15 + 60 k degrees, three at an elevation whose tangent is sqrt 2, at azimuth 45 + 120 k
+/// degrees. Computed with square roots only, which are the same on every machine.
 Directions child_directions() {
   const double cos15 = (std::sqrt(6.0) + std::sqrt(2.0)) / 4.0;
   const double sin15 = (std::sqrt(6.0) - std::sqrt(2.0)) / 4.0;
@@ -33,7 +33,7 @@ Directions child_directions() {
            {out * sin15, -out * cos15, up}}};
 }
 
-/// The smallest rotation that takes +z to the unit vector d.
+/// Returns the smallest rotation that takes +z to the unit vector d.
 glm::dmat3 rotation_from_z(const glm::dvec3& d) {
   if (d.z < -1.0 + 1e-9) return {1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, -1.0};
   const double k = 1.0 / (1.0 + d.z);

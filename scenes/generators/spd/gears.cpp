@@ -57,7 +57,8 @@ void add_gear(SceneBuilder& builder, const Outline& corners, const glm::dvec3& c
   builder.add_polygon(face);
 }
 
-/// A color that looks random, brightened until its largest component is 1; every fifth is glass.
+/// Returns a color that looks random, brightened until its largest component is 1; every fifth is
+/// glass.
 Surface gear_surface(std::int64_t x, std::int64_t y, std::int64_t z) {
   const auto component = [](std::int64_t sevenths) {
     return 0.01 + static_cast<double>(sevenths % 7) / 7.0;

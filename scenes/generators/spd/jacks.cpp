@@ -27,7 +27,7 @@ void add_jack(SceneBuilder& builder, const glm::dmat3& axes, const glm::dvec3& c
   }
 }
 
-/// A jack, and one of half its size in the middle of each octant between its arms.
+/// Adds a jack, and one of half its size in the middle of each octant between its arms.
 void add_jacks(SceneBuilder& builder, const glm::dmat3& axes, const glm::dvec3& center, double size,
                std::int64_t generations) {
   add_jack(builder, axes, center, size);

@@ -18,7 +18,7 @@ const std::array<Surface, 3> kCylinderSurfaces = {
      {.color = {0.1F, 0.9F, 0.1F}, .diffuse = 0.99F},
      {.color = {0.1F, 0.1F, 0.9F}, .diffuse = 0.99F}}};
 
-/// A sphere at each corner of the cells, a cylinder along each edge.
+/// Adds a sphere at each corner of the cells, a cylinder along each edge.
 void add_lattice(SceneBuilder& builder, std::int64_t n) {
   const double edge = 1.0 / static_cast<double>(n);
   // A cylinder begins inside its sphere, where it is certainly hidden.

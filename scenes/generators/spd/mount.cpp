@@ -35,7 +35,7 @@ double normal_deviate(std::int64_t seed) {
   }
 }
 
-/// The SPD's hash of a grid point. Its repetition over the mountain is part of the scene.
+/// Returns the SPD's hash of a grid point. Its repetition over the mountain is part of the scene.
 std::int64_t hash(std::uint64_t x, std::uint64_t y, std::int64_t n) {
   const auto shifted = [n](std::uint64_t value, std::int64_t by) {
     return by < n ? 0 : value << static_cast<std::uint64_t>(by - n);

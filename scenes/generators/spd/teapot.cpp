@@ -198,7 +198,7 @@ class PatchMesh {
   std::vector<GridPoint> points_;
 };
 
-/// The squares of one color of a chessboard of n x n over [-4, 4]^2.
+/// Adds the squares of one color of a chessboard of n x n over [-4, 4]^2.
 void add_squares(SceneBuilder& builder, std::int64_t n, std::int64_t color) {
   const auto place = [n](std::int64_t i) {
     return 4.0 * (2.0 * static_cast<double>(i) / static_cast<double>(n) - 1.0);

@@ -22,7 +22,7 @@ struct Growth {
 };
 constexpr std::array<Growth, 2> kGrowths = {{{40.0, 90.0, 0.65}, {25.0, 230.0, 0.70}}};
 
-/// The matrix that takes a branch's own axes to its parent's: about x, about z, shrink.
+/// Returns the matrix that takes a branch's own axes to its parent's: about x, about z, shrink.
 glm::dmat3 relative_axes(const Growth& growth) {
   const double bend = growth.bend * std::numbers::pi / 180.0;
   const double turn = growth.divergence * std::numbers::pi / 180.0;

@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kSides = 18;
 
-/// The foot that all pieces have: a plinth, a torus, a step.
+/// Returns the foot that all pieces have: a plinth, a torus, a step.
 modelling::Profile foot(double radius) {
   modelling::Profile profile({radius, 0.0});
   profile.line({radius, 0.05})
@@ -32,7 +32,7 @@ modelling::Profile foot(double radius) {
   return profile;
 }
 
-/// The collar under a head: a disc with a round edge around a stem of radius `stem`.
+/// Adds the collar under a head: a disc with a round edge around a stem of radius `stem`.
 modelling::Profile& collar(modelling::Profile& profile, double stem, double radius, double height) {
   return profile.line({radius - 0.03, height})
       .curve({radius - 0.03, height + 0.05}, 0.03, 2)
@@ -48,7 +48,8 @@ void raise_points(modelling::PolygonMesh& mesh, double height, double rise) {
   }
 }
 
-/// A block of the rook's battlements over some of the lathe's sides: inside, outside, top, ends.
+/// Returns a block of the rook's battlements over some of the lathe's sides: inside, outside, top,
+/// ends.
 modelling::PolygonMesh merlon(int first, int count, double inner, double outer, double low,
                               double high) {
   modelling::PolygonMesh mesh;

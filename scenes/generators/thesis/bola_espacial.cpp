@@ -14,7 +14,7 @@ namespace {
 constexpr int kPanels = 16;      // along an edge of each of six sides: 1,536 polygons
 constexpr int kPlatePanels = 4;  // along an edge of a plate of one color
 
-/// One side of a cube, inflated to the ball.
+/// Returns one side of a cube, inflated to the ball.
 modelling::PolygonMesh side(int axis, double direction) {
   return modelling::parametric_surface(
       [axis, direction](double u, double v) {
@@ -27,7 +27,7 @@ modelling::PolygonMesh side(int axis, double direction) {
       kPanels, kPanels);
 }
 
-/// The panels of the plates of one color: a checkerboard.
+/// Returns the panels of the plates of one color: a checkerboard.
 modelling::PolygonMesh plates(const modelling::PolygonMesh& whole, std::size_t color) {
   modelling::PolygonMesh part{whole.vertices, {}};
   for (std::size_t i = 0; i < whole.polygons.size(); ++i) {

@@ -45,7 +45,7 @@ void add_strip(modelling::PolygonMesh& mesh, const std::vector<glm::dvec3>& low,
   }
 }
 
-/// Rows of round tiles, each row lying on the one below: six quads per tile.
+/// Returns rows of round tiles, each row lying on the one below: six quads per tile.
 modelling::PolygonMesh tiled_slope(const RoofSlope& slope) {
   const glm::dvec3 outward = glm::normalize(glm::cross(slope.along, slope.up));
   const double width = glm::length(slope.along) / slope.tiles;
@@ -69,7 +69,7 @@ modelling::PolygonMesh tiled_slope(const RoofSlope& slope) {
   return mesh;
 }
 
-/// The round tiles that cover a ridge.
+/// Returns the round tiles that cover a ridge.
 modelling::PolygonMesh ridge_tiles(const glm::dvec3& from, const glm::dvec3& to, double radius,
                                    int tiles) {
   const glm::dvec3 along = to - from;
@@ -145,7 +145,7 @@ void add(SceneBuilder& builder, const Surface& surface, const modelling::Polygon
   modelling::add_flat(builder, modelling::transformed(mesh, place));
 }
 
-/// A shutter with slats, mounted beside a window.
+/// Adds a shutter with slats, mounted beside a window.
 void add_shutter(SceneBuilder& builder, const glm::dmat4& place) {
   constexpr double kThick = 0.06;
   constexpr int kSlats = 9;
@@ -323,7 +323,7 @@ modelling::PolygonMesh fence() {
   return mesh;
 }
 
-/// A crown of clumps of leaves around a place.
+/// Returns a crown of clumps of leaves around a place.
 modelling::Field crown(const glm::dvec3& center, double radius, std::uint64_t seed) {
   struct Clump {
     glm::dvec3 center;

@@ -78,8 +78,8 @@ struct Blade {
   double front, back, thickness;
 };
 
-/// A fin from its root to the tip, a lens of six corners at each station; `across` is the direction
-/// of its thickness.
+/// Returns a fin from its root to the tip, a lens of six corners at each station; `across` is the
+/// direction of its thickness.
 modelling::PolygonMesh fin(std::span<const Blade> blades, const glm::dvec3& tip,
                            const glm::dvec3& across) {
   constexpr std::uint32_t kCorners = 6;

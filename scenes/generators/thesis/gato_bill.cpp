@@ -216,7 +216,7 @@ void add_fur(SceneBuilder& builder) {
                          }});
 }
 
-/// An ellipsoid with its poles on y.
+/// Returns an ellipsoid with its poles on y.
 modelling::PolygonMesh ball(const glm::dvec3& center, const glm::dvec3& half_axes, int slices,
                             int stacks) {
   modelling::PolygonMesh mesh =
@@ -281,7 +281,7 @@ void add_cartoon_cat(SceneBuilder& builder) {
 
 constexpr std::size_t kPolygons = 15128;
 
-/// The name, floating behind the cat's ears.
+/// Returns the name, floating behind the cat's ears.
 modelling::PolygonMesh name() {
   constexpr double kHeight = 0.76;
   glm::dmat4 place = glm::translate(

@@ -17,7 +17,7 @@ constexpr std::size_t kPolygons = 1284;
 constexpr int kLeaves = 30;
 constexpr double kTop = 0.6;  // of the stem, at the last leaf
 
-/// The pot without its unseen bottom: wall, rim, and inside down to the soil.
+/// Returns the pot without its unseen bottom: wall, rim, and inside down to the soil.
 modelling::PolygonMesh pot() {
   const std::vector<glm::dvec2> profile = {{0.15, 0.00}, {0.20, 0.23}, {0.23, 0.23},
                                            {0.23, 0.30}, {0.21, 0.30}, {0.20, 0.26}};
@@ -36,8 +36,9 @@ modelling::PolygonMesh stem() {
   return modelling::tube(path, radii, 6);
 }
 
-/// Leaves around the stem in the spiral of phyllotaxis (Vogel 1979): each a golden angle farther
-/// around than the one below, the lower ones long and drooping, the upper ones steep and short.
+/// Returns leaves around the stem in the spiral of phyllotaxis (Vogel 1979): each a golden angle
+/// farther around than the one below, the lower ones long and drooping, the upper ones steep and
+/// short.
 modelling::PolygonMesh leaves() {
   const double golden = std::numbers::pi * (3.0 - std::sqrt(5.0));
   modelling::PolygonMesh mesh;

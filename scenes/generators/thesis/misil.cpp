@@ -46,7 +46,7 @@ std::vector<Part> hull() {
             {0.0, 10.0}}}};
 }
 
-/// A fin in the plane y = 0, its root on the hull at x = 0.7 and sunk in slightly.
+/// Returns a fin in the plane y = 0, its root on the hull at x = 0.7 and sunk in slightly.
 modelling::PolygonMesh fin(const std::vector<glm::dvec2>& outline, double thickness) {
   modelling::PolygonMesh mesh = modelling::extruded(modelling::flat_polygon(outline), thickness);
   std::erase_if(mesh.polygons,
@@ -62,7 +62,7 @@ modelling::PolygonMesh fin(const std::vector<glm::dvec2>& outline, double thickn
                            glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, -0.5 * thickness)));
 }
 
-/// Four copies around the hull, an eighth of a turn from the axes.
+/// Returns four copies around the hull, an eighth of a turn from the axes.
 modelling::PolygonMesh four(const modelling::PolygonMesh& one) {
   modelling::PolygonMesh mesh;
   for (int i = 0; i < 4; ++i)

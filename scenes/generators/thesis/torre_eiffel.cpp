@@ -60,7 +60,7 @@ std::vector<Section> shaft_sections() {
 
 using Posts = std::vector<glm::dvec3>;
 
-/// A post through the sections; `x` and `y` map a section to a position on the axis.
+/// Returns a post through the sections; `x` and `y` map a section to a position on the axis.
 template <typename X, typename Y>
 Posts post(const std::vector<Section>& sections, X x, Y y) {
   Posts places;
@@ -74,7 +74,8 @@ double inner(const Section& section) { return section.inner; }
 double minus_outer(const Section& section) { return -section.outer; }
 double minus_inner(const Section& section) { return -section.inner; }
 
-/// A post along the places, a meter longer at both ends to reach into floors and foundations.
+/// Returns a post along the places, a meter longer at both ends to reach into floors and
+/// foundations.
 modelling::PolygonMesh beam(Posts places, double thickness) {
   const std::size_t last = places.size() - 1;
   places[0] += glm::normalize(places[0] - places[1]);
@@ -84,7 +85,7 @@ modelling::PolygonMesh beam(Posts places, double thickness) {
   return modelling::sweep(square, places, scales, {1.0, 0.0, 0.0}, modelling::Caps::kNone);
 }
 
-/// Four copies, in the corners or on the sides of the tower.
+/// Returns four copies, in the corners or on the sides of the tower.
 modelling::PolygonMesh four_times(const modelling::PolygonMesh& one) {
   modelling::PolygonMesh mesh;
   for (int i = 0; i < 4; ++i)
@@ -98,7 +99,7 @@ Posts halfway(const Posts& a, const Posts& b) {
   return places;
 }
 
-/// One side of a leg: a thin post in its middle, with bracing on both sides.
+/// Returns one side of a leg: a thin post in its middle, with bracing on both sides.
 modelling::PolygonMesh leg_side(const Posts& left, const Posts& right, const glm::dvec3& outward,
                                 const modelling::Bracing& bracing) {
   const Posts center = halfway(left, right);
@@ -123,7 +124,8 @@ modelling::PolygonMesh leg(const std::vector<Section>& sections, double thicknes
   return mesh;
 }
 
-/// The shaft's side y < 0 with its left corner post: bracing between the outer and the inner posts.
+/// Returns the shaft's side y < 0 with its left corner post: bracing between the outer and the
+/// inner posts.
 modelling::PolygonMesh shaft_side() {
   const std::vector<Section> sections = shaft_sections();
   const glm::dvec3 outward(0.0, -1.0, 0.0);
@@ -142,7 +144,7 @@ modelling::PolygonMesh shaft_side() {
   return mesh;
 }
 
-/// The round arch between the feet on the side y < 0, leaning as the legs do.
+/// Returns the round arch between the feet on the side y < 0, leaning as the legs do.
 modelling::PolygonMesh arch() {
   constexpr int kSteps = 30;
   constexpr double kRadius = 37.0;
@@ -166,7 +168,7 @@ modelling::PolygonMesh arch() {
   return mesh;
 }
 
-/// Posts and two rails on the side y < 0 of a floor.
+/// Returns posts and two rails on the side y < 0 of a floor.
 modelling::PolygonMesh gallery_side(double height, double half, int posts, double rise) {
   const glm::dvec3 outward(0.0, -1.0, 0.0);
   modelling::PolygonMesh mesh;
@@ -182,8 +184,8 @@ modelling::PolygonMesh gallery_side(double height, double half, int posts, doubl
   return mesh;
 }
 
-/// The four legs from the ground to the second floor, the shaft above and the arches between the
-/// legs, in meters, with the center of the base at the origin.
+/// Returns the four legs from the ground to the second floor, the shaft above and the arches
+/// between the legs, in meters, with the center of the base at the origin.
 modelling::PolygonMesh iron_tower() {
   const Section ground = {3.2 + kClear, 60.8, 36.3};
   const Section below_first = {kFirstFloor - kFloorDepth - kClear, 35.2, 18.2};
@@ -196,7 +198,7 @@ modelling::PolygonMesh iron_tower() {
   return mesh;
 }
 
-/// The three floors, without their galleries.
+/// Returns the three floors, without their galleries.
 modelling::PolygonMesh tower_floors() {
   modelling::PolygonMesh mesh =
       modelling::square_ring(38.0, 13.0, kFirstFloor - kFloorDepth, kFirstFloor);
@@ -207,7 +209,7 @@ modelling::PolygonMesh tower_floors() {
   return mesh;
 }
 
-/// Posts and rails around the floors.
+/// Returns posts and rails around the floors.
 modelling::PolygonMesh tower_galleries() {
   modelling::PolygonMesh side = gallery_side(kFirstFloor, 37.4, 36, 3.2);
   modelling::append(side, gallery_side(kSecondFloor, 21.0, 22, 2.8));
@@ -215,7 +217,7 @@ modelling::PolygonMesh tower_galleries() {
   return four_times(side);
 }
 
-/// The lantern above the third floor, and its mast up to 324 meters.
+/// Returns the lantern above the third floor, and its mast up to 324 meters.
 modelling::PolygonMesh tower_top() {
   const std::vector<glm::dvec2> lantern = {{4.6, 276.0}, {4.6, 282.0}, {5.6, 282.6}, {5.6, 284.0},
                                            {3.4, 285.0}, {3.4, 291.0}, {3.9, 291.4}, {3.6, 293.2},
@@ -224,7 +226,7 @@ modelling::PolygonMesh tower_top() {
   return modelling::lathe(lantern, 16);
 }
 
-/// The stone blocks under the posts of the legs.
+/// Returns the stone blocks under the posts of the legs.
 modelling::PolygonMesh tower_foundations() {
   modelling::PolygonMesh block;
   for (const double x : {36.6, 61.2}) {

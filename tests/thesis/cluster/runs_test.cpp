@@ -189,7 +189,7 @@ TEST(Cluster, ContinuesWithoutASilentConsumer) {
   const accel::HitBuffer expected = place.sequential_hits();
   for (const int answers : {0, 1, 5}) {
     LocalNetwork network(3, 1, 0.0);
-    network.mute_after(2, 1 + answers);  // it says that it is there
+    network.mute_after(2, 1 + answers);  // it reports that it is ready
     accel::HitBuffer hits = place.no_hits();
     ProducerOptions options = impatient();
     options.in_flight = 2;

@@ -22,7 +22,7 @@ TaskCosts two_tasks() {
   return costs;
 }
 
-/// Remembers what was spent.
+/// Records the time spent.
 struct Purse {
   std::vector<double> spent;
   Spend spend() {

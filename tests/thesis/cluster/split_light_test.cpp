@@ -110,8 +110,8 @@ TEST(PartTracer, FindsTheHitsOfOneProcessOnBorders) {
   }
 }
 
-/// Two polygons on both sides of a border, closer to each other than the precision of t: equal
-/// hits, found by different processes.
+/// Returns two polygons on both sides of a border, closer to each other than the precision of t:
+/// equal hits, found by different processes.
 SceneWithRays ties_across_a_border() {
   constexpr double kAside = 1e-5;
   constexpr float kFar = 1000.0F;

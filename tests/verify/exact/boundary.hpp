@@ -96,7 +96,7 @@ inline bool is_far_from_silhouette(const ExactRay& ray, const Cone& cone, double
   return has_no_zero(e.b.squared() - e.a * e.c, gradient, bend, within);
 }
 
-/// Points at steps of a sixteenth of a circle, of radius below 1.
+/// Returns points at steps of a sixteenth of a circle, of radius below 1.
 inline const std::array<std::array<double, 2>, 16>& around() {
   static const auto kAround = [] {
     constexpr double kA = 0.9238795325112867;

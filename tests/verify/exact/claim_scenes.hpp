@@ -134,7 +134,7 @@ inline scenes::Scene stack(Random& random) {
   return std::move(modeller).build();
 }
 
-/// Squares in planes whose coordinates are multiples of 1/8, and objects on them.
+/// Returns squares in planes whose coordinates are multiples of 1/8, and objects on them.
 inline scenes::Scene planes(Random& random) {
   Modeller upright("planes", random.below(3));
   const double level = snapped(random.uniform(-1.0, 1.0));
@@ -148,7 +148,7 @@ inline scenes::Scene planes(Random& random) {
   return std::move(upright).build();
 }
 
-/// A room: floor, ceiling, a wall and objects on the floor.
+/// Returns a room: floor, ceiling, a wall and objects on the floor.
 inline scenes::Scene room(Random& random) {
   Modeller modeller("room", random.below(3));
   const double top = random.below(2) == 0 ? 1.1 : random.uniform(0.7, 3.0);
@@ -159,7 +159,7 @@ inline scenes::Scene room(Random& random) {
   return std::move(modeller).build();
 }
 
-/// A sheet of triangles that share edges, level or uneven, over a floor.
+/// Returns a sheet of triangles that share edges, level or uneven, over a floor.
 inline scenes::Scene sheet(Random& random) {
   Modeller modeller("sheet", random.below(3));
   const double rough = std::array<double, 3>{0.0, 1e-5, 0.2}[random.below(3)];

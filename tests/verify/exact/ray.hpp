@@ -20,7 +20,7 @@ struct Bound {
   bool closed;
 };
 
-/// The numbers whose nearest float is at least `limit`: ties go to the float with the even
+/// Returns the numbers whose nearest float is at least `limit`: ties go to the float with the even
 /// mantissa.
 inline Bound rounding_to_at_least(float limit) {
   const double below = std::nextafter(limit, -std::numeric_limits<float>::infinity());
@@ -28,7 +28,8 @@ inline Bound rounding_to_at_least(float limit) {
           std::bit_cast<std::uint32_t>(limit) % 2 == 0};
 }
 
-/// The numbers whose nearest float is at most `limit`; infinity is beyond the largest float.
+/// Returns the numbers whose nearest float is at most `limit`; infinity is beyond the largest
+/// float.
 inline Bound rounding_to_at_most(float limit) {
   limit = std::min(limit, std::numeric_limits<float>::max());
   const float above = std::nextafter(limit, std::numeric_limits<float>::infinity());

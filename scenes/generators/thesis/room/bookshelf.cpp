@@ -42,7 +42,7 @@ struct Book {
   glm::vec3 color;
 };
 
-/// Books from one side to the other; some shelves have a gap at the end.
+/// Returns books from one side to the other; some shelves have a gap at the end.
 std::vector<Book> row_of_books(Random& random, double length) {
   std::vector<Book> books;
   double x = 0.0;
@@ -55,7 +55,7 @@ std::vector<Book> row_of_books(Random& random, double length) {
   }
 }
 
-/// The spine's outline from left to right, as (x, y). It bulges.
+/// Returns the spine's outline from left to right, as (x, y). It bulges.
 std::vector<glm::dvec2> spine(const Book& book) {
   constexpr int kPieces = 4;
   std::vector<glm::dvec2> line;

@@ -25,7 +25,7 @@ constexpr double kCanvas = 0.010;  // in front of the wall
 
 Surface paint(const glm::vec3& color) { return {.color = color, .diffuse = 0.95F}; }
 
-/// The frame, and the canvas inside it.
+/// Adds the frame, and the canvas inside it.
 void add_frame(PlacedPiece& picture, const glm::dvec2& size, const glm::vec3& ground) {
   const std::vector<glm::dvec2> profile = {{0.0, 0.0},     {0.0, 0.022},     {0.010, 0.032},
                                            {0.022, 0.030}, {0.036, 0.018},   {0.044, 0.022},
@@ -37,7 +37,7 @@ void add_frame(PlacedPiece& picture, const glm::dvec2& size, const glm::vec3& gr
   picture.flat(paint(ground), canvas);
 }
 
-/// A flat polygon slightly in front of the canvas.
+/// Returns a flat polygon slightly in front of the canvas.
 modelling::PolygonMesh patch(const std::vector<glm::dvec2>& outline, int layer) {
   modelling::PolygonMesh mesh;
   modelling::PolygonMesh::Corners corners;
@@ -61,7 +61,7 @@ void sierpinski(const std::array<glm::dvec2, 3>& corners, int depth, modelling::
   }
 }
 
-/// A clock's hand from its axis to an hour of the dial.
+/// Returns a clock's hand from its axis to an hour of the dial.
 modelling::PolygonMesh hand(double hour, double length, double width) {
   modelling::PolygonMesh mesh =
       modelling::box({-0.5 * width, -0.2 * length, 0.0}, {0.5 * width, length, 0.004});
@@ -82,7 +82,7 @@ modelling::PolygonMesh bulb(double z) {
   return mesh;
 }
 
-/// A lampshade of paper, open above and below, folded into pleats.
+/// Returns a lampshade of paper, open above and below, folded into pleats.
 modelling::PolygonMesh pleated_shade(double low, double low_radius, double high,
                                      double high_radius) {
   constexpr int kPleats = 32;

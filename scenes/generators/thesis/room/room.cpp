@@ -120,7 +120,7 @@ void add_skirting_and_cornice(SceneBuilder& builder) {
 
 using Line = std::vector<glm::dvec2>;
 
-/// A line of hills from the left edge to the right one.
+/// Returns a line of hills from the left edge to the right one.
 Line hills(const glm::dvec2& size, double height, double swing, double phase) {
   constexpr int kPieces = 24;
   Line line;
@@ -136,7 +136,7 @@ Line level(const glm::dvec2& size, double height) {
   return {{0.0, size.y * height}, {size.x, size.y * height}};
 }
 
-/// The polygons between two lines.
+/// Returns the polygons between two lines.
 modelling::PolygonMesh between(const Line& low, const Line& high) {
   Line outline = low;
   outline.insert(outline.end(), high.rbegin(), high.rend());

@@ -46,11 +46,11 @@ modelling::PolygonMesh above(modelling::PolygonMesh mesh, double z);
 inline constexpr double kDiningTop = 0.75;  ///< height of the table's top
 inline constexpr double kCoffeeTop = 0.43;
 
-/// A round table of radius 0.56 on a turned column with four feet.
+/// Adds a round table of radius 0.56 on a turned column with four feet.
 void add_dining_table(SceneBuilder& builder, const glm::dmat4& place);
-/// A long low table, 1.16 x 0.62, on turned legs, with a shelf below.
+/// Adds a long low table, 1.16 x 0.62, on turned legs, with a shelf below.
 void add_coffee_table(SceneBuilder& builder, const glm::dmat4& place);
-/// A chair with a bowed back and spindles; a person sitting on it faces -y.
+/// Adds a chair with a bowed back and spindles; a person sitting on it faces -y.
 void add_chair(SceneBuilder& builder, const glm::dmat4& place);
 
 /// A seat with arms, a back and loose cushions, standing at the origin and facing -y: 0.92 deep
@@ -63,15 +63,15 @@ double settee_field(const glm::dvec3& place, const Settee& settee);
 
 /// Its surface in triangles, without the parts that face the floor.
 modelling::PolygonMesh settee(const Settee& settee, double cell);
-/// Four turned feet.
+/// Returns four turned feet.
 modelling::PolygonMesh settee_feet(const Settee& settee);
 
 /// Returns a cushion of this half width and height that lies flat around the origin, with pointed
 /// corners.
 modelling::PolygonMesh scatter_cushion(double half, double height, int steps);
 
-/// A woven rug over a rectangle of the floor, a quad for each knot of its pattern, fringed left and
-/// right.
+/// Adds a woven rug over a rectangle of the floor, a quad for each knot of its pattern, fringed
+/// left and right.
 void add_rug(SceneBuilder& builder, const modelling::Rectangle& place);
 
 /// Two curtains on a rod in the plane y = `y` before the window from `window.lower` to
@@ -80,22 +80,22 @@ void add_curtains(SceneBuilder& builder, const modelling::Rectangle& window, dou
 
 inline constexpr glm::dvec3 kBookshelf = {1.24, 0.32, 2.12};  ///< width, depth, height
 
-/// Five shelves of books between x = 0 and the bookshelf's width, with the back at y = 0 against a
-/// wall, facing -y.
+/// Adds five shelves of books between x = 0 and the bookshelf's width, with the back at y = 0
+/// against a wall, facing -y.
 void add_bookshelf(SceneBuilder& builder, const glm::dmat4& place);
 
-/// A closed book that lies at the origin, its spine to -y, of `size` (along the spine, across,
+/// Adds a closed book that lies at the origin, its spine to -y, of `size` (along the spine, across,
 /// thick).
 void add_lying_book(SceneBuilder& builder, const glm::dmat4& place, const glm::dvec3& size,
                     const glm::vec3& color);
 
-/// A round teapot, 0.17 high, its spout to +x.
+/// Adds a round teapot, 0.17 high, its spout to +x.
 void add_china_teapot(SceneBuilder& builder, const glm::dmat4& place);
-/// A cup with tea on its saucer, its handle to +x.
+/// Adds a cup with tea on its saucer, its handle to +x.
 void add_cup(SceneBuilder& builder, const glm::dmat4& place);
-/// A bowl of radius 0.17 with apples, oranges and a banana.
+/// Adds a bowl of radius 0.17 with apples, oranges and a banana.
 void add_fruit_bowl(SceneBuilder& builder, const glm::dmat4& place);
-/// A vase with daisies, about 0.5 high.
+/// Adds a vase with daisies, about 0.5 high.
 void add_vase_of_flowers(SceneBuilder& builder, const glm::dmat4& place);
 
 /// Adds a framed picture on the wall, the plane z = 0 of `place`, with its lower left outer corner
@@ -103,15 +103,15 @@ void add_vase_of_flowers(SceneBuilder& builder, const glm::dmat4& place);
 void add_triangle_picture(SceneBuilder& builder, const glm::dmat4& place);
 /// Adds a picture, 0.8 x 0.6, of a sailing boat under the sun.
 void add_boat_picture(SceneBuilder& builder, const glm::dmat4& place);
-/// A clock of radius 0.17 around the origin of `place`, at ten past ten.
+/// Adds a clock of radius 0.17 around the origin of `place`, at ten past ten.
 void add_clock(SceneBuilder& builder, const glm::dmat4& place);
-/// A pot with arching leaves, about 1.1 high.
+/// Adds a pot with arching leaves, about 1.1 high.
 void add_potted_plant(SceneBuilder& builder, const glm::dvec3& place);
 
-/// A ceiling lamp: `rim` is the middle of its shade's lower edge.
+/// Adds a ceiling lamp: `rim` is the middle of its shade's lower edge.
 void add_hanging_lamp(SceneBuilder& builder, const glm::dvec3& rim, double ceiling);
 
-/// A standing lamp with a pleated shade, 1.66 high.
+/// Adds a standing lamp with a pleated shade, 1.66 high.
 void add_floor_lamp(SceneBuilder& builder, const glm::dvec3& place);
 
 }  // namespace beambench::scenes::generators

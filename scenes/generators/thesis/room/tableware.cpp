@@ -25,7 +25,8 @@ Surface glazed(const glm::vec3& color) {
 const Surface kChina = glazed({0.95F, 0.95F, 0.92F});
 const Surface kBlueChina = glazed({0.22F, 0.38F, 0.68F});
 
-/// A tube along a spline, tapering from one radius to another, without the parts inside `body`.
+/// Returns a tube along a spline, tapering from one radius to another, without the parts inside
+/// `body`.
 modelling::PolygonMesh spout_or_handle(const std::vector<glm::dvec3>& knots, double from, double to,
                                        const modelling::Field& body) {
   const std::vector<glm::dvec3> path = modelling::spline(knots, 3);
@@ -74,7 +75,7 @@ modelling::PolygonMesh banana() {
   return modelling::tube(path, radii, 10, modelling::Caps::kBoth);
 }
 
-/// A daisy facing +z: petals around a dome.
+/// Adds a daisy facing +z: petals around a dome.
 void add_daisy(SceneBuilder& builder, const glm::dmat4& place, const glm::vec3& color) {
   constexpr int kPetals = 10;
   modelling::PolygonMesh petals;

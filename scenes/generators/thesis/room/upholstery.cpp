@@ -65,7 +65,7 @@ enum Yarn : std::size_t { kRed, kNavy, kCream, kGold, kYarns };
 constexpr std::array<glm::vec3, kYarns> kYarnColors = {
     {{0.62F, 0.16F, 0.14F}, {0.14F, 0.20F, 0.38F}, {0.90F, 0.83F, 0.68F}, {0.80F, 0.58F, 0.24F}}};
 
-/// Borders around a red ground with a stepped medallion in its middle.
+/// Returns borders around a red ground with a stepped medallion in its middle.
 Yarn knot(int x, int y) {
   const int edge = std::min({x, y, kKnotsX - 1 - x, kKnotsY - 1 - y});
   if (edge == 0) return kNavy;
@@ -81,7 +81,7 @@ Yarn knot(int x, int y) {
   return steps < 19 ? kGold : kRed;
 }
 
-/// One curtain: u from its free edge to the window's side, v upward.
+/// Returns one curtain: u from its free edge to the window's side, v upward.
 modelling::PolygonMesh curtain(double free_edge, double side, double bottom, double top, double y) {
   constexpr double kTied = 0.34;  // where it is drawn aside
   constexpr int kFolds = 6;
@@ -99,7 +99,7 @@ modelling::PolygonMesh curtain(double free_edge, double side, double bottom, dou
   return modelling::triangulated(modelling::parametric_surface(sheet, 48, 12));
 }
 
-/// A curtain ring around the rod (x is the rod's axis).
+/// Returns a curtain ring around the rod (x is the rod's axis).
 modelling::PolygonMesh ring(const glm::dvec3& center) {
   constexpr double kRing = 0.026;
   constexpr double kWire = 0.004;

@@ -16,7 +16,7 @@ const Surface kDarkOak = {
     .color = {0.40F, 0.22F, 0.11F}, .diffuse = 0.85F, .specular = 0.4F, .shine = 40.0F};
 const Surface kSeat = {.color = {0.72F, 0.22F, 0.17F}, .diffuse = 0.9F};
 
-/// A round rod, thicker in its middle.
+/// Returns a round rod, thicker in its middle.
 modelling::PolygonMesh rod(const glm::dvec3& from, const glm::dvec3& to, double radius, int sides) {
   const std::array<glm::dvec3, 5> path = {
       {from, 0.75 * from + 0.25 * to, 0.5 * (from + to), 0.25 * from + 0.75 * to, to}};
@@ -25,12 +25,12 @@ modelling::PolygonMesh rod(const glm::dvec3& from, const glm::dvec3& to, double 
   return modelling::tube(path, radii, sides);
 }
 
-/// The corner posts of a rectangle around the origin.
+/// Returns the corner posts of a rectangle around the origin.
 std::array<glm::dvec3, 4> posts(double x, double y) {
   return {{{-x, -y, 0.0}, {x, -y, 0.0}, {x, y, 0.0}, {-x, y, 0.0}}};
 }
 
-/// The back's bow: from the seat up one side, over and down the other.
+/// Returns the back's bow: from the seat up one side, over and down the other.
 std::vector<glm::dvec3> bow() {
   const std::vector<glm::dvec3> knots = {
       {-0.19, 0.17, 0.44},  {-0.205, 0.215, 0.62}, {-0.19, 0.26, 0.80},
@@ -39,7 +39,7 @@ std::vector<glm::dvec3> bow() {
   return modelling::spline(knots, 3);
 }
 
-/// A board with a round edge, open under the cushion.
+/// Returns a board with a round edge, open under the cushion.
 modelling::PolygonMesh seat_board() {
   modelling::Profile edge({0.0, -0.5});
   edge.line({0.80, -0.5}).curve({1.0, 0.1}, 0.06, 3).curve({0.90, 0.5}, 0.05, 2);
@@ -54,7 +54,7 @@ modelling::PolygonMesh seat_board() {
   return mesh;
 }
 
-/// A turned leg from the floor up, open at both ends.
+/// Returns a turned leg from the floor up, open at both ends.
 modelling::PolygonMesh turned_leg(double height, double radius, int sides) {
   const double r = radius;
   const double h = height;
