@@ -139,14 +139,15 @@ class SlabLanes {
 /// have one sign, t = (n . (a - o)) / (d . n) is in the interval, and the point at t is near the
 /// triangle (`near_triangle`): its signs and t are those of exact arithmetic up to 2^-50 of the
 /// sizes below.
-/// - u and v are sums of six products of at most R |d| s in all 2 R s |d|, each of which is wrong
-///   by 7 e: by 14 e R s |d|. d . n is off by 4 e M |d|, where M <= 6 s^2; w by the sum of these
-///   and 8 e R s |d| for two roundings more: 36 e R s |d| + 24 e s^2 |d|.
-/// - The sign of d . n, by which u, v and w are turned, is uncertain if d . n is within its error.
-///   All three of a hit are then within 2 x 24 e s^2 |d|, and their signs do not matter.
-///   So min(u, v, w) >= -m with m = e s |d| (40 R + 80 s) for every hit.
+/// - u and v are sums of six products of at most R |d| s, in total 2 R s |d|, each with a relative
+///   error of 7 e: u and v are off by 14 e R s |d|. d . n is off by 4 e M |d|, where M <= 6 s^2; w
+///   is off by the sum of these and 8 e R s |d| for two more roundings: 36 e R s |d| + 24 e s^2
+///   |d|.
+/// - The sign of d . n, which orients u, v and w, is uncertain if d . n is within its error. For a
+///   hit, all three are then within 2 x 24 e s^2 |d|, and their signs do not matter. So min(u, v,
+///   w) >= -m with m = e s |d| (40 R + 80 s) for every hit.
 /// - The numerator of t is off by 6 e M R. If |d . n| is more than 16 times its error, then t is
-///   wrong by (6 e R + 4 e |t| |d|) M / |d . n| x 16 / 15 and some roundings, at most 16 e |t|.
+///   off by (6 e R + 4 e |t| |d|) M / |d . n| x 16 / 15 and some roundings, at most 16 e |t|.
 ///   Since M |d| >= |d . n|, these are at most (7 e R + 21 e |t| |d|) M / |d . n|.
 /// - Let |d . n| >= 2^-7 M |d| and min(u, v, w) >= 2 m as computed, so that they are at least m.
 ///   Then the point is inside by 2^-20 R. In double, n is off by 2^-46 M, and t |d| by less than

@@ -1,4 +1,4 @@
-// Tests the origins of a block against a shape of a leaf, for all apexes of a bundle at once.
+// Tests the origins of a block against a leaf's shape for all apexes of a bundle at once.
 
 #if defined(ACCEL_TILE_BEAM_BUNDLE_TESTS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_BUNDLE_TESTS_INL

@@ -29,7 +29,7 @@ struct MeshMotion {
   std::uint32_t frames = 1;            ///< 1: it does not move, and all lists are empty
   std::vector<MovingVertex> vertices;  ///< one for each of the mesh
   std::vector<Influence> influences;
-  std::vector<glm::dmat4> matrices;  ///< of all frames, frame by frame, equally many for each
+  std::vector<glm::dmat4> matrices;  ///< frame by frame, the same number for each
 
   bool moves() const { return frames > 1; }
 };
