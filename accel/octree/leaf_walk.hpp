@@ -24,9 +24,9 @@ inline constexpr std::string_view kNeighborStepsMeaning =
 /// edge or a vertex continues in the edge or vertex neighbor.
 ///
 /// `search.move(cursor, step)` moves the cursor from a leaf to a node behind the face, edge or
-/// vertex that `step` (-1, 0 or 1 for each axis) points at, from which the search for the next leaf
-/// continues downward; it returns the number of nodes passed, including the last one, and 0 if the
-/// root ends there. `Search::Cursor` is a place in the octree; `Search::kNeighborSteps` states
+/// vertex that `step` (-1, 0 or 1 for each axis) points at; the search for the next leaf descends
+/// from this node. It returns the number of nodes passed, including the last one, and 0 if the root
+/// ends there. `Search::Cursor` is a place in the octree; `Search::kNeighborSteps` states
 /// whether that node is the neighbor of equal or larger size, in which case the passed nodes are
 /// neighbor steps. `Search::count_last_climb(level, counting)` counts the search's extra work when
 /// a ray leaves the root from a leaf of that level.

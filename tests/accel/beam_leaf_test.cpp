@@ -1,5 +1,4 @@
-// How beams test samples in leaves: all ways find the same hits, and none uses SIMD without stating
-// it.
+// How beams test samples in leaves: all modes find the same hits, and all that use SIMD report it.
 
 #include <array>
 #include <cstdint>

@@ -14,7 +14,7 @@ namespace beambench::scenes::mesh {
 
 /// Returns standard views of these points, as in modeling programs: `three-quarter` (from the
 /// front, the right and above), `front`, `side` (from the right) and `top`. Each fills a frustum of
-/// 45 degrees with the points, except for a small margin. Returns no views if there are no points,
+/// 45 degrees with the points, apart from a narrow margin. Returns no views if there are no points,
 /// or if an eye would be beyond the limit of coordinates.
 std::vector<Camera> fitted_cameras(std::span<const glm::vec3> points,
                                    const Orientation& orientation);

@@ -41,7 +41,7 @@ class PlyTextRows {
 /// Rows without separators.
 class PlyBinaryRows {
  public:
-  /// Reads a file that holds `bytes`, of which `rest` follows the header.
+  /// Reads a file with the contents `bytes`; `rest` is the part after the header.
   PlyBinaryRows(std::string_view bytes, std::string_view rest, PlyHeader::Encoding encoding);
 
   bool begin(const PlyElement& element, std::uint64_t row);
