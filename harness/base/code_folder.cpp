@@ -13,8 +13,7 @@ std::filesystem::path code_folder() {
   const auto* here = reinterpret_cast<const void*>(&code_folder);
   const bool known =
       ::dladdr1(here, &info, reinterpret_cast<void**>(&object), RTLD_DL_LINKMAP) != 0;
-  // The program itself has no name there, and the name in its call may be relative to another
-  // folder.
+  // For the program itself, this name is empty, and argv[0] may be relative to another folder.
   const bool is_program = !known || object == nullptr || object->l_name[0] == '\0';
   std::error_code error;
   return std::filesystem::weakly_canonical(is_program ? "/proc/self/exe" : object->l_name, error)

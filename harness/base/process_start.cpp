@@ -18,7 +18,7 @@ void prepare_process() {
       {{STDIN_FILENO, O_RDONLY}, {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_WRONLY}}};
   for (const Stream& stream : kStreams) {
     if (::fcntl(stream.descriptor, F_GETFD) == 0 || errno != EBADF) continue;
-    // open returns the lowest free number, which is this one, because those below are open.
+    // open returns the lowest free descriptor, which is this one: all lower ones are open.
     static_cast<void>(::open("/dev/null", stream.mode));
   }
   std::signal(SIGXFSZ, SIG_IGN);

@@ -1,15 +1,15 @@
 #pragma once
-// The first call of every program.
+// The first function that every program calls.
 
 namespace beambench::base {
 
-/// Turns output failures into errors of the writing functions, which are reported, instead of
-/// signals or files that replace a stream:
-/// - a closed standard stream is opened on /dev/null (the standard output such that writing
-///   to it fails), since the next file to be opened would otherwise become that stream;
-/// - a file that reaches the limit of its size (`ulimit -f`) fails to be written (EFBIG), where
-///   SIGXFSZ would end the process without a word.
-/// Call it before anything is opened.
+/// Makes output failures appear as errors of the writing functions, which are reported, rather than
+/// as signals or as files that take the place of a stream:
+/// - Opens /dev/null on a closed standard stream (standard output such that writing to it fails);
+///   otherwise, the next file opened would become that stream.
+/// - Makes writing to a file fail with EFBIG when the file reaches the size limit (`ulimit -f`);
+///   otherwise, SIGXFSZ would end the process without a message.
+/// Call it before opening any file.
 void prepare_process();
 
 }  // namespace beambench::base

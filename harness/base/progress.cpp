@@ -14,7 +14,7 @@ namespace beambench::base {
 namespace {
 
 constexpr std::chrono::milliseconds kRedrawInterval{200};
-constexpr double kEarlyPart = 0.005;  // below this share of the work, an estimate is a guess
+constexpr double kEarlyPart = 0.005;  // below this share of the work, an estimate is only a guess
 constexpr const char* kWipe = "\r\033[K";
 
 /// Returns the number of columns of the terminal; 80 if unknown.
@@ -85,7 +85,7 @@ void Progress::draw(double part) {
                         : fmt::format("{} left", format_duration(remaining_seconds(elapsed, done)));
   std::string line = fmt::format("{:3.0f}%  {}/{}  {}  {}", std::floor(100.0 * done),
                                  std::min(done_ + 1, cells_), cells_, remaining, name_);
-  // A line that exceeds the width could not be wiped.
+  // A line wider than the terminal could not be erased.
   line.resize(std::min(line.size(), columns_of(stream_) - 1));
   print_message(stream_, kWipe + line);
   drawn_ = true;

@@ -11,12 +11,12 @@ namespace beambench::base {
 /// Returns "7 s", "3 min 20 s", "2 h 5 min".
 std::string format_duration(double seconds);
 
-/// Reports a job of several cells on a stream (stderr). On a terminal one line is redrawn: cells
-/// done, the present cell, the remaining time estimated from the pace so far. Elsewhere each
-/// finished cell prints one line. Not thread-safe.
+/// Reports a job of several cells on a stream (stderr). On a terminal one line is redrawn: the
+/// number of cells done, the current cell, and the remaining time estimated from the pace so far.
+/// Elsewhere, one line is printed for each finished cell. Not thread-safe.
 class Progress {
  public:
-  /// `cells` may differ in length; if they differ much, report the work done to `advance`.
+  /// `cells` may take different times; if these differ greatly, report the work done to `advance`.
   explicit Progress(std::size_t cells, std::FILE* stream = stderr);
   Progress(std::size_t cells, std::FILE* stream, bool terminal);
   /// Clears the line.
@@ -29,9 +29,9 @@ class Progress {
   /// Updates the share of the current cell that is done (0 ... 1). Cheap: redraws at most a few
   /// times per second.
   void advance(double part);
-  /// Finishes the current cell; its line has `result` after the name.
+  /// Finishes the current cell; its line shows the name, then `result`.
   void finish(std::string_view result);
-  /// Removes a number of cells that will not be done.
+  /// Leaves out a number of cells that will not be run.
   void skip(std::size_t cells);
   /// Prints a separate line (a warning, a result) without disturbing the progress line.
   void say(std::string_view line);

@@ -1,5 +1,5 @@
 #pragma once
-// Wall time and CPU time of a piece of work.
+// Measures the wall time and CPU time of a piece of work.
 
 #include <chrono>
 #include <ctime>
@@ -21,8 +21,8 @@ class Stopwatch {
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-/// CPU time since construction: of the calling thread, or of all threads of the process if `clock`
-/// is CLOCK_PROCESS_CPUTIME_ID. Reading it is a system call.
+/// CPU time since construction: of the calling thread or, if `clock` is CLOCK_PROCESS_CPUTIME_ID,
+/// of all threads of the process. Reading it is a system call.
 class CpuStopwatch {
  public:
   explicit CpuStopwatch(clockid_t clock = CLOCK_THREAD_CPUTIME_ID) : clock_(clock) {}

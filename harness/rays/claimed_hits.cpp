@@ -16,7 +16,8 @@ std::size_t ClaimedHits::size() const {
                            occluded.size()};
     if (std::ranges::all_of(sizes, [](std::size_t size) { return size == 0; })) return 0;
     throw std::logic_error(
-        "hits are either t or points, with primitives, triangles or neither, or occluded alone");
+        "hits must be either t or points, with primitives, triangles or neither, or occluded "
+        "alone");
   }
   const std::size_t count = std::max({t.size(), points.size(), occluded.size()});
   for (const std::size_t size : {primitives.size(), triangles.size()}) {

@@ -1,5 +1,5 @@
 #pragma once
-// Hits that any program reports for a list of rays.
+// Hits that another program reports for a list of rays.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,24 +12,24 @@
 
 namespace beambench::rays {
 
-/// Arrays with one element for each ray, in the order of the rays; missing ones are empty. For
-/// closest hits: `t` or `points` and, if the program provides them, `primitives` or `triangles`.
-/// For any hits: only `occluded`.
+/// Arrays with one element for each ray, in the order of the rays; missing ones are empty. Closest
+/// hits have `t` or `points` and, if the program provides them, `primitives` or `triangles`. Any
+/// hits have only `occluded`.
 struct ClaimedHits {
   std::span<const float> t{};           ///< the hit is at origin + t * direction; infinity: a miss
   std::span<const glm::vec3> points{};  ///< the point that is hit; infinite: a miss
-  std::span<const std::uint32_t> primitives{};  ///< `Scene::primitives`; kNoPrimitive: no hit
-  std::span<const std::uint32_t> triangles{};   ///< `Scene::triangles`; kNoPrimitive: no hit
+  std::span<const std::uint32_t> primitives{};  ///< ids in `Scene::primitives`; kNoPrimitive: miss
+  std::span<const std::uint32_t> triangles{};   ///< ids in `Scene::triangles`; kNoPrimitive: miss
   std::span<const std::uint8_t> occluded{};     ///< 1: the ray hits something; 0: nothing
 
   /// Returns the number of rays. Throws std::logic_error if the arrays differ in length, or do not
   /// match one of the forms above.
   std::size_t size() const;
-  /// Returns the part for `count` rays from `first` on.
+  /// Returns the part for `count` rays, starting at `first`.
   ClaimedHits part(std::size_t first, std::size_t count) const;
 };
 
-/// The arrays themselves.
+/// Owns the arrays.
 struct HitTable {
   std::vector<float> t{};
   std::vector<glm::vec3> points{};

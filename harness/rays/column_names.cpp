@@ -64,7 +64,7 @@ void require_commas(const std::string& place, std::span<const std::string> names
   const std::string expected = fmt::format("expected {}", fmt::join(known, ","));
   if (name.empty()) {
     throw InputError(
-        fmt::format("{}: column {} has no name, as the index that pandas writes unless it is given "
+        fmt::format("{}: column {} has no name, like the index that pandas writes unless given "
                     "index=False; remove it or name it; {}",
                     place, column + 1, expected));
   }
@@ -91,7 +91,7 @@ std::optional<std::vector<std::size_t>> places_of_columns(const std::string& pla
     if (!found) refuse_unknown(place, places.size(), name, known);
     if (std::ranges::find(places, *found) != places.end()) {
       throw InputError(
-          fmt::format("{}: column '{}' is there twice; remove one of them", place, known[*found]));
+          fmt::format("{}: column '{}' appears twice; remove one", place, known[*found]));
     }
     places.push_back(*found);
   }

@@ -10,9 +10,9 @@
 
 namespace beambench::rays {
 
-/// Returns the place of each name among the `known` ones, ignoring case. Nothing if none is known:
-/// the line does not consist of column names. Throws InputError, which begins with `place`, for an
-/// unknown or duplicate name, and for columns that are not separated by commas.
+/// Returns the index of each name among the `known` ones, ignoring case. Returns nothing if none is
+/// known: the line does not consist of column names. Throws InputError with a message that begins
+/// with `place` for an unknown or duplicate name, and for columns that are not separated by commas.
 std::optional<std::vector<std::size_t>> places_of_columns(const std::string& place,
                                                           std::span<const std::string> names,
                                                           std::span<const std::string_view> known);

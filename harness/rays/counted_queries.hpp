@@ -1,5 +1,5 @@
 #pragma once
-// Queries whose work is counted.
+// Queries with counted work.
 
 #include <algorithm>
 #include <cstddef>
@@ -26,7 +26,7 @@ struct QueryWork {
 };
 
 /// Forwards queries to another structure and counts their total work. The caller's counters are not
-/// increased. Several threads may query at once.
+/// increased. Thread-safe.
 class CountedQueries : public accel::ForwardingAccelerator {
  public:
   using ForwardingAccelerator::ForwardingAccelerator;

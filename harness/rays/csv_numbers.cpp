@@ -55,7 +55,7 @@ std::optional<double> parse_number(std::string_view text) {
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (stop != text.data() + text.size()) return std::nullopt;
   if (error == std::errc::result_out_of_range) {
-    // A number too small for double is 0, like its float; one too large is an error of the writer.
+    // A number too small for double is 0, as its float would be; one too large is an error.
     if (text.find("e-") != std::string_view::npos || text.find("E-") != std::string_view::npos) {
       return 0.0;
     }
@@ -77,7 +77,7 @@ std::string CsvNumbers::place_of(std::size_t index) const {
 double CsvNumbers::number(std::string_view cell, std::size_t column, double when_empty) const {
   if (cell.empty() && !std::isnan(when_empty)) return when_empty;
   if (const auto value = parse_number(cell)) return *value;
-  throw InputError(fmt::format("{}: column '{}' holds '{}', which is not a number",
+  throw InputError(fmt::format("{}: column '{}' contains '{}', which is not a number",
                                place_of(records_), excerpt(columns_[column]), excerpt(cell)));
 }
 
@@ -88,8 +88,8 @@ bool CsvNumbers::next(std::span<double> row, std::span<const double> when_empty)
   if (trimmed(rest).empty() && columns_.size() > 1) {
     while (const auto more = input_.line()) {
       if (trimmed(*more).empty()) continue;
-      throw InputError(fmt::format("{}: the line is blank, and records follow; leave no line out",
-                                   place_of(records_)));
+      throw InputError(fmt::format(
+          "{}: the line is blank, but records follow; remove or complete it", place_of(records_)));
     }
     return false;
   }

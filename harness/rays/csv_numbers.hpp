@@ -21,8 +21,8 @@ class CsvNumbers {
   CsvNumbers(std::filesystem::path path, InputStream input, std::string_view first_line);
 
   std::span<const std::string> columns() const { return columns_; }
-  /// Fills a row, using `when_empty` for empty cells; NaN there means that the cell must not be
-  /// empty. Returns false at the end. Throws InputError with file, line and column.
+  /// Fills a row, using `when_empty` for empty cells; a NaN means that the cell must not be empty.
+  /// Returns false at the end. Throws InputError with file, line and column.
   bool next(std::span<double> row, std::span<const double> when_empty);
   /// Returns the place of the record with that index, such as `hits.csv:18`.
   std::string place_of(std::size_t index) const;

@@ -10,7 +10,7 @@
 namespace beambench::rays {
 
 /// Parses the object in the header line of a file. Throws InputError with the file name if the line
-/// is missing or not a JSON object; `remedy` ends the sentence.
+/// is missing or not a JSON object; the message ends with `remedy`.
 nlohmann::ordered_json parse_file_header(const std::filesystem::path& path,
                                          std::optional<std::string_view> line,
                                          std::string_view remedy);

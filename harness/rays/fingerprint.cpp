@@ -41,7 +41,7 @@ std::uint64_t fingerprint(const accel::PrimaryRays& rays) {
   for (int y = 0; y < rays.height(); ++y) {
     row.clear();
     rays.for_each(y, y + 1, [&](std::size_t, const accel::Ray& ray) { row.push_back(ray); });
-    // Each row's hash is seeded with that of the rows above, so the whole image is never in memory.
+    // Each row's hash is seeded with the hash so far, so the whole image is never in memory.
     hash = XXH3_64bits_withSeed(row.data(), row.size() * sizeof(accel::Ray), hash);
   }
   return hash;

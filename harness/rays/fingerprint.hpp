@@ -18,7 +18,7 @@ std::uint64_t fingerprint(std::span<const accel::Ray> rays);
 std::uint64_t fingerprint(const accel::PrimaryRays& rays);
 std::uint64_t fingerprint(const TraceInput& input);
 
-/// Computes the fingerprint of a list that arrives in parts.
+/// Computes the fingerprint of a list whose rays arrive in parts.
 class RayFingerprint {
  public:
   RayFingerprint();

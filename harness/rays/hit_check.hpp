@@ -1,5 +1,5 @@
 #pragma once
-// Checks the hits returned by a structure before anything is computed from them.
+// Checks the hits returned by a structure before they are used to compute anything.
 
 #include <cmath>
 #include <stdexcept>
@@ -13,8 +13,8 @@
 namespace beambench::rays {
 
 /// Thrown if a structure returns a hit that is impossible for its ray. The message is one sentence
-/// that names the structure, the ray, the returned hit and the expectation; the command line prints
-/// it and exits with 1.
+/// that names the structure, the ray, the returned hit and what was expected; the command line
+/// prints it and exits with 1.
 class InvalidHit : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -27,10 +27,10 @@ class HitCheck {
   /// `structure` is the subject of the message: "structure 'samet:max_level=6'".
   explicit HitCheck(const scenes::Scene& scene, std::string structure = "the structure")
       : HitCheck(scene.primitives.size(), std::move(structure)) {}
-  /// For a scene with that many primitives, if the scene itself is not available.
+  /// As above, for a scene with that many primitives that is not itself available.
   HitCheck(std::size_t primitives, std::string structure)
       : primitives_(primitives), structure_(std::move(structure)) {}
-  /// The message names the choice and, if it comes from a plug-in, its file.
+  /// As above; the message names the choice and, if it comes from a plug-in, its file.
   HitCheck(const scenes::Scene& scene, const accel::StructureChoice& choice);
 
   /// Returns whether the hit is possible for the ray: one of the scene's primitives, at a finite t
@@ -43,8 +43,8 @@ class HitCheck {
   void require(const accel::Ray& ray, const accel::Hit& hit) const {
     if (!passes(ray, hit)) fail(ray, hit, "");
   }
-  /// Throws InvalidHit, which names the pixel, unless every hit of an image passes. Its rays,
-  /// `ray_of(x, y, sample)`, have the interval [0, infinity].
+  /// Throws InvalidHit naming the pixel unless every hit of an image passes. Its rays, `ray_of(x,
+  /// y, sample)`, have the interval [0, infinity].
   template <class RayOf>
   void require(const accel::HitBuffer& hits, RayOf ray_of) const {
     for (int y = 0; y < hits.height(); ++y) {

@@ -44,7 +44,8 @@ constexpr std::uint64_t kMaxHits = std::uint64_t{1} << 32U;
 constexpr std::string_view kColumnHelp =
     "t or x,y,z, with primitive, triangle or neither; or occluded alone";
 
-static_assert(std::endian::native == std::endian::little, "hits are written as they lie in memory");
+static_assert(std::endian::native == std::endian::little,
+              "hits are written exactly as stored in memory");
 
 constexpr std::string_view kRemedy = "'beambench hits' writes such files";
 
@@ -60,7 +61,7 @@ constexpr std::array<std::size_t, 7> kColumnBytes{4, 4, 4, 4, 4, 4, 1};
 /// The validated columns of a file.
 class Columns {
  public:
-  /// `place` is the place of the names in the file.
+  /// `place` is where the names are in the file, for messages.
   Columns(const std::filesystem::path& path, const std::string& place,
           std::span<const std::string> names) {
     const auto places = places_of_columns(place, names, kColumnNames);
@@ -80,7 +81,7 @@ class Columns {
     const bool both_ids = has(Column::kPrimitive) && has(Column::kTriangle);
     const bool both_queries = has(Column::kOccluded) && order_.size() > 1;
     if (both_places || both_ids || both_queries) {
-      throw InputError(fmt::format("{}: the columns '{}' do not go together; expected {}", place,
+      throw InputError(fmt::format("{}: the columns '{}' cannot be combined; expected {}", place,
                                    fmt::join(names, ","), kColumnHelp));
     }
   }
@@ -89,7 +90,7 @@ class Columns {
   const std::vector<Column>& order() const { return order_; }
   Query query() const { return has(Column::kOccluded) ? Query::kAnyHit : Query::kClosestHit; }
 
-  /// Resizes the arrays that the table has to `count`, and clears the others.
+  /// Resizes the arrays of the columns in the file to `count`, and clears the others.
   void resize(HitTable& hits, std::size_t count) const {
     hits.t.resize(has(Column::kT) ? count : 0);
     hits.points.resize(has(Column::kX) ? count : 0);
@@ -192,7 +193,7 @@ class BinaryHits : public HitReader::Format {
   }
 
   [[noreturn]] void refuse_length(std::uint64_t bytes) const {
-    fail(path_, fmt::format("{} bytes of hits follow the header, not the {} of {} hits", bytes,
+    fail(path_, fmt::format("{} bytes of hits follow the header; expected {} for {} hits", bytes,
                             count_ * record_, count_));
   }
 
@@ -231,7 +232,7 @@ class CsvHits : public HitReader::Format {
       }
       ++read_;
     }
-    if (read_ == 0) fail(path_, "there are no hits in it");
+    if (read_ == 0) fail(path_, "it contains no hits");
     columns_.resize(hits, used);
     return used;
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Files of hits: `.hits`, and CSV.
+// Files of hits: binary (`.hits`) and CSV.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,13 +16,13 @@
 
 namespace beambench::rays {
 
-/// The ending of binary files of hits.
+/// The extension of binary files of hits.
 inline constexpr std::string_view kHitFileEnding = ".hits";
 
 /// A `.hits` file has three parts: the line `beambench-hits 1`; one line of JSON; then the hits,
 /// one for each ray in the order of the rays, without padding, in little-endian order. The JSON
-/// must have `hits` (how many) and `columns`, the names of a hit's numbers in their order; other
-/// members are for people. The columns are one of
+/// must have `hits` (how many) and `columns`, the names of a hit's numbers in order; other members
+/// are for human readers. The columns are one of
 ///
 ///     t                 float32   the hit is at origin + t * direction; infinity: a miss
 ///     x, y, z           float32   the point that is hit; all infinite: a miss
@@ -44,17 +44,17 @@ inline constexpr std::string_view kHitFileEnding = ".hits";
 ///
 /// A CSV file has the same columns, in any order. A miss has empty cells, or `inf` and -1.
 ///
-/// Writes a CSV file if the ending is `.csv`, otherwise a binary one, with t and primitive, or with
-/// occluded. Throws InputError if the file cannot be written; in that case, there is none.
+/// Writes a CSV file if the extension is `.csv`, otherwise a binary one, with t and primitive, or
+/// with occluded. Throws InputError if the file cannot be written, and then leaves no file.
 void write_hit_file(const std::filesystem::path& path, const TraceResults& results,
                     const nlohmann::ordered_json& note);
 
-/// Reads a file of hits in parts. The first line determines the format. The values of the hits are
-/// checked by verify::ClaimVerifier.
+/// Reads a file of hits in parts. The first line determines the format. verify::ClaimVerifier
+/// checks the values of the hits.
 class HitReader {
  public:
-  /// Throws InputError with the file name and the problem: not a file of hits, another version,
-  /// columns that are unknown or do not go together, too short or too long.
+  /// Throws InputError with the file name and the problem: it is not a file of hits, has another
+  /// version, has columns that are unknown or cannot be combined, or is too short or too long.
   explicit HitReader(const std::filesystem::path& path);
   ~HitReader();
   HitReader(HitReader&&) noexcept;
@@ -62,12 +62,13 @@ class HitReader {
 
   /// Returns the query, which follows from the columns.
   Query query() const;
-  /// Returns the number stated in the file; nothing for CSV.
+  /// Returns the number of hits stated in the file; nothing for CSV.
   std::optional<std::uint64_t> count() const;
-  /// Replaces the table by at most `at_most` further hits, and returns how many: fewer only at the
-  /// end. Throws InputError with the line of a CSV file that does not hold numbers.
+  /// Replaces the table's content by the next hits, at most `at_most`, and returns how many: fewer
+  /// only at the end of the file. Throws InputError with the line of a CSV file that does not
+  /// contain numbers.
   std::size_t read(std::size_t at_most, HitTable& hits);
-  /// Returns the place of a hit, such as `hits.csv:18` or `some.hits: byte 1234`.
+  /// Returns the place of a hit in the file, such as `hits.csv:18` or `some.hits: byte 1234`.
   std::string place_of(std::size_t index) const;
 
   struct Format;

@@ -55,7 +55,7 @@ std::vector<LevelVisits> count_level_visits(const accel::Accelerator& structure,
   if (input.image() == nullptr) return visits;
   const auto beams = inspector.beams(*input.image());
   for (const accel::BeamOutline& beam : beams.value_or(std::vector<accel::BeamOutline>())) {
-    if (beam.kind != accel::BeamKind::kLeaving) ++at(beam.node).beams;  // not in a leaf
+    if (beam.kind != accel::BeamKind::kLeaving) ++at(beam.node).beams;  // such a beam is in no leaf
   }
   return visits;
 }

@@ -17,14 +17,14 @@ struct LevelVisits {
   std::uint64_t nodes = 0;            ///< leaves and interior nodes
   std::uint64_t leaves = 0;           ///< including empty ones
   std::uint64_t occupied_leaves = 0;  ///< leaves with references
-  std::uint64_t node_visits = 0;  ///< a ray and a node that it passes through, up to its first hit
-  std::uint64_t leaf_visits = 0;  ///< those of leaves
-  std::uint64_t beams = 0;        ///< a beam and a leaf that it enters; of an image, by `beam`
+  std::uint64_t node_visits = 0;  ///< pairs of a ray and a node on its path, up to its first hit
+  std::uint64_t leaf_visits = 0;  ///< those visits that are to leaves
+  std::uint64_t beams = 0;        ///< pairs of a beam of an image and a leaf on its path (`beam`)
 };
 
-/// Returns all levels, from the root to the deepest; empty for a structure without an octree. The
-/// rays are traced one by one, as by Samet, and then, in `beam`, as beams. Takes time and memory
-/// for each leaf on a ray's traversal path.
+/// Returns all levels, from the root to the deepest; empty for a structure without an octree.
+/// Traces the rays one by one, as `samet` does, and for `beam` also as beams. Takes time and memory
+/// for each leaf on a ray's path.
 std::vector<LevelVisits> count_level_visits(const accel::Accelerator& structure,
                                             const TraceInput& input);
 

@@ -13,7 +13,7 @@
 namespace beambench::rays {
 namespace {
 
-/// The color of a light that states none.
+/// The color of a light whose color is not stated.
 constexpr glm::vec3 kUnsaid(1.0F);
 
 /// Returns point i of `count` in the ball of radius 1.
@@ -23,7 +23,7 @@ glm::dvec3 point_in_ball(int i, int count) {
   const double z = 1.0 - (2.0 * i + 1.0) / count;
   const double across = std::sqrt(1.0 - z * z);
   const double angle = kGoldenAngle * i;
-  const double inside = 0.5 + kWeyl * i;  // its fraction: the volume nearer to the center
+  const double inside = 0.5 + kWeyl * i;  // fraction: the volume nearer to the center
   const double radius = std::cbrt(inside - std::floor(inside));
   return radius * glm::dvec3(across * portable_cos(angle), across * portable_sin(angle), z);
 }
@@ -49,7 +49,7 @@ std::vector<scenes::Light> area_lights(const scenes::Scene& scene, const LightEx
   points.reserve(scene.lights.size() * static_cast<std::size_t>(extent.points));
   for (std::size_t light = 0; light < scene.lights.size(); ++light) {
     glm::vec3 color(colors[light] / static_cast<double>(extent.points));
-    if (color == kUnsaid) color.x = std::nextafter(color.x, 0.0F);  // said, and as good as white
+    if (color == kUnsaid) color.x = std::nextafter(color.x, 0.0F);  // stated, almost white
     for (int i = 0; i < extent.points; ++i) {
       const glm::dvec3 offset = radius * point_in_ball(i, extent.points);
       points.push_back({glm::vec3(glm::dvec3(scene.lights[light].position) + offset), color});

@@ -14,8 +14,8 @@ glm::dvec3 hit_point(const accel::Ray& ray, const accel::Hit& hit) {
   return glm::dvec3(ray.origin) + double{hit.t} * glm::dvec3(ray.direction);
 }
 
-/// Returns the normal of the lateral surface, which leans according to the change of its radius
-/// along the axis.
+/// Returns the normal of the lateral surface, tilted according to the change of radius along the
+/// axis.
 glm::dvec3 cone_normal(const scenes::Cone& cone, const glm::dvec3& point) {
   const glm::dvec3 base(cone.base);
   const glm::dvec3 along = glm::dvec3(cone.apex) - base;
@@ -24,7 +24,7 @@ glm::dvec3 cone_normal(const scenes::Cone& cone, const glm::dvec3& point) {
   const glm::dvec3 offset = point - base;
   const glm::dvec3 outward = offset - axis * glm::dot(offset, axis);
   const double distance = glm::length(outward);
-  if (distance == 0.0) return axis;  // the tip, where every direction is equally good
+  if (distance == 0.0) return axis;  // the tip, where every direction is equally valid
   const double slope = (double{cone.base_radius} - double{cone.apex_radius}) / height;
   return outward / distance + axis * slope;
 }
@@ -41,7 +41,7 @@ struct TriangleCorners {
   glm::dvec3 normal() const { return glm::cross(b - a, c - a); }
 };
 
-/// The place of a point in one triangle of a polygon.
+/// The position of a point in one triangle of a polygon.
 struct Place {
   const scenes::Triangle* triangle;
   glm::dvec3 normal;              ///< not of unit length
@@ -62,7 +62,7 @@ Place place_in(const scenes::Scene& scene, const scenes::Triangle& triangle,
   return {&triangle, normal, {1.0 - of_b - of_c, of_b, of_c}};
 }
 
-/// Returns the place in the triangle in which the point lies deepest.
+/// Returns the position in the triangle that contains the point with the largest margin.
 Place place_in(const scenes::Scene& scene, std::span<const scenes::Triangle> triangles,
                const glm::dvec3& point) {
   Place deepest = place_in(scene, triangles.front(), point);
@@ -73,7 +73,7 @@ Place place_in(const scenes::Scene& scene, std::span<const scenes::Triangle> tri
   return deepest;
 }
 
-/// Returns the index, among the scene's normals, of that of a polygon's vertex.
+/// Returns the index of a polygon vertex's normal among the scene's normals.
 std::size_t corner_of(const scenes::Scene& scene, const scenes::Polygon& polygon,
                       std::uint32_t vertex) {
   const auto corners = std::span(scene.corners).subspan(polygon.first_corner, polygon.corner_count);
@@ -95,12 +95,12 @@ bool has_one_normal(const scenes::Scene& scene, const scenes::Polygon& polygon) 
     return glm::normalize(TriangleCorners(scene, triangle).normal());
   };
   const auto triangles = triangles_of(scene, polygon);
-  const glm::dvec3 first = unit_normal(triangles.front());  // NaN, equal to nothing, without area
+  const glm::dvec3 first = unit_normal(triangles.front());  // NaN if it has no area
   return std::ranges::all_of(
       triangles, [&](const scenes::Triangle& triangle) { return unit_normal(triangle) == first; });
 }
 
-/// Stands in for `NormalTable` for a few places.
+/// Computes what `NormalTable` stores; for a few places only.
 struct UntabledNormals {
   glm::dvec3 at_corner(std::size_t normal) const {
     return glm::normalize(glm::dvec3(scene->normals[normal]));
@@ -113,7 +113,7 @@ struct UntabledNormals {
   const scenes::Scene* scene;
 };
 
-/// Interpolates between the corners' normals; returns the geometric one if they cancel out.
+/// Interpolates the corners' normals; returns the geometric one if they cancel out.
 template <class Table>
 glm::dvec3 smooth_normal(const scenes::Scene& scene, const scenes::Polygon& polygon,
                          const Place& place, const Table& table) {

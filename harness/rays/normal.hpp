@@ -13,13 +13,13 @@
 
 namespace beambench::rays {
 
-/// Returns the unit normal of the primitive at the hit, on the side from which the ray comes. A
-/// polygon has the normal of the triangle that holds the point by the largest margin.
+/// Returns the unit normal of the primitive at the hit, on the side from which the ray comes. For a
+/// polygon, this is the normal of the triangle that contains the point with the largest margin.
 glm::dvec3 geometric_normal(const scenes::Scene& scene, const accel::Ray& ray,
                             const accel::Hit& hit);
 
-/// Returns the same, but on a smooth polygon interpolated between the corners' normals, for
-/// shading.
+/// Returns the same normal, except that on a smooth polygon it is interpolated between the corners,
+/// for shading.
 glm::dvec3 shading_normal(const scenes::Scene& scene, const accel::Ray& ray, const accel::Hit& hit);
 
 /// Both normals, of any length and on either side of the surface.
@@ -28,15 +28,16 @@ struct SurfaceNormals {
   glm::dvec3 shading;
 };
 
-/// Data of a scene for normals of many places, computed once.
+/// Data of a scene for computing normals at many places; built once.
 class NormalTable {
  public:
   explicit NormalTable(const scenes::Scene& scene);
 
-  /// Returns the unit normal at a corner of a smooth polygon: in a file it may have any length.
+  /// Returns the unit normal at a corner of a smooth polygon. (Normals in a file may have any
+  /// length.)
   const glm::dvec3& at_corner(std::size_t normal) const { return corners_[normal]; }
   /// Returns the normal of a polygon whose triangles all have the same unit normal, to the last
-  /// bit: that of the first triangle, not of unit length. Nothing for other polygons.
+  /// bit: that of the first triangle, not of unit length. Returns nothing for other polygons.
   const std::optional<glm::dvec3>& of_plane(std::size_t polygon) const { return planes_[polygon]; }
 
  private:

@@ -19,17 +19,17 @@ struct PixelRange {
   int height() const { return bottom - top; }
 };
 
-/// The samples of a square of lists of rays, whose order is the same in all versions.
+/// The number of samples in a square of a list of rays; the order is the same in all versions.
 inline constexpr int kListSquare = 4096;
 
 /// Divides an image into squares, row by row. Their side is 4 times the largest power of two for
 /// which a square has at most `samples` samples (64 pixels for 4096, one per pixel), but at least
-/// 4; those at the right and the bottom are truncated.
+/// 4; squares at the right and bottom edges are truncated.
 std::vector<PixelRange> squares_of(const accel::PrimaryRays& image, int samples);
 
-/// Calls `visit(x, y, sample)` for the samples of one of these squares: blocks of 4x4 pixels in
+/// Calls `visit(x, y, sample)` for each sample of one of these squares: blocks of 4x4 pixels in
 /// Morton order, so that 16, 256 or 4096 consecutive samples are close together. Within a block,
-/// one sample of all its pixels comes after the other, row by row.
+/// all pixels, row by row, have their first sample visited, then their second, and so on.
 template <class Visit>
 void for_each_sample(const PixelRange& square, int samples, const Visit& visit) {
   constexpr int kBlock = 4;
@@ -58,7 +58,7 @@ void for_each_sample(const PixelRange& square, int samples, const Visit& visit) 
   }
 }
 
-/// Does the same for a whole image, square by square, in the order of lists.
+/// Visits the samples of a whole image in the same way, square by square: the order of lists.
 template <class Visit>
 void for_each_sample(const accel::PrimaryRays& image, const Visit& visit) {
   for (const PixelRange& square : squares_of(image, kListSquare)) {

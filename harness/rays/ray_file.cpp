@@ -43,7 +43,8 @@ constexpr std::string_view kFirstLine = "beambench-rays 1";
 constexpr std::uint64_t kMaxRaysInFile = std::uint64_t{1} << 32U;
 constexpr std::uint64_t kMaxRaysInMemory = std::uint64_t{1} << 28U;
 
-static_assert(std::endian::native == std::endian::little, "rays are written as they lie in memory");
+static_assert(std::endian::native == std::endian::little,
+              "rays are written exactly as stored in memory");
 static_assert(sizeof(accel::Ray) == 8 * sizeof(float));
 
 constexpr std::string_view kRemedy = "'beambench rays' writes such files";
@@ -79,9 +80,11 @@ accel::Pencil read_pencil(const Json& json, std::uint64_t begin, std::uint64_t r
   };
   const std::uint64_t first = whole_number("first");
   const std::uint64_t count = whole_number("count");
-  if (first < begin) throw InputError(fmt::format("it begins at ray {}, before {}", first, begin));
+  if (first < begin)
+    throw InputError(fmt::format("it begins at ray {}; expected {} or later", first, begin));
   if (count < 1 || first >= rays || count > rays - first) {
-    throw InputError(fmt::format("{} rays from {} on are not among {} rays", count, first, rays));
+    throw InputError(
+        fmt::format("{} rays starting at ray {} do not fit in {} rays", count, first, rays));
   }
   const Json apex = json.value("apex", Json());
   const auto is_finite = [](const Json& coordinate) {
@@ -190,7 +193,7 @@ class BinaryRays : public RayReader::Format {
   }
 
   [[noreturn]] void refuse_length(std::uint64_t bytes) const {
-    fail(path_, fmt::format("{} bytes of rays follow the header, not the {} of {} rays", bytes,
+    fail(path_, fmt::format("{} bytes of rays follow the header; expected {} for {} rays", bytes,
                             count_ * sizeof(accel::Ray), count_));
   }
 
@@ -198,7 +201,8 @@ class BinaryRays : public RayReader::Format {
     std::array<char, 1> more{};
     if (input_.read(more) > 0) refuse_length(count_ * sizeof(accel::Ray) + 1);
     if (hash_ && *hash_ != fingerprint_.value()) {
-      fail(path_, "the rays are not those that were written: their hash differs from the header's");
+      fail(path_,
+           "the rays have changed since they were written: their hash differs from the header's");
     }
   }
 
@@ -251,7 +255,7 @@ class CsvRays : public RayReader::Format {
       rays[used] = std::bit_cast<accel::Ray>(values);
       require_valid_ray(rays[used], [&] { return numbers_.place_of(read_); });
     }
-    if (read_ == 0) fail(path_, "there are no rays in it");
+    if (read_ == 0) fail(path_, "it contains no rays");
     return used;
   }
 
@@ -265,7 +269,7 @@ class CsvRays : public RayReader::Format {
 
   std::filesystem::path path_;
   CsvNumbers numbers_;
-  std::vector<std::size_t> places_{};  ///< of the columns, in a ray
+  std::vector<std::size_t> places_{};  ///< within a ray, by column
   std::vector<double> when_empty_{};
   std::vector<double> row_{};
   std::size_t read_ = 0;
@@ -296,7 +300,7 @@ void write_csv(std::ostream& out, const RaySet& set) {
   out << fmt::format("{}\n", fmt::join(kColumns, ","));
   for (const accel::Ray& ray : set.rays) {
     const auto floats = std::bit_cast<std::array<float, 8>>(ray);
-    std::array<double, 8> numbers{};  // a float's shortest text is not the double's
+    std::array<double, 8> numbers{};  // a double's shortest text, not a float's
     std::ranges::copy(floats, numbers.begin());
     out << fmt::format("{}\n", fmt::join(numbers, ","));
   }
@@ -329,10 +333,10 @@ RaySet read_ray_file(const std::filesystem::path& path) {
   RayReader reader(path);
   RaySet set = reader.header();
   if (reader.count().value_or(0) > kMaxRaysInMemory) {
-    fail(path, fmt::format("it holds {} rays, more than the {} that are read at once",
-                           *reader.count(), kMaxRaysInMemory));
+    fail(path, fmt::format("it contains {} rays; at most {} can be read at once", *reader.count(),
+                           kMaxRaysInMemory));
   }
-  // A pipe may deliver less than its header states.
+  // A pipe may deliver fewer rays than its header states.
   std::error_code has_no_length;
   const std::uint64_t bytes = std::filesystem::file_size(path, has_no_length);
   if (!has_no_length) {
@@ -342,8 +346,8 @@ RaySet read_ray_file(const std::filesystem::path& path) {
   for (std::size_t count = kBlock; count == kBlock;) {
     const std::size_t used = set.rays.size();
     if (used > kMaxRaysInMemory) {
-      fail(path,
-           fmt::format("it holds more than the {} rays that are read at once", kMaxRaysInMemory));
+      fail(path, fmt::format("it contains more than {} rays, the most that can be read at once",
+                             kMaxRaysInMemory));
     }
     set.rays.resize(used + kBlock);
     count = reader.read(std::span(set.rays).subspan(used));

@@ -1,5 +1,5 @@
 #pragma once
-// Files of rays: `.rays`, and CSV.
+// Files of rays: binary (`.rays`) and CSV.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,11 +17,11 @@ namespace beambench::rays {
 /// A `.rays` file has three parts: the line `beambench-rays 1`; one line of JSON; then the rays,
 /// each as eight 32-bit IEEE floats in little-endian order: origin, t_min, direction, t_max. The
 /// JSON must have `query` ("closest" or "any") and `rays` (how many). `seed`, `scene_hash` (a file
-/// of another scene is refused), `hash` (of the rays' bytes, XXH3; a damaged file is refused),
-/// `may_graze` (true: `RaySet::may_graze`) and `pencils` are optional; other members, such as those
-/// of `note`, are for people. `pencils` is a list of `{"first": 0, "count": 16, "apex": [x, y, z],
-/// "toward": true}`, in the order of `first`: see `accel::Pencil`. An image's samples and views and
-/// bundles of pencils are not saved. In Python:
+/// for another scene is refused), `hash` (of the rays' bytes, XXH3; a damaged file is refused),
+/// `may_graze` (true: `RaySet::may_graze`) and `pencils` are optional; other members, such as
+/// `note`, are for human readers. `pencils` is a list of `{"first": 0, "count": 16, "apex": [x, y,
+/// z], "toward": true}`, in the order of `first`: see `accel::Pencil`. The image's samples, and the
+/// views and bundles of pencils, are not saved. In Python:
 ///
 ///     with open(path, "rb") as f:
 ///         f.readline(); header = json.loads(f.readline())
@@ -29,20 +29,19 @@ namespace beambench::rays {
 ///
 /// A CSV file has the columns ox, oy, oz, t_min, dx, dy, dz, t_max, in any order; t_min (0) and
 /// t_max (infinity) may be missing or empty. Case is ignored, and names and numbers may be in
-/// quotation marks. Its query is "closest". Its numbers are exact for readers of both float and
-/// double.
+/// quotation marks. The query is "closest". The numbers are exact whether read as float or double.
 ///
-/// Writes a CSV file if the ending is `.csv`, otherwise a binary one. Throws InputError if the file
-/// cannot be written; in that case, there is none.
+/// Writes a CSV file if the extension is `.csv`, otherwise a binary one. Throws InputError if the
+/// file cannot be written, and then leaves no file.
 void write_ray_file(const std::filesystem::path& path, const RaySet& set,
                     const nlohmann::ordered_json& note);
 
 /// Reads a file of rays in parts. The first line determines the format.
 class RayReader {
  public:
-  /// Throws InputError with the file name and the problem: not a file of rays, another version, too
-  /// short or too long, or a pencil (by its index) that is out of order, not of these rays or not
-  /// finite.
+  /// Throws InputError with the file name and the problem: it is not a file of rays, has another
+  /// version, is too short or too long, or a pencil (named by its index) is out of order, beyond
+  /// the rays or not finite.
   explicit RayReader(const std::filesystem::path& path);
   ~RayReader();
   RayReader(RayReader&&) noexcept;
@@ -50,11 +49,11 @@ class RayReader {
 
   /// Returns the set without its rays; the label is the path.
   const RaySet& header() const;
-  /// Returns the number stated in the file; nothing for CSV.
+  /// Returns the number of rays stated in the file; nothing for CSV.
   std::optional<std::uint64_t> count() const;
-  /// Fills the buffer with the next rays and returns how many it got: fewer only at the end. Throws
-  /// InputError with the place of a ray that `require_valid` refuses, and at the end of a damaged
-  /// file.
+  /// Fills the buffer with the next rays and returns how many were read: fewer only at the end of
+  /// the file. Throws InputError with the place of a ray that `require_valid` refuses, and at the
+  /// end of a damaged file.
   std::size_t read(std::span<accel::Ray> rays);
   /// Returns the fraction read so far, from 0 to 1; 0 if unknown.
   double part() const;
@@ -65,7 +64,7 @@ class RayReader {
   std::unique_ptr<Format> format_;
 };
 
-/// Reads the whole file. Throws as RayReader, and for more than 2^28 rays.
+/// Reads the whole file. Throws what RayReader throws, and InputError for more than 2^28 rays.
 RaySet read_ray_file(const std::filesystem::path& path);
 
 }  // namespace beambench::rays

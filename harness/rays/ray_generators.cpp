@@ -49,7 +49,7 @@ void reserve(std::size_t rays, RayList& list) {
   list.samples.reserve(rays);
 }
 
-/// Returns the surface points at the hits of the list's rays from `first` on.
+/// Returns the surface points at the hits of the list's rays, starting at ray `first`.
 std::vector<SurfacePoint> points_hit(const scenes::Scene& scene, const MirrorTable& mirrors,
                                      const accel::oracle::Oracle& oracle, const RayList& list,
                                      std::size_t first) {
@@ -246,8 +246,8 @@ RayList path_rays(const scenes::Scene& scene, const MirrorTable& mirrors,
     const std::size_t first = list.rays.size();
     add_scattered(points, random, list);
     if (bounce + 1 == bounces) break;
-    // The reach follows from the scene: every point is on a primitive, and rays begin slightly
-    // beside it.
+    // The scene determines the oracle's reach: every point is on a primitive, and rays begin
+    // slightly beside it.
     if (!oracle)
       oracle.emplace(scene, 2.0 * static_cast<double>(scene.bounds.largest_coordinate()));
     points = points_hit(scene, mirrors, *oracle, list, first);

@@ -16,9 +16,9 @@
 
 namespace beambench::rays {
 
-/// The place where a ray meets a surface, and the origin of rays that start there: `lift` beside
-/// it, on the side from which the ray comes (`MirrorTable::lift_at`). Geometry alone then decides
-/// whether the surface itself is hit again, and rays need no t_min.
+/// The place where a ray meets a surface. Rays that start there have their origin at distance
+/// `lift` from it, on the side from which the ray comes (`MirrorTable::lift_at`). Geometry alone
+/// then decides whether the surface itself is hit again, and rays need no t_min.
 struct SurfacePoint {
   glm::dvec3 beside() const { return point + normal * lift; }
 
@@ -27,10 +27,10 @@ struct SurfacePoint {
   glm::dvec3 incoming;  ///< the direction of the incoming ray, unit length
   double lift;
   scenes::PrimitiveId primitive;
-  std::uint32_t sample;  ///< from which the ray comes, as numbered by a HitBuffer of the image
+  std::uint32_t sample;  ///< the sample the ray comes from, as numbered by a HitBuffer of the image
 };
 
-/// Returns the hits of the primary rays, in order, found by the oracle (on all cores): the rays
+/// Returns the hits of the primary rays, in order, found by the oracle (on all cores), so the rays
 /// that start there are the same for every structure.
 std::vector<SurfacePoint> surface_points(const scenes::Scene& scene, const MirrorTable& mirrors,
                                          const accel::PrimaryRays& rays);
@@ -43,24 +43,26 @@ inline std::vector<SurfacePoint> surface_points(const scenes::Scene& scene,
 std::vector<SurfacePoint> in_picture_order(const std::vector<SurfacePoint>& points,
                                            const accel::PrimaryRays& image);
 
-/// All secondary rays start `beside` the surface, and store the sample of the primary ray.
+/// All secondary rays start `beside` the surface, and store the sample of their primary ray.
 ///
 /// Returns the shadow rays, light by light, from each point that faces the light. The light is at t
 /// = 1, and the rays end slightly before it (`accel::t_before_light`). Each light is a pencil.
-/// `per_light`: that many successive points are one light with an extent (`area_lights`), which
-/// gets rays to all of them from each surface point that faces any, and its pencils are a bundle.
+/// Every `per_light` successive points are one light with an extent (`area_lights`): each surface
+/// point that faces any of them sends rays to all of them, and the pencils of the light are a
+/// bundle.
 RayList shadow_rays(std::span<const scenes::Light> lights, const std::vector<SurfacePoint>& points,
                     std::size_t per_light = 1);
 
 /// Returns rays in the mirror directions of the incoming rays, of unit length.
 RayList reflection_rays(const std::vector<SurfacePoint>& points);
 
-/// Returns the same only for points on planar mirrors, mirror by mirror. Each mirror is a pencil,
-/// away from the image's eye behind it, unless it is seen edge-on (`VirtualEye::behind`).
+/// Returns these rays only for points on planar mirrors, mirror by mirror. Each mirror is a pencil,
+/// whose rays run away from the image's eye behind it, unless it is seen edge-on
+/// (`VirtualEye::behind`).
 RayList mirror_rays(const std::vector<SurfacePoint>& points, const MirrorTable& mirrors,
                     const accel::PrimaryRays& image);
 
-/// Returns one ray per point in a direction with density cos / pi about the normal, of unit length.
+/// Returns one ray per point, of unit length, with density cos / pi about the normal.
 RayList diffuse_rays(const std::vector<SurfacePoint>& points, std::uint64_t seed);
 
 /// Returns `samples` rays from each point, one after the other, with directions like those of
@@ -69,15 +71,16 @@ RayList occlusion_rays(const std::vector<SurfacePoint>& points, int samples, flo
                        std::uint64_t seed);
 
 /// Returns diffuse rays, then diffuse rays from their hits (found by the oracle, on all cores), and
-/// so on for `bounces` times; fewer if all paths have left the scene. The first are `diffuse_rays`.
+/// so on for `bounces` times; fewer if all paths have left the scene. The first rays are those of
+/// `diffuse_rays`.
 RayList path_rays(const scenes::Scene& scene, const MirrorTable& mirrors,
                   std::vector<SurfacePoint> points, int bounces, std::uint64_t seed);
 
 /// Returns `count` rays that are uniform among all lines through the box, by the measure of lines
 /// that is invariant under motions (Santalo, Integral Geometry, 1976, II.12): they enter at points
-/// uniform on its surface, with density cos / pi about the inward normal. So the probability of
-/// meeting a convex body in the box is its surface area over the box's. The rays start one diagonal
-/// in front of the box, with directions of unit length. The box is widened by 2^-10 of its
+/// uniform on its surface, with density cos / pi about the inward normal. So a ray meets a convex
+/// body in the box with a probability equal to the ratio of their surface areas. The rays start one
+/// diagonal in front of the box, with directions of unit length. The box is widened by 2^-10 of its
 /// diagonal, so that it has an interior. Returns no rays for an empty box.
 RayList random_rays(const scenes::Bounds& box, std::size_t count, std::uint64_t seed);
 

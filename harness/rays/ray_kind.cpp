@@ -22,33 +22,34 @@ ParameterInfo seed_parameter() {
 ParameterInfo order_parameter() {
   return choice_parameter("order", std::string(kListOrder),
                           {std::string(kListOrder), std::string(kSortedOrder)},
-                          "as the rays are made, or sorted by direction and origin beforehand, "
-                          "which costs the structure nothing, and without the marks of pencils");
+                          "as generated, or sorted beforehand (not timed) by direction and origin, "
+                          "without the marks of pencils");
 }
 
 std::vector<ParameterInfo> whitted_parameters() {
-  return {integer_parameter("depth", 5, 1, 64, "maximum ray depth, the primary ray included"),
+  return {integer_parameter("depth", 5, 1, 64, "maximum ray depth, including the primary ray"),
           real_parameter("least_weight", 0.0, 0.0, 1.0,
                          "rays that contribute less to their pixel are not traced"),
           choice_parameter("shadows", "rays", {"rays", "cache", "light-buffer"},
-                           "how the visibility of a light is determined"),
-          integer_parameter("batch", kPictureBatch, 64, kMaxPictureBatch,
-                            "maximum number of rays of a depth that are shaded, and whose "
-                            "following rays are handed over, together")};
+                           "how the visibility of lights is determined"),
+          integer_parameter(
+              "batch", kPictureBatch, 64, kMaxPictureBatch,
+              "maximum number of rays of the same depth that are shaded together, and whose "
+              "secondary rays are traced together")};
 }
 
 std::vector<ParameterInfo> area_parameters() {
   const LightExtent extent;
   return {integer_parameter("samples", extent.points, 1, kMaxLightPoints, "points of each light"),
           real_parameter("size", extent.size, 0.0, 1e6,
-                         "the diameter of lights, in diagonals of the scene's box"),
+                         "diameter of lights, in diagonals of the scene's box"),
           order_parameter()};
 }
 
 std::vector<ParameterInfo> occlusion_parameters() {
   return {integer_parameter("samples", 16, 1, 1024, "rays from each primary hit"),
           real_parameter("distance", 0.1, 1e-6, 1e6,
-                         "where the rays end, in diagonals of the scene's box"),
+                         "length of the rays, in diagonals of the scene's box"),
           seed_parameter(), order_parameter()};
 }
 
@@ -65,12 +66,12 @@ const std::vector<RayKindInfo>& all_kinds() {
        Query::kAnyHit,
        {order_parameter()}},
       {RayKind::kArea, "area",
-       "soft shadows: as 'shadow' rays, to several points of each light, which is a ball; point by "
-       "point; any hit",
+       "soft shadows: like 'shadow', but to several points of each light, which is a ball; "
+       "point by point; any hit",
        Query::kAnyHit, area_parameters()},
       {RayKind::kReflection,
        "reflection",
-       "mirrored at the surface where primary rays hit, as if all were mirrors",
+       "mirrored at the surface where primary rays hit, as if all surfaces were mirrors",
        Query::kClosestHit,
        {order_parameter()}},
       {RayKind::kMirror,
@@ -81,19 +82,19 @@ const std::vector<RayKindInfo>& all_kinds() {
        {order_parameter()}},
       {RayKind::kDiffuse,
        "diffuse",
-       "one from each primary hit, its direction random by the cosine with the surface's normal",
+       "one from each primary hit, in a random direction, cosine-weighted about the normal",
        Query::kClosestHit,
        {seed_parameter(), order_parameter()}},
       {RayKind::kOcclusion, "ao",
-       "ambient occlusion: several from each primary hit, each direction random as those of "
-       "'diffuse' rays, which end at a distance; any hit",
+       "ambient occlusion: several from each primary hit, in random directions like "
+       "those of 'diffuse', up to a distance; any hit",
        Query::kAnyHit, occlusion_parameters()},
       {RayKind::kPath,
        "path",
-       "diffuse paths: 'diffuse' rays, and so on from where these hit, bounce by bounce",
+       "diffuse paths: 'diffuse' rays, then further ones from where these hit, bounce by bounce",
        Query::kClosestHit,
        {integer_parameter("bounces", 4, 1, 64,
-                          "scattered rays of a path, the one from the primary hit included"),
+                          "scattered rays of a path, including the one from the primary hit"),
         seed_parameter(), order_parameter()}},
       {RayKind::kRandom,
        "random",

@@ -19,22 +19,22 @@ enum class RayKind {
   kReflection,  ///< mirrored at the hits of primary rays
   kMirror,      ///< mirrored at the hits of primary rays with planar mirrors
   kDiffuse,     ///< scattered at the hits of primary rays
-  kOcclusion,   ///< several short ones from each hit of a primary ray: ambient occlusion
+  kOcclusion,   ///< several short rays from each hit of a primary ray: ambient occlusion
   kPath,        ///< scattered at the hits of primary rays, and again at their own hits
   kRandom,      ///< lines through the scene's box
   kWhitted      ///< all rays of a whole picture, which follow from the structure's own hits
 };
 
-/// The rays of a whole picture that are handed over together by default, and at most. More rays
-/// help streams (accel/bvh/README.md) and need more memory.
+/// The default maximum number of rays of a whole picture that a structure receives at once. More
+/// rays help streams (accel/bvh/README.md) and need more memory.
 inline constexpr int kPictureBatch = 32768;
 inline constexpr int kMaxPictureBatch = 1 << 19;
 
-/// The result required for a ray.
+/// The result computed for a ray.
 enum class Query {
   kClosestHit,
   kAnyHit,  ///< whether there is any hit
-  kPicture  ///< both, in batches, as required for a whole picture
+  kPicture  ///< both, in batches, for a whole picture
 };
 std::string_view to_string(Query query);  // "closest", "any", "picture"
 
@@ -53,11 +53,11 @@ std::span<const RayKindInfo> ray_kinds();
 const RayKindInfo& info_of(RayKind kind);
 std::string_view to_string(RayKind kind);
 
-/// The endings that distinguish a file of rays from the name of a kind.
+/// The extensions that distinguish a file of rays from the name of a kind.
 inline constexpr std::string_view kRayFileEnding = ".rays";
 inline constexpr std::string_view kCsvEnding = ".csv";
 
-/// Returns whether a text names a file of rays, by its ending.
+/// Returns whether a text names a file of rays, judging by its extension.
 inline bool is_ray_file(std::string_view text) {
   return text.ends_with(kRayFileEnding) || text.ends_with(kCsvEnding);
 }
@@ -66,8 +66,8 @@ inline bool is_ray_file(std::string_view text) {
 struct RayChoice {
   RayKind kind = RayKind::kPrimary;  ///< for a file: whatever was saved
   std::uint64_t seed = 0;            ///< for a random kind; 0 for the others
-  bool is_sorted = false;            ///< a list in another order than that in which it is made
-  std::filesystem::path file{};      ///< empty: the rays are made
+  bool is_sorted = false;            ///< a list that is not in the order of generation
+  std::filesystem::path file{};      ///< empty: the rays are generated
   /// The name in records and commands: `shadow`, `diffuse`, `diffuse:seed=7`, or the file's name
   /// (`name_of_path`).
   std::string label = "primary";
@@ -78,21 +78,22 @@ struct RayChoice {
 /// Parses `primary`, `diffuse:seed=7` or `some/file.rays`. Throws InputError listing the valid
 /// names or parameters. A file is not opened yet.
 RayChoice parse_ray_choice(std::string_view text);
-/// The order of the rays of a list, by the names in records.
-inline constexpr std::string_view kListOrder = "list";      ///< as they are made or saved
+/// The orders of the rays of a list, as named in records.
+inline constexpr std::string_view kListOrder = "list";      ///< as generated or saved
 inline constexpr std::string_view kSortedOrder = "sorted";  ///< by direction and origin
 /// A label without the order, and the order.
 struct OrderedLabel {
   std::string rays;
   std::string_view order;
 };
-/// Divides a label: `diffuse:order=sorted,seed=7` is `diffuse:seed=7`, `sorted`. A file's rays are
-/// in the order of the file.
+/// Divides a label: `diffuse:order=sorted,seed=7` becomes `diffuse:seed=7` and `sorted`. Rays of a
+/// file are in the file's order.
 OrderedLabel divide_label(const std::string& label);
 
 /// Returns the values of a choice's parameters; there are none for a file.
 Parameters parameters_of(const RayChoice& choice);
-/// Parses a comma-separated list, each choice once. Throws as parse_ray_choice.
+/// Parses a comma-separated list, with each choice at most once. Throws what parse_ray_choice
+/// throws.
 std::vector<RayChoice> parse_ray_choices(std::string_view list);
 
 }  // namespace beambench::rays

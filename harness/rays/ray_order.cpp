@@ -9,7 +9,7 @@
 namespace beambench::rays {
 namespace {
 
-/// Returns one of 128 bins of directions: of an octant, and of its triangle a cell of 4x4.
+/// Returns one of 128 direction bins: 8 octants, each a triangle divided into 4x4 cells.
 std::uint64_t direction_bin(const glm::vec3& direction) {
   constexpr double kCells = 4.0;
   const double x = std::abs(direction.x), y = std::abs(direction.y), z = std::abs(direction.z);
@@ -29,8 +29,8 @@ std::uint64_t spread(std::uint64_t bits) {
   return (bits | bits << 2U) & 0x09249249U;
 }
 
-/// Returns the place of a point along a Morton curve through the bounds; of a point outside, that
-/// of the nearest one inside.
+/// Returns the index of a point along a Morton curve through the bounds. For a point outside,
+/// returns that of the nearest point inside.
 std::uint64_t morton_place(const glm::vec3& point, const scenes::Bounds& bounds) {
   constexpr double kSteps = 1024.0;
   std::uint64_t place = 0;
@@ -47,7 +47,8 @@ std::uint64_t morton_place(const glm::vec3& point, const scenes::Bounds& bounds)
 
 void sort_rays(RayList& list, const scenes::Bounds& bounds) {
   constexpr unsigned kMortonBits = 30;
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> order;  // unique, so equals stay in order
+  std::vector<std::pair<std::uint64_t, std::uint32_t>>
+      order;  // unique, so equal keys stay in order
   order.reserve(list.rays.size());
   for (const accel::Ray& ray : list.rays) {
     order.emplace_back(

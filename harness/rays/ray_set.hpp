@@ -1,5 +1,5 @@
 #pragma once
-// A list of rays that is made once and traced by every structure.
+// A list of rays that is generated once and traced by every structure.
 
 #include <cstdint>
 #include <memory>
@@ -19,9 +19,9 @@ namespace beambench::rays {
 struct RayList {
   std::vector<accel::Ray> rays{};
   std::vector<std::uint32_t> samples{};  ///< of each ray; empty if they do not come from an image
-  std::shared_ptr<const accel::PrimaryRays> image{};  ///< that they come from
+  std::shared_ptr<const accel::PrimaryRays> image{};  ///< the image that they come from
   std::vector<accel::Pencil> pencils{};
-  std::vector<std::shared_ptr<const accel::PrimaryRays>> views{};  ///< of pencils that have a view
+  std::vector<std::shared_ptr<const accel::PrimaryRays>> views{};  ///< the views of pencils
   accel::BatchMarks marks{};
 
   accel::RayBatch batch() const {
@@ -35,12 +35,12 @@ struct RaySet : RayList {
   std::string label{};  ///< the name in records and commands (`RayChoice::label`)
   Query query = Query::kClosestHit;
   std::uint64_t seed = 0;                     ///< 0 if nothing is random
-  std::optional<std::uint64_t> scene_hash{};  ///< of the scene they were made for, if known
+  std::optional<std::uint64_t> scene_hash{};  ///< hash of the scene they were made for, if known
   bool may_graze = false;  ///< aimed at edges and corners: any number of grazes is allowed
 };
 
-/// The coherence of a list: the mean cosine of the angle between the directions of a ray
-/// and the next. 1: all parallel; 0: nothing in common. 1 for fewer than two rays.
+/// The coherence of a list: the mean cosine of the angle between the directions of a ray and the
+/// next. It is 1 for parallel rays and about 0 for unrelated ones; for fewer than two rays it is 1.
 double coherence(std::span<const accel::Ray> rays);
 
 }  // namespace beambench::rays

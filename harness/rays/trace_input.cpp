@@ -31,8 +31,8 @@ std::optional<int> parse_side(std::string_view text) {
   return value;
 }
 
-/// Throws if a list is too large: unlike an image's rays, it is in memory, so its size is checked
-/// before it is made.
+/// Throws if a list would be too large. Unlike an image's rays, it is kept in memory, so its size
+/// is checked before it is generated.
 void require_list_size(std::size_t points, std::int64_t each, const RayChoice& choice,
                        std::string_view parameter) {
   const std::int64_t rays = static_cast<std::int64_t>(points) * each;
@@ -214,13 +214,13 @@ std::string place_text(const TraceInput& input, std::size_t index) {
 
 double coherence(const TraceInput& input) {
   if (input.list() != nullptr) return coherence(input.list()->rays);
-  // Row by row, so that the rays of a large image are never all in memory.
+  // Visits row by row, so that the rays of a large image are never all in memory.
   const accel::PrimaryRays& image = *input.image();
   const std::size_t row_length = input.size() / static_cast<std::size_t>(image.height());
   double sum = 0.0;
   std::vector<accel::Ray> row;
   for (std::size_t first = 0; first < input.size(); first += row_length) {
-    if (!row.empty()) row.erase(row.begin(), row.end() - 1);  // the step from row to row
+    if (!row.empty()) row.erase(row.begin(), row.end() - 1);  // keep the step between rows
     for (std::size_t i = 0; i < row_length; ++i) row.push_back(input.ray(first + i));
     sum += coherence(row) * static_cast<double>(row.size() - 1);
   }

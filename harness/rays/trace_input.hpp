@@ -33,25 +33,25 @@ Resolution parse_resolution(std::string_view text);
 /// Returns `640x480`.
 std::string to_string(const Resolution& resolution);
 
-/// Throws InputError if the image has more samples than a buffer is meant for (2^28), stating what
-/// to lower.
+/// Throws InputError if the image has more samples than a buffer may hold (2^28); the message says
+/// what to lower.
 void require_ray_count(const Resolution& resolution, int samples);
 
-/// The place of a primary ray in its image.
+/// The position of a primary ray in its image.
 struct PixelSample {
   int x, y, sample;
 
   friend bool operator==(const PixelSample&, const PixelSample&) = default;
 };
 
-/// Returns the place in the image of the ray with that index, as numbered by a hit buffer.
+/// Returns the position in the image of the ray with that index, in the order of a hit buffer.
 PixelSample place_of(const accel::PrimaryRays& image, std::size_t index);
-/// Returns the index of a place.
+/// Returns the index of a position.
 std::size_t index_of(const accel::PrimaryRays& image, const PixelSample& at);
 /// Returns the ray at an index.
 accel::Ray ray_at(const accel::PrimaryRays& image, std::size_t index);
 
-/// Rays by their index, and one query for all of them. Cheap to copy, because lists are shared.
+/// Rays by index, and the query for all of them. Cheap to copy, because lists are shared.
 class TraceInput {
  public:
   /// The closest-hit query for an image.
@@ -62,7 +62,7 @@ class TraceInput {
   std::size_t size() const;
   accel::Ray ray(std::size_t index) const;
   Query query() const { return list_ ? list_->query : Query::kClosestHit; }
-  /// Returns the label, like `RayChoice::label`.
+  /// Returns the label; see `RayChoice::label`.
   const std::string& label() const;
   std::uint64_t seed() const { return list_ ? list_->seed : 0; }
 
@@ -70,7 +70,7 @@ class TraceInput {
   const accel::PrimaryRays* image() const { return image_ ? &*image_ : nullptr; }
   /// Returns the list; null for an image.
   const RaySet* list() const { return list_.get(); }
-  /// Returns the ray's place in the image; nothing for a list.
+  /// Returns the ray's position in the image; nothing for a list.
   std::optional<PixelSample> pixel(std::size_t index) const;
 
   /// Returns the largest distance of an origin from the coordinate origin.
@@ -101,7 +101,7 @@ struct ImageOfRays {
 ImageOfRays image_of(const scenes::Camera& camera, const std::optional<Resolution>& resolution,
                      int samples);
 
-/// Returns the workload of a structure: the rays, their camera, and the number of threads.
+/// Returns the workload for a structure: the rays, their camera, and the number of threads.
 accel::Workload workload_of(const ImageOfRays& image, const TraceInput& input, int threads = 1);
 
 /// Thrown if a scene has no rays of a kind; the other kinds of a request are not affected.
@@ -110,13 +110,12 @@ class NoRaysError : public InputError {
   using InputError::InputError;
 };
 
-/// Throws InputError if the rays come from a file that was made for another scene.
+/// Throws InputError if the rays come from a file made for another scene.
 void require_made_for(const scenes::Scene& scene, const RaySet& set);
 
 /// Makes the rays of a choice, or reads them. Throws NoRaysError if the scene has no lights for
 /// shadow rays or no planar mirrors for mirror rays, or if no primary ray hits anything. Throws
-/// InputError for whole pictures, and as `read_ray_file`; for a file, also if it was made for
-/// another scene.
+/// InputError for whole pictures, for files made for another scene, and where `read_ray_file` does.
 TraceInput make_trace_input(const scenes::Scene& scene, const ImageOfRays& image,
                             const RayChoice& choice);
 

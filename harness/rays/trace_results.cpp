@@ -26,7 +26,7 @@ double estimated_seconds(const accel::Accelerator& structure, const TraceInput& 
   const auto rays = static_cast<double>(input.size());
   int traced = 0;
   while (traced < kProbeRays && stopwatch.seconds() < kProbeSeconds) {
-    // Steps of the golden ratio never return to an earlier place.
+    // Steps of the golden ratio never revisit a place.
     const double at = traced * 0.6180339887498949;
     const auto index = static_cast<std::size_t>((at - std::floor(at)) * rays);
     structure.closest_hit(input.ray(index), nullptr);
@@ -94,8 +94,8 @@ std::optional<std::string> share_warning(const TraceInput& input, std::uint64_t 
   return fmt::format("{} of the {} {} rays {} ({:.3g}%): {}", hits, input.size(), input.label(),
                      input.query() == Query::kAnyHit ? "are occluded" : "hit something",
                      100.0 * share,
-                     share < kMinShare ? "they compare how structures miss, and little else"
-                                       : "there is hardly a miss among them");
+                     share < kMinShare ? "times mostly compare how structures handle misses"
+                                       : "hardly any ray misses");
 }
 
 void trace_with_progress(const accel::Accelerator& structure, const TraceInput& input,

@@ -18,7 +18,7 @@ namespace beambench::rays {
 using AnyHits = std::vector<std::uint8_t>;
 using TraceResults = std::variant<accel::HitBuffer, AnyHits>;
 
-/// Returns results in the shape of the input: all misses.
+/// Returns results in the shape of the input, all of them misses.
 TraceResults make_results(const TraceInput& input);
 
 /// Overwrites all results with impossible ones, so that the differ finds any that are left
@@ -26,25 +26,25 @@ TraceResults make_results(const TraceInput& input);
 void poison(TraceResults& results);
 void poison(accel::HitBuffer& hits);
 
-/// Returns whether the result at an index is a hit. Poison counts as one.
+/// Returns whether the result at an index is a hit. A poisoned result counts as a hit.
 bool is_hit_at(const TraceResults& results, std::size_t index);
 
 /// Returns whether a structure supports an image, or lists of rays.
 bool is_supported(const accel::StructureChoice& choice, const TraceInput& input);
-/// Throws UnsupportedError if it does not.
+/// Throws UnsupportedError if the structure does not support them.
 void require_support(const accel::StructureChoice& choice, const TraceInput& input);
 
-/// Traces the rays through a structure. `results` has the shape that `make_results` gives.
-/// `counters` may be null. `threads` may share the rays (`accel::thread_count`).
+/// Traces the rays through a structure. `results` must have the shape that `make_results` returns.
+/// `counters` may be null. Up to `threads` threads share the rays (`accel::thread_count`).
 void trace(const accel::Accelerator& structure, const TraceInput& input, TraceResults& results,
            accel::WorkCounters* counters = nullptr, int threads = 1);
 
 /// Returns a warning if less than 1% or more than 99% of the rays hit anything (are occluded):
-/// times for such rays mostly compare how structures miss, or how they find anything at all.
+/// times for such rays mostly compare how structures handle misses only, or hits only.
 std::optional<std::string> share_warning(const TraceInput& input, std::uint64_t hits);
 
-/// Calls `trace` without counters; on a terminal it shows the remaining time, estimated from a few
-/// rays that are traced first.
+/// Calls `trace` without counters. On a terminal, shows the remaining time, estimated by first
+/// tracing a few rays.
 void trace_with_progress(const accel::Accelerator& structure, const TraceInput& input,
                          TraceResults& results, int threads, base::Progress& progress);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The virtual eyes from which rays reflected by planar mirrors seem to come.
+// Virtual eyes, from which rays reflected by planar mirrors appear to come.
 
 #include <cstddef>
 #include <cstdint>
@@ -22,7 +22,7 @@ class PlaneTable {
   PlaneTable(const scenes::Scene& scene, std::vector<scenes::PlanarSurface> planes);
 
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  /// Returns the index of the surface that a primitive is part of; kNone if there is none.
+  /// Returns the index of the surface that a primitive is part of; kNone if it is not part of one.
   std::uint32_t plane_of(scenes::PrimitiveId primitive) const {
     return planes_.empty() ? kNone : plane_of_[primitive];
   }
@@ -39,8 +39,8 @@ class MirrorTable : public PlaneTable {
   explicit MirrorTable(const scenes::Scene& scene)
       : PlaneTable(scene, scenes::planar_mirrors(scene)) {}
 
-  /// Returns the distance at which rays begin beside a primitive that a ray from `origin` met at
-  /// `point`: the same for all points of a planar mirror.
+  /// Returns the distance from the surface at which rays begin on a primitive that a ray from
+  /// `origin` met at `point`; it is the same for all points of a planar mirror.
   double lift_at(scenes::PrimitiveId primitive, const glm::dvec3& origin,
                  const glm::dvec3& point) const {
     const std::uint32_t mirror = plane_of(primitive);
@@ -54,12 +54,12 @@ struct VirtualEye {
   explicit VirtualEye(accel::PrimaryRays image) : place(image.eye()), view(std::move(image)) {}
 
   /// Returns the eye of the rays that a mirror reflects. They begin slightly beside it, so their
-  /// lines pass through the eye's image, moved by the same distance (`accel::mirror_lift`). Nothing
-  /// for a mirror seen edge-on, where rounding decides on which side a ray meets it.
+  /// lines pass through the eye's image, moved by the same distance (`accel::mirror_lift`). Returns
+  /// nothing for a mirror seen edge-on, because rounding decides on which side a ray meets it.
   std::optional<VirtualEye> behind(const scenes::PlanarSurface& mirror) const;
 
   glm::dvec3 place;
-  /// The image seen from there, up to rounding: its eye is a float, and is not moved.
+  /// The image seen from this eye, up to rounding: its eye is a float, and is not moved.
   accel::PrimaryRays view;
 };
 

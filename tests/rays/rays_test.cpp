@@ -586,10 +586,10 @@ TEST_F(RayFile, NamesAnInvalidPencil) {
   write(header(good));
   EXPECT_TRUE(scenes::says(refusal(), {"some.rays", "\"pencils\" is not a list"}));
   for (const auto& [bad, why] : std::initializer_list<std::pair<const char*, const char*>>{
-           {R"({"first":9,"count":6,"apex":[1,2,3],"toward":true})", "before 10"},
+           {R"({"first":9,"count":6,"apex":[1,2,3],"toward":true})", "expected 10 or later"},
            {R"({"first":-1,"count":6,"apex":[1,2,3],"toward":true})", "first"},
-           {R"({"first":10,"count":0,"apex":[1,2,3],"toward":true})", "not among"},
-           {R"({"first":10,"count":1000000,"apex":[1,2,3],"toward":true})", "not among"},
+           {R"({"first":10,"count":0,"apex":[1,2,3],"toward":true})", "do not fit"},
+           {R"({"first":10,"count":1000000,"apex":[1,2,3],"toward":true})", "do not fit"},
            {R"({"first":10,"count":1,"apex":[1,2],"toward":true})", "apex"},
            {R"({"first":10,"count":1,"apex":[1,2,null],"toward":true})", "apex"},
            {R"({"first":10,"count":1,"apex":[1,2,1e999],"toward":true})", "not a JSON object"},
