@@ -18,7 +18,7 @@
 namespace beambench::measure {
 namespace {
 
-/// The facts of the view's rays in one order, where an earlier block found them out.
+/// Returns the facts about the view's rays in one order, if an earlier block determined them.
 std::optional<RaySetFacts> known_facts(const Block& block, bool is_sorted) {
   for (const BlockCell& each : block.cells) {
     if (each.earlier.diff && each.cell.rays.is_sorted == is_sorted) return each.earlier.rays;
@@ -26,10 +26,11 @@ std::optional<RaySetFacts> known_facts(const Block& block, bool is_sorted) {
   return std::nullopt;
 }
 
-/// The tasks of a view, by whether their rays are sorted.
+/// The tasks of a view; the key is whether their rays are sorted.
 using Tasks = std::map<bool, std::unique_ptr<Task>>;
 
-/// Makes the tasks of the block's cells, and warns of unexpected rays. Throws like `make_task`.
+/// Makes the tasks of the block's cells, and warns about unexpected rays. Throws what `make_task`
+/// throws.
 Tasks make_tasks(const Block& block, const CellEvents& events) {
   Tasks tasks;
   for (const BlockCell& each : block.cells) {
@@ -45,7 +46,7 @@ Tasks make_tasks(const Block& block, const CellEvents& events) {
   return tasks;
 }
 
-/// Reports that no cell can be measured.
+/// Reports that none of the cells can be measured.
 void fail_all(const Block& block, const CellEvents& events, verify::Verdict verdict,
               const std::string& message) {
   for (const BlockCell& each : block.cells) {
@@ -62,14 +63,14 @@ void fail_all(const Block& block, const CellEvents& events, verify::Verdict verd
   }
 }
 
-/// A contender and the repetitions that it is due.
+/// A contender and the number of repetitions that it still needs.
 struct Turn {
   Contender contender;
   std::size_t index;
   int due;
 };
 
-/// Gives a contender a turn: a repetition, and another one where it was disturbed.
+/// Gives a contender a turn: one repetition, repeated if it was disturbed.
 void take(Turn& turn, const Instruments& instruments, int round, int position, int tries,
           const CellEvents& events, const BlockWatch& watch) {
   for (; tries > 0; --tries) {

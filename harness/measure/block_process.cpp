@@ -33,7 +33,7 @@ namespace {
 using plugin::Activity;
 using Json = nlohmann::ordered_json;
 
-/// Returns rays as they are chosen.
+/// Returns rays in the form in which users specify them.
 std::string text_of(const rays::RayChoice& rays) {
   return rays.file.empty() ? rays.label : name_of_path(rays.file.string());
 }
@@ -42,7 +42,7 @@ rays::RayChoice rays_of(const Json& text) {
   return rays::parse_ray_choice(path_of_name(text.get<std::string>()));
 }
 
-/// Events as a log has them are the description of what earlier blocks found out.
+/// The events, as in a log, describe the results of earlier blocks.
 Json to_json(const BlockCell& each) {
   Json json{{"index", each.cell.index},
             {"structure", each.cell.structure.label()},
@@ -117,7 +117,7 @@ Block read_block(const Json& json) {
   return block;
 }
 
-/// A pipe whose ends are closed with it, and not passed on to other programs.
+/// A pipe that closes its ends when destroyed, and does not pass them on to other programs.
 class Pipe {
  public:
   Pipe() {
@@ -144,11 +144,12 @@ class Pipe {
   std::array<int, 2> ends_{-1, -1};
 };
 
-/// Calls only functions that are safe between fork and exec: other threads may have held any lock.
+/// Calls only functions that are safe between fork and exec: other threads may have been holding
+/// locks.
 [[noreturn]] void become(char* const* arguments, char* const* environment, pid_t parent, int input,
                          int output) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);  // it has ended already
+  if (::getppid() != parent) ::_exit(1);  // the parent has already ended
   ::dup2(input, STDIN_FILENO);
   ::dup2(output, STDOUT_FILENO);
   ::execve(arguments[0], arguments, environment);
@@ -162,7 +163,7 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
   return pointers;
 }
 
-/// The process of a block.
+/// The process that measures a block.
 class BlockProcess {
  public:
   explicit BlockProcess(std::vector<std::string> program) {
@@ -192,13 +193,13 @@ class BlockProcess {
   void send(std::string_view text) {
     while (!text.empty()) {
       const ssize_t count = ::write(input_.write_end(), text.data(), text.size());
-      if (count < 0 && errno != EINTR) break;  // it has ended; its status says how
+      if (count < 0 && errno != EINTR) break;  // the process has ended; its status says how
       if (count > 0) text.remove_prefix(static_cast<std::size_t>(count));
     }
     input_.close_write();
   }
 
-  /// Returns the next whole line; nothing when the process has ended.
+  /// Returns the next whole line; nothing once the process has ended.
   std::optional<std::string> line() {
     for (;;) {
       const std::size_t end = pending_.find('\n');
@@ -215,14 +216,14 @@ class BlockProcess {
     }
   }
 
-  /// Returns the cell that it is measuring.
+  /// Returns the cell being measured.
   std::optional<std::size_t> cell() const {
     const std::string text = activity_.read(Activity::Line::kCell);
     if (text.empty()) return std::nullopt;
     return std::strtoull(text.c_str(), nullptr, 10);
   }
 
-  /// Waits for its end. Returns how it broke down; nothing where it did not.
+  /// Waits for the process to end. Returns how it failed; nothing if it did not.
   std::optional<std::string> end() { return plugin::describe_breakdown(wait(), activity_); }
 
  private:
@@ -268,13 +269,13 @@ void measure_here(const Block& block, const GoogleBenchmark& benchmark, const Bl
 }
 
 int serve_block(Activity& activity) {
-  // What else is printed, by a plug-in perhaps, must not come between the events.
+  // Other output, perhaps from a plug-in, must not mix with the events.
   std::FILE* const out = ::fdopen(::dup(STDOUT_FILENO), "w");
   ::dup2(STDERR_FILENO, STDOUT_FILENO);
   const auto write = [out](const Json& event) {
     const std::string line = json_text(event, -1) + '\n';
     if (std::fwrite(line.data(), 1, line.size(), out) != line.size() || std::fflush(out) != 0) {
-      std::_Exit(1);  // nobody reads any more
+      std::_Exit(1);  // the reader is gone
     }
   };
   const auto show = [&](std::optional<std::size_t> cell) {

@@ -16,8 +16,8 @@
 namespace beambench::measure {
 namespace {
 
-/// The maximum number of cells, more than any run could measure: with six repetitions of a
-/// millisecond each, ten minutes.
+/// The maximum number of cells. No run could measure more: with six repetitions of one millisecond
+/// each, they take ten minutes.
 constexpr double kMaxCells = 100'000;
 
 /// Returns the length of a list; 1 for any other value.
@@ -25,12 +25,12 @@ double length(const nlohmann::json& value) {
   return value.is_array() ? static_cast<double>(value.size()) : 1.0;
 }
 
-/// Returns the same for a member; 1 where there is none.
+/// Returns the length of a member; 1 if it is missing.
 double length_of(const nlohmann::json& object, const char* key) {
   return object.is_object() && object.contains(key) ? length(object[key]) : 1.0;
 }
 
-/// Returns the combinations of the lists of parameters of one entry.
+/// Returns the number of combinations of one entry's parameter lists.
 double combinations(const nlohmann::json& entry) {
   double product = 1.0;
   if (!entry.is_object() || !entry.contains("parameters")) return product;
@@ -40,7 +40,7 @@ double combinations(const nlohmann::json& entry) {
   return product;
 }
 
-/// Returns the sum over the entries of a list; 1 where there is none.
+/// Returns the sum over the entries of a list; 1 if there is no list.
 template <class Count>
 double sum_of(const nlohmann::json& root, const char* key, Count count) {
   if (!root.is_object() || !root.contains(key) || !root[key].is_array()) return 1.0;
@@ -49,14 +49,14 @@ double sum_of(const nlohmann::json& root, const char* key, Count count) {
   return sum;
 }
 
-/// Returns the number of structures that the document lists, before any is made. A text counts
-/// once, even `all`.
+/// Returns the number of structures that the document lists, before any are created. A string
+/// counts once, even `all`.
 double listed_structures(const JsonNode& root) {
   return sum_of(root.value(), "structures", combinations);
 }
 
-/// Refuses a sweep whose lists multiply to too many cells. Ignores mistakes in the lists, which are
-/// found when they are read.
+/// Refuses a sweep whose lists multiply to too many cells. Ignores errors in the lists, which are
+/// found when the lists are read.
 void require_affordable(const JsonNode& root, double structures) {
   const nlohmann::json& json = root.value();
   const double views = sum_of(json, "scenes", [](const auto& entry) {
@@ -74,7 +74,7 @@ void require_affordable(const JsonNode& root, double structures) {
       cells, views, structures, resolutions, samples, rays, kMaxCells));
 }
 
-/// A parameter and the values it takes in turn.
+/// A parameter and its values.
 struct SweptParameter {
   std::string name;
   std::vector<std::string> values;
@@ -87,7 +87,7 @@ SweptParameter read_parameter(const std::string& structure, const std::string& n
   SweptParameter parameter{name, {}};
   for (const JsonNode& value : nodes) {
     const std::string text = value.parameter_text();
-    // Chosen alone for the sake of the message: parameters are checked independently.
+    // Chosen separately for the sake of the message: parameters are checked independently.
     value.checked([&] { return structures.choose({structure, {{name, text}}}); });
     parameter.values.push_back(text);
   }
@@ -111,10 +111,10 @@ std::vector<Spec> multiply_out(const std::string& structure,
   return specs;
 }
 
-/// Returns the contenders that an entry stands for: a text as after `--accel` ("samet:max_level=6",
+/// Returns the contenders of an entry: either a string as after `--accel` ("samet:max_level=6",
 /// "all", "embree:mode=best"), or an object {"structure": name, "parameters": {name: value or list
-/// of values}, "tune": true or false} whose lists are multiplied out, the alphabetically last
-/// parameter varying fastest.
+/// of values}, "tune": true or false} for all combinations of the listed values, with the
+/// alphabetically last parameter varying fastest.
 std::vector<SweptStructure> read_structure_entry(const JsonNode& node,
                                                  const accel::Registry& structures) {
   if (node.value().is_string()) {
@@ -136,17 +136,17 @@ std::vector<SweptStructure> read_structure_entry(const JsonNode& node,
   }
   if (!node.value().value("tune", false)) return swept;
   if (swept.size() > kMaxParameterSets) {
-    node.fail(
-        fmt::format("its lists multiply to {} parameter sets; every contender is tuned with "
-                    "the same budget, at most {}",
-                    swept.size(), kMaxParameterSets));
+    node.fail(fmt::format(
+        "its lists multiply to {} parameter sets; tuning tries the same number for every "
+        "contender, at most {}",
+        swept.size(), kMaxParameterSets));
   }
   SweptStructure tuned{{}, true};
   for (SweptStructure& one : swept) tuned.sets.push_back(std::move(one.sets.front()));
   return {tuned};
 }
 
-/// Refuses two tuned entries of one structure, whose rows would look the same.
+/// Refuses two tuned entries for one structure, whose rows would look the same.
 void require_tuned_once(const JsonNode& root, const std::vector<SweptStructure>& structures) {
   std::set<std::string> tuned;
   for (const SweptStructure& each : structures) {
@@ -157,7 +157,7 @@ void require_tuned_once(const JsonNode& root, const std::vector<SweptStructure>&
   }
 }
 
-/// Returns the scene of an entry: in each of its frames, where it names some.
+/// Returns an entry's scene; if the entry lists frames, in each of them.
 std::vector<SceneEntry> read_scene(const JsonNode& node) {
   if (node.value().is_string()) return {{node.text(), {}, node.place()}};
   SceneEntry entry{node.find("scene")->text(), {}, node.place()};
@@ -206,12 +206,11 @@ void read_repetitions(const JsonNode& root, SweepConfig& config) {
   config.blocks = root.value().value("blocks", 8);
   config.minimum_repetitions = given.value("minimum", 5);
   config.maximum_repetitions = given.value("maximum", std::max(50, config.minimum_repetitions));
-  // Six: the fewest whose median has a 95% interval (see median_interval).
+  // Six is the fewest whose median has a 95% interval (see median_interval).
   config.second_traces = given.value("second_traces", 6);
   if (config.maximum_repetitions < config.minimum_repetitions) {
     node->find("maximum")->fail(
-        fmt::format("expected a whole number from {}, the minimum, on; "
-                    "found {}",
+        fmt::format("expected a whole number from {} (the minimum) on; found {}",
                     config.minimum_repetitions, config.maximum_repetitions));
   }
 }
@@ -224,7 +223,7 @@ void read_effort(const JsonNode& root, SweepConfig& config) {
   read_repetitions(root, config);
 }
 
-/// Refuses a file of rays that does not exist before hours are spent on other cells.
+/// Refuses a file of rays that does not exist, before hours are spent on other cells.
 rays::RayChoice existing(rays::RayChoice choice) {
   if (!choice.file.empty() && !std::filesystem::is_regular_file(choice.file)) {
     throw InputError(fmt::format("there is no ray file '{}'; 'beambench rays' writes one",
@@ -304,7 +303,7 @@ SweepConfig parse_sweep(nlohmann::json source, const std::string& name,
   for (const JsonNode& node : root.find("structures")->elements()) {
     std::ranges::move(read_structure_entry(node, structures),
                       std::back_inserter(config.structures));
-    require_affordable(root, static_cast<double>(config.structures.size()));  // `all` are many
+    require_affordable(root, static_cast<double>(config.structures.size()));  // `all` means many
   }
   require_tuned_once(root, config.structures);
   read_rays(root, config);

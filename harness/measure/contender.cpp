@@ -21,7 +21,7 @@ namespace {
 
 std::string mismatch_message(const verify::DiffReport& report) {
   if (report.verdict == verify::Verdict::kGrazes) {
-    return fmt::format("{} of {} rays graze, more than the differ's budget",
+    return fmt::format("{} of {} rays graze, more than the differ allows",
                        report.count(verify::DiffClass::kGraze), report.rays);
   }
   return fmt::format("{} of {} rays got a wrong hit",
@@ -41,8 +41,8 @@ bool is_all_zero(const std::map<std::string, std::uint64_t, std::less<>>& counte
 }
 
 /// Returns the time of a phase by a program's own clock (`figure`), where the structure is in
-/// another process, or the time that was measured. The processor time of another process is
-/// unknown: it counts as working all the time.
+/// another process, and the measured time otherwise. The CPU time of another process is unknown:
+/// the process counts as busy all the time.
 PhaseTime own_time(const accel::StructureInfo& info, const accel::Accelerator& structure,
                    const char* figure, const PhaseTime& measured) {
   if (info.origin.empty()) return measured;
@@ -83,7 +83,7 @@ void Contender::count(const CellEvents& events) {
   } catch (const std::exception& error) {
     fail(verify::Verdict::kError, message_of(error));
   }
-  // A structure without any counts does not support counting; zeros would claim that it does no
+  // A structure without any counts does not support counting; zeros would suggest that it does no
   // work.
   if (is_all_zero(record_.work.counters)) record_.work.counters.clear();
   events.begin_cell(record_);
@@ -110,7 +110,8 @@ void Contender::repeat(const Instruments& instruments, int round, int position,
     fail(verify::Verdict::kError, message_of(error));
   }
   if (!was_verified && record_.diff) events.add_verification(record_);
-  // Instead of its repetition: a run that is cut off now must not resume with a wrong one.
+  // Finishes without recording the repetition: a run that is cut off now must not resume with a
+  // wrong one.
   if (failed_) return finish(events);
   events.add_repetition(record_);
 }
@@ -118,8 +119,8 @@ void Contender::repeat(const Instruments& instruments, int round, int position,
 void Contender::check_answers(const accel::Accelerator& structure) {
   if (record_.hits_hash && task_->fingerprint() != record_.hits_hash) {
     return fail(verify::Verdict::kMismatch,
-                fmt::format("repetition {} wrote other hits than the first: the structure's "
-                            "answers depend on more than scene and rays",
+                fmt::format("repetition {} wrote different hits than the first: the structure's "
+                            "results depend on more than the scene and the rays",
                             record_.repetitions.size()));
   }
   if (!record_.diff) verify_first(structure);
@@ -135,7 +136,7 @@ Repetition Contender::time_once(const Instruments& instruments,
       for ([[maybe_unused]] auto iteration : state) {
         PhaseTime build{};
         PhaseTime trace{};
-        // Not StructureChoice::build, whose checks were made when the work was counted.
+        // Not StructureChoice::build: its checks were made when the work was counted.
         const accel::StructureChoice& choice = cell_->structure;
         const auto time_build = [&](const auto& make) {
           repetition.build_counts = instruments.counters.count([&] { build = time_phase(make); });
@@ -162,7 +163,7 @@ Repetition Contender::time_once(const Instruments& instruments,
         });
         build = own_time(choice.info(), *structure, plugin::kSelfReportedBuild, build);
         trace = own_time(choice.info(), *structure, plugin::kSelfReportedTrace, trace);
-        if (instruments.threads > 1) trace_counts = {};  // they are of the calling thread alone
+        if (instruments.threads > 1) trace_counts = {};  // counts only the calling thread
         repetition.build_ms = build.wall_ms;
         repetition.trace_ms = trace.wall_ms;
         repetition.build_cpu_ms = build.cpu_ms;
@@ -171,7 +172,7 @@ Repetition Contender::time_once(const Instruments& instruments,
         state.SetIterationTime(1e-3 * repetition.total_ms());
       }
     } catch (...) {
-      // The library is not designed for exceptions to pass through it.
+      // The library is not designed to let exceptions pass through it.
       problem = std::current_exception();
       state.SkipWithError("the structure threw");
     }
@@ -188,7 +189,7 @@ void Contender::trace_warm(const accel::Accelerator& structure) {
       own_time(cell_->structure.info(), structure, plugin::kSelfReportedTrace, again).wall_ms;
   if (task_->fingerprint() == record_.hits_hash) return;
   fail(verify::Verdict::kMismatch,
-       "a second trace of the same structure wrote other hits than its first");
+       "a second trace of the same structure wrote different hits than its first");
 }
 
 void Contender::verify_first(const accel::Accelerator& structure) {
@@ -201,11 +202,12 @@ void Contender::verify_first(const accel::Accelerator& structure) {
     return fail(record_.verdict, mismatch_message(*record_.diff));
   }
   if (task_->fingerprint() != record_.hits_hash) {
-    return fail(verify::Verdict::kMismatch,
-                "the structure gave other answers when it was traced again to be verified");
+    return fail(
+        verify::Verdict::kMismatch,
+        "the structure returned different results when it was traced again for verification");
   }
   if (record_.hits_hash != counted_hits_) {
-    fail(verify::Verdict::kMismatch, "the counting pass found other hits than the timed one");
+    fail(verify::Verdict::kMismatch, "the counting pass found different hits than the timed one");
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// One structure in the group of those that trace the same rays.
+// A contender: one of the structures that trace the same rays.
 
 #include <cstdint>
 #include <memory>
@@ -14,32 +14,32 @@
 
 namespace beambench::measure {
 
-/// The instruments and conditions of a repetition.
+/// The instruments and conditions for a repetition.
 struct Instruments {
   const GoogleBenchmark& benchmark;
   const HardwareCounters& counters;
-  int core;     ///< to pin it to; -1: any
-  int threads;  ///< that trace an image
-  int block;    ///< that is being measured
+  int core;     ///< the core to pin to; -1: any
+  int threads;  ///< number of threads that trace an image
+  int block;    ///< the block being measured
 };
 
-/// A cell while it is measured. The differ verifies its first timed results, and those of every
-/// other pass, including the counting one and those of other blocks, must equal them bit for bit:
-/// so the verdict holds for all results that a timed repetition wrote. Every fault of a structure
-/// is recorded and ends its measurement; nothing is thrown.
+/// A cell while it is measured. The differ verifies its first timed results. The results of every
+/// other pass, including the counting pass and other blocks, must equal them bit for bit, so the
+/// verdict holds for all timed results. A structure's errors are recorded and end its measurement;
+/// they are never thrown.
 class Contender {
  public:
   /// The first `second_traces` repetitions are followed by a second trace of the same structure.
-  /// `earlier` is the record of the cell from earlier blocks: its repetitions count, and its
-  /// results must be the same.
+  /// `earlier` is the cell's record from earlier blocks: its repetitions count, and results must
+  /// equal its results.
   Contender(const PlannedCell& cell, Task& task, int second_traces, CellRecord earlier);
 
-  /// Runs the untimed pass, for sizes and counters. Writes that the cell begins, and that it is
-  /// finished where the structure fails.
+  /// Runs the untimed counting pass, which determines sizes and counters. Writes the start of the
+  /// cell and, if the structure fails, its end.
   void count(const CellEvents& events);
   /// Runs one timed repetition through Google Benchmark; the first ones are followed by a second
-  /// trace. Writes it, and the first one's verification; where the structure fails, that the cell
-  /// is finished.
+  /// trace. Writes the repetition, the verification of the first one and, if the structure fails,
+  /// the end of the cell.
   void repeat(const Instruments& instruments, int round, int position, const CellEvents& events);
 
   const CellId& id() const { return cell_->id; }
@@ -47,7 +47,7 @@ class Contender {
   const CellRecord& record() const { return record_; }
 
  private:
-  /// Leaves the structure that it built in `structure`.
+  /// Leaves the structure that it builds in `structure`.
   Repetition time_once(const Instruments& instruments,
                        std::unique_ptr<accel::Accelerator>& structure);
   void check_answers(const accel::Accelerator& structure);
@@ -60,7 +60,7 @@ class Contender {
   Task* task_;
   std::size_t second_traces_;
   CellRecord record_;
-  std::uint64_t counted_hits_ = 0;  ///< fingerprint of the counting pass's answers
+  std::uint64_t counted_hits_ = 0;  ///< fingerprint of the counting pass's results
   bool failed_ = false;
 };
 

@@ -10,22 +10,23 @@
 namespace beambench::measure {
 namespace {
 
-// Of one core in 2024, by the published runs.
+// Times on one core in 2024, from the published runs.
 constexpr double kOracleRay = 1500.0;
 constexpr double kHarnessRay = 5.0;
-constexpr double kExhaustiveTest = 5.0;  // of a ray with a primitive
+constexpr double kExhaustiveTest = 5.0;  // one ray with one primitive
 constexpr double kRayAtRoot = 40.0;
 constexpr double kRayPerLevel = 15.0;
 constexpr double kBuildPrimitive = 500.0;
 
-/// The second trace of a structure, the clock's rate, the verification: of a repetition.
+/// The cost of a repetition including the second trace, the clock's rate and the verification,
+/// relative to one trace.
 constexpr double kBesideRepetition = 1.5;
 
 double levels(const CellGroup& group) {
   return static_cast<double>(std::bit_width(group.scene->primitives.size()));
 }
 
-/// Rays for each sample of the image; of a picture, with its shading.
+/// Returns the number of rays per sample of the image; for a picture, shading included.
 double rays_per_sample(const CellGroup& group) {
   const auto lights = static_cast<double>(std::max<std::size_t>(group.scene->lights.size(), 1));
   switch (group.rays.kind) {
@@ -44,7 +45,7 @@ double rays_per_sample(const CellGroup& group) {
   }
 }
 
-/// Build and trace.
+/// Returns the time of build and trace.
 double repetition_ns(const CellGroup& group, std::string_view structure) {
   const auto primitives = static_cast<double>(group.scene->primitives.size());
   if (structure == "null") return kHarnessRay * estimated_rays(group);

@@ -25,7 +25,7 @@ std::vector<double> costs_of(const Plan& plan, const SweepConfig& config) {
   return costs;
 }
 
-/// Returns the shard of each group, from 0.
+/// Returns the shard of each group, numbered from 0.
 std::vector<std::size_t> shards_of(const std::vector<double>& costs, std::size_t count) {
   std::vector<std::size_t> order(costs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -34,7 +34,7 @@ std::vector<std::size_t> shards_of(const std::vector<double>& costs, std::size_t
   std::vector<double> loads(count, 0.0);
   std::vector<std::size_t> shards(costs.size());
   for (const std::size_t group : order) {
-    const auto least = std::ranges::min_element(loads);  // of equals the first
+    const auto least = std::ranges::min_element(loads);  // the first of equals
     *least += costs[group];
     shards[group] = static_cast<std::size_t>(least - loads.begin());
   }

@@ -1,5 +1,5 @@
 #pragma once
-// How a sweep is divided into shards.
+// Divides a sweep into shards.
 
 #include <vector>
 
@@ -10,18 +10,18 @@
 
 namespace beambench::measure {
 
-/// A shard, and the whole sweep that it is a part of.
+/// A shard, and facts about the whole sweep.
 struct PlannedShard {
   ShardFacts facts;
-  std::vector<SceneFacts> scenes;  ///< of the whole sweep
-  double share;                    ///< of the estimated work of the whole sweep, from 0 to 1
+  std::vector<SceneFacts> scenes;  ///< scenes of the whole sweep
+  double share;                    ///< share of the estimated work of the whole sweep, from 0 to 1
 };
 
-/// Leaves in `plan`, which is that of the whole sweep, the cells of one shard. A group, whose cells
-/// are compared, goes to one shard as a whole. The groups are handed out by their estimated cost,
-/// the most expensive first, each to the shard that has the least so far, so that every process
-/// finds the same division by itself. Cells keep their place in the whole plan. Throws InputError
-/// where there are fewer groups than shards.
+/// Reduces `plan`, the plan of the whole sweep, to the cells of one shard. A group, whose cells are
+/// compared, stays in one shard. The groups are assigned in order of estimated cost, the most
+/// expensive first, each to the shard with the least cost so far, so every process computes the
+/// same division. Cells keep their place in the whole plan. Throws InputError if there are fewer
+/// groups than shards.
 PlannedShard keep_shard(Plan& plan, const SweepConfig& config, const Shard& shard);
 
 }  // namespace beambench::measure

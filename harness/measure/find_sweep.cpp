@@ -18,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the folder of the sweeps installed with the program or inside the Python package, or
-/// else that of the sources.
+/// Returns the folder of the sweeps installed with the program or in the Python package; if there
+/// is none, the folder of the sources.
 fs::path sweep_folder() {
   const fs::path code = base::code_folder();
   for (const fs::path& prefix : {code.parent_path(), code}) {
@@ -30,7 +30,7 @@ fs::path sweep_folder() {
   return BEAMBENCH_SWEEPS;
 }
 
-/// Returns the name in a path of the former folder; empty for other paths.
+/// Returns the name given by a path in the former folder; empty for other paths.
 std::string former_name(const std::string& asked) {
   constexpr std::string_view kFormer = "harness/bench/sweeps/";
   const std::size_t at = asked.find(kFormer);

@@ -21,20 +21,21 @@ namespace {
 constexpr std::array<std::string_view, 3> kPassedOn{"--benchmark_filter", "--benchmark_context",
                                                     "--v"};
 
-/// A flag that beambench ignores, and why.
+/// A flag without effect in beambench, and the reason.
 struct Ineffective {
   std::string_view flag;
   std::string_view reason;
 };
 
 constexpr std::string_view kDecidedByConfig =
-    "the configuration's precision, repetitions and budget_seconds decide how often is measured";
+    "the configuration's precision, repetitions and budget_seconds decide the number of "
+    "measurements";
 constexpr std::string_view kOneRecord =
-    "every run writes results.csv and google-benchmark.json into its folder";
+    "every run writes results.csv and google-benchmark.json to its folder";
 
 constexpr std::array<Ineffective, 12> kIneffective{{
     {"--benchmark_min_time", kDecidedByConfig},
-    {"--benchmark_min_warmup_time", "every run warms the machine up once, each structure untimed"},
+    {"--benchmark_min_warmup_time", "every run warms up the machine once, and each structure"},
     {"--benchmark_enable_random_interleaving", "contenders always take turns in random order"},
     {"--benchmark_report_aggregates_only", kOneRecord},
     {"--benchmark_display_aggregates_only", kOneRecord},
@@ -55,14 +56,15 @@ int parse_repetitions(std::string_view value) {
   const char* end = value.data() + value.size();
   const auto [rest, error] = std::from_chars(value.data(), end, repetitions);
   if (error != std::errc() || rest != end || repetitions < 1) {
-    throw InputError(fmt::format("{}='{}' is not a whole number from 1", kRepetitions, value));
+    throw InputError(
+        fmt::format("{}='{}' is not a whole number of at least 1", kRepetitions, value));
   }
   return repetitions;
 }
 
 [[noreturn]] void refuse(std::string_view argument) {
   throw InputError(
-      fmt::format("unknown argument '{}'; beside its own options, `beambench run` takes Google "
+      fmt::format("unknown argument '{}'; besides its own options, `beambench run` accepts Google "
                   "Benchmark's --benchmark_filter=REGEX, --benchmark_repetitions=N, "
                   "--benchmark_list_tests, --benchmark_context=KEY=VALUE and --v=N",
                   argument));
@@ -70,7 +72,7 @@ int parse_repetitions(std::string_view value) {
 
 using Json = nlohmann::ordered_json;
 
-/// Keeps the names of the benchmarks that ran; prints nothing.
+/// Records the names of the benchmarks that ran; prints nothing.
 class NameCollector : public benchmark::BenchmarkReporter {
  public:
   NameCollector() { SetErrorStream(&messages_); }
@@ -86,7 +88,7 @@ class NameCollector : public benchmark::BenchmarkReporter {
   std::ostringstream messages_;
 };
 
-/// Removes the benchmarks from the library's global list again, whatever happens.
+/// Removes the benchmarks from the library's global list again, even when an exception is thrown.
 struct RegisteredBenchmarks {
   RegisteredBenchmarks() = default;
   RegisteredBenchmarks(const RegisteredBenchmarks&) = delete;
@@ -94,7 +96,7 @@ struct RegisteredBenchmarks {
   ~RegisteredBenchmarks() { benchmark::ClearRegisteredBenchmarks(); }
 };
 
-/// A benchmark without a fixed number of iterations ends at once only by failing.
+/// A benchmark without a fixed number of iterations ends immediately only by failing.
 void do_nothing(benchmark::State& state) { state.SkipWithError("not meant to be measured"); }
 
 benchmark::BenchmarkReporter::Run base_run(const CellRecord& cell) {
@@ -111,7 +113,7 @@ benchmark::BenchmarkReporter::Run base_run(const CellRecord& cell) {
   return run;
 }
 
-/// Version 1.8 of the library gave the fields other names.
+/// Version 1.8 of the library renamed the fields.
 template <class Run>
 void mark_failed(Run& run, const std::string& message) {
   if constexpr (requires { run.error_occurred; }) {
@@ -179,7 +181,7 @@ BenchmarkFlags parse_benchmark_flags(const std::vector<std::string>& arguments) 
 
 GoogleBenchmark::GoogleBenchmark(const BenchmarkFlags& flags) {
   // The library also reads flags from the environment. Those that would repeat, redirect or list
-  // are reset: repetitions, files and lists are made here.
+  // are reset: beambench handles repetitions, files and lists itself.
   std::vector<std::string> arguments{"beambench", "--benchmark_min_warmup_time=0",
                                      "--benchmark_repetitions=1", "--benchmark_list_tests=false",
                                      "--benchmark_out="};
@@ -189,7 +191,7 @@ GoogleBenchmark::GoogleBenchmark(const BenchmarkFlags& flags) {
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   int count = static_cast<int>(pointers.size());
   benchmark::Initialize(&count, pointers.data());
-  // It keeps a pointer to the program's name, and leaves behind the arguments that it refuses.
+  // The library keeps a pointer to the program's name, and leaves rejected arguments in place.
   benchmark::BenchmarkReporter::Context::executable_name = "beambench";
   if (count > 1) {
     throw InputError(
@@ -227,7 +229,7 @@ Json GoogleBenchmark::context() const {
   benchmark::JSONReporter reporter;
   reporter.SetOutputStream(&start);
   reporter.ReportContext(benchmark::BenchmarkReporter::Context());
-  Json context = Json::parse(start.str() + "]}").at("context");  // it ends within a list
+  Json context = Json::parse(start.str() + "]}").at("context");  // the text ends within a list
   context.erase("host_name");
   return context;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Google Benchmark's command-line flags, as far as they apply here.
+// Google Benchmark's command-line flags, as far as beambench supports them.
 
 #include <functional>
 #include <iosfwd>
@@ -24,11 +24,11 @@ struct BenchmarkFlags {
   std::vector<std::string> passed_on;  ///< --benchmark_filter, --benchmark_context, --v
   std::optional<int> repetitions;      ///< --benchmark_repetitions
   bool list = false;                   ///< --benchmark_list_tests
-  std::vector<std::string> notes;      ///< sentences on flags that have no effect here, and why
+  std::vector<std::string> notes;      ///< a sentence on each flag without effect, and the reason
 };
 
-/// Throws InputError for a flag that Google Benchmark does not have or cannot read, naming those
-/// that it has.
+/// Throws InputError for a flag that Google Benchmark does not have or cannot read, naming the
+/// valid flags.
 BenchmarkFlags parse_benchmark_flags(const std::vector<std::string>& arguments);
 
 /// A timed piece of work. It loops over the state once and sets the iteration's time (manual time).
@@ -37,20 +37,20 @@ using TimedWork = std::function<void(benchmark::State&)>;
 /// Runs timed work through Google Benchmark. One object at a time: the library's state is global.
 class GoogleBenchmark {
  public:
-  /// Throws InputError when the library refuses a flag.
+  /// Throws InputError if the library refuses a flag.
   explicit GoogleBenchmark(const BenchmarkFlags& flags);
 
-  /// Returns the names that --benchmark_filter selects, by the library's own matching. Throws
-  /// InputError when it selects none.
+  /// Returns the names that --benchmark_filter selects, as matched by the library. Throws
+  /// InputError if there are none.
   std::set<std::string> select(std::span<const std::string> names) const;
 
-  /// Runs the work for one iteration. The caller decides which contender's turn it is: the
-  /// library's own interleaving shuffles all repetitions at once and cannot stop one contender
-  /// earlier than another.
+  /// Runs the work for one iteration. The caller decides whose turn it is: the library's own
+  /// interleaving shuffles all repetitions at once and cannot stop one contender earlier than
+  /// another.
   void run_once(const std::string& name, const TimedWork& work) const;
 
-  /// Returns the library's description of the machine and this moment: date, load, processor and
-  /// caches. The host's name is left out, because it stays out of records.
+  /// Returns the library's description of the machine and the moment: date, load, processor and
+  /// caches. Omits the host's name, which must not appear in records.
   nlohmann::ordered_json context() const;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// The values of a JSON document that people write, with messages that state the place.
+// Values of a JSON document written by a person, with messages that state the place of an error.
 
 #include <functional>
 #include <optional>
@@ -14,18 +14,18 @@
 
 namespace beambench::measure {
 
-/// A value in a JSON document whose form is as expected (sweep_schema.hpp), and its place, which
+/// A value in a JSON document whose form has been checked (sweep_schema.hpp), and its place, which
 /// messages state as a JSON pointer (RFC 6901): `file: /structures/1: ...`.
 class JsonNode {
  public:
-  /// The whole document, which outlives the node and all nodes taken from it.
+  /// The whole document. It must outlive the node and all nodes taken from it.
   JsonNode(const nlohmann::json& document, std::string file);
 
   const nlohmann::json& value() const { return *value_; }
   /// Returns `file: /structures/1`, the beginning of messages.
   std::string place() const;
   [[noreturn]] void fail(std::string_view message) const;
-  /// Runs `work`, putting the place in front of an InputError that it throws.
+  /// Runs `work`; if it throws an InputError, adds the place at the beginning of its message.
   template <class Work>
   std::invoke_result_t<Work> checked(Work&& work) const {
     try {
@@ -43,7 +43,7 @@ class JsonNode {
   std::vector<JsonNode> elements() const;
 
   std::string text() const { return value_->get<std::string>(); }
-  /// Returns a number, flag or text as it is written after `key=` on a command line.
+  /// Returns a number, boolean or string as written after `key=` on a command line.
   std::string parameter_text() const;
 
  private:

@@ -30,17 +30,18 @@ constexpr unsigned kMeasuringMode = accel::kInitialFloatMode | accel::kFlushSubn
 
 constexpr int kMultiplications = 8000;
 
-/// Each factor is the product before it, so that no two of them can run at once.
+/// Multiplies repeatedly. Each factor is the previous product, so no two multiplications can
+/// overlap.
 std::uint64_t chain(std::uint64_t value) {
   for (int i = 0; i < kMultiplications; ++i) {
     value *= value;
-    asm volatile("" : "+r"(value));  // keeps the compiler from shortening it
+    asm volatile("" : "+r"(value));  // keeps the compiler from shortening the chain
   }
   return value;
 }
 
 constexpr std::size_t kMinSlices = 40;
-// A chain of multiplications and additions, each waiting for the one before: some 0.2 ms.
+// A chain of multiplications and additions, each waiting for the one before: about 0.2 ms.
 constexpr int kStepsOfASlice = 50'000;
 
 double slice_ms() {
@@ -62,7 +63,7 @@ perf_event_attr attributes_of(std::uint64_t config) {
   attributes.type = PERF_TYPE_HARDWARE;
   attributes.size = sizeof(attributes);
   attributes.config = config;
-  attributes.exclude_kernel = 1;  // also the only events that unprivileged users may count
+  attributes.exclude_kernel = 1;  // unprivileged users may only count these, too
   attributes.exclude_hv = 1;
   attributes.read_format = PERF_FORMAT_TOTAL_TIME_ENABLED | PERF_FORMAT_TOTAL_TIME_RUNNING;
   return attributes;
@@ -120,7 +121,7 @@ std::optional<std::uint64_t> heap_in_use() {
   const struct mallinfo2 info = ::mallinfo2();
   const std::uint64_t bytes =
       info.uordblks + info.hblkhd;  // in arenas, and mapped for large blocks
-  if (bytes > 0) return bytes;      // a replaced allocator (a sanitizer's) reports 0
+  if (bytes > 0) return bytes;      // replaced allocators (of sanitizers) report 0
 #endif
   return std::nullopt;
 }
@@ -205,7 +206,7 @@ std::optional<std::uint64_t> HardwareCounters::difference(const std::optional<Re
                                                           const std::optional<Reading>& after) {
   if (!before || !after) return std::nullopt;
   const std::uint64_t running = after->running_ns - before->running_ns;
-  if (running == 0) return std::nullopt;  // it had no turn
+  if (running == 0) return std::nullopt;  // it was never scheduled
   const std::uint64_t enabled = after->enabled_ns - before->enabled_ns;
   const std::uint64_t value = after->value - before->value;
   if (running >= enabled) return value;

@@ -1,6 +1,5 @@
 #pragma once
-// Runs and measures timed code, under the same conditions and with the same instruments for every
-// contender.
+// Runs and measures timed code, with the same conditions and instruments for every contender.
 
 #include <array>
 #include <chrono>
@@ -20,9 +19,9 @@
 
 namespace beambench::measure {
 
-/// Sets the processor's floating-point mode while it lives: round to nearest, no traps, denormals
-/// flushed to zero and read as zero (on x86, FTZ and DAZ of MXCSR), as Embree requires. Hits are
-/// verified outside of it.
+/// Sets the processor's floating-point mode during its lifetime: round to nearest, no traps,
+/// denormals flushed to zero and read as zero (on x86, FTZ and DAZ of MXCSR), as Embree requires.
+/// Hits are verified outside this mode.
 class MeasuringFloatMode {
  public:
   MeasuringFloatMode();
@@ -32,18 +31,18 @@ class MeasuringFloatMode {
 
   /// Returns whether this processor has such a mode and the program can set it.
   static bool available();
-  /// Returns the control word in that mode (accel/core/float_mode.hpp); 0 where it is not known.
+  /// Returns the control word in that mode (accel/core/float_mode.hpp); 0 if it is unknown.
   static unsigned control_word();
 
  private:
   unsigned previous_;
 };
 
-/// Returns the core that the calling thread is on, or -1 where the system does not report it.
+/// Returns the core on which the calling thread runs; -1 if the system does not report it.
 int present_core();
 
-/// Pins the calling thread to a core while it lives, where the system allows that (and `core` is
-/// not -1). Threads started meanwhile inherit the pin, so parallel work belongs outside of it.
+/// Pins the calling thread to a core during its lifetime, if the system allows it and `core` is not
+/// -1. Threads started meanwhile inherit the pin, so do parallel work outside it.
 class PinnedThread {
  public:
   explicit PinnedThread(int core);
@@ -60,10 +59,10 @@ class PinnedThread {
 
 struct PhaseTime {
   double wall_ms;
-  double cpu_ms;  ///< of this thread, or of all
+  double cpu_ms;  ///< of this thread, or of all threads
 };
 
-/// Returns the clock of the CPU time of work on that many threads.
+/// Returns the clock that measures the CPU time of work on that many threads.
 inline clockid_t cpu_clock(int threads) {
   return threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_PROCESS_CPUTIME_ID;
 }
@@ -78,41 +77,43 @@ PhaseTime time_phase(Work&& work, clockid_t clock = CLOCK_THREAD_CPUTIME_ID) {
   return {wall_ms, cpu.milliseconds()};
 }
 
-/// Returns the rate of the core's clock in GHz: from the time of a chain of dependent integer
-/// multiplications, three cycles each on the x86 processors of the last fifteen years (Fog,
-/// Instruction tables); elsewhere it is off by a constant factor. Uses the fastest of a few slices,
-/// some 30 us in all: an interrupt makes a slice longer, nothing makes one shorter.
+/// Returns the clock rate of the core in GHz, from the time of a chain of dependent integer
+/// multiplications. They take three cycles each on the x86 processors of the last fifteen years
+/// (Fog, Instruction tables); on others the result is off by a constant factor. Uses the fastest of
+/// a few slices, about 30 us in total: interrupts make a slice longer, but nothing makes it
+/// shorter.
 double clock_ghz();
 
 /// Returns the bytes in use in the whole heap, including headers and rounding, by glibc's
-/// mallinfo2; nothing where the allocator does not report it. Memory that a library maps past the
-/// allocator is not included.
+/// mallinfo2; nothing if the allocator does not report it. Excludes memory that a library maps
+/// without the allocator.
 std::optional<std::uint64_t> heap_in_use();
 
-/// Returns the growth between two readings; 0 when it shrank, nothing when one is missing.
+/// Returns the growth between two readings; 0 if it shrank, nothing if one is missing.
 std::optional<std::uint64_t> heap_growth(std::optional<std::uint64_t> before,
                                          std::optional<std::uint64_t> after);
 
 /// Keeps the calling core busy, so that its clock and caches leave their idle state before the
 /// first repetition, and times slices of equal work meanwhile. Returns the noise of the second
-/// half; nothing when the time was too short.
+/// half; nothing if the time was too short.
 std::optional<double> warm_up(std::chrono::duration<double> duration);
 
-/// Returns the additional time of the slowest twentieth over the median slice, as a part of the
-/// median: equal work takes longer only because of others (interrupts, other tenants, the clock).
-/// Nothing for fewer than 40 slices.
+/// Returns the additional time of the slowest twentieth over the median slice, as a fraction of the
+/// median: equal work takes longer only because of external causes (interrupts, other tenants, the
+/// clock). Returns nothing for fewer than 40 slices.
 std::optional<double> noise(std::span<const double> slices);
 
-/// Returns the time of a trace that costs a structure nothing: the median of several in
-/// milliseconds, after one that is not timed. `core` is to pin to; -1: any.
+/// Returns the time in milliseconds of a trace that costs a structure nothing: the median of
+/// several, after one that is not timed. `core` is the core to pin to; -1: any.
 double harness_ms(int core, const std::function<void()>& trace);
 
-/// Opens an event of the calling thread: a file descriptor, or -1 and errno (perf_event_open(2)).
+/// Opens an event of the calling thread. Returns a file descriptor, or -1 with errno set
+/// (perf_event_open(2)).
 using OpenEvent = std::function<int(const perf_event_attr&)>;
 int open_perf_event(const perf_event_attr& attributes);
 
-/// Counters of the thread that made it, in user mode. They run all the time and are read before and
-/// after a phase, so that reading them is outside of what is timed.
+/// Hardware counters of the constructing thread, in user mode. They run all the time and are read
+/// before and after a phase, so reading them is not part of what is timed.
 class HardwareCounters {
  public:
   explicit HardwareCounters(const OpenEvent& open = open_perf_event);
@@ -120,15 +121,15 @@ class HardwareCounters {
   HardwareCounters(const HardwareCounters&) = delete;
   HardwareCounters& operator=(const HardwareCounters&) = delete;
 
-  /// Returns why an event is not counted, in a sentence; empty when all are counted.
+  /// Returns why an event is not counted, as a sentence; empty if all are counted.
   const std::string& problem() const { return problem_; }
 
-  /// Runs `work` and returns the counts during it.
+  /// Runs `work` and returns the counts made during it.
   HardwareCounts count(const std::function<void()>& work) const;
 
  private:
   /// The state of an event: its count, and for how long it was enabled and running (the system lets
-  /// events take turns when there are too few counters).
+  /// events take turns if there are too few counters).
   struct Reading {
     std::uint64_t value;
     std::uint64_t enabled_ns;

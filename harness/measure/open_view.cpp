@@ -9,11 +9,11 @@
 namespace beambench::measure {
 namespace {
 
-/// A spread that blocks have at least, whatever that of the repetitions of one: some processes are
-/// faster than others.
+/// The minimum spread assumed for blocks, whatever the spread of one block's repetitions: some
+/// processes are faster than others.
 constexpr double kMinSpread = 0.01;
 
-/// Returns the time of the blocks that are left.
+/// Returns the time needed for the remaining blocks.
 double expected_ms(const std::vector<OpenView>& views, const BlockLimits& limits) {
   double sum = 0.0;
   for (const OpenView& open : views) {
@@ -90,7 +90,7 @@ void plan_blocks(std::vector<OpenView>& views, const BlockLimits& limits, const 
                       ? StopReason::kRepetitions
                       : StopReason::kPrecision;
   }
-  // The views with the most blocks give theirs up first.
+  // The views with the most blocks are reduced first.
   while (expected_ms(views, limits) > left_ms) {
     const auto most = std::ranges::max_element(views, {}, &OpenView::blocks);
     if (most == views.end() || most->blocks <= limits.minimum) break;

@@ -15,7 +15,7 @@
 namespace beambench::measure {
 namespace {
 
-/// Runs `work`, putting the entry's place in front of an InputError that it throws.
+/// Runs `work`; if it throws an InputError, adds the entry's place at the beginning of its message.
 template <class Work>
 auto placed(const SceneEntry& entry, Work work) {
   try {
@@ -59,13 +59,13 @@ bool applies(const Exclusion& rule, const CellGroup& group, const SceneEntry& en
 /// Rays, in the orders in which they are traced.
 using Orders = std::vector<rays::RayChoice>;
 
-/// A group that is not in the plan yet.
+/// A group that is not yet in the plan.
 struct NewGroup {
   CellGroup group;
   Orders orders;
 };
 
-/// Adds the group's cells, each once; `names` are those of the cells in the plan.
+/// Adds the group's cells, each once; `names` are the names of the cells in the plan.
 void add_group(const SweepConfig& config, const SceneEntry& entry, NewGroup made, Plan& plan,
                std::set<std::string>& names) {
   CellGroup& group = made.group;
@@ -90,7 +90,7 @@ void add_group(const SweepConfig& config, const SceneEntry& entry, NewGroup made
   if (!group.cells.empty()) plan.groups.push_back(std::move(group));
 }
 
-/// Returns the rays of a sweep, those that differ only in their order together.
+/// Returns the rays of a sweep, grouping those that differ only in their order.
 std::vector<Orders> by_kind(const std::vector<rays::RayChoice>& all) {
   const auto kind = [](const rays::RayChoice& rays) { return rays::divide_label(rays.label).rays; };
   std::vector<Orders> kinds;
@@ -102,14 +102,14 @@ std::vector<Orders> by_kind(const std::vector<rays::RayChoice>& all) {
   return kinds;
 }
 
-/// Returns rays in the order in which they are made.
+/// Returns the same rays in their order of generation.
 rays::RayChoice unsorted(rays::RayChoice rays) {
   rays.is_sorted = false;
   rays.label = rays::divide_label(rays.label).rays;
   return rays;
 }
 
-/// Returns the groups of a scene in one of its views.
+/// Returns the groups of a scene in one view.
 std::vector<NewGroup> groups_of(const SweepConfig& config, const std::string& spec,
                                 const std::shared_ptr<const scenes::Scene>& scene,
                                 std::uint64_t hash, const scenes::Camera& camera) {
@@ -120,7 +120,7 @@ std::vector<NewGroup> groups_of(const SweepConfig& config, const std::string& sp
                          resolution == config.resolutions.front() &&
                          samples == config.samples.front();
       for (Orders& orders : by_kind(config.rays)) {
-        // The rays of a file are the same in every view: they are traced once.
+        // The rays of a file are the same in every view, so they are traced once.
         if (!orders.front().file.empty() && !first) continue;
         groups.push_back({{scene,
                            hash,
@@ -138,8 +138,8 @@ std::vector<NewGroup> groups_of(const SweepConfig& config, const std::string& sp
   return groups;
 }
 
-/// Returns `label`, a structure or scene with all parameters, without those at their defaults;
-/// anything that is not in `infos`, such as a file, stays as it is.
+/// Returns `label`, a structure or scene with all parameters, without parameters that have their
+/// default values; anything not in `infos`, such as a file, stays as it is.
 template <class Infos>
 std::string shortened(const Infos& infos, const std::string& label) {
   const std::string name = label.substr(0, label.find(':'));
@@ -148,7 +148,7 @@ std::string shortened(const Infos& infos, const std::string& label) {
   try {
     return Parameters(name, info->parameters, parse_spec(label).parameters).short_label();
   } catch (const InputError&) {
-    return label;  // in a record of another version, whose parameters were others
+    return label;  // recorded by a version with other parameters
   }
 }
 
@@ -193,7 +193,7 @@ Plan make_plan(const SweepConfig& config) {
     }
   }
   if (plan.groups.empty()) {
-    throw InputError("nothing is left to measure: 'exclude' leaves out every cell; relax it");
+    throw InputError("nothing is left to measure: 'exclude' matches every cell; relax it");
   }
   return plan;
 }
@@ -202,7 +202,7 @@ std::vector<SceneFacts> scene_facts(const Plan& plan) {
   std::vector<SceneFacts> facts;
   for (const CellGroup& group : plan.groups) {
     const scenes::Scene& scene = *group.scene;
-    if (!facts.empty() && facts.back().name == scene.name) continue;  // groups go scene by scene
+    if (!facts.empty() && facts.back().name == scene.name) continue;  // groups are ordered by scene
     facts.push_back({scene.name, group.scene_hash, scene.primitives.size()});
   }
   return facts;

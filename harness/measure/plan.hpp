@@ -16,12 +16,11 @@ namespace beambench::measure {
 
 /// One cell to measure.
 struct PlannedCell {
-  std::size_t index;  ///< in the whole plan: the order of the record's rows
+  std::size_t index;  ///< index in the whole plan: the order of the record's rows
   CellId id;
   accel::StructureChoice structure;
-  rays::RayChoice rays;  ///< those of its view, in one of their orders
-  /// The number of parameter sets of which it is one, where its contender is tuned with these rays;
-  /// else 1.
+  rays::RayChoice rays;  ///< the rays of its view, in one of their orders
+  /// The number of its contender's parameter sets, if that is tuned with these rays; otherwise 1.
   int parameter_sets = 1;
 };
 
@@ -32,14 +31,14 @@ struct CellGroup {
   scenes::Camera camera;
   rays::Resolution resolution;
   int samples;
-  rays::RayChoice rays;  ///< in the order in which they are made
-  int threads = 1;       ///< that trace an image
+  rays::RayChoice rays;  ///< in the order of generation
+  int threads = 1;       ///< number of threads that trace an image
   std::vector<PlannedCell> cells;
-  std::string spec{};  ///< of the scene, as the configuration has it
+  std::string spec{};  ///< of the scene, as spelled in the configuration
 
   /// Returns `escena1/default/320x200/1/primary`.
   std::string name() const;
-  /// Returns the same without the parameters of the scene that are at their defaults.
+  /// Returns the name without those parameters of the scene that have their default values.
   std::string shown_name() const;
   rays::ImageOfRays image() const { return {camera, resolution, samples}; }
 };
@@ -50,20 +49,20 @@ CellId id_of(const CellGroup& view, const accel::StructureChoice& structure,
 
 struct Plan {
   std::vector<CellGroup> groups;
-  std::size_t merged = 0;  ///< cells that the configuration names more than once
+  std::size_t merged = 0;  ///< number of cells that the configuration names more than once
 
   std::size_t cell_count() const;
 };
 
-/// Loads every scene once and multiplies the configuration out: scene by scene, all structures of a
-/// group together. Cells named twice are made once. Throws InputError when a scene cannot be
-/// loaded, has no camera of that name, or nothing is left to measure.
+/// Loads every scene once and forms all combinations of the configuration: scene by scene, all
+/// structures of a group together. Duplicate cells are measured once. Throws InputError if a scene
+/// cannot be loaded or has no camera of that name, or if nothing is left to measure.
 Plan make_plan(const SweepConfig& config);
 
-/// Returns the scenes that the plan measures, each once.
+/// Returns the facts of the scenes that the plan measures, each once.
 std::vector<SceneFacts> scene_facts(const Plan& plan);
 
-/// Leaves out the cells that `keep` refuses, and groups without cells.
+/// Removes the cells that `keep` rejects, and groups without cells.
 template <class Keep>
 void filter_cells(Plan& plan, Keep keep) {
   for (CellGroup& group : plan.groups) {
@@ -72,15 +71,15 @@ void filter_cells(Plan& plan, Keep keep) {
   std::erase_if(plan.groups, [](const CellGroup& group) { return group.cells.empty(); });
 }
 
-/// Returns `CellId::name` without the parameters of the scene and the structure that are at their
-/// defaults, which would fill lines: `escena1/default/320x200/1/primary/samet:max_level=6`.
+/// Returns `CellId::name` without those parameters of the scene and the structure that have their
+/// default values, which would fill lines: `escena1/default/320x200/1/primary/samet:max_level=6`.
 std::string shown_name(const CellId& id);
 
-/// Returns the same for a structure: `samet:max_level=6`.
+/// Returns the same for the structure alone: `samet:max_level=6`.
 std::string shown_structure(const CellId& id);
 
-/// Returns the same for a scene's name: `tetra:n=4`, or `tetra` for `tetra:n=6`. A path stays as it
-/// is.
+/// Returns the same for a scene's name: `tetra:n=4`, or `tetra` for `tetra:n=6`. Leaves paths
+/// unchanged.
 std::string shown_scene(const std::string& scene);
 
 }  // namespace beambench::measure

@@ -19,13 +19,13 @@
 namespace beambench::measure {
 namespace {
 
-/// The share of the limit to aim at: a generator may round its size up.
+/// The fraction of the limit to aim at: a generator may round its size up.
 constexpr double kNearLimit = 0.99;
 
-/// The factor in primitives over the last row from which a size gets a row of its own.
+/// The minimum growth in primitives over the last row for which a size gets a separate row.
 constexpr double kMinGrowth = 1.02;
 
-/// A generator, the given parameters, and the one that is its size.
+/// A generator, the given parameters, and its size parameter.
 struct Growing {
   const scenes::SceneInfo& info;
   Spec spec;
@@ -38,7 +38,7 @@ struct Growing {
     if (!info.size_parameter.empty()) names.push_back(info.name);
   }
   throw InputError(
-      fmt::format("'{}' has no size to grow with; choose from: {}", name, fmt::join(names, ", ")));
+      fmt::format("'{}' has no size parameter; choose from: {}", name, fmt::join(names, ", ")));
 }
 
 Growing growing_scene(const std::string& text) {
@@ -50,7 +50,7 @@ Growing growing_scene(const std::string& text) {
   for (const auto& [name, value] : spec.parameters) {
     if (name != info.size_parameter) continue;
     throw InputError(
-        fmt::format("'{}': '{}' is the size that --growth changes; leave it out", text, name));
+        fmt::format("'{}': '{}' is the size that --growth changes; remove it", text, name));
   }
   const auto size = std::find_if(info.parameters.begin(), info.parameters.end(),
                                  [&](const auto& p) { return p.name == info.size_parameter; });
@@ -71,8 +71,8 @@ GrownScene measure(const Growing& growing, std::int64_t size) {
 }
 
 /// The sizes of a scene whose growth is unknown. Between two sizes, and a little beyond, it is
-/// assumed to grow by a power of the size; a scene that doubles with each step has growing powers,
-/// so that the estimates are too low rather than too high.
+/// assumed to grow as a power of the size. For a scene that doubles with each step, the powers
+/// grow, so the estimates are too low rather than too high.
 class Sizes {
  public:
   Sizes(const ParameterInfo& parameter, std::size_t limit)
@@ -82,7 +82,7 @@ class Sizes {
 
   std::int64_t first() const { return minimum_; }
 
-  /// Returns the size after `size`, which has this many primitives; nothing when it would be too
+  /// Returns the size after `size`, which has this many primitives; nothing if it would be too
   /// large.
   std::optional<std::int64_t> after(std::int64_t size, std::size_t primitives) {
     const Point last{shifted(size), static_cast<double>(primitives)};
@@ -94,7 +94,8 @@ class Sizes {
     const auto wanted = last.size * std::clamp(step, 1.0, 4.0);
     std::int64_t next = std::llround(std::floor(wanted)) + minimum_ - 1;
     const double one_more = last.primitives * std::pow((last.size + 1.0) / last.size, power);
-    // If not even one step fits, a single step may be large; many small ones would show nothing.
+    // If the aim is less than one step away, takes one step if it grows enough; many small steps
+    // would show nothing.
     const bool worth_it = one_more <= limit_ && one_more >= kMinGrowth * last.primitives;
     if (next <= size && (worth_it || power <= 0.0)) next = size + 1;
     next = std::min(next, maximum_);
@@ -103,7 +104,7 @@ class Sizes {
 
  private:
   struct Point {
-    double size;  // counted from 1
+    double size;  // numbered from 1
     double primitives;
   };
   double shifted(std::int64_t size) const { return static_cast<double>(size - minimum_ + 1); }

@@ -1,5 +1,5 @@
 #pragma once
-// How a generated scene grows with its size.
+// Measures how a generated scene grows with its size parameter.
 
 #include <cstddef>
 #include <cstdint>
@@ -26,10 +26,9 @@ struct SceneGrowth {
 
 inline constexpr std::size_t kMaxGrowth = 10'000'000;
 
-/// Generates the scene in growing sizes, each of about twice the primitives of the one before, as
-/// long as they do not exceed the limit. `spec` is a catalogue name, with any parameters but the
-/// one that is its size. Throws InputError when the scene has no size, or the smallest is too
-/// large.
+/// Generates the scene in growing sizes, each with about twice as many primitives as the one
+/// before, up to the limit. `spec` is a catalogue name, with any parameters except its size. Throws
+/// InputError if the scene has no size parameter, or if even the smallest scene is too large.
 SceneGrowth measure_growth(const std::string& spec, std::size_t limit, base::Progress& progress);
 
 }  // namespace beambench::measure

@@ -40,13 +40,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Returns the core to pin to, or -1 where pinning does not work.
+/// Returns the core to pin to; -1 if pinning does not work.
 int pinnable_core() {
   const int core = present_core();
   return PinnedThread(core).pinned() ? core : -1;
 }
 
-/// Returns `35.1 ms [34.9, 35.6]`: a time and its confidence interval where there is one.
+/// Returns `35.1 ms [34.9, 35.6]`: a time and, if there is one, its confidence interval.
 std::string with_interval(const Estimate& time) {
   const std::string text = fmt::format("{:.4g} ms", time.value);
   if (!time.confidence) return text;
@@ -69,7 +69,7 @@ std::string result_line(const CellRecord& cell) {
                      base::counted(blocks.size(), "block"), to_string(*cell.stop_reason));
 }
 
-/// Returns the cells of a plan by name.
+/// Returns the names of a plan's cells.
 std::vector<PlannedName> names_of(const Plan& plan) {
   std::vector<PlannedName> names;
   for (const CellGroup& group : plan.groups) {
@@ -149,8 +149,8 @@ class SweepRun {
     return log;
   }
 
-  /// Returns the record of a cell, from an earlier part of the run where it was begun. One whose
-  /// results were wrong is verified again.
+  /// Returns a cell's record from an earlier part of the run, if the cell was begun there. Cells
+  /// with wrong results are verified again.
   CellRecord earlier(const PlannedCell& cell) {
     auto found = unfinished_.extract(cell.index);
     if (found && verify::is_right(found.mapped().verdict)) return std::move(found.mapped());
@@ -160,14 +160,14 @@ class SweepRun {
     return record;
   }
 
-  /// A cell has the same allowance in a shard as in a run of the whole sweep.
+  /// A cell gets the same time in a shard as in a run of the whole sweep.
   double budget_seconds() const {
     if (!manifest_.shard) return config_.budget_seconds;
     return config_.budget_seconds * static_cast<double>(manifest_.shard->cells) /
            static_cast<double>(manifest_.shard->cells_of_sweep);
   }
 
-  /// Returns the views with the cells that are not finished.
+  /// Returns the views, with only their unfinished cells.
   std::vector<OpenView> unfinished(Plan plan) {
     std::vector<OpenView> views;
     for (CellGroup& group : plan.groups) {
@@ -193,8 +193,9 @@ class SweepRun {
     return cells;
   }
 
-  /// Measures the first block of each view, which shows how many it needs and can have, then the
-  /// others in passes over all views: the blocks of each are spread over the rest of the run.
+  /// Measures the first block of each view, which shows how many blocks the view needs and has time
+  /// for. Then measures the other blocks in passes over all views, which spreads each view's blocks
+  /// over the rest of the run.
   void measure() {
     const base::Stopwatch watch;
     for (OpenView& open : views_) {
@@ -219,9 +220,9 @@ class SweepRun {
     }
   }
 
-  /// Chooses the parameter sets of tuned contenders, of which the fastest are measured: where there
-  /// are more of them than that, so not again where the run is resumed. A set that ends its process
-  /// has no time, and the others go on.
+  /// Chooses the parameter sets of tuned contenders: if there are more than are measured, only the
+  /// fastest stay. A resumed run therefore does not tune again. A set that ends its process has no
+  /// time; the others continue.
   void tune(OpenView& open, bool is_sorted) {
     std::map<std::string, std::vector<std::size_t>> contenders;
     std::vector<BlockCell> untried;
@@ -263,7 +264,7 @@ class SweepRun {
     return found;
   }
 
-  /// Drops all parameter sets of a contender but the fastest, and records their times.
+  /// Drops all parameter sets of a contender except the fastest, and records their times.
   void keep_fastest(OpenView& open, const std::vector<std::size_t>& sets,
                     const std::map<std::size_t, Json>& found) {
     std::map<std::size_t, double> times;
@@ -292,7 +293,7 @@ class SweepRun {
     progress_.skip(dropped);
   }
 
-  /// Measures a block of a view, again where a contender ended its process.
+  /// Measures a block of a view; measures it again if a contender ended its process.
   void run_block(OpenView& open) {
     progress_.start(open.view.shown_name());
     const int number = open.blocks_made++;
@@ -315,7 +316,7 @@ class SweepRun {
         if (broken && (!broken->cell || *broken->cell == cell.planned.index)) {
           fail(open, cell, broken->how);
         } else if (!broken && lacking(open, cell, number, limits_) > 0) {
-          fail(open, cell, "the process of its block ended without all repetitions");
+          fail(open, cell, "the process of its block ended before all repetitions were made");
         }
       }
       if (!broken) break;
@@ -360,7 +361,7 @@ class SweepRun {
     finish(record, std::nullopt);
   }
 
-  /// Finishes the cells of the views that have all of their blocks.
+  /// Finishes the cells of all views whose blocks are complete.
   void finish_complete() {
     for (OpenView& open : views_) finish_if_complete(open);
     std::erase_if(views_, [](const OpenView& open) { return open.cells.empty(); });
@@ -397,8 +398,8 @@ class SweepRun {
     progress_.finish(result_line(cell));
   }
 
-  /// Returns the progress of the unfinished, in whole cells, counted by blocks: it is computed at
-  /// each event, while a contender may be timed.
+  /// Returns the progress of the unfinished cells, in cells, counting blocks. It is computed at ///
+  /// each event, possibly while a contender is timed.
   double work_done() const {
     double done = 0.0;
     for (const OpenView& open : views_) {
@@ -422,12 +423,12 @@ class SweepRun {
   std::FILE* messages_;
   int core_;
   Manifest manifest_;
-  std::set<std::size_t> finished_;  ///< by an earlier part of the run, or passed over: cells
-  std::map<std::size_t, CellRecord> unfinished_;  ///< begun by it
-  std::uint64_t log_bytes_ = 0;                   ///< that it wrote
+  std::set<std::size_t> finished_;                ///< cells finished earlier or dropped by tuning
+  std::map<std::size_t, CellRecord> unfinished_;  ///< cells begun earlier
+  std::uint64_t log_bytes_ = 0;                   ///< bytes that the earlier part wrote
   RunLog log_;
   ThrottlingWatch throttling_;
-  std::vector<PlannedName> names_;  ///< of all cells
+  std::vector<PlannedName> names_;  ///< the names of all cells
   std::vector<OpenView> views_;
   base::Progress progress_;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Runs a sweep from its plan to its folder.
+// Runs a sweep, from its plan to the files in its folder.
 
 #include <cstdio>
 #include <filesystem>
@@ -20,29 +20,30 @@ struct SweepOptions {
   std::optional<std::filesystem::path> folder{};
   /// Continues the run in `folder`.
   bool resume = false;
-  /// The part of a sweep that the plan is; nothing: all of it.
+  /// The part of the sweep that the plan covers; nothing: all of it.
   std::optional<PlannedShard> shard{};
   /// Called with the run's folder as soon as the run can be resumed.
   std::function<void(const std::filesystem::path&)> begun = [](const std::filesystem::path&) {};
-  /// The program that measures blocks, with its arguments (`measure_in_process`); empty: this
-  /// process does. Then what differs between processes is in no interval.
+  /// The program that measures blocks, with its arguments (`measure_in_process`). Empty: this
+  /// process measures them, and intervals do not cover the variation between processes.
   std::vector<std::string> block_program{};
-  /// Prints a line for each cell, on a terminal too, in place of one line that is redrawn.
+  /// Prints a line for each cell even on a terminal, instead of redrawing one line.
   bool line_per_cell = false;
-  /// Maximum number of tries of a repetition that other processes disturb.
+  /// Maximum number of tries of a disturbed repetition.
   int tries = 3;
-  /// The folder that holds /proc and the control groups, from which CPU quotas are read.
+  /// The folder that contains /proc and the control groups, from which CPU quotas are read.
   std::filesystem::path root = "/";
-  /// Called before each view's rays are made, each counting pass and each repetition. An exception
-  /// ends the run; every repetition is kept.
+  /// Called before each view's rays are generated, and before each counting pass and repetition. An
+  /// exception ends the run; all repetitions so far are kept.
   std::function<void()> before_each_piece = [] {};
 };
 
-/// Measures all cells of `plan` that are not in the folder's log yet, in blocks that are spread
-/// over the run (block.hpp); an unfinished one continues after its last repetition. Only the log is
-/// written (`RunLog`). Progress, mismatches and notes go to `messages`. Returns the folder. Throws
-/// InputError when it cannot be written, already holds a run, or holds one that cannot be resumed;
-/// a structure's fault, and that it ends the process of a block, is recorded and never thrown.
+/// Measures all cells of `plan` that are not yet in the folder's log, in blocks spread over the run
+/// (block.hpp); an unfinished cell continues after its last repetition. Writes only the log
+/// (`RunLog`). Progress, mismatches and notes go to `messages`. Returns the folder. Throws
+/// InputError if the folder cannot be written, already contains a run, or contains one that cannot
+/// be resumed. Errors of structures, even those that end the process of a block, are recorded and
+/// never thrown.
 std::filesystem::path run_sweep(const SweepConfig& config, Plan plan,
                                 const GoogleBenchmark& benchmark, const SweepOptions& options,
                                 std::FILE* messages);

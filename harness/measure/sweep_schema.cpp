@@ -21,13 +21,13 @@ namespace {
 
 using nlohmann::json;
 
-/// A value at fault, and what the schema says of it.
+/// An invalid value, and the part of the schema that applies to it.
 struct Fault {
   JsonNode value;
   const json* schema;
 };
 
-/// Follows the steps of an error of valijson, such as {"<root>", "[scenes]", "[1]"}.
+/// Follows the steps of a valijson error, such as {"<root>", "[scenes]", "[1]"}.
 Fault find_fault(const JsonNode& root, const json& schema, const std::vector<std::string>& steps) {
   Fault fault{root, &schema};
   for (std::size_t i = 1; i < steps.size(); ++i) {
@@ -44,7 +44,7 @@ Fault find_fault(const JsonNode& root, const json& schema, const std::vector<std
   return fault;
 }
 
-/// Returns a value as a message shows it.
+/// Returns a value as shown in messages.
 std::string shown(const json& value) {
   if (value.is_object()) return "an object";
   if (value.is_array()) return value.empty() ? "an empty list" : "a list";
@@ -57,7 +57,7 @@ std::string range(const json& schema) {
   return fmt::format(" from {} to {}", schema["minimum"].dump(), schema["maximum"].dump());
 }
 
-/// Returns what a schema expects of a value of a type.
+/// Returns a description of what a schema expects for a value of a type.
 std::string describe(const std::string& type, const json& schema) {
   if (type == "object") return "an object";
   if (type == "array") return "a list with at least one element";
@@ -84,7 +84,7 @@ std::string expected(const json& schema, const json& value) {
   std::vector<std::string> described;
   for (const std::string& type : types) {
     const bool fits = has_type(value, type);
-    // What a pattern or a number of members means, the schema says in words.
+    // The schema explains patterns and numbers of members in words.
     if (fits && (schema.contains("pattern") || schema.contains("minProperties"))) {
       return schema.at("description");
     }
@@ -123,7 +123,7 @@ void require_sweep_form(const json& document, const std::string& file) {
   const json schema_text = json::parse(sweep_schema_text());
   valijson::Schema schema;
   valijson::SchemaParser().populateSchema(Adapter(schema_text), schema);
-  // Numbers are no strings here: `strong` types.
+  // Numbers do not count as strings here, because the types are `strong`.
   valijson::Validator validator(valijson::Validator::kStrongTypes);
   valijson::ValidationResults results;
   if (validator.validate(schema, Adapter(document), &results)) return;

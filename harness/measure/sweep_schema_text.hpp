@@ -1,5 +1,5 @@
 #pragma once
-// sweep.schema.json, as the program holds it.
+// sweep.schema.json, embedded in the program.
 
 #include <string_view>
 

@@ -25,14 +25,14 @@ double share(std::uint64_t part, std::uint64_t whole) {
   return static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// Throws InputError where the rays are not those that an earlier process traced.
+/// Throws InputError if the rays are not those that an earlier process traced.
 void require_same(std::uint64_t hash, std::uint64_t known) {
   if (hash == known) return;
   throw InputError(fmt::format("the rays have changed during the run (hashes {} and {})",
                                rays::hex_digits(known), rays::hex_digits(hash)));
 }
 
-/// Rays that do not depend on the results: an image's, or a list.
+/// Rays that do not depend on the results: those of an image, or a list.
 class RaysTask : public Task {
  public:
   RaysTask(const CellGroup& group, const rays::RayChoice& rays, int core,
@@ -112,14 +112,14 @@ class RaysTask : public Task {
     const auto null = accel::registry().choose({"null", {{"rays", rays}}}).build(scene());
     return harness_ms(core_, [&] { trace(*null); });
   }
-  /// Returns the hits of the oracle, which are found when they are first needed.
+  /// Returns the oracle's hits, found when first needed.
   const verify::ReferenceHits& reference() {
     if (!reference_) reference_.emplace(scene(), *std::exchange(input_, std::nullopt));
     return *reference_;
   }
   const rays::TraceInput& input() const { return input_ ? *input_ : reference_->input(); }
 
-  std::optional<rays::TraceInput> input_;  ///< until the reference has it
+  std::optional<rays::TraceInput> input_;  ///< empty once the reference has it
   std::optional<verify::ReferenceHits> reference_;
   rays::TraceResults results_;
   int core_;
@@ -136,9 +136,10 @@ std::uint64_t hash_of(const accel::PrimaryRays& rays, const render::RecordedPict
 }
 
 /// The picture of `render --shade whitted`, on one thread: camera rays by the structure's traversal
-/// for images (beams), the rest in waves, shading included. Not the picture itself but every hit
-/// that it depends on is verified, reflected, refracted and shadow rays too: a second drawing, with
-/// all of them recorded, must give the same bits as the timed one.
+/// for images (beams), the rest in waves, shading included. Verification covers every hit that the
+/// picture depends on, including those of reflected, refracted and shadow rays, rather than the
+/// picture itself: a second rendering, with all of them recorded, must equal the timed one bit for
+/// bit.
 class PictureTask : public Task {
  public:
   PictureTask(const CellGroup& group, const rays::RayChoice& rays, int core,
@@ -194,7 +195,7 @@ class PictureTask : public Task {
                               const accel::StructureChoice& choice) override {
     poison();
     render::RecordedPicture picture = [&] {
-      const MeasuringFloatMode mode;  // in the mode in which it was timed
+      const MeasuringFloatMode mode;  // the mode in which it was timed
       structure.closest_hits(rays_, hits_, {});
       return render::record_picture(shaded_, structure, rays_, hits_, options_,
                                     rays::HitCheck(scene(), choice));
@@ -212,7 +213,7 @@ class PictureTask : public Task {
     return *shading_ms_;
   }
 
-  /// Returns the hits of the oracle, which are found when they are first needed.
+  /// Returns the oracle's hits, found when first needed.
   const verify::ReferenceHits& reference() {
     if (!reference_) reference_.emplace(scene(), rays_);
     return *reference_;
@@ -221,7 +222,8 @@ class PictureTask : public Task {
   std::uint64_t ray_count() override { return facts().rays; }
   bool has_lists() const override { return true; }
 
-  /// Finds out the facts, and the time of the picture without a structure: its results are known.
+  /// Determines the facts, and the time of the picture without a structure, whose results are
+  /// known.
   RaySetFacts find_facts() override {
     const accel::oracle::Oracle oracle(scene(), glm::length(glm::dvec3(rays_.eye())));
     const render::RecordedPicture picture =

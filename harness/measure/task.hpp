@@ -1,5 +1,5 @@
 #pragma once
-// The work that the contenders of a group trace: rays, or a whole picture.
+// The work that the contenders of a group do: tracing rays, or a whole picture.
 
 #include <cstdint>
 #include <map>
@@ -19,10 +19,10 @@ namespace beambench::measure {
 /// The outcome of a verification.
 struct Verification {
   verify::DiffReport report;
-  std::vector<std::string> examples;  ///< disputed rays, described, where the verdict is bad
+  std::vector<std::string> examples;  ///< descriptions of disputed rays, if the verdict is bad
 };
 
-/// Rays, and one buffer for their results, which contenders use in turns.
+/// Rays, and one buffer for their results, which the contenders share in turns.
 class Task {
  public:
   Task(const Task&) = delete;
@@ -30,8 +30,8 @@ class Task {
   virtual ~Task() = default;
 
   const scenes::Scene& scene() const { return *group_.scene; }
-  /// Returns the facts of the rays. Finds them with the oracle the first time, where they are not
-  /// known.
+  /// Returns the facts of the rays. Determines them with the oracle on the first call, if they are
+  /// not yet known.
   const RaySetFacts& facts() {
     if (!facts_) facts_ = find_facts();
     return *facts_;
@@ -40,30 +40,30 @@ class Task {
     return {group_.camera, static_cast<std::size_t>(ray_count()), group_.threads, has_lists()};
   }
 
-  /// Returns a clause about unexpected rays.
+  /// Returns a clause about unexpected rays, if there are any.
   virtual std::optional<std::string> warning() { return std::nullopt; }
 
-  /// Overwrites all results with invalid ones, so that the differ finds each one that is not
-  /// written.
+  /// Overwrites all results with invalid ones, so that the differ finds any that are left
+  /// unwritten.
   virtual void poison() = 0;
-  /// Throws UnsupportedError where a structure does not support these rays.
+  /// Throws UnsupportedError if a structure does not support these rays.
   virtual void require_support(const accel::StructureChoice& choice) const = 0;
-  /// Traces with a structure. This is timed.
+  /// Traces with a structure. This call is timed.
   virtual void trace(const accel::Accelerator& structure) = 0;
-  /// Traces in the same way, counting work.
+  /// Traces in the same way, but counts work.
   virtual CountedWork count(const accel::Accelerator& structure) = 0;
-  /// Returns a fingerprint of all results, bit for bit.
+  /// Returns the fingerprint of all results, bit for bit.
   virtual std::uint64_t fingerprint() const = 0;
-  /// Verifies the results; may have `structure`, which `choice` has built, trace again for this.
+  /// Verifies the results; for this, `structure`, built by `choice`, may be traced again.
   virtual Verification verify_results(const accel::Accelerator& structure,
                                       const accel::StructureChoice& choice) = 0;
 
-  /// Returns the query path of `structure`, and the harness's own share of a trace by it, which is
-  /// measured when it is first needed. Overwrites all results.
+  /// Returns the query path of `structure`, and the harness's own share of a trace by this path,
+  /// measured when first needed. Overwrites all results.
   HarnessShare harness_share(const accel::Accelerator& structure);
 
  protected:
-  /// The group must outlive it. `known` as for `make_task`.
+  /// The group must outlive the task. `known` is as in `make_task`.
   Task(const CellGroup& group, const std::optional<RaySetFacts>& known)
       : group_(group), facts_(known) {}
 
@@ -71,8 +71,8 @@ class Task {
   virtual std::uint64_t ray_count() = 0;
   virtual bool has_lists() const = 0;
   virtual QueryPath path_of(const accel::Accelerator& structure) const = 0;
-  /// Returns the time of a trace by `path`, which is not the structure's own, where results cost
-  /// nothing.
+  /// Returns the time of a trace by `path` in which results cost nothing; `path` must not be that
+  /// of a structure's own samples.
   virtual double measure_harness_ms(QueryPath path) = 0;
 
   const CellGroup& group_;
@@ -82,10 +82,10 @@ class Task {
   std::map<QueryPath, double> harness_ms_;
 };
 
-/// Makes the task of a group, with its rays in one of their orders. `core` is the core to measure
-/// the harness's own time on (-1: any). `known` are its facts where an earlier process found them
-/// out: then the oracle is needed only where results are verified. Throws like `make_trace_input`,
-/// and InputError where the rays are not those that are known.
+/// Makes the task of a group, with its rays in one of their orders. The harness's own time is
+/// measured on `core` (-1: any). `known` contains its facts if an earlier process determined them;
+/// then the oracle is needed only to verify results. Throws what `make_trace_input` throws, and
+/// InputError if the rays differ from the known ones.
 std::unique_ptr<Task> make_task(const CellGroup& group, const rays::RayChoice& rays, int core,
                                 const std::optional<RaySetFacts>& known);
 

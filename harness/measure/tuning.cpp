@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Returns the fastest of a few traces of a candidate, in milliseconds.
+/// Returns the time of the fastest of a few traces of a candidate, in milliseconds.
 double time_candidate(const PlannedCell& cell, Task& task, int traces) {
   task.require_support(cell.structure);
   const MeasuringFloatMode mode;
@@ -34,7 +34,8 @@ double time_candidate(const PlannedCell& cell, Task& task, int traces) {
 std::vector<accel::StructureChoice> best_embree(const accel::Registry& structures) {
   const auto info =
       std::ranges::find(structures.structures(), "embree", &accel::StructureInfo::name);
-  if (info == structures.structures().end()) throw InputError("this program has no Embree");
+  if (info == structures.structures().end())
+    throw InputError("this program was built without Embree");
   std::vector<accel::StructureChoice> sets;
   const auto add = [&](const std::string& mode, const char* coherent) {
     sets.push_back(structures.choose(
@@ -64,7 +65,7 @@ void time_candidates(const Block& block, const BlockWatch& watch) {
   CellGroup view = block.view;
   view.camera = tuning_camera(view.camera);
   const PinnedThread pin(block.core);
-  std::map<bool, std::unique_ptr<Task>> tasks;  // by whether the rays are sorted
+  std::map<bool, std::unique_ptr<Task>> tasks;  // key: whether the rays are sorted
   for (const BlockCell& each : block.cells) {
     watch.before_each_piece(each.cell.index);
     Json event{{"event", "candidate"}, {"index", each.cell.index}};

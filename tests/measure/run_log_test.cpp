@@ -349,7 +349,8 @@ TEST_F(WrittenLog, TruncatedAnywhereKeepsItsWholeLines) {
     const std::string cut = text_.substr(0, bytes);
     const auto lines = static_cast<std::size_t>(std::ranges::count(cut, '\n'));
     if (lines == 0) {
-      ASSERT_TRUE(says(refusal(cut), {"run/run.jsonl", "no whole line", "-o"})) << bytes;
+      ASSERT_TRUE(says(refusal(cut), {"run/run.jsonl", "does not contain a whole line", "-o"}))
+          << bytes;
       continue;
     }
     write(cut);
@@ -379,7 +380,7 @@ TEST_F(WrittenLog, TruncatedAnywhereIsContinuedAfterItsLastWholeLine) {
 TEST_F(WrittenLog, TruncatedInItsHeaderIsRefused) {
   write(text_.substr(0, text_.find('\n')));
   EXPECT_TRUE(says(thrown_message([&] { read_run(RunLog::open(folder()).folder()); }),
-                   {"run/run.jsonl", "no whole line"}));
+                   {"run/run.jsonl", "does not contain a whole line"}));
 }
 
 TEST_F(WrittenLog, DamagedInsideIsRefusedAtItsLine) {
@@ -400,7 +401,7 @@ TEST_F(WrittenLog, DamagedInsideIsRefusedAtItsLine) {
 
 TEST_F(WrittenLog, WithACellOfAnUnknownShardIsRefused) {
   EXPECT_TRUE(says(refusal(with(R"("event":"cell",)", R"("event":"cell","shard":5,)")),
-                   {"run/run.jsonl", "cell 0 is of shard 5", "-o"}));
+                   {"run/run.jsonl", "cell 0 belongs to shard 5", "-o"}));
 }
 
 TEST_F(WrittenLog, OfAnotherVersionIsRefused) {

@@ -420,7 +420,7 @@ INSTANTIATE_TEST_SUITE_P(
                             [](const Traced& traced) {
                               if (traced.pass == 5) drop_one_hit(traced.buffer);
                             },
-                            "repetition 3 wrote other hits"},
+                            "repetition 3 wrote different hits"},
                     Planted{"AnotherAnswerInASecondTrace",
                             [](const Traced& traced) {
                               if (traced.pass == 4) drop_one_hit(traced.buffer);
@@ -430,7 +430,7 @@ INSTANTIATE_TEST_SUITE_P(
                             [](const Traced& traced) {
                               if (traced.pass == 0) drop_one_hit(traced.buffer);
                             },
-                            "the counting pass found other hits"}),
+                            "the counting pass found different hits"}),
     [](const auto& planted) { return planted.param.name; });
 
 TEST_F(Sweep, TracesEveryKindOfRays) {
@@ -838,7 +838,8 @@ TEST_F(Resume, ResultsThatDifferFromBeforeAreAMismatch) {
   EXPECT_EQ(run(config_, true).failed, 1U);
   const json faulty = cells().at("faulty");
   EXPECT_EQ(faulty["row"]["verdict"], "mismatch");
-  EXPECT_TRUE(scenes::says(faulty["message"].get<std::string>(), {"other hits than the first"}));
+  EXPECT_TRUE(
+      scenes::says(faulty["message"].get<std::string>(), {"different hits than the first"}));
   expect_times(faulty, false);
 }
 
@@ -876,7 +877,8 @@ TEST_F(Resume, RefusesAnotherBuildOrScene) {
   run(config_);
   const std::vector<std::string> lines = log();
   write_changed(lines, "header", "/manifest/program/executable_hash", "0");
-  EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { run(config_, true); }), {"another build"}));
+  EXPECT_TRUE(
+      scenes::says(scenes::thrown_message([&] { run(config_, true); }), {"different sources"}));
   write_changed(lines, "header", "/manifest/scenes/0/hash", "0");
   EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { run(config_, true); }),
                            {"tetra:n=2", "has changed"}));

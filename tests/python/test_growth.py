@@ -69,7 +69,7 @@ def test_the_same_as_text_and_csv() -> None:
     ("arguments", "words"),
     [
         (["stetra", "--growth"], ["'stetra' has no size", "tetra", "balls"]),
-        (["tetra:n=3", "--growth"], ["'n' is the size", "leave it out"]),
+        (["tetra:n=3", "--growth"], ["'n' is the size", "remove it"]),
         (["some/file.nff", "--growth"], ["has no size"]),
         (["mesh:dragon", "--growth"], ["has no size"]),
         (["balls", "--growth", "--growth-limit", "1"], ["more than 1 primitives"]),

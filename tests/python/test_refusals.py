@@ -57,7 +57,7 @@ def test_a_run_is_not_written_among_other_files(tmp_path: Path) -> None:
     (tmp_path / "mine.txt").touch()
     done = beambench("run", "quick", "-o", tmp_path)
     assert done.returncode == 2
-    assert "is not empty: it holds 'mine.txt'" in done.stderr
+    assert "is not empty: it contains 'mine.txt'" in done.stderr
     assert [path.name for path in tmp_path.iterdir() if not path.name.startswith(".")] == [
         "mine.txt"
     ]

@@ -283,7 +283,7 @@ def test_times_may_differ_where_a_shard_is_doubled(copy: Path) -> None:
         ({"scenes/0/hash": "0123456789abcdef"}, ['the scene "', "0123456789abcdef"]),
         ({"shard/count": 5}, ["shard 3/5", "one division"]),
         ({"shard/number": 2}, ["shard 2/4 is there twice"]),
-        ({"plugins": [{"file": "mine.so", "hash": "01"}]}, ["other plug-ins"]),
+        ({"plugins": [{"file": "mine.so", "hash": "01"}]}, ["different plug-ins"]),
         ({"shard": {}}, ["run.jsonl"]),
         ({"machine": 3}, ["run.jsonl", "not as it was written"]),
     ],

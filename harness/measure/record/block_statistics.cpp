@@ -13,10 +13,10 @@ namespace {
 
 struct MeanAndDeviation {
   double mean;
-  double deviation;  ///< with n - 1
+  double deviation;  ///< with divisor n - 1
 };
 
-/// Returns those of the logarithms of at least one value.
+/// Returns the mean and deviation of the logarithms of at least one value.
 MeanAndDeviation of_logarithms(std::span<const double> values) {
   const auto count = static_cast<double>(values.size());
   double sum = 0.0, squares = 0.0;
@@ -26,7 +26,7 @@ MeanAndDeviation of_logarithms(std::span<const double> values) {
   return {mean, values.size() > 1 ? std::sqrt(squares / (count - 1.0)) : 0.0};
 }
 
-/// Returns the least positive value of each block: others are disturbed, absent or below the
+/// Returns the least positive value of each block: other values are disturbed, missing or below the
 /// clock's resolution.
 template <class Figure>
 std::map<int, double> least(const CellRecord& cell, Figure figure) {
@@ -86,7 +86,7 @@ int blocks_for_precision(double spread, double precision, int maximum) {
   const auto is_enough = [&](int blocks) {
     return std::sqrt(2.0) * student_t(blocks - 1) * spread / std::sqrt(blocks) <= precision;
   };
-  if (!is_enough(maximum)) return maximum;  // the usual case of a precision that cannot be had
+  if (!is_enough(maximum)) return maximum;  // the usual case of an unattainable precision
   int blocks = 2;
   while (!is_enough(blocks)) ++blocks;
   return blocks;

@@ -1,6 +1,5 @@
 #pragma once
-// The statistics of blocks (harness/measure/block.hpp): a value for each, and the intervals of
-// their mean.
+// Statistics of blocks (harness/measure/block.hpp): the value of each, and intervals of their mean.
 
 #include <functional>
 #include <map>
@@ -12,57 +11,59 @@
 
 namespace beambench::measure {
 
-/// A time or a ratio, found from blocks.
+/// A time or a ratio, estimated from blocks.
 struct Estimate {
   double value;  ///< geometric mean over the blocks
-  /// Covers the true value with 95%. Decides rankings. None for fewer than two blocks.
+  /// Covers the true value with 95% confidence. Decides rankings. Nothing for fewer than two
+  /// blocks.
   std::optional<Interval> confidence{};
-  /// Covers the value of a second run of as many blocks with 95%: wider by the square root of two,
-  /// since both runs vary.
+  /// Covers the value of a second run with as many blocks with 95% probability. It is wider by the
+  /// square root of two, since both runs vary.
   std::optional<Interval> prediction{};
-  std::optional<double> error{};  ///< standard error of the value's logarithm, with two blocks
+  std::optional<double> error{};  ///< standard error of the value's logarithm; needs two blocks
 };
 
-/// Returns the estimate of positive values that vary by factors: the mean of their logarithms, with
-/// the intervals of Student's t. Where the values were looked at `looks` times, more having been
-/// measured after each look, the intervals of all looks together have 95% (Bonferroni).
+/// Returns the estimate for positive values with multiplicative variation: the mean of their
+/// logarithms, with Student's t intervals. If the values were examined `looks` times, with more
+/// measured after each, the intervals of all looks hold jointly with 95% (Bonferroni).
 Estimate estimate(std::span<const double> values, int looks = 1);
 
-/// Returns the 97.5% quantile of Student's t, by which a standard error becomes the half-width of a
-/// 95% interval; of several looks, that by which all together have 95%. `degrees` from 1.
+/// Returns the 97.5% quantile of Student's t, which turns a standard error into the half-width of a
+/// 95% interval; for several looks, the quantile with which all intervals hold jointly with 95%.
+/// `degrees` is at least 1.
 double student_t(int degrees, int looks = 1);
 
-/// The clock by which contenders are compared.
+/// The clock used to compare contenders.
 enum class TraceClock {
   kWall,
-  kCpu  ///< of the tracing thread; where other processes disturbed too many traces
+  kCpu  ///< CPU time of the tracing thread; used if too many traces were disturbed
 };
 
-/// Returns a figure of a cell in each block: that of its repetition with the least one, of those
-/// that were not disturbed. A block without any, or where none is positive, is left out.
+/// Returns a figure of a cell in each block: the least value of its undisturbed repetitions. Omits
+/// blocks without an undisturbed repetition or without a positive value.
 std::map<int, double> least_by_block(const CellRecord& cell,
                                      const std::function<double(const Repetition&)>& figure);
 
 /// Returns the trace time of a cell in each block, in milliseconds: that of its fastest undisturbed
-/// repetition (`Repetition::is_undisturbed`), or by the CPU clock its least. A block without an
+/// repetition (`Repetition::is_undisturbed`) or, by the CPU clock, its shortest. A block without an
 /// undisturbed repetition has no wall time.
 std::map<int, double> trace_by_block(const CellRecord& cell, TraceClock clock);
 
-/// Returns the time of building and tracing of a cell in each block, likewise.
+/// Returns the total time of build and trace of a cell in each block, in the same way.
 std::map<int, double> total_by_block(const CellRecord& cell, TraceClock clock);
 
-/// Returns whether the wall times of a cell are too few to compare it by: those of less than half
-/// of its blocks.
+/// Returns whether a cell has too few wall times to be compared by them: in less than half of its
+/// blocks.
 bool is_disturbed(const CellRecord& cell);
 
-/// Returns the clock that serves for a cell by itself.
+/// Returns the clock used for a cell on its own.
 inline TraceClock own_clock(const CellRecord& cell) {
   return is_disturbed(cell) ? TraceClock::kCpu : TraceClock::kWall;
 }
 
 /// Returns the number of blocks after which the half-width of the prediction interval is expected
-/// to be `precision` of the value, from the repetitions of one block, whose logarithms have the
-/// standard deviation `spread`. At least 2, at most `maximum`.
+/// to be `precision` times the value. `spread` is the standard deviation of the logarithms of one
+/// block's repetitions. The result is at least 2 and at most `maximum`.
 int blocks_for_precision(double spread, double precision, int maximum);
 
 /// Returns the standard deviation of the logarithms of a cell's undisturbed trace times; 0 for

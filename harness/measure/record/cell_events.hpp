@@ -1,5 +1,5 @@
 #pragma once
-// The events of a cell in a run's log (run_log.hpp), written and read.
+// Writes and reads the events of a cell in a run's log (run_log.hpp).
 
 #include <functional>
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace beambench::measure {
 
-/// Receives an event, for a log or for the process that writes it.
+/// Receives an event, to be logged or passed to the process that logs it.
 using EventSink = std::function<void(const nlohmann::ordered_json& event)>;
 
 /// Writes the events of cells to a sink.
@@ -31,11 +31,11 @@ class CellEvents {
   EventSink sink_;
 };
 
-/// Returns whether events of that kind are of a cell.
+/// Returns whether events of that kind belong to a cell.
 bool is_of_cell(std::string_view kind);
 
 /// Reads an event of a cell into its record. Throws InputError, or an exception of nlohmann-json,
-/// where it is not as it was written.
+/// if the event is malformed.
 void apply(const nlohmann::ordered_json& event, CellRecord& cell);
 
 }  // namespace beambench::measure

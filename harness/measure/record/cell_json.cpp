@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Returns the enumerator of a name that `to_string` gives, from 0 to `last`.
+/// Returns the enumerator, from 0 to `last`, for which `to_string` returns the name.
 template <class Enum>
 Enum named(const Json& value, Enum last) {
   const auto& name = value.get_ref<const std::string&>();
@@ -48,7 +48,8 @@ std::optional<Value> optional(const Json& json, const std::string& name) {
   return found == json.end() ? std::nullopt : std::optional(found->template get<Value>());
 }
 
-// Calls `visit` with the name of each plain member and the member: written and read by one list.
+// Calls `visit` with the name of each plain member and the member; the same list serves for reading
+// and writing.
 
 template <class Facts, class Visit>
 void for_each_member(std::type_identity<RaySetFacts>, Facts& facts, Visit visit) {

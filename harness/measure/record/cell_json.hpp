@@ -1,5 +1,5 @@
 #pragma once
-// Converts a cell's parts to events of a run's log, and back.
+// Converts the parts of a cell to events of a run's log, and back.
 
 #include <nlohmann/json.hpp>
 
@@ -9,14 +9,14 @@ namespace beambench::measure {
 
 /// Returns a cell's identity, rays, counters and sizes: members of the event `cell`.
 nlohmann::ordered_json facts_json(const CellRecord& cell);
-/// Reads them into a record. Throws nlohmann::json::exception where a member is missing or of
-/// another type, InputError where a name is unknown.
+/// Reads them into a record. Throws nlohmann::json::exception if a member is missing or has another
+/// type, and InputError if a name is unknown.
 void read_facts(const nlohmann::ordered_json& event, CellRecord& cell);
 
 nlohmann::ordered_json repetition_json(const Repetition& repetition);
 Repetition read_repetition(const nlohmann::ordered_json& event);
 
-/// Returns the classes of a cell's hits and their fingerprint; the cell has both.
+/// Returns the classes of a cell's hits and their fingerprint. The cell must have both.
 nlohmann::ordered_json verification_json(const CellRecord& cell);
 void read_verification(const nlohmann::ordered_json& event, CellRecord& cell);
 

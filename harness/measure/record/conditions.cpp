@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Returns the throttling that a manifest's file states.
+/// Returns the throttling stated in a manifest's file.
 std::optional<Throttling> throttling_of(const Json& manifest) {
   const Json stated = manifest.at("measurement").value("throttling", Json());
   if (stated.is_null()) return std::nullopt;
@@ -34,7 +34,7 @@ Json to_json(const std::optional<Throttling>& throttling) {
 std::optional<std::string> noise_warning(const std::optional<double>& noise) {
   if (!noise || *noise <= kNoisy) return std::nullopt;
   return fmt::format(
-      "The machine is disturbed: one slice in twenty of equal work took at least {:.0f}% longer "
+      "The machine is disturbed: 5% of the slices of equal work took at least {:.0f}% longer "
       "than usual.",
       100.0 * *noise);
 }

@@ -24,7 +24,7 @@ std::vector<Json> values_of(std::span<const Json> shards, const char* object,
   return values;
 }
 
-/// Returns each value once, in their order.
+/// Returns the distinct values, in order.
 std::vector<Json> distinct(const std::vector<Json>& values) {
   std::vector<Json> found;
   for (const Json& value : values) {
@@ -33,7 +33,7 @@ std::vector<Json> distinct(const std::vector<Json>& values) {
   return found;
 }
 
-/// Returns whether the larger of two values is the worse.
+/// Returns whether larger values are worse.
 bool is_disturbance(std::string_view name) {
   return name == "load_average" || name == "highest_load" || name == "noise";
 }
@@ -50,7 +50,7 @@ Json joined_value(const std::string& name, const std::vector<Json>& values) {
   if (is_disturbance(name)) return largest(values);
   const std::vector<Json> found = distinct(values);
   if (found.size() == 1) return found.front();
-  // Readers expect a processor and a machine's number as texts.
+  // Readers expect the processor and the machine's id to be strings.
   if (std::ranges::all_of(found, [](const Json& value) { return value.is_string(); })) {
     std::vector<std::string> texts;
     for (const Json& value : found) texts.push_back(value.get<std::string>());
@@ -68,7 +68,7 @@ Json joined_object(std::span<const Json> shards, const char* object) {
   return joined;
 }
 
-/// Returns `20240531-140709.417-default-shard-2-of-4` without the suffix of the shard.
+/// Returns `20240531-140709.417-default-shard-2-of-4` without the shard's suffix.
 std::string merged_run_id(std::span<const Json> shards) {
   std::string first;
   for (const Json& shard : shards) {
@@ -79,7 +79,7 @@ std::string merged_run_id(std::span<const Json> shards) {
   return first;
 }
 
-/// Returns the first or last of a time in all manifests.
+/// Returns the first or last value of a time in all manifests.
 template <class Choose>
 std::string time_of(std::span<const Json> shards, const char* member, Choose choose) {
   std::vector<std::string> times;
@@ -87,7 +87,7 @@ std::string time_of(std::span<const Json> shards, const char* member, Choose cho
   return *choose(times);
 }
 
-/// Returns the conditions that could not be controlled in any of the shards, each sentence once.
+/// Returns the conditions that could not be controlled in any of the shards; each sentence once.
 std::vector<std::string> uncontrolled(std::span<const Json> shards) {
   std::vector<std::string> sentences;
   for (const Json& shard : shards) {

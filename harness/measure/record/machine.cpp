@@ -24,8 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the first line of a file of the system. Does not use read_input(): files of /sys are
-/// shorter than they claim to be, and a missing one is not an error.
+/// Returns the first line of a file of the system. Does not use read_input(): files in /sys are
+/// shorter than their stated size, and a missing one is not an error.
 std::string first_line(const fs::path& path) {
   std::ifstream file(path);
   std::string line;
@@ -54,7 +54,7 @@ std::string widest_instructions() {
 #endif
 }
 
-/// Returns the first core's value of a word in /proc/cpuinfo; empty where there is none.
+/// Returns the value of a field in /proc/cpuinfo for the first core; empty if it is missing.
 std::string cpu_info(std::string_view word) {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);) {
@@ -78,7 +78,7 @@ std::string installation() {
 std::string whole_file(const fs::path& path) {
   const std::ifstream file(path, std::ios::binary);
   std::ostringstream content;
-  content << file.rdbuf();  // in blocks, also where the size is unknown, as in /proc
+  content << file.rdbuf();  // in blocks, even where the size is unknown, as in /proc
   return std::move(content).str();
 }
 
@@ -135,13 +135,13 @@ std::string machine_id(std::string_view processor, std::string_view installation
 }
 
 std::string processor_identity(std::string_view cpuinfo) {
-  // Of x86; then of ARM, which has other words.
+  // The fields of x86, then those of ARM, which differ.
   constexpr std::array<std::string_view, 10> kWords{
       "vendor_id",       "cpu family",       "model",       "model name", "stepping",
       "CPU implementer", "CPU architecture", "CPU variant", "CPU part",   "CPU revision"};
   std::string identity;
   std::istringstream lines{std::string(cpuinfo)};
-  for (std::string line; std::getline(lines, line) && !line.empty();) {  // an empty one ends a core
+  for (std::string line; std::getline(lines, line) && !line.empty();) {  // ends at an empty line
     const std::string_view word = std::string_view(line).substr(0, line.find_first_of("\t:"));
     if (std::ranges::find(kWords, word) != kWords.end()) identity += line + '\n';
   }
@@ -166,12 +166,12 @@ std::vector<std::string> disturbances(const Machine& machine) {
         fmt::format("Other work was running: the load average was {:.2f}.", machine.load));
   }
   if (machine.virtual_machine) {
-    found.emplace_back("This is a virtual machine: others may use the same processor at any time.");
+    found.emplace_back("This is a virtual machine: others may use the processor at any time.");
   }
   if (machine.huge_pages == "always") {
     found.emplace_back(
-        "The system turns memory into huge pages when it sees fit (transparent huge pages: "
-        "always), so equal builds may get different ones.");
+        "The system may convert memory to huge pages (transparent huge pages: always), so "
+        "identical builds may get different pages.");
   }
   return found;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The machine of a run, as far as it reports itself, and the build of this program.
+// The machine of a run, as far as it reports its properties, and the build of this program.
 
 #include <array>
 #include <cstdint>
@@ -15,55 +15,56 @@ namespace beambench::measure {
 struct BuildInfo {
   std::string_view version;
   std::string_view commit;  ///< 40 hexadecimal digits, or "unknown" outside of a git checkout
-  bool dirty;               ///< were tracked files changed since that commit?
+  bool dirty;               ///< whether tracked files were changed since that commit
   std::string_view build_type;
   std::string_view compiler;
   std::string_view flags;
-  /// The libraries that were found when the build was configured.
+  /// The libraries found when the build was configured.
   std::array<std::pair<std::string_view, std::string_view>, 9> libraries;
 };
 
 const BuildInfo& build_info();
 
-/// A load average above it disturbs times.
+/// A load average above this disturbs times.
 constexpr double kIdleLoad = 0.5;
 
 struct Machine {
   std::string id;  ///< see machine_id
   std::string cpu;
-  unsigned cores;  ///< that this process may use
-  /// The number of processors whose time this process may use (`beambench::cpu_quota`); nothing:
-  /// unlimited.
+  unsigned cores;  ///< available to this process
+  /// The number of processors whose time this process may use (`beambench::cpu_quota`); nothing: no
+  /// limit.
   std::optional<double> cpu_quota;
   std::uint64_t memory_bytes;
   std::string kernel;
   std::string instructions;  ///< the widest vector instructions it has, "AVX2"
-  bool virtual_machine;      ///< does it report a hypervisor?
+  bool virtual_machine;      ///< whether it reports a hypervisor
   std::uint64_t page_bytes;
   std::string huge_pages;         ///< "always", "madvise", "never", or empty: transparent ones
   std::string governor;           ///< of the first core; empty: unknown
   std::string turbo;              ///< "on", "off", or empty: unknown
-  double load;                    ///< one-minute load average when it was read
+  double load;                    ///< one-minute load average when inspected
   std::uint64_t executable_hash;  ///< of this program's file
 };
 
-/// Inspects this machine; the quota is read below `root`, as by `cpu_quota`.
+/// Inspects this machine; the quota is read below `root`, as in `cpu_quota`.
 Machine inspect_machine(const std::filesystem::path& root = "/");
 
-/// Returns the system's load average over the last minute; 0 where it has none.
+/// Returns the system's load average over the last minute; 0 if it is unknown.
 double load_average();
 
-/// Sixteen hexadecimal digits that differ between machines, without naming them: a fingerprint of
-/// the processor (maker, family, model and stepping, not its name alone, which virtual machines
-/// share) and of the installation (machine-id(5), else the host's name). A machine whose processor
-/// or system is exchanged is another one, for its times are.
+/// Returns sixteen hexadecimal digits that identify a machine without naming it: a fingerprint of
+/// the processor (maker, family, model and stepping, since different virtual machines report the
+/// same name) and of the installation (machine-id(5), or else the host's name). A machine with a
+/// new processor or system counts as another machine, since its times change.
 std::string machine_id(std::string_view processor, std::string_view installation);
 
-/// Returns the identity of the first processor in a text laid out as Linux's /proc/cpuinfo, line by
-/// line; empty where the text lacks it.
+/// Returns the identity of the first processor, line by line, in a text with the layout of Linux's
+/// /proc/cpuinfo; empty if the text lacks it.
 std::string processor_identity(std::string_view cpuinfo);
 
-/// Returns the conditions that disturb timings and cannot be controlled from here, a sentence each.
+/// Returns the conditions that disturb timings and cannot be controlled from here, one sentence
+/// each.
 std::vector<std::string> disturbances(const Machine& machine);
 
 /// Returns the current time in UTC, `2024-05-31T14:07:09Z`.

@@ -22,14 +22,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The layout of the files of a run. Incremented when a reader of the old layout would fail.
+// The version of the layout of a run's files. Incremented when a reader of the old layout would
+// fail.
 constexpr int kRecordVersion = 1;
 
 constexpr std::string_view kLibraryNote =
     "google-benchmark.json reports library_build_type 'debug' where the system's Google Benchmark "
     "was "
-    "built without NDEBUG, as Debian's is; that slows its own loop, of which nothing is timed here "
-    "(times are taken by beambench and handed over). beambench's own build type is in 'program'.";
+    "built without NDEBUG, as Debian's is; that slows its own loop, which is not timed here "
+    "(beambench measures times itself). beambench's own build type is in 'program'.";
 
 Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
 
@@ -134,9 +135,9 @@ std::string state_line(const Manifest& manifest) {
                      manifest.measurement.hardware_problem.empty() ? "yes" : "no");
 }
 
-/// `20240531-140709.417-default`: sorts by time; milliseconds, since small runs take less than a
-/// second and names must differ. Shards may begin in one millisecond:
-/// `20240531-140709.417-default-shard-2-of-4`.
+/// Returns `20240531-140709.417-default`, which sorts by time. It includes milliseconds because
+/// small runs take less than a second and names must differ. Shards may begin in the same
+/// millisecond: `20240531-140709.417-default-shard-2-of-4`.
 std::string new_run_id(const std::string& sweep, const std::optional<ShardFacts>& shard) {
   const auto now = std::chrono::floor<std::chrono::milliseconds>(std::chrono::system_clock::now());
   const auto milliseconds = now.time_since_epoch().count() % 1000;

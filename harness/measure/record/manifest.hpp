@@ -1,6 +1,6 @@
 #pragma once
-// The manifest of a run: what was measured, by which program, where, and which conditions could not
-// be controlled.
+// The manifest of a run: what was measured, by which program and where, and which conditions could
+// not be controlled.
 
 #include <chrono>
 #include <filesystem>
@@ -28,13 +28,13 @@ struct SceneFacts {
 /// The conditions under which timed code ran.
 struct MeasurementFacts {
   bool flush_to_zero;     ///< MXCSR's FTZ and DAZ bits were set for every contender
-  int pinned_core;        ///< -1 where the thread could not be pinned
+  int pinned_core;        ///< -1 if the thread could not be pinned
   unsigned control_word;  ///< MXCSR in the timed code
   double warm_up_seconds;
-  std::string simd_target;       ///< Highway's best on this machine, what our own SIMD runs on
-  std::optional<double> noise;   ///< of equal work in the warm-up (`noise`)
-  std::string hardware_problem;  ///< why the processor's counters are not read; empty: they are
-  /// The throttling of the whole run, with the parts before it was resumed; nothing: no quota.
+  std::string simd_target;       ///< the best one Highway supports here; our own SIMD uses it
+  std::optional<double> noise;   ///< noise of equal work in the warm-up (`noise`)
+  std::string hardware_problem;  ///< why hardware counters are not read; empty: they are
+  /// Throttling of the whole run, including the parts before it was resumed; nothing: no quota.
   std::optional<Throttling> throttling{};
 };
 
@@ -42,33 +42,33 @@ struct Manifest {
   RunFacts run;
   std::string sweep;  ///< the configuration's name
   std::string begun_utc;
-  std::string part_begun_utc;  ///< later than `begun_utc` when the run was resumed
+  std::string part_begun_utc;  ///< later than `begun_utc` if the run was resumed
   std::string finished_utc;    ///< empty unless the run has finished
   Machine machine;
   MeasurementFacts measurement;
   std::vector<plugin::LoadedPlugin> plugins;
-  std::vector<SceneFacts> scenes;   ///< of the sweep; of a shard, those of the other shards, too
-  std::optional<ShardFacts> shard;  ///< nothing: the run is the whole sweep
-  std::vector<std::string> uncontrolled;                                       ///< sentences
+  std::vector<SceneFacts> scenes;         ///< of the whole sweep, even for a shard
+  std::optional<ShardFacts> shard;        ///< nothing: the run is the whole sweep
+  std::vector<std::string> uncontrolled;  ///< sentences
   nlohmann::ordered_json google_benchmark = nlohmann::ordered_json::object();  ///< its context
-  /// The conditions of the parts before the run was cut off and resumed.
+  /// The conditions of earlier parts of a run that was cut off and resumed.
   nlohmann::ordered_json earlier_parts = nlohmann::ordered_json::array();
 };
 
-/// Makes `now` the manifest of the run that was begun under `before` (its file) and is resumed.
-/// From then on the throttling of the earlier parts counts, too.
+/// Makes `now` the manifest of a run that was begun under `before` (its file) and is being resumed.
+/// From then on, the throttling of the earlier parts is included.
 void continue_with(Manifest& now, const nlohmann::ordered_json& before);
 
 nlohmann::ordered_json to_json(const Manifest& manifest);
 
-/// Returns two lines on the machine, and a warning in plain words for each condition that could not
-/// be controlled.
+/// Returns two lines about the machine, and a warning in plain words for each condition that could
+/// not be controlled.
 std::vector<std::string> preflight(const Manifest& manifest);
 
-/// Makes the manifest of a new run of the sweep of that name, whose timed code is pinned to `core`
-/// (-1: not pinned) and runs on that many threads, after a warm-up; `shard` is the part of the
-/// sweep that the run is. The rest is read from this program, the machine (its quota below `root`,
-/// as by `cpu_quota`) and Embree.
+/// Makes the manifest of a new run of the sweep of that name. Its timed code is pinned to `core`
+/// (-1: not pinned) and runs on that many threads, after a warm-up; `shard` says which part of the
+/// sweep it is. The rest is read from this program, the machine (its quota below `root`, as in
+/// `cpu_quota`) and Embree.
 Manifest begin_manifest(const std::string& sweep, std::vector<SceneFacts> scenes, int core,
                         int threads, std::chrono::duration<double> warm_up,
                         std::optional<ShardFacts> shard = std::nullopt,

@@ -8,7 +8,7 @@
 namespace beambench::measure {
 namespace {
 
-constexpr double kTail = 0.025;  // of a 95% interval, on each side
+constexpr double kTail = 0.025;  // on each side of a 95% interval
 
 std::vector<double> sorted(std::span<const double> samples) {
   std::vector<double> values(samples.begin(), samples.end());
@@ -35,7 +35,7 @@ std::size_t samples_outside(std::size_t n) {
 }
 
 /// Returns the least k with P(smallest of n further samples > k-th smallest of n) <= kTail: the k
-/// smallest of both together are then all of the first n. None if no rank is that rare.
+/// smallest of both together are then all of the first n. Returns nothing if there is no such rank.
 std::optional<std::size_t> rank_above_next_minimum(std::size_t n) {
   double probability = 1.0;
   for (std::size_t k = 1; k <= n; ++k) {

@@ -33,20 +33,20 @@ void remove_left_behind(const fs::path& folder) {
   }
 }
 
-/// Calls `visit` with each whole line; returns the size of all of them in bytes.
+/// Calls `visit` with each whole line; returns the total size of these lines in bytes.
 std::uint64_t for_each_line(const fs::path& log,
                             const std::function<void(std::string_view line)>& visit) {
   InputStream input(log);
   std::uint64_t whole = 0;
   while (const auto line = input.line()) {
-    if (input.position() == whole + line->size()) break;  // it has no end: it was cut off
+    if (input.position() == whole + line->size()) break;  // no line end: it was cut off
     visit(*line);
     whole = input.position();
   }
   return whole;
 }
 
-/// Does the same for a log that was packed by gzip.
+/// Does the same for a log compressed with gzip.
 std::uint64_t for_each_packed_line(const fs::path& log,
                                    const std::function<void(std::string_view line)>& visit) {
   const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(log.c_str(), "rb"), gzclose);
@@ -55,7 +55,7 @@ std::uint64_t for_each_packed_line(const fs::path& log,
   std::uint64_t whole = 0;
   for (int count = 1; count != 0;) {
     count = file ? gzread(file.get(), buffer.data(), buffer.size()) : -1;
-    if (count < 0) throw InputError(fmt::format("{}: cannot be unpacked", log.string()));
+    if (count < 0) throw InputError(fmt::format("{}: cannot be decompressed", log.string()));
     pending.append(buffer.data(), static_cast<std::size_t>(count));
     std::size_t begin = 0;
     for (std::size_t end; (end = pending.find('\n', begin)) != std::string::npos; begin = end + 1) {
@@ -67,14 +67,14 @@ std::uint64_t for_each_packed_line(const fs::path& log,
   return whole;
 }
 
-/// Returns the log of a folder, packed or not.
+/// Returns the path of the log in a folder, compressed or not.
 fs::path log_in(const fs::path& folder) {
   const fs::path log = folder / kLogName;
   const fs::path packed = folder / kPackedLogName;
   return !fs::exists(log) && fs::exists(packed) ? packed : log;
 }
 
-/// Adds the events of a log to the run that is read.
+/// Adds the events of a log to the run being read.
 class Reader {
  public:
   void take(const Json& event) {
@@ -108,7 +108,7 @@ class Reader {
   }
 
  private:
-  /// Keeps the highest load during the run.
+  /// Keeps the highest load seen during the run.
   void read_load(const Json& event) {
     Json& highest = run_.manifest.at("measurement")["highest_load"];
     const double load = event.at("load").get<double>();
@@ -119,7 +119,7 @@ class Reader {
     if (!run_.manifest.is_null()) throw InputError("the log has a second header");
     if (const int version = event.at("schema_version").get<int>();
         version < 1 || version > kLogVersion) {
-      throw InputError(fmt::format("it is of version {}, and this beambench reads versions 1 to {}",
+      throw InputError(fmt::format("it has version {}, but this beambench reads versions 1 to {}",
                                    version, kLogVersion));
     }
     run_.manifest = event.at("manifest");
@@ -129,7 +129,7 @@ class Reader {
     }
   }
 
-  /// Moves the cells that were tried but not kept from the plan.
+  /// Moves cells that were tried but not kept out of the plan.
   void pass_over(const Json& event) {
     std::set<std::size_t> others;
     for (const Json& each : event.at("candidates"))
@@ -151,7 +151,7 @@ class Reader {
   std::map<std::size_t, CellRecord> cells_;
 };
 
-/// Throws InputError where a cell is of a shard that is not in the manifest.
+/// Throws InputError if a cell belongs to a shard that is not in the manifest.
 void require_known_shards(const Run& run, const std::string& log) {
   std::set<int> known{0};
   for (const Json& shard : run.manifest.value("shards", Json::array())) {
@@ -159,18 +159,19 @@ void require_known_shards(const Run& run, const std::string& log) {
   }
   for (const CellRecord& cell : run.cells) {
     if (known.contains(cell.shard)) continue;
-    throw InputError(fmt::format("{}: cell {} is of shard {}, which the manifest does not have; {}",
-                                 log, cell.index, cell.shard, kRemedy));
+    throw InputError(
+        fmt::format("{}: cell {} belongs to shard {}, which is not in the manifest; {}", log,
+                    cell.index, cell.shard, kRemedy));
   }
 }
 
-/// Returns a member of a manifest as text, whatever its type; empty where there is none.
+/// Returns a member of a manifest as text, whatever its type; empty if it is missing.
 std::string member(const Json& manifest, const char* pointer) {
   const Json::json_pointer place(pointer);
   return manifest.contains(place) ? json_text(manifest.at(place), -1) : "";
 }
 
-/// Returns the hashes of a manifest's plug-ins or scenes, by file or name.
+/// Returns the hashes of a manifest's plug-ins or scenes, keyed by file or name.
 std::map<std::string, std::string> hashes(const Json& manifest, const char* list, const char* key) {
   std::map<std::string, std::string> found;
   for (const Json& each : manifest.value(list, Json::array())) {
@@ -179,13 +180,13 @@ std::map<std::string, std::string> hashes(const Json& manifest, const char* list
   return found;
 }
 
-/// Throws InputError if a folder holds anything but hidden files, a lock or what a killed process
-/// left: a run is a folder of its own.
+/// Throws InputError if a folder contains anything except hidden files, a lock and leftovers of a
+/// killed process: each run needs its own folder.
 void require_empty(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (entry.path().filename().string().starts_with('.') || is_left_behind(entry.path())) continue;
     throw InputError(
-        fmt::format("'{}' is not empty: it holds '{}'; choose a new folder with -o, or empty it",
+        fmt::format("'{}' is not empty: it contains '{}'; choose a new folder with -o, or empty it",
                     folder.string(), entry.path().filename().string()));
   }
 }
@@ -219,7 +220,7 @@ Run read_run(const fs::path& folder) {
   Run run = std::move(reader).result();
   run.log_bytes = bytes;
   if (run.manifest.is_null()) {
-    throw InputError(fmt::format("{}: it has no whole line; {}", log, kRemedy));
+    throw InputError(fmt::format("{}: it does not contain a whole line; {}", log, kRemedy));
   }
   read_as_written(log, kRemedy, [&] { require_known_shards(run, log); });
   return run;
@@ -288,21 +289,21 @@ std::string program_difference(const Json& first, const Json& second) {
     return member(first, pointer) != member(second, pointer);
   };
   if (differs("/program/commit")) {
-    return fmt::format("one is by beambench of commit {}, the other of {}",
+    return fmt::format("one was made by beambench of commit {}, the other by {}",
                        member(first, "/program/commit"), member(second, "/program/commit"));
   }
   if (differs("/program/executable_hash")) {
-    return "they are by two builds of beambench, from other sources or with other options";
+    return "they were made by two builds of beambench with different sources or options";
   }
   if (hashes(first, "plugins", "file") != hashes(second, "plugins", "file")) {
-    return "they were run with other plug-ins";
+    return "they were run with different plug-ins";
   }
   const auto scenes = hashes(first, "scenes", "name");
   for (const auto& [name, hash] : hashes(second, "scenes", "name")) {
     const auto found = scenes.find(name);
     if (found != scenes.end() && found->second != hash) {
-      return fmt::format("the scene {} is not the same in both (scene hashes {} and {})",
-                         json_text(Json(name), -1), found->second, hash);
+      return fmt::format("the scene {} differs (scene hashes {} and {})", json_text(Json(name), -1),
+                         found->second, hash);
     }
   }
   return "";
@@ -310,7 +311,7 @@ std::string program_difference(const Json& first, const Json& second) {
 
 namespace {
 
-/// Returns why the run cannot be resumed; empty where it can.
+/// Returns why the run cannot be resumed; empty if it can be.
 std::string other_run(const Run& run, const nlohmann::json& config, const Json& now) {
   const Json& then = run.manifest;
   const auto differs = [&](const char* pointer) {
@@ -321,13 +322,13 @@ std::string other_run(const Run& run, const nlohmann::json& config, const Json& 
                        changes.front().at("path").get<std::string>());
   }
   if (differs("/program/commit")) {
-    return fmt::format("it was begun by beambench of commit {}, this one is of {}",
+    return fmt::format("it was begun by beambench of commit {}; this is commit {}",
                        member(then, "/program/commit"), member(now, "/program/commit"));
   }
   if (differs("/program/executable_hash")) {
-    return "it was begun by another build of beambench, from changed sources or with other options";
+    return "it was begun by a build of beambench with different sources or options";
   }
-  if (is_merged(then)) return "it was merged from the shards of a sweep, and is complete";
+  if (is_merged(then)) return "it was merged from the shards of a sweep, so it is complete";
   if (differs("/machine/id")) return "it was begun on another machine";
   const auto plugins = hashes(now, "plugins", "file");
   for (const auto& [file, hash] : hashes(then, "plugins", "file")) {

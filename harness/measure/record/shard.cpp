@@ -10,7 +10,7 @@
 namespace beambench::measure {
 namespace {
 
-/// Returns a whole number of digits only; nothing for any other text.
+/// Parses a text that consists of digits only; returns nothing for any other text.
 std::optional<int> number_of(std::string_view text) {
   int number = 0;
   const char* const end = text.data() + text.size();
@@ -29,7 +29,7 @@ Shard parse_shard(std::string_view text) {
     if (number && count && *number >= 1 && *number <= *count) return {*number, *count};
   }
   throw InputError(
-      fmt::format("--shard: expected K/N with K from 1 to N, such as 2/4; '{}' is not that", text));
+      fmt::format("--shard: expected K/N with K from 1 to N, such as 2/4, not '{}'", text));
 }
 
 std::string to_string(const Shard& shard) {
