@@ -398,7 +398,7 @@ class SweepRun {
     progress_.finish(result_line(cell));
   }
 
-  /// Returns the progress of the unfinished cells, in cells, counting blocks. It is computed at ///
+  /// Returns the progress of the unfinished cells, in cells, counting blocks. It is computed at
   /// each event, possibly while a contender is timed.
   double work_done() const {
     double done = 0.0;
