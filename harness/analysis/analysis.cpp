@@ -27,7 +27,8 @@ std::optional<Overhead> overhead_of(const CellRecord& cell, const Names& names) 
       cell.harness->path == QueryPath::kImageOwn || cell.harness->path == QueryPath::kPicture) {
     return std::nullopt;
   }
-  // A plug-in that is faster than making rays one by one does not make them so, whatever it states.
+  // Excludes a plug-in that is faster than generating rays one by one: it does not generate them
+  // that way, whatever it states.
   if (trace->value <= cell.harness->ms) return std::nullopt;
   const std::string title = fmt::format("{} in {} at {}", names.contender, names.view,
                                         rays::to_string(cell.id.resolution));
@@ -41,8 +42,8 @@ std::size_t repetitions_of(const CellRecord& cell) {
   return summed_up ? static_cast<std::size_t>(*summed_up) : cell.repetitions.size();
 }
 
-/// Returns whether a cell is as precise as the sweep wanted: by its prediction interval, or in a
-/// record without blocks by the reason why it was not repeated more often.
+/// Returns whether a cell is as precise as the sweep required: by its prediction interval or, in a
+/// record without blocks, by the reason why its repetitions ended.
 bool is_precise(const CellRecord& cell, double precision) {
   if (!has_blocks(cell)) return cell.stop_reason == measure::StopReason::kPrecision;
   const auto trace = trace_time(cell);
@@ -50,7 +51,8 @@ bool is_precise(const CellRecord& cell, double precision) {
          trace->prediction->high - trace->prediction->low <= 2.0 * precision * trace->value;
 }
 
-/// Returns whether a cell has too few blocks, or repetitions of one process, for an interval.
+/// Returns whether a cell has too few blocks, or too few repetitions in one process, for an
+/// interval.
 bool is_without_interval(const CellRecord& cell) {
   constexpr std::size_t kMinRepetitions = 6;
   if (!has_blocks(cell)) return repetitions_of(cell) < kMinRepetitions;
@@ -58,10 +60,10 @@ bool is_without_interval(const CellRecord& cell) {
   return !trace || !trace->confidence;
 }
 
-/// Widens the intervals of ratios by a part that chance does not explain.
+/// Widens the intervals of ratios by the part of the shift that chance does not explain.
 void widen(std::vector<Standing>& standings, double excess) {
   const auto wider = [&](std::optional<Interval>& interval) {
-    if (interval && interval->high != 1.0) {  // not of the fastest itself
+    if (interval && interval->high != 1.0) {  // the fastest has no interval
       interval = Interval{interval->low * std::exp(-excess), interval->high * std::exp(excess)};
     }
   };

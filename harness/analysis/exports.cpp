@@ -18,11 +18,11 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// The part of the fastest contender's time above which the manifest mentions the harness's own
+/// The fraction of the fastest contender's time above which the manifest mentions the harness's own
 /// time.
 constexpr double kWantedOverhead = 0.02;
 
-/// Returns the manifest of a run, completed by facts from its cells.
+/// Returns the manifest of a run, with facts added from its cells.
 Json whole_manifest(const measure::Run& run, const Analysis& analysis) {
   Json manifest = run.manifest;
   Json& uncontrolled = manifest.at("uncontrolled");
@@ -35,8 +35,8 @@ Json whole_manifest(const measure::Run& run, const Analysis& analysis) {
   return manifest;
 }
 
-/// Returns the context of google-benchmark.json: what the library reported as the run began, and
-/// the program. library_build_type is that of Google Benchmark only.
+/// Returns the context of google-benchmark.json: what the library reported at the start of the run,
+/// and the program. library_build_type is that of Google Benchmark only.
 Json benchmark_context(const Json& manifest) {
   const Json& program = manifest.at("program");
   Json context = manifest.value("google_benchmark", Json::object());

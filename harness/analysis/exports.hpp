@@ -1,5 +1,5 @@
 #pragma once
-// The files that are made from the log of a run.
+// The files made from the log of a run.
 
 #include <filesystem>
 
@@ -7,9 +7,9 @@
 
 namespace beambench::analysis {
 
-/// Reads the log in a folder, analyzes it and writes, beside it, config.json, manifest.json,
-/// results.csv, analysis.json, summary.txt and google-benchmark.json. Throws InputError when the
-/// log cannot be read or a file cannot be written.
+/// Reads the log in a folder, analyzes it and writes config.json, manifest.json, results.csv,
+/// analysis.json, summary.txt and google-benchmark.json beside it. Throws InputError if the log
+/// cannot be read or a file cannot be written.
 Analysis conclude(const std::filesystem::path& folder);
 
 }  // namespace beambench::analysis

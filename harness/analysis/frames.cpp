@@ -20,7 +20,8 @@ using measure::Repetition;
 constexpr const char* kUpdated = "update=true";
 constexpr const char* kBuilt = "update=false";
 
-/// Returns a cell's parameters with one text in place of another; nothing where they lack it.
+/// Returns a cell's parameters with one text replaced by another; nothing if they do not contain
+/// it.
 std::optional<std::string> replaced(std::string parameters, const std::string& text,
                                     const std::string& by) {
   const std::size_t at = parameters.find(text);

@@ -38,9 +38,9 @@ using measure::ShardFacts;
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// A folder that holds a shard.
+/// A folder that contains a shard.
 struct ShardFolder {
-  RunLog log;  ///< no other process has the folder
+  RunLog log;  ///< locks the folder against other processes
   Run run;
   ShardFacts facts;
 
@@ -55,8 +55,8 @@ void require_different(std::span<const fs::path> folders) {
     for (std::size_t j = 0; j < i; ++j) {
       std::error_code unknown;
       if (!fs::equivalent(folders[i], folders[j], unknown)) continue;
-      refuse(fmt::format("'{}' and '{}' are one folder; give each shard once", folders[j].string(),
-                         folders[i].string()));
+      refuse(fmt::format("'{}' and '{}' are the same folder; give each shard once",
+                         folders[j].string(), folders[i].string()));
     }
   }
 }
@@ -83,7 +83,7 @@ void require_one_sweep(const ShardFolder& first, const ShardFolder& other) {
   const nlohmann::json changes = nlohmann::json::diff(first.run.config, other.run.config);
   if (!changes.empty()) {
     refuse(
-        fmt::format("'{}' and '{}' are of two sweeps, which differ at {}; merge the shards of "
+        fmt::format("'{}' and '{}' belong to two sweeps, which differ at {}; merge the shards of "
                     "one sweep",
                     first.path(), other.path(), changes.front().at("path").get<std::string>()));
   }
@@ -105,7 +105,7 @@ void require_one_sweep(const ShardFolder& first, const ShardFolder& other) {
   }
 }
 
-/// Returns whether a column has the same value whenever a cell is measured by one program.
+/// Returns whether the same program always measures the same value of a column.
 bool is_repeatable(std::string_view column) {
   if (column.ends_with("_per_ray")) return !column.ends_with("_ns_per_ray");
   return column.ends_with("_rays") || column == "rays" || column == "rays_hash" ||
@@ -113,13 +113,13 @@ bool is_repeatable(std::string_view column) {
 }
 
 [[noreturn]] void refuse_doubled(const ShardFolder& first, const ShardFolder& second) {
-  refuse(fmt::format("shard {} is there twice, in '{}' and in '{}'; leave one of them out",
+  refuse(fmt::format("shard {} appears twice, in '{}' and in '{}'; leave one of them out",
                      to_string(first.facts.shard), first.path(), second.path()));
 }
 
-/// Refuses two folders that have a cell in common, with the most telling reason.
+/// Refuses two folders that share a cell, stating the most informative reason.
 [[noreturn]] void refuse_overlap(const ShardFolder& first, const ShardFolder& second) {
-  std::map<std::string, Json> rows;  // of the second, by the cells' names
+  std::map<std::string, Json> rows;  // rows of the second, by cell name
   for (const CellRecord& cell : second.run.cells) {
     rows[cell.id.name()] = to_row(facts_of(second.run.manifest), cell);
   }
@@ -134,19 +134,19 @@ bool is_repeatable(std::string_view column) {
       if (!is_repeatable(column) || value == other) continue;
       refuse(fmt::format(
           "the cell {} has {} {} in '{}' and {} in '{}'; counters repeat, so one of "
-          "the records is damaged: measure both shards anew",
+          "the records is damaged: measure both shards again",
           shared, column, json_text(value, -1), first.path(), json_text(other, -1), second.path()));
     }
   }
   if (first.facts.shard == second.facts.shard) refuse_doubled(first, second);
   refuse(
       fmt::format("the cell {} is in '{}' and in '{}', so the sweep was not divided in the same "
-                  "way; measure both shards anew",
+                  "way; measure both shards again",
                   shared, first.path(), second.path()));
 }
 
 void require_each_cell_once(const std::vector<ShardFolder>& shards) {
-  std::map<std::string, const ShardFolder*> places;  // of cells, by their names
+  std::map<std::string, const ShardFolder*> places;  // the folders of cells, by cell name
   for (const ShardFolder& shard : shards) {
     for (const CellRecord& cell : shard.run.cells) {
       const auto [place, is_new] = places.emplace(cell.id.name(), &shard);
@@ -165,7 +165,7 @@ void require_finished(const ShardFolder& shard) {
                      base::counted(wanted, "cell"), shell_quoted(shard.path())));
 }
 
-/// Refuses a manifest that was changed since, before anything is written.
+/// Refuses a manifest that was modified after the run, before anything is written.
 void require_intact(const ShardFolder& shard) {
   read_as_written(shard.file(), "measure the shard anew", [&] {
     const Json joined = measure::joined_manifest(std::span(&shard.run.manifest, 1));
@@ -174,10 +174,10 @@ void require_intact(const ShardFolder& shard) {
   });
 }
 
-/// The shards in the order of their numbers.
+/// The shards, ordered by number.
 using InOrder = std::vector<const ShardFolder*>;
 
-/// Refuses a division in which a shard is missing or there twice.
+/// Refuses a division in which a shard is missing or appears twice.
 InOrder require_all(const std::vector<ShardFolder>& shards) {
   std::map<int, const ShardFolder*> by_number;
   for (const ShardFolder& shard : shards) {
@@ -204,7 +204,7 @@ InOrder require_all(const std::vector<ShardFolder>& shards) {
                   fmt::join(missing, ", "), missing.front()));
 }
 
-/// A folder beside its place, which is removed unless it is put there.
+/// A folder beside its final place, which is removed unless it is moved there.
 class FolderAside {
  public:
   explicit FolderAside(const fs::path& target) : target_(target) {
@@ -236,13 +236,13 @@ class FolderAside {
   }
 
  private:
-  /// Removes what a killed process left; another process may be working in it.
+  /// Removes the leftovers of a killed process, unless another process is working in them.
   static void remove_abandoned(const fs::path& folder) {
     try {
       const FolderLock lock(folder);
       std::error_code ignored;
       fs::remove_all(folder, ignored);
-    } catch (const InputError&) {  // it is
+    } catch (const InputError&) {  // another process is
     }
   }
 
@@ -250,7 +250,7 @@ class FolderAside {
   fs::path path_;
 };
 
-/// Copies the events of cells, and of tuning, from the log of a shard.
+/// Copies the events of cells and of tuning from a shard's log.
 void copy_cells(const ShardFolder& shard, RunLog& log) {
   measure::for_each_event(shard.log.folder(), [&](Json event) {
     if (!event.contains("index") && event.at("event") != "tuning") return;
@@ -313,7 +313,7 @@ Analysis merge_shards(std::span<const fs::path> folders, const fs::path& output,
   fs::path target = output.lexically_normal();
   if (target.filename().empty()) target = target.parent_path();
   if (fs::exists(fs::symlink_status(target))) {
-    refuse(fmt::format("'{}' is there already; choose another folder with -o", target.string()));
+    refuse(fmt::format("'{}' already exists; choose another folder with -o", target.string()));
   }
   require_different(folders);
   return read_as_written("a shard", "measure it anew",

@@ -45,18 +45,19 @@ struct Variants {
     for (const auto& [name, value] : parameters_of(cell)) ++counts[name][value];
   }
 
-  /// A parameter that only some variants have differs, too.
+  /// Returns whether variants differ in a parameter; a parameter that only some variants have also
+  /// counts.
   bool differ_in(const std::string& name, const std::string& value) const {
     return counts.at(name).at(value) < seen.size();
   }
 };
 
-/// The differences between the cells of a run.
+/// The differences among the cells of a run.
 struct Differences {
   std::map<std::string, Variants> structures;
   std::map<std::string, std::set<std::string>> cameras;  ///< by scene
   std::set<int> samples;
-  std::set<std::string> ray_kinds;  ///< whatever their order
+  std::set<std::string> ray_kinds;  ///< without their order
   std::set<std::string_view> orders;
   std::set<std::string> machines;
 

@@ -1,5 +1,5 @@
 #pragma once
-// The names of the contenders and the views of a run, by what differs between its cells.
+// The names of a run's contenders and views, which state what differs between its cells.
 
 #include <span>
 #include <string>
@@ -7,29 +7,29 @@
 
 namespace beambench::analysis {
 
-/// The facts that a name may have to state about a cell.
+/// The facts about a cell that a name may have to state.
 struct NamedCell {
   std::string scene;
   std::string camera;
   std::string structure;
   std::string parameters;
   int samples;
-  std::string ray_kind;  ///< with its order
+  std::string ray_kind;  ///< including its order
   std::string machine_id;
-  int parameter_sets;  ///< tried for its contender; 1 where it is not tuned
+  int parameter_sets;  ///< number tried for its contender; 1 without tuning
 };
 
-/// The names of a cell among others.
+/// The names of a cell among the cells of its run.
 struct Names {
-  /// The structure, with the parameters by which its variants differ, `robust=false` and
-  /// `backface_culling=true`, which change hits, and the order of the rays where that varies;
+  /// The structure, with the parameters in which its variants differ, with `robust=false` and
+  /// `backface_culling=true`, which change hits, and with the order of the rays if it varies; if
   /// tuned, `embree (best of 8)`.
   std::string contender;
-  std::string subject;  ///< the scene, with camera, samples and kind of rays where it varies
-  std::string view;     ///< the same with the machine: what is compared
+  std::string subject;  ///< the scene, with those of camera, samples and kind of rays that vary
+  std::string view;     ///< the subject with the machine: the unit of comparison
 };
 
-/// Returns the names of each cell.
+/// Returns the names of all cells, in order.
 std::vector<Names> name_cells(std::span<const NamedCell> cells);
 
 }  // namespace beambench::analysis

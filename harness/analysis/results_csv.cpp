@@ -82,8 +82,8 @@ void add_interval(Row& row, const std::string& name, const std::optional<Interva
   row[name + "_high"] = interval ? Json(interval->high) : Json();
 }
 
-/// Adds the 95% intervals of a figure: of its mean over the blocks, and where that of a second run
-/// falls; in a record without blocks, of its median.
+/// Adds the two 95% intervals of a figure: for its mean over the blocks, and for the value of a
+/// second run. In a record without blocks, adds the interval of its median.
 void add_intervals(Row& row, const CellRecord& cell, const std::string& name,
                    const std::function<double(const Repetition&)>& figure,
                    const std::vector<double>& samples) {
@@ -121,16 +121,16 @@ void add_update(Row& row, bool known, const CellRecord& cell) {
   row["update_ms_min"] = statistic(minimum, updates);
 }
 
-/// Returns null where nothing is left: for `null`, and for a plug-in that does not state that it
-/// makes no rays one by one.
+/// Returns the trace time without the harness's share. Returns null if nothing is left: for `null`,
+/// and for plug-ins that do not state that they generate no rays one by one.
 Json net_of_harness(const CellRecord& cell) {
   if (!cell.harness || cell.verdict == verify::Verdict::kBaseline) return {};
   const double net = median(collect(cell, &Repetition::trace_ms)) - cell.harness->ms;
   return net > 0.0 ? Json(net) : Json();
 }
 
-/// Adds how many processes measured a cell, and how many repetitions were set aside because others
-/// disturbed them; nothing in a record of one process.
+/// Adds the number of processes that measured a cell, and the number of repetitions excluded
+/// because other processes disturbed them; for a record of one process, adds nothing.
 void add_blocks(Row& row, const CellRecord& cell) {
   std::set<int> blocks;
   for (const Repetition& one : cell.repetitions) blocks.insert(one.block);
@@ -142,14 +142,14 @@ void add_blocks(Row& row, const CellRecord& cell) {
           : Json();
 }
 
-/// Adds a time by which contenders are compared, with both intervals.
+/// Adds a time used for comparing contenders, with both intervals.
 void add_time(Row& row, const std::string& name, const std::optional<Estimate>& time) {
   row[name] = time ? Json(time->value) : Json();
   add_interval(row, name + "_ci", time ? time->confidence : std::nullopt);
   add_interval(row, name + "_pi", time ? time->prediction : std::nullopt);
 }
 
-/// Adds the trace time, and the clock by which both times are compared.
+/// Adds the trace time, and the clock used to compare both times.
 void add_trace(Row& row, const CellRecord& cell) {
   const auto trace = cell.has_times() ? trace_time(cell) : std::nullopt;
   add_time(row, "trace_ms", trace);
@@ -222,7 +222,7 @@ void add_hardware_counts(Row& row, const CellRecord& cell) {
   add("trace", &Repetition::trace_counts);
 }
 
-/// A family without nodes (Embree does not report any, `exhaustive` has none) leaves these null.
+/// Families without nodes (Embree does not report any, `exhaustive` has none) leave these null.
 void add_statistics(Row& row, const CellRecord& cell) {
   row["memory_bytes"] = cell.statistics ? Json(cell.statistics->bytes) : Json();
   row["allocated_bytes"] = or_null(cell.allocated_bytes);
@@ -262,8 +262,8 @@ void add_counters(Row& row, const CellRecord& cell) {
 }
 
 /// Adds the columns of whole pictures: `shadow_rays`, and `shadow_box_tests_per_ray` of the shadow
-/// rays alone. A family's own counters are not split by kind: most are of beams, which only camera
-/// rays have.
+/// rays alone. A family's own counters are not split by kind: most of them count beams, which only
+/// camera rays have.
 void add_kinds(Row& row, const CellRecord& cell) {
   for (const RaysOfKind& kind : cell.work.kinds) {
     row[kind.kind + "_rays"] = kind.rays;
@@ -290,7 +290,7 @@ void add_verification(Row& row, const CellRecord& cell) {
 
 using Columns = std::vector<std::string>;
 
-/// Adds the columns of `row` that `columns` lacks, each behind its predecessor.
+/// Adds the columns of `row` that `columns` lacks, each after its predecessor.
 void merge_columns(Columns& columns, const Row& row) {
   auto place = columns.begin();
   for (const auto& [name, value] : row.items()) {
@@ -328,8 +328,8 @@ std::string csv_line(const Columns& columns, const Row& row) {
   return csv_line(fields);
 }
 
-/// Writes header and rows. `row` makes each of the rows twice, because all of them together take
-/// far more memory than the cells that they describe.
+/// Writes header and rows. Calls `row` twice for each row, because all rows together take far more
+/// memory than the cells that they describe.
 void write_table(std::ostream& out, std::size_t count, const std::function<Row(std::size_t)>& row) {
   Columns columns;
   for (std::size_t i = 0; i < count; ++i) merge_columns(columns, row(i));

@@ -105,7 +105,8 @@ std::optional<std::string> why_absent(const std::string& structure, const CellRe
 /// The cells of a view, by contender.
 using ViewCells = std::vector<std::pair<std::string, const CellRecord*>>;
 
-/// Returns the highest number of rays that two contenders have; of fewer contenders, the highest.
+/// Returns the highest number of rays that at least two contenders have; if there is only one
+/// contender, its highest.
 std::uint64_t finest_rays(const ViewCells& all) {
   std::map<std::uint64_t, std::set<std::string>> contenders;
   for (const auto& [contender, cell] : all) {
@@ -119,7 +120,7 @@ std::uint64_t finest_rays(const ViewCells& all) {
 }
 
 /// Returns whether hardly any closest-hit ray hits, or almost all or hardly any any-hit rays are
-/// occluded. Records without blocks keep the means that they were published with.
+/// occluded. Records without blocks keep their published means.
 bool is_degenerate(const CellRecord& cell) {
   constexpr double kFew = 0.01;
   if (!has_blocks(cell)) return false;
@@ -128,8 +129,8 @@ bool is_degenerate(const CellRecord& cell) {
   return hit < kFew || occluded < kFew || occluded > 1.0 - kFew;
 }
 
-/// Returns the clock by which a view's contenders are compared: the CPU clock where other processes
-/// disturbed one of them too often. (With several threads nothing is known to be disturbed.)
+/// Returns the clock by which a view's contenders are compared: the CPU clock if other processes
+/// disturbed one of them too often. (With several threads, disturbances are not detected.)
 template <class Cells>
 TraceClock clock_of(const Cells& cells) {
   const bool disturbed = std::ranges::any_of(cells, [](const CellRecord* cell) {
@@ -214,9 +215,9 @@ std::vector<MeanStanding> means(const std::vector<const Standing*>& standings) {
   return found;
 }
 
-/// Selects the highest resolution where several machines measured a view, one at each resolution.
+/// Selects the highest resolution if several machines measured a view, one at each resolution.
 void mark_counted(std::vector<Standings>& views) {
-  std::map<std::string, std::uint64_t> most;  // rays of each view, whichever machine traced them
+  std::map<std::string, std::uint64_t> most;  // rays of each view, on any machine
   for (const Standings& view : views) {
     if (!view.ranked.empty()) most[view.subject] = std::max(most[view.subject], view.rays);
   }
@@ -317,7 +318,7 @@ std::optional<Estimate> total_time(const CellRecord& cell) {
 
 std::vector<BlockTotals> block_totals(const measure::Run& run) {
   const std::vector<Names> names = names_of(run);
-  std::vector<std::string> view_of;  // each cell, with the resolution
+  std::vector<std::string> view_of;  // the view of each cell, with the resolution
   std::map<std::string, std::vector<const CellRecord*>> views;
   for (std::size_t i = 0; i < run.cells.size(); ++i) {
     const CellRecord& cell = run.cells[i];
@@ -339,7 +340,7 @@ std::vector<BlockTotals> block_totals(const measure::Run& run) {
 std::vector<Standings> standings(const measure::Run& run) {
   const std::vector<Names> names = names_of(run);
   std::vector<std::pair<Names, ViewCells>> views;
-  std::vector<std::pair<std::string, std::string>> structures;  // of each contender
+  std::vector<std::pair<std::string, std::string>> structures;  // the structures of each contender
   const std::set<std::size_t> outpaced = outpaced_sets(run);
   for (std::size_t i = 0; i < run.cells.size(); ++i) {
     if (outpaced.contains(run.cells[i].index)) continue;

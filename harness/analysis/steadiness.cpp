@@ -14,7 +14,8 @@ namespace {
 
 using measure::CellRecord;
 
-/// The mean of logarithms of times, relative to each contender's own mean, by blocks of a view.
+/// For each block of a view: the mean of the logarithms of times, relative to each contender's own
+/// mean.
 using Blocks = std::map<int, double>;
 
 Blocks relative_times(std::span<const CellRecord* const> cells) {
@@ -38,8 +39,8 @@ Blocks relative_times(std::span<const CellRecord* const> cells) {
 /// Sums over views.
 struct Pool {
   double shifts = 0.0;     ///< late minus early
-  double variances = 0.0;  ///< of the shifts, in units of a block's variance
-  double squares = 0.0;    ///< of the distances from the means of the halves
+  double variances = 0.0;  ///< variances of the shifts, in units of a block's variance
+  double squares = 0.0;    ///< squared distances from the means of the halves
   int degrees = 0;
   int views = 0;
 

@@ -1,6 +1,6 @@
 #pragma once
-// Whether the machine was as fast late in a run as early: no interval of a run can hold for another
-// one where it was not.
+// Tests whether the machine was as fast late in a run as early. If it was not, no interval of the
+// run can hold for another run.
 
 #include <optional>
 
@@ -10,17 +10,19 @@ namespace beambench::analysis {
 
 /// A comparison of the late blocks of a run with the early ones, over all cells.
 struct Steadiness {
-  double shift;  ///< of the logarithms of times: 0.03 where late blocks took 3% longer
-  double limit;  ///< by which it differs from 0 by chance in 95% of the runs of a steady machine
+  double shift;  ///< mean shift of the logarithms of times: 0.03 if late blocks took 3% longer
+  double limit;  ///< |shift| stays below it by chance in 95% of the runs of a steady machine
 
   bool is_steady() const { return shift <= limit && -shift <= limit; }
-  /// Returns what chance does not explain: intervals of logarithms are widened by it.
+  /// Returns the part of the shift that chance does not explain, by which intervals of logarithms
+  /// are widened.
   double excess() const { return is_steady() ? 0.0 : (shift < 0.0 ? -shift : shift) - limit; }
 };
 
-/// Compares the first with the second half of the blocks of each view that has four or more, by the
-/// mean of the logarithms of all its contenders' times, each relative to its own mean; pools the
-/// views, and tests by Student's t. Nothing where no view has four blocks.
+/// Compares the first half of the blocks with the second in each view that has at least four. The
+/// value of a block is the mean of the logarithms of its contenders' times, each relative to the
+/// contender's own mean. Pools the views and applies Student's t-test. Returns nothing if no view
+/// has four blocks.
 std::optional<Steadiness> steadiness(const measure::Run& run);
 
 }  // namespace beambench::analysis

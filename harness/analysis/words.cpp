@@ -44,13 +44,13 @@ double longest_time(const Standings& view) {
   return longest;
 }
 
-/// Returns a bar for a part of the longest time.
+/// Returns a bar whose length is a fraction of the longest time.
 std::string bar(double part) {
   constexpr double kWidth = 30.0;
   return std::string(static_cast<std::size_t>(std::max(1L, std::lround(part * kWidth))), '#');
 }
 
-/// Returns the fastest, those that are as fast, and those of which that is not decided.
+/// Returns the fastest, those equivalent to it, and those for which that is undecided.
 std::string winners(const Standings& view) {
   std::vector<std::string> tied, others;
   for (const Standing& one : view.ranked) {

@@ -20,7 +20,7 @@
 namespace beambench::render {
 namespace {
 
-/// The classes in increasing severity; the position is the category in the map, except for
+/// The classes in order of increasing severity; the index is the category in the map, except for
 /// agreement.
 constexpr std::array kBySeverity{verify::DiffClass::kTie, verify::DiffClass::kGraze,
                                  verify::DiffClass::kOracleError,
@@ -104,8 +104,7 @@ void write_difference(const std::filesystem::path& file, const verify::Reference
 void DisputedPlaces::add(const verify::Mismatch& mismatch) {
   auto& points = points_[static_cast<std::size_t>(mismatch.diff_class)];
   if (points.size() == kMaxPoints) return;
-  double t =
-      0.0;  // of an any-hit query that claims an occluder where there is none: where it begins
+  double t = 0.0;  // an any-hit query claims an occluder where there is none: use the ray's start
   if (mismatch.oracle) {
     t = mismatch.oracle->t;
   } else if (mismatch.answer && std::isfinite(mismatch.answer->t)) {

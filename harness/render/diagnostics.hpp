@@ -1,5 +1,5 @@
 #pragma once
-// Pictures that show how a structure's hits differ from others, and its work.
+// Pictures that show how a structure's hits differ from others, or how much work it does.
 
 #include <array>
 #include <cstddef>
@@ -27,10 +27,10 @@ struct ComparedNames {
 /// The name of a reference that is the oracle itself.
 inline constexpr const char* kOracleName = "oracle";
 
-/// Writes the classes of the rays of an image (the input's rays are primary) over a gray preview of
-/// the reference; a pixel shows the worst class of its samples. A .png has a legend; an .exr has
-/// the preview in colors and the classes as numbers (0 agree, 1 tie, 2 graze, 3 the verified
-/// structure is wrong, 4 the reference is).
+/// Writes the classes of the rays of an image (the input must have primary rays) over a gray
+/// preview of the reference; a pixel shows the worst class of its samples. A .png has a legend; an
+/// .exr has the preview in colors and the classes as numbers (0 agree, 1 tie, 2 graze, 3 the
+/// verified structure is wrong, 4 the reference is wrong).
 void write_difference(const std::filesystem::path& file, const verify::ReferenceHits& reference,
                       std::span<const verify::DiffClass> classes, const ComparedNames& comparison);
 
@@ -61,9 +61,9 @@ void write_disputed_places(const std::filesystem::path& file, const scenes::Scen
 verify::ReferenceHits reference_from(const scenes::Scene& scene, const rays::TraceInput& input,
                                      const rays::TraceResults& results);
 
-/// Traces each ray's closest hit with counters; a pixel's value is the mean of its samples. Writes
-/// the hits to `hits`. Throws InputError listing the counters of the structure if `counter` is not
-/// one of them.
+/// Finds each ray's closest hit and counts the work; a pixel's value is the mean of its samples.
+/// Writes the hits to `hits`. Throws InputError listing the structure's counters if `counter` is
+/// not one of them.
 HeatMap count_work(const accel::Accelerator& accelerator, const accel::PrimaryRays& rays,
                    const std::string& counter, accel::HitBuffer& hits, base::Progress& progress);
 

@@ -13,7 +13,7 @@ namespace beambench::render {
 struct LightPencil {
   std::vector<accel::Ray> rays;          ///< from the surface; the light is at t = 1
   std::vector<std::uint32_t> samples;    ///< of the image, as numbered by a HitBuffer
-  std::vector<accel::BeamPlace> places;  ///< empty where the structure has no blocks of rays
+  std::vector<accel::BeamPlace> places;  ///< empty if the structure has no blocks of rays
 };
 
 /// Returns the pencil of one of the scene's lights among the shadow rays of an image; without rays

@@ -36,7 +36,7 @@ std::uint32_t& PlaneGroups::slot_of(std::uint64_t key) {
   return slots_[slot];
 }
 
-/// Gives each group with enough rays an eye, and all groups their places.
+/// Gives each group with enough rays an eye, and determines the places of all groups.
 void PlaneGroups::mark_groups() {
   for (const Run& run : runs_) groups_[run.group].count += run.count;
   std::size_t first = 0;

@@ -13,26 +13,26 @@
 
 namespace beambench::render {
 
-/// The minimum number of rays of a pencil; fewer are not marked.
+/// The minimum number of rays in a pencil; smaller groups are not marked.
 inline constexpr std::size_t kMinPencil = 16;
-/// Likewise for refracted rays, which are divided further.
+/// The minimum for refracted rays, which are divided further.
 inline constexpr std::size_t kMinRefracted = 64;
 
-/// The virtual eye of rays that came from the camera through planes only; nothing if a plane
-/// refracted them, so that they have no common point.
+/// The virtual eye of rays that came from the camera via planes only; nothing if a plane refracted
+/// them, because they then have no common point.
 using Eye = std::optional<rays::VirtualEye>;
 
 /// The index of the eye through which a ray comes; kNoEye for a ray that a curved surface reflected
-/// or refracted, and for one in a small group.
+/// or refracted, and for a ray in a small group.
 using EyeIndex = std::uint16_t;
 inline constexpr EyeIndex kNoEye = static_cast<EyeIndex>(~EyeIndex{0});
 
-/// The way in which a plane turns rays.
+/// How a plane turns rays.
 enum class Turn { kReflected, kRefracted };
 
-/// Groups the rays that a part of a wave sends from planes, by the eyes before and the planes. Each
-/// group with enough rays is marked, as a pencil or as refracted rays; the other rays follow. Rays
-/// of a group, and those without, stay in order.
+/// Groups the rays that leave planes in a part of a wave, by the eye before the plane and by the
+/// plane. Each group with enough rays is marked, as a pencil or as refracted rays; the other rays
+/// come last. Rays stay in order within their group, and so do those without a group.
 class PlaneGroups {
  public:
   /// Groups rays through `eyes`, the camera's or those of the wave. All arguments must outlive this
@@ -54,10 +54,10 @@ class PlaneGroups {
     ++runs_.back().count;
   }
 
-  /// Once all rays have been added, takes their batch in the order of `add` and returns the batch
-  /// in the order of the groups, which it marks.
+  /// Takes the batch of all added rays, in the order of `add`, and returns it in the order of the
+  /// groups, which it marks. Call it after adding all rays.
   accel::RayBatch arranged(const accel::RayBatch& added);
-  /// Returns the place there of the i-th added ray.
+  /// Returns the place of the i-th added ray in that batch.
   std::size_t place_of(std::size_t i) const { return eyes_.empty() ? i : places_[i]; }
   /// Returns the index in `eyes` of the ray's eye.
   EyeIndex eye_of(std::size_t i) const { return eyes_.empty() ? kNoEye : eye_of_[i]; }
@@ -70,7 +70,7 @@ class PlaneGroups {
     std::uint64_t key;  ///< the eye before the plane, and the plane
     std::size_t count = 0;
     EyeIndex eye = kNoEye;
-    std::size_t next = 0;  ///< the place of its next ray
+    std::size_t next = 0;  ///< the place for its next ray
   };
   /// Consecutively added rays of one group.
   struct Run {
@@ -94,8 +94,8 @@ class PlaneGroups {
   std::vector<Eye> eyes_;
   std::vector<accel::Pencil> pencils_;
   accel::BatchMarks marks_;
-  std::vector<std::uint32_t> places_;  ///< of each added ray; empty without marks, like the next
-  std::vector<EyeIndex> eye_of_;       ///< of each ray added
+  std::vector<std::uint32_t> places_;  ///< of each added ray; empty without marks, like `eye_of_`
+  std::vector<EyeIndex> eye_of_;       ///< of each added ray
   std::vector<accel::Ray> rays_;
   std::vector<std::uint32_t> samples_;
 };

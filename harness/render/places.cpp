@@ -4,7 +4,7 @@
 
 #include "accel/core/pick_target.hpp"
 
-// Highway includes this file once more for each instruction set.
+// Highway includes this file again for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "harness/render/places.cpp"
 #include <hwy/foreach_target.h>
@@ -92,7 +92,7 @@ void find_angles(const Places& places, const glm::dvec3& light, LightAngles& ang
                                 hn::Gt(dot(offset, shading), set(0.0)));
     const Vector to_light = normalized(offset);
     hn::StoreU(dot(to_light, shading), tag, angles.cosine.data() + i);
-    // accel::mirrored
+    // as in accel::mirrored
     const Vector from_light = opposite(to_light);
     const Vector mirrored =
         difference(from_light, scaled(shading, hn::Mul(set(2.0), dot(from_light, shading))));

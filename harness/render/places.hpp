@@ -1,7 +1,7 @@
 #pragma once
-// The places where the rays of a wave meet surfaces, and the light on them: by component, so that
-// several are computed at once by SIMD. The operations and their order are those of glm::dvec3, so
-// that the results have the same bits on every instruction set.
+// The places where the rays of a wave meet surfaces, and the light on them, stored by component so
+// that SIMD computes several at once. Operations and their order match those of glm::dvec3, so
+// results have the same bits on every instruction set.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace beambench::render {
 
-/// Numbers for whole registers, with room for several more behind the last one.
+/// Numbers for whole registers, with padding after the last one.
 class Doubles {
  public:
   explicit Doubles(std::size_t count) : values_((count + kLanes - 1) / kLanes * kLanes) {}
@@ -26,7 +26,7 @@ class Doubles {
   std::vector<double> values_;
 };
 
-/// Vectors, by component.
+/// Vectors, stored by component.
 class Vectors {
  public:
   explicit Vectors(std::size_t count) : x(count), y(count), z(count) {}
@@ -80,8 +80,8 @@ struct PlaceKernels {
   void (*find_angles)(const Places& places, const glm::dvec3& light, LightAngles& angles);
 };
 
-/// Returns the kernels for the best of Highway's `targets` that this machine has. The call takes
-/// microseconds.
+/// Returns the kernels for the best of Highway's `targets` that this machine supports. The call
+/// takes microseconds.
 const PlaceKernels& place_kernels(std::int64_t targets);
 
 }  // namespace beambench::render

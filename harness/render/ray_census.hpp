@@ -17,11 +17,11 @@ struct RayCensus {
   std::uint64_t refracted = 0;
   std::uint64_t totally_reflected = 0;  ///< of the reflected: in place of a refracted ray
   std::uint64_t secondary_hits = 0;     ///< hits of reflected and refracted rays
-  std::uint64_t too_faint = 0;          ///< not traced: too small a part of the pixel's color
-  std::uint64_t shadow = 0;             ///< a point and a light that its side of the surface faces
-  std::uint64_t shadow_hidden = 0;      ///< of these: the light is hidden by an opaque surface
-  std::uint64_t shadow_cached = 0;      ///< of these: found by the shadow cache
-  std::uint64_t shadow_listed = 0;      ///< of all shadow rays: decided by the light buffer
+  std::uint64_t too_faint = 0;          ///< not traced: too small a share of the pixel's color
+  std::uint64_t shadow = 0;             ///< pairs of a point and a light that it faces
+  std::uint64_t shadow_hidden = 0;      ///< those whose light is hidden by an opaque surface
+  std::uint64_t shadow_cached = 0;      ///< those of the hidden that the shadow cache found
+  std::uint64_t shadow_listed = 0;      ///< all shadow rays that the light buffer decided
   std::uint64_t shadow_tests = 0;       ///< ray-primitive tests of cache and light buffer
   std::uint64_t shadow_queries = 0;     ///< closest-hit and any-hit queries for shadow rays
 
@@ -59,7 +59,7 @@ inline RayCensus& RayCensus::operator+=(const RayCensus& other) {
 }
 
 /// The counts of one scene at its standard size: 513 x 513 camera rays through the corners of
-/// pixels, depth 5, without leaving out faint rays.
+/// pixels, depth 5, with even the faintest rays traced.
 struct PublishedCounts {
   std::string_view scene;  ///< the scene's name with its parameters: `balls:n=4`
   std::uint64_t eye_hits;
@@ -70,9 +70,9 @@ struct PublishedCounts {
 
 /// The seven scenes of "Database Analysis" in the README of SPD 3.14 (Haines, "A proposal for
 /// standard graphics environments", IEEE CG&A 7(11), 1987; realtimerendering.com/resources/SPD). He
-/// expects other ray tracers to be within about 10%; ours is up to 0.5% above, because his camera
-/// rays seem to be spread over one more pixel. No counts are published for `shells`, `jacks`,
-/// `lattice` and `sombrero`.
+/// expects other ray tracers to agree within about 10%; ours is up to 0.5% above, because his
+/// camera rays seem to be spread over one more pixel. No counts are published for `shells`,
+/// `jacks`, `lattice` and `sombrero`.
 inline constexpr std::array<PublishedCounts, 7> kPublishedSpdCounts{{
     {"balls:n=4", 263'169, 175'095, 0, 954'368},
     {"gears:n=4", 245'086, 304'643, 207'564, 2'246'955},
@@ -83,7 +83,7 @@ inline constexpr std::array<PublishedCounts, 7> kPublishedSpdCounts{{
     {"tree:n=11", 169'836, 0, 0, 1'097'419},
 }};
 
-/// Returns the counts for the scene of that name; nullptr if none are published.
+/// Returns the published counts for the scene of that name; nullptr if there are none.
 inline const PublishedCounts* find_published_counts(std::string_view scene) {
   const auto* const found = std::ranges::find(kPublishedSpdCounts, scene, &PublishedCounts::scene);
   return found == kPublishedSpdCounts.end() ? nullptr : found;

@@ -20,7 +20,8 @@ class ShadedScene {
   explicit ShadedScene(const scenes::Scene& scene);
 
   const scenes::Scene& scene() const { return *scene_; }
-  /// Returns linear light. A light without its own color (white) has 1 / sqrt(lights).
+  /// Returns linear light. A light without a stated color is white, with intensity 1 /
+  /// sqrt(lights).
   const std::vector<glm::dvec3>& light_colors() const { return light_colors_; }
   const glm::dvec3& background() const { return background_; }
   const rays::NormalTable& normals() const { return normals_; }

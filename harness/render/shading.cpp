@@ -20,14 +20,14 @@ namespace {
 constexpr double kAmbient = 0.06;
 constexpr double kHeadlight = 0.24;
 constexpr double kLights = 0.70;
-constexpr double kHighlight = 0.35;  // on top, of a fully specular surface
+constexpr double kHighlight = 0.35;  // added on top, for a fully specular surface
 constexpr double kMaxShine = 200.0;
 
 glm::vec3 display_to_linear(const glm::vec3& color) {
   return linear_from_srgb(glm::clamp(color, 0.0F, 1.0F));
 }
 
-/// The light reflected to the camera, in parts of white.
+/// The light reflected to the camera, relative to white.
 struct Reflected {
   glm::dvec3 matte{0.0};
   glm::dvec3 glossy{0.0};

@@ -1,5 +1,5 @@
 #pragma once
-// Turns the hits of an image into a picture, and defines the common laws of reflection.
+// Turns the hits of an image into a picture, and defines the laws of reflection used everywhere.
 
 #include <algorithm>
 #include <cmath>
@@ -19,11 +19,11 @@
 namespace beambench::render {
 
 /// Returns Phong's highlight (CACM 18(6), 1975): how close the eye is to the mirror direction of
-/// the light; `cosine` is that of the angle.
+/// the light; `cosine` is the cosine of the angle between them.
 inline double phong(double cosine, double shine) {
   return cosine > 0.0 ? std::pow(cosine, std::max(shine, 1.0)) : 0.0;
 }
-/// Returns the same from directions, which all have unit length.
+/// Returns the highlight for directions, all of unit length.
 inline double phong(const glm::dvec3& normal, const glm::dvec3& to_light, const glm::dvec3& to_eye,
                     double shine) {
   return phong(glm::dot(accel::mirrored(-to_light, normal), to_eye), shine);
@@ -44,7 +44,7 @@ inline std::optional<glm::dvec3> refracted(const glm::dvec3& incoming, const glm
 
 /// Returns linear light for a hit: Lambert and Phong under the scene's lights and a headlight at
 /// the camera, without shadows. The headlight keeps all visible sides from being black. The scene's
-/// colors are display values, as they were in 1987; they are first decoded to linear light.
+/// colors are display values, as was usual in 1987, and are first decoded to linear light.
 glm::vec3 preview_color(const scenes::Scene& scene, const accel::Ray& ray, const accel::Hit& hit);
 
 /// Returns linear light for a miss.
@@ -64,7 +64,7 @@ std::span<const std::string_view> shading_names();
 /// Throws InputError listing the valid names.
 Shading parse_shading(std::string_view name);
 
-/// Computes each pixel as the mean of its samples. `hits` are the results for `rays`. Throws
+/// Computes each pixel as the mean of its samples. `hits` are the hits of `rays`. Throws
 /// std::invalid_argument for kWhitted.
 Image shade(const scenes::Scene& scene, const accel::PrimaryRays& rays,
             const accel::HitBuffer& hits, Shading shading);

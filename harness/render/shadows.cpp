@@ -23,14 +23,14 @@ constexpr std::array<std::string_view, 3> kMethodNames{"rays", "cache", "light-b
 
 using glm::dvec3;
 
-/// A box as seen from the light.
+/// A box, relative to the light.
 struct LitBox {
   dvec3 low;
   dvec3 high;
 };
 
-/// Returns a box widened for all effects of rounding: a hit may lie beside its primitive, and a
-/// shadow ray, whose numbers are floats, beside the straight line to the light.
+/// Returns a primitive's box, widened to cover all rounding: a hit may lie beside its primitive,
+/// and a shadow ray, whose coordinates are floats, beside the straight line to the light.
 LitBox lit_box(const scenes::Scene& scene, scenes::PrimitiveId id, const dvec3& light) {
   const double size = scene.bounds.largest_coordinate() + glm::length(light);
   const double slack = accel::overlap_tolerance(scene) + 0x1p-20 * size;
@@ -50,7 +50,7 @@ struct Range {
 /// Returns the smallest magnitude in a range.
 double min_magnitude(const Range& range) { return std::max({range.low, -range.high, 0.0}); }
 
-/// Returns the part of a face, which is [-1, 1], covered by a range of one coordinate divided by
+/// Returns the part of a face, [-1, 1], covered by a range of one coordinate divided by a range of
 /// depths.
 Range projected(const Range& range, const Range& depth) {
   if (depth.low <= 0.0) return {-1.0, 1.0};  // the light is in the box's shadow on this face
@@ -242,7 +242,7 @@ double Shadows::asked_by_cache(const accel::Ray& to_light, scenes::PrimitiveId& 
     ++census.shadow_queries;
     if (!structure_->any_hit(to_light, nullptr)) return 1.0;
   }
-  return followed(to_light, last, census);  // any_hit does not return which primitive was hit
+  return followed(to_light, last, census);  // any_hit does not say which primitive was hit
 }
 
 double Shadows::asked_by_buffer(const accel::Ray& to_light, std::size_t light,
@@ -256,15 +256,15 @@ double Shadows::asked_by_buffer(const accel::Ray& to_light, std::size_t light,
   return found == LightBuffer::Visibility::kHidden ? 0.0 : 1.0;
 }
 
-/// Follows the ray from surface to surface, each time from slightly behind it, as all rays begin
-/// slightly beside surfaces. With an any-hit query beforehand, pictures of `gears`, `mount` and
-/// `finishes` took 1.01 to 1.25 times as long.
+/// Follows the rays from surface to surface, each time starting slightly behind the surface, as all
+/// rays begin slightly beside surfaces. An additional any-hit query at the beginning made pictures
+/// of `gears`, `mount` and `finishes` take 1.01 to 1.25 times as long.
 std::vector<double> Shadows::followed(const accel::RayBatch& to_light, std::size_t light,
                                       RayCensus& census) const {
   std::vector<accel::Ray> rays(to_light.rays.begin(), to_light.rays.end());
   std::vector<std::uint32_t> samples(to_light.samples.begin(), to_light.samples.end());
   std::vector<double> parts(rays.size(), 1.0);
-  std::vector<std::size_t> places(rays.size());  // of the rays that are still followed, in `parts`
+  std::vector<std::size_t> places(rays.size());  // of the rays still followed, in `parts`
   std::iota(places.begin(), places.end(), std::size_t{0});
   while (!rays.empty()) {
     accel::HitBuffer hits(static_cast<int>(rays.size()), 1, 1);
@@ -289,7 +289,7 @@ std::vector<double> Shadows::followed(const accel::RayBatch& to_light, std::size
   return parts;
 }
 
-/// Follows one ray; an opaque surface at its end becomes the `blocker`.
+/// Follows one ray; if an opaque surface ends it, that becomes the `blocker`.
 double Shadows::followed(accel::Ray ray, scenes::PrimitiveId& blocker, RayCensus& census) const {
   double part = 1.0;
   while (ray.t_min <= ray.t_max) {
@@ -305,8 +305,8 @@ double Shadows::followed(accel::Ray ray, scenes::PrimitiveId& blocker, RayCensus
   return part;
 }
 
-/// Returns the transmittance of the surface that a ray has met, 0 if opaque. The ray then begins
-/// behind it.
+/// Returns the transmittance of the surface that a ray has met; 0 if it is opaque. Moves the ray's
+/// origin behind the surface.
 float Shadows::passed_through(accel::Ray& ray, const accel::Hit& hit) const {
   check_.require(ray, hit);
   const float through = std::max(transmittance_of(*scene_, hit.primitive), 0.0F);

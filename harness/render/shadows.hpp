@@ -1,5 +1,5 @@
 #pragma once
-// The depth to which a picture follows light, and its shadow rays.
+// Options for the depth of a picture's rays, and its shadow rays.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,12 +18,13 @@
 
 namespace beambench::render {
 
-/// Methods of deciding the visibility of a light. All give the same picture, unless something
-/// opaque lies no farther behind glass than rays begin beside surfaces (`surface_lift`).
+/// Methods of deciding the visibility of a light. All of them yield the same picture, unless
+/// something opaque is closer behind glass than the distance from surfaces at which rays begin
+/// (`surface_lift`).
 enum class ShadowMethod {
   kRays,        ///< one any-hit query per light
-  kCache,       ///< first the opaque primitive that hid the light last (OORT; `ShadowCache`)
-  kLightBuffer  ///< primitives are listed in advance by direction from the light (`LightBuffer`)
+  kCache,       ///< first test the opaque primitive that hid the light last (OORT; `ShadowCache`)
+  kLightBuffer  ///< list primitives in advance by direction from the light (`LightBuffer`)
 };
 
 /// The names after --shadows, in the order of `ShadowMethod`.
@@ -39,10 +40,11 @@ struct WhittedOptions {
   /// pixel. 0 traces all.
   double min_weight = 0.0;
   ShadowMethod shadows = ShadowMethod::kRays;
-  /// The maximum number of rays of a depth that are shaded, and whose following rays are handed
-  /// over, together: 1 ... rays::kMaxPictureBatch. Exact structures give the same picture for all.
+  /// The maximum number of rays of the same depth that are shaded together, and whose secondary
+  /// rays are traced together: 1 ... rays::kMaxPictureBatch. Exact structures yield the same
+  /// picture for any value.
   int batch = rays::kPictureBatch;
-  /// Spawn a mirror ray at glass even if its specular factor is 0, so that it does not contribute
+  /// Spawn a mirror ray at glass even if the specular factor is 0 and the ray does not contribute
   /// to the picture: rule 8 of Haines's databases (SPD), whose counts include these rays.
   bool glass_always_mirrors = false;
 };
@@ -52,8 +54,8 @@ WhittedOptions whitted_options(const rays::RayChoice& choice);
 
 /// The light buffer (Haines and Greenberg, "The light buffer: a shadow-testing accelerator", IEEE
 /// CG&A 6(9), 1986): the faces of a cube about a light are divided into cells, and each cell lists
-/// the primitives that may be visible through it, the nearest first. A shadow ray's cell contains
-/// all primitives that it can meet, so the result is the same as for all primitives.
+/// the primitives that may be visible through it, the nearest first. A shadow ray's cell lists all
+/// primitives that the ray can meet, so the result is the same as with all primitives.
 class LightBuffer {
  public:
   /// `cells` is the number along an edge of the cube, at least 1. The scene must outlive the
@@ -65,8 +67,8 @@ class LightBuffer {
     kHidden,       ///< something opaque
     kTransparent,  ///< something transparent, nothing opaque: the remaining light must be followed
   };
-  /// Finds what lies on a shadow ray: `to_light` begins at a point and has the light at t = 1. Adds
-  /// the number of ray-primitive tests to `tests`.
+  /// Classifies what lies on a shadow ray: `to_light` begins at a point and has the light at t = 1.
+  /// Adds the number of ray-primitive tests to `tests`.
   Visibility visibility(const accel::Ray& to_light, std::uint64_t& tests) const;
 
   std::size_t memory_bytes() const;
@@ -81,7 +83,7 @@ class LightBuffer {
   const scenes::Scene* scene_;
   glm::dvec3 light_;
   int cells_;
-  std::vector<std::uint32_t> first_;  ///< by cell: its first entry; and the end
+  std::vector<std::uint32_t> first_;  ///< each cell's first entry; last, the number of entries
   std::vector<Entry> entries_;
 };
 
@@ -95,8 +97,8 @@ struct ShadowCache {
   std::vector<scenes::PrimitiveId> last;  ///< by depth, then by light
 };
 
-/// Shadow rays over a structure. Queries are const and safe from several threads, each with its own
-/// cache.
+/// Traces shadow rays over a structure. Queries are const and thread-safe if each thread has a
+/// separate cache.
 class Shadows {
  public:
   /// Builds light buffers if the options require them. Scene and structure must outlive this
@@ -104,15 +106,15 @@ class Shadows {
   Shadows(const scenes::Scene& scene, const accel::Accelerator& structure,
           const WhittedOptions& options, rays::HitCheck check);
 
-  /// Returns the fractions of a light that come through: 0 behind an opaque primitive, the product
-  /// of the transmittances of transparent surfaces in front of it, 1 if there is nothing. Each ray
-  /// of `to_light` begins at a point, `depth` rays from the camera (the camera ray is 1), and has
-  /// the light at t = 1; the cache processes them in order. The rays need no marks, because the
-  /// rays of a batch are a pencil. Throws InvalidHit.
+  /// Returns the transmitted fraction of a light for each ray: 0 if an opaque primitive hides it,
+  /// otherwise the product of the transmittances of the transparent surfaces in between (1 if there
+  /// are none). Each ray of `to_light` begins at a point, `depth` rays from the camera (the camera
+  /// ray is 1), and has the light at t = 1; the cache processes them in order. The rays need no
+  /// marks, because the rays of a batch are a pencil. Throws InvalidHit.
   std::vector<double> transmitted(const accel::RayBatch& to_light, std::size_t light, int depth,
                                   ShadowCache& cache, RayCensus& census) const;
 
-  /// Returns the bytes of light buffers; 0 without.
+  /// Returns the size of the light buffers in bytes; 0 without light buffers.
   std::size_t memory_bytes() const;
 
  private:
@@ -125,7 +127,7 @@ class Shadows {
                                RayCensus& census) const;
   double followed(accel::Ray ray, scenes::PrimitiveId& blocker, RayCensus& census) const;
   float passed_through(accel::Ray& ray, const accel::Hit& hit) const;
-  /// Returns a pencil of all rays of a batch, if there are enough of them.
+  /// Returns a pencil of all rays in a batch, if there are enough of them.
   std::vector<accel::Pencil> pencil(std::size_t light, std::size_t rays) const;
 
   const scenes::Scene* scene_;

@@ -25,11 +25,11 @@ constexpr std::array<std::string_view, 3> kOverlayNames{"beams", "cells", "penci
 std::vector<ParameterInfo> parameters_of(Overlay overlay) {
   if (overlay != Overlay::kPencils) return {};
   constexpr int kMaxLights = 1'000'000;
-  return {integer_parameter("light", 1, 1, kMaxLights, "whose shadow rays; the first is 1")};
+  return {integer_parameter("light", 1, 1, kMaxLights,
+                            "the light whose shadow rays are drawn; the first is 1")};
 }
 
-/// Returns whether a structure has what the overlay draws, by a trial over a scene that would show
-/// it.
+/// Returns whether a structure supports the overlay, by a trial over a scene that would show it.
 bool shows(const accel::StructureInfo& structure, Overlay overlay) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=1");
   const accel::PrimaryRays rays(scene.cameras.front(), 8, 8, 1);
@@ -40,7 +40,7 @@ bool shows(const accel::StructureInfo& structure, Overlay overlay) {
       return inspector.beams(rays).has_value() || !inspector.places(rays).empty();
     case Overlay::kCells: {
       accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
-      accelerator->closest_hits(rays, hits, {});  // cells may be made on demand
+      accelerator->closest_hits(rays, hits, {});  // cells may be created on demand
       return !inspector.occupied_cells().empty();
     }
     case Overlay::kPencils: {

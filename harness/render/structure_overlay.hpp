@@ -1,5 +1,5 @@
 #pragma once
-// Draws the parts of a structure, or how it traces, over a picture: its beams or cells.
+// Draws the parts of a structure, or how it traces, over a picture: its beams, cells or pencils.
 
 #include <span>
 #include <string_view>
@@ -27,14 +27,14 @@ struct OverlayChoice {
 };
 
 /// Parses `beams` or `pencils:light=2`. Throws InputError listing the valid names or parameters, or
-/// the structures that have such an overlay if this one does not. That is determined by a trial
-/// over a small scene, not by the name.
+/// the structures that have such an overlay if this one does not. Support is determined by a trial
+/// over a small scene, not by name.
 OverlayChoice parse_overlay(std::string_view text, const accel::StructureInfo& structure);
 
 /// Throws InputError if the scene does not have that light.
 void require_light(const OverlayChoice& choice, const scenes::Scene& scene);
 
-/// Draws over the picture of an image that has been traced: a grid that is filled by rays shows the
+/// Draws over the picture of an image that has been traced, so a grid that rays fill shows the
 /// cells that they filled. Returns the legend.
 std::vector<LegendEntry> draw_overlay(const OverlayChoice& choice, Image& picture,
                                       const accel::Accelerator& accelerator,

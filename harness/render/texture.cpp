@@ -18,7 +18,7 @@ constexpr std::uint64_t kHashX = 0x9E3779B97F4A7C15ULL;
 constexpr std::uint64_t kHashY = 0xC2B2AE3D27D4EB4FULL;
 constexpr std::uint64_t kHashZ = 0x165667B19E3779F9ULL;
 
-/// Mixes three coordinates, which have already been multiplied (multiplications and shifts as in
+/// Mixes three coordinates that have already been multiplied (multiplications and shifts as in
 /// MurmurHash3's finalizer).
 std::uint64_t mixed(std::uint64_t bits) {
   bits ^= bits >> 33U;
@@ -76,7 +76,7 @@ dvec3 marble(const dvec3& p, const dvec3& stone, const dvec3& vein) {
   return glm::clamp(glm::mix(stone * (1.0 + cloud), vein, vein_share), 0.0, 1.0);
 }
 
-/// Grains of two stones in a third one.
+/// Grains of two kinds of stone in a third one.
 dvec3 granite(const dvec3& p, const dvec3& mean) {
   const double dark = smooth_step(0.05, 0.25, fractal_noise(6.0 * p, 3));
   const double light = smooth_step(0.1, 0.3, fractal_noise(5.0 * p + dvec3(17.0), 3));

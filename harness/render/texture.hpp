@@ -1,5 +1,5 @@
 #pragma once
-// Noise in space, from which natural textures are made.
+// Noise in space, the basis of natural textures.
 
 #include <glm/vec3.hpp>
 
@@ -16,13 +16,14 @@ double gradient_noise(const glm::dvec3& point);
 /// in [-1, 1].
 double fractal_noise(const glm::dvec3& point, int octaves);
 
-/// Returns the same for the noise's absolute value (Perlin 1985, "turbulence"); roughly in [0, 1].
+/// Returns the same sum for the absolute value of the noise (Perlin 1985, "turbulence"); roughly in
+/// [0, 1].
 double turbulence(const glm::dvec3& point, int octaves);
 
 /// Returns whether a finish is a texture, so that its color depends on the place.
 bool is_texture(scenes::Finish finish);
 
-/// Textures fill space, so that every scene may have them; veins and rings are scaled to the scene.
+/// Textures fill space, so every scene may have them; veins and rings are scaled to the scene.
 class TextureSpace {
  public:
   explicit TextureSpace(const scenes::Scene& scene);

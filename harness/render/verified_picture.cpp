@@ -27,7 +27,7 @@ verify::Verdict worse(verify::Verdict a, verify::Verdict b) {
   return a;
 }
 
-/// Requires a bit-exact structure to draw the same picture as the first of them.
+/// Requires a bit-exact structure to draw the same picture as the first bit-exact one.
 void compare_bits(const Image& image, const std::string& first_label, const Image& first,
                   verify::VerifiedCell& cell) {
   cell.bits_reference = first_label;

@@ -22,12 +22,12 @@
 
 namespace beambench::render {
 
-/// Rays and their results, each kind of query in order.
+/// Rays and their results, in order for each kind of query.
 struct AskedRays {
   std::vector<accel::Ray> closest;
-  std::vector<std::optional<accel::Hit>> hits;  ///< of `closest`
+  std::vector<std::optional<accel::Hit>> hits;  ///< of the rays in `closest`
   std::vector<accel::Ray> any;
-  std::vector<std::uint8_t> any_hits;  ///< of `any`
+  std::vector<std::uint8_t> any_hits;  ///< of the rays in `any`
 };
 
 /// Keeps all rays and results of a structure. Not thread-safe.
@@ -46,8 +46,8 @@ class RecordedQueries : public accel::ForwardingAccelerator {
   AskedRays* asked_;
 };
 
-/// Returns recorded results to the same queries in the same order, so that the remaining time is
-/// not the structure's. Not thread-safe.
+/// Returns recorded results for the same queries in the same order, so that the measured time
+/// excludes the structure. Not thread-safe.
 class ReplayedResults : public accel::Accelerator {
  public:
   /// `asked` must outlive this object.
@@ -92,7 +92,7 @@ using ByFollowingRays = std::array<Value, kFollowingRays>;
 inline constexpr ByFollowingRays<std::string_view> kFollowingRayNames{"reflected", "refracted",
                                                                       "shadow"};
 
-/// A picture with all queries that were made for it.
+/// A picture, with all queries made for it.
 struct RecordedPicture {
   accel::HitBuffer primary;  ///< the hits of camera rays
   ByFollowingRays<AskedRays> asked;
@@ -100,7 +100,7 @@ struct RecordedPicture {
   RayCensus census;
 };
 
-/// Draws the picture that continues from the hits `primary` of `rays`, only on this thread; takes
+/// Draws the picture that follows from `primary`, the hits of `rays`, on this thread only; takes
 /// about 50 bytes per ray. Throws InvalidHit.
 RecordedPicture record_picture(const std::shared_ptr<const ShadedScene>& scene,
                                const accel::Accelerator& structure, const accel::PrimaryRays& rays,
@@ -118,8 +118,8 @@ struct VerifiedRays {
   verify::DiffReport report;
 };
 
-/// Verifies every ray of a picture, each kind (and query) as a separate list; first the camera
-/// rays, whose correct hits are `primary`. Kinds without rays are left out.
+/// Verifies every ray of a picture, as a separate list for each kind and query. The first list has
+/// the camera rays, whose correct hits are `primary`. Omits kinds without rays.
 std::vector<VerifiedRays> verify_recorded_picture(const verify::ReferenceHits& primary,
                                                   RecordedPicture picture,
                                                   accel::Conformance conformance);
@@ -128,11 +128,11 @@ std::vector<VerifiedRays> verify_recorded_picture(const verify::ReferenceHits& p
 std::vector<std::string> described_examples(const scenes::Scene& scene,
                                             const std::vector<VerifiedRays>& verified);
 
-/// Combines all reports: counts are added up, and the worst verdict is kept, without examples.
+/// Combines all reports: sums the counts and keeps the worst verdict, without examples.
 verify::DiffReport sum_of(const std::vector<VerifiedRays>& verified);
 
-/// Counterpart of `verify_scene` for `whitted` rays. Bit-exact structures must draw the same
-/// picture; `different_bits` counts pixels.
+/// Verifies `whitted` rays, as `verify_scene` does for other kinds. Bit-exact structures must draw
+/// the same picture; `different_bits` counts pixels.
 std::vector<verify::VerifiedCell> verify_picture(const scenes::Scene& scene,
                                                  const rays::ImageOfRays& image,
                                                  const rays::RayChoice& choice,

@@ -30,7 +30,7 @@ dvec3 mirrored_outward(const dvec3& incoming, const dvec3& shading, const dvec3&
   return glm::dot(direction, geometric) > 0.0 ? direction : accel::mirrored(incoming, geometric);
 }
 
-/// Returns a refracted direction on the inner side, likewise.
+/// Returns a refracted direction on the inner side of the surface, likewise.
 std::optional<dvec3> refracted_inward(const dvec3& incoming, const dvec3& shading,
                                       const dvec3& geometric, double ratio) {
   const auto direction = refracted(incoming, shading, ratio);
@@ -38,7 +38,7 @@ std::optional<dvec3> refracted_inward(const dvec3& incoming, const dvec3& shadin
   return outward ? refracted(incoming, geometric, ratio) : direction;
 }
 
-/// Built in place: copying a ray that was just made would wait until it is in memory.
+/// Constructed in place: copying a newly made ray would wait until it is in memory.
 accel::Ray& add_ray(std::vector<accel::Ray>& rays, const dvec3& origin, const dvec3& direction) {
   accel::Ray& ray = rays.emplace_back();
   ray.origin = glm::vec3(origin);
@@ -55,7 +55,7 @@ accel::HitBuffer traced(const accel::Accelerator& structure, const accel::RayBat
   return hits;
 }
 
-/// Takes, for each ray, the next of the mirror rays or of the glass rays.
+/// Takes the next mirror ray or the next glass ray, for each ray in turn.
 template <class Value>
 std::vector<Value> merged(std::vector<Value> mirrors, const std::vector<Value>& glasses,
                           const std::vector<bool>& is_glass) {
@@ -74,7 +74,7 @@ std::vector<Value> merged(std::vector<Value> mirrors, const std::vector<Value>& 
 struct Whitted::Path {
   double weight;  ///< its maximum contribution to the pixel's color
   EyeIndex eye;   ///< among the eyes of its wave
-  bool inside;    ///< inside something transparent
+  bool inside;    ///< whether it is inside something transparent
 };
 
 /// A part of a wave: rays of one depth, and their hits.
@@ -83,7 +83,7 @@ struct Whitted::Part {
   std::span<const std::uint32_t> samples;
   std::span<const std::optional<accel::Hit>> hits;
   std::span<const Path> paths;
-  std::span<const Eye> eyes;  ///< of the whole wave
+  std::span<const Eye> eyes;  ///< the eyes of the whole wave
   const accel::PrimaryRays* image;
 
   std::size_t size() const { return rays.size(); }
@@ -97,7 +97,7 @@ struct Whitted::Part {
   }
 };
 
-/// The rays of a part that hit: where, what, and their histories.
+/// The rays of a part that hit: the place and the primitive of each hit, and the rays' histories.
 struct Whitted::Found {
   explicit Found(std::size_t count)
       : places(count), ray(count), sample(count), primitive(count), surface(count), path(count) {}
@@ -105,19 +105,19 @@ struct Whitted::Found {
   std::size_t size() const { return places.size; }
 
   Places places;
-  std::vector<std::size_t> ray;  ///< its place in the part
+  std::vector<std::size_t> ray;  ///< its index in the part
   std::vector<std::uint32_t> sample;
   std::vector<scenes::PrimitiveId> primitive;
   std::vector<std::uint32_t> surface;
   std::vector<Path> path;
 };
 
-/// The next wave, in the order of the places from which it comes: at each place, first the mirror
-/// ray.
+/// The next wave, in the order of the places from which its rays come; at each place, the mirror
+/// ray comes first.
 struct Whitted::Spawned {
   struct Origin {
     std::size_t place;
-    double share;  ///< of its light in that of its place
+    double share;  ///< the ray's share of the light of its place
   };
   std::vector<accel::Ray> rays;
   std::vector<std::uint32_t> samples;
@@ -151,9 +151,10 @@ void Whitted::trace_light(const CameraRays& camera, std::span<dvec3> colors,
              progress);
 }
 
-/// Traces part by part, each with all rays that follow from it: at each depth, one part is waiting.
-/// It needs about 210 bytes for each of its rays that hit, and 100 for each ray spawned; what is at
-/// work, about 200 bytes more for each ray, besides the structure's own.
+/// Traces part by part, each with all rays that follow from it, so one part is waiting at each
+/// depth. A waiting part needs about 210 bytes for each of its rays that hit, and 100 for each ray
+/// spawned. The part being traced needs about 200 bytes more per ray, besides the structure's own
+/// memory.
 void Whitted::trace_wave(const Part& wave, int depth, std::span<dvec3> colors,
                          Progress& progress) const {
   const auto batch = static_cast<std::size_t>(options_.batch);
@@ -226,7 +227,7 @@ std::vector<dvec3> Whitted::lit(const Found& found, const accel::PrimaryRays& im
   return sums;
 }
 
-/// Adds a light. Lights behind the surface get no shadow ray.
+/// Adds the light of one light source. A light behind the surface gets no shadow ray.
 void Whitted::add_light(std::size_t light, const Found& found, std::span<const dvec3> matte,
                         const accel::PrimaryRays& image, int depth, std::span<dvec3> sums,
                         Progress& progress) const {
@@ -260,13 +261,13 @@ void Whitted::add_light(std::size_t light, const Found& found, std::span<const d
   }
 }
 
-/// Returns the mirror rays and refracted rays, traced. At total reflection the mirror ray carries
-/// both shares: it is one ray, even if the surface is a mirror as well (SPD, rule 9).
+/// Returns the mirror rays and refracted rays, already traced. At total reflection the mirror ray
+/// carries both shares: it is one ray, even if the surface is also a mirror (SPD, rule 9).
 Whitted::Spawned Whitted::spawned(const Found& found, const Part& part, Progress& progress) const {
   Spawned next;
   std::vector<accel::Ray> mirror_rays, glass_rays;
   std::vector<std::uint32_t> mirror_samples, glass_samples;
-  std::vector<bool> is_glass;  // of each ray of the wave
+  std::vector<bool> is_glass;  // for each ray of the wave
   PlaneGroups mirror_groups(Turn::kReflected, shaded_->mirrors(), part.eyes);
   PlaneGroups glass_groups(Turn::kRefracted, shaded_->glass(), part.eyes);
   mirror_rays.reserve(found.size());
@@ -344,8 +345,8 @@ Whitted::Spawned Whitted::spawned(const Found& found, const Part& part, Progress
   return next;
 }
 
-/// Returns whether a ray that meets glass enters it: for a sphere by the place of the point, for
-/// polygons and cones by the surfaces that the ray has passed.
+/// Returns whether a ray that meets glass enters it: for a sphere judging by the position of the
+/// point, for polygons and cones by the surfaces that the ray has passed.
 bool Whitted::enters(const Found& found, std::size_t place) const {
   const scenes::Primitive& primitive = scene_->primitives[found.primitive[place]];
   if (primitive.kind != scenes::PrimitiveKind::kSphere) return !found.path[place].inside;

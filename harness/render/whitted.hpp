@@ -21,7 +21,7 @@
 
 namespace beambench::render {
 
-/// The structure for each kind of rays: the same for all, or others that watch its queries.
+/// The structure for each kind of rays: the same for all, or others that observe its queries.
 struct RayStructures {
   const accel::Accelerator* reflected;
   const accel::Accelerator* refracted;
@@ -32,7 +32,7 @@ struct RayStructures {
 struct CameraRays {
   const accel::PrimaryRays* image;
   std::span<const accel::Ray> rays;
-  std::span<const std::uint32_t> samples;  ///< theirs, as numbered by a HitBuffer of the image
+  std::span<const std::uint32_t> samples;  ///< their samples, as numbered by a HitBuffer
   std::span<const std::optional<accel::Hit>> hits;
 };
 
@@ -42,17 +42,18 @@ struct CameraRays {
 /// light of the mirror ray; the transmittance for the light of the ray refracted by Snell's law, or
 /// of the mirror ray at total reflection.
 ///
-/// Colors of scenes are display values, as they were in 1987, and are decoded to linear light. A
-/// light without its own color (white) has 1 / sqrt(lights), as in NFF. Everything is computed in
-/// double, in a fixed order: structures that return the same hits give the same bits.
+/// Colors of scenes are display values, as was usual in 1987, and are decoded to linear light. A
+/// light without a stated color is white, with intensity 1 / sqrt(lights), as in NFF. Everything is
+/// computed in double, in a fixed order: structures that return the same hits give the same bits.
 ///
-/// Rays are traced in waves (Laine, Karras and Aila, "Megakernels considered harmful", HPG 2013,
-/// for the idea on other hardware): the camera rays of a part of the picture, all shadow rays of
-/// each light from where they hit, all mirror rays, all refracted rays, and so on with these, so
-/// that a structure receives batches. The shadow rays of a light are a pencil, and so are mirror
-/// rays that come through one virtual eye: from the camera via any number of planar mirrors only.
-/// Rays from the camera via planes of which one refracted them are marked as such. A sample's light
-/// is summed in the order of recursive ray tracing, whatever the parts and batches.
+/// Rays are traced in waves (an idea of Laine, Karras and Aila, "Megakernels considered harmful",
+/// HPG 2013, for other hardware): the camera rays of a part of the picture, then from their hits
+/// all shadow rays of each light, all mirror rays and all refracted rays, and the same for the hits
+/// of these. So a structure receives batches. The shadow rays of a light are a pencil, and so are
+/// mirror rays through one virtual eye: those that come from the camera via planar mirrors only,
+/// any number of them. Rays from the camera via planes of which one refracted them are marked as
+/// such. A sample's light is summed in the order of recursive ray tracing, whatever the parts and
+/// batches.
 class Whitted {
  public:
   /// Scene and structure must outlive this object. `check` names the structure in its errors.
@@ -66,21 +67,21 @@ class Whitted {
   Whitted(std::shared_ptr<const ShadedScene> scene, const RayStructures& structures,
           const WhittedOptions& options, rays::HitCheck check);
 
-  /// The memory and counts of a part of a picture, drawn by one thread in a fixed order.
+  /// The memory and counts of one part of a picture, drawn by one thread in a fixed order.
   struct Progress {
     ShadowCache shadows;
     RayCensus census;
   };
   Progress begin() const;
 
-  /// Computes linear light along camera rays into the same number of `colors`. Memory is that of a
-  /// batch of rays (`WhittedOptions`) for each depth, whatever their number. Throws InvalidHit if a
-  /// hit of the camera rays or of a following ray is invalid.
+  /// Computes the linear light along each camera ray, written to `colors`, which must have the same
+  /// size. Whatever the number of rays, memory is that of one batch (`WhittedOptions`) for each
+  /// depth. Throws InvalidHit if a hit of a camera ray or of a secondary ray is invalid.
   void trace_light(const CameraRays& camera, std::span<glm::dvec3> colors,
                    Progress& progress) const;
 
   const Shadows& shadows() const { return shadows_; }
-  /// Returns the maximum number of rays of a batch.
+  /// Returns the maximum number of rays in a batch.
   int batch() const { return options_.batch; }
   /// Returns whether counts depend on the order of the rays.
   bool remembers_shadows() const { return options_.shadows == ShadowMethod::kCache; }

@@ -31,7 +31,7 @@ std::vector<PixelRange> rows_of(const accel::PrimaryRays& image) {
   return rows;
 }
 
-/// The division into pixels that are shaded together, and the order of their samples.
+/// The division into parts whose pixels are shaded together, and the order of their samples.
 class Parts {
  public:
   Parts(const accel::PrimaryRays& image, const Whitted& tracer)
@@ -81,7 +81,7 @@ struct Batch {
   }
 };
 
-/// Draws a part with its own shadow cache, so that its census does not depend on how parts are
+/// Draws a part with a separate shadow cache, so that its census does not depend on how parts are
 /// shared among threads.
 RayCensus draw(const Parts& parts, const PixelRange& part, const Whitted& tracer,
                const accel::PrimaryRays& rays, const accel::HitBuffer& hits, Image& image) {
@@ -188,7 +188,7 @@ std::vector<std::size_t> beam_order(const accel::Accelerator& structure,
   const auto beams = accel::inspector_of(structure).beams(rays);
   if (!beams) {
     throw InputError(
-        "only beams have an order of their own: give --accel beam, with parameters if you like, "
+        "only beam tracers have an order of beams: use --accel beam, with parameters if you like, "
         "or --order scan");
   }
   std::vector<std::size_t> places;

@@ -1,5 +1,5 @@
 #pragma once
-// The whole picture, and the order in which its samples are shaded.
+// Draws whole pictures, and defines the order in which their samples are shaded.
 
 #include <cstddef>
 #include <functional>
@@ -35,21 +35,22 @@ using PictureWatch = std::function<void(double part)>;
 /// `rays`, found in advance by its own query for whole images (beams). Parts of the picture are
 /// shared among `threads` threads (`accel::thread_count`); picture and census do not depend on
 /// their number. A part is a square of pixels in the order of `rays::for_each_sample`, so that
-/// neighbors in a batch of rays are neighbors in the picture; with the shadow cache, it is a row,
-/// from left to right, and the cache is empty at its beginning. A square has at most a batch of
-/// samples, on any number of threads: hits of pencils may depend on the batch.
+/// neighbors in a batch of rays are neighbors in the picture. With the shadow cache, a part is a
+/// row, from left to right, and the cache is empty at its beginning. A square has at most as many
+/// samples as a batch, whatever the number of threads, because hits of pencils may depend on the
+/// batch.
 WhittedPicture whitted_picture(const Whitted& tracer, const accel::PrimaryRays& rays,
                                const accel::HitBuffer& hits, const PictureWatch& watch = {},
                                int threads = 0);
 
-/// Draws the same picture (up to rounding, with several samples per pixel) with its samples shaded
-/// in the order of `places` in the hit buffer, which has each place once: only on this thread, with
-/// one shadow cache, so that all counts of the cache depend on the order.
+/// Draws the same picture (up to rounding, if there are several samples per pixel), shading its
+/// samples in the order of `places`, which lists each place in the hit buffer once. Uses only this
+/// thread and one shadow cache, so all counts of the cache depend on the order.
 WhittedPicture whitted_picture_along(std::span<const std::size_t> places, const Whitted& tracer,
                                      const accel::PrimaryRays& rays, const accel::HitBuffer& hits,
                                      const PictureWatch& watch = {});
 
-/// Draws the same picture into `image`, which has its size, only on this thread; returns its
+/// Draws the same picture into `image`, which must have its size, on this thread only; returns its
 /// census.
 RayCensus draw_in_order(const Whitted& tracer, const accel::PrimaryRays& rays,
                         const accel::HitBuffer& hits, Image& image);
@@ -58,7 +59,7 @@ RayCensus draw_in_order(const Whitted& tracer, const accel::PrimaryRays& rays,
 enum class ShadingOrder {
   kRows,  ///< row by row, with a new cache in each; rows may be shared among threads
   kScan,  ///< pixel by pixel along the rows, with one cache
-  kBeams  ///< beam by beam, with one cache, from which the thesis expects a gain (6.2.2)
+  kBeams  ///< beam by beam, with one cache; the thesis expects this to help (6.2.2)
 };
 
 /// Parses `rows`, `scan` or `beams`. Throws InputError for any other name.
@@ -67,9 +68,9 @@ ShadingOrder parse_shading_order(std::string_view name);
 /// Returns the places in the hit buffer of all samples along the rows.
 std::vector<std::size_t> scan_order(const accel::PrimaryRays& rays);
 
-/// Returns the same places in the order of beams: those of a beam are together, along the rows;
-/// then those that no beam at an occupied leaf had. Throws InputError for a structure that traces
-/// no beams.
+/// Returns the same places in the order of beams: those of one beam together, along the rows; then
+/// those not in any beam at an occupied leaf. Throws InputError for a structure that does not trace
+/// beams.
 std::vector<std::size_t> beam_order(const accel::Accelerator& structure,
                                     const accel::PrimaryRays& rays);
 

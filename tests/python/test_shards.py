@@ -247,9 +247,9 @@ def test_a_missing_shard_is_named(measured: Path) -> None:
 
 def test_a_doubled_shard_is_named(copy: Path) -> None:
     shutil.copytree(copy / "2", copy / "again")
-    words = ["shard 2/4 is there twice", f"'{copy}/2'", f"'{copy}/again'"]
+    words = ["shard 2/4 appears twice", f"'{copy}/2'", f"'{copy}/again'"]
     merge_is_refused(copy, ["1", "2", "3", "4", "again"], words)
-    merge_is_refused(copy, ["1", "2", "3", "4", "2"], ["are one folder", f"'{copy}/2'"])
+    merge_is_refused(copy, ["1", "2", "3", "4", "2"], ["are the same folder", f"'{copy}/2'"])
 
 
 def test_a_cell_with_other_counters_is_named(copy: Path) -> None:
@@ -272,7 +272,7 @@ def test_times_may_differ_where_a_shard_is_doubled(copy: Path) -> None:
         return event | {"trace_ms": 0.125} if event["event"] == "repetition" else event
 
     change_events(copy / "again", changed)
-    merge_is_refused(copy, ["1", "2", "3", "4", "again"], ["shard 2/4 is there twice"])
+    merge_is_refused(copy, ["1", "2", "3", "4", "again"], ["shard 2/4 appears twice"])
 
 
 @pytest.mark.parametrize(
@@ -282,7 +282,7 @@ def test_times_may_differ_where_a_shard_is_doubled(copy: Path) -> None:
         ({"program/commit": "0123456789"}, ["of commit", "0123456789"]),
         ({"scenes/0/hash": "0123456789abcdef"}, ['the scene "', "0123456789abcdef"]),
         ({"shard/count": 5}, ["shard 3/5", "one division"]),
-        ({"shard/number": 2}, ["shard 2/4 is there twice"]),
+        ({"shard/number": 2}, ["shard 2/4 appears twice"]),
         ({"plugins": [{"file": "mine.so", "hash": "01"}]}, ["different plug-ins"]),
         ({"shard": {}}, ["run.jsonl"]),
         ({"machine": 3}, ["run.jsonl", "not as it was written"]),
@@ -348,7 +348,7 @@ def test_an_output_folder_that_is_there_is_refused(copy: Path) -> None:
     (copy / "empty").mkdir()
     for name in ("empty", "1", "tiny.json"):
         done = beambench("merge", *shards(copy), "-o", copy / name)
-        refused(done, [f"'{copy}/{name}' is there already"])
+        refused(done, [f"'{copy}/{name}' already exists"])
     assert list((copy / "empty").iterdir()) == []
 
 

@@ -51,7 +51,7 @@ TEST(OverlayTiles, DrawsOutlinesAndAMesh) {
   const auto legend = overlay_tiles(image, {places, numbers(places.size()), 1});
   EXPECT_EQ(count_of(legend, "tiles"), 2U);
   EXPECT_EQ(count_of(legend, "rays in blocks"), 64U);
-  EXPECT_EQ(count_of(legend, "handed over to single rays"), 0U);
+  EXPECT_EQ(count_of(legend, "passed on to single rays"), 0U);
   EXPECT_EQ(count_of(legend, "background without rays"), 0U);
   for (int y = 0; y < 4; ++y) {
     EXPECT_EQ(image.at(8, y), okabe_ito::kYellow) << "where a tile begins";
@@ -71,7 +71,7 @@ TEST(OverlayTiles, EachMethodHasItsColor) {
   Image image(16, 4, kBackground);
   const auto legend = overlay_tiles(image, {places, numbers(places.size()), 1});
   EXPECT_EQ(count_of(legend, "rays in blocks"), 31U);
-  EXPECT_EQ(count_of(legend, "handed over to single rays"), 1U);
+  EXPECT_EQ(count_of(legend, "passed on to single rays"), 1U);
   EXPECT_EQ(count_of(legend, "background without rays"), 32U);
   EXPECT_EQ(image.at(2, 0), okabe_ito::kVermillion);
   EXPECT_NE(image.at(2, 1), image.at(10, 1));
@@ -87,8 +87,8 @@ TEST(OverlayPencil, PixelsWithoutARayStayDimmed) {
   const auto legend = overlay_pencil(image, {places, samples, 1});
   EXPECT_EQ(count_of(legend, "parts"), 1U);
   EXPECT_EQ(count_of(legend, "rays in blocks, side -z"), 1U);
-  EXPECT_EQ(count_of(legend, "rays in blocks put together anew"), 1U);
-  EXPECT_EQ(count_of(legend, "handed over to single rays"), 1U);
+  EXPECT_EQ(count_of(legend, "rays in regrouped blocks"), 1U);
+  EXPECT_EQ(count_of(legend, "passed on to single rays"), 1U);
   EXPECT_EQ(count_of(legend, "rays traced singly"), 1U);
   EXPECT_EQ(legend.size(), 5U) << "sides that no ray in order passes are not listed";
   for (int i = 0; i < 8; ++i) {

@@ -31,7 +31,7 @@ glm::vec3 linear_from_oklch(float lightness, float chroma, float hue) {
 glm::vec3 heat_color(float x) {
   x = std::clamp(x, 0.0F, 1.0F);
   const float lightness = 0.22F + 0.70F * x;
-  // Below the maximum of sRGB at each lightness and hue of the path, which is smallest in the teal.
+  // Below sRGB's maximum for each lightness and hue on the path, which is smallest at the teal.
   const float chroma = 0.08F + 0.03F * fourth(1.0F - x) + 0.10F * fourth(x);
   const float hue = (290.0F - 185.0F * x) * kDegree;
   return glm::clamp(linear_from_oklch(lightness, chroma, hue), 0.0F, 1.0F);

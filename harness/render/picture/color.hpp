@@ -32,9 +32,9 @@ inline float brightest(const glm::vec3& color) { return std::max({color.x, color
 
 /// Returns linear light for x in [0, 1] (clamped): from dark violet through teal to yellow.
 /// Lightness rises evenly with x, so that everyone, including color-blind people, can see the order
-/// of values, also in a black-and-white print. A path in Ottosson's Oklab ("A perceptual color
-/// space for image processing", 2020), with the maximum chroma that sRGB allows along the whole
-/// path.
+/// of values, also in a black-and-white print. The colors are a path in Ottosson's Oklab ("A
+/// perceptual color space for image processing", 2020), with the maximum chroma that sRGB allows
+/// along the whole path.
 glm::vec3 heat_color(float x);
 
 /// Returns linear light that distinguishes ids: neighboring ids get very different hues.

@@ -41,7 +41,7 @@ void expose(Image& image, double stops);
 
 struct Overexposure {
   double share = 0.0;   ///< share of pixels with a component above 1, which a display clips
-  double remedy = 0.0;  ///< stops, in tenths, that leave at most one pixel in a hundred clipped
+  double remedy = 0.0;  ///< stops, in tenths, after which at most 1% of the pixels are clipped
 };
 /// Returns the overexposure. The remedy is 0 if none is needed.
 Overexposure overexposure(const Image& image);

@@ -47,13 +47,13 @@ extern "C" void beambench_encode_image(const std::string& file, const StoredImag
                                        EncodedImage& encoded) {
   OIIO::Filesystem::IOVecOutput memory;
   const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(file, &memory);
-  // TypeUnknown: the values are in the channels' own types already.
+  // TypeUnknown: the values already have the channels' types.
   if (output && output->open(file, spec_of(image)) &&
       output->write_image(OIIO::TypeUnknown, image.bytes.data()) && output->close()) {
     encoded.bytes = memory.buffer();
   } else {
     encoded.error = output ? output->geterror() : OIIO::geterror();
-    if (encoded.error.empty()) encoded.error = "OpenImageIO states no reason";
+    if (encoded.error.empty()) encoded.error = "OpenImageIO gives no reason";
   }
 }
 // The loader of the shared object assumes this type.

@@ -36,7 +36,7 @@ StoredImage png_image(const Image& image) {
   return result;
 }
 
-/// Returns an image in which each value has its channel's own type.
+/// Returns an image in which each value has its channel's type.
 StoredImage exr_image(const Image& image, std::span<const DataChannel> data) {
   StoredImage result = stored(image, StoredType::kFloat);
   for (const DataChannel& channel : data) {
@@ -61,7 +61,8 @@ void require_complete(const Image& image, std::span<const DataChannel> data) {
   for (const DataChannel& channel : data) {
     if (std::visit([](const auto& values) { return values.size(); }, channel.values) !=
         image.pixels().size()) {
-      throw std::logic_error("channel '" + channel.name + "' has not one value for each pixel");
+      throw std::logic_error("channel '" + channel.name +
+                             "' does not have one value for each pixel");
     }
   }
 }
@@ -72,10 +73,10 @@ ImageFormat image_format(const std::filesystem::path& file) {
   const std::string ending = file.extension().string();
   if (ending == ".png") return ImageFormat::kPng;
   if (ending == ".exr") return ImageFormat::kExr;
-  throw InputError(fmt::format(
-      "the picture '{}' has no ending that names a known format; let it end in .png (8-bit sRGB) "
-      "or .exr (float, with depth and ids)",
-      file.string()));
+  throw InputError(
+      fmt::format("the picture '{}' has no known file extension; use .png (8-bit sRGB) "
+                  "or .exr (float, with depth and ids)",
+                  file.string()));
 }
 
 void write_image(const std::filesystem::path& file, const Image& image,

@@ -14,11 +14,11 @@ namespace beambench::render {
 
 /// The supported formats.
 enum class ImageFormat {
-  kPng,  ///< 8 bits of sRGB for each of R, G, B; data channels are left out
+  kPng,  ///< 8 bits of sRGB for each of R, G, B; no data channels
   kExr   ///< linear float R, G, B, and unchanged data channels
 };
 
-/// Returns the format by the file's ending. Throws InputError unless that is .png or .exr.
+/// Returns the format given by the file's extension. Throws InputError unless that is .png or .exr.
 ImageFormat image_format(const std::filesystem::path& file);
 
 /// One number for each pixel in addition to its color: depth, ids, counters.

@@ -35,7 +35,7 @@ constexpr auto kGlyphs = std::to_array<std::uint64_t>(
      0x08040202020408, 0x00010204081000});
 constexpr std::uint64_t kUnknown = 0x1F11111111111F;
 
-/// Fills a square, as far as it lies in the picture.
+/// Fills a square, clipped to the picture.
 void fill(Image& image, int left, int top, int size, const glm::vec3& color) {
   for (int y = std::max(top, 0); y < std::min(top + size, image.height()); ++y) {
     for (int x = std::max(left, 0); x < std::min(left + size, image.width()); ++x) {
@@ -46,12 +46,12 @@ void fill(Image& image, int left, int top, int size, const glm::vec3& color) {
 
 constexpr float kDimmed = 0.35F;
 
-/// Relative luminance of linear sRGB (IEC 61966-2-1).
+/// Returns the relative luminance of linear sRGB (IEC 61966-2-1).
 float relative_luminance(const glm::vec3& c) {
   return glm::dot(c, glm::vec3(0.2126F, 0.7152F, 0.0722F));
 }
 
-constexpr std::size_t kFew = 40;   // maximum number of pixels of a category that get a frame each
+constexpr std::size_t kFew = 40;   // up to this many pixels of a category are framed singly
 constexpr int kFrameDistance = 5;  // from the pixel to its frame
 
 std::vector<std::size_t> count_pixels(const CategoryMap& map) {
@@ -62,7 +62,7 @@ std::vector<std::size_t> count_pixels(const CategoryMap& map) {
   return counts;
 }
 
-/// Draws a square around a pixel, as far as it lies in the picture.
+/// Draws a square around a pixel, clipped to the picture.
 void frame(Image& image, int x, int y, const glm::vec3& color) {
   for (int dy = -kFrameDistance; dy <= kFrameDistance; ++dy) {
     for (int dx = -kFrameDistance; dx <= kFrameDistance; ++dx) {
@@ -127,7 +127,7 @@ void draw_bar(Image& image, int top, const BarLayout& layout) {
   }
 }
 
-/// Writes a number under its place on the bar; `part` is the fraction of the bar to its left.
+/// Draws a number below its place on the bar; `part` is the fraction of the bar to its left.
 void draw_number(Image& image, int top, const BarLayout& layout, double part,
                  const std::string& number) {
   const int x = layout.margin + static_cast<int>(std::lround(part * (layout.bar_width() - 1)));

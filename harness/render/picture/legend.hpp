@@ -28,10 +28,10 @@ void draw_text(Image& image, int x, int y, std::string_view text, int scale,
 /// Linear light of a legend's text.
 inline constexpr glm::vec3 kInk(0.82F);
 
-/// The sizes of a legend in pixels: text as large as the picture's width allows, up to two pixels
-/// per dot. The picture is widened if it is narrower than its legend.
+/// The sizes of a legend in pixels: the text is as large as the picture's width allows, up to two
+/// pixels per dot. The picture is widened if it is narrower than its legend.
 struct LegendLayout {
-  /// `characters`: the length of the longest line.
+  /// `characters` is the length of the longest line.
   LegendLayout(int picture_width, std::size_t characters);
 
   int scale, margin, width;
@@ -90,22 +90,22 @@ Image draw_category_map(const CategoryMap& map, const Image& ground);
 
 /// Values >= 0, one for each pixel, row by row from the top left.
 struct HeatMap {
-  std::string title;  ///< what the values are, "traversal_steps per ray"
+  std::string title;  ///< the meaning of the values: "traversal_steps per ray"
   int width;
   int height;
   std::vector<float> values;
 };
 
 /// Returns the value that gets the brightest color: the 99.5% quantile, so that a few rays with far
-/// more work than the others do not darken these. At least the smallest value > 0.
+/// more work do not darken the others. It is at least the smallest value > 0.
 float brightest_value(const HeatMap& map);
 
 /// Draws colors from 0 to the brightest value, without a legend.
 Image draw_heat_map(const HeatMap& map);
 
-/// Draws the same above a legend: title, mean and maximum, and a bar with numbers; a plus after the
-/// last means that larger values share its color. The picture is widened if it is narrower than its
-/// legend.
+/// Draws the map above a legend with title, mean, maximum and a bar with numbers. A plus sign after
+/// the last number means that larger values share its color. The picture is widened if it is
+/// narrower than its legend.
 Image draw_heat_map_with_legend(const HeatMap& map);
 
 /// Returns the numbers under a bar from 0 to `maximum` > 0: at most `at_most` multiples of 1, 2 or

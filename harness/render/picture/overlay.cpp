@@ -29,8 +29,8 @@ struct SeenEdge {
   double from_depth;
   double to_depth;
 
-  /// Returns the depth of the point at `along` in [0, 1] of the line: its inverse is linear on the
-  /// image.
+  /// Returns the depth of the point at `along` in [0, 1] on the line; the inverse of depth is
+  /// linear on the image.
   double depth_at(double along) const {
     return 1.0 / ((1.0 - along) / from_depth + along / to_depth);
   }
@@ -127,7 +127,7 @@ PixelBounds pixels_of(const accel::Box& box, const Projection& projection, int w
     low = glm::min(low, glm::min(seen->line.from, seen->line.to));
     high = glm::max(high, glm::max(seen->line.from, seen->line.to));
   }
-  // Only pixels whose centers lie in between: a box buffer needs no others.
+  // Only pixels whose centers lie in the range: a box buffer needs no others.
   const auto first = [](double x, int size) {
     return static_cast<int>(std::clamp(std::ceil(x - 0.5), 0.0, static_cast<double>(size)));
   };
@@ -138,7 +138,7 @@ PixelBounds pixels_of(const accel::Box& box, const Projection& projection, int w
 }
 
 /// Decides what boxes hide with a box buffer: Catmull's z-buffer (1974), but storing the box, so
-/// that depths between the pixels' centers are known. Boxes around the camera hide nothing.
+/// that depths between pixel centers are known. Boxes around the camera hide nothing.
 class NearestBoxes {
  public:
   /// The boxes must outlive this object.
@@ -154,7 +154,7 @@ class NearestBoxes {
   }
 
   /// Returns whether a point that appears at `place`, at this depth, is behind a box. `x` and `y`
-  /// are the pixel that is to show it; the result is exact if that pixel or the one around `place`
+  /// are the pixel that would show it; the result is exact if that pixel or the one around `place`
   /// shows the box.
   bool hide(int x, int y, const glm::dvec2& place, double depth) const {
     if (hidden_by(nearest_[index(x, y)], place, depth)) return true;
@@ -215,7 +215,7 @@ struct Look {
   const char* name;
   const glm::vec3* color;
 };
-/// The looks from the bottom to the top layer.
+/// The appearance of the layers, from bottom to top.
 constexpr std::array kLooks{
     Look{accel::BeamKind::kLeaving, "leaving", &okabe_ito::kBluishGreen},
     Look{accel::BeamKind::kNonTerminal, "non-terminal", &okabe_ito::kSkyBlue},
@@ -239,8 +239,8 @@ void add_outline(LineLayer& layer, const accel::BeamOutline& beam) {
   }
 }
 
-/// Tints the area of an end: the edges of beams that continue run along it, too, and hide its own.
-/// Areas where no beam ends stay gray; where two ended, the tint would be twice as strong.
+/// Tints the area where a beam ends, because edges of continuing beams also run along it and hide
+/// its own. Areas where no beam ends stay gray; where two ended, the tint would be twice as strong.
 void tint(Image& image, const accel::BeamOutline& beam, const glm::vec3& color) {
   for_each_pixel_in(beam.corners, image.width(), image.height(), [&](int x, int y) {
     image.at(x, y) = glm::mix(image.at(x, y), color, kCellTint);

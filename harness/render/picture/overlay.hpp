@@ -1,5 +1,5 @@
 #pragma once
-// The cells of a structure, or the outlines of its beams, over a picture.
+// Draws the cells of a structure, or the outlines of its beams, over a picture.
 
 #include <span>
 #include <vector>
@@ -19,10 +19,10 @@ namespace beambench::render {
 std::vector<LegendEntry> overlay_cells(Image& image, const accel::PrimaryRays& rays,
                                        std::span<const accel::Box> cells);
 
-/// Dims the picture and draws the beams' outlines over it: those that leave the scene under those
-/// that continue under those that end at occupied leaves. Both kinds of ends tint their area,
-/// because the line around a beam's end mostly belongs to other beams, too. Returns the meaning of
-/// the colors.
+/// Dims the picture and draws the beams' outlines over it in layers: at the bottom those of beams
+/// that leave the scene, then those that continue, and on top those that end at occupied leaves.
+/// Where a beam ends, in either way, its area is tinted, because most of the line around it also
+/// belongs to other beams. Returns the meaning of the colors.
 std::vector<LegendEntry> overlay_beams(Image& image, std::span<const accel::BeamOutline> beams);
 
 }  // namespace beambench::render

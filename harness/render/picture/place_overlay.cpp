@@ -15,13 +15,13 @@ namespace {
 using accel::BeamPlace;
 using Way = BeamPlace::Way;
 
-/// The strength of color of a pixel in order, and of one where a block begins: a mesh, if blocks
-/// have more than one pixel.
+/// The color strength of ordinary pixels, and of pixels where a block begins: the latter form a
+/// mesh if blocks have more than one pixel.
 constexpr float kPlaceTint = 0.35F;
 constexpr float kMeshTint = 0.15F;
 
 constexpr glm::vec3 kWhite(1.0F);
-const glm::vec3& kBorder = okabe_ito::kYellow;  // NOLINT(cert-err58-cpp): a name of another
+const glm::vec3& kBorder = okabe_ito::kYellow;  // NOLINT(cert-err58-cpp): only a reference
 
 const glm::vec3& color_of_side(std::size_t side) {
   static const std::array<const glm::vec3*, BeamPlace::kSides> kColors{
@@ -59,13 +59,13 @@ class PixelPlaces {
     }
   }
 
-  /// Returns null for a pixel without a place, and beyond the image.
+  /// Returns null for a pixel without a place, or outside the image.
   const BeamPlace* at(int x, int y) const {
     if (x < 0 || y < 0) return nullptr;
     return first_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
                   static_cast<std::size_t>(x)];
   }
-  /// Returns whether the pixel to the left or above lies in another beam, or block.
+  /// Returns whether the pixel to the left or above lies in another beam or block.
   bool begins(int x, int y, std::uint32_t BeamPlace::*what) const {
     const auto differs = [&](const BeamPlace* other) {
       return is_in_beam(other) && other->*what != at(x, y)->*what;
@@ -117,7 +117,7 @@ LegendEntry entry_of(const char* name, const PlacedRays& rays, Way way) {
 std::vector<LegendEntry> overlay_tiles(Image& image, const PlacedRays& rays) {
   draw(image, rays);
   return {entry_of_beams("tiles", rays), entry_of("rays in blocks", rays, Way::kInOrder),
-          entry_of("handed over to single rays", rays, Way::kHandedOver),
+          entry_of("passed on to single rays", rays, Way::kHandedOver),
           entry_of("background without rays", rays, Way::kBackground)};
 }
 
@@ -133,8 +133,8 @@ std::vector<LegendEntry> overlay_pencil(Image& image, const PlacedRays& rays) {
     legend.push_back({fmt::format("rays in blocks, side {}", kSides[side]), color_of_side(side),
                       static_cast<std::size_t>(count)});
   }
-  legend.push_back(entry_of("rays in blocks put together anew", rays, Way::kRegrouped));
-  legend.push_back(entry_of("handed over to single rays", rays, Way::kHandedOver));
+  legend.push_back(entry_of("rays in regrouped blocks", rays, Way::kRegrouped));
+  legend.push_back(entry_of("passed on to single rays", rays, Way::kHandedOver));
   legend.push_back(entry_of("rays traced singly", rays, Way::kSingle));
   return legend;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Draws the beams of a structure that divides them into blocks of rays over a picture.
+// Draws beams over a picture, for structures that divide beams into blocks of rays.
 
 #include <cstdint>
 #include <span>
@@ -18,13 +18,13 @@ struct PlacedRays {
   int per_pixel;
 };
 
-/// Dims the picture and draws the tiles of its primary rays: outlines, and within them the blocks
-/// as a mesh, in a color for the way that rays are traced. A pixel shows its first sample. Returns
-/// the meaning of the colors.
+/// Dims the picture and draws the tiles of its primary rays: outlines and, within them, the blocks
+/// as a mesh, in a color that shows how the rays are traced. A pixel shows its first sample.
+/// Returns the meaning of the colors.
 std::vector<LegendEntry> overlay_tiles(Image& image, const PlacedRays& rays);
 
-/// Draws the same for a pencil of other rays: its parts, and their blocks in a color for the side
-/// of the cube about the apex.
+/// Draws a pencil of other rays in the same way: its parts and their blocks, in a color for each
+/// side of the cube about the apex.
 std::vector<LegendEntry> overlay_pencil(Image& image, const PlacedRays& rays);
 
 }  // namespace beambench::render

@@ -20,8 +20,8 @@ struct PointGroup {
 };
 
 /// Dims the picture shown by `rays` and marks each point with a framed dot, later groups over
-/// earlier ones, even if a surface hides it, because points of interest may be inside of objects.
-/// Returns the meaning of the colors with the numbers of points, and how many are outside of the
+/// earlier ones. Hidden points are marked, too, because points of interest may be inside objects.
+/// Returns the meaning of the colors with the number of points of each, and the number outside the
 /// picture.
 std::vector<LegendEntry> mark_points(Image& image, const accel::PrimaryRays& rays,
                                      std::span<const PointGroup> groups);

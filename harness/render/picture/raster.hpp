@@ -24,8 +24,8 @@ struct PixelSegment {
   glm::dvec2 to;
 };
 
-/// Clips the part [first, last] of a line to `low` <= t * direction <= `high`; false if nothing is
-/// left of a line along the slab.
+/// Clips the part [first, last] of a line to `low` <= t * direction <= `high`. Returns false if
+/// nothing is left.
 inline bool clip_to_slab(double low, double high, double direction, double& first, double& last) {
   if (direction == 0.0) return low <= 0.0 && high >= 0.0;
   const double a = low / direction;
@@ -80,8 +80,8 @@ void for_each_pixel(const PixelSegment& line, double thickness, int width, int h
   }
 }
 
-/// Returns the strength, up to 1, of lines around an area of that many pixels in width: adjacent
-/// lines get fainter, because otherwise they would fill the picture with their color.
+/// Returns the strength, up to 1, of lines around areas of that width in pixels: the closer the
+/// lines, the fainter, because otherwise they would fill the picture with their color.
 float line_strength(double pixels);
 
 /// Lines of one color, collected before they are drawn: where they overlap, a pixel gets only the
@@ -105,7 +105,7 @@ class LineLayer {
   }
   void add(const PixelSegment& line, double thickness, float strength);
 
-  /// Draws the lines over an image of the same size. Even faint lines let only `ground` shine
+  /// Draws the lines over an image of the same size. Even faint lines let only `ground` show
   /// through; otherwise they would mix with the lines of the layers below.
   void draw_on(Image& image, const Image& ground, const glm::vec3& color) const;
 
@@ -142,7 +142,7 @@ void for_each_pixel_in(std::span<const glm::dvec2> corners, int width, int heigh
     double left = kInfinite;
     double right = -kInfinite;
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      // Always from its lower end, so that neighbors compute the same number.
+      // Always starts at the lower end, so that neighbors compute the same number.
       const auto& [upper, lower] =
           std::minmax(corners[i], corners[(i + 1) % corners.size()],
                       [](const glm::dvec2& a, const glm::dvec2& b) { return a.y < b.y; });

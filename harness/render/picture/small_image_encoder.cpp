@@ -1,5 +1,5 @@
-// The shared object of image_encoder.hpp where OpenImageIO, with two hundred libraries, is too
-// large: PNG by libpng, EXR by tinyexr.
+// A small version of image_encoder.hpp's shared object, without OpenImageIO and its two hundred
+// libraries: writes PNG with libpng and EXR with tinyexr.
 
 #include <algorithm>
 #include <array>
@@ -37,7 +37,7 @@ int exr_type(StoredType type) {
   return type == StoredType::kFloat ? TINYEXR_PIXELTYPE_FLOAT : TINYEXR_PIXELTYPE_UINT;
 }
 
-/// Returns the channels in the order in which the format has them, by name.
+/// Returns the channels in the order of the format: by name.
 std::vector<std::size_t> in_order(const std::vector<StoredChannel>& channels) {
   std::vector<std::size_t> order(channels.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -46,7 +46,7 @@ std::vector<std::size_t> in_order(const std::vector<StoredChannel>& channels) {
 }
 
 void encode_exr(const StoredImage& image, EncodedImage& encoded) {
-  using Value = std::array<unsigned char, 4>;  // of every channel: float or uint32
+  using Value = std::array<unsigned char, 4>;  // of any channel: float or uint32
   const std::size_t count = image.channels.size();
   const std::size_t pixels = image.bytes.size() / (count * sizeof(Value));
   std::vector<std::vector<Value>> planes;
@@ -82,7 +82,7 @@ void encode_exr(const StoredImage& image, EncodedImage& encoded) {
   unsigned char* memory = nullptr;
   const char* error = nullptr;
   const std::size_t size = SaveEXRImageToMemory(&exr, &header, &memory, &error);
-  // tinyexr allocates it by malloc.
+  // tinyexr allocates it with malloc.
   const std::unique_ptr<unsigned char, decltype(&std::free)> owner(memory, &std::free);
   if (size > 0) encoded.bytes.assign(memory, memory + size);
   if (error != nullptr) {

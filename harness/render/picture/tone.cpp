@@ -31,7 +31,7 @@ bool is_lit(const glm::vec3& color) {
          brightest(color) > 0.0F && luminance(color) > 0.0;
 }
 
-/// Returns the value that at most one in a hundred exceeds. There must be at least one value.
+/// Returns the value that at most 1% of the values exceed. There must be at least one value.
 double hundredth(std::vector<float> values) {
   const auto place = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 100);
   std::nth_element(values.begin(), place, values.end(), std::greater<>());
@@ -54,7 +54,7 @@ double ToneCurve::stops() const { return std::log2(exposure_); }
 double ToneCurve::operator()(double brightest) const {
   const double light = exposure_ * brightest;
   if (white_ == kPeak) return std::min(light, 1.0);
-  // In units of kPeak, with white_ / kPeak as the white of the paper.
+  // In units of kPeak; white_ / kPeak is the paper's white.
   const double shown = light * (1.0 + light * kPeak / (white_ * white_)) / (1.0 + light / kPeak);
   return std::min(shown, 1.0);
 }

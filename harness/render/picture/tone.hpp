@@ -1,17 +1,18 @@
 #pragma once
-// An exposure and a tone curve for a display, chosen from the picture.
+// Exposure and tone curve for displays, chosen for each picture.
 
 #include "harness/render/picture/image.hpp"
 
 namespace beambench::render {
 
-/// Maps linear light to display values. The curve is that of Reinhard, Stark, Shirley and Ferwerda
+/// Maps linear light to display values. Uses the curve of Reinhard, Stark, Shirley and Ferwerda
 /// ("Photographic tone reproduction for digital images", SIGGRAPH 2002, equation 4), including the
-/// light that becomes white. It is applied to a pixel's brightest component, because a display
-/// clips that one first, and the others keep their ratio to it, which preserves hue and saturation.
+/// amount of light that becomes white. It is applied to a pixel's brightest component, because a
+/// display clips that one first; the others keep their ratio to it, which preserves hue and
+/// saturation.
 class ToneCurve {
  public:
-  /// The value of the light of `white` after the exposure; 254 of 255 in an 8-bit file.
+  /// The display value of `white` after the exposure; 254 of 255 in an 8-bit file.
   static constexpr double kPeak = 0.99;
 
   /// Light is multiplied by `exposure`; after that, `white`, at least kPeak, becomes kPeak. A curve
@@ -22,8 +23,8 @@ class ToneCurve {
   double stops() const;
   double white() const { return white_; }
 
-  /// Maps a pixel's brightest component, which must be finite and not negative: increasing, and at
-  /// most 1.
+  /// Maps a pixel's brightest component, which must be finite and not negative. The function is
+  /// increasing, and at most 1.
   double operator()(double brightest) const;
 
  private:
@@ -39,7 +40,7 @@ class ToneCurve {
 /// that changes nothing.
 ToneCurve choose_tone(const Image& image);
 
-/// Pixels that are black, or not finite, stay as they are.
+/// Applies the curve. Pixels that are black or not finite stay as they are.
 void apply(Image& image, const ToneCurve& curve);
 
 }  // namespace beambench::render
