@@ -17,8 +17,8 @@
 namespace beambench::thesis {
 namespace {
 
-/// Returns the hits of primary rays, by the structure's own query for images, or one by one at the
-/// corners of pixels.
+/// Returns the hits of primary rays, from the structure's own query for images, or one by one at
+/// the corners of pixels.
 accel::HitBuffer primary_hits(const accel::Accelerator& structure, const accel::PrimaryRays& rays,
                               const accel::PrimaryRays* image) {
   accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
@@ -34,7 +34,7 @@ accel::HitBuffer primary_hits(const accel::Accelerator& structure, const accel::
   return hits;
 }
 
-/// The common settings of the pictures of one census.
+/// The settings shared by all pictures of a census.
 struct Setting {
   const scenes::Scene& scene;
   const accel::Accelerator& structure;

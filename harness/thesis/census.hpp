@@ -21,22 +21,22 @@ namespace beambench::thesis {
 struct CensusOptions {
   render::WhittedOptions whitted;
   /// Use the rules of Haines's Standard Procedural Databases: rays through the corners of pixels,
-  /// and a mirror ray from all glass.
+  /// and mirror rays at all glass.
   bool spd_rules = false;
   render::ShadingOrder order = render::ShadingOrder::kRows;
   int threads = 0;  ///< see `accel::thread_count`
-  /// Count the structure's work, in which case times include the counting.
+  /// Count the structure's work; times then include the counting.
   bool count_work = false;
 };
 
-/// The same picture with all rays, whatever their weight.
+/// The same picture with all rays traced, whatever their weight.
 struct FullPicture {
   std::uint64_t rays;
   double picture_ms;
-  double error;  ///< of the picture with the reduced rays: `root_mean_square_error`
+  double error;  ///< error of the picture with the reduced rays: `root_mean_square_error`
 };
 
-/// The facts about a structure, and its work over all rays of a picture.
+/// Facts about a structure, and its work over all rays of a picture.
 struct StructureWork {
   accel::Statistics statistics;
   QueryWork queries;  ///< shadow rays: up to their first hit (`CountedShadows`)
@@ -57,8 +57,8 @@ struct CensusResult {
   render::Image picture;
 };
 
-/// Draws the picture, and again with all rays if `min_weight` is positive. `progress` gets a cell
-/// for each. Throws rays::InvalidHit.
+/// Draws the picture, and again with all rays if `min_weight` is positive. `progress` gets one cell
+/// for each picture. Throws rays::InvalidHit.
 CensusResult take_census(const accel::StructureChoice& choice, const scenes::Scene& scene,
                          const rays::ImageOfRays& image, const CensusOptions& options,
                          base::Progress& progress);

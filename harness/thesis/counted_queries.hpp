@@ -1,5 +1,5 @@
 #pragma once
-// Counts the work of a picture's shadow rays, between them and their structure.
+// Counts the work of a picture's shadow rays; sits between the rays and the structure.
 
 #include "harness/rays/counted_queries.hpp"
 
@@ -9,15 +9,15 @@ using rays::CountedQueries;
 using rays::QueryWork;
 
 /// Counts the work of shadow rays up to the first object that hides the light, as any-hit queries,
-/// like published counts. If that is glass, or may be, closest hits are used and the ray continues
-/// behind it, which is not counted.
+/// as published counts do. If that object is or may be glass, uses closest hits and continues the
+/// ray behind it without counting.
 class CountedShadows : public CountedQueries {
  public:
   using CountedQueries::CountedQueries;
 
   void closest_hits(const accel::RaySource& rays, const accel::HitSpan& hits,
                     const accel::QueryContext& context) const override {
-    // A shadow ray begins at 0, but beyond it behind glass.
+    // A shadow ray begins at t = 0; its continuation behind glass begins at a larger t.
     rays.for_each([&](std::size_t, const accel::Ray& ray) {
       if (ray.t_min <= 0.0F) any_hit(ray);
     });

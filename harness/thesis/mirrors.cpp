@@ -31,7 +31,7 @@ double median_ms(int repetitions, Work work) {
   return measure::median(times);
 }
 
-/// Traces the rays of a batch without its marks, and with them.
+/// Traces the rays of a batch twice: without its marks and with them.
 MirrorResult compare(const accel::beam::BeamTracer& tracer, const accel::RayBatch& marked,
                      const scenes::PlanarSurface& plane, int repetitions) {
   accel::HitBuffer by_rays(static_cast<int>(marked.rays.size()), 1, 1);
@@ -47,7 +47,7 @@ MirrorResult compare(const accel::beam::BeamTracer& tracer, const accel::RayBatc
   return result;
 }
 
-/// The rays that a plane of glass sends on.
+/// The rays that a plane of glass transmits.
 struct GlassView {
   std::vector<accel::Ray> rays;
   std::vector<std::uint32_t> samples;

@@ -1,5 +1,5 @@
 #pragma once
-// What planar mirrors and planar glass show, by beams and by individual rays.
+// Traces what planar mirrors and planar glass show, with beams and with individual rays.
 
 #include <array>
 #include <cstddef>
@@ -26,11 +26,11 @@ struct MirrorResult {
 /// The upper ends of the classes of angles of incidence, in degrees.
 inline constexpr std::array<int, 6> kIncidence{15, 30, 45, 60, 75, 90};
 
-/// The refracted rays that a plane of glass sends on, by the angle at which camera rays meet it.
+/// The refracted rays that a plane of glass transmits, by the angle at which camera rays meet it.
 struct GlassResult : MirrorResult {
   struct Class {
     std::size_t samples = 0;
-    std::size_t alone = 0;  ///< traced in no beam
+    std::size_t alone = 0;  ///< traced outside any beam
   };
   std::array<Class, kIncidence.size()> by_angle{};
 
@@ -45,8 +45,8 @@ struct MirrorComparison {
 };
 
 /// Traces the reflections in each mirror in beams from the mirror's virtual eye (Heckbert and
-/// Hanrahan 1984) and ray by ray through the same octree, each `repetitions` times; then likewise
-/// the rays that enter each plane of glass. `hits` are those of `rays`.
+/// Hanrahan 1984) and ray by ray through the same octree, each `repetitions` times; then traces the
+/// rays that enter each plane of glass in the same two ways. `hits` are the hits of `rays`.
 MirrorComparison compare_mirrors(const accel::beam::BeamTracer& tracer, const scenes::Scene& scene,
                                  const accel::PrimaryRays& rays, const accel::HitBuffer& hits,
                                  int repetitions);

@@ -44,7 +44,7 @@ double contrast_at(const render::Image& image, int x, int y) {
   return largest;
 }
 
-/// Marks the samples of each pixel, and lists those beyond the first.
+/// Marks the samples chosen for each pixel, and lists those beyond the first.
 std::vector<std::size_t> choose(const render::Image& image, const SamplingContrast& contrast,
                                 accel::beam::SparseSamples& samples) {
   std::vector<std::size_t> more;
@@ -122,7 +122,7 @@ class Sampler {
             sparse_image(*scene_, rays, *samples)};
   }
 
-  /// Returns the samples that leave the scene with their beam.
+  /// Returns the number of samples whose beam leaves the scene.
   double leaving(const accel::PrimaryRays& rays) const {
     accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
     accel::WorkCounters counters;

@@ -1,6 +1,6 @@
 #pragma once
-// Methods of choosing the number of samples of a pixel: in image space, in object space, and their
-// comparison.
+// Methods of choosing the number of samples per pixel, in image space and in object space, and
+// their comparison.
 
 #include <string>
 #include <vector>
@@ -13,7 +13,8 @@
 
 namespace beambench::thesis {
 
-/// Contrast between pixels: the largest difference of a channel's display values, 0 to 1.
+/// Thresholds for the contrast between pixels: the largest difference of a channel's display
+/// values, 0 to 1.
 struct SamplingContrast {
   double few = 0.05;   ///< to one of the four neighbors: threshold for 5 samples instead of 1
   double many = 0.30;  ///< threshold for 25 samples
@@ -21,16 +22,17 @@ struct SamplingContrast {
 
 /// Adaptive sampling in image space (after Whitted 1980, section 4, who compares the corners of
 /// pixels): one sample per pixel is traced by beams and shaded; pixels that differ from a neighbor
-/// get more, as individual rays. `rays` must have 25 samples per pixel (std::invalid_argument).
+/// get more samples, as individual rays. `rays` must have 25 samples per pixel
+/// (std::invalid_argument).
 accel::beam::SparseSamples trace_image_space(const accel::beam::BeamTracer& tracer,
                                              const scenes::Scene& scene,
                                              const scenes::Camera& camera,
                                              const accel::PrimaryRays& rays,
                                              const SamplingContrast& contrast);
 
-/// Draws the picture of sparse samples, in the colors of `Shading::kPreview`. Each sample
-/// represents 1/number of its pixel. The rest of the pixel is background; if the parts exceed a
-/// pixel, because leaves with different numbers of samples meet there, they are scaled to it.
+/// Draws the picture of sparse samples, in the colors of `Shading::kPreview`. Each of a pixel's n
+/// samples represents 1/n of the pixel. The rest of the pixel is background. If the parts exceed
+/// the pixel, because leaves with different n meet there, they are scaled to fit.
 render::Image sparse_image(const scenes::Scene& scene, const accel::PrimaryRays& rays,
                            const accel::beam::SparseSamples& samples);
 
@@ -46,7 +48,7 @@ struct SamplingResult {
 /// Returns the number of cells that `compare_sampling` reports to its progress.
 std::size_t sampling_steps();
 
-/// Traces the image by uniform, object-space and image-space sampling at several settings, each
+/// Traces the image with uniform, object-space and image-space sampling at several settings, each
 /// `repetitions` times. Throws InputError if the image is too large for 64 samples per pixel.
 std::vector<SamplingResult> compare_sampling(const accel::beam::BeamTracer& tracer,
                                              const scenes::Scene& scene,

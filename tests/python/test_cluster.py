@@ -379,7 +379,7 @@ def test_another_scene_on_one_process_is_refused(tmp_path: Path) -> None:
     line = [CLUSTER, "./scene.nff", "-o", file]
     one, two = (["-n", 1, "-wdir", tmp_path / folder, *line] for folder in ("a", "b"))
     done = mpirun(*one, ":", *two)
-    refused(done, ["process 1", "another scene"])
+    refused(done, ["process 1", "a different scene"])
     (tmp_path / "b" / "scene.nff").unlink()
     done = mpirun(*one, ":", *two)
     refused(done, ["process 1", "scene.nff"])

@@ -223,7 +223,7 @@ def test_wrong_files_are_refused_with_their_line(tmp_path: Path) -> None:
     path.write_text(HEADER + "0,0,1,x,0,1,1,1,0\n", "utf-8")
     assert "t.csv:2: work_seconds is 'x'" in refusal(path)
     path.write_text(HEADER + "0,0,1,1\n", "utf-8")
-    assert "t.csv:2: 4 fields where the first line has 9" in refusal(path)
+    assert "t.csv:2: 4 fields, but the first line has 9" in refusal(path)
     path.write_text(HEADER + "0,0,1,1,1,1,1,1,1\n", "utf-8")
     assert "cut off" in refusal(path)
 

@@ -14,9 +14,9 @@ Bytes write_report(const ProcessReport& report);
 /// bytes.
 void read_report(std::span<const std::byte> bytes, ProcessReport& report);
 
-/// A consumer of section 6.2: sends `ready_report`, then waits for a parcel, performs its tasks and
-/// sends the results, until the end message. During a long task it sends a heartbeat every
-/// `heartbeat_interval` seconds.
+/// Runs a consumer (section 6.2): sends `ready_report`, then receives parcels, performs their tasks
+/// and sends the results until the end message arrives. During a long task it sends a heartbeat
+/// every `heartbeat_interval` seconds.
 void consume(Transport& transport, TaskWorker& worker, double heartbeat_interval,
              Bytes ready_report);
 

@@ -52,10 +52,10 @@ std::vector<Share> of_equal_cost(std::span<const double> costs, std::size_t shar
   return divided;
 }
 
-/// A producer can send some thousand messages before the others wait for it. So each consumer's
-/// next message has three quarters of its share of the remainder, but at least a fifth of its share
-/// of the whole, and at most a 1,024th of the whole, so that with few consumers little is lost with
-/// any of them.
+/// Divides tasks into messages of decreasing size. A producer can send about a thousand messages
+/// before the others have to wait for it, so each consumer's next message has three quarters of its
+/// share of the remaining tasks, but at least a fifth of its share of all tasks. It has at most a
+/// 1,024th of all tasks, so that even with few consumers, little is lost when one fails.
 std::vector<Share> falling(std::size_t tasks, std::size_t consumers) {
   const std::size_t most = std::max<std::size_t>(1, tasks / 1024);
   const std::size_t least = std::clamp<std::size_t>(tasks / (5 * consumers), 1, most);
@@ -113,7 +113,7 @@ TileOrder::TileOrder(int width, int height, int size)
     return static_cast<std::size_t>(of_all * static_cast<double>(count));
   };
   step_ = part(0.7548776662, rows_) * columns_ + part(0.5698402910, columns_);
-  while (std::gcd(step_, count()) != 1) ++step_;  // or some tiles would never have their turn
+  while (std::gcd(step_, count()) != 1) ++step_;  // otherwise some tiles would never be reached
 }
 
 accel::beam::PixelRect TileOrder::operator[](std::size_t i) const {
@@ -157,7 +157,7 @@ ImageDivision division_of(Work work) {
     case Work::kPrePass:
       return ImageDivision::kEqualCost;
     default:
-      throw std::logic_error("work that is not divided before");
+      throw std::logic_error("work that is not divided in advance");
   }
 }
 

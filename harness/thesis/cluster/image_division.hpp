@@ -11,21 +11,21 @@
 
 namespace beambench::cluster {
 
-/// The kinds of tasks, and their distribution. All except the first three are static (thesis,
+/// The kinds of tasks and their distribution. All except the first three are static (thesis,
 /// section 2.3.2.1): each consumer receives all its work in one message.
 enum class Work {
   kBeams,       ///< the producer's beams to occupied leaves, to whoever waits (thesis, chapter 6)
-  kBlocks,      ///< blocks of individual rays, to whichever consumer waits
-  kTiles,       ///< blocks whose beams the consumers make, in smaller and smaller messages
+  kBlocks,      ///< blocks of individual rays, to whoever waits
+  kTiles,       ///< blocks whose beams the consumers make, in messages of decreasing size
   kContiguous,  ///< neighboring rows of individual rays (Hu and Foley 1985)
   kInterlaced,  ///< of P consumers, the i-th gets the rows i, i + P, ... (Isler and Özgüç 1991)
   kWindows,     ///< the same with blocks instead of rows
   kPrePass      ///< blocks by their estimated costs (Salmon and Goldsmith 1988; Priol 1989)
 };
 
-/// Returns the word for it on the command line.
+/// Returns the name of the work on the command line.
 std::string_view name_of(Work work);
-/// Returns nothing for any other word.
+/// Returns the work of that name; nothing for any other word.
 std::optional<Work> work_named(std::string_view name);
 bool is_static(Work work);
 
@@ -34,10 +34,10 @@ bool is_static(Work work);
 std::vector<accel::beam::PixelRect> blocks_of(int width, int height, int block_width,
                                               int block_height);
 
-/// The blocks of an image in an order in which any consecutive ones are spread over the image: an
+/// The blocks of an image, ordered so that consecutive blocks are spread over the image: an
 /// additive recurrence in both directions (Kronecker; its constants are Roberts's, "The
-/// unreasonable effectiveness of quasirandom sequences", 2018). All processes compute it, so that a
-/// range of numbers represents its blocks.
+/// unreasonable effectiveness of quasirandom sequences", 2018). All processes compute the same
+/// order, so a range of numbers identifies blocks.
 class TileOrder {
  public:
   /// Orders the tiles, of size x size, of an image of width x height pixels.
@@ -63,26 +63,26 @@ using Share = std::vector<std::size_t>;
 enum class ImageDivision {
   kContiguous,  ///< as many shares as consumers, each of consecutive tasks
   kInterlaced,  ///< as many shares as consumers; task i is in share i modulo their number
-  kEqualCost,   ///< as many shares as consumers: the costliest task left goes to the share with the
-                ///< lowest cost so far (Graham 1969)
+  kEqualCost,   ///< as many shares as consumers: the costliest remaining task goes to the share
+                ///< with the lowest cost so far (Graham 1969)
   kBatches,     ///< shares of equal size
-  kFalling      ///< for each consumer a message, then one of fewer tasks: few messages, and little
-                ///< work left when the tasks are used up (factoring: Hummel, Schonberg and Flynn
-                ///< 1992)
+  kFalling      ///< one message for each consumer, then messages with ever fewer tasks: few
+                ///< messages, and little work left when the tasks run out (factoring: Hummel,
+                ///< Schonberg and Flynn 1992)
 };
 
-/// Parameters of some of the divisions.
+/// Parameters of the divisions.
 struct Among {
   int consumers = 1;
   std::size_t batch = 1;          ///< tasks in a message of kBatches
-  std::span<const double> costs;  ///< of kEqualCost: estimates in any unit
+  std::span<const double> costs;  ///< for kEqualCost: estimates in any unit
 };
 
 /// Divides the tasks into shares in the order of sending; no share is empty.
 std::vector<Share> divide(ImageDivision division, std::size_t tasks, const Among& among);
 
-/// Returns how the tasks of that work are divided. Not for kBeams and kBlocks, which are not
-/// divided in advance.
+/// Returns how the tasks of that work are divided. Must not be called for kBeams and kBlocks, which
+/// are not divided in advance.
 ImageDivision division_of(Work work);
 
 }  // namespace beambench::cluster

@@ -11,17 +11,17 @@
 namespace beambench::cluster {
 namespace {
 
-/// The contents of one run in the results of `write_colors`.
+/// What a run in the results of `write_colors` contains.
 enum class Part : std::uint8_t { kPixels, kSample };
 
-/// Returns the number of consecutive samples without a gap.
+/// Returns the number of samples up to the first gap.
 std::size_t run_length(SampleList samples) {
   std::size_t length = 1;
   while (length < samples.size() && samples[length] == samples[0] + length) ++length;
   return length;
 }
 
-/// Returns the mean of a pixel's samples, in the order and the precision of `whitted_picture`.
+/// Returns the mean of a pixel's samples, in the order and precision of `whitted_picture`.
 template <class Color>
 glm::vec3 mean(int samples, Color color) {
   glm::dvec3 sum(0.0);
@@ -215,7 +215,7 @@ void ImageWorker::perform(std::span<const std::byte> task, Bytes& result,
 }
 
 void ImageWorker::write(const Results& results) {
-  // Beams find their samples lattice by lattice; sorted, a pixel's samples are neighbors.
+  // Beams find their samples lattice by lattice; sorting makes a pixel's samples adjacent.
   std::vector<std::uint32_t>& samples = decided_.samples();
   std::ranges::sort(samples);
   samples_ += samples.size();
@@ -223,7 +223,7 @@ void ImageWorker::write(const Results& results) {
     write_hits(samples, hits_, *results.bytes);
     return;
   }
-  // A new one each time, so that the census does not depend on the distribution of tasks.
+  // Begins anew each time, so that the census does not depend on the distribution of tasks.
   render::Whitted::Progress progress = light_->begin();
   write_colors(samples, hits_, *rays_, *light_, progress, *results.heartbeat, *results.bytes);
   census_ += progress.census;

@@ -1,5 +1,6 @@
 #pragma once
-// The computations of a consumer, hits or light of beams and blocks: encoding and collecting them.
+// The work of a consumer: computes hits or light for beams and blocks, and encodes and collects
+// them.
 
 #include <cstdint>
 #include <span>
@@ -25,7 +26,7 @@ namespace beambench::cluster {
 /// Indices in a hit buffer, ascending.
 using SampleList = std::span<const std::uint32_t>;
 
-/// Appends the hits of samples: 8 bytes each, and 8 for each run of neighbors.
+/// Appends the hits of samples: 8 bytes for each hit, and 8 for each run of adjacent samples.
 void write_hits(SampleList samples, const accel::HitBuffer& hits, Bytes& bytes);
 
 /// Collects hits.
@@ -39,17 +40,17 @@ class HitSink : public ResultSink {
   accel::HitBuffer* hits_;
 };
 
-/// Appends the light of samples. For a pixel with all its samples here, this is their mean, in 12
-/// bytes; for other samples, 28 bytes each, in double, so that the sink can add a pixel's samples
-/// in order. `heartbeat` is called from time to time.
+/// Appends the light of samples. A pixel with all its samples here takes 12 bytes, for their mean.
+/// Other samples take 28 bytes each, in double, so that the sink can add a pixel's samples in
+/// order. `heartbeat` is called from time to time.
 void write_colors(SampleList samples, const accel::HitBuffer& hits, const accel::PrimaryRays& rays,
                   const render::Whitted& tracer, render::Whitted::Progress& progress,
                   const Heartbeat& heartbeat, Bytes& bytes);
 
-/// Collects light: the picture is equal to `whitted_picture` bit for bit.
+/// Collects light; the picture equals that of `whitted_picture`, bit for bit.
 class ColorSink : public ResultSink {
  public:
-  /// `background`: the light along rays without hits.
+  /// `background` is the light along rays without hits.
   ColorSink(int width, int height, int samples, const glm::dvec3& background);
   std::size_t accept(std::span<const std::byte> result) override;
 
@@ -77,7 +78,7 @@ class DecidedSamples : public accel::beam::NoBeamWatch {
     return part_.empty() ? all : part_;
   }
 
-  /// Clears the record. `heartbeat` is called from time to time and must outlive it.
+  /// Clears the record. `heartbeat` is called from time to time and must outlive this object.
   void begin(const Heartbeat& heartbeat) {
     pulse_ = &heartbeat;
     samples_.clear();
@@ -95,7 +96,7 @@ class DecidedSamples : public accel::beam::NoBeamWatch {
 };
 
 /// Finds the samples of a beam (thesis, section 6.2.3, "BuscarPixel") and traces them, with light
-/// if requested; for a tile, also its beams. There is one for each process.
+/// if requested; for a tile, it also makes the beams. Each process has one.
 class ImageWorker : public TaskWorker {
  public:
   /// Results are hits, or light if `light` is given. All arguments must outlive this object.
@@ -109,7 +110,7 @@ class ImageWorker : public TaskWorker {
   void write_counts(Bytes& bytes) const override;
 
  private:
-  /// Data for writing the samples of a task once they are decided.
+  /// Data needed to write the samples of a task once they are decided.
   struct Results {
     Bytes* bytes;
     const Heartbeat* heartbeat;

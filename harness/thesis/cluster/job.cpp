@@ -31,7 +31,7 @@ void write_version(ByteWriter& writer) {
   writer.put_text(this_version());
 }
 
-/// Reads the version, with which the first message of every process begins in all versions.
+/// Reads the version, with which every process's first message begins in all versions.
 std::string read_version(ByteReader& reader) {
   if (reader.get<std::uint32_t>() != kMagic) {
     throw InputError("a process of this run is another program; start the same one everywhere");
@@ -60,9 +60,9 @@ auto members(Report& report) requires std::same_as<std::remove_const_t<Report>, 
 accel::StructureChoice beam_choice(const Job& job) {
   accel::StructureChoice choice = accel::registry().choose(parse_spec(job.structure));
   if (choice.info().name != "beam") {
-    throw InputError(fmt::format(
-        "{} traces no beams to distribute; the cluster needs 'beam', with or without parameters",
-        choice.info().name));
+    throw InputError(
+        fmt::format("{} does not trace beams; the cluster needs 'beam', with or without parameters",
+                    choice.info().name));
   }
   return choice;
 }
@@ -159,7 +159,7 @@ ReadyReport read_ready_report(int process, std::span<const std::byte> bytes, con
   reader.get(members(ready_report));
   if (ready_report.identity.scene != mine.scene) {
     throw InputError(
-        fmt::format("{} has another scene under that name (hash {:016x}, process 0 "
+        fmt::format("{} has a different scene under that name (hash {:016x}, process 0 "
                     "has {:016x}); give all of them the same file",
                     who, ready_report.identity.scene, mine.scene));
   }
@@ -169,7 +169,7 @@ ReadyReport read_ready_report(int process, std::span<const std::byte> bytes, con
                          identity.nodes, identity.references);
     };
     throw InputError(
-        fmt::format("{} built another octree of the scene ({}; process 0: {}); start the same "
+        fmt::format("{} built a different octree of the scene ({}; process 0: {}); start the same "
                     "build everywhere",
                     who, text(ready_report.identity), text(mine)));
   }

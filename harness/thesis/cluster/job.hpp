@@ -14,18 +14,18 @@
 
 namespace beambench::cluster {
 
-/// The scene's name and how it is subdivided (thesis, section 6.2.3), and the image.
+/// The name of the scene, its subdivision (thesis, section 6.2.3), and the image.
 struct Job {
   std::string scene;
   std::string structure;              ///< `beam:max_level=6,...`
   std::string camera;                 ///< empty: the scene's first camera
-  rays::Resolution resolution{0, 0};  ///< 0: that of the camera
+  rays::Resolution resolution{0, 0};  ///< 0: the camera's own
   int samples = 1;
   bool light = false;  ///< consumers send light; otherwise hits
   render::WhittedOptions whitted;
   int split_level =
       0;  ///< level of the cells that divide the scene; 0: every process has all of it
-  SceneDivision division = SceneDivision::kPrimitives;  ///< of those cells among the processes
+  SceneDivision division = SceneDivision::kPrimitives;  ///< of those cells among processes
   std::string work;                                     ///< the kind of tasks, for kept results
   std::string stored;  ///< folder in which every process keeps its results; empty: they are sent
   double heartbeat_interval = 1.0;  ///< seconds between heartbeats in long tasks
@@ -39,10 +39,10 @@ rays::ImageOfRays job_image(const Job& job, const scenes::Scene& scene);
 
 /// Encodes the job, preceded by the version of this program.
 Bytes write_job(const Job& job);
-/// Throws InputError if the producer is another version of this program.
+/// Reads a job. Throws InputError if the producer is another version of this program.
 Job read_job(std::span<const std::byte> bytes);
 
-/// The properties that must be equal in all processes for a beam to mean the same.
+/// The properties that must be equal in all processes for a beam to have the same meaning.
 struct Identity {
   std::uint64_t scene = 0;  ///< hash of all that is visible: primitives, surfaces, lights, cameras
   std::uint64_t primitives = 0;
@@ -54,16 +54,17 @@ struct Identity {
 /// Returns the hash of the scene and everything that shading depends on.
 std::uint64_t visible_hash(const scenes::Scene& scene);
 
-/// The message of a process that has been set up: its identity, or why it cannot work.
+/// The message of a process after set-up: its identity, or the reason why it cannot work.
 struct ReadyReport {
   std::string host;
-  std::string problem;  ///< empty: none
+  std::string problem;  ///< empty: no problem
   Identity identity;
   double build_seconds = 0.0;
   std::uint64_t structure_bytes = 0;
 };
 Bytes write_ready_report(const ReadyReport& ready_report);
-/// Throws InputError naming the process if it has another version, a problem or another identity.
+/// Reads the report. Throws InputError naming the process if it has another version, a problem or
+/// another identity.
 ReadyReport read_ready_report(int process, std::span<const std::byte> bytes, const Identity& mine);
 
 /// Returns this machine's name.

@@ -43,7 +43,8 @@ std::vector<fs::path> files_in(const fs::path& folder) {
   return files;
 }
 
-/// A task with its result; nothing at the end of the file, or if the rest is truncated or damaged.
+/// A task with its result; nothing at the end of the file, or if the rest of it is truncated or
+/// damaged.
 struct Record {
   std::span<const std::byte> task;
   std::span<const std::byte> result;
@@ -148,7 +149,7 @@ KeptFolder::KeptFolder(const fs::path& picture, bool resume)
 
 KeptFolder::~KeptFolder() {
   std::error_code ignored;
-  fs::remove(path_, ignored);  // fails, as intended, if there are files in it
+  fs::remove(path_, ignored);  // fails, as intended, if it contains files
 }
 
 void KeptFolder::read(const std::string& key,
@@ -162,12 +163,12 @@ void KeptFolder::read(const std::string& key,
     try {
       its_key = reader.get_text();
     } catch (const ProtocolError&) {
-      continue;  // its process died before it wrote anything
+      continue;  // its process died before writing anything
     }
     if (its_key != key) {
       throw InputError(fmt::format(
-          "{}: these results are of another picture: they have '{}', this run has "
-          "'{}'; give the same program and options, or leave out --resume",
+          "{}: these results belong to another picture: they have '{}', this run has "
+          "'{}'; use the same program and options, or leave out --resume",
           file.string(), first_difference(its_key, key), first_difference(key, its_key)));
     }
     while (const auto record = next_record(reader)) {

@@ -19,7 +19,7 @@
 
 namespace beambench::cluster {
 
-/// Returns the properties that must be the same for results of the same picture, one per line.
+/// Returns the properties that results for the same picture share, one per line.
 std::string picture_key(const Job& job, const Identity& identity);
 
 /// A file of results to which one process appends. Added results survive the death of the process;
@@ -28,12 +28,12 @@ class KeptFile {
  public:
   /// Creates a new file in the folder, which must exist. Throws InputError.
   KeptFile(const std::filesystem::path& folder, ProcessId process, const std::string& key);
-  /// Removes a file without results.
+  /// Removes the file if it contains no results.
   ~KeptFile();
   KeptFile(const KeptFile&) = delete;
   KeptFile& operator=(const KeptFile&) = delete;
 
-  /// Throws InputError, for example if the disk is full.
+  /// Adds a result. Throws InputError, for example if the disk is full.
   void add(std::span<const std::byte> task, std::span<const std::byte> result);
 
  private:
@@ -47,16 +47,16 @@ class KeptFile {
 /// The folder PICTURE.kept beside a picture, for one run at a time.
 class KeptFolder {
  public:
-  /// `resume`: keeps existing results; otherwise they are removed. Throws InputError if the folder
-  /// cannot be created or another run holds it.
+  /// If `resume` is set, keeps existing results; otherwise removes them. Throws InputError if the
+  /// folder cannot be created or is in use by another run.
   KeptFolder(const std::filesystem::path& picture, bool resume);
-  /// Removes a folder without results.
+  /// Removes the folder if it contains no results.
   ~KeptFolder();
   KeptFolder(const KeptFolder&) = delete;
   KeptFolder& operator=(const KeptFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  /// Calls `visit` for the result of each task once. Throws InputError for a file of another
+  /// Calls `visit` once for each task with its result. Throws InputError for a file of another
   /// picture, stating the difference.
   void read(const std::string& key,
             const std::function<void(std::span<const std::byte> task,
@@ -72,7 +72,7 @@ class KeptFolder {
 /// Tasks in the form in which they were sent.
 using TaskSet = std::set<Bytes>;
 
-/// Leaves out the finished tasks.
+/// Skips the finished tasks.
 class RemainingSource : public TaskSource {
  public:
   RemainingSource(std::unique_ptr<TaskSource> all, TaskSet finished)
@@ -98,7 +98,7 @@ class StoringWorker : public TaskWorker {
   Bytes result_;
 };
 
-/// Takes the receipts of a StoringWorker.
+/// Accepts the receipts of a StoringWorker.
 class ReceiptSink : public ResultSink {
  public:
   std::size_t accept(std::span<const std::byte> result) override;

@@ -39,7 +39,7 @@ class ByteWriter {
   void put(Number number) {
     append(&number, sizeof number);
   }
-  /// Appends all of them in order.
+  /// Appends all values in order.
   template <class... Values>
   void put(const std::tuple<Values&...>& values) {
     const auto put_one = [this](const auto& value) {
@@ -81,7 +81,7 @@ class ByteReader {
     std::memcpy(&number, get_bytes(sizeof number).data(), sizeof number);
     return number;
   }
-  /// Reads the same values that `ByteWriter::put` wrote.
+  /// Reads the values that `ByteWriter::put` wrote.
   template <class... Values>
   void get(const std::tuple<Values&...>& values) {
     const auto get_one = [this]<class Value>(Value& value) {
@@ -94,12 +94,12 @@ class ByteReader {
     std::apply([&](auto&... each) { (get_one(each), ...); }, values);
   }
   std::span<const std::byte> get_bytes(std::size_t size) {
-    if (size > bytes_.size()) throw ProtocolError("a message is shorter than it should be");
+    if (size > bytes_.size()) throw ProtocolError("a message is too short");
     const auto taken = bytes_.first(size);
     bytes_ = bytes_.subspan(size);
     return taken;
   }
-  /// Returns the rest.
+  /// Returns the remaining bytes.
   std::span<const std::byte> rest() { return get_bytes(bytes_.size()); }
   std::string get_text() {
     const auto taken = get_bytes(get<std::uint32_t>());
@@ -115,8 +115,7 @@ class ParcelWriter {
  public:
   explicit ParcelWriter(std::uint32_t number) { ByteWriter(bytes_).put(number); }
 
-  /// Begins an item; its bytes are appended to the returned message. `end_item` or `drop_item`
-  /// follows.
+  /// Begins an item; append its bytes to the returned message, then call `end_item` or `drop_item`.
   Bytes& begin_item() {
     head_ = bytes_.size();
     bytes_.resize(head_ + sizeof(ItemHead));

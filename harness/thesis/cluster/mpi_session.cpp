@@ -23,7 +23,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-/// Time limits until a process other than the producer has ended.
+/// Time limit for the end of a process other than the producer, in multiples of the timeout.
 constexpr double kLongestEnd = 2.0;
 
 void report(const std::string& message) {
@@ -40,7 +40,7 @@ bool sleep_for(const std::stop_token& stop, Seconds time) {
 }
 
 /// Ends this process with a message unless it is destroyed in time; mpirun then ends the others.
-/// For MPI calls that wait for all processes without their own time limit.
+/// Used for MPI calls that wait for all processes without a time limit.
 class Deadline {
  public:
   Deadline(double seconds, std::string message, int exit_code)
@@ -56,7 +56,7 @@ class Deadline {
 
 }  // namespace
 
-/// Signs of life in a separate communicator, used only by the thread until `end`.
+/// Sends signs of life in a separate communicator, which only its thread uses until `end`.
 class MpiSession::SignsOfLife {
  public:
   explicit SignsOfLife(double timeout)
@@ -82,7 +82,7 @@ class MpiSession::SignsOfLife {
 
   bool is_producer() const { return self_ == kProducer; }
 
-  /// Waits until the producer has reported to the other processes that everything is written.
+  /// Waits until the producer has told the other processes that everything is written.
   void end() {
     thread_.request_stop();
     thread_.join();
@@ -108,7 +108,7 @@ class MpiSession::SignsOfLife {
     for (const Other& other : others_) {
       MPI_Request request = MPI_REQUEST_NULL;
       MPI_Isend(nullptr, 0, MPI_BYTE, other.process, sign, processes_, &request);
-      MPI_Request_free(&request);  // has no bytes that would have to be kept
+      MPI_Request_free(&request);  // contains no bytes that would have to be kept
     }
   }
 
@@ -135,9 +135,9 @@ class MpiSession::SignsOfLife {
     for (const Other& other : others_) {
       if (Seconds(Clock::now() - other.last_heard).count() < timeout_) continue;
       report(
-          fmt::format("process {} was silent for {} s, and the run cannot go on without it; "
-                      "files that are there are complete; see that its machine runs and is "
-                      "reached, or give a longer --timeout",
+          fmt::format("process {} was silent for {} s, and the run cannot continue without it; "
+                      "existing files are complete; check that its machine is running and "
+                      "reachable, or use a longer --timeout",
                       other.process, timeout_));
       abort(base::kInvalidInput);
     }
@@ -157,9 +157,10 @@ MpiSession::MpiSession(int& argc, char**& argv, double timeout)
     : timeout_(timeout), watchdog_(kLongestEnd * timeout) {
   const Deadline deadline(
       timeout,
-      fmt::format("the processes did not find each other within {} s; see that every machine runs "
-                  "and is reached, or give a longer --timeout",
-                  timeout),
+      fmt::format(
+          "the processes did not find each other within {} s; check that all machines are running "
+          "and reachable, or use a longer --timeout",
+          timeout),
       base::kInvalidInput);
   int provided = MPI_THREAD_SINGLE;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_MULTIPLE, &provided);
@@ -173,10 +174,10 @@ MpiSession::~MpiSession() {
   }
   signs_->end();
   watchdog_.require_end();
-  // The producer, which knows when everything is written, is the first to give up.
+  // The producer knows when everything is written, so it gives up first.
   const Deadline deadline(
       signs_->is_producer() ? timeout_ : kLongestEnd * timeout_,
-      fmt::format("a process did not end within {} s; what was asked for is written", timeout_),
+      fmt::format("a process did not end within {} s; all requested files are written", timeout_),
       base::kSuccess);
   MPI_Finalize();
 }

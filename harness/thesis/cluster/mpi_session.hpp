@@ -1,5 +1,5 @@
 #pragma once
-// MPI from its start to its end, and the end of a run in which a process stops.
+// MPI from start to end, and how a run ends when a process stops.
 
 #include <memory>
 
@@ -11,20 +11,20 @@ namespace beambench::cluster {
 /// The MPI session of a program, constructed before anything else. If a process or its machine is
 /// stopped, all others end within the time limit instead of waiting, with a message on stderr and
 /// exit code 2. To detect this whatever the processes are doing, a thread of each process sends
-/// signs of life to the producer, and the producer's thread to all others, if MPI allows threads
-/// (MPI_THREAD_MULTIPLE); otherwise only the start is limited.
+/// signs of life to the producer, and the producer's thread sends them to all others. This requires
+/// that MPI allows threads (MPI_THREAD_MULTIPLE); otherwise only the start has a time limit.
 class MpiSession {
  public:
-  /// `timeout`: the limit in seconds for the start of MPI, for silence after that, and for the end
-  /// of MPI.
+  /// `timeout` is the limit in seconds for the start of MPI, for any silence after that, and for
+  /// the end of MPI.
   MpiSession(int& argc, char**& argv, double timeout);
-  /// The producer announces that it has written everything, for which the other processes wait
-  /// here; then all end MPI.
+  /// The producer announces that it has written everything, and the other processes wait for this;
+  /// then all end MPI.
   ~MpiSession();
   MpiSession(const MpiSession&) = delete;
   MpiSession& operator=(const MpiSession&) = delete;
 
-  /// Called on the producer: from now on, other processes may be silent, which it handles itself.
+  /// Called on the producer: from now on, other processes may be silent, and the caller handles it.
   void allow_silence();
 
   /// Ends all processes at once, including those that do not respond.

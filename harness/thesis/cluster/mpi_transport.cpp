@@ -22,7 +22,7 @@ Message receive(MPI_Comm processes, const MPI_Status& coming) {
 }
 
 /// Polls without a pause at first, so that a prompt message is received promptly; then sleeps for
-/// longer and longer, to leave the processor to others.
+/// increasing times, to leave the processor to others.
 class Backoff {
  public:
   using Clock = std::chrono::steady_clock;
@@ -37,8 +37,9 @@ class Backoff {
   }
 
  private:
-  /// A message and its reply take about 0.1 ms. With three processes on two processors, 0.5 to 20
-  /// ms made no difference, and shorter times cost up to a third.
+  /// How long to poll without a pause. A message and its reply take about 0.1 ms. With three
+  /// processes on two processors, 0.5 to 20 ms made no difference, and shorter times cost up to a
+  /// third.
   static constexpr std::chrono::milliseconds kAwake{2};
   static constexpr std::chrono::microseconds kLongest{200};
   Clock::time_point sleeps_from_ = Clock::now() + kAwake;
@@ -49,7 +50,7 @@ class Backoff {
 
 struct MpiTransport::Mpi {
   MPI_Comm processes = MPI_COMM_NULL;
-  /// Messages in transmission, each kept until it has left.
+  /// Messages being sent, each kept until it has left.
   std::vector<MPI_Request> sending;
   std::vector<Bytes> sent;
   /// A buffer for any message, allocated on first use and not initialized.
@@ -59,7 +60,7 @@ struct MpiTransport::Mpi {
   Message receive_next();
 };
 
-/// Uses one MPI_Testsome for all.
+/// Frees the messages that have left, with one MPI_Testsome for all.
 void MpiTransport::Mpi::forget_what_left() {
   if (sending.empty()) return;
   int left = 0;
@@ -75,7 +76,7 @@ void MpiTransport::Mpi::forget_what_left() {
   }
 }
 
-/// Avoids a probe, because SimGrid's MPI_Probe polls, which takes simulated time.
+/// Receives without a probe, because SimGrid's MPI_Probe polls, which takes simulated time.
 Message MpiTransport::Mpi::receive_next() {
   constexpr int kLargest = 1 << 26;
   // NOLINTNEXTLINE(modernize-avoid-c-arrays)
@@ -93,13 +94,14 @@ MpiTransport::MpiTransport(Waiting waiting) : mpi_(std::make_unique<Mpi>()), wai
   MPI_Comm_size(mpi_->processes, &processes_);
 }
 
-/// The communicator is freed by MPI_Finalize: here, all processes would have to take part.
+/// Leaves the communicator to MPI_Finalize: freeing it here would require all processes to take
+/// part.
 MpiTransport::~MpiTransport() = default;
 
 double MpiTransport::seconds() const { return MPI_Wtime(); }
 
-/// Uses MPI_Isend, as in the thesis, where the producer first waits for its last message to leave.
-/// Here each message has its own buffer, so that a slow consumer does not delay the others.
+/// Uses MPI_Isend, like the thesis, where the producer first waits until its last message has left.
+/// Here each message has a separate buffer, so a slow consumer does not delay the others.
 void MpiTransport::send(ProcessId to, Tag tag, Bytes bytes) {
   mpi_->forget_what_left();
   const Bytes& kept = mpi_->sent.emplace_back(std::move(bytes));

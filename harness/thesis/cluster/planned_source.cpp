@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kPixelsForEach = 16;
 
-/// Returns one pixel in the middle of each 16 of a line.
+/// Returns the middle pixel of each group of 16 on a line.
 std::vector<int> chosen(int begin, int length) {
   const int count = std::max(1, length / kPixelsForEach);
   std::vector<int> pixels;

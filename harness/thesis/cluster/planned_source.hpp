@@ -1,5 +1,5 @@
 #pragma once
-// Tasks whose messages are planned before the first is sent.
+// Plans the messages of tasks before the first is sent.
 
 #include <cstddef>
 #include <span>
@@ -15,7 +15,7 @@ namespace beambench::cluster {
 /// Provides tasks share by share, one message for each share.
 class PlannedSource : public TaskSource {
  public:
-  /// `tasks` are as written by `write_task`; `estimates` are their seconds, or empty.
+  /// `tasks` are as written by `write_task`; `estimates` are their times in seconds, or empty.
   PlannedSource(std::vector<Bytes> tasks, std::vector<Share> shares, std::vector<double> estimates);
 
   bool next(Bytes& task) override;
@@ -27,13 +27,13 @@ class PlannedSource : public TaskSource {
   std::vector<Share> shares_;
   std::vector<double> estimates_;
   std::size_t share_ = 0;
-  std::size_t place_ = 0;  ///< in the share
-  std::size_t last_ = 0;   ///< the last task that was made
+  std::size_t place_ = 0;  ///< position in the share
+  std::size_t last_ = 0;   ///< the last task made
 };
 
-/// Estimates for each block the CPU seconds of its pixels, from one pixel in each 16 x 16 (in a
-/// smaller block, the middle one), which `worker` traces: the pre-processing with a low-quality
-/// image of Salmon and Goldsmith (1988) and Priol and Bouatouch (1989).
+/// Estimates the CPU seconds of each block's pixels by tracing, with `worker`, one pixel in each 16
+/// x 16 (in a smaller block, the middle one): the low-quality preprocessing image of Salmon and
+/// Goldsmith (1988) and Priol and Bouatouch (1989).
 std::vector<double> estimate_costs(std::span<const accel::beam::PixelRect> blocks,
                                    TaskWorker& worker);
 

@@ -35,7 +35,7 @@ ClusterReport Producer::run() {
   return std::move(report_);
 }
 
-/// Shuts consumers down with their last result; lost tasks are performed here.
+/// Shuts consumers down after their last result, and performs lost tasks itself.
 void Producer::finish() {
   shut_down_idle();
   while (!open_.empty()) {
@@ -55,7 +55,7 @@ void Producer::finish() {
   own_->write_counts(of(kProducer).counted);
 }
 
-/// Waits for all final reports, at most for the timeout.
+/// Waits for all final reports, but no longer than the timeout.
 void Producer::wait_for_final_reports() {
   const double last_call = transport_->seconds() + options_.timeout;
   const auto missing = [this] {
@@ -256,7 +256,8 @@ void Producer::shut_down_idle() {
   }
 }
 
-/// Includes those that never joined or were declared lost, in case they still receive it.
+/// Also shuts down consumers that never joined or were declared lost, in case they still receive
+/// the message.
 void Producer::shut_down_all() {
   for (const ProcessId consumer : pool_.not_shut_down()) shut_down(consumer);
 }

@@ -24,13 +24,14 @@ struct ProducerOptions {
   std::function<void(std::span<const std::byte> task, std::span<const std::byte> result)> keep;
 };
 
-/// The producer of section 6.2. It takes a task from its source, sends it to the consumer that has
-/// waited longest without waiting for the message to leave, and receives results before each
-/// message it sends. When there are no more tasks, each consumer is shut down with its last result.
+/// The producer of section 6.2. It takes a task from its source and sends it to the consumer that
+/// has waited longest, without waiting until the message has left. Before each message it receives
+/// the results that have arrived. When there are no more tasks, each consumer is shut down after
+/// its last result.
 ///
 /// A consumer that is silent for too long is declared lost: its tasks go to the others, or are
-/// performed here if none is left. If it is heard from again, it receives work again; duplicate
-/// results are used once.
+/// performed here if none is left. If it responds again, it receives work again. Of duplicate
+/// results, only the first is used.
 class Producer {
  public:
   /// Checks a consumer's ready report; throws InputError if it does not match, which ends the run.
@@ -40,7 +41,7 @@ class Producer {
   Producer(Transport& transport, TaskSource& source, ResultSink& sink, TaskWorker& own, Check check,
            const ProducerOptions& options);
 
-  /// Runs all tasks, from the first to the last result. If it throws, the consumers have been shut
+  /// Runs all tasks, from the first to the last result. If it throws, it has shut the consumers
   /// down.
   ClusterReport run();
 
@@ -83,7 +84,7 @@ class Producer {
   ProducerOptions options_;
   WorkerPool pool_;
   std::map<Number, Parcel> open_;  ///< parcels without results
-  std::deque<Number> lost_;        ///< those of them that no process is working on
+  std::deque<Number> lost_;        ///< parcels of `open_` that no process is working on
   Number next_number_ = 0;
   double begin_ = 0.0;
   double walked_ = 0.0;  ///< CPU seconds since the previous task

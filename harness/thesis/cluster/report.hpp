@@ -30,10 +30,10 @@ struct Traffic {
 nlohmann::ordered_json to_json(const Traffic& traffic);
 nlohmann::ordered_json to_json(const render::RayCensus& census);
 
-/// The activity of a process. Wall times are those of the transport's clock.
+/// What a process did. Wall times are those of the transport's clock.
 struct ProcessReport {
   std::uint64_t tasks = 0;
-  std::uint64_t samples = 0;  ///< in its results
+  std::uint64_t samples = 0;  ///< number of samples in its results
   double busy_seconds = 0.0;  ///< wall time in tasks
   double cpu_seconds = 0.0;   ///< CPU time in tasks
   double wait_seconds = 0.0;  ///< wall time waiting for messages
@@ -59,13 +59,13 @@ struct TaskReport {
 struct ClusterReport {
   double seconds = 0.0;            ///< wall time from the first beam to the last result
   double walk_seconds = 0.0;       ///< CPU time in which the producer made tasks
-  double last_walk_seconds = 0.0;  ///< part of it: after the last task
+  double last_walk_seconds = 0.0;  ///< the part of it after the last task
   double accept_seconds = 0.0;     ///< CPU time in which it collected results
   double producer_wait_seconds = 0.0;
   std::vector<ProcessReport> processes;  ///< by `ProcessId`
   std::vector<TaskReport> tasks;
-  std::vector<std::string> remarks;  ///< failures that the run recovered from, one sentence each
-  std::vector<ProcessId> lost;       ///< processes that hung at the end
+  std::vector<std::string> remarks;  ///< failures from which the run recovered, one sentence each
+  std::vector<ProcessId> lost;       ///< processes that did not respond at the end
 
   /// Returns the messages of all processes in one direction.
   Traffic total(Traffic ProcessReport::*direction) const {
@@ -73,7 +73,7 @@ struct ClusterReport {
     for (const ProcessReport& process : processes) sum += process.*direction;
     return sum;
   }
-  /// Returns the share of the run in which the producer did not wait for a message.
+  /// Returns the share of the run during which the producer did not wait for a message.
   double producer_busy_share() const {
     return seconds > 0.0 ? 1.0 - producer_wait_seconds / seconds : 1.0;
   }
@@ -87,7 +87,7 @@ struct ClusterRun {
   int in_flight = 1;
   bool producer_consumes = false;
   bool stored = false;                     ///< results stayed with the processes until the end
-  std::size_t resumed_tasks = 0;           ///< of an interrupted run, which were not done again
+  std::size_t resumed_tasks = 0;           ///< tasks of an interrupted run that were not repeated
   double pre_pass_seconds = 0.0;           ///< CPU time of the producer, before the first task
   std::vector<ReadyReport> ready_reports;  ///< by process; the producer's own is the first
   ClusterReport report;
@@ -97,7 +97,7 @@ struct ClusterRun {
 /// Returns totals, and the report of each process.
 nlohmann::ordered_json to_json(const ClusterRun& run);
 
-/// Returns a row for each task in order, and a last one, `end`, for the producer's time after the
+/// Returns a row for each task in order, and a last row, `end`, for the producer's time after the
 /// last task: the input of a simulation.
 std::string task_table(const ClusterReport& report);
 

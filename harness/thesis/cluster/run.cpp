@@ -46,10 +46,10 @@ void wait_for_end(Transport& transport) {
   }
 }
 
-/// The objects that every process builds for itself: the scene, its octree, the rays.
+/// The objects that every process builds itself: the scene, its octree, the rays.
 struct WorkerState {
-  /// Loads and builds. Throws InputError if that fails or the structure is not `beam`. Warnings of
-  /// the scene's reader are appended to `warnings` if given.
+  /// Loads and builds. Throws InputError if that fails or the structure is not `beam`. Appends the
+  /// warnings of the scene's reader to `warnings` if given.
   explicit WorkerState(const Job& job, std::vector<std::string>* warnings = nullptr)
       : scene(scenes::load_scene(job.scene, warnings)),
         image(job_image(job, scene)),
@@ -81,11 +81,11 @@ struct WorkerState {
   rays::ImageOfRays image;
   accel::PrimaryRays rays;
   std::unique_ptr<accel::beam::BeamTracer> tracer;
-  std::optional<render::Whitted> light;  ///< nothing if the job is only for hits
+  std::optional<render::Whitted> light;  ///< nothing if the job needs only hits
   double build_seconds = 0.0;
 };
 
-/// The producer's tasks, and the time for estimating them.
+/// The producer's tasks, and the time spent on estimates.
 struct Plan {
   std::unique_ptr<TaskSource> source;
   double pre_pass_seconds = 0.0;
@@ -105,7 +105,7 @@ std::vector<std::size_t> tiles_left(const TileOrder& order, const TaskSet& finis
   return left;
 }
 
-/// Plans tiles by their numbers, with a range of them in each message.
+/// Plans tiles by number, with one range of numbers in each message.
 Plan plan_tiles(const ClusterRequest& request, const WorkerState& state, int consumers,
                 const TaskSet& finished) {
   const TileOrder order(state.rays.width(), state.rays.height(), request.block_size);
@@ -220,11 +220,11 @@ class Result {
   std::optional<ColorSink> color_sink_;
 };
 
-/// The producer's part in keeping results: it reads those of an interrupted run, and either keeps
-/// results as they are sent, or at the end collects those that every process kept itself.
+/// The producer's part in keeping results. Reads those of an interrupted run, and either keeps
+/// results as they arrive or, at the end, collects those that the processes kept themselves.
 class Keeper {
  public:
-  /// Puts existing results into the sink. Throws InputError if they belong to another picture. A
+  /// Passes existing results to the sink. Throws InputError if they belong to another picture. A
   /// failure to keep results is only a warning, unless all processes must do so.
   Keeper(const ClusterRequest& request, const std::string& key, ResultSink& sink,
          std::vector<std::string>& warnings)
@@ -249,7 +249,7 @@ class Keeper {
 
   const TaskSet& finished() const { return finished_; }
 
-  /// Does the producer's work; at the end, all results are in the sink.
+  /// Does the producer's work; at the end, the sink has all results.
   ClusterReport produce(Transport& transport, TaskSource& source, ResultSink& sink,
                         ImageWorker& own, const Producer::Check& check) {
     if (!stored_) {
@@ -264,16 +264,17 @@ class Keeper {
   }
 
  private:
-  /// Keeps a result; on failure it continues, because a picture that cannot be resumed is better
+  /// Keeps a result. Continues after a failure, because a picture that cannot be resumed is better
   /// than none.
   void keep(std::span<const std::byte> task, std::span<const std::byte> result) {
     if (!file_) return;
     try {
       file_->add(task, result);
     } catch (const InputError& error) {
-      base::print_message(stderr, fmt::format("beambench-cluster: {}; the run goes on, but cannot "
-                                              "be resumed\n",
-                                              error.what()));
+      base::print_message(stderr,
+                          fmt::format("beambench-cluster: {}; the run continues, but cannot "
+                                      "be resumed\n",
+                                      error.what()));
       file_.reset();
       folder_->remove();
     }

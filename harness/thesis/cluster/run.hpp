@@ -25,7 +25,7 @@ struct ClusterRequest {
   Job job;
   ProducerOptions producer;
   Work work = Work::kBeams;
-  bool batch_given = false;  ///< tiles: equal numbers in each message, instead of fewer and fewer
+  bool batch_given = false;  ///< tiles: equal numbers in each message, instead of decreasing ones
   int block_size = 32;
   render::Shading shading = render::Shading::kPreview;
   std::string picture;  ///< file; empty: none
@@ -36,11 +36,10 @@ struct ClusterRequest {
 };
 
 /// Makes the image and writes the requested files, after broadcasting the job. Throws InputError if
-/// the scene cannot be loaded or a process does not match; in that case, the others have been shut
-/// down.
+/// the scene cannot be loaded or a process does not match; the other processes are shut down first.
 ClusterRun lead(const ClusterRequest& request, Transport& transport);
 
-/// Receives the job and works on it to its end. A failure during set-up is reported to process 0,
+/// Receives the job and works on it until it ends. Reports a failure during set-up to process 0,
 /// which ends the run.
 void follow(Transport& transport);
 
@@ -52,8 +51,8 @@ void set_up_producer(Transport& transport,
 /// Reports to process 0 why this process cannot work, and waits for the end.
 void report_setup_failure(Transport& transport, const std::string& problem);
 
-/// Calls `set_up` on another process and returns its result; nothing after an InputError or
-/// std::bad_alloc, which has been reported to process 0, which has ended the run.
+/// Calls `set_up` on another process and returns its result. After an InputError or std::bad_alloc,
+/// reports the problem to process 0, which ends the run, and returns nothing.
 template <class SetUp>
 std::optional<std::invoke_result_t<SetUp>> set_up_consumer(Transport& transport, SetUp set_up) {
   std::string problem;

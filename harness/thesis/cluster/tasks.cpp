@@ -16,7 +16,7 @@ std::size_t read_count(const Values& values, ByteReader& reader) {
   return count;
 }
 
-// Replaces a beam's kind.
+// takes the place of a beam's kind
 constexpr std::uint8_t kBlock = 255;
 constexpr std::uint8_t kTile = 254;
 
@@ -76,7 +76,7 @@ accel::octree::OctreeCursor find_leaf(const accel::octree::Octree& octree, std::
     cursor.enter_child(corner);
   }
   if (!cursor.node().is_leaf() || leaf_code(octree, cursor.corner(), cursor.size()) != code) {
-    throw ProtocolError("a beam names a leaf that is not in this process's octree");
+    throw ProtocolError("a beam refers to a leaf that is not in this process's octree");
   }
   return cursor;
 }

@@ -21,18 +21,18 @@ namespace beambench::cluster {
 std::uint64_t leaf_code(const accel::octree::Octree& octree, const glm::ivec3& corner,
                         std::int32_t size);
 
-/// Returns the leaf with that code. Throws ProtocolError if the octree does not have it.
+/// Returns the leaf with that code. Throws ProtocolError if the octree does not contain it.
 accel::octree::OctreeCursor find_leaf(const accel::octree::Octree& octree, std::uint64_t code);
 
 /// Writes a plane of the cells: five bytes.
 void write_crossing(const accel::beam::Crossing& crossing, ByteWriter& writer);
-/// Throws ProtocolError if the grid does not have that plane.
+/// Reads a plane of the cells. Throws ProtocolError if the grid does not have that plane.
 accel::beam::Crossing read_crossing(const accel::CellGrid& grid, ByteReader& reader);
 
-/// Writes outline and cuts. Only the planes of the cuts are written, because their lines follow
+/// Writes outline and cuts. Of the cuts only the planes are written, because their lines follow
 /// from these.
 void write_shape(const accel::beam::Beam& beam, ByteWriter& writer);
-/// Reads them back, bit for bit. Throws ProtocolError for other bytes.
+/// Reads them, bit for bit. Throws ProtocolError for other bytes.
 void read_shape(ByteReader& reader, const accel::beam::EyeView& view, accel::beam::Beam& beam);
 
 /// A beam whose samples become rays.
@@ -66,8 +66,8 @@ void paint(BeamTask::Kind end, const accel::beam::Beam& beam, Painter& painter) 
 /// Pixels traced by individual rays.
 struct BlockTask : accel::beam::PixelRect {};
 
-/// Tiles traced by beams, which the tracing process makes itself, starting at the root: those with
-/// the numbers from `first` on of `TileOrder`.
+/// Tiles traced by beams, which the tracing process makes itself, starting at the root: a range of
+/// `TileOrder` that starts at `first`.
 struct TileTask {
   std::uint32_t first;
   std::uint32_t count;
@@ -79,10 +79,11 @@ void write_task(const BeamTask& task, const accel::octree::Octree& octree, Bytes
 void write_task(const BlockTask& task, Bytes& bytes);
 void write_task(const TileTask& task, Bytes& bytes);
 
-/// Returns nothing for other tasks. Throws ProtocolError if the task is truncated.
+/// Reads a range of tiles; returns nothing for other tasks. Throws ProtocolError if the task is
+/// truncated.
 std::optional<TileTask> read_tiles(std::span<const std::byte> bytes);
 
-/// Reads a task; the same octree gives the same beam bit for bit. Throws ProtocolError for other
+/// Reads a task; the same octree yields the same beam, bit for bit. Throws ProtocolError for other
 /// bytes.
 std::variant<BeamTask, BlockTask, TileTask> read_task(std::span<const std::byte> bytes,
                                                       const accel::octree::Octree& octree,
@@ -92,12 +93,12 @@ std::variant<BeamTask, BlockTask, TileTask> read_task(std::span<const std::byte>
 /// to be sent back.
 void require_tasks(const accel::beam::BeamTracer& tracer);
 
-/// The traversal of the beams (thesis, section 6.2.2): those in empty leaves continue, those that
-/// leave the scene end, because the image begins as background, and those at occupied leaves are
+/// The traversal of the beams (thesis, section 6.2.2): beams in empty leaves continue; beams that
+/// leave the scene end, because the image starts as background; and beams at occupied leaves become
 /// the tasks.
 class BeamSource : public TaskSource {
  public:
-  /// Both arguments must outlive this object. Throws as `require_tasks`.
+  /// Both arguments must outlive this object. Throws what `require_tasks` throws.
   BeamSource(const accel::beam::BeamTracer& tracer, const accel::PrimaryRays& rays);
 
   bool next(Bytes& task) override;

@@ -13,12 +13,12 @@ namespace beambench::cluster {
 
 /// The kind of a message.
 enum class Tag {
-  kReady,        ///< consumer: its octree is built; contains its identity
+  kReady,        ///< consumer: its octree is built; has its identity
   kTasks,        ///< producer: a parcel of work
   kResults,      ///< consumer: results of a parcel
-  kHeartbeat,    ///< consumer: it is working on a long task
+  kHeartbeat,    ///< consumer: it is still working on a long task
   kEnd,          ///< producer: there is no more work
-  kFinalReport,  ///< consumer: its report; for a divided scene, with its hits
+  kFinalReport,  ///< consumer: its report and, for a divided scene, its hits
   // For a divided scene (split/):
   kGo,      ///< process 0: all have the same scene; begin
   kCross,   ///< to any process: beams and rays that enter its part
@@ -75,7 +75,7 @@ class TaskSource : public Role {
   virtual bool next(Bytes& task) = 0;
   /// Returns the number of tasks of the next message if the source determines it; otherwise 0.
   virtual std::size_t parcel_size() const { return 0; }
-  /// Returns the estimated seconds of the last task; 0 if it is not estimated.
+  /// Returns the estimated time of the last task in seconds; 0 if it was not estimated.
   virtual double estimate() const { return 0.0; }
 };
 
@@ -85,18 +85,18 @@ using Heartbeat = std::function<void()>;
 /// Performs tasks.
 class TaskWorker : public Role {
  public:
-  /// Performs a task and appends its result to a message. The same task gives the same bytes on
+  /// Performs a task and appends its result to a message. The same task yields the same bytes on
   /// every process. Throws ProtocolError for bytes that are not a task.
   virtual void perform(std::span<const std::byte> task, Bytes& result,
                        const Heartbeat& heartbeat) = 0;
-  /// Appends its counts, for the report.
+  /// Appends the worker's counts, for the report.
   virtual void write_counts(Bytes&) const {}
 };
 
 /// Collects results.
 class ResultSink : public Role {
  public:
-  /// Accepts a result. Results come in any order, each once. Returns the number of samples in it.
+  /// Accepts a result and returns the number of its samples. Results come in any order, each once.
   /// Throws ProtocolError for bytes that are not a result.
   virtual std::size_t accept(std::span<const std::byte> result) = 0;
 };

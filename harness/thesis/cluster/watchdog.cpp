@@ -13,7 +13,7 @@
 namespace beambench::cluster {
 namespace {
 
-constexpr int kGrace = 1000;  // milliseconds for a group that was stopped as a whole and continues
+constexpr int kGrace = 1000;  // milliseconds, for a group that is stopped and continued as a whole
 
 /// Returns whether the other side is still open; it is closed when its process ends.
 bool is_open_after(int socket, int milliseconds) {
@@ -47,8 +47,8 @@ Watchdog::Watchdog(double seconds) {
   std::array<int, 2> sockets{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets.data()) != 0) return;
   const std::string message = fmt::format(
-      "beambench-cluster: a process did not end within {} s and is killed; what was "
-      "asked for is written\n",
+      "beambench-cluster: a process did not end within {} s and is killed; all requested "
+      "files are written\n",
       seconds);
   const pid_t self = ::getpid();
   const pid_t child = ::fork();

@@ -1,5 +1,5 @@
 #pragma once
-// The state of the consumers: waiting, working, silent.
+// The state of the consumers: waiting, working or silent.
 
 #include <cstdint>
 #include <optional>
@@ -15,31 +15,31 @@ namespace beambench::cluster {
 /// waited longest (the thesis's round robin, section 6.2.3, where each has at most one).
 class WorkerPool {
  public:
-  /// Consumers are 1 ... `processes` - 1. Each may hold up to `in_flight` parcels and is declared
+  /// Consumers are 1 ... `processes` - 1. Each may hold up to `in_flight` parcels, and is declared
   /// lost if it holds one and is silent for longer than `timeout`.
   WorkerPool(int processes, int in_flight, double timeout);
 
   /// Records that a consumer is ready.
   void join(ProcessId consumer, double now);
-  /// Records that a consumer sent something; if it was lost, it is back.
+  /// Records that a consumer sent something; if it was lost, it is present again.
   void heard(ProcessId consumer, double now);
-  /// Record that it was sent a parcel, or that its results arrived.
+  /// Record that a consumer was sent a parcel, or that its results arrived.
   void gave(ProcessId consumer, double now);
   void returned(ProcessId consumer, double now);
-  /// Records that it was sent the end.
+  /// Records that a consumer was sent the end message.
   void shut_down(ProcessId consumer);
 
   std::optional<ProcessId> longest_waiting() const;
   bool nobody_present() const { return present_count_ == 0; }
   /// Declares silent consumers that hold parcels lost, and returns them.
   std::vector<ProcessId> declare_silent_lost(double now);
-  /// Returns when the next one will have been silent for too long.
+  /// Returns the time at which the next consumer will have been silent for too long.
   double next_deadline() const;
 
-  /// Returns those that joined and are neither lost nor shut down.
+  /// Returns the consumers that joined and are neither lost nor shut down.
   std::vector<ProcessId> present() const;
   bool idle(ProcessId consumer) const { return at(consumer).load == 0; }
-  /// Returns those that were declared lost and not heard from since.
+  /// Returns the consumers that were declared lost and have not been heard from since.
   std::vector<ProcessId> lost() const;
   std::vector<ProcessId> not_shut_down() const;
 
@@ -48,7 +48,7 @@ class WorkerPool {
   struct Member {
     State state = State::kAbsent;
     int load = 0;
-    std::uint64_t since = 0;  ///< the turn since which it has waited
+    std::uint64_t since = 0;  ///< the turn at which it began to wait
     double last_heard = 0.0;
   };
   /// Ordered by the sequence in which work is assigned.
@@ -68,7 +68,7 @@ class WorkerPool {
   void become(Member& member, State state);
   void leave_queue(ProcessId consumer);
   void enter_queue(ProcessId consumer);
-  /// Returns those whose state is `wanted`.
+  /// Returns the consumers whose state is `wanted`.
   template <class Wanted>
   std::vector<ProcessId> consumers(Wanted wanted) const;
 

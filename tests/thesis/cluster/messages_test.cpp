@@ -224,9 +224,10 @@ TEST(ReadyReport, IsRefusedUnlessTheProcessMatches) {
   ready_report.identity.primitives = 9;
   EXPECT_NE(problem(write_ready_report(ready_report)).find("9 primitives"), std::string::npos);
   ready_report.identity.references = 9;
-  EXPECT_NE(problem(write_ready_report(ready_report)).find("another octree"), std::string::npos);
+  EXPECT_NE(problem(write_ready_report(ready_report)).find("a different octree"),
+            std::string::npos);
   ready_report.identity.scene = 5;
-  EXPECT_NE(problem(write_ready_report(ready_report)).find("another scene"), std::string::npos);
+  EXPECT_NE(problem(write_ready_report(ready_report)).find("a different scene"), std::string::npos);
   ready_report.problem = "there is no scene 'x'";
   EXPECT_EQ(problem(write_ready_report(ready_report)), "process 4 on node7: there is no scene 'x'");
   EXPECT_NE(problem(Bytes(40)).find("another program"), std::string::npos);

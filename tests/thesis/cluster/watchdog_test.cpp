@@ -41,8 +41,8 @@ TEST(Watchdog, KillsAProcessThatIsStoppedWhileItEnds) {
   EXPECT_EQ(WTERMSIG(stopped.status), SIGKILL);
   EXPECT_GE(stopped.seconds, 0.2);
   EXPECT_EQ(testing::internal::GetCapturedStderr(),
-            "beambench-cluster: a process did not end within 0.2 s and is killed; what was asked "
-            "for is written\n");
+            "beambench-cluster: a process did not end within 0.2 s and is killed; all requested "
+            "files are written\n");
 }
 
 TEST(Watchdog, SparesAProcessThatEndsInTime) {

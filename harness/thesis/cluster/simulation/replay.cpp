@@ -36,7 +36,7 @@ std::vector<std::string> split(std::string_view line) {
   return fields;
 }
 
-/// The columns by name, and the fields of one line.
+/// The columns by name, and the fields of a line.
 class Line {
  public:
   Line(const std::filesystem::path& path, std::map<std::string, std::size_t> columns)
@@ -51,7 +51,7 @@ class Line {
     ++number_;
     fields_ = split(text);
     if (fields_.size() != columns_.size()) {
-      fail(fmt::format("{} fields where the first line has {}", fields_.size(), columns_.size()));
+      fail(fmt::format("{} fields, but the first line has {}", fields_.size(), columns_.size()));
     }
   }
 
@@ -106,7 +106,7 @@ void put(Number number, std::size_t size, Bytes& bytes) {
 
 Number number_in(std::span<const std::byte> bytes, const TaskCosts& costs) {
   const auto number = ByteReader(bytes).get<Number>();
-  if (number >= costs.tasks.size()) throw ProtocolError("a message has the number of no task");
+  if (number >= costs.tasks.size()) throw ProtocolError("a message has an unknown task number");
   return number;
 }
 
@@ -180,7 +180,7 @@ TaskCosts merged(const TaskCosts& costs, const std::vector<Share>& shares, bool 
   TaskCosts merged;
   merged.last_walk_seconds = costs.last_walk_seconds;
   for (const Share& share : shares) {
-    // One range of numbers is sent and, if the results are stored, one receipt.
+    // A range of numbers is sent as one task; if results are stored, one receipt is returned.
     TaskCost& sum = merged.tasks.emplace_back(costs.tasks[share.front()]);
     for (const std::size_t number : std::span(share).subspan(1)) {
       const TaskCost& task = costs.tasks[number];
@@ -233,7 +233,7 @@ void ReplayedWorker::perform(std::span<const std::byte> task, Bytes& result, con
 
 std::size_t ReplayedSink::accept(std::span<const std::byte> result) {
   const Number number = number_in(result, *costs_);
-  if (came_[number]) throw ProtocolError("a result came twice");
+  if (came_[number]) throw ProtocolError("a result arrived twice");
   came_[number] = true;
   spend_(costs_->tasks[number].accept_seconds);
   return costs_->tasks[number].samples;

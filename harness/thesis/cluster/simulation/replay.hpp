@@ -1,7 +1,7 @@
 #pragma once
 // The recorded costs of a picture's tasks, and their replay: a transport whose messages cost CPU
-// time, and a producer and consumers that take the same time and send as many bytes as the real
-// ones, without scene and octree.
+// time, and a producer and consumers that take as much time and send as many bytes as the real
+// ones, but need neither scene nor octree.
 
 #include <cstddef>
 #include <filesystem>
@@ -98,19 +98,19 @@ TaskCosts slowed(TaskCosts costs, double walk, double work);
 /// Sets the size of results to this many bytes per sample, as sent by another program.
 TaskCosts with_results_of(double bytes_per_sample, TaskCosts costs);
 
-/// Returns the recorded tasks as messages for that many consumers. Throws InputError for kEqualCost
-/// if no estimates were recorded.
+/// Returns the messages for that many consumers, as lists of recorded tasks. Throws InputError for
+/// kEqualCost if no estimates were recorded.
 std::vector<Share> planned(ImageDivision division, const TaskCosts& costs, int consumers);
 
-/// Merges each share into one task, like the tiles of a range. `stored`: the results stay with the
-/// consumer, and the recorded receipt of one task represents all of them.
+/// Merges each share into one task, like the tiles of a range. If `stored`, results stay with the
+/// consumer, and the recorded receipt of one task stands for all of them.
 TaskCosts merged(const TaskCosts& costs, const std::vector<Share>& shares, bool stored);
 
-/// Makes the recorded tasks in order, or as planned. A task is its number, padded to the recorded
+/// Makes the recorded tasks, in order or as planned. A task is its number, padded to the recorded
 /// size.
 class ReplayedSource : public TaskSource {
  public:
-  /// Spends `before` seconds before the first task. `plan` is empty if there is none.
+  /// Spends `before` seconds before the first task. `plan` is empty if there is no plan.
   ReplayedSource(const TaskCosts& costs, Spend spend, std::vector<Share> plan = {},
                  double before = 0.0)
       : costs_(&costs), spend_(std::move(spend)), plan_(std::move(plan)), before_(before) {}
@@ -126,7 +126,7 @@ class ReplayedSource : public TaskSource {
   double before_;
   std::size_t made_ = 0;
   std::size_t share_ = 0;
-  std::size_t place_ = 0;  ///< in the share
+  std::size_t place_ = 0;  ///< position in the share
 };
 
 /// Spends the recorded time on a task. A result is the task's number, padded to the recorded size.

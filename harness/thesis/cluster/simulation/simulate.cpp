@@ -29,9 +29,9 @@ namespace s4u = simgrid::s4u;
 constexpr double kSpeedOne = 1e9;
 constexpr const char* kProgram = "beambench-cluster";
 
-/// Configures SimGrid: times and sizes are those of the model, without its corrections for modern
-/// clusters. The program's real computations take no time, and MPI calls take as long as
-/// `ChargedTransport` charges.
+/// Configures SimGrid: times and sizes are those of the model, without SimGrid's corrections for
+/// modern clusters. The program's real computations take no simulated time, and MPI calls take the
+/// time that `ChargedTransport` charges.
 void configure() {
   const auto set = [](const std::string& option) { s4u::Engine::set_config(option); };
   set("network/model:CM02");
@@ -41,7 +41,7 @@ void configure() {
   set("network/TCP-gamma:0");
   set("network/crosstraffic:no");
   set("smpi/simulate-computation:no");
-  set("smpi/cpu-threshold:0");  // otherwise anything below a microsecond would take no time
+  set("smpi/cpu-threshold:0");  // otherwise less than a microsecond takes no time
   set(fmt::format("smpi/host-speed:{}f", kSpeedOne));
   set("smpi/bw-factor:1");
   set("smpi/lat-factor:1");
@@ -61,7 +61,7 @@ simgrid::kernel::profile::Profile* load_of(const std::string& name, const Cluste
   return simgrid::kernel::profile::ProfileBuilder::from_string(name, points, cluster.load_period);
 }
 
-/// Version 4 creates the root itself, and only zones in it take the models set up here.
+/// SimGrid 4 creates the root itself, and only zones inside it accept the models set up here.
 s4u::NetZone* make_zone() {
 #if SIMGRID_VERSION_MAJOR >= 4
   return s4u::Engine::get_instance()->get_netzone_root()->add_netzone_star("cluster");
@@ -103,10 +103,10 @@ std::vector<s4u::Host*> make_machines(const ClusterModel& cluster) {
   return machines;
 }
 
-/// The main function of a process. Only the time it spends passes, and that of its messages.
+/// The main function of a process. Simulated time passes only through `spend` and through messages.
 using ProcessMain = std::function<void(Transport& transport, const Spend& spend)>;
 
-/// Shared by the processes, which are simulated one at a time.
+/// Data shared by the processes, which are simulated one at a time.
 struct Stage {
   MessageCost message_cost;
   const ProcessMain& process;
@@ -127,7 +127,7 @@ void run_process_main(Stage& stage) {
   ++stage.ended;
 }
 
-/// Runs one process. An exception ends all processes, without MPI_Finalize, where each would wait
+/// Runs one process. An exception ends all processes without MPI_Finalize, in which each would wait
 /// for the others.
 void live(Stage& stage) {
   try {
@@ -143,10 +143,10 @@ void live(Stage& stage) {
   }
 }
 
-/// Runs `process` for each machine of a cluster, and returns the seconds to the end of the last
-/// one. `program` is the name of this program, for SimGrid's messages. Throws what a process
-/// throws, and std::runtime_error for a deadlock. Only one call per program: SimGrid has one
-/// engine.
+/// Runs `process` on each machine of a cluster, and returns the time in seconds until the last one
+/// ends. `program` is the name of this program, for SimGrid's messages. Throws what a process
+/// throws, and std::runtime_error for a deadlock. May be called only once per program, because
+/// SimGrid has a single engine.
 double run_on(const ClusterModel& cluster, const char* program, const ProcessMain& process) {
   std::string name(program);
   std::string quiet("--log=root.thres:warning");
@@ -183,7 +183,7 @@ ClusterReport replay_producer(Transport& transport, const Spend& spend, const Ta
   return Producer(transport, source, sink, own, welcome, options).run();
 }
 
-/// Does the work, spends its scaled CPU time, and adds up the time.
+/// Does the work, spends its scaled CPU time, and sums up the time.
 template <class Work>
 void do_for(const Spend& spend, double scale, double& sum, Work work) {
   const base::CpuStopwatch timer;
@@ -217,7 +217,7 @@ SimulatedRun simulate(const ClusterModel& cluster, const Replay& replay, const c
     costs = merged(costs, std::exchange(plan, {}), replay.stored);
   }
   ProducerOptions patient =
-      replay.options;  // no process fails here, and long tasks do not send heartbeats
+      replay.options;  // processes do not fail here, and long tasks do not send heartbeats
   patient.timeout = patient.startup_timeout = Transport::kForever;
   SimulatedRun run;
   run.seconds = run_on(cluster, program, [&](Transport& transport, const Spend& spend) {

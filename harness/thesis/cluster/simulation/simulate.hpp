@@ -1,7 +1,7 @@
 #pragma once
-// Simulated runs on machines and a network that SimGrid computes. Producer and consumers replay a
-// record. A divided scene is actually traced during the simulation, because the handoffs between
-// processes, and their messages, depend on the times.
+// Runs on machines and a network simulated by SimGrid. Producer and consumers replay a record. A
+// divided scene is actually traced during the simulation, because the handoffs between processes,
+// and their messages, depend on timing.
 
 #include <cstdint>
 #include <functional>
@@ -21,7 +21,7 @@ namespace beambench::cluster {
 struct ClusterModel {
   enum class Network {
     kShared,   ///< one medium for all, as in Ethernet with hubs or coaxial cable
-    kSwitched  ///< a separate line for each machine in both directions
+    kSwitched  ///< a separate line in each direction for each machine
   };
   Network network = Network::kSwitched;
   double bytes_per_second = 1.25e7;  ///< of the medium, or of each line
@@ -30,7 +30,7 @@ struct ClusterModel {
   std::vector<double> speeds;  ///< of each process's machine
   std::size_t loaded = 0;      ///< number of machines (the last ones) that others use, too
   double loaded_share = 0.5;   ///< share of their speed that others leave
-  double load_period = 20.0;   ///< seconds; others use them in the second half
+  double load_period = 20.0;   ///< seconds; others use the machine in the second half
 };
 
 /// The producer's report, and the time of the whole run.
@@ -50,7 +50,7 @@ struct Replay {
 };
 
 /// Runs producer and consumers on the cluster, with the producer on the first machine. Otherwise as
-/// `run_on`; throws as `planned`.
+/// `run_on`; throws what `planned` throws.
 SimulatedRun simulate(const ClusterModel& cluster, const Replay& replay, const char* program);
 
 /// The ratios of times on a machine of speed 1 to those on this one.
@@ -60,7 +60,7 @@ struct TimeScale {
   double work = 1.0;   ///< for everything else
 };
 
-/// The activity of a process, in CPU seconds of this machine.
+/// What a process did, in CPU seconds of this machine.
 struct SplitProcess {
   PartReport report;
   double build_seconds = 0.0;  ///< to divide the scene and to build its part
@@ -73,13 +73,13 @@ struct SplitProcess {
 
 struct SimulatedSplit {
   double seconds = 0.0;         ///< simulated: up to the end of the last process
-  double traced_seconds = 0.0;  ///< part of it: since the last process was ready
+  double traced_seconds = 0.0;  ///< the part of it after the last process was ready
   std::uint64_t result_hash = 0;
   std::vector<SplitProcess> processes;
 };
 
-/// Traces `job`, with each process of the cluster tracing its part of the scene. Reading the scene
-/// takes no simulated time. Otherwise as `run_on`.
+/// Traces `job`; each process of the cluster traces its part of the scene. Reading the scene takes
+/// no simulated time. Otherwise as `run_on`.
 SimulatedSplit simulate_split(const ClusterModel& cluster, const Job& job,
                               const std::shared_ptr<const scenes::Scene>& whole,
                               const TimeScale& scale, const char* program);

@@ -23,11 +23,11 @@ using accel::octree::OctreeNode;
 /// The number of sample rays along each side of a square image; other images have the same total.
 constexpr double kAlong = 128.0;
 
-/// Nanoseconds, rounded: fitted to the CPU times of 1,170 processes (five scenes in 16, 37 and 64
-/// interleaved parts, cells of levels 4 and 5).
-constexpr double kBeamsAtLeaf = 40000.0;  ///< for a leaf that a ray of the sample passes in a beam
-constexpr double kFirstLeaf = 50.0;       ///< for a sample: becoming a ray at an occupied leaf
-constexpr double kNextCell = 90.0;        ///< for a ray: being handed over
+/// Costs in nanoseconds, rounded; fitted to the CPU times of 1,170 processes (five scenes in 16, 37
+/// and 64 interleaved parts, cells of levels 4 and 5).
+constexpr double kBeamsAtLeaf = 40000.0;  ///< for a leaf that a sampled ray passes within a beam
+constexpr double kFirstLeaf = 50.0;       ///< for a sample that becomes a ray at an occupied leaf
+constexpr double kNextCell = 90.0;        ///< for a ray passed on to another process
 constexpr double kNextLeaf = 20.0;        ///< for a ray
 constexpr double kTest = 10.0;            ///< for a ray and a primitive
 
@@ -75,7 +75,7 @@ class CellCosts {
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
-  /// Returns the cell of each node; none for the nodes above, and for those in undivided empty
+  /// Returns the cell of each node; none for nodes above the cells and for nodes in undivided empty
   /// cells.
   static std::vector<std::uint32_t> cells_of_nodes(const Octree& octree,
                                                    const SceneCells& contents) {
@@ -97,8 +97,8 @@ class CellCosts {
   const Octree* octree_;
   accel::octree::AncestorNeighbors neighbors_;
   std::vector<std::uint32_t> cell_of_;
-  std::vector<bool> seen_;  ///< by node: in a beam
-  double rays_for_each_;    ///< of the image, per ray of the sample
+  std::vector<bool> seen_;  ///< by node: whether it was passed within a beam
+  double rays_for_each_;    ///< number of rays of the image per sampled ray
   std::vector<double> costs_;
 };
 

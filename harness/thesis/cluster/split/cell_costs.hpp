@@ -1,5 +1,5 @@
 #pragma once
-// Estimates the cost of tracing an image in each cell of a scene from a few of its rays.
+// Estimates the cost of tracing an image in each cell of a scene, from a few of the image's rays.
 
 #include <vector>
 
@@ -10,9 +10,9 @@
 
 namespace beambench::cluster {
 
-/// Returns costs by cell number, in nanoseconds of an arbitrary machine: for a sparse regular
-/// sample of the image's rays, leaves and tests are counted in their cells and multiplied by their
-/// average costs. Every process gets the same counts. Builds the octree of the whole scene and
+/// Returns costs by cell number, in nanoseconds of an arbitrary machine. For a sparse regular
+/// sample of the image's rays, counts leaves and tests in each cell, and multiplies them by their
+/// average costs. Every process computes the same counts. Builds the octree of the whole scene and
 /// frees it.
 std::vector<double> sampled_costs(const scenes::Scene& scene,
                                   const accel::octree::OctreeOptions& options,

@@ -7,9 +7,9 @@
 
 namespace beambench::cluster {
 
-/// The structure on process 0 that combines all processes. The querying threads trace the rays as
-/// far as they go in this part, and leave those that reach the border at the exchange. So a batch
-/// is one round of many rays, and a single ray is also a round.
+/// The structure on process 0 that combines all processes. The querying threads trace rays as far
+/// as this part reaches, and submit those that reach the border to the exchange. So a batch is one
+/// round of many rays, and a single ray is a round, too.
 class DividedScene : public accel::Accelerator {
  public:
   /// Both must outlive this object. `statistics` are those of this part.

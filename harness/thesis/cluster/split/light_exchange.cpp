@@ -13,11 +13,11 @@ std::vector<accel::Hit> LightExchange::nearest_hits(std::vector<LightRay> rays) 
   leaving_.insert(leaving_.end(), rays.begin(), rays.end());
   left_.notify_one();
   answered_.wait(lock, [&] { return closed_ || round.missing == 0; });
-  if (round.missing > 0) throw std::runtime_error("the rays of a picture are not answered");
+  if (round.missing > 0) throw std::runtime_error("the rays of a picture have no results");
   return std::move(round.hits);
 }
 
-/// Requires the lock.
+/// Returns a number for the ray at a place. The caller must hold the lock.
 std::uint32_t LightExchange::number(Round& round, std::size_t place) {
   if (free_.empty()) {
     free_.push_back(static_cast<std::uint32_t>(waiting_.size()));
@@ -49,7 +49,7 @@ void LightExchange::answer(const LightAnswer& answer) {
 void LightExchange::close() {
   const std::lock_guard lock(mutex_);
   closed_ = true;
-  waiting_.clear();  // the waiting threads leave
+  waiting_.clear();  // lets the waiting threads leave
   answered_.notify_all();
 }
 

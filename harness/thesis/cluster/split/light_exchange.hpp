@@ -1,5 +1,5 @@
 #pragma once
-// Connects the threads that draw with the one that sends and receives.
+// Connects the threads that draw with the thread that sends and receives.
 
 #include <chrono>
 #include <condition_variable>
@@ -12,15 +12,15 @@
 
 namespace beambench::cluster {
 
-/// Threads that draw leave batches of rays here and wait. One thread takes them, has them traced in
-/// all processes, and returns their hits. Only that thread uses the transport.
+/// Drawing threads submit batches of rays here and wait. A single thread takes the rays, has them
+/// traced in all processes, and returns their hits. Only this thread uses the transport.
 class LightExchange {
  public:
   /// Waits until all rays have been traced, and returns their hits. Assigns each ray its number.
   /// Throws std::runtime_error once the exchange is closed.
   std::vector<accel::Hit> nearest_hits(std::vector<LightRay> rays);
 
-  /// Returns the rays that were left since the last call. Waits a moment for some.
+  /// Returns the rays submitted since the last call; waits up to `moment` for some.
   std::vector<LightRay> take(std::chrono::microseconds moment);
   /// Delivers a result. Throws ProtocolError unless the ray is waiting for it.
   void answer(const LightAnswer& answer);
@@ -33,7 +33,7 @@ class LightExchange {
     std::vector<accel::Hit> hits;
     std::size_t missing;
   };
-  /// The recipient of the result of the ray with some number.
+  /// The recipient of the result for the ray with a given number.
   struct Waiting {
     Round* round = nullptr;  ///< null: the number is free
     std::size_t place = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Rays of light between processes: the transmitted data of a shadow, mirror or refracted ray, and
+// Rays of light between processes: the data transmitted for a shadow, mirror or refracted ray, and
 // the messages that contain them.
 
 #include <cstddef>
@@ -17,10 +17,10 @@ namespace beambench::cluster {
 enum class LightQuery : std::uint8_t { kClosest, kAny };
 
 /// A ray that enters another process's cell. The ray itself is sent, because only process 0 has the
-/// hit from which it comes.
+/// hit from which it starts.
 struct LightRay {
   std::uint32_t cell;
-  std::uint32_t number;  ///< its number on process 0
+  std::uint32_t number;  ///< number assigned by process 0
   LightQuery query;
   accel::Ray ray;
   double t;         ///< the t at which it enters
@@ -46,10 +46,10 @@ class LightOutbox {
   void hand_over(const LightRay& ray);
   void answer(const LightAnswer& answer);
 
-  /// The size from which on a message is worth sending early, so that others can begin while a
-  /// process still works.
+  /// The size from which sending a message early pays, so that others can begin while this process
+  /// still works.
   static constexpr std::size_t kLarge = 1 << 12;
-  /// Sends the messages of at least that many bytes, by default all nonempty ones.
+  /// Sends the messages of at least `least` bytes; by default, all nonempty ones.
   void send(std::size_t least = 1);
 
   std::uint64_t rays() const { return rays_; }

@@ -1,5 +1,5 @@
 #pragma once
-// A process's part in tracing rays of light.
+// Traces rays of light in one process's part of a scene.
 
 #include <cstddef>
 #include <deque>
@@ -11,8 +11,8 @@
 
 namespace beambench::cluster {
 
-/// Traces rays that enter its part: the results of rays that end there are sent, the others are
-/// handed over.
+/// Traces the rays that enter its part: sends the results of rays that end there, and passes the
+/// others on.
 class LightRelay {
  public:
   using Answer = std::function<void(const LightAnswer&)>;

@@ -16,8 +16,8 @@
 namespace beambench::cluster {
 namespace {
 
-/// The number of parts of a picture drawn at the same time. Their threads mostly wait, for one
-/// round of rays each.
+/// The number of parts of a picture drawn at the same time. Their threads mostly wait, each for one
+/// round of rays.
 constexpr int kDrawn = 16;
 
 /// Visits the transmitted members of a report in order.
@@ -52,7 +52,7 @@ DrawnLight LightLeader::draw(const scenes::Scene& whole, const render::WhittedOp
   std::optional<render::WhittedPicture> picture;
   std::vector<LightReport> reports = answer([&](const accel::Accelerator& divided) {
     const render::Whitted tracer(whole, divided, options, check);
-    // More threads than cores, because they wait.
+    // More threads than cores, because the threads mostly wait.
     picture = render::whitted_picture(tracer, rays, hits, {}, kDrawn);
   });
   return {std::move(picture->image), picture->census, std::move(reports),
@@ -74,7 +74,7 @@ std::vector<LightReport> LightLeader::answer(const Asking& asking) {
   return std::move(reports_);
 }
 
-/// Sends and receives in this thread for the querying threads.
+/// Sends and receives, in this thread, on behalf of the querying threads.
 void LightLeader::answer_until_done(std::future<void> asked) {
   constexpr std::chrono::microseconds kMoment(100);
   try {
@@ -112,7 +112,7 @@ void LightLeader::handle(const Message& message) {
     case Tag::kHeartbeat:
       break;
     default:
-      throw ProtocolError("a message that the light of a divided scene does not have");
+      throw ProtocolError("a message that does not occur in the light of a divided scene");
   }
 }
 
@@ -150,7 +150,7 @@ void serve_light(Transport& transport, const PartWorker& worker, const SceneSpli
     } else if (message.tag == Tag::kEnd) {
       over = true;
     } else {
-      throw ProtocolError("a message that the light of a divided scene does not have");
+      throw ProtocolError("a message that does not occur in the light of a divided scene");
     }
   };
   double last_sign = transport.seconds();

@@ -1,5 +1,5 @@
 #pragma once
-// The light of a picture of a divided scene, once its hits are found.
+// Computes the light of a picture of a divided scene, once its hits are known.
 
 #include <functional>
 #include <future>
@@ -19,13 +19,13 @@
 
 namespace beambench::cluster {
 
-/// The activity of a process for the light.
+/// What a process did for the light.
 struct LightReport {
-  std::uint64_t rays_out = 0;     ///< shadow, mirror and refracted rays handed to other processes
-  std::uint64_t answers_out = 0;  ///< to process 0
+  std::uint64_t rays_out = 0;     ///< shadow, mirror and refracted rays sent to other processes
+  std::uint64_t answers_out = 0;  ///< sent to process 0
   Traffic out;                    ///< messages with rays or results
   Traffic rays_in;                ///< messages with rays
-  double cpu_seconds = 0.0;       ///< for tracing; on process 0: in total, including shading
+  double cpu_seconds = 0.0;       ///< for tracing; on process 0 in total, including shading
 };
 
 /// A picture, and how it was made.
@@ -36,10 +36,10 @@ struct DrawnLight {
   double seconds;                    ///< wall time
 };
 
-/// Process 0 shades, like `whitted_picture`, over a `DividedScene`; the others trace the rays that
-/// enter their parts. Each batch of Whitted's rays is a round: its rays go from part to part
-/// independently, whichever process ends a ray sends the result to process 0, and the round is over
-/// when all results have arrived. So termination need not be detected, and rounds of several parts
+/// Process 0 shades, as `whitted_picture` does, over a `DividedScene`; the others trace the rays
+/// that enter their parts. Each batch of rays is a round. Its rays move from part to part
+/// independently, and whichever process ends a ray sends the result to process 0. The round is over
+/// when all results have arrived, so termination need not be detected, and rounds of several parts
 /// of the picture overlap.
 ///
 /// Process 0 must have the whole scene, without an octree, because shaded points may be anywhere.
@@ -47,18 +47,18 @@ struct DrawnLight {
 /// Processes cannot be replaced: process 0 ends the run if one is silent.
 class LightLeader {
  public:
-  /// `timeout`: seconds of silence after which LostProcess is thrown. All arguments must outlive
-  /// this object.
+  /// `timeout` is the silence in seconds after which it throws LostProcess. All arguments must
+  /// outlive this object.
   LightLeader(Transport& transport, const PartWorker& worker, const SceneSplit& split,
               double timeout);
 
-  /// Calls `asking` in another thread with the divided scene, and has its queries, from any number
-  /// of threads, traced. The other processes are shut down at the end, even if an exception is
-  /// thrown. May be called only once. Returns the reports, by process.
+  /// Calls `asking` with the divided scene in another thread, and traces its queries, which may
+  /// come from any number of threads. Shuts the other processes down at the end, even if an
+  /// exception is thrown. May be called only once. Returns the reports, by process.
   using Asking = std::function<void(const accel::Accelerator& divided)>;
   std::vector<LightReport> answer(const Asking& asking);
 
-  /// Returns the picture of a scene made in this way. `hits` are those of `rays` over `whole`.
+  /// Returns the picture of a scene, made in this way. `hits` are the hits of `rays` over `whole`.
   DrawnLight draw(const scenes::Scene& whole, const render::WhittedOptions& options,
                   const rays::HitCheck& check, const accel::PrimaryRays& rays,
                   const accel::HitBuffer& hits);
@@ -81,9 +81,9 @@ class LightLeader {
   int missing_reports_;
 };
 
-/// Traces the rays that enter this part, on a process other than 0, until process 0 ends that.
-/// Sends a sign of life every `heartbeat_interval` seconds, even without work, because the
-/// process that has a ray is not known.
+/// Traces the rays that enter this part, on a process other than 0, until process 0 ends the run.
+/// Sends a heartbeat every `heartbeat_interval` seconds, even when idle, because it is not known
+/// which process has a ray.
 void serve_light(Transport& transport, const PartWorker& worker, const SceneSplit& split,
                  double heartbeat_interval);
 

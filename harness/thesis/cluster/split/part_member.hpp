@@ -1,5 +1,5 @@
 #pragma once
-// A process with its part of a divided scene.
+// A process that traces its part of a divided scene.
 
 #include <functional>
 #include <memory>
@@ -25,7 +25,7 @@ class LostProcess : public InputError {
 /// part of the scene.
 LostProcess silent_part(ProcessId process, double timeout);
 
-/// The part and the activity of a process.
+/// The size of a process's part, and what the process did.
 struct PartReport {
   std::uint64_t primitives = 0;
   std::uint64_t scene_bytes = 0;
@@ -38,18 +38,18 @@ struct PartReport {
   double wait_seconds = 0.0;  ///< for messages, wall time
 };
 
-/// Sums over all processes, each taken at a time when it was idle.
+/// Sums over all processes, each taken when the process was idle.
 struct Wave {
   std::uint64_t sent = 0;
   std::uint64_t received = 0;
   friend bool operator==(const Wave&, const Wave&) = default;
 };
 
-/// Traces until all processes are idle and no message is in transit. Process 0 detects that with
+/// Traces until all processes are idle and no message is in transit. Process 0 detects this with
 /// Mattern's four counters ("Algorithms for distributed termination detection", Distributed
-/// Computing 2, 1987): it requests the numbers of handoff messages sent and received, each process
-/// replies when it is idle, and when two rounds give the same sums, sent equal to received, the run
-/// is over.
+/// Computing 2, 1987). It requests the numbers of handoff messages sent and received, and each
+/// process replies when it is idle. The run is over when two rounds yield the same sums, with as
+/// many sent as received.
 ///
 /// Processes cannot be replaced: process 0 ends the run if one is silent.
 class PartMember {
@@ -58,16 +58,18 @@ class PartMember {
   /// Called after each piece of work with its CPU time.
   using Meter = std::function<void(PartWork, double cpu_seconds)>;
 
-  /// `timeout`: seconds of silence after which process 0 throws LostProcess; `check`: see Producer.
+  /// `timeout` is the silence in seconds after which process 0 throws LostProcess; for `check`, see
+  /// Producer.
   PartMember(Transport& transport, PartWorker& worker, Outbox& outbox, double timeout, Check check,
              Meter meter = nullptr);
 
-  /// Called on process 0: runs to the end and returns the final reports of the others, by process.
-  /// The others are shut down even if it throws.
+  /// Runs process 0: works to the end and returns the final reports of the others, by process. The
+  /// others are shut down even if it throws.
   std::vector<Bytes> lead();
-  /// Called on the others: works to the end and sends `result`.
+  /// Runs any other process: works to the end and sends `result`.
   void follow(const std::function<Bytes()>& result);
-  /// Returns whether the run has begun: not if process 0 found that the processes do not match.
+  /// Returns whether the run has begun; it does not if process 0 finds that the processes do not
+  /// match.
   bool began() const { return going_; }
 
   /// Returns the report so far.
@@ -100,15 +102,15 @@ class PartMember {
   bool going_ = false;
   bool asked_ = false;
   bool over_ = false;
-  // Of process 0:
+  // On process 0:
   struct Other {
-    bool answered = false;  ///< in this wave
+    bool answered = false;  ///< whether it has replied in this wave
     double last_heard = 0.0;
   };
   Other& other(ProcessId process) { return others_[static_cast<std::size_t>(process)]; }
   std::vector<Other> others_;
   std::vector<Bytes> results_;
-  int missing_;  ///< processes that are not ready yet
+  int missing_;  ///< number of processes that are not ready yet
   int missing_counts_ = 0;
   int missing_results_;
   bool in_wave_ = false;
@@ -130,7 +132,7 @@ struct PartState {
 
 /// Encodes a process's report and its hits.
 Bytes write_result(const PartReport& report, const PartWorker& worker);
-/// Adds the hits to those of the others. Throws ProtocolError for other bytes.
+/// Adds the hits to those of other processes. Throws ProtocolError for other bytes.
 PartReport take_result(std::span<const std::byte> result, accel::HitBuffer& hits);
 
 }  // namespace beambench::cluster

@@ -1,5 +1,5 @@
 #pragma once
-// Single rays through a process's part of a scene, up to the border.
+// Traces single rays through a process's part of a scene, up to its border.
 
 #include <cstddef>
 #include <cstdint>
@@ -37,10 +37,10 @@ accel::octree::OctreeCursor cursor_of_cell(const accel::octree::Octree& octree,
 /// The best hit of a ray that has not hit anything.
 inline constexpr accel::Hit kNoHit{accel::kInfinity, scenes::kNoPrimitive};
 
-/// Traces rays from where they begin or enter to where they end or enter another process's cell.
-/// The combined hits of all parts that a ray passes are those of one process, bit for bit: a ray
-/// carries its best hit, which limits the search, nothing farther is kept, and at equal t the whole
-/// scene's ids decide. Queries are const and safe from several threads.
+/// Traces rays from where they begin or enter this part to where they end or enter another
+/// process's cell. The combined hits of all parts along a ray equal those of a single process, bit
+/// for bit: a ray carries its best hit, which limits the search, and at equal t the whole scene's
+/// ids decide. Queries are const and thread-safe.
 class PartTracer {
  public:
   /// All arguments must outlive this object.
@@ -48,14 +48,14 @@ class PartTracer {
              const ForeignLeaves& foreign)
       : part_(&part), tracer_(&tracer), split_(&split), foreign_(&foreign) {}
 
-  /// The place of a ray in this part's octree.
+  /// The position of a ray in this part's octree.
   struct Place {
     accel::octree::OctreeCursor cursor;
     double t;
   };
-  /// Returns where a ray begins, in this part or not; nothing if it misses the root.
+  /// Returns where a ray begins, whether in this part or not; nothing if it misses the root.
   std::optional<Place> beginning(const accel::Ray& ray) const;
-  /// Returns where a ray enters an own cell at t.
+  /// Returns where a ray enters one of this process's cells at t.
   Place entry(std::uint32_t cell, double t) const;
 
   /// The place where a ray enters another process's cell.
@@ -63,7 +63,7 @@ class PartTracer {
     std::uint32_t cell;
     double t;
   };
-  /// The result of a ray so far, and where it continues; nothing if the result is final.
+  /// The result of a ray so far, and where it continues; nothing there if the result is final.
   struct Passage {
     accel::Hit best;  ///< by the whole scene's ids
     std::optional<Exit> exit;

@@ -18,7 +18,7 @@ auto members(Ray& ray) requires std::same_as<std::remove_const_t<Ray>, RayHandof
   return std::tie(ray.cell, ray.sample, ray.t, ray.best_t, ray.best);
 }
 
-/// Returns the size of a cell in finest cells of the octree.
+/// Returns the side of a cell, in units of the octree's finest cells.
 std::int32_t cell_size(const accel::octree::Octree& octree, const SceneSplit& split) {
   return octree.grid().cells.x / split.cells().along();
 }
@@ -26,12 +26,12 @@ std::int32_t cell_size(const accel::octree::Octree& octree, const SceneSplit& sp
 accel::beam::BeamOptions checked(const accel::beam::BeamOptions& options, const SceneSplit& split) {
   if (!options.continue_with_rays || options.share_corners) {
     throw InputError(
-        "a divided scene needs continue=rays and share_corners=false, which are the defaults");
+        "a divided scene requires continue=rays and share_corners=false, which are the defaults");
   }
   if (options.octree.max_level < split.cells().level()) {
     throw InputError(
-        "the cells of --split are deeper than max_level; choose a fixed max_level that is not "
-        "less than the level of the cells");
+        "the cells of --split are deeper than max_level; choose a fixed max_level of at least "
+        "the level of the cells");
   }
   return options;
 }
@@ -118,7 +118,7 @@ PartWorker::PartWorker(ScenePart part, const SceneSplit& split, ProcessId self,
   queue_.border = this;
 }
 
-/// Keeps the beams of this part: each is begun by the owner of the cell in which it begins.
+/// Keeps the beams of this part: the owner of the cell in which a beam begins starts it.
 void PartWorker::keep_own_beams() {
   accel::beam::BeamStack begun;
   accel::beam::BeamStep step;
@@ -141,7 +141,7 @@ void PartWorker::take(const RayHandoff& ray) {
   waiting_.push_back(ray);
 }
 
-/// Processes beams first, because they create work for others.
+/// Processes beams before rays, because beams create work for other processes.
 PartWork PartWorker::work() {
   if (!entering_.empty() || !queue_.waiting.empty()) {
     walk();
@@ -208,7 +208,7 @@ void PartWorker::collect_samples() {
   watch_.crossed.clear();
 }
 
-/// Continues where the ray entered.
+/// Continues a ray from where it entered this part.
 void PartWorker::trace_ray(const RayHandoff& crossing) {
   const PartTracer::Passage passage = single_rays_.closest(
       rays::ray_at(*rays_, crossing.sample), single_rays_.entry(crossing.cell, crossing.t),

@@ -19,7 +19,7 @@
 namespace beambench::cluster {
 
 /// A beam that enters another process's cell through a face. Its `node`, `corner` and `size` are
-/// meaningless there.
+/// meaningless in the other process.
 struct BeamHandoff {
   std::uint32_t cell;
   accel::beam::Crossing face;
@@ -50,10 +50,10 @@ class Outbox {
   void hand_over(const BeamHandoff& beam);
   void hand_over(const RayHandoff& ray);
 
-  /// The size from which on a message is worth sending early, so that others can begin while a
-  /// process still works.
+  /// The size from which sending a message early pays, so that others can begin while this process
+  /// still works.
   static constexpr std::size_t kLarge = 1 << 11;
-  /// Sends the messages of at least that many bytes, by default all nonempty ones.
+  /// Sends the messages of at least `least` bytes; by default, all nonempty ones.
   void send(std::size_t least = 1);
 
   const Traffic& sent() const { return sent_; }
@@ -112,11 +112,11 @@ enum class PartWork {
   kTaking,   ///< receiving handoffs
 };
 
-/// The beam tracer over a part of a scene. Beams and rays that reach the border are handed over,
-/// rays with their best hit, and those of others continue here. Together, the processes find the
-/// hits of one process with the whole scene, bit for bit: beams are divided by the same planes, a
-/// primitive is tested in every cell that it overlaps, and at equal t the lowest id of the whole
-/// scene wins.
+/// The beam tracer over a part of a scene. Beams and rays that reach the border are passed on to
+/// other processes, rays with their best hit; those that other processes pass on continue here.
+/// Together, the processes find the same hits as one process with the whole scene, bit for bit:
+/// beams are divided by the same planes, a primitive is tested in every cell that it overlaps, and
+/// at equal t the lowest id of the whole scene wins.
 class PartWorker : private accel::beam::BeamBorder {
  public:
   /// Begins the beams that begin in this part. Rays and outbox must outlive the worker. Throws
@@ -173,12 +173,12 @@ class PartWorker : private accel::beam::BeamBorder {
   PartTracer single_rays_;
   accel::beam::EyeView view_;
   accel::beam::WholeImage sight_;
-  accel::HitBuffer found_here_;  ///< by this part's ids, while a beam is traced
-  accel::HitBuffer found_;       ///< by the whole scene's
+  accel::HitBuffer found_here_;  ///< ids of this part, while a beam is traced
+  accel::HitBuffer found_;       ///< ids of the whole scene
   BorderWatch watch_;
   accel::beam::BeamPainter<BorderWatch, accel::beam::WholeImage> painter_;
   accel::beam::BeamQueue queue_;
-  accel::beam::BeamStack ended_;  ///< whose samples must be traced
+  accel::beam::BeamStack ended_;  ///< ended beams, whose samples must be traced
   std::deque<BeamHandoff> entering_;
   std::deque<RayHandoff> waiting_;
 };

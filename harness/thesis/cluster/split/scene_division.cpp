@@ -61,7 +61,7 @@ Owners interleaved(std::span<const std::uint32_t> order, const CellLoads& loads,
   return owners;
 }
 
-/// A box of cells and its processes.
+/// A box of cells, and the processes that share it.
 struct Part {
   glm::ivec3 lower;
   glm::ivec3 upper;  ///< exclusive
@@ -98,8 +98,8 @@ class Bisection {
     double error;  ///< relative excess or deficit of the lower side
   };
 
-  /// Returns the plane for which the lower side is closest to its processes' share. Not for a
-  /// single layer.
+  /// Returns the plane for which the lower side is closest to its processes' share. There must be
+  /// more than one layer.
   Plane best_plane(const Part& part, int axis, double share) const {
     std::vector<double> layers(static_cast<std::size_t>(part.upper[axis] - part.lower[axis]));
     for_each_cell(part, [&](const glm::ivec3& cell, std::uint32_t i) {

@@ -10,9 +10,9 @@
 
 namespace beambench::cluster {
 
-/// The methods listed in the thesis (section 2.3.2.2): either the space is divided in advance, so
-/// that processes have equal numbers of primitives, or equal work according to a sample of the
-/// rays; or small nonadjacent cells are dealt to the processes, like interlaced pixels.
+/// The methods listed in the thesis (section 2.3.2.2): either space is divided in advance, so that
+/// processes have equal numbers of primitives, or equal work as estimated from a sample of the
+/// rays; or small nonadjacent cells are dealt out to the processes, like interlaced pixels.
 enum class SceneDivision {
   kPrimitives,   ///< runs of cells in Morton order with equal numbers of primitives
   kCost,         ///< runs of cells in Morton order with equal costs
@@ -52,13 +52,13 @@ class LevelCells {
   std::int32_t along_;
 };
 
-/// The contents of each cell, by its number.
+/// The load of each cell, by cell number.
 struct CellLoads {
-  std::vector<std::uint32_t> primitives;  ///< reaching into the cell
+  std::vector<std::uint32_t> primitives;  ///< number of primitives that reach into the cell
   std::vector<double> costs;              ///< in any unit; empty if no division needs them
 };
 
-/// Returns the owner of each cell, by its number. The same loads give the same owners.
+/// Returns the owner of each cell, by cell number. The same loads yield the same owners.
 std::vector<std::uint16_t> divide(const LevelCells& cells, const CellLoads& loads,
                                   SceneDivision division, int processes);
 

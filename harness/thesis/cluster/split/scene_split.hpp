@@ -1,5 +1,5 @@
 #pragma once
-// The division of a scene among processes.
+// Divides a scene among processes.
 
 #include <cstdint>
 #include <utility>
@@ -14,14 +14,14 @@
 
 namespace beambench::cluster {
 
-/// The cells of a level that the primitives of a scene reach into, by their boxes.
+/// The cells of one level into which the primitives of a scene reach, judging by their boxes.
 class SceneCells {
  public:
   /// Uses cells of `level`, at most 7 and not deeper than the octree of `options`.
   SceneCells(const scenes::Scene& scene, const accel::octree::OctreeOptions& options, int level);
 
   const LevelCells& cells() const { return cells_; }
-  /// Returns the numbers of primitives, by cell.
+  /// Returns the number of primitives in each cell.
   const std::vector<std::uint32_t>& primitives() const { return primitives_; }
   /// Must not be called after `forget_primitives`.
   const accel::CellRange& range(scenes::PrimitiveId id) const { return ranges_[id]; }
@@ -29,7 +29,8 @@ class SceneCells {
   void forget_primitives() { ranges_ = {}; }
 
   bool is_empty(std::uint32_t cell) const { return primitives_[cell] == 0; }
-  /// Returns whether the cells of a node of `size` along each axis, from `first` on, are empty.
+  /// Returns whether all cells of a node are empty; the node begins at `first` and has `size` cells
+  /// along each axis.
   bool is_empty(const glm::ivec3& first, std::int32_t size) const;
 
  private:
@@ -48,8 +49,8 @@ class SceneSplit {
   const LevelCells& cells() const { return contents_.cells(); }
   const SceneCells& contents() const { return contents_; }
   ProcessId owner(std::uint32_t cell) const { return owners_[cell]; }
-  /// Returns whether the cell belongs to another process. Beams and rays pass empty cells in any
-  /// process.
+  /// Returns whether the cell belongs to another process. Beams and rays pass through empty cells
+  /// in any process.
   bool is_foreign(std::uint32_t cell, ProcessId process) const {
     return owner(cell) != process && !contents_.is_empty(cell);
   }
@@ -64,12 +65,12 @@ class SceneSplit {
   std::vector<std::uint16_t> owners_;  ///< by cell
 };
 
-/// Divides a scene, if necessary according to the cost of tracing `rays`.
+/// Divides a scene; if the division needs costs, estimates them by tracing `rays`.
 SceneSplit split_scene(const scenes::Scene& scene, const accel::octree::OctreeOptions& options,
                        const accel::PrimaryRays& rays, int level, SceneDivision division,
                        int processes);
 
-/// Returns the part of an octree that a process has: all nonempty cells exist, as leaves if they
+/// Returns the part of an octree that a process builds: all nonempty cells exist, as leaves if they
 /// belong to another process.
 accel::octree::OctreePart own_cells(const SceneSplit& split, ProcessId process);
 

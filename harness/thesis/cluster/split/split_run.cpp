@@ -25,7 +25,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A process's part, and facts of the whole scene.
+/// A process's part, and facts about the whole scene.
 struct Setup {
   Identity identity;
   std::uint64_t whole_bytes = 0;
@@ -185,7 +185,7 @@ std::string summary_of_light(const SplitRun& run) {
     rays += report.rays_out;
   }
   return fmt::format(
-      "; light in {:.3f} s, its rays were handed over {} times, in {} messages with "
+      "; light in {:.3f} s, its rays were passed on {} times, in {} messages with "
       "{:.2f} MB",
       run.light_seconds, rays, out.messages, 1e-6 * static_cast<double>(out.bytes));
 }
@@ -206,7 +206,7 @@ std::string summary(const SplitRun& run) {
     largest = std::max(largest, report.scene_bytes + report.structure_bytes);
   }
   std::string text = fmt::format(
-      "{} processes in {:.3f} s; {} beams and {} rays were handed over in {} messages with {:.2f} "
+      "{} processes in {:.3f} s; {} beams and {} rays were passed on in {} messages with {:.2f} "
       "MB; the largest part has {} of {} primitives and {:.2f} MB with its octree",
       run.reports.size(), run.seconds, beams, rays, crossings.messages,
       1e-6 * static_cast<double>(crossings.bytes), most, run.whole_primitives,

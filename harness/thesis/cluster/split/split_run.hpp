@@ -26,8 +26,8 @@ struct SplitRun {
 };
 
 /// Counterparts of `lead` and `follow` in which each process keeps only its part of the scene. Each
-/// reads the whole scene and frees it before building, except that process 0 keeps it, without an
-/// octree, if a picture needs the surfaces that were hit.
+/// process reads the whole scene and frees it before building; process 0 keeps it, without an
+/// octree, if the picture needs the surfaces hit.
 SplitRun lead_split(const ClusterRequest& request, Transport& transport);
 void follow_split(const Job& job, Transport& transport);
 
