@@ -17,15 +17,15 @@ struct DisplayMesh {
   std::vector<glm::vec3> corners;
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `corners`
   std::vector<scenes::PrimitiveId> primitives;          ///< one for each triangle
-  std::size_t triangles_of_scene = 0;  ///< how many there were before corners were merged
+  std::size_t triangles_of_scene = 0;  ///< number of triangles before corners were merged
 };
 
-/// The most triangles that a page shows.
+/// The maximum number of triangles that a page shows.
 inline constexpr std::size_t kMostTriangles = 200'000;
 
-/// Returns the polygons and cones of a scene; spheres are left to the viewer. Where these are more
-/// than `most` triangles, corners in the same cell of a grid are merged, and triangles that
-/// degenerate are dropped; the grid is as fine as the limit permits.
+/// Returns the polygons and cones of a scene; the viewer draws spheres itself. If there are more
+/// than `most` triangles, merges corners in the same cell of a grid and drops triangles that
+/// degenerate; the grid is as fine as the limit permits.
 DisplayMesh display_mesh(const scenes::Scene& scene, std::size_t most = kMostTriangles);
 
 }  // namespace beambench::explain

@@ -1,5 +1,5 @@
 #pragma once
-// A page that shows an explanation in a browser, without network.
+// A page that shows an explanation in a browser, without network access.
 
 #include <string>
 
@@ -7,8 +7,8 @@
 
 namespace beambench::explain {
 
-/// Returns a self-contained page with data as `explain` returns it. Throws InputError if this build
-/// has no three.js.
+/// Returns a self-contained page with the data returned by `explain`. Throws InputError if this
+/// build lacks three.js.
 std::string explain_page(const nlohmann::json& explanation);
 
 }  // namespace beambench::explain

@@ -31,7 +31,7 @@ using Json = nlohmann::json;
 using Floats = std::vector<float>;
 using Counts = std::vector<std::uint32_t>;
 
-/// The lights whose pencils a page shows.
+/// The maximum number of lights whose pencils a page shows.
 constexpr std::size_t kMostLights = 4;
 
 template <class Vector>
@@ -67,7 +67,7 @@ Json spheres_json(const scenes::Scene& scene, PackedArrays& arrays) {
   return {{"shapes", add(arrays, spheres)}, {"primitives", add(arrays, primitives)}};
 }
 
-/// Corners are whole numbers that divide the scene's box into 65,535 parts along each axis.
+/// Corners are integers: the scene's box is divided into 65,535 parts along each axis.
 Json mesh_json(const DisplayMesh& mesh, const scenes::Bounds& box, PackedArrays& arrays) {
   constexpr float kParts = 65535.0F;
   const glm::vec3 scale = kParts / glm::max(box.extent(), std::numeric_limits<float>::min());
@@ -159,7 +159,7 @@ Json paths_json(const PathTable& paths, PackedArrays& arrays) {
           {"beam_place", add(arrays, paths.beam_place)}};
 }
 
-/// Returns the boxes of leaves by their numbers, as far as beams or rays entered them.
+/// Returns the boxes of the leaves that beams or rays entered, keyed by the leaf's number.
 std::map<std::uint64_t, accel::Box> boxes_by_index(const PathTable& paths) {
   std::map<std::uint64_t, accel::Box> boxes;
   for (const Place& place : paths.places) {
@@ -168,8 +168,8 @@ std::map<std::uint64_t, accel::Box> boxes_by_index(const PathTable& paths) {
   return boxes;
 }
 
-/// Describes beams: their outlines, and the view depth at which each enters its leaf or, at the end
-/// of the scene, leaves it; infinity where that is unknown.
+/// Describes beams: their outlines, and the view depth at which each enters its leaf or leaves the
+/// scene; infinity if that is unknown.
 Json beams_json(const std::vector<accel::BeamOutline>& beams, const accel::PrimaryRays& rays,
                 const PathTable& paths, PackedArrays& arrays) {
   const std::map<std::uint64_t, accel::Box> boxes = boxes_by_index(paths);
@@ -268,11 +268,11 @@ Json structure_json(const scenes::Scene& scene, const rays::ImageOfRays& image,
   const accel::PrimaryRays rays = image.rays();
   const auto structure = choice.build(scene, rays::workload_of(image, rays));
   accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
-  structure->closest_hits(rays, hits, {});  // also makes cells that are made on demand
+  structure->closest_hits(rays, hits, {});  // also creates cells that are built on demand
   rays::HitCheck(scene, choice).require(hits, rays);
   const accel::Inspector& inspector = accel::inspector_of(*structure);
   const std::vector<accel::BeamPlace> places = inspector.places(rays);
-  // Blocks of rays are more than outlines where a structure has both.
+  // Where a structure has both, blocks of rays show more than outlines do.
   const auto beams = places.empty() ? inspector.beams(rays) : std::nullopt;
   const PathTable paths =
       follow_image(*structure, rays, beams.value_or(std::vector<accel::BeamOutline>()), advance);
@@ -311,7 +311,7 @@ nlohmann::json explain(const scenes::Scene& scene, const rays::ImageOfRays& imag
   const rays::Resolution& size = image.resolution;
   if (static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height) > kMostPixels) {
     throw InputError(fmt::format(
-        "a page follows the rays of at most {} pixels, and {} are more; give --resolution 256x256 "
+        "a page follows the rays of at most {} pixels, not {}; use --resolution 256x256 "
         "or less",
         kMostPixels, rays::to_string(size)));
   }

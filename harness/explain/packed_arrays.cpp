@@ -32,7 +32,7 @@ std::string PackedArrays::text() const {
   const int result = compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
                                reinterpret_cast<const Bytef*>(bytes_.data()), bytes_.size(),
                                Z_DEFAULT_COMPRESSION);
-  if (result != Z_OK) throw std::bad_alloc();  // the only failure with a buffer of this size
+  if (result != Z_OK) throw std::bad_alloc();  // the only failure possible here
   packed.resize(size);
   return base64(packed);
 }

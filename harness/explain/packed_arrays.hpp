@@ -1,5 +1,5 @@
 #pragma once
-// Arrays of numbers for a page: one block of bytes, compressed, as text.
+// Arrays of numbers for a page, as one compressed block of bytes in text form.
 
 #include <bit>
 #include <cstdint>
@@ -11,18 +11,18 @@
 
 namespace beambench::explain {
 
-/// Collects arrays of little-endian numbers. JSON describes where each is; a page gets all bytes in
-/// one text.
+/// Collects arrays of little-endian numbers. JSON describes where each array is; the page gets all
+/// bytes in one text.
 class PackedArrays {
  public:
-  /// Each returns the description of the array that it adds: `type` (the name of the typed array of
-  /// JavaScript without "Array"), `at` (its first byte, a multiple of 4) and `count`.
+  /// Adds an array and returns its description: `type` (the name of JavaScript's typed array
+  /// without "Array"), `at` (the offset of its first byte, a multiple of 4) and `count`.
   nlohmann::json add(std::span<const float> values) { return append("Float32", values); }
   nlohmann::json add(std::span<const std::uint32_t> values) { return append("Uint32", values); }
   nlohmann::json add(std::span<const std::uint16_t> values) { return append("Uint16", values); }
   nlohmann::json add(std::span<const std::uint8_t> values) { return append("Uint8", values); }
 
-  /// Returns all bytes, compressed as zlib does, in base64.
+  /// Returns all bytes, compressed by zlib and encoded in base64.
   std::string text() const;
 
  private:
@@ -39,7 +39,7 @@ class PackedArrays {
   std::string bytes_;
 };
 
-/// Returns RFC 4648's base64 of bytes, with padding.
+/// Returns the base64 encoding (RFC 4648) of bytes, with padding.
 std::string base64(std::string_view bytes);
 
 }  // namespace beambench::explain

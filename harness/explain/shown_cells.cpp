@@ -12,7 +12,7 @@ std::vector<accel::Cell> nodes_of(const accel::BoxHierarchy& hierarchy) {
   accel::TreeQuality tree;
   hierarchy.describe(tree);
   std::vector<accel::Cell> nodes;
-  std::vector<std::uint32_t> ends;  // of the nodes that contain the present one
+  std::vector<std::uint32_t> ends;  // ends of the nodes that contain the current node
   for (const accel::TreeQuality::Entry& entry : tree.entries()) {
     while (!ends.empty() && ends.back() <= nodes.size()) ends.pop_back();
     ends.push_back(entry.end);

@@ -15,12 +15,12 @@
 namespace beambench::explain {
 namespace {
 
-/// Adds paths to a table, in which places and beams that are equal are stored once.
+/// Adds paths to a table in which equal places and equal beams are stored once.
 class PathWriter {
  public:
   explicit PathWriter(PathTable& table) : table_(&table) {}
 
-  /// Adds the path of a single ray, of which beams that contain the ray take the first leaves.
+  /// Adds the path of a single ray. Its first leaves come from the beams that contain the ray.
   void add(const std::vector<accel::TraceStep>& path, std::span<const std::uint32_t> containing,
            std::span<const accel::BeamOutline> beams) {
     std::size_t own = 0;  // the first step of the ray itself
@@ -59,7 +59,7 @@ class PathWriter {
     std::uint32_t omitted = 0;
     std::size_t kept = 0;
     for (const accel::TestedPrimitive& test : step.tests) {
-      // Hits are never omitted: the best of them is the ray's.
+      // Hits are never omitted, because the best of them is the ray's hit.
       if (kept >= kMostTests && !accel::is_hit(test.t)) {
         ++omitted;
         continue;
@@ -91,7 +91,7 @@ class PathWriter {
   std::map<PlaceKey, std::uint32_t> places_;
 };
 
-/// Returns whether a convex polygon contains a point, its edges included.
+/// Returns whether a convex polygon contains a point; its edges count as inside.
 bool contains(std::span<const glm::dvec2> corners, const glm::dvec2& point) {
   constexpr double kTolerance = 1e-7;  // square pixels
   bool left = false;
@@ -106,7 +106,7 @@ bool contains(std::span<const glm::dvec2> corners, const glm::dvec2& point) {
   return !(left && right);
 }
 
-/// Returns for each pixel the beams that contain its first sample, in their order.
+/// Returns the beams that contain the first sample of each pixel, in order.
 std::vector<std::vector<std::uint32_t>> beams_of_pixels(const accel::PrimaryRays& image,
                                                         std::span<const accel::BeamOutline> beams) {
   std::vector<std::vector<std::uint32_t>> containing(static_cast<std::size_t>(image.width()) *

@@ -1,12 +1,12 @@
 #pragma once
-// The parts of a page, contained in the program.
+// The parts of a page, embedded in the program.
 
 #include <string_view>
 
 namespace beambench::explain {
 
-/// Each returns a file: those of `viewer/`, and three.js with its orbit controls, which are empty
-/// where scripts/setup had not fetched them when the program was built.
+/// Each of these returns a file: those of `viewer/`, and three.js with its orbit controls. The
+/// latter are empty if scripts/setup had not fetched them when the program was built.
 std::string_view page_text();
 std::string_view style_text();
 std::string_view viewer_text();

@@ -1,4 +1,4 @@
-// The analysis of runs: its statistics, and its result.
+// The analysis of runs: its statistics and its result.
 
 #include "harness/analysis/analysis.hpp"
 
@@ -33,7 +33,8 @@ using analysis::TimeRatio;
 
 /// A value and the ends of its interval.
 using Ends = std::tuple<double, std::optional<double>, std::optional<double>>;
-/// The same, whether the ratio is paired, the ends of its prediction interval, and its error.
+/// The same fields, and whether the ratio is paired, the ends of its prediction interval, and its
+/// error.
 using RatioFields = std::tuple<double, std::optional<double>, std::optional<double>, bool,
                                std::optional<double>, std::optional<double>, std::optional<double>>;
 
@@ -125,7 +126,7 @@ void bind_analysis(nb::module_& module) {
         return repetition.is_undisturbed();
       },
       nb::arg("trace_ms"), nb::arg("trace_cpu_ms"),
-      "Returns whether a trace had its processor for itself.");
+      "Returns whether a trace had the processor to itself.");
   module.def(
       "unpaired_ratio",
       [](const Ends& over, const Ends& under) {
@@ -160,7 +161,7 @@ void bind_analysis(nb::module_& module) {
                                          {other_build_ms, other_ns_per_ray});
       },
       nb::arg("build_ms"), nb::arg("ns_per_ray"), nb::arg("other_build_ms"),
-      nb::arg("other_ns_per_ray"), "Returns from how many rays on one contender is ahead.");
+      nb::arg("other_ns_per_ray"), "Returns the number of rays from which one contender is ahead.");
 }
 
 }  // namespace beambench::python

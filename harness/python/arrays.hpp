@@ -1,5 +1,5 @@
 #pragma once
-// Uses numpy's arrays in C++ without copies.
+// Uses numpy arrays in C++ without copies.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,8 +19,8 @@ namespace beambench::python {
 
 namespace nb = nanobind;
 
-/// An argument: rows of a type in one block of memory, writable or not. The package converts its
-/// arguments to these.
+/// An argument: rows of one type in one block of memory, writable or not. The package converts its
+/// arguments to this form.
 template <class T, nb::ssize_t... Shape>
 using ArrayIn = nb::ndarray<const T, nb::shape<Shape...>, nb::c_contig, nb::device::cpu>;
 /// Rows of origin, t_min, direction, t_max.
@@ -32,14 +32,14 @@ using ArrayOut = nb::ndarray<nb::numpy, T>;
 
 static_assert(sizeof(accel::Ray) == 8 * sizeof(float) && alignof(accel::Ray) == alignof(float));
 
-/// Returns the rays in place.
+/// Returns the rays without a copy.
 inline std::span<const accel::Ray> rays_of(const RaysIn& rays) {
   return {reinterpret_cast<const accel::Ray*>(rays.data()), rays.shape(0)};
 }
 
 /// Throws InputError with the index of the first ray that `require_valid` refuses.
 void require_valid_rays(std::span<const accel::Ray> rays);
-/// Returns `ray 17: direction is zero; ...` for a fault of the ray.
+/// Returns `ray 17: direction is zero; ...` for a problem with the ray.
 std::string ray_fault(std::size_t index, std::string fault);
 
 /// An owner for arrays: the object lives until the last of them is gone.
@@ -49,7 +49,7 @@ nb::capsule keep(T object) {
                      [](void* memory) noexcept { delete static_cast<T*>(memory); });
 }
 
-/// An array over a vector that it owns.
+/// An array that shares the memory of a vector and owns the vector.
 template <class T, class Allocator>
 ArrayOut<T> array_of(std::vector<T, Allocator> numbers) {
   auto kept = std::make_unique<std::vector<T, Allocator>>(std::move(numbers));

@@ -8,12 +8,12 @@
 
 namespace beambench::python {
 
-/// A dict by name with values of several types, and a list of such dicts, with their types in the
-/// stubs.
+/// A dict with names as keys and values of several types, and a list of such dicts, with their
+/// types for the stubs.
 using Record = nanobind::typed<nanobind::dict, nanobind::str, nanobind::any>;
 using Records = nanobind::typed<nanobind::list, Record>;
 
-/// Returns a name or a path as Python's `os.fsencode` makes it: any bytes, UTF-8 or not.
+/// Returns a name or a path, as encoded by Python's `os.fsencode`: any bytes, UTF-8 or not.
 inline std::string text_of(const nanobind::bytes& given) { return {given.c_str(), given.size()}; }
 
 void bind_analysis(nanobind::module_& module);

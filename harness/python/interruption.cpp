@@ -18,13 +18,14 @@ namespace beambench::python {
 namespace {
 
 constexpr std::chrono::milliseconds kPoll(50);
-constexpr std::chrono::seconds kPatience(1);  // for work that checks for the request
+constexpr std::chrono::seconds kPatience(1);  // for work that checks for stop requests
 
-/// The number of jobs that nobody is waiting for any longer.
+/// The number of jobs that nobody is waiting for anymore.
 std::atomic<int> abandoned{0};
 
 #if defined(__GLIBC__)
-/// Exits immediately: the threads of abandoned work must not meet destructors of static objects.
+/// Exits immediately, because threads of abandoned work must not run into destructors of static
+/// objects.
 void end_at_once(int status, void*) {
   if (abandoned.load() == 0) return;
   std::fflush(nullptr);
@@ -39,7 +40,7 @@ void cut_off_at_exit() {
 #endif
 }
 
-/// The state shared by the caller and the thread of some work.
+/// The state shared by the caller and the thread that does the work.
 struct Run {
   std::mutex mutex;
   std::condition_variable ended;

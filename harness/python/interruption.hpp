@@ -1,5 +1,5 @@
 #pragma once
-// Runs long work on behalf of Python: without the GIL, and interruptible by Ctrl-C.
+// Runs long work for Python: without the GIL, and interruptible by Ctrl-C.
 
 #include <atomic>
 #include <cstddef>
@@ -12,14 +12,15 @@
 namespace beambench::python {
 
 /// Throws nanobind::python_error if a Python signal handler raised an exception, such as that of
-/// SIGINT (KeyboardInterrupt). Called without the GIL. Only Python's main thread handles signals;
+/// SIGINT (KeyboardInterrupt). Call it without the GIL. Only Python's main thread handles signals;
 /// on other threads this does nothing.
 void check_signals();
 
 /// Thrown when work ends because its caller was interrupted.
 struct Stopped {};
 
-/// A request to stop, made when the caller of some work was interrupted and no longer waits for it.
+/// A request to stop, made when the caller of some work was interrupted and is no longer waiting
+/// for it.
 class StopRequest {
  public:
   bool made() const { return made_->load(std::memory_order_relaxed); }
@@ -33,13 +34,13 @@ class StopRequest {
   std::shared_ptr<std::atomic<bool>> made_ = std::make_shared<std::atomic<bool>>(false);
 };
 
-/// Does the work on a separate thread and waits for it. Called without the GIL. If the caller is
-/// interrupted, the request is made and KeyboardInterrupt is thrown within about a second, whether
-/// or not the work has ended. Therefore the work may only use objects that it owns (copies, shared
-/// pointers), and nothing of Python's. Unfinished work is lost when the process ends.
+/// Does the work on a separate thread and waits for it. Call it without the GIL. If the caller is
+/// interrupted, makes the request and throws KeyboardInterrupt within about a second, whether or
+/// not the work has ended. Therefore the work may use only objects that it owns (copies, shared
+/// pointers), and no Python objects. Unfinished work is lost when the process ends.
 void run_apart(std::function<void(const StopRequest&)> work);
 
-/// Does the same with a result.
+/// Does the same for work that returns a result.
 template <class Work>
 auto result_of(Work work) {
   using Result = std::invoke_result_t<Work&, const StopRequest&>;
@@ -52,9 +53,9 @@ auto result_of(Work work) {
   return std::move(*shared->result);
 }
 
-/// The size of the parts of a list, so that signals are noticed between two parts: the number of
-/// rays traced in about a tenth of a second. Multiples of 16 (except for the slowest structures),
-/// so that packets of rays are the same as without parts.
+/// The number of rays in each part of a list: as many as are traced in about a tenth of a second,
+/// since signals are noticed between two parts. It is a multiple of 16 (except for the slowest
+/// structures), so that packets of rays are the same as without parts.
 class PartSize {
  public:
   std::size_t rays() const { return rays_; }

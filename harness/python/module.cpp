@@ -1,4 +1,4 @@
-// The extension module: errors, and all parts.
+// The extension module: error types and all parts.
 
 #include <exception>
 #include <filesystem>
@@ -17,14 +17,14 @@ NB_MODULE(_beambench, module) {
   module.doc() =
       "The compiled part of beambench. Use the package `beambench`, which checks and converts "
       "what\n"
-      "it is given and documents everything.";
-  // At exit, a program with a daemon thread keeps everything reachable from that thread, which is
+      "its arguments and documents everything.";
+  // A program that exits with a daemon thread keeps everything reachable from that thread; that is
   // not a leak.
   nb::set_leak_warnings(false);
   const nb::exception<beambench::InputError> input_error(module, "InputError", PyExc_ValueError);
   input_error.attr("__doc__") =
       "Invalid input: a name, a parameter, a file or a number. The message is one sentence that\n"
-      "says where it is, what was expected and what to do.";
+      "says where the problem is, what was expected and what to do.";
   nb::register_exception_translator([](const std::exception_ptr& thrown, void*) {
     try {
       std::rethrow_exception(thrown);

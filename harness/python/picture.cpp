@@ -1,4 +1,4 @@
-// Pictures through structures.
+// Draws pictures through structures.
 
 #include <memory>
 #include <optional>

@@ -1,4 +1,4 @@
-// Scenes, their arrays, and rays through them.
+// Scenes, their arrays, and their rays.
 
 #include <array>
 #include <cstdint>
@@ -63,8 +63,7 @@ std::span<const std::array<std::uint32_t, 3>> triples_of(const Triangles& triang
           triangles.shape(0)};
 }
 
-/// Returns the orientation of anything built from arrays: either the third axis or the second is
-/// up.
+/// Returns the orientation of scenes built from arrays: either the third or the second axis is up.
 scenes::mesh::Orientation orientation_of(std::string_view up) {
   if (up == "z") return {{0.0, 0.0, 1.0}, {0.0, -1.0, 0.0}};
   if (up == "y") return {};
@@ -97,7 +96,7 @@ SceneHandle of_triangles(const std::string& name, const Vertices& vertices,
 SceneHandle of_spheres(const std::string& name, const Vertices& centers,
                        const ArrayIn<double, -1>& radii, const std::string& up) {
   if (centers.shape(0) != radii.shape(0))
-    throw InputError("there are not as many radii as centers");
+    throw InputError("the numbers of radii and centers differ");
   const nb::gil_scoped_release released;
   const auto points = points_of(centers);
   return result_of([own_points = std::vector(points.begin(), points.end()),
@@ -117,7 +116,7 @@ nb::bytes pickled(const SceneHandle& handle) {
 }
 
 SceneHandle unpickled(const nb::bytes& given, std::vector<std::string> warnings) {
-  const std::string_view bytes(given.c_str(), given.size());  // the caller keeps them alive
+  const std::string_view bytes(given.c_str(), given.size());  // the caller keeps the bytes alive
   const nb::gil_scoped_release released;
   return handle_of(scene_of_bytes(bytes), std::move(warnings));
 }
@@ -136,8 +135,8 @@ ArrayOut<std::uint32_t> without_area(const Vertices& vertices, const Triangles& 
   return array_of(std::move(found));
 }
 
-/// Returns a part of the scene as an array of rows, in place and therefore read-only. `stride` is
-/// the distance between rows, in numbers.
+/// Returns a part of the scene as an array of rows, without a copy and therefore read-only.
+/// `stride` is the distance between rows, in numbers.
 template <class T>
 ArrayOut<const T> view(const SceneHandle& handle, const T* data,
                        std::initializer_list<std::size_t> shape, std::size_t stride) {
@@ -205,7 +204,7 @@ scenes::Camera make_camera(const std::string& name, const Triple& eye, const Tri
   return camera;
 }
 
-/// Returns the rays of a kind; those of an image are made here.
+/// Returns the rays of a kind; generates those of an image here.
 std::vector<accel::Ray> make_rays(const scenes::Scene& scene, const rays::ImageOfRays& image,
                                   const rays::RayChoice& choice) {
   const rays::TraceInput input = rays::make_trace_input(scene, image, choice);
@@ -233,17 +232,19 @@ void bind_camera(nb::module_& module) {
   nb::class_<scenes::Camera>(module, "Camera", "A pinhole camera.")
       .def(nb::new_(&make_camera), nb::arg("name"), nb::arg("eye"), nb::arg("at"), nb::arg("up"),
            nb::arg("angle"), nb::arg("aspect"), nb::arg("width"), nb::arg("height"))
-      .def_ro("name", &scenes::Camera::name, "By which it is chosen.")
+      .def_ro("name", &scenes::Camera::name, "The name by which it is chosen.")
       .def_prop_ro(
-          "eye", [](const scenes::Camera& c) { return triple_of(c.from); }, "Where it is.")
+          "eye", [](const scenes::Camera& c) { return triple_of(c.from); }, "Its position.")
       .def_prop_ro(
-          "at", [](const scenes::Camera& c) { return triple_of(c.at); }, "What it looks at.")
+          "at", [](const scenes::Camera& c) { return triple_of(c.at); },
+          "The point that it looks at.")
       .def_prop_ro(
-          "up", [](const scenes::Camera& c) { return triple_of(c.up); }, "Up in the image.")
+          "up", [](const scenes::Camera& c) { return triple_of(c.up); },
+          "The upward direction in the image.")
       .def_ro("angle", &scenes::Camera::angle, "Vertical field of view in degrees.")
-      .def_ro("aspect", &scenes::Camera::aspect, "Width of the frustum over its height.")
-      .def_ro("width", &scenes::Camera::width, "Of the suggested image, in pixels.")
-      .def_ro("height", &scenes::Camera::height, "Of the suggested image, in pixels.");
+      .def_ro("aspect", &scenes::Camera::aspect, "Width of the frustum divided by its height.")
+      .def_ro("width", &scenes::Camera::width, "Width of the suggested image, in pixels.")
+      .def_ro("height", &scenes::Camera::height, "Height of the suggested image, in pixels.");
   nb::class_<ImageChoice>(module, "ImageChoice",
                           "A camera, width and height (0, 0: the camera's own), samples per pixel.")
       .def(nb::init<scenes::Camera, int, int, int>(), nb::arg("camera"), nb::arg("width"),
@@ -258,21 +259,23 @@ void bind_scene(nb::module_& module) {
   nb::class_<SceneHandle>(module, "Scene", "A scene that structures are built over.")
       .def_prop_ro(
           "name", [](const SceneHandle& s) { return s.scene->name; }, "Its label.")
-      .def_ro("warnings", &SceneHandle::warnings, "What its reader skipped or repaired.")
+      .def_ro("warnings", &SceneHandle::warnings,
+              "Warnings about data that its reader skipped or repaired.")
       .def_prop_ro(
           "primitives", [](const SceneHandle& s) { return s.scene->primitives.size(); },
-          "How many there are.")
+          "The number of primitives.")
       .def_prop_ro(
-          "cameras", [](const SceneHandle& s) { return s.scene->cameras; }, "The first: default.")
+          "cameras", [](const SceneHandle& s) { return s.scene->cameras; },
+          "The cameras; the first is the default.")
       .def_prop_ro(
           "lights", [](const SceneHandle& s) { return s.scene->lights.size(); },
-          "How many there are.")
+          "The number of lights.")
       .def_prop_ro(
           "hash",
           [](const SceneHandle& s) { return rays::hex_digits(scenes::scene_hash(*s.scene)); },
-          "16 hexadecimal digits of what rays can hit.")
+          "The hash of all that rays can hit, as 16 hexadecimal digits.")
       .def_prop_ro("bounds", &bounds_of, kOwned,
-                   "Lower and upper corner of the box: (2, 3) float32.")
+                   "Lower and upper corner of the bounding box: (2, 3) float32.")
       .def_prop_ro("vertices", &vertices_of, kOwned, "(V, 3) float32, read-only.")
       .def_prop_ro("triangles", &triangles_of, kOwned,
                    "(T, 3) uint32, indices of vertices, read-only.")
@@ -284,9 +287,9 @@ void bind_scene(nb::module_& module) {
                    "(P,) uint32: 0 sphere, 1 cone, 2 polygon; read-only.")
       .def("rays", &rays_of_kind, nb::arg("kind"), nb::arg("image"),
            "The rays of a kind: (N, 8) float32.")
-      .def("pickled", &pickled, "All of it, bit by bit.");
+      .def("pickled", &pickled, "All of it, bit for bit.");
   module.def("unpickled_scene", &unpickled, nb::arg("pickled"), nb::arg("warnings"),
-             "The scene of `Scene.pickled`.");
+             "The scene stored by `Scene.pickled`.");
   module.def("load_scene", &load, nb::arg("spec"), nb::arg("strict"),
              "A scene by catalogue name or file.");
   module.def("scene_of_triangles", &of_triangles, nb::arg("name"), nb::arg("vertices").noconvert(),

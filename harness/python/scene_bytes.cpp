@@ -21,7 +21,8 @@ namespace {
 // Incremented when the members of a scene change.
 constexpr std::string_view kFirstLine = "beambench-scene 2\n";
 
-static_assert(std::endian::native == std::endian::little, "numbers are kept as they lie in memory");
+static_assert(std::endian::native == std::endian::little,
+              "numbers are kept exactly as stored in memory");
 
 /// The members of each type, in order. A structured binding names all of them, so forgetting a new
 /// member here is a compiler error.
@@ -55,7 +56,7 @@ auto members(T& object) {
   }
 }
 
-/// Types without padding that consist only of numbers are copied as they are; padding bytes would
+/// Copies types that consist only of numbers, without padding, as they are; padding bytes would
 /// make two pickles of one scene differ.
 template <class T>
 constexpr bool kIsPlain = std::is_arithmetic_v<T> || std::is_enum_v<T> ||
@@ -160,8 +161,8 @@ std::string bytes_of_scene(const scenes::Scene& scene) {
 scenes::Scene scene_of_bytes(std::string_view bytes) {
   if (!bytes.starts_with(kFirstLine)) {
     throw InputError(fmt::format(
-        "the scene was pickled by another version of beambench; expected '{}' first; pickle it "
-        "again with this version",
+        "the scene was pickled by another version of beambench; expected '{}' at the start; "
+        "pickle it again with this version",
         kFirstLine.substr(0, kFirstLine.size() - 1)));
   }
   std::uint64_t hash = 0;

@@ -8,11 +8,11 @@
 
 namespace beambench::python {
 
-/// Returns all of a scene, bit by bit.
+/// Returns all of a scene, bit for bit.
 std::string bytes_of_scene(const scenes::Scene& scene);
 
-/// Returns the scene stored in these bytes. Throws InputError for bytes of another version of
-/// beambench and for damaged ones. Like pickle itself, it trusts the author of the bytes.
+/// Returns the scene stored in these bytes. Throws InputError for bytes from another version of
+/// beambench and for damaged bytes. Like pickle itself, it trusts the source of the bytes.
 scenes::Scene scene_of_bytes(std::string_view bytes);
 
 }  // namespace beambench::python

@@ -1,5 +1,5 @@
 #pragma once
-// A scene shared by Python objects and work.
+// A scene shared by Python objects and long-running work.
 
 #include <memory>
 #include <string>
@@ -25,7 +25,7 @@ struct ImageChoice {
   int samples;
 };
 
-/// Throws InputError for an invalid camera or image.
+/// Returns the image chosen. Throws InputError for an invalid camera or image.
 rays::ImageOfRays image_of(const ImageChoice& choice);
 
 }  // namespace beambench::python

@@ -16,17 +16,17 @@
 
 namespace beambench::python {
 
-/// Returns triangles over vertices, rounded to float once, with one surface.
+/// Returns the triangles over the vertices, rounded to float once, with a single surface.
 scenes::mesh::TriangleMesh mesh_of(std::span<const glm::dvec3> vertices,
                                    std::span<const std::array<std::uint32_t, 3>> triangles);
 
-/// Returns the places of triangles that no scene can have, because they have no area after
-/// rounding. `indices` are those of vertices.
+/// Returns the indices of triangles that cannot be in a scene, because they have no area after
+/// rounding. `indices` refer to vertices.
 std::vector<std::uint32_t> triangles_without_area(
     std::span<const glm::dvec3> vertices, std::span<const std::array<std::uint32_t, 3>> triangles);
 
-/// Returns spheres in order, with the same kinds of cameras and lights as for meshes. The numbers
-/// of radii and centers must be equal. Throws InputError as SceneBuilder.
+/// Returns a scene of spheres, in order, with the same kinds of cameras and lights as meshes have.
+/// There must be as many radii as centers. Throws what SceneBuilder throws.
 scenes::Scene sphere_scene(const std::string& name, std::span<const glm::dvec3> centers,
                            std::span<const double> radii,
                            const scenes::mesh::Orientation& orientation);

@@ -54,7 +54,7 @@ using Counts = std::map<std::string, std::uint64_t, std::less<>>;
 /// t, primitive, counters.
 using Hits = std::tuple<ArrayOut<float>, ArrayOut<std::uint32_t>, std::optional<Counts>>;
 
-/// Hits as two arrays of one shape over the buffer's memory.
+/// Returns hits as two arrays of the same shape, which share the buffer's memory.
 Hits hits_of(std::shared_ptr<accel::HitBuffer> buffer, std::initializer_list<std::size_t> shape,
              const std::optional<accel::WorkCounters>& counters) {
   const nb::capsule owner = keep(buffer);
@@ -85,11 +85,11 @@ void trace_in_parts(std::span<const accel::Ray> rays, const Trace& trace) {
   }
 }
 
-/// Throws if there are too many rays: the width of a hit buffer is an int.
+/// Throws InputError if there are too many rays: the width of a hit buffer is an int.
 void require_count(std::size_t rays) {
   constexpr std::size_t kMax = std::numeric_limits<int>::max();
   if (rays <= kMax) return;
-  throw InputError(fmt::format("there are {} rays; give at most {} at once", rays, kMax));
+  throw InputError(fmt::format("there are {} rays; pass at most {} at once", rays, kMax));
 }
 
 Hits closest_hits(const StructureHandle& structure, const RaysIn& given, bool counting) {
@@ -191,12 +191,12 @@ void bind_structure(nb::module_& module) {
   nb::class_<StructureHandle>(module, "Structure", "A structure built over a scene.")
       .def_prop_ro(
           "label", [](const StructureHandle& s) { return s.built->choice.label(); },
-          "Name and all parameters.")
-      .def_prop_ro("statistics", &statistics_of, "Sizes by name.")
+          "Its name and all parameters.")
+      .def_prop_ro("statistics", &statistics_of, "Its sizes, by name.")
       .def("closest_hits", &closest_hits, nb::arg("rays").noconvert(), nb::arg("counters"),
            "t, primitive and counters of a list of rays.")
       .def("any_hits", &any_hits, nb::arg("rays").noconvert(), nb::arg("counters"),
-           "For each ray 1 or 0, and counters.")
+           "1 or 0 for each ray, and counters.")
       .def("trace_image", &trace_image, nb::arg("image"), nb::arg("threads").none(),
            nb::arg("counters"), "t, primitive and counters of an image.");
   module.def("build_structure", &build_structure, nb::arg("scene"), nb::arg("spec"),

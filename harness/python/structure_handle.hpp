@@ -1,5 +1,5 @@
 #pragma once
-// A structure shared by Python objects and work.
+// A structure shared by Python objects and long-running work.
 
 #include <memory>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace beambench::python {
 
-/// A structure, and the objects that it needs to live.
+/// A structure, and the objects that it refers to.
 struct BuiltStructure {
   std::shared_ptr<const scenes::Scene> scene;
   accel::StructureChoice choice;
@@ -23,7 +23,8 @@ struct StructureHandle {
   std::shared_ptr<const BuiltStructure> built;
 };
 
-/// Throws InputError as `accel::Registry::choose` and `accel::StructureChoice::build`.
+/// Builds a structure. Throws what `accel::Registry::choose` and `accel::StructureChoice::build`
+/// throw.
 StructureHandle build(std::shared_ptr<const scenes::Scene> scene, const std::string& spec,
                       int threads);
 

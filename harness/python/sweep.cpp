@@ -30,8 +30,8 @@ namespace {
 
 namespace nb = nanobind;
 
-/// Locks Google Benchmark's global state: one sweep at a time, later ones wait. An interrupted
-/// sweep may continue until its current repetition ends.
+/// Locks Google Benchmark's global state: only one sweep runs at a time, later ones wait. An
+/// interrupted sweep may continue until its current repetition ends.
 std::unique_lock<std::mutex> lock_benchmark(const StopRequest& stop) {
   static std::mutex running;
   std::unique_lock lock(running, std::try_to_lock);

@@ -31,11 +31,11 @@
 namespace beambench::python {
 namespace {
 
-/// Signals are handled between two parts. The exact search for the wrong hits of a part takes
-/// seconds at most.
+/// The number of rays in a part; signals are handled between two parts. The exact search for the
+/// wrong hits of a part takes seconds at most.
 constexpr std::size_t kPart = std::size_t{1} << 14U;
 
-/// Returns an array without rows if it is not given.
+/// Returns the array, or one without rows if none is given.
 template <class T>
 using Numbers = ArrayIn<T, -1>;
 using Points = ArrayIn<float, -1, 3>;
@@ -114,7 +114,7 @@ std::tuple<Record, ArrayOut<std::uint8_t>> verify_claims(
   const std::span<const accel::Ray> rays = rays_of(given);
   const rays::ClaimedHits claims{span_of(t), span_of(point), span_of(primitive), span_of(triangle),
                                  span_of(occluded)};
-  if (claims.size() != rays.size()) throw InputError("there are not as many hits as rays");
+  if (claims.size() != rays.size()) throw InputError("the numbers of hits and rays differ");
   Verified verified;
   {
     const nb::gil_scoped_release released;
@@ -134,12 +134,12 @@ std::vector<std::string> class_names() {
 }  // namespace
 
 void bind_verify(nb::module_& module) {
-  module.def("class_names", &class_names, "The names of classes, in their order.");
+  module.def("class_names", &class_names, "The names of the classes, in order.");
   module.def("verify", &verify_claims, nb::arg("scene"), nb::arg("rays").noconvert(),
              nb::arg("t").noconvert(), nb::arg("point").noconvert(),
              nb::arg("primitive").noconvert(), nb::arg("triangle").noconvert(),
              nb::arg("occluded").noconvert(),
-             "A report, and the class of each ray; arrays that are not given have no rows.");
+             "A report, and the class of each ray; pass arrays without rows for those not given.");
 }
 
 }  // namespace beambench::python

@@ -242,7 +242,7 @@ def claims_of_two(**arrays: object) -> Callable[[], bb.Report]:
 
 
 INVALID: dict[str, tuple[Callable[[], object], type[Exception], str]] = {
-    "nothing": (claims_of_two(), TypeError, r"no hits are given; give t or point"),
+    "nothing": (claims_of_two(), TypeError, r"no hits are given; pass t or point"),
     "ids alone": (
         claims_of_two(primitive=[0, 1]),
         TypeError,
@@ -329,7 +329,7 @@ INVALID: dict[str, tuple[Callable[[], object], type[Exception], str]] = {
     "an id below all": (
         claims_of_two(t=[1, 1], primitive=np.array([0, -2], np.int8)),
         bb.InputError,
-        r"primitive\[1\] is -2; expected an index from 0 on, or -1",
+        r"primitive\[1\] is -2; expected an index of at least 0, or -1",
     ),
     "an id without a place": (
         claims_of_two(t=[1, np.inf], primitive=[0, 1]),
@@ -434,7 +434,7 @@ def test_a_sweep_that_cannot_be_read_is_one_sentence(tmp_path: Path) -> None:
     (tmp_path / "half.json").write_text('{"name": ')
     with pytest.raises(bb.InputError, match=r"half\.json"):
         bb.sweep(str(tmp_path / "half.json"))
-    with pytest.raises(bb.InputError, match="give it as output"):
+    with pytest.raises(bb.InputError, match="pass it as output"):
         bb.sweep(QUICK, resume=True)
 
 

@@ -1,4 +1,4 @@
-// A stage: the scene in 3D with one structure over it.
+// A stage: the scene in 3D, with one structure over it.
 
 /** The image's view: points of its rays. */
 class ImageView {
@@ -110,7 +110,7 @@ class Stage {
       const { width, height } = this.renderer.domElement;
       const { camera } = this.shared;
       camera.aspect = width / Math.max(height, 1);
-      // On a narrow stage, what belongs into the view still fits in width.
+      // On a narrow stage, widens the view so that everything still fits.
       const wider = Math.max(1, this.shared.aspect / camera.aspect);
       camera.fov = (360 / Math.PI) * Math.atan(wider * Math.tan((this.shared.fov * Math.PI) / 360));
       camera.updateProjectionMatrix();

@@ -7,10 +7,10 @@
     report = bb.verify(scene, rays, t=t, primitive=ids)
     print(report)
 
-Rays are arrays of shape (N, 8), float32: origin, t_min, direction, t_max. Hits are a `t` and the
-index of a primitive each; a miss is `t` = inf and `NO_PRIMITIVE`. Invalid numbers, names and files
-raise `InputError`, a ValueError whose message is one sentence; wrong types raise TypeError. Long
-work runs without the GIL and is ended by Ctrl-C.
+Rays are arrays of shape (N, 8), float32: origin, t_min, direction, t_max. A hit is a `t` and the
+index of a primitive; a miss is `t` = inf and `NO_PRIMITIVE`. Invalid numbers, names and files raise
+`InputError`, a ValueError whose message is one sentence; wrong types raise TypeError. Long work
+runs without the GIL, and Ctrl-C ends it.
 """
 
 from beambench._beambench import NO_PRIMITIVE, InputError
@@ -33,7 +33,7 @@ from beambench.sweeps import sweep
 from beambench.verification import CLASSES, Example, Report, verify
 
 __version__: str = _version()
-"""Of the program that the module belongs to."""
+"""The version of the program that the module belongs to."""
 
 __all__ = [
     "CLASSES",

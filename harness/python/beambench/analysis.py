@@ -1,6 +1,6 @@
-"""The analysis of runs, as `beambench run` and `analyze` make it.
+"""The analysis of runs, as made by `beambench run` and `analyze`.
 
-It is implemented once, in harness/analysis; ratio.hpp there states the methods.
+It is implemented once, in harness/analysis; ratio.hpp describes the methods.
 """
 
 from __future__ import annotations
@@ -41,16 +41,16 @@ __all__ = [
 
 @dataclass(frozen=True)
 class Ratio:
-    """A ratio of two times and its 95% interval, which too few repetitions do not have."""
+    """A ratio of two times and its 95% interval, which needs enough repetitions."""
 
     value: float
     low: float | None = None
     high: float | None = None
     paired: bool = False
-    """Was it made block by block, or round by round?"""
+    """Whether it was computed block by block, or round by round."""
     predicted_low: float | None = None
     predicted_high: float | None = None
-    """Where that of a second run of equal size falls with 95%; only with blocks."""
+    """Covers the ratio of a second run of equal size with 95% probability; only with blocks."""
     error: float | None = None
     """The standard error of its logarithm; only with blocks."""
 
@@ -59,19 +59,19 @@ class Ratio:
         """The rank of a contender with this ratio to the fastest.
 
         "tied": equivalent to it, within MARGIN; "behind": clearly slower; "undecided"; "unranked":
-        without an interval.
+        no interval.
         """
         return _beambench.rank(*astuple(self)[:-1])
 
     @property
     def interval(self) -> tuple[float, float] | None:
-        """Both ends, or None: then nothing can be decided by this ratio."""
+        """Both ends; None if there is no interval, so the ratio decides nothing."""
         return None if self.low is None or self.high is None else (self.low, self.high)
 
 
 @dataclass(frozen=True)
 class Median:
-    """A median and its 95% interval, all above 0."""
+    """A median and its 95% interval; all values are positive."""
 
     value: float
     low: float | None = None
@@ -79,15 +79,15 @@ class Median:
 
 
 def analyze(folder: str | bytes | os.PathLike[Any]) -> dict[str, Any]:
-    """Analyzes the log of a run, which may have been cut off; returns what analysis.json has.
+    """Analyzes the log of a run, which may have been cut off; returns the content of analysis.json.
 
-    Raises InputError where the folder holds no log, or it cannot be read.
+    Raises InputError if the folder does not contain a log, or it cannot be read.
     """
     return json.loads(_beambench.analyze(encoded("folder", folder)))
 
 
 def paired_ratio(over: Mapping[int, float], under: Mapping[int, float]) -> Ratio | None:
-    """Returns the median ratio of the rounds that both have; None where they share no round."""
+    """Returns the median ratio of the rounds that both have; None if they share no round."""
     found = _beambench.paired_ratio(dict(over), dict(under))
     return Ratio(*found) if found else None
 
@@ -95,17 +95,17 @@ def paired_ratio(over: Mapping[int, float], under: Mapping[int, float]) -> Ratio
 def block_ratio(over: Mapping[int, float], under: Mapping[int, float]) -> Ratio | None:
     """Returns the geometric mean of the ratios of the blocks that both have.
 
-    Its intervals are those of Student's t. None where they share no block.
+    Its intervals are Student's t intervals. None if they share no block.
     """
     found = _beambench.block_ratio(dict(over), dict(under))
     return Ratio(*found) if found else None
 
 
 def unpaired_ratio(over: Median, under: Median) -> Ratio:
-    """Returns the ratio of two medians; with an interval where both have one."""
+    """Returns the ratio of two medians; with an interval if both have one."""
     return Ratio(*_beambench.unpaired_ratio(astuple(over), astuple(under)))
 
 
 def geometric_mean(ratios: Sequence[Ratio]) -> Ratio:
-    """Returns the geometric mean of at least one ratio; with an interval where all have one."""
+    """Returns the geometric mean of at least one ratio; with an interval if all have one."""
     return Ratio(*_beambench.geometric_mean([astuple(ratio) for ratio in ratios]))

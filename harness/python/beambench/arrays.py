@@ -1,4 +1,4 @@
-"""Converts users' arguments to arrays for the compiled part, or states the problem."""
+"""Converts users' arguments to arrays for the compiled part, or reports the problem."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def _shape_text(shape: tuple[int | str, ...]) -> str:
 
 
 def _as_array(name: str, given: ArrayLike, kinds: str, expected: str) -> NDArray[Any]:
-    """Returns an array of any shape whose dtype is one of these kinds."""
+    """Returns an array of any shape, after checking that its dtype is one of these kinds."""
     try:
         array = np.asarray(given)
     except ValueError as error:  # rows of several lengths
@@ -60,7 +60,7 @@ def _as_array(name: str, given: ArrayLike, kinds: str, expected: str) -> NDArray
 
 
 def _require_shape(name: str, array: NDArray[Any], shape: tuple[int | str, ...]) -> None:
-    """Raises InputError for other shapes. A text in `shape` means any number of rows."""
+    """Raises InputError for any other shape. A string in `shape` stands for any number of rows."""
     fits = array.ndim == len(shape) and all(
         isinstance(wanted, str) or wanted == found
         for wanted, found in zip(shape, array.shape, strict=True)
@@ -85,7 +85,7 @@ def reals(
 
 
 def ids(name: str, given: ArrayLike, shape: tuple[int | str, ...]) -> NDArray[np.uint32]:
-    """Returns indices as uint32; -1 of a signed type represents NO_PRIMITIVE."""
+    """Returns indices as uint32; -1 in a signed type stands for NO_PRIMITIVE."""
     array = _as_array(name, given, "iu", "integers (uint32)")
     _require_shape(name, array, shape)
     if array.dtype == np.uint32:
@@ -97,13 +97,13 @@ def ids(name: str, given: ArrayLike, shape: tuple[int | str, ...]) -> NDArray[np
         place = tuple(int(i) for i in np.argwhere(wrong)[0])
         raise InputError(
             f"{name}[{', '.join(map(str, place))}] is {array[place]}; expected an index "
-            "from 0 on, or -1 where there is none"
+            "of at least 0, or -1 for none"
         )
     return np.ascontiguousarray(array.astype(np.uint32))
 
 
 def flags(name: str, given: ArrayLike, shape: tuple[int | str, ...]) -> NDArray[np.uint8]:
-    """Returns true and false, or 1 and 0, as uint8."""
+    """Returns booleans, or 1 and 0, as uint8."""
     array = _as_array(name, given, "biu", "bool, or integers 0 and 1")
     _require_shape(name, array, shape)
     if array.dtype.kind == "b":
@@ -121,7 +121,7 @@ def rays_in_place(given: ArrayLike) -> NDArray[np.float32]:
 
 
 def require_coordinates(name: str, points: NDArray[np.float64]) -> None:
-    """Raises InputError for the first row with a coordinate that no scene may have."""
+    """Raises InputError for the first row with an invalid coordinate."""
     wrong = ~(np.abs(points) <= 1e9).all(axis=-1)
     if wrong.any():
         first = int(np.argmax(wrong))

@@ -13,7 +13,7 @@ class Parameter:
     """A parameter of a structure, a scene or a kind of rays."""
 
     name: str
-    """The name by which it is given."""
+    """The name by which it is specified."""
     type: str
     """integer, integer or auto, real, flag, choice, or cells (`32`, `64x32x16`, `auto`)."""
     default: str
@@ -35,13 +35,13 @@ class StructureInfo:
     name: str
     """The name by which `Structure` builds it."""
     summary: str
-    """One sentence with the source in the literature."""
+    """One sentence, with the source in the literature."""
     parameters: tuple[Parameter, ...]
-    """In the order of its label."""
+    """The parameters, in the order of its label."""
     conformance: str
-    """bit-exact: the hits of `exhaustive`; tolerance: its own arithmetic; baseline: no hits."""
+    """bit-exact: same hits as `exhaustive`; tolerance: its own arithmetic; baseline: no hits."""
     counters: dict[str, str]
-    """The counters and their meaning."""
+    """The counters and their meanings."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class SceneInfo:
     summary: str
     """One sentence."""
     parameters: tuple[Parameter, ...]
-    """In the order of its label."""
+    """The parameters, in the order of its label."""
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ class RayKindInfo:
     summary: str
     """The origin of the rays."""
     parameters: tuple[Parameter, ...]
-    """Parameters, such as the seed of random rays."""
+    """The parameters, such as the seed of random rays."""
     query: str
     """The query: closest, any, or picture (both)."""
 
@@ -90,7 +90,7 @@ def scenes() -> list[SceneInfo]:
 
 
 def ray_kinds() -> list[RayKindInfo]:
-    """Returns the kinds of rays that `Scene.rays` makes; `whitted` is only for sweeps."""
+    """Returns the kinds of rays that `Scene.rays` generates; `whitted` is only for sweeps."""
     return [
         RayKindInfo(**{**entry, "parameters": _parameters(entry)})
         for entry in _beambench.ray_kinds()

@@ -14,12 +14,12 @@ from beambench.scene import Camera, Scene
 
 @dataclass(frozen=True)
 class Page:
-    """A self-contained page, which a notebook shows where it stands."""
+    """A self-contained page, which a notebook displays inline."""
 
     html: str
     """The whole document; it needs no network."""
     height: int = 1100
-    """In a notebook, in pixels."""
+    """The height in a notebook, in pixels."""
 
     def save(self, path: str | os.PathLike[str]) -> Path:
         """Writes the page to a file.
@@ -57,16 +57,16 @@ def explain(
     Args:
         scene: the scene.
         structure: a name with or without parameters, such as `"samet:max_level=5"`.
-        second: another one, shown beside the first.
+        second: another structure, shown beside the first.
         camera: None: the scene's first.
-        resolution: of the image whose rays are followed, at most 65,536 pixels; None: 96 pixels
+        resolution: that of the image whose rays are followed, up to 65,536 pixels; None: 96 pixels
             along the longer side.
 
     Returns:
-        The page: the last value of a cell of a notebook shows it; `save` writes it to a file.
+        The page. A notebook displays it as the last value of a cell; `save` writes it to a file.
 
     Raises:
-        InputError: an unknown name or parameter, or an image that is not possible.
+        InputError: an unknown name or parameter, or an invalid image.
     """
     if not isinstance(scene, Scene):
         raise TypeError(f"scene is a {type(scene).__name__}; expected a beambench.Scene")

@@ -13,13 +13,13 @@ from beambench.arrays import reals
 
 
 def to_srgb(picture: ArrayLike) -> NDArray[np.uint8]:
-    """Encodes linear light for a display, as `matplotlib.pyplot.imshow` and image files expect.
+    """Encodes linear light for display, as `matplotlib.pyplot.imshow` and image files expect it.
 
     Args:
         picture: shape (height, width, 3), as `Scene.render` returns it.
 
     Returns:
-        A new array of the same shape, uint8, in sRGB; what is brighter than 1 is clipped.
+        A new array of the same shape, uint8, in sRGB; values above 1 are clipped.
 
     Raises:
         InputError: the array has another shape.
@@ -38,7 +38,7 @@ def to_png(picture: NDArray[np.uint8]) -> bytes:
         checked = kind + content
         return struct.pack(">I", len(content)) + checked + struct.pack(">I", zlib.crc32(checked))
 
-    # Each row begins with the number of its filter: 0, none.
+    # Each row begins with the number of its filter; 0 means none.
     rows = np.insert(picture.reshape(height, 3 * width), 0, 0, axis=1)
     header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
     return b"".join(
@@ -52,6 +52,6 @@ def to_png(picture: NDArray[np.uint8]) -> bytes:
 
 
 def to_img(picture: NDArray[np.uint8], words: str) -> str:
-    """Returns an HTML element with the picture in it; `words` are plain text without quotes."""
+    """Returns an HTML element that contains the picture; `words` are plain text without quotes."""
     data = base64.b64encode(to_png(picture)).decode()
     return f'<img alt="{words}" src="data:image/png;base64,{data}">'

@@ -28,22 +28,22 @@ def rays(
     t_min: ArrayLike = 0.0,
     t_max: ArrayLike = np.inf,
 ) -> NDArray[np.float32]:
-    """Combines the parts of rays, each rounded to float32 once.
+    """Combines the components of rays into one array, rounding each to float32 once.
 
     Args:
         origins: shape (N, 3), or (3,) for all rays.
-        directions: shape (N, 3), or (3,) for all rays, in whose units t counts; the largest
+        directions: shape (N, 3), or (3,) for all rays; they define the unit of t. The largest
             component must have a size of 1e-30 or more, and none a size above 1e9.
         t_min: shape (N,) or one number; not negative.
         t_max: shape (N,) or one number; may be infinite.
 
     Returns:
-        A new array of shape (N, 8), float32: origin, t_min, direction, t_max. It is what all
-        functions take, without a copy.
+        A new array of shape (N, 8), float32: origin, t_min, direction, t_max. All functions accept
+        it without a copy.
 
     Raises:
-        InputError: the parts do not have the same number of rows, or a ray is not valid: the
-            message names it by its index.
+        InputError: the arrays differ in their number of rows, or a ray is invalid; the message
+            states its index.
     """
     parts = {
         "origins": _rows("origins", origins),
@@ -58,7 +58,7 @@ def rays(
     }
     if len(set(counts.values())) > 1:
         found = ", ".join(f"{count} {name}" for name, count in counts.items())
-        raise InputError(f"there are {found}; expected as many of each, or one for all rays")
+        raise InputError(f"there are {found}; expected equal numbers of each, or one for all rays")
     made = np.empty((next(iter(counts.values()), 1), 8), np.float32)
     made[:, 0:3] = parts["origins"]
     made[:, 3] = parts["t_min"]

@@ -1,4 +1,4 @@
-"""The results of a sweep, which a notebook shows as tables with bars."""
+"""The results of a sweep, which notebooks show as tables with bars."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _WIDTH = 240
 
 
 class Results(pd.DataFrame):
-    """The rows of results.csv. What is selected from them is a plain DataFrame."""
+    """The rows of results.csv. Selections from them are plain DataFrames."""
 
     @property
     def _constructor(self) -> type[pd.DataFrame]:
@@ -27,7 +27,7 @@ class Results(pd.DataFrame):
 
 
 def _table(rows: pd.DataFrame) -> str:
-    """Returns the table of one view, the shortest trace first, with bars of build and trace."""
+    """Returns the table of one view, shortest trace first, with bars for build and trace."""
     first = rows.iloc[0]
     title = (
         f"{first['scene']}, {first['width']:.0f}x{first['height']:.0f}, {first['ray_kind']} rays"
@@ -46,7 +46,7 @@ def _table(rows: pd.DataFrame) -> str:
 
 
 def _times(row: pd.Series, longest: float) -> str:
-    """Returns three cells: the figures, and the bars; empty ones where nothing was timed."""
+    """Returns three cells: the figures and the bars; empty cells if nothing was timed."""
     build, trace = row["build_ms_median"], row["trace_ms_median"]
     if pd.isna(trace):
         return "<td></td><td></td><td></td>"

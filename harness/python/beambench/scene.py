@@ -1,4 +1,4 @@
-"""Scenes, over which structures are built and against which rays are traced."""
+"""Scenes, over which structures are built and in which rays are traced."""
 
 from __future__ import annotations
 
@@ -27,21 +27,21 @@ class Camera:
     """A pinhole camera. `dataclasses.replace` makes a modified copy."""
 
     eye: Vector
-    """Where it is."""
+    """The position of the camera."""
     at: Vector
-    """A point that it looks at."""
+    """A point that the camera looks at."""
     up: Vector = (0.0, 0.0, 1.0)
-    """Up in the image; not parallel to the view."""
+    """The upward direction in the image; not parallel to the view."""
     angle: float = 45.0
     """The full vertical field of view in degrees."""
     aspect: float = 1.0
-    """Width of the frustum over its height; a resolution only samples the frustum."""
+    """The width of the frustum divided by its height; a resolution only samples the frustum."""
     width: int = 512
-    """Of the image where no resolution is given, in pixels."""
+    """The image width in pixels if no resolution is given."""
     height: int = 512
-    """Of the image where no resolution is given, in pixels."""
+    """The image height in pixels if no resolution is given."""
     name: str = "custom"
-    """By which a camera of a scene is chosen."""
+    """The name by which a camera of a scene is chosen."""
 
 
 def _vector(name: str, given: ArrayLike) -> Vector:
@@ -63,7 +63,7 @@ def _compiled(camera: Camera) -> _beambench.Camera:
 
 
 class Scene:
-    """Spheres, cones and polygons in single precision.
+    """A scene of spheres, cones and polygons, in single precision.
 
     A scene never changes: structures, arrays and other threads may share it.
     """
@@ -74,12 +74,12 @@ class Scene:
         Args:
             spec: a name with parameters (`"balls:n=3"`, see `scenes`), a registered mesh
                 (`"mesh:dragon"`), or the path of an NFF or mesh file, which need not be UTF-8.
-            strict: raise where a file's reader would skip or repair something; otherwise that is
-                a UserWarning.
+            strict: raise if the reader of a file would skip or repair something; otherwise this
+                only causes a UserWarning.
 
         Raises:
-            InputError: no such name or file, a parameter out of its range, or a malformed file,
-                with the line.
+            InputError: no such name or file, a parameter out of range, or a malformed file, with
+                the line.
         """
         self._compiled = _beambench.load_scene(encoded("spec", spec), bool(strict))
         self._source_rows: NDArray[np.int64] | None = None
@@ -108,15 +108,15 @@ class Scene:
         Args:
             vertices: shape (V, 3), real numbers; rounded to float32 once.
             triangles: shape (T, 3), integers: rows of `vertices`.
-            name: of the scene, in texts.
-            up: "y" or "z", for the cameras that are fitted to the scene.
+            name: the name of the scene.
+            up: "y" or "z"; used by the cameras fitted to the scene.
             degenerate: what to do with triangles that have no area after rounding, which no ray
-                can hit: "error", or "skip". Then the primitives are numbered without them, and
-                `source_rows` has their rows.
+                can hit: "error" or "skip". If skipped, they do not count as primitives, and
+                `source_rows` has the row of each primitive.
 
         Raises:
             InputError: another shape, a coordinate that is not a number or beyond 1e9, an
-                index without a vertex, no triangles, or one without area: the message contains its
+                index without a vertex, no triangles, or one without area; the message states its
                 row.
             TypeError: another dtype.
         """
@@ -129,7 +129,7 @@ class Scene:
             given = tuple(np.asarray(triangles)[row].tolist())
             raise InputError(
                 f"triangles[{row}] is {given}, but there are {len(points)} vertices; "
-                "expected rows of vertices from 0 on"
+                "expected row indices of vertices, from 0"
             )
         if degenerate not in ("error", "skip"):
             raise InputError(f"degenerate is {degenerate!r}; expected 'error' or 'skip'")
@@ -138,7 +138,7 @@ class Scene:
             row = int(flat[0])
             raise InputError(
                 f"triangles[{row}] is {tuple(corners[row].tolist())}, which has no area in single "
-                f"precision ({len(flat)} such in all); remove it, or give degenerate='skip'"
+                f"precision ({len(flat)} such in all); remove it, or pass degenerate='skip'"
             )
         rows = np.delete(np.arange(len(corners)), flat)
         if len(rows) == 0:
@@ -160,12 +160,12 @@ class Scene:
             centers: shape (S, 3), real numbers; rounded to float32 once.
             radii: shape (S,), or one number for all; rays hit a sphere with a negative
                 radius only from the inside.
-            name: of the scene, in texts.
-            up: "y" or "z", for the cameras that are fitted to the scene.
+            name: the name of the scene.
+            up: "y" or "z"; used by the cameras fitted to the scene.
 
         Raises:
             InputError: another shape, a value that is not a number or beyond 1e9, a radius of 0, or
-                no spheres: the message contains the row.
+                no spheres; the message states the row.
             TypeError: another dtype.
         """
         points = reals("centers", centers, ("S", 3), np.float64)
@@ -209,7 +209,7 @@ class Scene:
 
     @property
     def bounds(self) -> NDArray[np.float32]:
-        """The box of all primitives: lower and upper corner, shape (2, 3), float32; a copy."""
+        """The bounding box of all primitives: its two corners, shape (2, 3), float32; a copy."""
         return self._compiled.bounds
 
     @property
@@ -219,7 +219,8 @@ class Scene:
 
     @property
     def triangles(self) -> NDArray[np.uint32]:
-        """Polygon surfaces as rows of `vertices`: (T, 3), uint32, read-only, without a copy."""
+        """The triangles of polygons, as rows of `vertices`: (T, 3), uint32, read-only, without a
+        copy."""
         return self._compiled.triangles
 
     @property
@@ -243,12 +244,12 @@ class Scene:
 
     @property
     def source_rows(self) -> NDArray[np.int64] | None:
-        """The row of `triangles` from which each primitive comes; None for other scenes."""
+        """For each primitive, its row of the given triangles; None for other scenes."""
         return self._source_rows
 
     @property
     def cameras(self) -> tuple[Camera, ...]:
-        """At least one; the first is the default."""
+        """The cameras; there is at least one, and the first is the default."""
         return tuple(
             Camera(c.eye, c.at, c.up, c.angle, c.aspect, c.width, c.height, c.name)
             for c in self._compiled.cameras
@@ -258,10 +259,10 @@ class Scene:
         """Returns the camera of that name.
 
         Args:
-            name: of one of `cameras`.
+            name: the name of one of `cameras`.
 
         Raises:
-            InputError: there is none; the message lists the names.
+            InputError: there is no such camera; the message lists the names.
         """
         for camera in self.cameras:
             if camera.name == name:
@@ -272,7 +273,7 @@ class Scene:
     def _image(
         self, camera: Camera | str | None, resolution: tuple[int, int] | None, samples: int
     ) -> _beambench.ImageChoice:
-        """Returns the requested image; the compiled part refuses an invalid one."""
+        """Returns the requested image. The compiled part rejects an invalid one."""
         if isinstance(camera, str):
             camera = self.camera(camera)
         if camera is not None and not isinstance(camera, Camera):
@@ -303,22 +304,22 @@ class Scene:
         camera: Camera | str | None = None,
         samples: int = 1,
     ) -> NDArray[np.float32]:
-        """Returns rays of a kind, the same bits as the program's.
+        """Returns rays of a kind, bit for bit those of the program.
 
         Args:
             kind: one of `ray_kinds`, such as `"primary"`, `"shadow"` or `"diffuse:seed=2"`; or the
                 path of a file that ends in `.rays`.
             resolution: width and height of the image that the rays belong to or start from; None:
                 the camera's own.
-            camera: of that image; None: the scene's first.
+            camera: the camera of that image; None: the scene's first.
             samples: rays per pixel: 1, 4, 5, 9, 16, ...
 
         Returns:
             Shape (N, 8), float32: origin, t_min, direction, t_max. Primary rays go row by row from
-            the top left, the samples of a pixel one after the other.
+            the top left, with the samples of a pixel together.
 
         Raises:
-            InputError: an unknown kind or camera, an image that is not possible, or a scene
+            InputError: an unknown kind or camera, an invalid image, or a scene
                 without such rays (no lights, no mirrors).
         """
         return self._compiled.rays(encoded("kind", kind), self._image(camera, resolution, samples))
@@ -340,15 +341,15 @@ class Scene:
             camera: None: the scene's first.
             samples: rays per pixel: 1, 4, 5, 9, 16, ...
             shading: preview, normals, id, depth, or whitted (lights, shadows, mirrors, glass).
-            structure: one that was built over this scene, or a name with parameters.
-            threads: that trace; 0: one for each core, within the CPU quota.
+            structure: one built over this scene, or a name with parameters.
+            threads: number of threads; 0: one per core, within the CPU quota.
 
         Returns:
             Linear light of shape (height, width, 3), float32, the top row first, without a copy.
             `to_srgb` encodes it for displays.
 
         Raises:
-            InputError: an unknown name, or an image that is not possible.
+            InputError: an unknown name, or an invalid image.
         """
         from beambench.structure import Structure, require_threads
 
@@ -368,7 +369,7 @@ class Scene:
         return self
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Returns all of the scene for pickle, not just the name that made it."""
+        """Returns the whole scene for pickle, not just the name that generates it."""
         compiled = self._compiled
         return _unpickled, (compiled.pickled(), list(compiled.warnings), self._source_rows)
 

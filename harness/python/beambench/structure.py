@@ -35,7 +35,7 @@ class Hits:
 def require_threads(threads: int) -> int:
     """Returns a valid number of threads."""
     if not 0 <= whole_number("threads", threads) <= 1024:
-        raise InputError(f"threads is {threads}; expected 1 to 1024, or 0 for one for each core")
+        raise InputError(f"threads is {threads}; expected 1 to 1024, or 0 for one per core")
     return int(threads)
 
 
@@ -56,16 +56,16 @@ class Structure:
         """Builds a structure.
 
         Args:
-            scene: what it is built over; it lives as long as the structure.
+            scene: the scene to build it over; kept alive by the structure.
             spec: a name, with or without parameters: `"sah-bvh"`, `"samet:max_level=6"`; see
                 `structures`.
-            threads: that trace images, unless `trace_image` says otherwise; 0: one for each core,
-                within the CPU quota.
-            parameters: more of them: `max_level=6`.
+            threads: number used to trace images, unless `trace_image` overrides it; 0: one per
+                core, within the CPU quota.
+            parameters: further parameters: `max_level=6`.
 
         Raises:
-            InputError: an unknown name or parameter, or a value out of its range: the message
-                lists what is valid.
+            InputError: an unknown name or parameter, or a value out of range; the message lists
+                the valid ones.
         """
         if not isinstance(scene, Scene):
             raise TypeError(f"scene is a {type(scene).__name__}; expected a beambench.Scene")
@@ -92,15 +92,15 @@ class Structure:
 
         Args:
             rays: shape (N, 8), float32: origin, t_min, direction, t_max. Such an array in one
-                block of memory is used where it is; anything else is converted first. It must not
-                be written to meanwhile.
+                block of memory is used without a copy; anything else is converted first. It must
+                not be written to meanwhile.
             counters: count the work, which takes longer.
 
         Returns:
-            Arrays of shape (N,) over the memory that the structure wrote to.
+            Arrays of shape (N,) that share the memory that the structure wrote to.
 
         Raises:
-            InputError: another shape, or an invalid ray: the message names it by its index.
+            InputError: another shape, or an invalid ray; the message states its index.
             TypeError: another dtype.
         """
         t, primitive, counts = self._compiled.closest_hits(rays_in_place(rays), bool(counters))
@@ -110,13 +110,13 @@ class Structure:
         """Returns whether each ray hits anything in [t_min, t_max].
 
         Args:
-            rays: as for `closest_hits`.
+            rays: see `closest_hits`.
 
         Returns:
-            Shape (N,), bool, over the memory that the structure wrote to.
+            Shape (N,), bool, sharing the memory that the structure wrote to.
 
         Raises:
-            InputError, TypeError: as `closest_hits`.
+            InputError, TypeError: see `closest_hits`.
         """
         hits, _ = self._compiled.any_hits(rays_in_place(rays), False)
         return hits.view(np.bool_)
@@ -125,10 +125,10 @@ class Structure:
         """Returns the work of `any_hits` by name.
 
         Args:
-            rays: as for `closest_hits`.
+            rays: see `closest_hits`.
 
         Raises:
-            InputError, TypeError: as `closest_hits`.
+            InputError, TypeError: see `closest_hits`.
         """
         _, counts = self._compiled.any_hits(rays_in_place(rays), True)
         return counts or {}
@@ -148,16 +148,16 @@ class Structure:
             resolution: width and height; None: the camera's own.
             camera: None: the scene's first.
             samples: rays per pixel: 1, 4, 5, 9, 16, ...
-            threads: None: as the structure was built for; 0: one for each core,
+            threads: None: the number for which the structure was built; 0: one per core,
                 within the CPU quota.
             counters: count the work, which takes longer.
 
         Returns:
             Arrays of shape (height, width), the top row first; (height, width, samples) for
-            several samples. They are over the memory that the structure wrote to.
+            several samples. They share the memory that the structure wrote to.
 
         Raises:
-            InputError: an unknown camera, or an image that is not possible.
+            InputError: an unknown camera, or an invalid image.
         """
         count = None if threads is None else require_threads(threads)
         image = self.scene._image(camera, resolution, samples)
@@ -174,7 +174,7 @@ class Structure:
     ) -> NDArray[np.float32]:
         """Draws a picture through this structure.
 
-        As `Scene.render` otherwise, whose arguments these are.
+        The arguments are those of `Scene.render`.
         """
         return self.scene.render(
             resolution=resolution,

@@ -15,7 +15,7 @@ from beambench.arrays import encoded
 if TYPE_CHECKING:
     import pandas as pd
 
-# Not numbers, whatever they look like: a hash may be digits alone.
+# Not numbers, whatever they look like: a hash may consist of digits only.
 TEXT_COLUMNS = (
     "run_id time_utc commit machine_id build_type flags isa structure_isa "
     "library_version library_geometry scene camera scene_hash rays_hash structure parameters "
@@ -30,25 +30,25 @@ def sweep(
     resume: bool = False,
     progress: bool = False,
 ) -> pd.DataFrame:
-    """Measures a sweep in this process; a time is reported only when the hits are correct.
+    """Measures a sweep in this process; reports a time only if the hits are correct.
 
-    All blocks are measured by this process, so that what differs between processes is in no
-    interval. For times that are to hold elsewhere, use `beambench run`.
+    This process measures all blocks, so intervals do not cover the variation between processes. For
+    times that must hold elsewhere, use `beambench run`.
 
     Args:
         config: a sweep as in harness/measure/sweep.schema.json, the path of its JSON file, or the
-            name of one that comes with beambench, such as "quick".
-        output: folder for the whole record, which must be empty or new; None: it is not kept.
-        resume: continue the run in `output`, of which every finished cell is kept.
+            name of one of beambench's own, such as "quick".
+        output: folder for the whole record, empty or new; None: the record is discarded.
+        resume: continue the run in `output`, keeping every finished cell.
         progress: report on the standard error.
 
     Returns:
-        results.csv, a row for each cell; results/README.md describes the columns. Wrong cells
-        have no times: look at `verdict`. `attrs["summary"]` is the text of summary.txt. A notebook
+        results.csv, a row for each cell; results/README.md describes the columns. Cells with wrong
+        hits have no times: see `verdict`. `attrs["summary"]` is the text of summary.txt. A notebook
         shows a table with bars for each view.
 
     Raises:
-        InputError: a fault in the configuration, with its place, or in the folder.
+        InputError: an error in the configuration, with its place, or a problem with the folder.
         ImportError: pandas is not installed.
     """
     try:
@@ -60,7 +60,7 @@ def sweep(
     text = json.dumps(dict(config)) if isinstance(config, Mapping) else ""
     path = b"" if isinstance(config, Mapping) else encoded("config", config)
     if resume and output is None:
-        raise _beambench.InputError("resume continues the run in a folder; give it as output")
+        raise _beambench.InputError("resume continues the run in a folder; pass it as output")
     with tempfile.TemporaryDirectory(prefix="beambench-") as temporary:
         folder = Path(temporary) / "run" if output is None else output
         table, summary = _beambench.sweep(text, path, encoded("output", folder), resume, progress)

@@ -18,7 +18,7 @@ from beambench.structure import Hits
 Vector = tuple[float, float, float]
 
 CLASSES: tuple[str, ...] = tuple(_beambench.class_names())
-"""agree, tie, graze, structure_error (the claim is wrong), oracle_error (the oracle is)."""
+"""agree, tie, graze, structure_error (claim wrong) and oracle_error (oracle wrong)."""
 
 
 def _number(value: float) -> str:
@@ -38,7 +38,7 @@ def _hit(t: float | None, primitive: int | None) -> str:
 
 @dataclass(frozen=True, eq=False)
 class Example:
-    """One ray whose claimed hit does not agree with the oracle's."""
+    """A ray whose claimed hit does not agree with the oracle's."""
 
     index: int
     """The index of the ray."""
@@ -49,29 +49,29 @@ class Example:
     reason: str
     """The reason for its class; empty if the class is self-explanatory."""
     claimed_t: float | None
-    """As given; None: not given, or no hit."""
+    """The claimed t; None: not given, or no hit."""
     claimed_point: Vector | None
-    """As given; None: not given, or no hit."""
+    """The claimed point; None: not given, or no hit."""
     claimed_primitive: int | None
-    """As given; None: not given, or no hit."""
+    """The claimed primitive; None: not given, or no hit."""
     claimed_triangle: int | None
-    """As given; None: not given, or no hit."""
+    """The claimed triangle; None: not given, or no hit."""
     claimed_occluded: bool | None
-    """As given; None: the claims are of closest hits."""
+    """The claimed occlusion; None: the claims are of closest hits."""
     oracle_t: float | None
-    """The closest hit by double-precision intersectors; None: no hit."""
+    """The t of the closest hit by double-precision intersectors; None: no hit."""
     oracle_primitive: int | None
-    """The primitive of the same hit."""
+    """The primitive of that hit."""
     exact_t: float | None
-    """The closest hit by exact arithmetic; None: no hit, or not searched."""
+    """The t of the closest hit by exact arithmetic; None: no hit, or not searched."""
     exact_primitive: int | None
-    """The primitive of the same hit."""
+    """The primitive of that hit."""
     searched: bool
-    """Whether exact arithmetic judged the answer, because it differs from the oracle's."""
+    """Whether exact arithmetic judged the claim, because it differs from the oracle's hit."""
 
     @property
     def claim(self) -> str:
-        """The claim, as text."""
+        """The claim as text."""
         if self.claimed_occluded is not None:
             return "some hit" if self.claimed_occluded else "no hit"
         if self.claimed_t is None and self.claimed_point is None:
@@ -88,7 +88,7 @@ class Example:
         return place
 
     def __str__(self) -> str:
-        """Returns several lines: the ray, the claim, the oracle's hit and the exact one."""
+        """Returns several lines: the ray, the claim, the oracle's hit and the exact hit."""
         exact = _hit(self.exact_t, self.exact_primitive) if self.searched else "not searched"
         reason = f", {self.reason}" if self.reason else ""
         return (
@@ -106,17 +106,17 @@ class Report:
     """The findings of a verification."""
 
     verdict: str
-    """ok; mismatch: at least one structure_error; grazes: more than max(2, 1e-4 x rays)."""
+    """ok; mismatch: at least one structure_error; grazes: more than max(2, 1e-4 x rays) of them."""
     rays: int
-    """How many were verified."""
+    """The number of rays verified."""
     hits: int
-    """How many of them hit anything, by the oracle."""
+    """The number of these that hit anything, by the oracle."""
     counts: dict[str, int]
-    """How many rays are of each class."""
+    """The number of rays in each class."""
     classes: NDArray[np.uint8]
-    """The class of each ray: uint8, indices of CLASSES. Shape (N,), or that of the given Hits."""
+    """The class of each ray, as index in CLASSES: uint8, shape (N,) or that of the given Hits."""
     examples: list[Example]
-    """Errors first, at most ten of each class but agree."""
+    """Errors first; at most ten of each class except agree."""
 
     @property
     def ok(self) -> bool:
@@ -157,7 +157,7 @@ class Report:
 
 @dataclass(frozen=True, eq=False)
 class _Claims:
-    """The given arrays, converted; missing ones are None."""
+    """The given arrays, converted; None for those not given."""
 
     t: NDArray[np.float32] | None
     point: NDArray[np.float32] | None
@@ -169,7 +169,7 @@ class _Claims:
         return {name: array for name, array in vars(self).items() if array is not None}
 
     def example(self, entry: dict[str, Any], rays: NDArray[np.float32]) -> Example:
-        """Returns an example; the claim is read from the given arrays."""
+        """Returns an example, with the claim taken from the given arrays."""
         i = entry["index"]
         named = [array[i] for array in (self.primitive, self.triangle) if array is not None]
         missed = any(id_ == NO_PRIMITIVE for id_ in named)
@@ -200,11 +200,11 @@ class _Claims:
 
 
 def _require_form(given: dict[str, ArrayLike | None]) -> None:
-    """Raises TypeError unless the arrays match one kind of claim."""
+    """Raises TypeError unless the arrays form one kind of claim."""
     names = " and ".join(name for name, array in given.items() if array is not None)
     wanted = (
-        "give t or point, with or without primitive or triangle, for closest hits; or occluded "
-        "alone, for any hits"
+        "pass t or point, with or without primitive or triangle, for closest hits; or only "
+        "occluded for any hits"
     )
     if not names:
         raise TypeError(f"no hits are given; {wanted}")
@@ -219,14 +219,14 @@ def _require_form(given: dict[str, ArrayLike | None]) -> None:
 
 
 def _require_hits_alone(hits: object, given: dict[str, ArrayLike | None]) -> None:
-    """Raises TypeError unless these are Hits, and the only ones."""
+    """Raises TypeError unless these are Hits, given without other arrays."""
     if not isinstance(hits, Hits):
         raise TypeError(
             f"hits is a {type(hits).__name__}; expected a beambench.Hits, or arrays by name: t=..."
         )
     names = " and ".join(name for name, array in given.items() if array is not None)
     if names:
-        raise TypeError(f"hits cannot be combined with {names}; give one or the other")
+        raise TypeError(f"hits cannot be combined with {names}; pass one or the other")
 
 
 def verify(
@@ -242,9 +242,9 @@ def verify(
 ) -> Report:
     """Verifies the hits that any program reports for a list of rays.
 
-    The claims are of closest hits (`hits`, a whole result of `closest_hits` or `trace_image`; or
-    `t` or `point`, optionally with `primitive` or `triangle`) or of any hits (only `occluded`). A
-    claim is compared with the hit of an oracle in double precision, with tolerances of rounding in
+    The claims are closest hits (`hits`, a whole result of `closest_hits` or `trace_image`; or `t`
+    or `point`, optionally with `primitive` or `triangle`) or any hits (only `occluded`). A claim
+    is compared with the hit of an oracle in double precision, with tolerances for rounding to
     float32; disputes are decided by exact arithmetic.
 
     Args:
@@ -254,7 +254,7 @@ def verify(
         hits: what a structure returned, with N hits in any shape: those of an image, from
             `Structure.trace_image`, are in the order of `Scene.rays("primary", ...)`.
         t: shape (N,), real numbers, rounded to float32: the hit is at origin + t * direction;
-            infinity: a miss.
+            infinity for a miss.
         point: shape (N, 3), real numbers, rounded to float32: the point that is hit; three
             infinities: a miss.
         primitive: shape (N,), integers: the id in the scene; -1 or NO_PRIMITIVE: a miss.
@@ -262,12 +262,12 @@ def verify(
         occluded: shape (N,), bool, or integers 0 and 1: whether the ray hits anything.
 
     Returns:
-        The verdict, how many rays are of each class, the class of each ray, and examples.
+        The verdict, the number of rays in each class, the class of each ray, and examples.
 
     Raises:
         InputError: another shape, no rays, or a ray or hit with impossible numbers, such as NaN or
-            an id that is not in the scene: the message contains the index of the ray.
-        TypeError: another dtype, or arrays that do not go together.
+            an id that is not in the scene; the message states the index of the ray.
+        TypeError: another dtype, or arrays that cannot be combined.
     """
     if not isinstance(scene, Scene):
         raise TypeError(f"scene is a {type(scene).__name__}; expected a beambench.Scene")

@@ -1,8 +1,8 @@
-"""Goes from a mesh, through a custom ray tracer, to a verdict and a plot.
+"""Traces a mesh with a custom ray tracer, verifies the hits and plots their classes.
 
 The ray tracer tests every triangle against every ray in numpy, by Möller and Trumbore's test in
-float32. The module verifies its hits, and the plot shows where which class is. An epsilon that is
-too large for the mesh, a common mistake, loses the triangles that are seen from the side:
+float32. The module verifies its hits, and the plot shows the class of each pixel. An epsilon that
+is too large for the mesh, a common mistake, loses triangles seen edge-on:
 
     python verify_mesh.py                    # ok
     python verify_mesh.py --epsilon 0.001    # mismatch
@@ -28,7 +28,7 @@ import matplotlib.pyplot as plt
 Floats = NDArray[np.float32]
 Ids = NDArray[np.int64]
 
-# By class in the order of bb.CLASSES; also distinct for the color-blind (Okabe and Ito).
+# In the order of bb.CLASSES; distinguishable for the color-blind (Okabe and Ito).
 COLORS = ["#0072B2", "#56B4E9", "#F0E442", "#D55E00", "#CC79A7"]
 RAYS_AT_ONCE = 512
 
@@ -52,7 +52,7 @@ def torus(around: int, along: int) -> tuple[Floats, Ids]:
 
 
 def trace(vertices: Floats, triangles: Ids, rays: Floats, epsilon: float) -> tuple[Floats, Ids]:
-    """Returns the closest hit of each ray: t (infinity for a miss) and triangle (-1 for a miss).
+    """Returns t (infinity for a miss) and triangle (-1 for a miss) of each ray's closest hit.
 
     Möller and Trumbore, "Fast, minimum storage ray-triangle intersection", 1997.
     """
@@ -108,8 +108,12 @@ def main() -> int:
     parser.add_argument(
         "--epsilon", type=float, default=0.0, help="smallest determinant of a hit (default: 0)"
     )
-    parser.add_argument("--size", type=int, default=128, help="of the image (default: 128 pixels)")
-    parser.add_argument("--scene", help="triangles of this scene or mesh file instead of a torus")
+    parser.add_argument(
+        "--size", type=int, default=128, help="side of the image in pixels (default: 128)"
+    )
+    parser.add_argument(
+        "--scene", help="trace the triangles of this scene or mesh file instead of a torus"
+    )
     parser.add_argument("-o", dest="output", type=Path, default=Path("verify_mesh.png"))
     arguments = parser.parse_args()
     try:
