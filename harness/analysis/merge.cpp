@@ -82,10 +82,9 @@ ShardFolder read_shard(const fs::path& path) {
 void require_one_sweep(const ShardFolder& first, const ShardFolder& other) {
   const nlohmann::json changes = nlohmann::json::diff(first.run.config, other.run.config);
   if (!changes.empty()) {
-    refuse(
-        fmt::format("'{}' and '{}' belong to two sweeps, which differ at {}; merge the shards of "
-                    "one sweep",
-                    first.path(), other.path(), changes.front().at("path").get<std::string>()));
+    refuse(fmt::format(
+        "'{}' and '{}' belong to two sweeps, which differ at {}; merge the shards of one sweep",
+        first.path(), other.path(), changes.front().at("path").get<std::string>()));
   }
   const std::string difference = read_as_written(other.file(), "measure the shard anew", [&] {
     return measure::program_difference(first.run.manifest, other.run.manifest);
@@ -133,8 +132,8 @@ bool is_repeatable(std::string_view column) {
       const Json other = found->second.value(column, Json());
       if (!is_repeatable(column) || value == other) continue;
       refuse(fmt::format(
-          "the cell {} has {} {} in '{}' and {} in '{}'; counters repeat, so one of "
-          "the records is damaged: measure both shards again",
+          "the cell {} has {} {} in '{}' and {} in '{}'; counters repeat, so one of the records is "
+          "damaged: measure both shards again",
           shared, column, json_text(value, -1), first.path(), json_text(other, -1), second.path()));
     }
   }

@@ -26,7 +26,7 @@ int analyze(const AnalyzeRequest& request) {
   const std::filesystem::path folder = request.folder;
   const analysis::Analysis found =
       request.write ? analysis::conclude(folder)
-                    : read_as_written((folder / measure::kLogName).string(), "measure it anew",
+                    : read_as_written((folder / measure::kLogName).string(), "measure it again",
                                       [&] { return analysis::analyze(measure::read_run(folder)); });
   if (request.json) {
     fmt::print("{}\n", json_text(analysis::to_json(found)));
@@ -40,14 +40,14 @@ int analyze(const AnalyzeRequest& request) {
 
 void add_analyze_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
-      "analyze", "State what a run shows: who is fastest, and what its times are worth");
+      "analyze", "State what a run shows: who is fastest, and how reliable its times are");
   const auto request = std::make_shared<AnalyzeRequest>();
   command->add_option("DIR", request->folder, "The folder of a run; it may have been interrupted")
       ->required();
   command->add_flag("--write", request->write,
-                    "Make results.csv, summary.txt, analysis.json and the other files of the "
+                    "Write results.csv, summary.txt, analysis.json and the other files of the "
                     "folder from its log, run.jsonl");
-  command->add_flag("--json", request->json, "Print JSON: what analysis.json has");
+  command->add_flag("--json", request->json, "Print JSON: the content of analysis.json");
   command->footer(
       "Examples:\n"
       "  beambench run quick -o my-run --benchmark_filter=tetra.*samet\n"

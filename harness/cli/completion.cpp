@@ -37,7 +37,7 @@ Words names_with(Words first, const Infos&... all) {
   return first;
 }
 
-/// Returns the valid values of options by their name; file names for all others.
+/// Returns the valid values of options, by option; other options take file names.
 const std::map<std::string, Words>& known_values() {
   const auto structures = accel::registry().structures();
   static const std::map<std::string, Words> values{
@@ -81,8 +81,8 @@ Words argument_words(const CLI::App& command) {
   return {};
 }
 
-/// Returns a case for each name that has parameters, which adds them to the words; `line` has
-/// places for the name and for its parameters.
+/// Returns a case for each name that has parameters; the case adds them to the words. `line` has
+/// placeholders for the name and for its parameters.
 std::string parameter_cases(fmt::format_string<std::string, std::string> line) {
   std::string cases;
   const auto add = [&](const auto& infos) {
@@ -117,8 +117,8 @@ std::string bash_script(const CLI::App& app) {
   }
   Words first = command_names(app);
   for (std::string& name : option_names(app)) first.push_back(std::move(name));
-  // The shell divides words at colons, too, so the word is taken from the line. In a list, what
-  // comes before the last comma or colon stays; it is removed again as far as the shell keeps it.
+  // The shell also divides words at colons, so the word is taken from the line. In a list, the part
+  // before the last comma or colon stays; it is removed again as far as the shell keeps it.
   return fmt::format(
       "_beambench() {{\n"
       "  local line=${{COMP_LINE:0:$COMP_POINT}} words='' command='' before='' token\n"
@@ -169,7 +169,7 @@ std::string bash_script(const CLI::App& app) {
 }
 
 /// Returns the zsh script, which runs bash's completions. The first completion loads the script as
-/// a function, and must also complete.
+/// a function, and must also produce completions.
 std::string zsh_script(const CLI::App& app) {
   return "#compdef beambench\nautoload -U +X bashcompinit && bashcompinit\n" + bash_script(app) +
          "if [[ -n ${compstate+loading} ]]; then _bash_complete -o default -F _beambench; fi\n";
@@ -253,7 +253,7 @@ std::string script_for(const std::string& shell, const CLI::App& app) {
   return bash_script(app);
 }
 
-/// Escapes a text for roff, so that no character is interpreted as a request (groff_char(7),
+/// Escapes a text for roff, so that roff interprets no character as a request (groff_char(7),
 /// roff(7)).
 std::string escaped(std::string_view text) {
   std::string out;
@@ -272,7 +272,7 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
-/// Returns lines without filling.
+/// Returns lines that roff does not fill.
 std::string verbatim(std::string_view text) { return fmt::format(".nf\n{}\n.fi\n", escaped(text)); }
 
 std::string bold(const std::string& word) { return R"(\fB)" + escaped(word) + R"(\fR)"; }
@@ -302,20 +302,20 @@ std::string command_section(const CLI::App& command) {
   return out + ".PP\n" + verbatim(command.get_footer());
 }
 
-/// The variables that the program reads.
+/// The environment variables that the program reads.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kEnvironment{{
     {"BEAMBENCH_MEMORY",
-     "How much memory the program may use, such as 800M or 12G; if not set, "
-     "what the system and its control groups leave."},
+     "Amount of memory the program may use, such as 800M or 12G; if not set, what the system and "
+     "its control groups allow."},
     {"BEAMBENCH_PLUGINS",
-     "Shared objects to load before any command, as with --plugin; several "
-     "are separated by colons."},
+     "Shared objects to load before any command, as with --plugin; multiple files are separated by "
+     "colons."},
     {"BEAMBENCH_UNGUARDED", "If set, plug-ins run in the process of the program, for debuggers."},
     {"BEAMBENCH_CACHE",
-     "The folder of installed meshes and of what was read from meshes, in place "
-     "of $XDG_CACHE_HOME/beambench."},
-    {"TMPDIR", "The folder for temporary files, in place of /tmp."},
-    {"XDG_CACHE_HOME", "The folder of all caches, in place of ~/.cache."},
+     "The folder for installed meshes and for data read from meshes, instead of "
+     "$XDG_CACHE_HOME/beambench."},
+    {"TMPDIR", "The folder for temporary files, instead of /tmp."},
+    {"XDG_CACHE_HOME", "The folder for all caches, instead of ~/.cache."},
 }};
 
 std::string manual_page(const CLI::App& app) {
@@ -352,7 +352,7 @@ void add_completion_command(CLI::App& app, int&) {
       ->required()
       ->check(CLI::IsMember(known_values().at("SHELL")));
   command->footer(
-      "Where beambench is installed, so are the scripts. From a build folder, for this session:\n"
+      "Installing beambench also installs the scripts. From a build folder, for this session:\n"
       "  eval \"$(beambench completion bash)\"\n"
       "Examples:\n"
       "  beambench completion bash\n"
@@ -363,7 +363,7 @@ void add_completion_command(CLI::App& app, int&) {
 void add_man_command(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("man", "Print the manual page as roff");
   command->footer(
-      "Where beambench is installed, 'man beambench' shows it.\n"
+      "After installing beambench, 'man beambench' shows it.\n"
       "Examples:\n"
       "  beambench man > beambench.1");
   command->callback([&app] { fmt::print("{}", manual_page(app)); });

@@ -57,7 +57,7 @@ void add_explain_command(CLI::App& app, int& /*exit_code*/) {
   add_scene_option(*command, request->scene);
   command
       ->add_option("--accel", request->structures,
-                   "The structure, or two that are shown side by side: NAME,NAME2")
+                   "The structure, or two to show side by side: NAME,NAME2")
       ->required()
       ->type_name("NAME[:PARAM=VALUE,...][,NAME2]");
   command->add_option("-o,--output", request->file, "The page to write, such as page.html")
@@ -71,7 +71,7 @@ void add_explain_command(CLI::App& app, int& /*exit_code*/) {
   add_view_options(*command, request->view);
   add_frame_option(*command, request->frame);
   command->footer(
-      "The page works in any current browser, without network. It shows the scene; the "
+      "The page works in any current browser, without network access. It shows the scene; the "
       "structure's\n"
       "cells or nodes by level; each ray of the image step by step, with the primitives tested "
       "and\n"

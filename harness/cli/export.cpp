@@ -31,8 +31,8 @@ void export_scene(const ExportRequest& request) {
   const bool obj = request.file.ends_with(".obj");
   if (!obj && !request.file.ends_with(".nff")) {
     throw InputError(
-        fmt::format("'{}': scenes are written as NFF, triangles also as OBJ; end the name with "
-                    ".nff or .obj, by which they are known when they are read",
+        fmt::format("'{}': scenes are written as NFF or, if they consist of triangles, OBJ; end "
+                    "the name with .nff or .obj, which readers use to recognize the format",
                     request.file));
   }
   require_writable(request.file);
@@ -58,11 +58,9 @@ void add_export_command(CLI::App& app, int&) {
   command->footer(
       "An NFF file reads back as the same scene, bit for bit. An OBJ file is for programs that "
       "trace\n"
-      "triangles alone: it has those of all polygons, numbered from 0 as hits name them in "
-      "'beambench\n"
-      "verify --hits'; a scene with spheres or cones has none. Its numbers are exact for who "
-      "reads\n"
-      "them as float or rounds them to float.\n"
+      "only triangles: it has those of all polygons, numbered from 0 as in the hits of 'beambench\n"
+      "verify --hits'; scenes with spheres or cones have none. Its numbers are exact if\n"
+      "read as float or rounded to float.\n"
       "Examples:\n"
       "  beambench export balls:n=3 -o balls.nff\n"
       "  beambench export tetra:n=5 -o tetra.obj\n"

@@ -30,7 +30,7 @@
 namespace beambench::cli {
 namespace {
 
-/// A late frame of scenes that move, whose coordinates all differ from those of the first.
+/// A late frame of animated scenes, whose coordinates all differ from those of the first.
 constexpr int kFrame = 7;
 
 /// Scenes that exhaustive search traces in a fraction of a second. They have every kind of
@@ -69,7 +69,7 @@ struct Built {
   std::unique_ptr<accel::Accelerator> structure;
 };
 
-/// The closest hits of a structure with arithmetic of its own, beside those of `exhaustive`.
+/// The closest hits of a structure with its own arithmetic, compared with those of `exhaustive`.
 struct Tolerance {
   std::size_t rays = 0;
   std::size_t other_primitive = 0;
@@ -85,7 +85,7 @@ class Fingerprint {
     (fmt::format_to(std::back_inserter(text_), "\t{}", fields), ...);
     text_ += '\n';
   }
-  /// Adds the hash of all lines, then what differs from one instruction set to another.
+  /// Adds the hash of all lines, then the values that differ between instruction sets.
   void finish() {
     add("all", rays::hex_digits(rays::fingerprint(text_)));
     for (const auto& [structure, sum] : tolerances) {
@@ -94,7 +94,7 @@ class Fingerprint {
   }
   const std::string& text() const { return text_; }
 
-  /// True once a structure has returned other hits than `exhaustive`.
+  /// True once a structure has returned different hits than `exhaustive`.
   bool differs = false;
   std::map<std::string, Tolerance> tolerances;
 
@@ -119,7 +119,7 @@ void add_scenes(Fingerprint& result, base::Progress& progress) {
   }
 }
 
-/// Returns the results of a structure; what it leaves unwritten differs from every hit.
+/// Returns the results of a structure; any that it leaves unwritten differ from every hit.
 rays::TraceResults traced(const accel::Accelerator& structure, const rays::TraceInput& input) {
   rays::TraceResults results = rays::make_results(input);
   rays::poison(results);
@@ -162,8 +162,8 @@ void add_view(Fingerprint& result, std::string_view scene, const rays::TraceInpu
   }
 }
 
-/// Returns the structures to compare with `exhaustive`. Embree is left out: it is the system's
-/// library, and its versions differ in the last bits of t.
+/// Returns the structures to compare with `exhaustive`. Excludes Embree, a library of the system
+/// whose versions differ in the last bits of t.
 std::vector<accel::StructureChoice> compared_structures() {
   std::vector<accel::StructureChoice> choices;
   for (const accel::StructureInfo& info : accel::registry().structures()) {
@@ -227,14 +227,14 @@ void add_fingerprint_command(CLI::App& app, int& exit_code) {
       ->type_name("NAME")
       ->capture_default_str();
   command->footer(
-      "Lines of fields with tabs between them, to be compared by diff:\n"
+      "Prints lines of tab-separated fields, for comparison with diff:\n"
       "  scene      NAME HASH: a scene of the catalog with its defaults\n"
       "  view       SCENE RAYS HASH HASH: of the rays, and of the hits of every exact structure\n"
       "  differs    SCENE RAYS STRUCTURE HASH: hits that differ from those of 'exhaustive'\n"
       "  all        HASH: of all lines before\n"
-      "  tolerance  STRUCTURE COUNT COUNT COUNT: of a structure with arithmetic of its own, the\n"
-      "             closest-hit rays, those that hit another primitive, and those with other bits "
-      "of t\n"
+      "  tolerance  STRUCTURE COUNT COUNT COUNT: for a structure with its own arithmetic, the\n"
+      "             closest-hit rays, those that hit a different primitive, and those with other "
+      "bits of t\n"
       "Takes 10 to 20 seconds. Embree is left out: its versions differ in the last bits of t.\n"
       "Exits with 1 if there is a line 'differs'.\n"
       "Examples:\n"

@@ -32,8 +32,9 @@ void write_hits(const HitsRequest& request) {
   const bool known =
       request.file.ends_with(rays::kHitFileEnding) || request.file.ends_with(rays::kCsvEnding);
   if (!known) {
-    throw InputError(fmt::format("'{}' ends neither in {} nor in {}, the endings of files of hits",
-                                 request.file, rays::kHitFileEnding, rays::kCsvEnding));
+    throw InputError(
+        fmt::format("'{}' ends neither in {} nor in {}, the extensions of files of hits",
+                    request.file, rays::kHitFileEnding, rays::kCsvEnding));
   }
   require_writable(request.file);
   const rays::RayChoice kind = rays::parse_ray_choice(request.rays);
@@ -57,7 +58,7 @@ void write_hits(const HitsRequest& request) {
 }  // namespace
 
 void add_hits_command(CLI::App& app, int&) {
-  CLI::App* command = app.add_subcommand("hits", "Trace rays by a structure and save the hits");
+  CLI::App* command = app.add_subcommand("hits", "Trace rays with a structure and save the hits");
   const auto request = std::make_shared<HitsRequest>();
   add_scene_option(*command, request->scene);
   command->add_option("--accel", request->structure, "Structure: NAME:parameter=value,...")
@@ -70,10 +71,10 @@ void add_hits_command(CLI::App& app, int&) {
   command->add_option("-o", request->file, "File to save them to, ending in .hits or .csv")
       ->required();
   command->footer(
-      "The hits are as the structure returns them; 'beambench verify --hits' verifies them. The\n"
+      "The hits are the structure's own; 'beambench verify --hits' verifies them. The\n"
       "file has t and primitive of each ray's closest hit, or 0 and 1 for shadow rays. A .hits "
       "file\n"
-      "holds a line 'beambench-hits 1', a line of JSON, then for each ray the numbers of its\n"
+      "has a line 'beambench-hits 1', a line of JSON, then for each ray the numbers of its\n"
       "'columns', little-endian: t as a float, primitive as a 32-bit integer.\n"
       "Examples:\n"
       "  beambench rays tetera -o tetera.rays\n"

@@ -42,13 +42,13 @@ glm::vec3 parse_vector(std::string_view option, std::string_view text) {
 void require_view(const scenes::Camera& camera) {
   const glm::dvec3 view = glm::dvec3(camera.at) - glm::dvec3(camera.from);
   if (glm::length(view) == 0.0) {
-    throw InputError("--from and --at are the same point; look at another one");
+    throw InputError("--from and --at are the same point; choose different points");
   }
   const glm::dvec3 up(camera.up);
   if (glm::length(up) == 0.0 ||
       glm::length(glm::cross(glm::normalize(view), glm::normalize(up))) < 1e-6) {
     throw InputError(
-        "the view direction is parallel to the up direction; give another with --up, such as "
+        "the view direction is parallel to the up direction; choose another with --up, such as "
         "0,0,1");
   }
 }
@@ -60,13 +60,13 @@ void add_scene_option(CLI::App& command, std::string& scene) {
 }
 
 CLI::Option* add_frame_option(CLI::App& command, std::uint32_t& frame) {
-  return command.add_option("--frame", frame, "Frame of a scene that moves, from 0")
+  return command.add_option("--frame", frame, "Frame of an animated scene, starting at 0")
       ->type_name("K")
       ->capture_default_str();
 }
 
 void add_camera_option(CLI::App& command, ViewRequest& request) {
-  command.add_option("--camera", request.camera, "By name (default: the scene's first)");
+  command.add_option("--camera", request.camera, "Name of the camera (default: the scene's first)");
 }
 
 void add_view_options(CLI::App& command, ViewRequest& request) {
@@ -74,7 +74,7 @@ void add_view_options(CLI::App& command, ViewRequest& request) {
   const auto add = [&](const char* name, std::string& value, const char* help) {
     command.add_option(name, value, help)->type_name("X,Y,Z");
   };
-  add("--from", request.from, "Eye point, in place of the camera's");
+  add("--from", request.from, "Eye point, instead of the camera's");
   add("--at", request.at, "Point that the camera looks at");
   add("--up", request.up, "Up direction in the image");
   command
@@ -106,9 +106,8 @@ scenes::Camera choose_camera(const scenes::Scene& scene, const ViewRequest& requ
 }
 
 void add_verbose_option(CLI::App& command, bool& verbose) {
-  command.add_flag(
-      "--verbose", verbose,
-      "Print a line for each cell, on a terminal too, in place of one line of progress");
+  command.add_flag("--verbose", verbose,
+                   "Print a line for each cell even on a terminal, instead of one progress line");
 }
 
 CLI::Validator whole_number_in(std::int64_t lower, std::int64_t upper) {
@@ -206,25 +205,27 @@ Contenders choose_contenders(std::string_view list, const scenes::Scene& scene) 
 void add_light_options(CLI::App& command, WhittedRequest& request) {
   command
       .add_option("--depth", request.max_depth,
-                  "Maximum ray depth, the primary ray included; 1: no mirrors and no glass")
+                  "Maximum ray depth, including the primary ray; 1: no mirrors and no glass")
       ->capture_default_str()
       ->check(whole_number_in(1, 64));
   command
       .add_option("--shadows", request.shadows,
-                  "rays; cache: test the last occluder first; light-buffer: lists of "
-                  "occluders made in advance for each direction from a light")
+                  "rays; cache: test the last occluder first; light-buffer: lists of occluders, "
+                  "made in advance for each direction from a light")
       ->capture_default_str();
   command
       .add_option("--min-weight", request.min_weight,
-                  "Minimum weight in its pixel for a reflected or refracted ray to be traced; "
-                  "0: all are traced")
+                  "Trace a reflected or refracted ray only if it contributes at least this much to "
+                  "its pixel; 0: trace all")
       ->capture_default_str()
       ->check(number_in(0.0, 1.0));
 }
 
 void add_whitted_options(CLI::App& command, WhittedRequest& request) {
   add_light_options(command, request);
-  command.add_option("--threads", request.threads, "0: one for each core, within the CPU quota")
+  command
+      .add_option("--threads", request.threads,
+                  "Number of threads; 0: one per core, within the CPU quota")
       ->capture_default_str()
       ->check(whole_number_in(0, 1024));
 }

@@ -1,5 +1,6 @@
 #pragma once
-// Common options of commands: scenes, cameras, images, structures, light; and renamed options.
+// Options shared by several commands: scenes, cameras, images, structures, light; and renamed
+// options.
 
 #include <cstdint>
 #include <optional>
@@ -25,8 +26,8 @@ inline constexpr const char* kSceneHelp =
     "Catalogue name, mesh:NAME, or path of an NFF or mesh file";
 /// Adds SCENE as one required argument.
 void add_scene_option(CLI::App& command, std::string& scene);
-/// Throws InputError if a scene's name is that of a structure or of a kind of rays: a list was
-/// separated by blanks in place of commas.
+/// Throws InputError if a scene's name is that of a structure or of a kind of rays, because a list
+/// was separated by blanks instead of commas.
 void refuse_structures_as_scenes(const std::vector<std::string>& scenes);
 /// Adds --frame.
 CLI::Option* add_frame_option(CLI::App& command, std::uint32_t& frame);
@@ -34,11 +35,12 @@ CLI::Option* add_frame_option(CLI::App& command, std::uint32_t& frame);
 /// Adds --verbose.
 void add_verbose_option(CLI::App& command, bool& verbose);
 
-/// Returns the check of an option whose value is a whole number, or any number, in [lower, upper].
+/// Returns the check for an option whose value must be a whole number, or any number, in [lower,
+/// upper].
 CLI::Validator whole_number_in(std::int64_t lower, std::int64_t upper);
 CLI::Validator number_in(double lower, double upper);
 
-/// The requested camera: one of the scene's, or a view given by options.
+/// The requested camera: one of the scene's, or a view specified by options.
 struct ViewRequest {
   std::string camera;  ///< empty: the scene's first camera
   std::string from;    ///< X,Y,Z; empty, like the others: that of the camera
@@ -51,12 +53,12 @@ void add_camera_option(CLI::App& command, ViewRequest& request);
 /// Adds --camera, --from, --at, --up and --angle.
 void add_view_options(CLI::App& command, ViewRequest& request);
 
-/// The name, in pictures and records, of a camera that is given by options.
+/// The name, in pictures and records, of a camera specified by options.
 inline constexpr const char* kTypedCamera = "typed";
 
 /// Returns the requested camera: one of the scene's or, if parts of a view are given, that camera
 /// with these parts replaced, named `kTypedCamera`. Throws InputError listing the scene's cameras
-/// for an unknown name, and stating the expected form of an invalid view.
+/// for an unknown name, and stating the expected form for an invalid view.
 scenes::Camera choose_camera(const scenes::Scene& scene, const ViewRequest& request);
 
 /// Returns the structure given for `option`. Throws InputError if there are several.
@@ -68,13 +70,13 @@ struct ImageRequest {
   ViewRequest view;
   int samples = 1;
 };
-/// Throws InputError for an invalid resolution, camera or number of samples.
+/// Returns the image. Throws InputError for an invalid resolution, camera or number of samples.
 rays::ImageOfRays choose_image(const scenes::Scene& scene, const ImageRequest& request);
 /// Returns the resolution of the options; nothing if it is the camera's own.
 std::optional<rays::Resolution> chosen_resolution(const ImageRequest& request);
 /// Adds --resolution and --samples.
 void add_size_options(CLI::App& command, ImageRequest& request);
-/// Adds these and the options of the view.
+/// Adds --resolution, --samples and the options of the view.
 void add_image_options(CLI::App& command, ImageRequest& request);
 
 /// The structures given for --accel. If `all` includes `exhaustive` and the scene is too large for
@@ -86,7 +88,7 @@ struct Contenders {
 Contenders choose_contenders(std::string_view list, const scenes::Scene& scene);
 inline constexpr std::size_t kExhaustiveLimit = 20000;
 
-/// The options of light in pictures of the whole ray tracer.
+/// The options for light in pictures of the whole ray tracer.
 struct WhittedRequest {
   std::string shadows = "rays";
   int max_depth = render::WhittedOptions{}.max_depth;
@@ -95,18 +97,18 @@ struct WhittedRequest {
 };
 /// Adds --shadows, --depth and --min-weight.
 void add_light_options(CLI::App& command, WhittedRequest& request);
-/// Adds these and --threads.
+/// Adds the options of light and --threads.
 void add_whitted_options(CLI::App& command, WhittedRequest& request);
-/// Throws InputError for an unknown shadow method.
+/// Returns the options. Throws InputError for an unknown shadow method.
 render::WhittedOptions whitted_options(const WhittedRequest& request);
 
 /// Returns `tetra-n-4-default-samet-max_level-5` for `tetra:n=4-default-samet:max_level=5`: a name
 /// that is safe for file systems and shells.
 std::string file_stem(std::string title);
-/// Returns the same with the ending .png.
+/// Returns the file stem with the extension .png.
 std::string picture_name(std::string title);
 
-/// Replaces renamed options by their new names, with a warning by `program` on stderr.
+/// Replaces renamed options by their new names, and warns on stderr in the name of `program`.
 void replace_renamed_options(std::string_view program, std::vector<std::string>& arguments);
 
 }  // namespace beambench::cli

@@ -18,12 +18,12 @@
 
 namespace beambench::cli {
 
-/// During its lifetime, SIGINT and SIGTERM end the process at once with exit code 130 and one last
-/// line on stderr. For work whose results are safe against a kill at any moment.
+/// During its lifetime, SIGINT and SIGTERM end the process immediately with exit code 130 and a
+/// last line on stderr. For work whose results survive being killed at any moment.
 ///
-/// The signals are blocked and received by a separate thread, which is not restricted like a signal
-/// handler. Construct this object before other threads are started, which inherit the blocked
-/// signals.
+/// The signals are blocked, and a separate thread receives them, because it is not restricted like
+/// a signal handler. Construct this object before starting other threads, so that they inherit the
+/// blocked signals.
 class Interruption {
  public:
   explicit Interruption(std::string last_line) : last_line_(std::move(last_line)) {
@@ -40,7 +40,7 @@ class Interruption {
   }
   ~Interruption() {
     waiting_.request_stop();
-    ::pthread_kill(waiting_.native_handle(), SIGTERM);  // only to that thread
+    ::pthread_kill(waiting_.native_handle(), SIGTERM);  // only to this thread
     waiting_.join();
     ::pthread_sigmask(SIG_SETMASK, &previous_, nullptr);
   }
@@ -51,7 +51,7 @@ class Interruption {
     const std::lock_guard lock(mutex_);
     last_line_ = std::move(line);
   }
-  /// Removes the folder when the process ends, because nothing in it is worth keeping.
+  /// Sets a folder to be removed when the process ends, because nothing in it is worth keeping.
   void set_folder_to_remove(std::filesystem::path folder) {
     const std::lock_guard lock(mutex_);
     folder_to_remove_ = std::move(folder);

@@ -1,4 +1,4 @@
-// beambench list: structures, scenes, kinds of rays, plug-ins.
+// beambench list: lists structures, scenes, kinds of rays and plug-ins.
 
 #include <algorithm>
 #include <cstdint>
@@ -93,7 +93,7 @@ void print_parameters(const std::vector<ParameterInfo>& parameters) {
   }
 }
 
-/// Prints the meshes; an entry that cannot be read is shown with the reason.
+/// Prints the meshes; an unreadable entry is shown with the reason.
 void print_meshes() {
   fmt::print("\nMeshes, as mesh:NAME (scripts/meshes registers some):\n\n");
   const std::vector<std::string> names = scenes::mesh::registered_mesh_names();
@@ -107,7 +107,7 @@ std::string origin_text(const std::string& origin) {
   return origin.empty() ? "" : fmt::format("  (of {})", origin);
 }
 
-/// Returns the number of frames of a scene with its defaults; 1 where it does not move.
+/// Returns the number of frames of a scene with its defaults; 1 if it is not animated.
 std::uint32_t frames_of(const scenes::SceneInfo& info) {
   if (!info.animate) return 1;
   const Parameters defaults(info.name, info.parameters, {});
@@ -134,7 +134,7 @@ void print_plugins() {
   }
 }
 
-/// Prints a structure, scene or kind of rays; `note` follows its name.
+/// Prints a structure, scene or kind of rays; `note` is printed after its name.
 template <class Info>
 void print_entry(const Info& info, const std::string& note) {
   fmt::print("\n  {}{}\n{}", info.name, note, wrap(info.summary, 6));
@@ -142,14 +142,14 @@ void print_entry(const Info& info, const std::string& note) {
 }
 
 /// Returns the instruction set of the SIMD code that a structure with its defaults runs on this
-/// machine, as it states it; nothing where it runs none.
+/// machine, as the structure states it; nothing if it does not use SIMD.
 std::optional<std::string> simd_of(const accel::StructureInfo& info) {
   static const scenes::Scene scene = scenes::load_scene("tetra:n=1");
   try {
     const auto structure = accel::registry().choose({info.name, {}}).build(scene);
     const std::string isa = structure->statistics().instruction_set;
     return isa.empty() ? std::nullopt : std::optional(isa);
-  } catch (const InputError&) {  // over this scene it is not built
+  } catch (const InputError&) {  // it cannot be built over this scene
     return std::nullopt;
   }
 }
@@ -166,12 +166,14 @@ void print_counters(std::span<const accel::CounterInfo> counters) {
   }
 }
 
-/// Prints the counters of each structure that has its own.
+/// Prints the counters of each structure that has additional ones.
 void print_all_counters() {
   fmt::print(
-      "Counters, kept in a separate pass, never in timed code: for --heatmap, in 'beambench stats' "
-      "and "
-      "as\ncolumns of results.csv, NAME_per_ray.\n\n  every structure\n");
+      "Counters, from a separate pass, never from timed code: for --heatmap, in 'beambench stats' "
+      "and as\n"
+      "columns of results.csv, NAME_per_ray.\n"
+      "\n"
+      "  every structure\n");
   print_counters(accel::common_counters());
   for (const accel::StructureInfo& info : accel::registry().structures()) {
     const auto own = accel::registry().own_counters(info.name);
@@ -210,7 +212,7 @@ void print_named(const std::string& spec) {
     fmt::print("Structure, for --accel {}:parameter=value,...\n", name);
     print_structure(*structure);
     if (const auto own = accel::registry().own_counters(name); !own.empty()) {
-      fmt::print("\n    counters of its own, beside the common ones (--counters):\n");
+      fmt::print("\n    its own counters, in addition to the common ones (--counters):\n");
       print_counters(own);
     }
   }
@@ -228,8 +230,8 @@ void print_text() {
   fmt::print("Structures, for --accel NAME:parameter=value,... ('all' for every one):\n");
   for (const accel::StructureInfo& info : accel::registry().structures()) print_structure(info);
   fmt::print("\n{}",
-             wrap("bit-exact: hits equal to exhaustive bit for bit; tolerance: arithmetic of "
-                  "its own, verified by the differ's classes; baseline: finds no hits by "
+             wrap("bit-exact: hits equal to exhaustive, bit for bit; tolerance: its own "
+                  "arithmetic, verified by the differ's classes; baseline: finds no hits by "
                   "design. SIMD: the instruction set that it uses here with its defaults.",
                   2));
   fmt::print("\nScenes, as NAME:parameter=value,... (or the path of a mesh or of an NFF file):\n");
@@ -328,7 +330,7 @@ void list(const ListRequest& request) {
 
 void add_list_command(CLI::App& app, int&) {
   CLI::App* command =
-      app.add_subcommand("list", "List structures with their parameters, scenes, kinds of rays");
+      app.add_subcommand("list", "List structures, scenes and kinds of rays with their parameters");
   const auto request = std::make_shared<ListRequest>();
   CLI::Option* names = command->add_option(
       "NAME", request->names, "Structures, scenes or kinds of rays to print (default: all)");

@@ -1,4 +1,4 @@
-// The command line: picks a subcommand and turns errors into one sentence and an exit code.
+// The command line: runs a subcommand, and turns errors into one sentence and an exit code.
 
 #include <algorithm>
 #include <cstdio>
@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include <CLI/CLI.hpp>  // included only in this file, because it generates much code
+#include <CLI/CLI.hpp>  // included only here, because it generates much code
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -48,20 +48,19 @@ int fail(const std::string& message, int exit_code) {
 }
 
 int fail_to_print() {
-  return fail("cannot write to the standard output; make room on its disk", base::kInvalidInput);
+  return fail("cannot write to the standard output; free some disk space", base::kInvalidInput);
 }
 
 using Arguments = std::vector<std::string>;
 
-/// Adds the option to --help, completions and the manual page; it is removed from the command line
-/// earlier.
+/// Adds the option to --help, completions and the manual page; it has already been removed from the
+/// command line.
 void add_plugin_option(CLI::App& app) {
-  app.add_option("--plugin",
-                 "A shared object with structures or scenes of your own; again for more")
+  app.add_option("--plugin", "Shared object with your own structures or scenes; may be repeated")
       ->type_name("FILE");
 }
 
-/// Checks an option in place of a command.
+/// Checks an option given in place of a command.
 void require_known_option(const CLI::App& app, const std::string& word) {
   const std::vector<std::string> names = option_names(app);
   if (std::ranges::find(names, word.substr(0, word.find('='))) != names.end()) return;
@@ -69,8 +68,8 @@ void require_known_option(const CLI::App& app, const std::string& word) {
                                word, did_you_mean(word, names)));
 }
 
-/// Checks the command, because CLI11 would only report that a subcommand is required, or that an
-/// argument was not expected.
+/// Checks the command, because CLI11 would only report that a subcommand is required or an argument
+/// was not expected.
 void require_known_command(const CLI::App& app, const Arguments& arguments) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
@@ -92,7 +91,8 @@ void take_help_for_a_command(Arguments& arguments) {
   arguments.emplace_back("--help");
 }
 
-/// Returns "did you mean '--resolution'? " for the first word that no option or argument has taken.
+/// Returns "did you mean '--resolution'? " for the first word that is neither an option nor an
+/// argument.
 std::string suggested_option(const CLI::App& command) {
   const std::vector<std::string> names = option_names(command);
   for (const std::string& word : command.remaining()) {
@@ -120,7 +120,7 @@ int parse_and_run(const Arguments& arguments) {
   add_plugin_option(app);
   try {
     require_known_command(app, arguments);
-    // CLI11 takes them from the end of a list.
+    // CLI11 takes arguments from the end of a list.
     app.parse(Arguments(arguments.rbegin(), arguments.rend() - 1));
   } catch (const CLI::Success& success) {  // --help and --version
     return app.exit(success);
@@ -138,7 +138,7 @@ int parse_and_run(const Arguments& arguments) {
 int run_command_line(const Arguments& arguments, const std::vector<std::string>& plugins,
                      plugin::Activity& activity) {
   try {
-    available_memory();  // refuses an invalid BEAMBENCH_MEMORY before any work
+    available_memory();  // refuses an invalid BEAMBENCH_MEMORY before doing any work
     for (const std::string& file : plugins) plugin::load_plugin(file, activity);
     if (arguments.size() == 2 && arguments[1] == measure::kBlockCommand) {
       return measure::serve_block(activity);

@@ -23,7 +23,7 @@ struct MergeRequest {
 };
 
 int merge(const MergeRequest& request) {
-  const Interruption interruption("interrupted; nothing was written, and the shards are as before");
+  const Interruption interruption("interrupted; nothing was written, and the shards are unchanged");
   const std::vector<std::filesystem::path> shards(request.shards.begin(), request.shards.end());
   const analysis::Analysis found = analysis::merge_shards(shards, request.output, stderr);
   fmt::print(stderr, "\n{}", analysis::summary(found));
@@ -35,7 +35,7 @@ int merge(const MergeRequest& request) {
 
 void add_merge_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
-      app.add_subcommand("merge", "Join the shards of a sweep, which 'run --shard' measured");
+      app.add_subcommand("merge", "Join the shards of a sweep, measured by 'run --shard'");
   const auto request = std::make_shared<MergeRequest>();
   command->add_option("DIR", request->shards, "The folders of all shards, in any order")
       ->required();
@@ -44,7 +44,7 @@ void add_merge_command(CLI::App& app, int& exit_code) {
                    "Folder for the record of the whole sweep; it must not exist yet")
       ->required();
   command->footer(
-      "Each row keeps the machine that it was measured on; times of two machines are not "
+      "Each row states the machine on which it was measured; times of different machines are not "
       "compared.\n"
       "Examples:\n"
       "  beambench run quick --shard 1/2 -o first\n"

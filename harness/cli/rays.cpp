@@ -32,7 +32,7 @@ struct RaysRequest {
   bool json = false;
 };
 
-/// Returns the rays as a list; an image's rays are saved as a list, too.
+/// Returns the rays as a list; the rays of an image are also saved as a list.
 rays::RaySet as_list(const scenes::Scene& scene, const rays::TraceInput& input) {
   if (input.list() != nullptr) return *input.list();
   rays::RaySet set{{}, input.label(), input.query(), input.seed(), scenes::scene_hash(scene)};
@@ -81,7 +81,7 @@ void show_rays(const RaysRequest& request) {
   if (!request.file.empty()) {
     if (!rays::is_ray_file(request.file)) {
       throw InputError(
-          fmt::format("'{}' ends neither in {} nor in {}, the endings of files of rays",
+          fmt::format("'{}' ends neither in {} nor in {}, the extensions of files of rays",
                       request.file, rays::kRayFileEnding, rays::kCsvEnding));
     }
     require_writable(request.file);
@@ -109,7 +109,7 @@ void add_rays_command(CLI::App& app, int&) {
   command->add_flag("--json", request->json, "Print JSON instead of text");
   command->footer(
       "Coherence is the mean cosine of the angle between the directions of a ray and the next. A\n"
-      "saved file can be given wherever a kind of rays can, in --rays and in sweeps; it holds a\n"
+      "saved file can be used in place of a kind of rays, in --rays and in sweeps; it has a\n"
       "line 'beambench-rays 1', a line of JSON, then eight little-endian 32-bit floats per ray:\n"
       "origin, t_min, direction, t_max. The pencils of shadow and mirror rays are in the JSON. A "
       "CSV\n"

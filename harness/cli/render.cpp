@@ -1,4 +1,4 @@
-// beambench render: draws a picture of a scene, or of the work of a structure.
+// beambench render: draws a picture of a scene, or of a structure's work.
 
 #include <algorithm>
 #include <charconv>
@@ -37,7 +37,7 @@
 namespace beambench::cli {
 namespace {
 
-/// The structure of plain pictures by default: quick to build and to trace.
+/// The default structure for plain pictures: quick to build and to trace.
 constexpr const char* kPlainStructure = "sah-bvh";
 
 struct RenderRequest {
@@ -88,10 +88,10 @@ std::string numbered_file(const std::string& file, std::uint32_t frame) {
   return path.replace_filename(name).string();
 }
 
-/// The value of --exposure that lets the picture choose instead of a number of stops.
+/// The value of --exposure that lets the picture determine the exposure.
 constexpr std::string_view kAuto = "auto";
 
-/// Returns nothing for `auto`.
+/// Parses --exposure; returns nothing for `auto`.
 std::optional<double> parse_exposure(std::string_view text) {
   constexpr double kMaxStops = 32.0;
   if (text == kAuto) return std::nullopt;
@@ -105,7 +105,7 @@ std::optional<double> parse_exposure(std::string_view text) {
       text, kAuto, kMaxStops, kMaxStops));
 }
 
-/// Returns whether the shading shows light, not numbers as colors.
+/// Returns whether the shading shows light, rather than numbers as colors.
 bool shows_light(render::Shading shading) {
   return shading == render::Shading::kPreview || shading == render::Shading::kWhitted;
 }
@@ -114,14 +114,14 @@ void require_exposure(const RenderRequest& request) {
   const std::optional<double> stops = parse_exposure(request.exposure);
   if (stops == 0.0) return;
   if (!shows_light(render::parse_shading(request.shading))) {
-    throw InputError("--exposure is of light; give --shade preview or --shade whitted with it");
+    throw InputError("--exposure applies to light; use it with --shade preview or --shade whitted");
   }
   if (!stops && render::image_format(request.file) == render::ImageFormat::kExr) {
-    throw InputError("--exposure auto fits a picture to a display; an .exr keeps all light");
+    throw InputError("--exposure auto fits a picture to a display, but an .exr keeps all light");
   }
 }
 
-/// Returns depth and id of each pixel, those of its nearest sample.
+/// Returns the depth and id of each pixel, taken from its nearest sample.
 std::vector<render::DataChannel> hit_channels(const accel::HitBuffer& hits) {
   std::vector<float> depth;
   std::vector<std::uint32_t> id;
@@ -140,7 +140,7 @@ std::vector<render::DataChannel> hit_channels(const accel::HitBuffer& hits) {
   return channels;
 }
 
-/// Writes a heat map: a PNG with a legend, or an EXR with the numbers themselves.
+/// Writes a heat map: a PNG with a legend, or an EXR with the numbers.
 void write_heat_map(const RenderRequest& request, const render::HeatMap& map,
                     const accel::HitBuffer& hits) {
   if (render::image_format(request.file) == render::ImageFormat::kPng) {
@@ -173,8 +173,8 @@ render::Image shaded(const RenderRequest& request, const accel::StructureChoice&
       .image;
 }
 
-/// Returns a remark if a picture is too bright: lights of other programs' files may fall off with
-/// the distance, but beambench's do not. An EXR keeps all light.
+/// Returns a remark if a picture is too bright: in files of other programs, lights may be meant to
+/// fall off with distance, but in beambench they do not. An EXR keeps all light.
 std::string remark_on_light(const RenderRequest& request, double stops,
                             const render::Image& image) {
   constexpr double kWorthSaying = 0.05;
@@ -188,7 +188,7 @@ std::string remark_on_light(const RenderRequest& request, double stops,
       100.0 * found.share, stops + found.remedy, kAuto);
 }
 
-/// Exposes a picture according to --exposure; returns remarks on it.
+/// Exposes a picture according to --exposure; returns remarks about it.
 std::string exposed(const RenderRequest& request, render::Image& image) {
   if (const std::optional<double> stops = parse_exposure(request.exposure)) {
     if (*stops != 0.0) render::expose(image, *stops);
@@ -199,7 +199,8 @@ std::string exposed(const RenderRequest& request, render::Image& image) {
   return fmt::format("; exposure {:+.1f}, white {:.2f}", curve.stops(), curve.white());
 }
 
-/// Shades the hits and draws the overlay, with its legend in a PNG; returns remarks on the picture.
+/// Shades the hits and draws the overlay, with a legend in a PNG; returns remarks about the
+/// picture.
 std::string write_shaded(const RenderRequest& request, const accel::StructureChoice& choice,
                          std::optional<render::OverlayChoice> overlay,
                          const accel::Accelerator& accelerator, const scenes::Scene& scene,
@@ -225,7 +226,7 @@ std::string share_of_hits(const accel::HitBuffer& hits) {
   return format_share(count, hits.size()) + " of the rays hit something";
 }
 
-/// Returns a remark on a map without any work, which is correct but may look like an error.
+/// Returns a remark about a map without any work, which is correct but may look like an error.
 std::string remark_on(const render::HeatMap& map, const accel::StructureChoice& choice) {
   const bool dark =
       std::all_of(map.values.begin(), map.values.end(), [](float v) { return v == 0; });
@@ -246,7 +247,7 @@ verify::ReferenceHits find_reference(const RenderRequest& request, const scenes:
   return render::reference_from(scene, rays, results);
 }
 
-/// Writes the picture of differences; returns their number.
+/// Writes the picture of differences; returns a text with their number.
 std::string compare(const RenderRequest& request, const accel::StructureChoice& choice,
                     const scenes::Scene& scene, const accel::PrimaryRays& rays,
                     const rays::TraceResults& results) {
@@ -264,7 +265,7 @@ std::string compare(const RenderRequest& request, const accel::StructureChoice& 
                      report.count(verify::DiffClass::kOracleError));
 }
 
-/// Returns the structure for a picture: plain pictures are the same with any structure, other
+/// Returns the structure for a picture: plain pictures are the same for any structure, while other
 /// pictures show what one structure does.
 accel::StructureChoice chosen_structure(const RenderRequest& request) {
   if (!request.structure.empty()) return choose_one("--accel", request.structure);
@@ -278,8 +279,7 @@ accel::StructureChoice chosen_structure(const RenderRequest& request) {
   return choose_one("--accel", kPlainStructure);
 }
 
-/// Draws the picture of a request over a scene, which is as in the request's frame; returns a line
-/// about it.
+/// Draws the picture of a request over a scene in the requested frame; returns a line about it.
 std::string draw(const RenderRequest& request, const accel::StructureChoice& choice,
                  std::optional<render::OverlayChoice> overlay, const scenes::Scene& scene,
                  base::Progress& progress) {
@@ -320,7 +320,7 @@ void render(const RenderRequest& request) {
   const render::Shading shading = render::parse_shading(request.shading);
   require_exposure(request);
   if (request.light_points > 0 && shading != render::Shading::kWhitted) {
-    throw InputError("--soft-shadows is of light; give --shade whitted with it");
+    throw InputError("--soft-shadows applies to light; use it with --shade whitted");
   }
   whitted_options(request.whitted);
   render::image_format(request.file);
@@ -373,10 +373,9 @@ void add_render_command(CLI::App& app, int&) {
   command->add_option("-o", request->file, "Picture to write, .png or .exr")->required();
   CLI::Option* frame = add_frame_option(*command, request->frame);
   command
-      ->add_option(
-          "--frames", request->frames,
-          "Several pictures of a scene that moves, of the frames A to B; -o out.png writes "
-          "out_0000.png and so on")
+      ->add_option("--frames", request->frames,
+                   "Pictures of the frames A to B of an animated scene; -o out.png writes "
+                   "out_0000.png and so on")
       ->type_name("A-B")
       ->excludes(frame);
   add_image_options(*command, request->image);
@@ -390,51 +389,50 @@ void add_render_command(CLI::App& app, int&) {
   CLI::Option* soft =
       command
           ->add_option("--soft-shadows", request->light_points,
-                       "Lights are balls, each shown by so many of its points (with --shade "
-                       "whitted); 16 suits a draft, 64 and more a picture")
+                       "Lights are balls, each represented by this many points (with --shade "
+                       "whitted); 16 for a draft, 64 or more for a final picture")
           ->check(whole_number_in(1, rays::kMaxLightPoints));
   command
       ->add_option("--light-size", request->light_size,
-                   "The diameter of these balls, in diagonals of the scene's box")
+                   "Diameter of these balls, in diagonals of the scene's box")
       ->capture_default_str()
       ->check(number_in(0.0, 1e6))
       ->needs(soft);
   CLI::Option* exposure =
       command
-          ->add_option("--exposure", request->exposure,
-                       "Of light, in stops: -1 halves it, 1 doubles it; 'auto': lifts a dark "
-                       "picture and rolls off a bright one, so that 1% of the pixels are clipped, "
-                       "at most")
+          ->add_option(
+              "--exposure", request->exposure,
+              "In stops: -1 halves the light, 1 doubles it; 'auto': brightens a dark picture and "
+              "rolls off a bright one, so that at most 1% of the pixels are clipped")
           ->type_name("STOPS|auto")
           ->capture_default_str();
   CLI::Option* heatmap = command
                              ->add_option("--heatmap", request->heatmap,
-                                          "Instead of shading: a work counter as colors")
+                                          "Show a work counter as colors, instead of shading")
                              ->excludes(exposure)
                              ->excludes(shade);
   CLI::Option* difference =
       command
           ->add_option("--difference", request->difference,
-                       "Instead of shading: where the hits differ from those of another structure, "
-                       "or of the 'oracle' of verify")
+                       "Show where the hits differ from those of another structure, or of verify's "
+                       "'oracle', instead of shading")
           ->excludes(heatmap)
           ->excludes(exposure);
   command
-      ->add_option(
-          "--overlay", request->overlay,
-          "Over the dimmed shading: 'beams', their outlines; 'cells', the occupied ones in "
-          "perspective; or 'pencils', the shadow rays of a light ('pencils:light=2': of "
-          "the second) as they are traced together")
+      ->add_option("--overlay", request->overlay,
+                   "Draw over the dimmed shading: 'beams', their outlines; 'cells', the occupied "
+                   "ones in perspective; or 'pencils', the shadow rays of a light "
+                   "('pencils:light=2': of the second) as they are traced together")
       ->excludes(heatmap)
       ->excludes(difference);
   command->footer(
       "Counters for --heatmap: traversal_steps, leaves, empty_leaves, box_tests, primitive_tests,\n"
-      "and a structure's own. A .png gets a legend; an .exr holds the counts beside linear float\n"
+      "and a structure's own. A .png gets a legend; an .exr has the counts beside linear float\n"
       "R, G, B, the depth Z and the primitive id (4294967295 for a miss). --difference colors\n"
       "pixels by the classes of 'beambench verify --help'.\n"
       "--overlay beams colors those that end at occupied leaves, those that continue and those\n"
-      "that leave the scene; of tile-beam it draws tiles and their blocks of 4x4 samples.\n"
-      "--overlay cells leaves out what cells before them hide. --overlay pencils draws the parts\n"
+      "that leave the scene; for tile-beam it draws tiles and their blocks of 4x4 samples.\n"
+      "--overlay cells omits cells that others hide. --overlay pencils draws the parts\n"
       "of a light's pencil and their blocks, in colors for the sides of a cube about the light.\n"
       "Examples:\n"
       "  beambench render escena1 -o escena1.png\n"

@@ -1,4 +1,4 @@
-// beambench report: starts the Python package that draws the plots, pictures and the page of a run.
+// beambench report: starts the Python package that makes a run's plots, pictures and page.
 
 #include <cerrno>
 #include <cstdlib>
@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Runs the package, or says how to install what it lacks.
+/// Runs the package, or states how to install what it lacks.
 constexpr const char* kStart = R"PY(import sys
 try:
     from beambench_report.__main__ import main
@@ -66,13 +66,13 @@ void report(const ReportRequest& request) {
 
 void add_report_command(CLI::App& app, int& /*exit_code*/) {
   CLI::App* command = app.add_subcommand(
-      "report", "Draw the plots and pictures of a run, and a page that shows everything");
+      "report", "Draw a run's plots and pictures, and a page that shows everything");
   const auto request = std::make_shared<ReportRequest>();
   command->add_option("DIR", request->folder, "The folder of a run")->required();
   command
       ->add_option("--reference", request->reference,
-                   "Whose times are 1 in the ratios, as the plots call it; if not given, the "
-                   "contender with correct hits in the most views")
+                   "The contender whose times are 1 in the ratios, as named in the plots; by "
+                   "default, the contender with correct hits in the most views")
       ->type_name("CONTENDER");
   command->footer(
       "Writes DIR/plots, DIR/pictures and DIR/report.html, and prints the path of the page. Needs "

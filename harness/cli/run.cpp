@@ -41,11 +41,11 @@ struct RunRequest {
   bool verbose = false;
   bool dry_run = false;
   bool json = false;
-  std::optional<double> quiet_minutes;  ///< to wait for a quiet machine, at most
+  std::optional<double> quiet_minutes;  ///< maximum time to wait for a quiet machine
   std::vector<std::string> benchmark_flags;
 };
 
-/// Returns the configuration in the named file, or of the run to be resumed.
+/// Returns the configuration from the named file, or that of the run to be resumed.
 measure::SweepConfig config_of(const RunRequest& request,
                                const std::optional<measure::Run>& earlier) {
   if (!request.config.empty()) return measure::read_sweep(request.config, accel::registry());
@@ -114,13 +114,13 @@ std::optional<measure::Shard> shard_of(const RunRequest& request,
   return facts ? std::optional(facts->shard) : std::nullopt;
 }
 
-/// Refuses a filtered shard, because a complete shard is recognized by its number of cells.
+/// Refuses a filtered shard, because shards are recognized as complete by their number of cells.
 void refuse_filtered_shard(const measure::BenchmarkFlags& flags) {
   for (const std::string& flag : flags.passed_on) {
     if (!flag.starts_with("--benchmark_filter")) continue;
     throw InputError(
-        fmt::format("{}: a shard is measured whole; leave the flag out, or write a sweep of the "
-                    "cells that are wanted",
+        fmt::format("{}: a shard must be measured completely; leave the flag out, or write a sweep "
+                    "with the cells that you want",
                     flag));
   }
 }
@@ -131,8 +131,7 @@ measure::Plan whole_plan(const measure::SweepConfig& config) {
   if (plan.merged > 0) {
     base::print_message(
         stderr,
-        fmt::format("{} cells that the configuration has more than once are measured once\n",
-                    plan.merged));
+        fmt::format("{} duplicate cells of the configuration are measured once\n", plan.merged));
   }
   return plan;
 }
@@ -154,7 +153,7 @@ void select_cells(measure::Plan& plan, const measure::GoogleBenchmark& benchmark
       plan, [&](const measure::PlannedCell& cell) { return selected.contains(cell.id.name()); });
 }
 
-/// Makes the files of a run from its log, and prints the conclusions.
+/// Writes the files of a run from its log, and prints the conclusions.
 int conclude(const std::filesystem::path& folder) {
   const analysis::Analysis found = analysis::conclude(folder);
   if (!found.overheads.empty()) {
@@ -170,8 +169,8 @@ std::string resume_command(const std::filesystem::path& folder) {
                      shell_quoted(folder.string()));
 }
 
-/// Waits until the load average is that of an idle machine. Throws InputError when that takes
-/// longer.
+/// Waits until the load average is that of an idle machine. Throws InputError if this takes too
+/// long.
 void wait_for_quiet(double minutes) {
   const base::Stopwatch watch;
   for (bool first = true;; first = false) {
@@ -193,8 +192,8 @@ void wait_for_quiet(double minutes) {
   }
 }
 
-/// Runs the sweep so that, however it is interrupted, its last line states how to resume it.
-/// Returns the exit code.
+/// Runs the sweep; however it is interrupted, the last line states how to resume it. Returns the
+/// exit code.
 int run_resumable(const measure::SweepConfig& config, measure::Plan plan,
                   const measure::GoogleBenchmark& benchmark, measure::SweepOptions options,
                   Interruption& interruption) {
@@ -202,7 +201,7 @@ int run_resumable(const measure::SweepConfig& config, measure::Plan plan,
   options.begun = [&](const std::filesystem::path& folder) {
     resume = resume_command(folder);
     interruption.set_last_line(
-        fmt::format("interrupted; every repetition is kept, resume with: {}", resume));
+        fmt::format("interrupted; every repetition is kept; resume with: {}", resume));
   };
   try {
     return conclude(measure::run_sweep(config, std::move(plan), benchmark, options, stderr));
@@ -224,7 +223,7 @@ int run(const RunRequest& request) {
   if (flags.repetitions) override_repetitions(config, *flags.repetitions);
   measure::SweepOptions options = options_of(request);
   const std::optional<measure::Shard> shard = shard_of(request, earlier);
-  earlier.reset();  // its cells take memory
+  earlier.reset();  // its cells use memory
   if (shard) refuse_filtered_shard(flags);
   const measure::GoogleBenchmark benchmark(flags);
   measure::Plan plan = whole_plan(config);
@@ -244,8 +243,8 @@ int run(const RunRequest& request) {
 }  // namespace
 
 void add_run_command(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "run", "Measure a sweep: a time is reported only when the hits are correct");
+  CLI::App* command =
+      app.add_subcommand("run", "Measure a sweep: a time is reported only if the hits are correct");
   const auto request = std::make_shared<RunRequest>();
   command->add_option("CONFIG", request->config,
                       "The sweep: a name, such as quick, or a JSON file");
@@ -255,19 +254,18 @@ void add_run_command(CLI::App& app, int& exit_code) {
   CLI::Option* resume =
       command
           ->add_option("--resume", request->resume,
-                       "Resume the run in this folder; no repetition is made twice")
+                       "Resume the run in this folder, keeping all its repetitions")
           ->excludes(output);
   command
       ->add_option("--shard", request->shard,
-                   "Only shard K of N: a fair part of the sweep, by the estimated time, to be "
-                   "measured on another machine than the others; 'beambench merge' joins them")
+                   "Only shard K of N: an equal part of the sweep by estimated time, to be "
+                   "measured on a different machine than the others; 'beambench merge' joins them")
       ->type_name("K/N")
       ->excludes(resume);
   command
-      ->add_option(
-          "--require-quiet", request->quiet_minutes,
-          "Wait until the load average is at most 0.5, for that long at most, and end with "
-          "exit code 2 if it does not get there")
+      ->add_option("--require-quiet", request->quiet_minutes,
+                   "Wait until the load average is at most 0.5, up to this time, and end with exit "
+                   "code 2 if it stays above")
       ->type_name("MINUTES")
       ->check(number_in(0.0, 1e5));
   add_verbose_option(*command, request->verbose);

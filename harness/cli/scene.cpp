@@ -49,7 +49,7 @@ std::vector<std::string_view> finishes_of(const scenes::Scene& scene) {
   return words;
 }
 
-/// A scene that moves, at one of its frames.
+/// An animated scene, at one of its frames.
 struct Shown {
   scenes::Scene scene;
   std::uint32_t frame;
@@ -196,7 +196,7 @@ void add_scene_command(CLI::App& app, int&) {
   CLI::Option* frame = add_frame_option(*command, request->frame);
   CLI::Option* growth = command->add_flag(
       "--growth", request->growth,
-      "Generate it in growing sizes; print primitives, bytes and seconds of each");
+      "Generate it in growing sizes; print the primitives, bytes and seconds of each");
   growth->excludes(frame);
   command->add_option("--growth-limit", request->growth_limit, "Maximum number of primitives")
       ->check(whole_number_in(1, measure::kMaxGrowth))
@@ -206,7 +206,7 @@ void add_scene_command(CLI::App& app, int&) {
       ->needs(growth)
       ->excludes(json);
   command->footer(
-      "Bytes are those of the scene's arrays, spare capacity included; seconds are wall time.\n"
+      "Bytes are those of the scene's arrays, including spare capacity; seconds are wall time.\n"
       "Examples:\n"
       "  beambench scene escena1\n"
       "  beambench scene balls:n=3 --json\n"

@@ -1,4 +1,4 @@
-// beambench selftest: checks whether a structure keeps its contract.
+// beambench selftest: checks whether a structure fulfills its contract.
 
 #include "harness/verify/selftest/selftest.hpp"
 
@@ -48,7 +48,7 @@ struct CheckedProperty {
   const verify::Check* check;
   verify::CheckOutcome outcome;
   std::string case_folder{};  ///< the folder of its reduced wrong hit; empty: none
-  std::string minimal{};      ///< one line about it
+  std::string minimal{};      ///< one line about the reduction
 };
 
 std::string_view verdict_of(const verify::CheckOutcome& outcome) {
@@ -88,7 +88,7 @@ void minimize_failures(const std::string& folder, std::vector<CheckedProperty>& 
     const auto minimal = verify::minimize(failed.scene, failed.input, failed.wrong,
                                           verify::wrong_by_comparison(failed.structure), progress);
     if (!minimal) {
-      property.minimal = "not reduced: the hits are right when they are asked for again";
+      property.minimal = "not reduced: the hits are correct when traced again";
       continue;
     }
     const auto place = std::filesystem::path(folder) /
@@ -188,7 +188,7 @@ int write_kit(const SelftestRequest& request) {
   base::Progress progress(verify::kit_size(request.effort, kinds));
   const std::size_t scenes = verify::write_kit(request.kit, request.effort, kinds, progress);
   progress.clear();
-  fmt::print("{}: {} scenes of {}, each with closest and any hits to be found\n",
+  fmt::print("{}: {} scenes of {}, each with queries for closest and any hits\n",
              printable(request.kit), scenes, fmt::join(kinds.names(), ", "));
   return base::kSuccess;
 }
@@ -222,14 +222,14 @@ void add_selftest_command(CLI::App& app, int& exit_code) {
                            ->capture_default_str();
   command
       ->add_option("--scenes", request->effort.scenes,
-                   "Number of random scenes, of each check that makes them")
+                   "Number of random scenes for each check that uses them")
       ->check(whole_number_in(1, 100'000))
       ->capture_default_str();
   command->add_option("--seed", request->effort.seed, "Seed of the first random scene")
       ->capture_default_str();
   command
       ->add_option("--rays", request->effort.rays,
-                   "Rays, about, for each random scene: more find rarer faults")
+                   "Approximate number of rays for each random scene: more find rarer errors")
       ->check(whole_number_in(20, 1'000'000))
       ->capture_default_str();
   CLI::Option* minimize =
@@ -246,14 +246,15 @@ void add_selftest_command(CLI::App& app, int& exit_code) {
                                       "'beambench verify --kit'")
                          ->type_name("DIR");
   command
-      ->add_option("--primitives", request->primitives,
-                   "What the scenes of --export are made of: spheres, cones, polygons, or all")
+      ->add_option(
+          "--primitives", request->primitives,
+          "Kinds of primitives in the scenes of --export: spheres, cones, polygons, or all")
       ->capture_default_str()
       ->needs(kit);
   for (CLI::Option* option : {accel, json, minimize}) kit->excludes(option);
   command->footer(
-      "Hits are compared with those of exhaustive search, bit for bit; those of a structure with\n"
-      "arithmetic of its own by the differ's classes. A structure without parameters after its "
+      "Hits must equal those of exhaustive search, bit for bit; hits of a structure with its own\n"
+      "arithmetic are judged by the differ's classes. A structure without parameters after its "
       "name\n"
       "gets random ones in the random scenes; one that does not support a kind of primitives is\n"
       "checked over the others. Exits with 1 if a check failed.\n"

@@ -78,7 +78,7 @@ struct StatisticsTable {
     for (const Finding& finding : findings) cells.push_back(show(finding));
     return cells;
   }
-  /// Adds a line: a name, and how to show it for a structure.
+  /// Adds a line: a name, and a function that shows the value for a structure.
   template <class Show>
   void add(std::string name, Show show) {
     table.add(row(std::move(name), show));
@@ -155,7 +155,7 @@ void print_text(const scenes::Scene& scene, const rays::ImageOfRays& image,
   StatisticsTable table(findings);
   add_sizes(table, findings);
   add_work(table, findings, input.size());
-  fmt::print("{}\n(1) of this one build, for information; 'beambench run' measures times\n",
+  fmt::print("{}\n(1) of this single build, for information; 'beambench run' measures times\n",
              table.table.text());
   for (const Finding& finding : findings) {
     if (!finding.levels.empty()) fmt::print("{}", levels_text(finding));
@@ -215,13 +215,12 @@ void print_json(const scenes::Scene& scene, const rays::ImageOfRays& image,
   fmt::print("{}\n", json_text(out));
 }
 
-/// Shows the statistics; a structure that cannot be built over the scene does not prevent the
-/// others from being shown.
+/// Shows the statistics. If a structure cannot be built over the scene, still shows the others.
 int show_statistics(const StatsRequest& request) {
   const rays::Resolution resolution = rays::parse_resolution(request.resolution);
   const rays::RayChoice kind = rays::parse_ray_choice(request.rays);
   accel::registry().choose_list(
-      request.structures);  // refuses a wrong name before a scene is generated
+      request.structures);  // refuses an invalid name before generating the scene
   const scenes::Scene scene = open_scene(request.scene);
   rays::require_ray_count(resolution, 1);
   const rays::ImageOfRays image{choose_camera(scene, request.view), resolution, 1};

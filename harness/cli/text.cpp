@@ -14,7 +14,8 @@ TextTable::TextTable(std::vector<std::string> header, std::size_t left_columns)
     : left_columns_(left_columns), rows_{std::move(header)} {}
 
 void TextTable::add(std::vector<std::string> row) {
-  if (row.size() != rows_.front().size()) throw std::logic_error("a table's row has gaps");
+  if (row.size() != rows_.front().size())
+    throw std::logic_error("a row of a table has missing cells");
   rows_.push_back(std::move(row));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Text output: aligned tables, wrapped sentences, sizes.
+// Text output: aligned tables, wrapped text, sizes.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,10 +9,10 @@
 
 namespace beambench::cli {
 
-/// A table of texts, with two blanks between columns and a line under the header.
+/// A table of text, with two blanks between columns and a line under the header.
 class TextTable {
  public:
-  /// The first `left_columns` are flush left, the others flush right.
+  /// The first `left_columns` columns are flush left, the others flush right.
   explicit TextTable(std::vector<std::string> header, std::size_t left_columns = 1);
 
   /// Adds a row with as many cells as the header.

@@ -1,4 +1,4 @@
-// beambench time: times a few structures at once, without a sweep file.
+// beambench time: times a few structures immediately, without a sweep file.
 
 #include <array>
 #include <cstdio>
@@ -33,7 +33,7 @@
 namespace beambench::cli {
 namespace {
 
-/// The limit for `exhaustive`, as in the default sweep: beyond, it would take all the available
+/// The limit for `exhaustive`, as in the default sweep: above it, it would use up all the available
 /// time.
 constexpr int kMaxForExhaustive = 1000;
 
@@ -59,8 +59,9 @@ class TemporaryFolder {
   TemporaryFolder() {
     std::string path = (std::filesystem::temp_directory_path() / "beambench-time-XXXXXX").string();
     if (::mkdtemp(path.data()) == nullptr) {
-      throw InputError(fmt::format("cannot make a folder in {}; set TMPDIR to one with room",
-                                   std::filesystem::temp_directory_path().string()));
+      throw InputError(
+          fmt::format("cannot create a folder in {}; set TMPDIR to one with free space",
+                      std::filesystem::temp_directory_path().string()));
     }
     path_ = path;
   }
@@ -89,8 +90,8 @@ nlohmann::json scenes_of(const TimeRequest& request) {
   return scenes;
 }
 
-/// Returns the structures in the form of `beambench run`. Embree without parameters is measured at
-/// its best, because its defaults are a mode that hardly any program would choose.
+/// Returns the structures in the form of `beambench run`. Embree without parameters is tuned,
+/// because its defaults are a mode that hardly any program would choose.
 nlohmann::json structures_of(const std::string& text) {
   nlohmann::json structures = nlohmann::json::array();
   for (const measure::SweptStructure& swept : measure::read_structures(text, accel::registry())) {
@@ -100,7 +101,7 @@ nlohmann::json structures_of(const std::string& text) {
   return structures;
 }
 
-/// Returns each kind of rays once. Lists are separated by commas; several words are taken, too.
+/// Returns each kind of rays once. They may be separated by commas or given as several words.
 std::vector<std::string> rays_of(const TimeRequest& request) {
   std::vector<std::string> kinds;
   for (const rays::RayChoice& choice :
@@ -110,7 +111,7 @@ std::vector<std::string> rays_of(const TimeRequest& request) {
   return kinds;
 }
 
-/// Names the option in place of the sweep's JSON pointer, with which a message begins.
+/// Replaces the JSON pointer at the beginning of a message with the option's name.
 std::string with_option_name(std::string message) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kOptions{
       {{"scenes", "SCENE"},
@@ -128,8 +129,8 @@ std::string with_option_name(std::string message) {
   return message;
 }
 
-/// Returns the request in the form of `beambench run`. At least six repetitions, because fewer give
-/// no interval, and then nothing would be decided.
+/// Returns the request in the form of `beambench run`. Requires at least six repetitions, because
+/// fewer yield no interval, and nothing would be decided.
 nlohmann::json sweep_of(const TimeRequest& request) {
   return {{"name", "time"},
           {"description", "Written by beambench time --save."},
@@ -145,16 +146,17 @@ nlohmann::json sweep_of(const TimeRequest& request) {
           {"exclude", {{{"structure", "exhaustive"}, {"primitives_above", kMaxForExhaustive}}}}};
 }
 
-/// Throws unless the sweep can be saved: it is JSON, whose texts are UTF-8.
+/// Throws unless the sweep can be saved: it is JSON, so its texts must be UTF-8.
 void require_can_be_saved(const TimeRequest& request) {
   for (const std::string& scene : request.scenes) {
     if (is_utf8(scene)) continue;
     throw InputError(fmt::format(
-        "--save: the sweep cannot hold the path '{}', which is not UTF-8; rename the file", scene));
+        "--save: the sweep cannot contain the path '{}', which is not UTF-8; rename the file",
+        scene));
   }
 }
 
-/// Throws InputError, which names the option.
+/// Returns configuration and plan. Throws InputError naming the option.
 std::pair<measure::SweepConfig, measure::Plan> plan_of(const TimeRequest& request) {
   try {
     measure::SweepConfig config =
@@ -173,7 +175,7 @@ int time_structures(const TimeRequest& request) {
   const auto [config, planned] = plan_of(request);
   measure::Plan plan = std::move(planned);
   if (plan.merged > 0) {
-    base::print_message(stderr, "what is given twice is timed once\n");
+    base::print_message(stderr, "duplicates are timed once\n");
   }
   if (!request.save.empty()) write_file(request.save, json_text(config.source) + "\n");
   const TemporaryFolder folder;
@@ -201,20 +203,22 @@ void add_time_command(CLI::App& app, int& exit_code) {
   command
       ->add_option(
           "--accel", request->structures,
-          "Structures, as 'beambench list' names them, separated by commas, or 'all'; 'embree' "
-          "is embree:mode=best, its modes and flags tried on a tuning camera")
+          "Structures as named by 'beambench list', separated by commas, or 'all'; 'embree' means "
+          "embree:mode=best, whose modes and flags are tried with a tuning camera")
       ->capture_default_str();
-  command->add_option("--camera", request->camera, "By name (default: each scene's first)");
+  command->add_option("--camera", request->camera,
+                      "Name of the camera (default: each scene's first)");
   command->add_option("--resolution", request->resolution, "WIDTHxHEIGHT")->capture_default_str();
   command
-      ->add_option(
-          "--rays", request->rays,
-          "Kinds of rays, as after 'beambench rays SCENE --rays', separated by commas; each "
-          "is timed apart")
+      ->add_option("--rays", request->rays,
+                   "Kinds of rays as in 'beambench rays SCENE --rays', separated by commas; each "
+                   "is timed separately")
       ->type_name("KIND[,KIND...]")
       ->capture_default_str();
   command->add_option("--samples", request->samples, "Per pixel")->capture_default_str();
-  command->add_option("--threads", request->threads, "That trace an image or a list (1 to 1024)")
+  command
+      ->add_option("--threads", request->threads,
+                   "Threads that trace an image or a list (1 to 1024)")
       ->check(whole_number_in(1, 1024))
       ->capture_default_str();
   command
@@ -223,11 +227,10 @@ void add_time_command(CLI::App& app, int& exit_code) {
       ->check(number_in(0.1, 1e6))
       ->capture_default_str();
   command->add_option("--save", request->save,
-                      "Write the sweep that this is, for 'beambench run FILE'");
+                      "Also write the request as a sweep, for 'beambench run FILE'");
   add_verbose_option(*command, request->verbose);
   command->footer(
-      "Contenders take turns, each repetition builds its structure anew, and every hit is "
-      "verified.\n"
+      "Contenders take turns, each repetition rebuilds its structure, and every hit is verified.\n"
       "Examples:\n"
       "  beambench time balls:n=3 --accel samet,sah-bvh,embree --seconds 5\n"
       "  beambench time tetra:n=3 --accel all --rays primary,shadow --seconds 5 --save mine.json");

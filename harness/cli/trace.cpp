@@ -55,14 +55,14 @@ glm::ivec2 parse_pixel(std::string_view text) {
 
 std::size_t index_in_image(const TraceRequest& request, const accel::PrimaryRays& rays) {
   if (request.pixel.empty()) {
-    throw InputError("a primary ray is named by its pixel; give --pixel X,Y");
+    throw InputError("a primary ray is identified by its pixel; use --pixel X,Y");
   }
-  if (request.ray) throw InputError("a primary ray is named by --pixel; leave --ray out");
+  if (request.ray) throw InputError("a primary ray is identified by --pixel; leave out --ray");
   const glm::ivec2 pixel = parse_pixel(request.pixel);
   if (pixel.x < 0 || pixel.x >= rays.width() || pixel.y < 0 || pixel.y >= rays.height()) {
     throw InputError(fmt::format(
-        "pixel {} is outside of the image; at {}x{} pixels x is 0 to {} and y is 0 to "
-        "{}, and --resolution asks for another size",
+        "pixel {} is outside the image; at {}x{} pixels, x is 0 to {} and y is 0 to {}; "
+        "--resolution selects another size",
         request.pixel, rays.width(), rays.height(), rays.width() - 1, rays.height() - 1));
   }
   if (request.sample < 0 || request.sample >= rays.samples()) {
@@ -75,9 +75,10 @@ std::size_t index_in_image(const TraceRequest& request, const accel::PrimaryRays
 
 std::size_t index_in_list(const TraceRequest& request, const rays::TraceInput& input) {
   if (!request.pixel.empty()) {
-    throw InputError(fmt::format(
-        "{} rays are numbered; give --ray N, as mismatches name them, in place of --pixel",
-        input.label()));
+    throw InputError(
+        fmt::format("{} rays are identified by number; use --ray N, as printed with mismatches, "
+                    "instead of --pixel",
+                    input.label()));
   }
   if (!request.ray || *request.ray >= input.size()) {
     throw InputError(fmt::format("--ray must be a whole number from 0 to {}: there are {} {} rays",
@@ -117,12 +118,12 @@ void add_trace_command(CLI::App& app, int& exit_code) {
   command->add_option("--pixel", request->pixel,
                       "Which primary ray: X,Y, counted from 0,0 at the top left");
   add_image_options(*command, request->image);
-  command->add_option("--sample", request->sample, "Which of the pixel's samples, from 0")
+  command->add_option("--sample", request->sample, "Which of the pixel's samples, starting at 0")
       ->capture_default_str();
   command
       ->add_option("--rays", request->rays, "Kind of rays (see 'beambench list') or a .rays file")
       ->capture_default_str();
-  command->add_option("--ray", request->ray, "Which of the rays that are not primary, from 0");
+  command->add_option("--ray", request->ray, "Which ray, if not primary, starting at 0");
   command->add_flag("--alone", request->alone,
                     "Trace no other rays: faster, but packets and beams may find another hit");
   command->add_flag("--json", request->json, "Print JSON instead of text");

@@ -32,7 +32,7 @@
 namespace beambench::cli {
 namespace {
 
-constexpr std::size_t kPrintedDisputes = 3;  // for each cell; the JSON has them all
+constexpr std::size_t kPrintedDisputes = 3;  // for each cell; the JSON has all
 
 struct VerifyRequest {
   std::vector<std::string> scenes;
@@ -91,7 +91,7 @@ void print_disputes(const verify::VerifiedCell& cell) {
   if (!cell.picture.empty()) fmt::print("picture: {}\n", cell.picture);
 }
 
-/// Prints why kinds have no rays, each once, because the reason is the same for all structures.
+/// Prints why kinds have no rays; each reason once, because it is the same for all structures.
 void print_missing_rays(const std::vector<verify::VerifiedCell>& cells) {
   const std::string* last = nullptr;
   for (const verify::VerifiedCell& cell : cells) {
@@ -129,7 +129,7 @@ VerifyHitsRequest hits_request(const VerifyRequest& request, bool structure_give
                         .minimize = request.minimize};
   if (!request.kit.empty()) {
     if (!request.scenes.empty() || !request.hits.empty()) {
-      throw InputError("--kit has its own scenes, rays and hits; leave SCENE and --hits out");
+      throw InputError("--kit has its own scenes, rays and hits; leave out SCENE and --hits");
     }
     if (structure_given) out.structure = choose_one("--accel", request.structures);
     return out;
@@ -137,7 +137,7 @@ VerifyHitsRequest hits_request(const VerifyRequest& request, bool structure_give
   const std::string_view option = request.hits.empty() ? "--command" : "--hits";
   if (request.scenes.size() != 1) {
     throw InputError(
-        fmt::format("with {}, name one scene: that over which the rays are traced", option));
+        fmt::format("with {}, name one scene: the one over which the rays are traced", option));
   }
   if (!rays::is_ray_file(request.rays)) {
     throw InputError(fmt::format(
@@ -149,12 +149,12 @@ VerifyHitsRequest hits_request(const VerifyRequest& request, bool structure_give
   return out;
 }
 
-/// Opens all scenes before any work is done, so that a wrong name fails early.
+/// Opens all scenes before doing any work, so that an invalid name fails early.
 std::vector<scenes::Scene> open_scenes(const VerifyRequest& request) {
   std::vector<scenes::Scene> scenes;
   for (const std::string& spec : request.scenes) scenes.push_back(open_scene(spec, request.frame));
   if (!scenes.empty()) return scenes;
-  if (request.frame > 0) throw InputError("--frame is of scenes that move; name them");
+  if (request.frame > 0) throw InputError("--frame applies to animated scenes; name them");
   for (const scenes::SceneInfo& info : scenes::scene_catalogue())
     scenes.push_back(open_scene(info.name));
   return scenes;
@@ -290,8 +290,7 @@ void add_verify_command(CLI::App& app, int& exit_code) {
   CLI::Option* threads =
       command
           ->add_option("--threads", request->threads,
-                       "Threads that trace; 0: one for each core, within the CPU "
-                       "quota")
+                       "Number of tracing threads; 0: one per core, within the CPU quota")
           ->capture_default_str()
           ->check(whole_number_in(0, 1024));
   CLI::Option* run =
@@ -302,8 +301,8 @@ void add_verify_command(CLI::App& app, int& exit_code) {
           ->type_name("COMMAND");
   command
       ->add_option("--kit", request->kit,
-                   "Verify the hits beside the rays of a kit of 'beambench selftest --export', or, "
-                   "with --command or --accel, those of a program or structure")
+                   "Verify the hits beside the rays in a kit from 'beambench selftest --export', "
+                   "or, with --command or --accel, those of a program or structure")
       ->type_name("DIR");
   command
       ->add_option("--minimize", request->minimize,
@@ -319,12 +318,11 @@ void add_verify_command(CLI::App& app, int& exit_code) {
       ->type_name("DIR");
   add_verbose_option(*command, request->verbose);
   command->footer(
-      "Each ray's hit is compared with that of Embree given exact intersectors. agree: the same\n"
+      "Compares each ray's hit with that of Embree with exact intersectors. agree: the same\n"
       "primitive at the same place; tie: another primitive at the same place; graze: the ray "
       "passes\n"
-      "a boundary within rounding; structure error, oracle error: one of the two is wrong, by\n"
-      "exact arithmetic over all primitives. bits: whether bit-exact structures return "
-      "the\n"
+      "a boundary within rounding; structure error, oracle error: that one is wrong, by\n"
+      "exact arithmetic over all primitives. bits: whether bit-exact structures return the\n"
       "same bits as exhaustive, or as the first of them. Exits with 1 unless every verdict is ok\n"
       "(baseline for 'null'; no_rays where the scene has no rays of a kind, which is an error "
       "only\n"

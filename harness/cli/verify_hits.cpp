@@ -30,7 +30,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kPrinted = 3;  // examples; the JSON has them all
+constexpr std::size_t kPrinted = 3;  // number of examples; the JSON has all
 
 /// The findings for one file of rays.
 struct VerifiedClaims {
@@ -40,7 +40,7 @@ struct VerifiedClaims {
   std::size_t primitives = 0;
   verify::ClaimsReport found{};  ///< empty if nothing was verified
   verify::Verdict verdict = verify::Verdict::kError;
-  /// Rays that left a closed surface between two triangles: the differ alone calls them grazes.
+  /// Rays that left a closed surface between two triangles; the differ alone calls them grazes.
   std::uint64_t leaks = 0;
   std::string message{};  ///< why nothing was verified; empty otherwise
   std::string picture{};  ///< the picture's file; empty: none
@@ -56,7 +56,7 @@ bool is_miss(const verify::Mismatch& mismatch) {
                                                     : mismatch.any_hit_answer == 0;
 }
 
-/// Returns whether a mismatch is a dispute: ties are not, and grazes only if there are too many.
+/// Returns whether a mismatch is a dispute. Ties are not, and grazes only if there are too many.
 bool is_dispute(const verify::Mismatch& mismatch, verify::Verdict verdict) {
   if (mismatch.diff_class == verify::DiffClass::kTie) return false;
   return mismatch.diff_class != verify::DiffClass::kGraze || verdict == verify::Verdict::kGrazes;
@@ -79,7 +79,7 @@ std::string table_text(std::span<const VerifiedClaims> all, const std::string& f
   return table.text();
 }
 
-/// The cases of a family and a query, added up.
+/// The sums over the cases of one family and query.
 struct FamilyRow {
   std::string family;
   rays::Query query;
@@ -108,7 +108,7 @@ struct FamilyRow {
   }
 };
 
-/// Returns the rows in the order of the kit, those that failed last.
+/// Returns the rows in the order of the kit, with those that failed last.
 std::vector<FamilyRow> rows_by_family(std::span<const VerifiedClaims> all) {
   std::vector<FamilyRow> rows;
   for (const VerifiedClaims& each : all) {
@@ -188,7 +188,7 @@ Json json_of(const VerifiedClaims& claims) {
   return out;
 }
 
-/// Returns whether hits were verified, and all of them right.
+/// Returns whether hits were verified, and all of them are right.
 bool passed(std::span<const VerifiedClaims> all) {
   return std::ranges::any_of(all, &VerifiedClaims::was_possible) &&
          std::ranges::all_of(all, [](const VerifiedClaims& claims) {
@@ -259,8 +259,9 @@ VerifiedClaims verify_case(const VerifyHitsRequest& request, const scenes::Scene
   return claims;
 }
 
-/// Verifies a case of a kit: one that the tracer declines is unsupported, and one where it fails is
-/// an error. Throws where the very first case fails: then the command or the structure is at fault.
+/// Verifies a case of a kit. If the tracer declines it, the case is unsupported; if the tracer
+/// fails, it is an error. Throws if the very first case fails, because then the command or the
+/// structure is at fault.
 VerifiedClaims verify_kit_case(const VerifyHitsRequest& request, const verify::KitCase& files,
                                const std::optional<verify::Tracer>& tracer, bool is_first,
                                base::Progress& progress) {
@@ -296,9 +297,9 @@ void require_outputs(const VerifyHitsRequest& request) {
 void print_oracle_note(bool any) {
   if (!any) return;
   fmt::print(
-      "\noracle error: the program is right there, and the oracle, Embree given exact "
-      "intersectors, is not,\nby exact arithmetic over all primitives. Such rays count as "
-      "right.\n");
+      "\n"
+      "oracle error: by exact arithmetic over all primitives, the program is right there, and the\n"
+      "oracle, Embree with exact intersectors, is wrong. Such rays count as right.\n");
 }
 
 std::string case_text(const std::filesystem::path& folder, const verify::MinimalCase& minimal) {
@@ -306,8 +307,8 @@ std::string case_text(const std::filesystem::path& folder, const verify::Minimal
                      base::counted(minimal.primitives.size(), "primitive"),
                      base::counted(minimal.input.size(), "ray"), printable(folder.string()),
                      minimal.repeated ? ""
-                                      : ": what the answers name; with --command it is traced "
-                                        "again, which shows whether these are enough");
+                                      : ": those that the hits name; with --command they are "
+                                        "traced again, which shows whether these are enough");
 }
 
 std::string minimized_text(const std::string& folder, const std::string& name,
@@ -316,7 +317,7 @@ std::string minimized_text(const std::string& folder, const std::string& name,
                            const std::string& subject, base::Progress& progress) {
   const auto minimal = verify::minimize(scene, input, report.examples.front(),
                                         verify::wrong_by_differ(tracer), progress);
-  if (!minimal) return "not reduced: the answer is right when the same rays are traced again";
+  if (!minimal) return "not reduced: the hit is right when the same rays are traced again";
   const auto place = std::filesystem::path(folder) / file_stem(name);
   verify::write_case(place, *minimal, scene.name, subject);
   return case_text(place, *minimal);
@@ -352,7 +353,7 @@ int verify_kit(const VerifyHitsRequest& request) {
     for (const verify::KitCase& each : cases) {
       if (std::filesystem::exists(each.hits)) continue;
       throw InputError(fmt::format(
-          "{}: there are no hits beside the rays; trace {} and write them, or give --command",
+          "{}: there are no hits beside the rays; trace {} and write them, or use --command",
           each.hits.string(), each.rays.string()));
     }
   }

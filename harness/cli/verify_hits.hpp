@@ -17,7 +17,7 @@ struct VerifyHitsRequest {
   std::string scene;                                  ///< empty for a kit
   std::string kit;                                    ///< its folder; empty: none
   std::string rays;                                   ///< empty for a kit
-  std::string hits;                                   ///< empty: a command, or those of the kit
+  std::string hits;                                   ///< empty: from a command or from the kit
   std::string command;                                ///< empty: none
   std::optional<accel::StructureChoice> structure{};  ///< traces a kit
   ViewRequest view;                                   ///< of the picture
@@ -32,10 +32,10 @@ int verify_hits(const VerifyHitsRequest& request);
 /// Verifies all scenes of a kit in the same way.
 int verify_kit(const VerifyHitsRequest& request);
 
-/// Explains the column "oracle error" where there are any.
+/// Explains the column "oracle error" if `any` oracle error was found.
 void print_oracle_note(bool any);
 
-/// Returns one line about the reduced error in that folder.
+/// Returns one line about the reduced error in a folder.
 std::string case_text(const std::filesystem::path& folder, const verify::MinimalCase& minimal);
 
 /// Reduces a structure's first error, writes the case below `folder`, and returns the text to print

@@ -311,8 +311,7 @@ nlohmann::json explain(const scenes::Scene& scene, const rays::ImageOfRays& imag
   const rays::Resolution& size = image.resolution;
   if (static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height) > kMostPixels) {
     throw InputError(fmt::format(
-        "a page follows the rays of at most {} pixels, not {}; use --resolution 256x256 "
-        "or less",
+        "a page follows the rays of at most {} pixels, not {}; use --resolution 256x256 or less",
         kMostPixels, rays::to_string(size)));
   }
   if (structures.empty() || structures.size() > 2) {

@@ -136,10 +136,10 @@ std::vector<SweptStructure> read_structure_entry(const JsonNode& node,
   }
   if (!node.value().value("tune", false)) return swept;
   if (swept.size() > kMaxParameterSets) {
-    node.fail(fmt::format(
-        "its lists multiply to {} parameter sets; tuning tries the same number for every "
-        "contender, at most {}",
-        swept.size(), kMaxParameterSets));
+    node.fail(
+        fmt::format("its lists multiply to {} parameter sets; tuning tries the same number for "
+                    "every contender, at most {}",
+                    swept.size(), kMaxParameterSets));
   }
   SweptStructure tuned{{}, true};
   for (SweptStructure& one : swept) tuned.sets.push_back(std::move(one.sets.front()));

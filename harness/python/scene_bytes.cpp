@@ -160,10 +160,10 @@ std::string bytes_of_scene(const scenes::Scene& scene) {
 
 scenes::Scene scene_of_bytes(std::string_view bytes) {
   if (!bytes.starts_with(kFirstLine)) {
-    throw InputError(fmt::format(
-        "the scene was pickled by another version of beambench; expected '{}' at the start; "
-        "pickle it again with this version",
-        kFirstLine.substr(0, kFirstLine.size() - 1)));
+    throw InputError(
+        fmt::format("the scene was pickled by another version of beambench; expected '{}' at the "
+                    "start; pickle it again with this version",
+                    kFirstLine.substr(0, kFirstLine.size() - 1)));
   }
   std::uint64_t hash = 0;
   const std::size_t end = bytes.size() - std::min(sizeof hash, bytes.size());

@@ -32,10 +32,9 @@ std::vector<ParameterInfo> whitted_parameters() {
                          "rays that contribute less to their pixel are not traced"),
           choice_parameter("shadows", "rays", {"rays", "cache", "light-buffer"},
                            "how the visibility of lights is determined"),
-          integer_parameter(
-              "batch", kPictureBatch, 64, kMaxPictureBatch,
-              "maximum number of rays of the same depth that are shaded together, and whose "
-              "secondary rays are traced together")};
+          integer_parameter("batch", kPictureBatch, 64, kMaxPictureBatch,
+                            "maximum number of rays of the same depth that are shaded together, "
+                            "and whose secondary rays are traced together")};
 }
 
 std::vector<ParameterInfo> area_parameters() {
@@ -66,8 +65,8 @@ const std::vector<RayKindInfo>& all_kinds() {
        Query::kAnyHit,
        {order_parameter()}},
       {RayKind::kArea, "area",
-       "soft shadows: like 'shadow', but to several points of each light, which is a ball; "
-       "point by point; any hit",
+       "soft shadows: like 'shadow', but to several points of each light, which is a ball; point "
+       "by point; any hit",
        Query::kAnyHit, area_parameters()},
       {RayKind::kReflection,
        "reflection",
@@ -86,8 +85,8 @@ const std::vector<RayKindInfo>& all_kinds() {
        Query::kClosestHit,
        {seed_parameter(), order_parameter()}},
       {RayKind::kOcclusion, "ao",
-       "ambient occlusion: several from each primary hit, in random directions like "
-       "those of 'diffuse', up to a distance; any hit",
+       "ambient occlusion: several from each primary hit, in random directions like those of "
+       "'diffuse', up to a distance; any hit",
        Query::kAnyHit, occlusion_parameters()},
       {RayKind::kPath,
        "path",

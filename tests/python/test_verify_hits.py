@@ -286,7 +286,7 @@ def test_other_files_are_refused_with_one_sentence(traced: Traced, tmp_path: Pat
         ([SCENE, "--hits", "a.hits"], ["'primary'", "beambench rays tetra:n=3 -o FILE.rays"]),
         ([SCENE, "--rays", "a.rays", "--hits", "a.hits", "--accel", "samet"], ["--accel"]),
         ([SCENE, "--rays", "a.rays", "--command", "true"], ["no {hits}"]),
-        ([SCENE, "--kit", "kit"], ["leave SCENE and --hits out"]),
+        ([SCENE, "--kit", "kit"], ["leave out SCENE and --hits"]),
         (["--kit", "no-kit"], ["no-kit/kit.json", "holds no kit", "selftest --export"]),
     ],
 )

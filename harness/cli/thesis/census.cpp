@@ -38,7 +38,7 @@ struct CensusRequest {
   std::string order = "rows";
   ImageRequest image;
   WhittedRequest whitted;
-  std::string pictures;  ///< a folder; empty: do not keep them
+  std::string pictures;  ///< a folder; empty: do not write pictures
   bool count_work = false;
   bool json = false;
 };
@@ -79,13 +79,13 @@ Cells row_of(const CensusResult& result) {
 /// The percentage above which a difference from a published count needs an explanation.
 constexpr double kNotablePercent = 2.0;
 
-/// One of our counts compared with that of the literature.
+/// One of our counts, and the published count.
 struct Compared {
   std::string_view rays;
   std::uint64_t ours;
   std::uint64_t published;
 
-  /// Returns nothing if the published count is 0.
+  /// Returns the difference in percent; nothing if the published count is 0.
   std::optional<double> percent() const {
     if (published == 0) return ours == 0 ? std::optional(0.0) : std::nullopt;
     return 100.0 * (static_cast<double>(ours) / static_cast<double>(published) - 1.0);
@@ -198,7 +198,7 @@ std::string census_text(const std::vector<CensusResult>& results) {
   return table.text();
 }
 
-/// Returns the options that depart from the SPD's rules, which explains different counts.
+/// Returns the options that deviate from SPD's rules and so explain different counts.
 std::string departure(const CensusRequest& request) {
   std::vector<std::string> options;
   const int published_depth = render::WhittedOptions{}.max_depth;
@@ -240,14 +240,14 @@ thesis::CensusOptions options_of(const CensusRequest& request) {
   base::place_of_name("rules", request.rules, kRules);
   if (by_spd(request) && (!request.image.resolution.empty() || request.image.samples != 1)) {
     throw InputError(
-        "the rules of SPD fix the rays, 513x513 through the corners of pixels; "
-        "leave out --resolution and --samples");
+        "SPD's rules prescribe the rays, 513x513 through the corners of pixels; leave out "
+        "--resolution and --samples");
   }
   const thesis::CensusOptions options{whitted_options(request.whitted), by_spd(request),
                                       render::parse_shading_order(request.order),
                                       request.whitted.threads, request.count_work};
   if (options.order != render::ShadingOrder::kRows && by_spd(request)) {
-    throw InputError("the rules of SPD have rows of corners of pixels; leave out --order");
+    throw InputError("SPD's rules prescribe rows of pixel corners; leave out --order");
   }
   return options;
 }
@@ -296,30 +296,28 @@ void add_census_command(CLI::App& app, int&) {
                    "image: rays as for 'render'; spd: Haines's Standard Procedural Databases")
       ->capture_default_str();
   command
-      ->add_option(
-          "--order", request->order,
-          "Order in which pixels are shaded, which matters to a shadow cache: rows, each "
-          "with a new cache; scan: rows with one cache, on one thread; beams: beam by beam, "
-          "with one cache, on one thread")
+      ->add_option("--order", request->order,
+                   "Order in which pixels are shaded, which affects shadow caches: rows, each with "
+                   "a new cache; scan: rows with one cache, on one thread; beams: beam by beam, "
+                   "with one cache, on one thread")
       ->capture_default_str();
   add_image_options(*command, request->image);
   add_whitted_options(*command, request->whitted);
   command
       ->add_option("--pictures", request->pictures,
-                   "Also write each scene's picture to this folder, which is created")
+                   "Also write each scene's picture to this folder, which is created if missing")
       ->type_name("DIR");
-  command->add_flag(
-      "--count", request->count_work,
-      "Also count the structure's work over all rays, of shadow rays to the first thing that "
-      "they hit; times then include it");
+  command->add_flag("--count", request->count_work,
+                    "Also count the structure's work over all rays, for shadow rays up to the "
+                    "first object that they hit; times then include it");
   command->add_flag("--json", request->json, "Print JSON instead of text");
   command->footer(
       "The rules of SPD: 513x513 rays through the corners of pixels, maximum depth 5, no minimum\n"
-      "weight, a mirror ray from all glass, even where it adds nothing to the picture, one ray at\n"
+      "weight, a mirror ray from all glass, even if it adds nothing to the picture, one ray at\n"
       "total reflection, no shadow ray to a light behind the surface; the counts that Haines\n"
       "published are printed for comparison. hidden: shadow rays that hit an opaque object; "
       "cached:\n"
-      "hidden ones answered by the shadow cache; listed: shadow rays answered by light buffers.\n"
+      "hidden ones found by the shadow cache; listed: shadow rays decided by light buffers.\n"
       "Times: build; eye: primary rays; lists: light buffers; the rest, on --threads threads. "
       "With\n"
       "--min-weight each picture is drawn again with all rays: too faint: rays not traced; of the\n"

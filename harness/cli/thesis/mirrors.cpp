@@ -1,5 +1,5 @@
-// beambench mirrors: traces what planar mirrors and planar glass show by beams and by individual
-// rays.
+// beambench mirrors: traces what planar mirrors and planar glass show, with beams and with
+// individual rays.
 
 #include "harness/thesis/mirrors.hpp"
 
@@ -61,7 +61,7 @@ void print_text(const scenes::Scene& scene, const MirrorsRequest& request,
   if (found.seen_through.empty()) return;
 
   fmt::print("\nRefracted rays by the angle at which the camera's rays meet the glass:\n");
-  TextTable angles({"angle", "samples", "traced alone, in no beam"});
+  TextTable angles({"angle", "samples", "traced alone, outside beams"});
   int from = 0;
   for (std::size_t i = 0; i < glass.by_angle.size(); ++i) {
     const auto& [samples, alone] = glass.by_angle[i];
@@ -129,20 +129,19 @@ void add_mirrors_command(CLI::App& app, int& exit_code) {
       app.add_subcommand("mirrors", "Compare beams and single rays at planar mirrors and glass");
   const auto request = std::make_shared<MirrorsRequest>();
   add_scene_option(*command, request->scene);
-  command->add_option("--accel", request->structure, "beam, with parameters where wanted")
+  command->add_option("--accel", request->structure, "beam, with optional parameters")
       ->capture_default_str();
   add_image_options(*command, request->image);
-  command->add_option("--repetitions", request->repetitions, "How often each method is timed")
+  command->add_option("--repetitions", request->repetitions, "Number of times each method is timed")
       ->capture_default_str()
       ->check(whole_number_in(1, 1000));
   command->add_flag("--json", request->json, "Print JSON instead of text");
   command->footer(
       "A planar mirror shows what a virtual eye behind it sees (Heckbert and Hanrahan 1984). The\n"
       "reflected rays are traced in beams, the thesis's first line of future work, and one by one\n"
-      "through the same octree. Coplanar flat polygons that reflect are one mirror. Likewise the\n"
-      "rays that planar glass refracts; they have no common point, and those in no beam are "
-      "traced\n"
-      "alone.\n"
+      "through the same octree. Coplanar flat polygons that reflect are one mirror. Rays\n"
+      "refracted by planar glass are traced likewise; they have no common point, and those\n"
+      "outside beams are traced alone.\n"
       "Exits with 1 if beams and rays find different hits.\n"
       "Examples:\n"
       "  beambench mirrors teapot\n"

@@ -1,4 +1,4 @@
-// beambench sampling: compares cost and error of choosing the number of samples for each pixel.
+// beambench sampling: compares the cost and error of methods of choosing the samples of each pixel.
 
 #include "harness/thesis/sampling.hpp"
 
@@ -100,11 +100,11 @@ void add_sampling_command(CLI::App& app, int&) {
       app.add_subcommand("sampling", "Compare adaptive sampling in object space and image space");
   const auto request = std::make_shared<SamplingRequest>();
   add_scene_option(*command, request->scene);
-  command->add_option("--accel", request->structure, "beam, with parameters where wanted")
+  command->add_option("--accel", request->structure, "beam, with optional parameters")
       ->capture_default_str();
   command->add_option("--resolution", request->image.resolution, "WxH")->capture_default_str();
   add_view_options(*command, request->image.view);
-  command->add_option("--repetitions", request->repetitions, "How often each method is timed")
+  command->add_option("--repetitions", request->repetitions, "Number of times each method is timed")
       ->capture_default_str()
       ->check(whole_number_in(1, 1000));
   command->add_option("--picture", request->picture,
@@ -114,8 +114,8 @@ void add_sampling_command(CLI::App& app, int&) {
       "Uniform sampling, as in the thesis (no rays where beams leave the scene); object-space\n"
       "sampling, the thesis's future work: the leaf at which a beam ends chooses 1, 5 or 25 "
       "samples\n"
-      "by its references and its size in pixels; image-space sampling: a pixel that differs from\n"
-      "its neighbors gets more. Errors are against 64 samples per pixel, in preview shading.\n"
+      "by its references and its size in pixels; image-space sampling: pixels that differ from\n"
+      "their neighbors get more. Errors are relative to 64 samples per pixel, in preview shading.\n"
       "Examples:\n"
       "  beambench sampling delfines --resolution 320x200\n"
       "  beambench sampling maceta --accel beam:max_level=5 --resolution 160x100 --json\n"

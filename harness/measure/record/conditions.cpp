@@ -34,8 +34,8 @@ Json to_json(const std::optional<Throttling>& throttling) {
 std::optional<std::string> noise_warning(const std::optional<double>& noise) {
   if (!noise || *noise <= kNoisy) return std::nullopt;
   return fmt::format(
-      "The machine is disturbed: 5% of the slices of equal work took at least {:.0f}% longer "
-      "than usual.",
+      "The machine is disturbed: 5% of the slices of equal work took at least {:.0f}% longer than "
+      "usual.",
       100.0 * *noise);
 }
 

@@ -28,8 +28,7 @@ constexpr int kRecordVersion = 1;
 
 constexpr std::string_view kLibraryNote =
     "google-benchmark.json reports library_build_type 'debug' where the system's Google Benchmark "
-    "was "
-    "built without NDEBUG, as Debian's is; that slows its own loop, which is not timed here "
+    "was built without NDEBUG, as Debian's is; that slows its own loop, which is not timed here "
     "(beambench measures times itself). beambench's own build type is in 'program'.";
 
 Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }

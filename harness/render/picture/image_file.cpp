@@ -74,8 +74,8 @@ ImageFormat image_format(const std::filesystem::path& file) {
   if (ending == ".png") return ImageFormat::kPng;
   if (ending == ".exr") return ImageFormat::kExr;
   throw InputError(
-      fmt::format("the picture '{}' has no known file extension; use .png (8-bit sRGB) "
-                  "or .exr (float, with depth and ids)",
+      fmt::format("the picture '{}' has no known file extension; use .png (8-bit sRGB) or .exr "
+                  "(float, with depth and ids)",
                   file.string()));
 }
 

@@ -167,8 +167,8 @@ void KeptFolder::read(const std::string& key,
     }
     if (its_key != key) {
       throw InputError(fmt::format(
-          "{}: these results belong to another picture: they have '{}', this run has "
-          "'{}'; use the same program and options, or leave out --resume",
+          "{}: these results belong to another picture: they have '{}', this run has '{}'; use the "
+          "same program and options, or leave out --resume",
           file.string(), first_difference(its_key, key), first_difference(key, its_key)));
     }
     while (const auto record = next_record(reader)) {

@@ -157,10 +157,9 @@ MpiSession::MpiSession(int& argc, char**& argv, double timeout)
     : timeout_(timeout), watchdog_(kLongestEnd * timeout) {
   const Deadline deadline(
       timeout,
-      fmt::format(
-          "the processes did not find each other within {} s; check that all machines are running "
-          "and reachable, or use a longer --timeout",
-          timeout),
+      fmt::format("the processes did not find each other within {} s; check that all machines are "
+                  "running and reachable, or use a longer --timeout",
+                  timeout),
       base::kInvalidInput);
   int provided = MPI_THREAD_SINGLE;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_MULTIPLE, &provided);

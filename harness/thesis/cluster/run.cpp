@@ -271,10 +271,9 @@ class Keeper {
     try {
       file_->add(task, result);
     } catch (const InputError& error) {
-      base::print_message(stderr,
-                          fmt::format("beambench-cluster: {}; the run continues, but cannot "
-                                      "be resumed\n",
-                                      error.what()));
+      base::print_message(
+          stderr, fmt::format("beambench-cluster: {}; the run continues, but cannot be resumed\n",
+                              error.what()));
       file_.reset();
       folder_->remove();
     }

@@ -47,8 +47,8 @@ Watchdog::Watchdog(double seconds) {
   std::array<int, 2> sockets{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets.data()) != 0) return;
   const std::string message = fmt::format(
-      "beambench-cluster: a process did not end within {} s and is killed; all requested "
-      "files are written\n",
+      "beambench-cluster: a process did not end within {} s and is killed; all requested files are "
+      "written\n",
       seconds);
   const pid_t self = ::getpid();
   const pid_t child = ::fork();

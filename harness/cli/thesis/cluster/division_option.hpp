@@ -1,5 +1,5 @@
 #pragma once
-// The option of both cluster programs for the distribution of a divided scene.
+// The option of both cluster programs that selects how a divided scene is distributed.
 
 #include <string>
 

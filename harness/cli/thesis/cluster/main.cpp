@@ -43,7 +43,7 @@ constexpr const char* kDescription =
 constexpr const char* kFooter =
     "The picture is that of 'beambench render', bit for bit, with any number of processes.\n"
     "A process that dies ends the run (exit code not 0, no picture); the same command with\n"
-    "--resume then goes on with the results that were finished. A process that is silent for\n"
+    "--resume then continues with the finished results. A process that is silent for\n"
     "--timeout seconds is declared lost, and its work is done by others.\n"
     "Examples:\n"
     "  mpirun -n 3 beambench-cluster balls -o balls.png --shade whitted --samples 5\n"
@@ -67,16 +67,15 @@ struct Options {
 };
 
 void add_timeout_option(CLI::App& app, double& seconds) {
-  app.add_option(
-         "--timeout", seconds,
-         "Seconds after which a silent consumer is declared lost, or the run is ended where "
-         "no other can do the work of a silent process; for starting MPI, too")
+  app.add_option("--timeout", seconds,
+                 "Seconds after which a silent consumer is declared lost, or the run ends because "
+                 "no other can do the work of a silent process; also the limit for starting MPI")
       ->capture_default_str()
       ->check(CLI::Range(0.1, 1e6));
 }
 
-/// Returns the time limit, which every process needs before it can hear from the others; process 0
-/// reports errors in the options later.
+/// Returns the time limit, which every process needs before it receives messages. Process 0 reports
+/// errors in the options later.
 double timeout_of(int argc, const char* const* argv) {
   double seconds = ProducerOptions{}.timeout;
   CLI::App app;
@@ -111,31 +110,31 @@ void add_options(CLI::App& app, Options& typed, ClusterRequest& request) {
           {"beams", "blocks", "tiles", "contiguous", "interlaced", "windows", "pre-pass"}));
   app.add_option("--split", request.job.split_level,
                  "Divide the scene instead: each process has the primitives in its share of the "
-                 "octree's cells of this level; beams and rays are handed over at borders. Process "
-                 "0 shades, and keeps the whole scene for that, unless --shade is id or depth")
+                 "octree's cells of this level; beams and rays are passed on at borders. Process 0 "
+                 "shades, for which it keeps the whole scene, unless --shade is id or depth")
       ->check(CLI::Range(2, 7));
   add_division_option(app, typed.division)->needs("--split");
   app.add_option("--block", request.block_size, "Side of a block or tile in pixels")
       ->capture_default_str()
       ->check(CLI::Range(1, 4096));
   app.add_option("--batch", request.producer.batch,
-                 "Beams or blocks per message; of tiles, if not given, fewer and fewer")
+                 "Beams or blocks per message; for tiles, decreasing numbers if not given")
       ->capture_default_str()
       ->each([&](const std::string&) { request.batch_given = true; })
       ->check(CLI::Range(1, 100000));
   app.add_option("--in-flight", request.producer.in_flight,
-                 "Messages that a consumer may hold; 2: the next one is already there")
+                 "Messages that a consumer may hold; 2: the next one arrives in advance")
       ->capture_default_str()
       ->check(CLI::Range(1, 64));
   app.add_flag("--producer-consumes", request.producer.consumes,
                "Process 0 works itself while no consumer waits");
   app.add_option("--results", typed.results,
                  "sent to process 0; stored: every process keeps its own in FILE.kept, which all "
-                 "must see, and process 0 reads them at the end (with -o FILE)")
+                 "processes must see, and process 0 reads them at the end (with -o FILE)")
       ->capture_default_str()
       ->check(CLI::IsMember({"sent", "stored"}));
   app.add_flag("--resume", typed.resume,
-               "Go on with an interrupted run of the same picture, whose finished results are in "
+               "Continue an interrupted run of the same picture, whose finished results are in "
                "FILE.kept (with -o FILE)");
   add_timeout_option(app, request.producer.timeout);
   app.add_option("--report", request.report,
@@ -146,8 +145,8 @@ void add_options(CLI::App& app, Options& typed, ClusterRequest& request) {
 void require_divisible(const ClusterRequest& request) {
   if (request.job.light && request.job.whitted.shadows != render::ShadowMethod::kRays) {
     throw InputError(
-        "with --split shadow rays are sent in batches, which caches and light buffers do not make; "
-        "leave out --shadows, the picture is the same");
+        "with --split, shadow rays are sent in batches, which caches and light buffers do not use; "
+        "leave out --shadows; the picture is the same");
   }
   if (request.work != Work::kBeams || !request.tasks.empty()) {
     throw InputError("--split divides the scene, not the work; leave out --work and --tasks");
@@ -167,8 +166,8 @@ void require_fitting(const ClusterRequest& request) {
   }
 }
 
-/// Keeps results in the folder beside the picture; gives only a warning on failure if the user did
-/// not request it.
+/// Keeps results in the folder beside the picture; only warns about a failure if the user did not
+/// request this.
 void keep_results(const Options& typed, ClusterRequest& request) {
   Job& job = request.job;
   if (request.picture.empty() || job.split_level > 0) return;
@@ -204,7 +203,7 @@ void fill(const Options& typed, ClusterRequest& request) {
   job.division = parse_scene_division(typed.division);
   const bool kept = typed.resume || typed.results == "stored";
   if (job.split_level > 0) {
-    if (kept) throw InputError("--split keeps no results; leave out --resume and --results");
+    if (kept) throw InputError("--split does not keep results; leave out --resume and --results");
     require_divisible(request);
   }
   if (!request.picture.empty()) render::image_format(request.picture);
@@ -217,7 +216,8 @@ void fill(const Options& typed, ClusterRequest& request) {
   keep_results(typed, request);
 }
 
-/// Returns nothing after --help or --version. Throws InputError before any long work.
+/// Parses the command line; returns nothing after --help or --version. Throws InputError before any
+/// long work.
 std::optional<ClusterRequest> parse_request(int argc, char** argv) {
   CLI::App app(kDescription, kProgram);
   app.set_version_flag("--version", fmt::format("{} {}", kProgram, measure::build_info().version));
@@ -229,7 +229,7 @@ std::optional<ClusterRequest> parse_request(int argc, char** argv) {
   try {
     std::vector<std::string> arguments(argv + 1, argv + argc);
     replace_renamed_options(kProgram, arguments);
-    std::ranges::reverse(arguments);  // CLI11 takes them from the end
+    std::ranges::reverse(arguments);  // CLI11 takes arguments from the end
     app.parse(std::move(arguments));
   } catch (const CLI::Success& success) {
     app.exit(success);
@@ -241,7 +241,7 @@ std::optional<ClusterRequest> parse_request(int argc, char** argv) {
   return request;
 }
 
-/// Runs process 0. The others receive the job, or nothing if there is none.
+/// Runs process 0. The other processes receive the job, or nothing if there is none.
 int lead_run(int argc, char** argv, MpiSession& session, Transport& transport) {
   std::optional<ClusterRequest> request;
   Bytes job;
@@ -263,8 +263,8 @@ int lead_run(int argc, char** argv, MpiSession& session, Transport& transport) {
   for (const std::string& remark : run.report.remarks) base::report_error(kProgram, remark, 0);
   base::report_error(kProgram, summary(run), 0);
   if (run.report.lost.empty()) return base::kSuccess;
-  // Lost processes would not reach MPI_Finalize, and all others would wait there. All results are
-  // written.
+  // Lost processes would not reach MPI_Finalize, where all others would wait for them. All results
+  // have been written.
   MpiSession::abort(base::kSuccess);
 }
 
@@ -278,7 +278,7 @@ int run_process(int argc, char** argv, MpiSession& session, Transport& transport
     MpiSession::abort(base::kInvalidInput);
   } catch (const InputError& error) {
     return base::report_error(kProgram, error.what(), base::kInvalidInput);
-  } catch (const rays::InvalidHit& error) {  // the others wait for results that will not arrive
+  } catch (const rays::InvalidHit& error) {  // the others wait for results that will never come
     base::report_error(kProgram, error.what(), base::kMismatch);
     MpiSession::abort(base::kMismatch);
   } catch (const std::exception& error) {

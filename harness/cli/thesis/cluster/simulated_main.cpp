@@ -41,7 +41,7 @@ struct ClusterOptions {
 
 void add_cluster_options(CLI::App& app, ClusterOptions& cluster) {
   app.add_option("--network", cluster.network,
-                 "shared: one medium; switched: a line in both directions for each machine")
+                 "shared: one medium; switched: a line in each direction for each machine")
       ->capture_default_str()
       ->check(CLI::IsMember({"shared", "switched"}));
   ClusterModel& model = cluster.model;
@@ -64,10 +64,10 @@ void add_cluster_options(CLI::App& app, ClusterOptions& cluster) {
       ->capture_default_str()
       ->check(kPositive);
   app.add_option("--speeds", cluster.speeds,
-                 "Speeds of all machines but the first, repeated: 1,0.5")
+                 "Speeds of all machines except the first, repeated: 1,0.5")
       ->delimiter(',')
       ->check(kPositive);
-  app.add_option("--loaded", model.loaded, "Number of machines that others use now and then");
+  app.add_option("--loaded", model.loaded, "Number of machines that others also use at times");
   app.add_option("--loaded-share", model.loaded_share, "Share of their speed that others leave")
       ->capture_default_str()
       ->check(CLI::Range(1e-3, 1.0));
@@ -77,7 +77,7 @@ void add_cluster_options(CLI::App& app, ClusterOptions& cluster) {
       ->check(kPositive);
 }
 
-/// Makes a cluster with a machine of speed 1 for process 0; the given speeds are repeated for the
+/// Makes a cluster with a machine of speed 1 for process 0; repeats the given speeds for the
 /// others.
 ClusterModel cluster_of(const ClusterOptions& cluster, int processes) {
   ClusterModel model = cluster.model;
@@ -164,7 +164,7 @@ void add_replay_options(CLI::App& app, ReplayRequest& request) {
       ->capture_default_str()
       ->check(CLI::Range(0, 4095));
   app.add_option("--walk-scale", request.walk_scale,
-                 "Time of a machine of speed 1 over the recorded one, to trace beams")
+                 "Time to trace beams on a machine of speed 1, relative to the recorded time")
       ->check(kPositive);
   app.add_option("--work-scale", request.work_scale, "... and for all other work")
       ->check(kPositive);
@@ -174,14 +174,15 @@ void add_replay_options(CLI::App& app, ReplayRequest& request) {
   app.add_option("--sample-bytes", request.bytes_per_sample,
                  "Bytes of a result per sample (default: as recorded)")
       ->check(kPositive);
-  app.add_option("--division", request.division,
-                 "Messages planned before: contiguous, interlaced or equal-cost, one for each "
-                 "consumer; falling, with fewer and fewer tasks (default: --batch tasks each)")
+  app.add_option(
+         "--division", request.division,
+         "Messages planned in advance: contiguous, interlaced or equal-cost, one for each "
+         "consumer; falling, with decreasing numbers of tasks (default: --batch tasks each)")
       ->check(CLI::IsMember(kDivisions));
   app.add_flag("--stored", request.replay.stored,
                "Results were recorded with --results stored: one receipt for a falling message");
   app.add_option("--pre-pass-seconds", request.replay.pre_pass_seconds,
-                 "Recorded time of the producer to estimate costs, before the first task")
+                 "Producer's recorded time for estimating costs, before the first task")
       ->check(kNotNegative);
   add_cluster_options(app, request.cluster);
   app.add_option("--batch", request.replay.options.batch, "Tasks per message")
@@ -256,17 +257,17 @@ void add_split_options(CLI::App& app, SplitRequest& request) {
   app.add_option("--processes", request.processes, "Number of parts")
       ->capture_default_str()
       ->check(CLI::Range(1, 1024));
-  app.add_option("--build-scale", request.scale.build,
-                 "Time of a machine of speed 1 over that of this one, to divide the scene "
-                 "and to build")
+  app.add_option(
+         "--build-scale", request.scale.build,
+         "Time on a machine of speed 1, relative to this machine, to divide the scene and to build")
       ->check(kPositive);
   app.add_option("--walk-scale", request.scale.walk, "... to trace beams")->check(kPositive);
   app.add_option("--work-scale", request.scale.work, "... for all other work")->check(kPositive);
   add_cluster_options(app, request.cluster);
 }
 
-/// Adds the subcommand: for one version, `beambench-split-simulated` means `split`, and a missing
-/// subcommand means `cluster`.
+/// Adds a missing subcommand: `split` for the name `beambench-split-simulated`, otherwise
+/// `cluster`. Both are supported for one more version.
 std::vector<std::string> with_subcommand(int argc, char** argv) {
   std::vector<std::string> arguments(argv + 1, argv + argc);
   const std::string program = std::filesystem::path(argv[0]).filename();
@@ -296,11 +297,11 @@ int run(int argc, char** argv) {
   divided.job.structure = "beam";
   divided.job.split_level = 4;
   CLI::App* split = app.add_subcommand(
-      "split", "A divided scene, really traced; its CPU times on this machine are scaled");
+      "split", "A divided scene, actually traced; CPU times on this machine are scaled");
   add_split_options(*split, divided);
   split->callback([&] { trace_split(divided, argv[0]); });
   std::vector<std::string> arguments = with_subcommand(argc, argv);
-  std::ranges::reverse(arguments);  // CLI11 takes them from the end
+  std::ranges::reverse(arguments);  // CLI11 takes arguments from the end
   try {
     app.parse(std::move(arguments));
   } catch (const CLI::ParseError& error) {

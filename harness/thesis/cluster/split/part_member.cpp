@@ -26,10 +26,10 @@ auto members(Report& report) requires std::same_as<std::remove_const_t<Report>, 
 }  // namespace
 
 LostProcess silent_part(ProcessId process, double timeout) {
-  return LostProcess(fmt::format(
-      "process {} was silent for {} s, and no other process has its part of the scene; no "
-      "picture was made",
-      process, timeout));
+  return LostProcess(
+      fmt::format("process {} was silent for {} s, and no other process has its part of the scene; "
+                  "no picture was made",
+                  process, timeout));
 }
 
 PartMember::PartMember(Transport& transport, PartWorker& worker, Outbox& outbox, double timeout,

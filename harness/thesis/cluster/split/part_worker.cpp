@@ -30,8 +30,8 @@ accel::beam::BeamOptions checked(const accel::beam::BeamOptions& options, const 
   }
   if (options.octree.max_level < split.cells().level()) {
     throw InputError(
-        "the cells of --split are deeper than max_level; choose a fixed max_level of at least "
-        "the level of the cells");
+        "the cells of --split are deeper than max_level; choose a fixed max_level of at least the "
+        "level of the cells");
   }
   return options;
 }

@@ -185,8 +185,7 @@ std::string summary_of_light(const SplitRun& run) {
     rays += report.rays_out;
   }
   return fmt::format(
-      "; light in {:.3f} s, its rays were passed on {} times, in {} messages with "
-      "{:.2f} MB",
+      "; light in {:.3f} s, its rays were passed on {} times, in {} messages with {:.2f} MB",
       run.light_seconds, rays, out.messages, 1e-6 * static_cast<double>(out.bytes));
 }
 
