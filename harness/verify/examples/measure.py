@@ -2,8 +2,8 @@
 
 Every program traces the same rays over the same triangles and writes a file of hits, which
 `beambench verify --hits` verifies. programs.json, in this folder, lists the programs with their
-commands; one that does not run is left out, and the manifest states why. A cell that was measured
-stays in the folder --work, so that an interrupted run continues where it stopped.
+commands. A program that does not run is left out, and the manifest states why. Measured cells stay
+in the folder --work, so an interrupted run continues where it stopped.
 
     python measure.py --work build/programs -o results/published/programs
 """
@@ -28,7 +28,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 REPOSITORY = HERE.parents[2]
-# Runs with any Python that has numpy, not only that of .venv, which finds the package by itself.
+# Runs with any Python that has numpy. Only .venv's Python finds the package without this.
 sys.path.append(str(REPOSITORY / "scripts"))
 
 from beambench_report.base.formulas import guarded  # noqa: E402 (found by the line before)
@@ -43,7 +43,7 @@ SCENES = [
     "habitacion",
     "bumpy:triangles=20000",
 ]
-# Kinds of rays: the resolution, or the number of rays for the kinds that are made here.
+# Kinds of rays: the resolution, or the number of rays for kinds generated here.
 RAYS = {
     "primary": "512x400",
     "random": "512x400",
@@ -104,8 +104,8 @@ def aimed_rays(obj: Path, kind: str, count: int) -> np.ndarray:
     """Returns rays at vertices and at the midpoints of edges, where wrong hits are most likely.
 
     `edges`: from a sphere around the scene; direction and target are rounded to float32, so a ray
-    passes its target within rounding. `inside`: the same from around the center, of a closed mesh.
-    `axis`: parallel to an axis, exactly through the target.
+    passes its target within rounding. `inside`: likewise, but from around the center of a closed
+    mesh. `axis`: parallel to an axis, exactly through the target.
     """
     random = np.random.default_rng(1)
     vertices, faces = read_obj(obj)
@@ -153,7 +153,7 @@ def read_hits(path: Path) -> np.ndarray:
 
 
 def hits_in(path: Path) -> int:
-    """Returns the number of rays of a .hits file that hit."""
+    """Returns the number of rays in a .hits file that hit something."""
     hits = read_hits(path)
     return int(np.count_nonzero(np.isfinite(hits[hits.dtype.names[0]])))
 
@@ -216,7 +216,7 @@ class Measurement:
         return program.get("version") or json.loads(printed.splitlines()[-1])["version"]
 
     def verify(self, scene: str, rays: Path, hits: Path) -> dict[str, Any]:
-        """Returns the findings of `beambench verify --hits`."""
+        """Returns the report of `beambench verify --hits`."""
         found = hits.with_suffix(".json")
         files = ["--rays", str(rays), "--hits", str(hits), "--json", str(found)]
         call([self.beambench, "verify", scene, *files], expected=(0, 1))
@@ -225,7 +225,7 @@ class Measurement:
         return verified
 
     def cell_file(self, program: dict[str, Any], scene: str, kind: str) -> Path:
-        """Returns the file that keeps a row."""
+        """Returns the file in which a row is kept."""
         return self.work / "cells" / f"{slug(program['name'])}-{slug(scene)}-{kind}.json"
 
     def cell(self, program: dict[str, Any], scene: str, kind: str) -> dict[str, Any]:
@@ -258,7 +258,8 @@ class Measurement:
 
 
 def write_table(path: Path, columns: list[str], rows: list[dict[str, Any]]) -> None:
-    """Writes a CSV file of these columns, in which no text is a formula for a spreadsheet."""
+    """Writes a CSV file of these columns, in which spreadsheets do not read any text as a
+    formula."""
     with path.open("w", newline="", encoding="utf-8") as table:
         writer = csv.DictWriter(table, columns, extrasaction="ignore", lineterminator="\n")
         writer.writeheader()
@@ -301,7 +302,7 @@ def main() -> int:
     parser.add_argument("--scenes", nargs="+", default=SCENES, help="default: the published ones")
     parser.add_argument("--rays", nargs="+", default=list(RAYS), choices=list(RAYS))
     parser.add_argument(
-        "--measured", action="store_true", help="write the table of the cells that are there"
+        "--measured", action="store_true", help="write the table of the existing cells only"
     )
     arguments = parser.parse_args()
     programs = json.loads(arguments.programs.read_text("utf-8"))["programs"]

@@ -1,8 +1,8 @@
 """Finds the fewest triangles over which a program is still wrong about one ray.
 
-Triangles are left out, half of them first, as long as the claim is of the same class. Writes
-scene.obj, rays.csv and hits.csv, which `beambench verify` reads, and case.json: what the program
-claims, what is right, and the commands that repeat it.
+Triangles are left out, at first half of them at a time, as long as the claim's class stays the
+same. Writes scene.obj, rays.csv and hits.csv, which `beambench verify` reads, and case.json: the
+program's claim, the correct hit, and the commands that reproduce the case.
 
     python minimal.py --work build/programs --program 'tinybvh bvh8' --scene bumpy:triangles=1000 \\
         --rays inside -o results/published/programs/minimal/tinybvh
@@ -44,7 +44,7 @@ def write_obj(path: Path, corners: np.ndarray) -> None:
 
 
 def around(ray: np.ndarray) -> np.ndarray:
-    """Returns rays from the same origin in a cone around this one."""
+    """Returns rays with the origin of this one, in a cone around it."""
     direction = ray[4:7].astype(np.float64)
     side = np.cross(direction, np.eye(3)[np.abs(direction).argmin()])
     side /= np.linalg.norm(side)
@@ -61,7 +61,7 @@ class Case:
     """A program, one ray, and the properties to be preserved."""
 
     def __init__(self, measurement: Measurement, program: dict[str, Any], ray: np.ndarray) -> None:
-        """Initializes the case; the folder of its files is emptied at the end."""
+        """Initializes the case; its folder is emptied when done."""
         self.measurement, self.program = measurement, program
         self.kept = tempfile.TemporaryDirectory()
         folder = Path(self.kept.name)
@@ -81,7 +81,7 @@ class Case:
         return {"version": version, "lost": lost, **example}
 
     def is_surrounded(self) -> bool:
-        """Returns whether all rays around it hit the triangles that were examined last."""
+        """Returns whether all rays around it hit the triangles examined last."""
         out = self.hits.with_name("around.hits")
         command = ["hits", str(self.obj), "--rays", str(self.neighbors), "-o", str(out)]
         call([self.measurement.beambench, *command])
@@ -89,7 +89,7 @@ class Case:
 
 
 def fewest(count: int, holds: Callable[[np.ndarray], bool]) -> np.ndarray:
-    """Returns indices none of which can be left out alone."""
+    """Returns indices of which none can be left out."""
     left, size = np.arange(count), count // 2
     while size >= 1:
         at, shrunk = 0, False
@@ -113,7 +113,9 @@ def main() -> int:
     parser.add_argument("--scene", required=True)
     parser.add_argument("--rays", required=True, help="kind of rays, as measure.py names them")
     parser.add_argument("--index", type=int, help="of the ray (default: the first disputed one)")
-    parser.add_argument("--lost", action="store_true", help="a hit that the program does not find")
+    parser.add_argument(
+        "--lost", action="store_true", help="look for a hit that the program does not find"
+    )
     parser.add_argument(
         "--surrounded",
         action="store_true",

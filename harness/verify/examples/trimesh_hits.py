@@ -5,9 +5,8 @@
     python trimesh_hits.py scene.obj r.rays -o trimesh.hits
     beambench verify SCENE --rays r.rays --hits trimesh.hits
 
-Needs trimesh, and rtree for its own engine or embreex for the other. Prints one line of JSON: what
-traced the rays, and for how long. README.md, in this folder, states what is done with t_min and
-t_max.
+Needs trimesh, and rtree for its own engine or embreex for Embree. Prints one line of JSON: the
+versions, and the times. README.md, in this folder, explains the treatment of t_min and t_max.
 """
 
 from __future__ import annotations
@@ -78,15 +77,15 @@ class Tracer:
 
             self.packages = ["trimesh", "embreex"]
             self.rays_of_a_call = 1 << 16
-        # Uses all hits of its own engine, so that one before t_min does not hide those behind it.
-        # The other engine finds further hits by moving the origin, so only its first hit is
-        # requested.
+        # Requests all hits from trimesh's own engine, so that a hit before t_min does not hide
+        # those behind it. The other engine finds further hits by moving the origin, so only its
+        # first hit is requested.
         self.all_hits = engine == "rtree"
         self.intersector = RayMeshIntersector(mesh)
         self.intersections(np.zeros((1, 3)), np.ones((1, 3)))  # builds what it keeps
 
     def intersections(self, origins: np.ndarray, directions: np.ndarray) -> Hits:
-        """Returns the hits of rays without ends, in no order."""
+        """Returns the hits of rays without ends, in arbitrary order."""
         triangles, rays, points = self.intersector.intersects_id(
             origins, directions, multiple_hits=self.all_hits, return_locations=True
         )
@@ -112,7 +111,7 @@ class Tracer:
 
 
 def trace(mesh_path: Path, rays_path: Path, hits_path: Path, engine: str) -> dict[str, Any]:
-    """Writes the file of hits, which is complete or absent, and returns the text to print."""
+    """Writes the file of hits, complete or not at all, and returns the text to print."""
     file, header = open_rays(rays_path)
     mesh = load_triangles(mesh_path)
     begin = time.perf_counter()
@@ -159,7 +158,7 @@ def main() -> int:
         "--engine",
         choices=("rtree", "embree"),
         default="rtree",
-        help="trimesh's own, which needs rtree, or Embree by embreex (default: rtree)",
+        help="trimesh's own, which needs rtree, or Embree through embreex (default: rtree)",
     )
     arguments = parser.parse_args()
     try:

@@ -88,8 +88,8 @@ class Tracer {
 
   HitOfFile closest(const RayOfFile& ray) const {
     HitOfFile hit;
-    // CGAL's rays have no end. The hit is compared with t_max afterwards, which loses nothing,
-    // because the closest hit is beyond t_max only if all hits are.
+    // CGAL's rays have no end. The hit is compared with t_max afterwards; no hit is lost, because
+    // the closest hit is beyond t_max only if all hits are.
     const auto found = tree_.first_intersection(typename Kernel::Ray_3(start(ray), vector(ray)));
     if (!found) return hit;
     const Point* point = boost::get<Point>(&found->first);
