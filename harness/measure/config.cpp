@@ -40,7 +40,7 @@ double combinations(const nlohmann::json& entry) {
   return product;
 }
 
-/// Returns the sum over the entries of a list; 1 if there is no list.
+/// Returns the sum over the entries of a list; 1 if the list is missing.
 template <class Count>
 double sum_of(const nlohmann::json& root, const char* key, Count count) {
   if (!root.is_object() || !root.contains(key) || !root[key].is_array()) return 1.0;

@@ -27,7 +27,7 @@ inline constexpr std::string_view kHitFileEnding = ".hits";
 ///     t                 float32   the hit is at origin + t * direction; infinity: a miss
 ///     x, y, z           float32   the point that is hit; all infinite: a miss
 ///
-/// and, if the program knows it, one of
+/// and, if available, one of
 ///
 ///     primitive         uint32    the id in the scene; 4294967295: a miss
 ///     triangle          uint32    the triangle, as `beambench export` numbers them; 4294967295:

@@ -24,7 +24,7 @@ class ThrottlingWatch {
   ThrottlingWatch(std::filesystem::path root, std::optional<Throttling> earlier)
       : root_(std::move(root)), earlier_(earlier) {}
 
-  /// Returns the throttling of the whole run so far; nothing if there was no quota.
+  /// Returns the throttling of the whole run so far; nothing without a quota.
   std::optional<Throttling> total() const {
     return added_up(earlier_, throttling_between(begin_, read_throttling(root_)));
   }

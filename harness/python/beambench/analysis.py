@@ -65,7 +65,7 @@ class Ratio:
 
     @property
     def interval(self) -> tuple[float, float] | None:
-        """Both ends; None if there is no interval, so the ratio decides nothing."""
+        """Both ends; None if the interval is missing, in which case the ratio decides nothing."""
         return None if self.low is None or self.high is None else (self.low, self.high)
 
 

@@ -82,7 +82,7 @@ class MpiSession::SignsOfLife {
 
   bool is_producer() const { return self_ == kProducer; }
 
-  /// Waits until the producer has told the other processes that everything is written.
+  /// Waits until the producer has reported to the other processes that everything is written.
   void end() {
     thread_.request_stop();
     thread_.join();

@@ -37,9 +37,9 @@ class Backoff {
   }
 
  private:
-  /// How long to poll without a pause. A message and its reply take about 0.1 ms. With three
-  /// processes on two processors, 0.5 to 20 ms made no difference, and shorter times cost up to a
-  /// third.
+  /// The time for which it polls without a pause. A message and its reply take about 0.1 ms. With
+  /// three processes on two processors, 0.5 to 20 ms made no difference, and shorter times cost up
+  /// to a third.
   static constexpr std::chrono::milliseconds kAwake{2};
   static constexpr std::chrono::microseconds kLongest{200};
   Clock::time_point sleeps_from_ = Clock::now() + kAwake;

@@ -10,7 +10,7 @@ namespace beambench::cluster {
 /// The processes started by mpirun, in a separate communicator.
 class MpiTransport : public Transport {
  public:
-  /// How to wait for messages.
+  /// The method of waiting for messages.
   enum class Waiting {
     kSleeping,  ///< polls and sleeps: leaves the processor to others
     kBlocking   ///< in MPI_Recv, with no time limit: for a simulation, where waiting is exact

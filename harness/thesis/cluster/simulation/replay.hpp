@@ -110,7 +110,7 @@ TaskCosts merged(const TaskCosts& costs, const std::vector<Share>& shares, bool 
 /// size.
 class ReplayedSource : public TaskSource {
  public:
-  /// Spends `before` seconds before the first task. `plan` is empty if there is no plan.
+  /// Spends `before` seconds before the first task. `plan` is empty if the tasks are not planned.
   ReplayedSource(const TaskCosts& costs, Spend spend, std::vector<Share> plan = {},
                  double before = 0.0)
       : costs_(&costs), spend_(std::move(spend)), plan_(std::move(plan)), before_(before) {}
