@@ -55,21 +55,21 @@ void require_different(std::span<const fs::path> folders) {
     for (std::size_t j = 0; j < i; ++j) {
       std::error_code unknown;
       if (!fs::equivalent(folders[i], folders[j], unknown)) continue;
-      refuse(fmt::format("'{}' and '{}' are the same folder; give each shard once",
+      refuse(fmt::format("'{}' and '{}' are the same folder; pass each shard once",
                          folders[j].string(), folders[i].string()));
     }
   }
 }
 
 ShardFolder read_shard(const fs::path& path) {
-  const std::string remedy = "give the folders that 'beambench run --shard K/N -o DIR' wrote";
+  const std::string remedy = "pass the folders written by 'beambench run --shard K/N -o DIR'";
   if (!fs::exists(path / measure::kLogName)) {
     refuse(fmt::format("'{}' holds no run: there is no {}; {}", path.string(), measure::kLogName,
                        remedy));
   }
   RunLog log = RunLog::open(path);
   Run run = measure::read_run(path);
-  const auto facts = read_as_written((path / measure::kLogName).string(), "measure the shard anew",
+  const auto facts = read_as_written((path / measure::kLogName).string(), "measure the shard again",
                                      [&] { return measure::shard_of_manifest(run.manifest); });
   if (!facts) {
     refuse(fmt::format("'{}' holds no shard but {}; {}", path.string(),
@@ -86,11 +86,11 @@ void require_one_sweep(const ShardFolder& first, const ShardFolder& other) {
         "'{}' and '{}' belong to two sweeps, which differ at {}; merge the shards of one sweep",
         first.path(), other.path(), changes.front().at("path").get<std::string>()));
   }
-  const std::string difference = read_as_written(other.file(), "measure the shard anew", [&] {
+  const std::string difference = read_as_written(other.file(), "measure the shard again", [&] {
     return measure::program_difference(first.run.manifest, other.run.manifest);
   });
   if (!difference.empty()) {
-    refuse(fmt::format("'{}' and '{}': {}; measure one of them anew", first.path(), other.path(),
+    refuse(fmt::format("'{}' and '{}': {}; measure one of them again", first.path(), other.path(),
                        difference));
   }
   if (first.facts.shard.count != other.facts.shard.count ||
@@ -166,7 +166,7 @@ void require_finished(const ShardFolder& shard) {
 
 /// Refuses a manifest that was modified after the run, before anything is written.
 void require_intact(const ShardFolder& shard) {
-  read_as_written(shard.file(), "measure the shard anew", [&] {
+  read_as_written(shard.file(), "measure the shard again", [&] {
     const Json joined = measure::joined_manifest(std::span(&shard.run.manifest, 1));
     measure::conditions_of(joined);
     facts_of(joined);
@@ -195,8 +195,8 @@ InOrder require_all(const std::vector<ShardFolder>& shards) {
   }
   if (missing.empty()) return in_order;
   refuse(
-      fmt::format("{} of the sweep {} missing: {}; give all folders, or measure it with: "
-                  "beambench run SWEEP --shard {} -o DIR",
+      fmt::format("{} of the sweep {} missing: {}; pass all folders, or measure it with: beambench "
+                  "run SWEEP --shard {} -o DIR",
                   missing.size() == 1 ? "a shard" : "shards",
                   fmt::format("'{}' {}", shards.front().run.config.value("name", ""),
                               missing.size() == 1 ? "is" : "are"),
@@ -271,7 +271,7 @@ void write_log(const InOrder& shards, const fs::path& path) {
   if (plan.size() != wanted) {
     refuse(
         fmt::format("the shards have {} of {}, so the sweep was not divided in the same way; "
-                    "measure all shards anew",
+                    "measure all shards again",
                     plan.size(), base::counted(wanted, "cell")));
   }
   std::ranges::sort(plan, {}, &measure::PlannedName::index);
@@ -315,7 +315,7 @@ Analysis merge_shards(std::span<const fs::path> folders, const fs::path& output,
     refuse(fmt::format("'{}' already exists; choose another folder with -o", target.string()));
   }
   require_different(folders);
-  return read_as_written("a shard", "measure it anew",
+  return read_as_written("a shard", "measure it again",
                          [&] { return merge_into(target, folders, messages); });
 }
 

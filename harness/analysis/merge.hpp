@@ -10,14 +10,14 @@
 namespace beambench::analysis {
 
 /// Writes a run of the whole sweep to the folder `output`, which must not exist yet: the cells of
-/// all shards, each with the machine that it was measured on; a manifest with the conditions of
-/// every shard; and what is made from them (`conclude`). All of it is made beside its place and
-/// renamed at the end. The shards stay as they are. Progress goes to `messages`.
+/// all shards, each with the machine on which it was measured; a manifest with the conditions of
+/// every shard; and the files made from them (`conclude`). Everything is written under a temporary
+/// name and renamed at the end. The shards are unchanged. Progress goes to `messages`.
 ///
-/// Throws InputError naming the folder or the cell: where a folder holds no finished shard; where a
-/// shard is missing or there twice; where two are of different sweeps, divisions, builds, plug-ins
-/// or scenes; where a cell is in two of them, and with other counters above all; where `output`
-/// exists.
+/// Throws InputError naming the folder or the cell: if a folder does not contain a finished shard;
+/// if a shard is missing or appears twice; if two shards belong to different sweeps, divisions,
+/// builds, plug-ins or scenes; if two contain the same cell (above all, with different counters);
+/// or if `output` exists.
 Analysis merge_shards(std::span<const std::filesystem::path> folders,
                       const std::filesystem::path& output, std::FILE* messages);
 

@@ -99,7 +99,7 @@ void add_intervals(Row& row, const CellRecord& cell, const std::string& name,
   add_interval(row, name + "_pi", found.prediction);
 }
 
-/// Returns a statistic of samples; null where there are none.
+/// Returns a statistic of samples; null if there are none.
 template <class Statistic>
 Json statistic(Statistic figure, const std::vector<double>& samples) {
   return samples.empty() ? Json() : Json(figure(samples));

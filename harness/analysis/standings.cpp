@@ -31,8 +31,7 @@ bool is_reference(const std::string& structure) {
   return std::ranges::find(kReferences, structure) != kReferences.end();
 }
 
-/// Returns the median of a figure of a cell without blocks: of its repetitions, or as it was summed
-/// up.
+/// Returns the median of a figure of a cell without blocks: over its repetitions, or as recorded.
 template <class Figure>
 std::optional<Estimate> median_of(const CellRecord& cell, Figure figure,
                                   const std::string& column) {
@@ -52,7 +51,7 @@ double build_ms_of(const CellRecord& cell) {
   return build ? build->value : 0.0;
 }
 
-/// Returns the mean over the blocks of a cell; nothing where its hits are not correct.
+/// Returns the mean over the blocks of a cell; nothing if its hits are not correct.
 std::optional<Estimate> mean_of(const CellRecord& cell, const TimesByBlock& by_block) {
   if (!cell.keeps_times() || by_block.empty()) return std::nullopt;
   const auto values = by_block | std::views::values;
@@ -78,7 +77,7 @@ TimeRatio trace_ratio(const CellRecord& cell, const CellRecord& base, TraceClock
   return unpaired_ratio({over.value, over.confidence}, {under.value, under.confidence});
 }
 
-/// Returns the condition of the sweep that leaves a contender out of a view; nothing if none does.
+/// Returns the condition of the sweep that excludes a contender from a view; nothing if none does.
 std::optional<std::string> why_absent(const std::string& structure, const CellRecord& cell,
                                       const Json& exclude) {
   for (const Json& entry : exclude) {

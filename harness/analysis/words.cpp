@@ -133,8 +133,8 @@ std::string describe(std::span<const Standings> views) {
                      against(view.embree(), false), pays_off ? rays_in_words(*pays_off) : ""});
   }
   std::string out =
-      "Fastest by trace time, build apart. Figures: how many times as long the others take, with "
-      "95% confidence intervals.\n" +
+      "Fastest by trace time, excluding the build. Figures: time relative to the fastest, with 95% "
+      "confidence intervals.\n" +
       table(lines) + describe_left_out(views);
   if (views.size() > 1) {
     for (const OverallStandings& one : overall(views)) {
@@ -183,7 +183,7 @@ std::string describe_verdicts(const Analysis& analysis) {
     out = fmt::format("Hits:  {}, all verified\n", base::counted(analysis.possible(), "cell"));
   }
   if (analysis.without_rays > 0) {
-    out += fmt::format("Rays:  {} of {} have no rays over their scenes\n", analysis.without_rays,
+    out += fmt::format("Rays:  {} of {} have no rays in their scenes\n", analysis.without_rays,
                        base::counted(analysis.cells, "cell"));
   }
   if (analysis.unsupported > 0) {
@@ -192,10 +192,10 @@ std::string describe_verdicts(const Analysis& analysis) {
                     analysis.unsupported, base::counted(analysis.cells, "cell"));
   }
   if (analysis.possible() > analysis.failed) {
-    out += analysis.reasons_for_care.empty()
-               ? "Times: measured on a quiet machine, as precisely as wanted\n"
-               : fmt::format("Times: to be taken with care: {}\n",
-                             fmt::join(analysis.reasons_for_care, "; "));
+    out +=
+        analysis.reasons_for_care.empty()
+            ? "Times: measured on a quiet machine, as precisely as requested\n"
+            : fmt::format("Times: use with care: {}\n", fmt::join(analysis.reasons_for_care, "; "));
   }
   return out;
 }
@@ -207,9 +207,8 @@ std::string describe(std::span<const Overhead> overheads) {
                                 parts.empty() ? " of a contender's trace time" : "",
                                 subject_of(each.path), each.cell));
   }
-  return fmt::format(
-      "harness overhead: at most {}; trace_net_ms_median in results.csv is without it",
-      fmt::join(parts, ", "));
+  return fmt::format("harness overhead: at most {}; trace_net_ms_median in results.csv excludes it",
+                     fmt::join(parts, ", "));
 }
 
 std::string describe(std::span<const FrameSeries> all) {
@@ -219,12 +218,12 @@ std::string describe(std::span<const FrameSeries> all) {
     const RebuildInterval interval = rebuild_interval(series);
     text += fmt::format(
         "{} in {}: in frame {} an update and its trace take {:.3g} ms, a build and its trace "
-        "{:.3g} ms; the trace alone takes {:.3g} times as long as that of a new structure; {}\n",
+        "{:.3g} ms; the trace alone takes {:.3g} times as long as with a new structure; {}\n",
         series.contender, series.subject, last.frame, last.updated.total_ms(),
         last.built.total_ms(), last.trace.value,
-        interval.is_all ? std::string("updates are worth it in all frames measured")
+        interval.is_all ? std::string("updates pay off in all frames measured")
         : interval.frames == 1
-            ? std::string("building anew in each frame costs least")
+            ? std::string("rebuilding in each frame costs least")
             : fmt::format("one build for every {} frames costs least", interval.frames));
   }
   return text;

@@ -60,7 +60,7 @@ void add_plugin_option(CLI::App& app) {
       ->type_name("FILE");
 }
 
-/// Checks an option given in place of a command.
+/// Checks an option that stands where a command is expected.
 void require_known_option(const CLI::App& app, const std::string& word) {
   const std::vector<std::string> names = option_names(app);
   if (std::ranges::find(names, word.substr(0, word.find('='))) != names.end()) return;

@@ -196,8 +196,8 @@ int time_structures(const TimeRequest& request) {
 }  // namespace
 
 void add_time_command(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("time", "Time a few structures at once: which is fastest, by how much");
+  CLI::App* command = app.add_subcommand(
+      "time", "Time a few structures without a sweep: which is fastest, by how much");
   const auto request = std::make_shared<TimeRequest>();
   command->add_option("SCENE", request->scenes, kSceneHelp)->required();
   command

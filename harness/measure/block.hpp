@@ -30,7 +30,7 @@ struct Block {
   std::vector<BlockCell> cells;
   int number;          ///< among the view's blocks, from 0
   int first_round;     ///< of its repetitions; rounds are numbered across all blocks of a view
-  int second_traces;   ///< number of each cell's first repetitions followed by one
+  int second_traces;   ///< how many of each cell's first repetitions have one
   int tries;           ///< maximum number of tries of a disturbed repetition
   int core;            ///< the core to pin to; -1: any
   bool tunes = false;  ///< whether its cells are candidates to be timed once (tuning.hpp)

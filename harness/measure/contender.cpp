@@ -40,9 +40,9 @@ bool is_all_zero(const std::map<std::string, std::uint64_t, std::less<>>& counte
                      [](const auto& counter) { return counter.second == 0; });
 }
 
-/// Returns the time of a phase by a program's own clock (`figure`), where the structure is in
-/// another process, and the measured time otherwise. The CPU time of another process is unknown:
-/// the process counts as busy all the time.
+/// Returns the time of a phase: by the program's own clock (`figure`) if the structure is in
+/// another process, otherwise as measured. The CPU time of another process is unknown: the process
+/// counts as busy all the time.
 PhaseTime own_time(const accel::StructureInfo& info, const accel::Accelerator& structure,
                    const char* figure, const PhaseTime& measured) {
   if (info.origin.empty()) return measured;

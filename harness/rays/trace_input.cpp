@@ -72,11 +72,11 @@ RayList made_rays(const scenes::Scene& scene, const accel::PrimaryRays& primary,
     case RayKind::kMirror: {
       const MirrorTable mirrors(scene);
       if (mirrors.planes().empty()) {
-        throw NoRaysError(fmt::format(
-            "scene '{}' has no planar mirrors, so it has no mirror rays; give flat polygons of its "
-            "file a specular factor or ask for 'reflection' rays, for which all surfaces are "
-            "mirrors",
-            scene.name));
+        throw NoRaysError(
+            fmt::format("scene '{}' has no planar mirrors, so it has no mirror rays; add a "
+                        "specular factor to flat polygons in its file, or ask for 'reflection' "
+                        "rays, for which all surfaces are mirrors",
+                        scene.name));
       }
       return mirror_rays(in_picture_order(surface_points(scene, mirrors, primary), primary),
                          mirrors, primary);

@@ -20,7 +20,7 @@ using Lanes = hn::Vec<Tag>;
 
 inline Lanes set(double value) { return hn::Set(Tag(), value); }
 
-/// Several glm::dvec3 at once.
+/// Several glm::dvec3, processed together.
 struct Vector {
   Lanes x, y, z;
 };

@@ -15,7 +15,7 @@ struct RayCensus {
   std::uint64_t eye_hits = 0;
   std::uint64_t reflected = 0;
   std::uint64_t refracted = 0;
-  std::uint64_t totally_reflected = 0;  ///< of the reflected: in place of a refracted ray
+  std::uint64_t totally_reflected = 0;  ///< those of the reflected that replace a refracted ray
   std::uint64_t secondary_hits = 0;     ///< hits of reflected and refracted rays
   std::uint64_t too_faint = 0;          ///< not traced: too small a share of the pixel's color
   std::uint64_t shadow = 0;             ///< pairs of a point and a light that it faces

@@ -258,7 +258,7 @@ double Shadows::asked_by_buffer(const accel::Ray& to_light, std::size_t light,
 
 /// Follows the rays from surface to surface, each time starting slightly behind the surface, as all
 /// rays begin slightly beside surfaces. An additional any-hit query at the beginning made pictures
-/// of `gears`, `mount` and `finishes` take 1.01 to 1.25 times as long.
+/// of `gears`, `mount` and `finishes` take 1% to 25% longer.
 std::vector<double> Shadows::followed(const accel::RayBatch& to_light, std::size_t light,
                                       RayCensus& census) const {
   std::vector<accel::Ray> rays(to_light.rays.begin(), to_light.rays.end());

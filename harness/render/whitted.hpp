@@ -44,7 +44,7 @@ struct CameraRays {
 ///
 /// Colors of scenes are display values, as was usual in 1987, and are decoded to linear light. A
 /// light without a stated color is white, with intensity 1 / sqrt(lights), as in NFF. Everything is
-/// computed in double, in a fixed order: structures that return the same hits give the same bits.
+/// computed in double, in a fixed order: structures that return the same hits yield the same bits.
 ///
 /// Rays are traced in waves (an idea of Laine, Karras and Aila, "Megakernels considered harmful",
 /// HPG 2013, for other hardware): the camera rays of a part of the picture, then from their hits

@@ -35,7 +35,7 @@ TEST(ReasonsForCare, AreNoneWithoutDisturbances) {
   EXPECT_TRUE(analysis.reasons_for_care.empty());
   EXPECT_EQ(describe_verdicts(analysis),
             "Hits:  2 cells, all verified\n"
-            "Times: measured on a quiet machine, as precisely as wanted\n");
+            "Times: measured on a quiet machine, as precisely as requested\n");
 }
 
 TEST(ReasonsForCare, AreTheNoiseAndTheLoad) {
@@ -44,8 +44,8 @@ TEST(ReasonsForCare, AreTheNoiseAndTheLoad) {
   run.manifest["machine"]["load_average"] = 1.5;
   EXPECT_EQ(reasons_for_care(run), (Reasons{"equal work took up to 12% longer than usual",
                                             "other work was running (load 1.50)"}));
-  EXPECT_TRUE(says(describe_verdicts(analyze(run)),
-                   {"Times: to be taken with care: equal work", "; other work"}));
+  EXPECT_TRUE(
+      says(describe_verdicts(analyze(run)), {"Times: use with care: equal work", "; other work"}));
 }
 
 TEST(ReasonsForCare, HaveTheThrottling) {
@@ -173,7 +173,7 @@ TEST(Overhead, IsStatedForEachQueryPath) {
             "harness overhead: at most 25% of a contender's trace time for images by SIMD rays "
             "(escena1/b/100x10/1/primary/samet), 2% for images by single rays "
             "(escena1/a/100x10/1/primary/samet), 1% for lists of rays "
-            "(escena1/c/100x10/1/primary/samet); trace_net_ms_median in results.csv is without it");
+            "(escena1/c/100x10/1/primary/samet); trace_net_ms_median in results.csv excludes it");
   const Json json = to_json(analyze(run_of(cells))).at("harness_overheads");
   ASSERT_EQ(json.size(), 3U);
   EXPECT_EQ(json[0], Json({{"query_path", "image-simd"},

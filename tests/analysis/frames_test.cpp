@@ -82,8 +82,7 @@ TEST(Frames, AStructureThatWasMeasuredOneWayIsNoSeries) {
 
 TEST(Frames, AreDescribedAndExported) {
   const Analysis analysis = analyze(run_with({0, 10}, 0.0));
-  EXPECT_NE(summary(analysis).find("updates are worth it in all frames measured"),
-            std::string::npos);
+  EXPECT_NE(summary(analysis).find("updates pay off in all frames measured"), std::string::npos);
   const auto json = to_json(analysis).at("frame_series").at(0);
   EXPECT_TRUE(json.at("rebuild_after").is_null());
   EXPECT_EQ(json.at("frames").size(), 2U);

@@ -4,7 +4,7 @@ const RAMP = [[13, 8, 60], [95, 20, 110], [190, 55, 85], [240, 125, 35], [252, 2
 const COLORS = { goesOn: "#9aa4af", occupied: "#e69f00", leaves: "#4da3e0", single: "#d55e00", order: "#009e73",
   regrouped: "#cc79a7", handed: "#f0e442" };
 const WAYS = [["single ray", COLORS.single], ["background, no ray", COLORS.leaves], ["block of neighbors", COLORS.order],
-  ["block grouped anew", COLORS.regrouped], ["block, then single ray", COLORS.handed]];
+  ["regrouped block", COLORS.regrouped], ["block, then single ray", COLORS.handed]];
 const SIDES = ["+x", "-x", "+y", "-y", "+z", "-z"];
 const SIDE_COLORS = ["#d55e00", "#e69f00", "#009e73", "#8bd450", "#0072b2", "#cc79a7"];
 

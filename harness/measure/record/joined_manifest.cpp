@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Returns the values of one member of an object in all manifests; null where it is missing.
+/// Returns the values of one member of an object in all manifests; null if it is missing.
 std::vector<Json> values_of(std::span<const Json> shards, const char* object,
                             const std::string& name) {
   std::vector<Json> values;

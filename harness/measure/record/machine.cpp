@@ -78,7 +78,7 @@ std::string installation() {
 std::string whole_file(const fs::path& path) {
   const std::ifstream file(path, std::ios::binary);
   std::ostringstream content;
-  content << file.rdbuf();  // in blocks, even where the size is unknown, as in /proc
+  content << file.rdbuf();  // in blocks, because /proc does not state sizes
   return std::move(content).str();
 }
 

@@ -160,7 +160,7 @@ ReadyReport read_ready_report(int process, std::span<const std::byte> bytes, con
   if (ready_report.identity.scene != mine.scene) {
     throw InputError(
         fmt::format("{} has a different scene under that name (hash {:016x}, process 0 has "
-                    "{:016x}); give all of them the same file",
+                    "{:016x}); use the same file for all of them",
                     who, ready_report.identity.scene, mine.scene));
   }
   if (ready_report.identity != mine) {

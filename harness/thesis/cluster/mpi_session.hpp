@@ -27,7 +27,7 @@ class MpiSession {
   /// Called on the producer: from now on, other processes may be silent, and the caller handles it.
   void allow_silence();
 
-  /// Ends all processes at once, including those that do not respond.
+  /// Ends all processes immediately, including those that do not respond.
   [[noreturn]] static void abort(int exit_code);
 
  private:

@@ -45,7 +45,7 @@ void configure() {
   set(fmt::format("smpi/host-speed:{}f", kSpeedOne));
   set("smpi/bw-factor:1");
   set("smpi/lat-factor:1");
-  // Messages leave at once and wait at the receiver, whatever their size.
+  // Messages leave immediately and wait at the receiver, whatever their size.
   set("smpi/async-small-thresh:1073741824");
   set("smpi/send-is-detached-thresh:1073741824");
   set("smpi/iprobe:0");
