@@ -209,11 +209,11 @@ std::vector<std::string> reasons_for_care(const measure::Run& run) {
   const Conditions conditions = measure::conditions_of(run.manifest);
   std::vector<std::string> reasons;
   if (const auto found = steadiness(run); found && !found->is_steady()) {
-    reasons.push_back(fmt::format(
-        "the machine was not steady: late blocks took {:.1f}% {} than early ones, where chance "
-        "explains {:.1f}%",
-        100 * std::abs(std::expm1(found->shift)), found->shift > 0.0 ? "longer" : "less",
-        100 * std::expm1(found->limit)));
+    reasons.push_back(
+        fmt::format("the machine was not steady: late blocks took {:.1f}% {} than early ones; "
+                    "chance explains {:.1f}%",
+                    100 * std::abs(std::expm1(found->shift)),
+                    found->shift > 0.0 ? "longer" : "less", 100 * std::expm1(found->limit)));
   }
   if (is_of_one_process) {
     reasons.emplace_back("measured by one process, so unranked: its order is no claim");

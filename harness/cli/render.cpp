@@ -257,12 +257,12 @@ std::string compare(const RenderRequest& request, const accel::StructureChoice& 
       verify::verify_results(reference, results, accel::Conformance::kTolerance, classes);
   render::write_difference(request.file, reference, classes,
                            {choice.short_label(), request.difference});
-  return fmt::format("{} of {} rays differ from {}: {} ties, {} grazes, {} wrong, {} wrong there",
-                     report.rays - report.count(verify::DiffClass::kAgree), report.rays,
-                     request.difference, report.count(verify::DiffClass::kTie),
-                     report.count(verify::DiffClass::kGraze),
-                     report.count(verify::DiffClass::kStructureError),
-                     report.count(verify::DiffClass::kOracleError));
+  return fmt::format(
+      "{} of {} rays differ from {}: {} ties, {} grazes, {} wrong, {} wrong in the reference",
+      report.rays - report.count(verify::DiffClass::kAgree), report.rays, request.difference,
+      report.count(verify::DiffClass::kTie), report.count(verify::DiffClass::kGraze),
+      report.count(verify::DiffClass::kStructureError),
+      report.count(verify::DiffClass::kOracleError));
 }
 
 /// Returns the structure for a picture: plain pictures are the same for any structure, while other

@@ -170,8 +170,8 @@ struct CellRecord {
   std::optional<std::uint64_t> peak_build_bytes;  ///< peak memory of the build, less that before it
   std::optional<HarnessShare> harness;
   std::vector<Repetition> repetitions;
-  /// Figures that cannot be computed from the repetitions, or from what is left of them: by column
-  /// of results.csv.
+  /// Figures, by column of results.csv, that cannot be computed from the repetitions or from those
+  /// that remain.
   std::map<std::string, double, std::less<>> columns;
   std::optional<StopReason> stop_reason;
   /// The verification of the timed buffer, and the buffer's fingerprint.

@@ -112,7 +112,7 @@ void LightLeader::handle(const Message& message) {
     case Tag::kHeartbeat:
       break;
     default:
-      throw ProtocolError("a message that does not occur in the light of a divided scene");
+      throw ProtocolError("an unexpected message while the light of a divided scene is computed");
   }
 }
 
@@ -150,7 +150,7 @@ void serve_light(Transport& transport, const PartWorker& worker, const SceneSpli
     } else if (message.tag == Tag::kEnd) {
       over = true;
     } else {
-      throw ProtocolError("a message that does not occur in the light of a divided scene");
+      throw ProtocolError("an unexpected message while the light of a divided scene is computed");
     }
   };
   double last_sign = transport.seconds();
