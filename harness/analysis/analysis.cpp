@@ -216,7 +216,7 @@ std::vector<std::string> reasons_for_care(const measure::Run& run) {
                     found->shift > 0.0 ? "longer" : "less", 100 * std::expm1(found->limit)));
   }
   if (is_of_one_process) {
-    reasons.emplace_back("measured by one process, so unranked: its order is no claim");
+    reasons.emplace_back("measured by one process, so unranked: the order proves nothing");
   }
   if (conditions.noise && *conditions.noise > measure::kNoisy) {
     reasons.push_back(
@@ -226,18 +226,18 @@ std::vector<std::string> reasons_for_care(const measure::Run& run) {
     reasons.push_back(fmt::format("other work was running (load {:.2f})", conditions.load));
   } else if (conditions.other_load.value_or(0.0) > measure::kIdleLoad) {
     reasons.push_back(
-        fmt::format("other work ran meanwhile (load up to {:.2f} beside the run's own)",
+        fmt::format("other work was running (load up to {:.2f} besides the run's own)",
                     *conditions.other_load));
   }
   if (const auto throttled = measure::describe(conditions.throttling))
     reasons.push_back(*throttled);
   if (static_cast<double>(timed - imprecise) < kPrecisePart * static_cast<double>(timed)) {
-    reasons.push_back(fmt::format("{} of {} less precise than wanted", imprecise,
+    reasons.push_back(fmt::format("{} of {} less precise than requested", imprecise,
                                   base::counted(timed, "timed cell")));
   }
   if (without_interval > 0) {
-    reasons.push_back(fmt::format("{} of {} repeated too seldom for an interval", without_interval,
-                                  base::counted(timed, "timed cell")));
+    reasons.push_back(fmt::format("{} of {} repeated too few times for an interval",
+                                  without_interval, base::counted(timed, "timed cell")));
   }
   if (!run.is_ended()) reasons.emplace_back("the run was cut off");
   return reasons;

@@ -229,9 +229,9 @@ void add_fingerprint_command(CLI::App& app, int& exit_code) {
   command->footer(
       "Prints lines of tab-separated fields, for comparison with diff:\n"
       "  scene      NAME HASH: a scene of the catalog with its defaults\n"
-      "  view       SCENE RAYS HASH HASH: of the rays, and of the hits of every exact structure\n"
+      "  view       SCENE RAYS HASH HASH: hash of the rays, and of every exact structure's hits\n"
       "  differs    SCENE RAYS STRUCTURE HASH: hits that differ from those of 'exhaustive'\n"
-      "  all        HASH: of all lines before\n"
+      "  all        HASH: hash of all preceding lines\n"
       "  tolerance  STRUCTURE COUNT COUNT COUNT: for a structure with its own arithmetic, the\n"
       "             closest-hit rays, those that hit a different primitive, and those with other "
       "bits of t\n"

@@ -125,7 +125,7 @@ void add_trace_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--ray", request->ray, "Which ray, if not primary, starting at 0");
   command->add_flag("--alone", request->alone,
-                    "Trace no other rays: faster, but packets and beams may find another hit");
+                    "Trace no other rays: faster, but packets and beams may find a different hit");
   command->add_flag("--json", request->json, "Print JSON instead of text");
   command->footer(
       "Prints the cells or nodes that the ray enters, the interval of t in each, the primitives\n"

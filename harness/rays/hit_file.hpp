@@ -64,8 +64,8 @@ class HitReader {
   Query query() const;
   /// Returns the number of hits stated in the file; nothing for CSV.
   std::optional<std::uint64_t> count() const;
-  /// Replaces the table's content by the next hits, at most `at_most`, and returns how many: fewer
-  /// only at the end of the file. Throws InputError with the line of a CSV file that does not
+  /// Replaces the table's content with the next hits, at most `at_most`, and returns how many:
+  /// fewer only at the end of the file. Throws InputError with the line of a CSV file that does not
   /// contain numbers.
   std::size_t read(std::size_t at_most, HitTable& hits);
   /// Returns the place of a hit in the file, such as `hits.csv:18` or `some.hits: byte 1234`.

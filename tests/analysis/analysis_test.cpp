@@ -61,13 +61,13 @@ TEST(ReasonsForCare, HaveTheThrottling) {
 TEST(ReasonsForCare, AreLittlePrecisionAndFewBlocks) {
   measure::Run run = quiet_run();
   run.cells[0].repetitions.resize(2);
-  EXPECT_EQ(reasons_for_care(run), Reasons{"1 of 2 timed cells less precise than wanted"});
+  EXPECT_EQ(reasons_for_care(run), Reasons{"1 of 2 timed cells less precise than requested"});
   run.cells[0].verdict = Verdict::kMismatch;
   EXPECT_TRUE(reasons_for_care(run).empty()) << "it has no times";
   run.cells[1].repetitions.resize(1);
   EXPECT_EQ(reasons_for_care(run),
-            (Reasons{"1 of 1 timed cell less precise than wanted",
-                     "1 of 1 timed cell repeated too seldom for an interval"}));
+            (Reasons{"1 of 1 timed cell less precise than requested",
+                     "1 of 1 timed cell repeated too few times for an interval"}));
 }
 
 TEST(ReasonsForCare, BeginWithAMachineThatWasNotSteady) {
@@ -102,7 +102,7 @@ TEST(ReasonsForCare, IncludeAnInterruptedRun) {
   run.plan.push_back({2, "one that was not begun"});
   const Analysis analysis = analyze(run);
   EXPECT_EQ(analysis.reasons_for_care,
-            (Reasons{"1 of 2 timed cells less precise than wanted", "the run was cut off"}));
+            (Reasons{"1 of 2 timed cells less precise than requested", "the run was cut off"}));
   EXPECT_EQ(analysis.cells, 2U);
   EXPECT_EQ(analysis.planned, 3U);
   EXPECT_EQ(analysis.views.at(0).ranked.size(), 2U) << "its times so far count";

@@ -248,7 +248,7 @@ def test_times_of_a_throttled_run_say_so(run_folder: Path) -> None:
 
 def test_times_less_precise_than_wanted_say_so(run_folder: Path) -> None:
     write_run(run_folder, [{**row, "stop_reason": "budget"} for row in synthetic_rows()])
-    assert re.search(r"\d+ of \d+ timed cells less precise than wanted", text_of(run_folder))
+    assert re.search(r"\d+ of \d+ timed cells less precise than requested", text_of(run_folder))
 
 
 def test_a_wrong_cell_is_shown_with_its_reason_and_how_to_replay_it(

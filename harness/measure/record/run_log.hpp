@@ -58,7 +58,7 @@ struct Run {
   std::vector<PlannedName> plan;         ///< without the cells that tuning dropped
   std::vector<PlannedName> passed_over;  ///< dropped by tuning: other parameter sets were faster
   /// The cells that were begun, in the order of the plan. An unfinished cell has the verdict of its
-  /// verification, and `missing` before that.
+  /// verification, and is absent before that.
   std::vector<CellRecord> cells;
   std::uint64_t log_bytes = 0;  ///< size of the whole lines of the log
 

@@ -34,7 +34,8 @@ void write_version(ByteWriter& writer) {
 /// Reads the version, with which every process's first message begins in all versions.
 std::string read_version(ByteReader& reader) {
   if (reader.get<std::uint32_t>() != kMagic) {
-    throw InputError("a process of this run is another program; start the same one everywhere");
+    throw InputError(
+        "a process of this run runs a different program; start the same one everywhere");
   }
   return reader.get_text();
 }

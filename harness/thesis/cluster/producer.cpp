@@ -193,7 +193,7 @@ void Producer::handle(const Message& message) {
       break;
     default:
       throw ProtocolError(
-          fmt::format("process {} sent a message that no consumer sends", message.from));
+          fmt::format("process {} sent a message that consumers do not send", message.from));
   }
 }
 

@@ -286,10 +286,10 @@ class Keeper {
       ++found;
     });
     if (found == tasks) return;
-    throw InputError(fmt::format(
-        "{}: it has the results of {} of {} tasks; with --results stored, all processes must see "
-        "the same folder",
-        folder_->path().string(), found, tasks));
+    throw InputError(
+        fmt::format("{}: it contains the results of {} of {} tasks; with --results stored, all "
+                    "processes must see the same folder",
+                    folder_->path().string(), found, tasks));
   }
 
   ProducerOptions options_;

@@ -230,7 +230,7 @@ TEST(ReadyReport, IsRefusedUnlessTheProcessMatches) {
   EXPECT_NE(problem(write_ready_report(ready_report)).find("a different scene"), std::string::npos);
   ready_report.problem = "there is no scene 'x'";
   EXPECT_EQ(problem(write_ready_report(ready_report)), "process 4 on node7: there is no scene 'x'");
-  EXPECT_NE(problem(Bytes(40)).find("another program"), std::string::npos);
+  EXPECT_NE(problem(Bytes(40)).find("a different program"), std::string::npos);
 }
 
 TEST(JobMessage, OfAnotherVersionIsRefused) {

@@ -127,7 +127,7 @@ void add_options(CLI::App& app, Options& typed, ClusterRequest& request) {
       ->capture_default_str()
       ->check(CLI::Range(1, 64));
   app.add_flag("--producer-consumes", request.producer.consumes,
-               "Process 0 works itself while no consumer waits");
+               "Process 0 performs tasks while no consumer waits");
   app.add_option("--results", typed.results,
                  "sent to process 0; stored: every process keeps its own in FILE.kept, which all "
                  "processes must see, and process 0 reads them at the end (with -o FILE)")

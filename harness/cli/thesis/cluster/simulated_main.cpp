@@ -193,7 +193,7 @@ void add_replay_options(CLI::App& app, ReplayRequest& request) {
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
   app.add_flag("--producer-consumes", request.replay.options.consumes,
-               "The producer works itself while no consumer waits");
+               "The producer performs tasks while no consumer waits");
 }
 
 struct SplitRequest {

@@ -38,7 +38,7 @@ std::vector<LightRay> LightExchange::take(std::chrono::microseconds moment) {
 void LightExchange::answer(const LightAnswer& answer) {
   const std::lock_guard lock(mutex_);
   if (answer.number >= waiting_.size() || waiting_[answer.number].round == nullptr) {
-    throw ProtocolError("an answer to a ray of light that does not wait for one");
+    throw ProtocolError("a result for a ray of light that is not waiting for one");
   }
   const auto [round, place] = std::exchange(waiting_[answer.number], {});
   free_.push_back(answer.number);

@@ -145,7 +145,7 @@ void PartMember::handle(const Message& message) {
     case Tag::kHeartbeat:
       break;
     default:
-      throw ProtocolError("a message that a divided scene does not have");
+      throw ProtocolError("an unexpected message for a divided scene");
   }
 }
 
