@@ -186,7 +186,7 @@ std::string fish_quoted(const std::string& text) {
 }
 
 /// Returns the function that completes the last part of a list, or a parameter. The shell replaces
-/// the whole word, so what comes before that part is repeated.
+/// the whole word, so the text before that part is repeated.
 std::string fish_function() {
   return fmt::format(
       "function __beambench_words\n"
