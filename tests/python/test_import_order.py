@@ -28,6 +28,7 @@ ORDER = (
     "beambench_operations.campaign",
     "beambench_operations.publish",
     "beambench_operations.referee",
+    "beambench_operations.release",
     "beambench_operations.__main__",
 )
 

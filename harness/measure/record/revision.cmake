@@ -1,18 +1,22 @@
 # Writes OUTPUT, a header with the commit of SOURCE_DIR, only when its contents change. Run by every
 # build: what a configure step remembered would be stale after the next commit.
 
-# A checkout owned by someone else (a container's mount) may be read all the same.
-set(git git -c safe.directory=* -C "${SOURCE_DIR}")
-execute_process(COMMAND ${git} rev-parse HEAD
-  OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
-if(failed)
-  set(commit "unknown")
-endif()
-execute_process(COMMAND ${git} status --porcelain --untracked-files=no
-  OUTPUT_VARIABLE changes ERROR_QUIET)
+# In a source archive, git has put the commit here (.gitattributes), and there is no repository.
+set(commit "$Format:%H$")
 set(dirty "false")
-if(changes)
-  set(dirty "true")
+if(NOT commit MATCHES "^[0-9a-f]+$")
+  # A checkout owned by someone else (a container's mount) may be read all the same.
+  set(git git -c safe.directory=* -C "${SOURCE_DIR}")
+  execute_process(COMMAND ${git} rev-parse HEAD
+    OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
+  if(failed)
+    set(commit "unknown")
+  endif()
+  execute_process(COMMAND ${git} status --porcelain --untracked-files=no
+    OUTPUT_VARIABLE changes ERROR_QUIET)
+  if(changes)
+    set(dirty "true")
+  endif()
 endif()
 
 file(CONFIGURE OUTPUT "${OUTPUT}" @ONLY CONTENT [[

@@ -1,7 +1,5 @@
 """The steps of a Dockerfile, replayed in bare systems where there is no container engine."""
 
-from __future__ import annotations
-
 import json
 import re
 import shutil
@@ -9,7 +7,10 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from bare_system import REPOSITORY, BareSystem
+from beambench_operations.release.bare_system import BareSystem
+from beambench_report.base.files import ROOT, Problem
+
+DOCKERFILE = ROOT / "scripts/container/Dockerfile"
 
 
 @dataclass
@@ -21,9 +22,10 @@ class Stage:
     user: str = "root"
     entry: tuple[str, ...] = ()
 
-    def run(self, *arguments: str) -> str:
+    def run(self, *arguments: str, network: bool = True) -> str:
         """Runs the entry point as the image's user, whom a volume allows to write."""
-        return self.system.run(*self.entry, *arguments, folder=self.folder, user=self.user)
+        words = (*self.entry, *arguments)
+        return self.system.run(*words, folder=self.folder, user=self.user, network=network)
 
 
 def instructions(text: str) -> Iterator[tuple[str, str]]:
@@ -35,22 +37,28 @@ def instructions(text: str) -> Iterator[tuple[str, str]]:
             yield name, rest
 
 
-def replay(dockerfile: Path, make: Callable[[str], BareSystem]) -> Stage:
-    """Builds every stage in a system that `make` returns for its suite; returns the last one."""
+def replay(make: Callable[[str], BareSystem], archive: Path | None = None) -> dict[str, Stage]:
+    """Builds every stage of the Dockerfile in a system that `make` returns for its suite.
+
+    Returns them by name, the last one by the empty name. The context is the source archive or, by
+    default, the working tree. Raises Problem for an instruction that cannot be replayed.
+    """
     stages: dict[str, Stage] = {}
-    stage = None
-    for name, rest in instructions(dockerfile.read_text("utf-8")):
+    stage: Stage | None = None
+    for name, rest in instructions(DOCKERFILE.read_text("utf-8")):
         if name == "FROM":
             image, _, alias = rest.partition(" AS ")
             suite = re.fullmatch(r"debian:(\w+)-slim", image)
-            assert suite, f"{image}: only debian:<suite>-slim is replayed"
+            if not suite:
+                raise Problem(f"{DOCKERFILE}: {image}: only debian:<suite>-slim is replayed")
             stage = Stage(make(suite[1]))
             stages[alias] = stage
             continue
-        assert stage, f"{name} before FROM"
+        if stage is None:
+            raise Problem(f"{DOCKERFILE}: {name} before FROM")
         match name:
             case "COPY":
-                _copy(stage, rest, stages)
+                _copy(stage, rest, stages, archive)
             case "RUN":
                 stage.system.run("sh", "-ec", rest, folder=stage.folder, user=stage.user)
             case "USER":
@@ -61,16 +69,12 @@ def replay(dockerfile: Path, make: Callable[[str], BareSystem]) -> Stage:
             case "ENTRYPOINT":
                 stage.entry = tuple(json.loads(rest))
             case _:
-                raise AssertionError(f"{name} is not replayed")
-    assert stage
-    return stage
+                raise Problem(f"{DOCKERFILE}: {name} is not replayed")
+    return stages
 
 
-def _copy(stage: Stage, words: str, stages: dict[str, Stage]) -> None:
-    """Executes COPY [--from=STAGE] SOURCE...
-
-    TARGET; from the repository, only files known to git.
-    """
+def _copy(stage: Stage, words: str, stages: dict[str, Stage], archive: Path | None) -> None:
+    """Executes a COPY instruction; from the repository, only files known to git."""
     *sources, target = words.split()
     into = stage.system.path(str(Path(stage.folder) / target))
     into.mkdir(parents=True, exist_ok=True)
@@ -80,7 +84,11 @@ def _copy(stage: Stage, words: str, stages: dict[str, Stage]) -> None:
             for path in origin.path("/").glob(source.lstrip("/")):
                 shutil.copy(path, into)
     elif sources == ["."]:
-        stage.system.copy_repository(str(Path(stage.folder) / target))
+        folder = str(Path(stage.folder) / target)
+        if archive:
+            stage.system.unpack(archive, folder)
+        else:
+            stage.system.copy_repository(folder)
     else:
         for source in sources:
-            shutil.copy(REPOSITORY / source, into)
+            shutil.copy(ROOT / source, into)
