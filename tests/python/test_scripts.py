@@ -95,6 +95,35 @@ def test_setup_does_not_clear_what_a_linked_environment_points_to(
     assert result.stderr.count("\n") == 1
 
 
+@pytest.mark.parametrize(
+    ("sent", "code", "words"),
+    [
+        (None, 0, "could not be fetched: continuing without it"),
+        (b"another archive", 1, "three 0.147.0 does not have the expected checksum"),
+    ],
+)
+def test_a_library_of_pages_is_the_expected_one_or_left_out(
+    sent: bytes | None,
+    code: int,
+    words: str,
+    repository: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    (tmp_path / "tree/scripts").mkdir(parents=True)
+    script = shutil.copy(repository / "scripts/viewer", tmp_path / "tree/scripts")
+    archive = tmp_path / "registry/three/-/three-0.147.0.tgz"
+    archive.parent.mkdir(parents=True)
+    if sent:
+        archive.write_bytes(sent)
+    monkeypatch.setenv("NPM_CONFIG_REGISTRY", (tmp_path / "registry").as_uri())
+    done = call(script, directory=tmp_path)
+    assert done.returncode == code
+    assert words in done.stdout + done.stderr
+    left = [path for path in (tmp_path / "tree/build/viewer").rglob("*") if path.is_file()]
+    assert left == [], "neither an archive nor a part of it"
+
+
 @pytest.fixture
 def bare_tree(repository: Path, tmp_path: Path) -> Path:
     """A tree in which scripts/setup has nothing to install and whose build prints its arguments."""
