@@ -2,7 +2,7 @@
 
 usage: .venv/bin/python tests/python/large_glb.py SQUARES OUTPUT.glb
 
-SQUARES is their number along each side, of two triangles each: 3163 gives 20,009,138 triangles.
+SQUARES is the number of squares along each side, of two triangles each (3163: 20,009,138 in all).
 """
 
 from __future__ import annotations

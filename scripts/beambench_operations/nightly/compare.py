@@ -1,4 +1,4 @@
-"""Two commits of this machine, measured in turns: what scripts/compare runs once both are built.
+"""Measures two built commits in turns on this machine, for scripts/compare.
 
 The history needs a dozen nights to separate a slowdown from noise. Two programs that take turns
 on one machine need minutes. Each turn yields a pair of times measured under the same conditions,

@@ -60,7 +60,7 @@ class ScriptParser(argparse.ArgumentParser):
     def run(self, work: Callable[[Options], int], arguments: list[str], interrupted: str) -> int:
         """Returns the exit code: that of `work`, 2 for invalid input, 130 after Ctrl-C.
 
-        The sentence `interrupted` tells the user the consequence of Ctrl-C.
+        After Ctrl-C it prints the sentence `interrupted`.
         """
         try:
             return work(self.parse_args(arguments))
