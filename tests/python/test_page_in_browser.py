@@ -266,7 +266,7 @@ def test_tables_are_shown_without_javascript(chromium: Browser, page: Path) -> N
 def test_tables_are_shown_without_the_library(
     chromium: Browser, full_run: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(html, "_LIBRARY", tmp_path)
+    monkeypatch.setattr(html, "LIBRARY", tmp_path)
     html.environment.cache_clear()
     text = render(read_run(full_run), drawn_kinds=())
     html.environment.cache_clear()

@@ -32,6 +32,7 @@ from beambench_report.base.records import (
     in_blocks,
     size_of,
 )
+from beambench_report.run.html import LIBRARY
 
 _BAR = " | "
 _BEGIN, _END = "beambench.add(", ");\n"
@@ -243,7 +244,8 @@ def stamp_of(directory: Path) -> str:
 @cache
 def _code() -> str:
     scripts = Path(__file__).parents[2]
-    return "\n".join(_state(scripts / f"beambench_{name}") for name in ("report", "operations"))
+    folders = (scripts / "beambench_report", scripts / "beambench_operations", LIBRARY)
+    return "\n".join(map(_state, folders))
 
 
 def _state(folder: Path) -> str:

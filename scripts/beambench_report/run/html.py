@@ -15,9 +15,8 @@ from beambench_report.base.files import ROOT, Problem
 from beambench_report.base.quantities import duration_in_words, number
 
 TEMPLATES = Path(__file__).with_name("templates")
-_LIBRARY = next(
-    filter(Path.is_dir, (Path(__file__).with_name("library"), ROOT / "build/viewer")), Path()
-)
+_INSTALLED = Path(__file__).with_name("library")
+LIBRARY = _INSTALLED if _INSTALLED.is_dir() else ROOT / "build/viewer"
 """Where scripts/viewer put DataTables; in an installed package it is beside this file."""
 _SCRIPTS = ("dataTables.min.js", "dataTables.columnControl.min.js")
 _STYLE = ("columnControl.dataTables.min.css",)
@@ -66,7 +65,7 @@ def _order(value: float | str | None) -> str:
 
 def _library(names: Sequence[str]) -> Markup:
     """Files of DataTables, joined; empty if it was not fetched."""
-    paths = [_LIBRARY / name for name in names]
+    paths = [LIBRARY / name for name in names]
     if not all(path.is_file() for path in paths):
         return Markup()
     return Markup("\n".join(path.read_text("utf-8") for path in paths))
