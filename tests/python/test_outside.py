@@ -22,7 +22,7 @@ def test_help_lists_the_libraries() -> None:
     done = outside("--help")
     assert done.returncode == 0
     assert "scripts/outside obvhs embreex" in done.stdout
-    assert "Libraries: embreex trimesh open3d vtk obvhs" in done.stdout
+    assert "Libraries: embreex trimesh open3d vtk mitsuba obvhs" in done.stdout
     assert outside().stdout == done.stdout
 
 

@@ -121,7 +121,11 @@ def test_find_package_takes_no_other_version(prefix: Path, tmp_path: Path) -> No
 
 @pytest.mark.parametrize(
     ("variable", "header"),
-    [("BEAMBENCH_TINYBVH", "tiny_bvh.h"), ("BEAMBENCH_MADMANN91_BVH", "bvh/v2/bvh.h")],
+    [
+        ("BEAMBENCH_TINYBVH", "tiny_bvh.h"),
+        ("BEAMBENCH_MADMANN91_BVH", "bvh/v2/bvh.h"),
+        ("BEAMBENCH_CGAL", "CGAL/AABB_tree.h"),
+    ],
 )
 def test_an_adapter_is_built_where_its_headers_are(
     prefix: Path, tmp_path: Path, variable: str, header: str

@@ -41,7 +41,11 @@ std::size_t bytes_of(const tinybvh::BVH_SoA& soa) {
   return soa.allocatedNodes * sizeof(tinybvh::BVH_SoA::BVHNode) + bytes_of(soa.bvh);
 }
 std::size_t bytes_of(const tinybvh::BVH4_CPU& bvh) {
+#if TINY_BVH_VERSION_MINOR < 5
+  return bvh.allocatedNodes * sizeof(tinybvh::BVH4_CPU::BVHNode) + bytes_of(bvh.bvh4);
+#else
   return bvh.allocatedBlocks * sizeof(tinybvh::BVH4_CPU::CacheLine) + bytes_of(bvh.bvh4);
+#endif
 }
 std::size_t bytes_of(const tinybvh::BVH8_CPU& bvh) {
   return bvh.allocatedBlocks * sizeof(tinybvh::BVH8_CPU::CacheLine) + bytes_of(bvh.bvh8);
@@ -52,6 +56,12 @@ const tinybvh::BVH& binary(const tinybvh::BVH& bvh) { return bvh; }
 const tinybvh::BVH& binary(const tinybvh::BVH_SoA& soa) { return soa.bvh; }
 const tinybvh::BVH& binary(const tinybvh::BVH4_CPU& bvh) { return bvh.bvh4.bvh; }
 const tinybvh::BVH& binary(const tinybvh::BVH8_CPU& bvh) { return bvh.bvh8.bvh; }
+
+std::string stated_version() {
+  return adapters::library_version("tinybvh " + std::to_string(TINY_BVH_VERSION_MAJOR) + "." +
+                                   std::to_string(TINY_BVH_VERSION_MINOR) + "." +
+                                   std::to_string(TINY_BVH_VERSION_SUB));
+}
 
 struct Options {
   bool spatial;
@@ -103,9 +113,7 @@ class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
 
   Statistics statistics() const override {
     Statistics statistics;
-    statistics.library_version = adapters::library_version(
-        "tinybvh " + std::to_string(TINY_BVH_VERSION_MAJOR) + "." +
-        std::to_string(TINY_BVH_VERSION_MINOR) + "." + std::to_string(TINY_BVH_VERSION_SUB));
+    statistics.library_version = stated_version();
     if (vertices_.empty()) return statistics;
     statistics.nodes = used_nodes();
     statistics.references = binary(layout_).idxCount;
@@ -181,6 +189,68 @@ class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
   Layout layout_;
 };
 
+/// tinybvh's BVH_Double. The constructor of its rays normalizes directions, in double; t is scaled
+/// back.
+class TinyBvhDouble : public TraversalAccelerator<TinyBvhDouble> {
+ public:
+  TinyBvhDouble(const Scene& scene, bool exact_t) : scene_(&scene), exact_t_(exact_t) {
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+      for (const glm::vec3& corner : adapters::corners(scene, i)) {
+        vertices_.emplace_back(corner.x, corner.y, corner.z);
+      }
+    }
+    if (!vertices_.empty()) bvh_.Build(vertices_.data(), scene.triangles.size());
+  }
+
+  template <class Counting>
+  std::optional<Hit> find_closest(const Ray& ray, Counting&) const {
+    if (vertices_.empty() || ray.t_min > ray.t_max) return std::nullopt;
+    tinybvh::RayEx query = converted(ray);
+    const double end = query.hit.t;
+    bvh_.Intersect(query);
+    if (!(query.hit.t < end)) return std::nullopt;
+    const auto t = static_cast<float>(ray.t_min + query.hit.t / unit_of(ray));
+    const auto triangle = static_cast<std::size_t>(query.hit.prim);
+    if (exact_t_) return adapters::with_exact_t(*scene_, ray, triangle, t);
+    return Hit{t, scene_->triangles[triangle].primitive};
+  }
+
+  template <class Counting>
+  bool find_any(const Ray& ray, Counting&) const {
+    if (vertices_.empty() || ray.t_min > ray.t_max) return false;
+    return bvh_.IsOccluded(converted(ray));
+  }
+
+  Statistics statistics() const override {
+    Statistics statistics;
+    statistics.library_version = stated_version();
+    statistics.nodes = bvh_.usedNodes;
+    statistics.references = bvh_.idxCount;
+    statistics.bytes =
+        bvh_.allocatedNodes * sizeof(tinybvh::BVH_Double::BVHNode) +
+        bvh_.idxCount * (sizeof(std::uint64_t) + sizeof(tinybvh::BVH_Double::Fragment)) +
+        vertices_.capacity() * sizeof(tinybvh::bvhdbl3);
+    return statistics;
+  }
+
+ private:
+  static double unit_of(const Ray& ray) { return glm::length(glm::dvec3(ray.direction)); }
+
+  static tinybvh::RayEx converted(const Ray& ray) {
+    const glm::dvec3 direction(ray.direction);
+    const glm::dvec3 origin = glm::dvec3(ray.origin) + direction * double{ray.t_min};
+    const double reach = (double{ray.t_max} - ray.t_min) * unit_of(ray);
+    return {{origin.x, origin.y, origin.z},
+            {direction.x, direction.y, direction.z},
+            reach < BVH_DBL_FAR ? reach : BVH_DBL_FAR};
+  }
+
+  const Scene* scene_;
+  bool exact_t_;
+  std::vector<tinybvh::bvhdbl3> vertices_;  // tinybvh keeps a pointer to it
+  tinybvh::BVH_Double bvh_;
+};
+
 std::unique_ptr<Accelerator> build(const Scene& scene, const Parameters& parameters,
                                    const Workload&) {
   adapters::require_triangles_only(scene, "tinybvh");
@@ -189,6 +259,14 @@ std::unique_ptr<Accelerator> build(const Scene& scene, const Parameters& paramet
                         .optimize = static_cast<std::uint32_t>(parameters.integer("optimize")),
                         .normalize = parameters.flag("normalize"),
                         .exact_t = parameters.flag("exact_t")};
+  if (layout == "double") {
+    if (options.spatial || options.optimize > 0 || !options.normalize) {
+      throw InputError(
+          "tinybvh:layout=double has one builder, no optimizer, and normalizes; leave out builder, "
+          "optimize and normalize");
+    }
+    return std::make_unique<TinyBvhDouble>(scene, options.exact_t);
+  }
 #ifdef BVH_USEAVX2
   if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) {
     throw InputError("this plug-in was built for AVX2 and FMA, which this processor lacks");
@@ -212,9 +290,9 @@ const Plugin beambench_plugin{
           {"tinybvh",
            "Bikker's library of one header: SAH hierarchies of two, four or eight children a node",
            Conformance::kTolerance,
-           {choice_parameter("layout", "bvh8", {"bvh8", "bvh4", "soa", "bvh2"},
+           {choice_parameter("layout", "bvh8", {"bvh8", "bvh4", "soa", "bvh2", "double"},
                              "children a node: BVH8_CPU by AVX2, BVH4_CPU by SSE, BVH_SoA with two "
-                             "by SSE, BVH with two"),
+                             "by SSE, BVH with two, BVH_Double with two in double precision"),
             choice_parameter("builder", "binned", {"binned", "spatial"},
                              "spatial: with spatial splits (Stich and others 2009), its BuildHQ"),
             integer_parameter("optimize", 0, 0, 10000,
