@@ -14,9 +14,21 @@ import pytest
 
 from beambench_operations.referee.__main__ import main
 from beambench_operations.referee.exact_ray import closest, vector
-from beambench_operations.referee.findings import counterexample, rows_of
-from beambench_operations.referee.page import share
+from beambench_operations.referee.findings import (
+    COLUMNS,
+    counterexample,
+    place_of,
+    read_rows,
+    rows_of,
+)
+from beambench_operations.referee.leak import around, write_kit
+from beambench_operations.referee.libraries import LIBRARIES, precision
+from beambench_operations.referee.page import family_cell, known_faults, page, share
+from beambench_operations.referee.speed import contender, named_parameters, speed_rows
 from program import BINARY, output_of
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+PUBLISHED = REPOSITORY / "results/published/referee"
 
 TRIANGLE = (vector((0, 0, 1)), vector((1, 0, 1)), vector((0, 1, 1)))
 
@@ -77,13 +89,154 @@ def test_a_counterexample_that_is_none_is_not_confirmed(tmp_path: Path) -> None:
         assert counterexample(tmp_path).confirmed == confirmed
 
 
+def test_the_folder_of_a_counterexample_states_the_version() -> None:
+    assert place_of("tinybvh:layout=bvh8,exact_t=false", "tinybvh 1.6.7 (4735685)") == (
+        "tinybvh-layout-bvh8-exact_t-false-1.6.7"
+    )
+    assert place_of("madmann91-bvh", "madmann91/bvh 2 (ac41ab8)") != place_of("madmann91-bvh", "x")
+
+
+# A square of two triangles, and one beside it that shares no vertex with the edge between them.
+SQUARE = ["0 0 1", "1 0 1", "1 1 1", "0 1 1", "5 5 1", "6 5 1", "5 6 1"]
+FACES = [(0, 1, 2), (0, 2, 3), (4, 5, 6)]
+AT_THE_DIAGONAL = {
+    "origin": [0.5, 0.5 + 2**-40, 0],
+    "direction": [0, 0, 1],
+    "t_min": 0,
+    "t_max": None,
+}
+
+
+def test_a_leak_is_reduced_to_the_triangles_at_the_edge() -> None:
+    edge, fans = around(SQUARE, FACES, AT_THE_DIAGONAL)
+    assert edge == FACES[:2]
+    assert fans == FACES[:2]
+    assert around(SQUARE, FACES, {**AT_THE_DIAGONAL, "origin": [3, 0, 0]}) == []
+
+
+def test_the_kit_of_a_leak_has_a_confirmed_counterexample(tmp_path: Path) -> None:
+    case = {"folder": "121-closed-mesh", "family": "closed mesh", "closed": True}
+    write_kit(tmp_path, case, SQUARE, FACES[:2], AT_THE_DIAGONAL)
+    wrong = {"ray": AT_THE_DIAGONAL, "reported": None, "exact": {"t": 1.0}}
+    (tmp_path / "case.json").write_text(json.dumps({"wrong": wrong}))
+    found = counterexample(tmp_path)
+    assert (found.leak, found.triangles, found.confirmed) == (True, 2, True)
+    assert (found.reported, found.exact) == ("a miss", "t = 1")
+    scene = tmp_path / "leak/scene"
+    output_of("export", f"{scene}.obj", "-o", f"{scene}.nff")
+    text = output_of("verify", "--kit", tmp_path, "--accel", "sah-bvh")
+    assert "sah-bvh: 2 of 2 cases right" in text
+
+
+def test_a_cell_of_the_families_states_both_queries_only_if_they_differ() -> None:
+    def row(query: str, wrong: int, **other: int) -> dict[str, object]:
+        numbers = {**dict.fromkeys(COLUMNS[4:], 0), "cases": 1, "rays": 1000, **other}
+        return {"family": "random", "query": query, **numbers, "structure_error": wrong}
+
+    both = [row("closest", 0), row("any", 0)]
+    assert family_cell(both, "random") == "100"
+    assert family_cell([row("closest", 100), row("any", 0)], "random") == "90.0 / 100"
+    assert family_cell([row("closest", 0, leaks=1), row("any", 0)], "random") == "99.9 / 100"
+    assert family_cell([row(q, 0, rays=0, errors=1) for q in ("closest", "any")], "random") == (
+        "fails"
+    )
+    assert family_cell([row(q, 0, rays=0) for q in ("closest", "any")], "random") == "-"
+
+
+def test_faults_from_public_reports_are_read_from_the_rows() -> None:
+    def rows(library: str, version: str, leaks: int) -> list[dict[str, object]]:
+        numbers = {**dict.fromkeys(COLUMNS[4:], 0), "cases": 1, "rays": 10, "leaks": leaks}
+        name = {"library": library, "version": version}
+        return [{**name, "family": "odd directions", "query": "closest", **numbers}]
+
+    found = known_faults(
+        [
+            rows("tinybvh:layout=bvh2,exact_t=false", "tinybvh 1.5.0 (abf17f5)", 3),
+            rows("tinybvh:layout=bvh8,exact_t=false", "tinybvh 1.4.9 (e3e73cd)", 1),
+            rows("tinybvh:layout=double,exact_t=false", "tinybvh 1.6.7 (4735685)", 2),
+        ]
+    )
+    assert found["watertight"] == "1.5.0 3"
+    assert (found["parallel"], found["zeros"]) == ("2", "1.4.9 1")
+    assert known_faults([rows("vtk", "vtk 9", 0)]) == {}
+
+
+SWEEP = {
+    "structures": [
+        "sah-bvh:lists=single",
+        "sah-bvh",
+        "vtk",
+        {"structure": "tinybvh", "parameters": {"layout": ["bvh2", "bvh8"], "exact_t": False}},
+    ]
+}
+
+
+def test_a_contender_is_named_by_the_parameters_of_the_sweep() -> None:
+    named = named_parameters(SWEEP)
+    assert named == {"sah-bvh": ["lists"], "vtk": [], "tinybvh": ["layout", "exact_t"]}
+    assert contender("sah-bvh", "builder=binned,lists=streams", named["sah-bvh"]) == (
+        "sah-bvh:lists=streams"
+    )
+    assert contender("vtk", "timeout=60", []) == "vtk"
+    assert contender("tinybvh", "layout=bvh8,optimize=0,exact_t=false", named["tinybvh"]) == (
+        "tinybvh:layout=bvh8,exact_t=false"
+    )
+
+
+def test_speeds_have_an_interval_and_only_right_hits_have_a_speed(tmp_path: Path) -> None:
+    columns = "structure,parameters,library_version,ray_kind,scene,rays,verdict,blocks,"
+    columns += "trace_ms,trace_ms_ci_low,trace_ms_ci_high"
+    right = "sah-bvh,lists=single,,diffuse,bumpy,20000,ok,6,10,8,16"
+    wrong = "vtk,timeout=60,vtk 9,diffuse,bumpy,20000,mismatch,6,,,"
+    (tmp_path / "results.csv").write_text(f"{columns}\n{right}\n{wrong}\n")
+    (tmp_path / "config.json").write_text(json.dumps(SWEEP))
+    manifest = {"program": {"commit": "0123456789"}, "machine": {"cpu": "EPYC"},
+                "measurement": {"highest_load": 3.04}, "time_utc": "2026"}  # fmt: skip
+    (tmp_path / "manifest.json").write_text(json.dumps(manifest))
+    first, second = speed_rows(tmp_path)
+    assert (first["mrays"], first["mrays_low"], first["mrays_high"]) == ("2", "1.25", "2.5")
+    assert (second["mrays"], second["verdict"]) == ("", "mismatch")
+    assert (first["commit"], first["highest_load"]) == ("01234567", "3.0")
+
+
+def test_each_offered_library_is_described() -> None:
+    script = (REPOSITORY / "scripts/outside").read_text()
+    offered = next(line for line in script.splitlines() if line.startswith('names="'))
+    installed = {each.install.split()[-1] for each in LIBRARIES.values()}
+    assert installed == set(offered.removeprefix('names="').rstrip('"').split())
+    assert precision("tinybvh:layout=double,exact_t=false") == "double"
+    assert precision("tinybvh:layout=bvh2,exact_t=false") == "float"
+
+
+def test_the_published_page_is_made_from_the_published_rows() -> None:
+    text = (PUBLISHED / "README.md").read_text()
+    assert text == page(PUBLISHED)
+    assert len(text.splitlines()) <= 150
+    for rows in read_rows(PUBLISHED / "referee.csv"):
+        assert rows[0]["library"] in text
+        assert sum(row["rays"] for row in rows) >= 800_000
+
+
+def test_each_published_counterexample_is_confirmed_and_each_fault_has_one() -> None:
+    for rows in read_rows(PUBLISHED / "referee.csv"):
+        place = PUBLISHED / "minimal" / place_of(rows[0]["library"], rows[0]["version"])
+        closest_wrong = sum(r["structure_error"] for r in rows if r["query"] == "closest")
+        assert (place / "case.json").exists() == (
+            closest_wrong + sum(row["leaks"] for row in rows) > 0
+        ), place
+        if (place / "case.json").exists():
+            found = counterexample(place)
+            assert found.confirmed, place
+            assert found.leak == (closest_wrong == 0)
+
+
 WRONG = f"""#!{sys.executable}
 import sys
 import numpy as np
 for line in sys.stdin:
     verb, *words = line.split()
     if verb == "describe":
-        print('{{"name": "blind", "description": "blind", "version": "blind 1"}}', flush=True)
+        print('{{"name": "vtk", "description": "blind", "version": "blind 1"}}', flush=True)
         continue
     if verb == "any":
         print("unsupported there is no such query", flush=True)
@@ -102,7 +255,7 @@ def test_the_command_writes_the_table_and_a_confirmed_counterexample(tmp_path: P
     program.write_text(WRONG)
     program.chmod(0o755)
     output_of("selftest", "--export", tmp_path / "kit", "--scenes", "1", "--rays", "20")
-    code = main([f"blind={program}", "--kit", str(tmp_path / "kit"), "--program", str(BINARY),
+    code = main([f"vtk={program}", "--kit", str(tmp_path / "kit"), "--program", str(BINARY),
                  "--work", str(tmp_path / "work"), "--output", str(tmp_path / "out")])  # fmt: skip
     assert code == 0
     rows = list(csv.DictReader((tmp_path / "out/referee.csv").open()))
@@ -111,16 +264,18 @@ def test_the_command_writes_the_table_and_a_confirmed_counterexample(tmp_path: P
     assert all(row["unsupported"] == row["cases"] for row in rows if row["query"] == "any")
     assert sum(int(row["structure_error"]) for row in rows) > 0
     assert all(row["oracle_error"] == "0" for row in rows)
-    page = (tmp_path / "out/README.md").read_text()
-    assert "| 1 | a miss | t = " in page
-    assert "| yes | `beambench --plugin PLUGIN verify minimal/blind/scene.obj" in page
+    text = (tmp_path / "out/README.md").read_text()
+    assert "| wrong hit | 1 | a miss | t = " in text
+    place = "results/published/referee/minimal/vtk-1/scene.obj"
+    assert f"| yes | `beambench --plugin $(scripts/outside vtk) verify {place} --accel vtk" in text
+    assert "Not measured yet" in text
 
 
 def test_the_module_runs_as_a_command() -> None:
     done = subprocess.run(
         [sys.executable, "-m", "beambench_operations.referee", "--help"],
         env={**os.environ, "PYTHONPATH": "scripts"},
-        cwd=Path(__file__).resolve().parents[2],
+        cwd=REPOSITORY,
         capture_output=True,
         text=True,
         check=True,

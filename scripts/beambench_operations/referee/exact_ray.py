@@ -30,13 +30,19 @@ def _det(a: Vector, b: Vector, c: Vector) -> Fraction:
     )
 
 
+def weights(triangle: Triangle, origin: Vector, direction: Vector) -> Vector:
+    """Returns the barycentric coordinates, times their sum, of where the line meets the plane."""
+    a, b, c = (_minus(corner, origin) for corner in triangle)
+    return _det(direction, b, c), _det(direction, c, a), _det(direction, a, b)
+
+
 def crossing(triangle: Triangle, origin: Vector, direction: Vector) -> Fraction | None:
     """Returns t where the line meets the closed triangle; nothing if it misses or is parallel."""
-    a, b, c = (_minus(corner, origin) for corner in triangle)
-    weights = (_det(direction, b, c), _det(direction, c, a), _det(direction, a, b))
-    total = sum(weights)
-    if total == 0 or (min(weights) < 0 < max(weights)):
+    found = weights(triangle, origin, direction)
+    total = sum(found)
+    if total == 0 or (min(found) < 0 < max(found)):
         return None
+    a, b, c = (_minus(corner, origin) for corner in triangle)
     return _det(a, b, c) / total
 
 

@@ -1,18 +1,40 @@
-"""The findings for one library: rows by family, and its smallest counterexample."""
+"""The findings for a library: rows by family, and its smallest counterexample."""
 
 from __future__ import annotations
 
+import csv
 import json
+import re
 from dataclasses import dataclass
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
 from beambench_operations.referee.exact_ray import Triangle, closest, vector
+from beambench_operations.referee.leak import FOLDER as LEAK
 
 COUNTS = ("rays", "agree", "tie", "graze", "structure_error", "embree_error", "leaks")
 COLUMNS = ("library", "version", "family", "query", "cases", "unsupported", "errors",
            *(name.replace("embree", "oracle") for name in COUNTS))  # fmt: skip
 """The columns of referee.csv."""
+
+
+def read_rows(path: Path) -> list[list[dict[str, Any]]]:
+    """Returns the rows of referee.csv, a list for each library and version."""
+    with path.open(encoding="utf-8", newline="") as file:
+        rows = [
+            {name: text if name in COLUMNS[:4] else int(text) for name, text in row.items()}
+            for row in csv.DictReader(file)
+        ]
+    return [
+        list(group) for _, group in groupby(rows, key=lambda row: (row["library"], row["version"]))
+    ]
+
+
+def place_of(library: str, version: str) -> str:
+    """Returns the name of the folder with the counterexample of a version of a library."""
+    number = re.search(r"(?<=\s)\d[\w.]*", version)
+    return re.sub(r"[^\w.-]+", "-", f"{library}-{number[0] if number else version}")
 
 
 def rows_of(library: str, version: str, cases: list[dict[str, Any]]) -> list[dict[str, Any]]:
@@ -46,6 +68,8 @@ class Counterexample:
     """A ray that a library gets wrong, with as few triangles as possible."""
 
     folder: str
+    leak: bool
+    """Whether it is a leak, whose folder is a kit, and not a wrong hit."""
     triangles: int
     reported: str
     exact: str
@@ -66,14 +90,15 @@ def _text(t: float | None) -> str:
 
 
 def counterexample(folder: Path) -> Counterexample:
-    """Reads a case that `verify --minimize` wrote, and confirms it exactly."""
+    """Reads a case of `verify --minimize`, or the kit of a leak, and confirms it exactly."""
     case = json.loads((folder / "case.json").read_text("utf-8"))["wrong"]
-    triangles = read_obj(folder / "scene.obj")
+    leak = (folder / "kit.json").exists()
+    triangles = read_obj(folder / (f"{LEAK}/scene.obj" if leak else "scene.obj"))
     ray = case["ray"]
     exact = closest(triangles, ray["origin"], ray["direction"], ray["t_min"], ray["t_max"])
     reported = case["reported"]
     claimed = reported["t"] if isinstance(reported, dict) else None
-    judged = (case["exact"] or {}).get("t")
+    judged = (case["exact"] or {}).get("t")  # of a leak: the oracle's
     same = (exact is None) == (judged is None) and (
         exact is None or abs(float(exact) - judged) <= 1e-6 * abs(judged)
     )
@@ -82,6 +107,7 @@ def counterexample(folder: Path) -> Counterexample:
     )
     return Counterexample(
         folder=folder.name,
+        leak=leak,
         triangles=len(triangles),
         reported=_text(claimed),
         exact=_text(None if exact is None else float(exact)),

@@ -1,54 +1,32 @@
-"""The page of the referee's table."""
+"""The page of the referee's table, from its CSV files and the counterexamples beside them."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
-from beambench_operations.referee.findings import Counterexample, wrong_rays
+from jinja2 import Environment, StrictUndefined
 
-HEADER = """# Hits of other projects' libraries
+from beambench_operations.referee.findings import (
+    Counterexample,
+    counterexample,
+    place_of,
+    read_rows,
+    wrong_rays,
+)
+from beambench_operations.referee.libraries import OWN, library, precision, traced
+from beambench_operations.referee.speed import read_speed
 
-Every library traced the same rays over the same scenes of triangles: beambench's
-[conformance kit](../../../harness/verify/README.md#the-conformance-kit), {scenes} scenes, closest
-and any hits. A `wrong` hit is beyond the tolerance of float arithmetic (K u, 16 units in the last
-place), by exact arithmetic. A `leak` is a miss at an edge of a closed mesh, seen from inside.
-Other grazes, where a ray passes an edge within K u, count as right. [referee.csv](referee.csv) has
-the counts of each family and query.
+Rows = list[dict[str, Any]]
+PUBLISHED = "results/published/referee"
+QUIET = 1.5
+"""A load above this is other work: the run itself makes a load of 1."""
 
-"Right" is the share of rays with a right result, of those that the library traces. The families
-under "wrong in" have at least one wrong or leaked ray; in those under "fails in" the library
-crashed or did not return in time; it declines those under "declines". The
-[adapters](../../../harness/plugin/outside) state the precision, and what a call does besides
-tracing.
-
-| library | version | rays | right: closest | any | wrong | leaks | wrong in | fails in | declines |
-|---|---|---:|---:|---:|---:|---:|---|---|---|
-"""
-
-CASES = """
-## The smallest counterexample of each
-
-Each folder has the scene, the ray and `case.json`. The exact answer was computed again in rational
-numbers, by code that the judge does not use
-([exact_ray.py](../../../scripts/beambench_operations/referee/exact_ray.py)).
-
-| library | triangles | reported | exact | confirmed | repeat |
-|---|---:|---|---|---|---|
-"""
-
-REPEAT = """
-Repeat all of it: `scripts/outside NAME` prints the plug-in of a library, and
-
-```
-beambench selftest --export kit --scenes {random} --rays {rays}
-PYTHONPATH=scripts python3 -m beambench_operations.referee NAME=PLUGIN ... --kit kit \\
-    --output results/published/referee
-```
-"""
+TEMPLATE = Path(__file__).with_name("page.md.j2")
 
 
-def share(rows: list[dict[str, Any]], query: str) -> str:
+def share(rows: Rows, query: str) -> str:
     """Returns the share of right results of a query, rounded so that only all are 100%."""
     chosen = [row for row in rows if row["query"] == query]
     rays = sum(row["rays"] for row in chosen)
@@ -60,45 +38,182 @@ def share(rows: list[dict[str, Any]], query: str) -> str:
     return f"{min(100 * (1 - wrong / rays), 99.9999):.4f}%"
 
 
-def families(rows: list[dict[str, Any]], chosen: Callable[[dict[str, Any]], bool]) -> str:
+def families(rows: Rows, chosen: Callable[[dict[str, Any]], bool]) -> str:
     """Returns the names of the families of the rows that are chosen, each once."""
     return ", ".join(dict.fromkeys(row["family"] for row in rows if chosen(row))) or "-"
 
 
-def library_row(name: str, rows: list[dict[str, Any]]) -> str:
+def table_row(cells: list[str]) -> str:
+    """Returns a line of a table in Markdown."""
+    return "| " + " | ".join(cells) + " |"
+
+
+def library_row(number: int, rows: Rows) -> str:
     """Returns the line of a library in the table."""
-    cells = [
-        name,
-        rows[0]["version"],
-        f"{sum(row['rays'] for row in rows):,}",
-        share(rows, "closest"),
-        share(rows, "any"),
-        f"{sum(row['structure_error'] for row in rows):,}",
-        f"{sum(row['leaks'] for row in rows):,}",
-        families(rows, lambda row: wrong_rays(row) > 0),
-        families(rows, lambda row: row["errors"] > 0),
-        families(rows, lambda row: row["unsupported"] > 0),
-    ]
-    return "| " + " | ".join(cells) + " |\n"
+    name = rows[0]["library"]
+    return table_row(
+        [
+            str(number),
+            name,
+            rows[0]["version"].removesuffix(" (times are self-reported)"),
+            precision(name),
+            f"{sum(row['rays'] for row in rows):,}",
+            share(rows, "closest"),
+            share(rows, "any"),
+            f"{sum(row['structure_error'] for row in rows):,}",
+            f"{sum(row['leaks'] for row in rows):,}",
+            families(rows, lambda row: row["errors"] > 0),
+            families(rows, lambda row: row["unsupported"] > 0),
+        ]
+    )
 
 
-def page(
-    rows: dict[str, list[dict[str, Any]]],
-    found: dict[str, Counterexample | None],
-    kit: dict[str, int],
-) -> str:
-    """Returns the page; `rows` and `found` are by library."""
-    text = HEADER.format(**kit) + "".join(library_row(name, rows[name]) for name in rows)
-    text += CASES
-    for name, case in found.items():
-        if case is None:
-            text += f"| {name} | - | - | - | - | - |\n"
-            continue
-        place = f"minimal/{case.folder}"
-        files = f"{place}/scene.obj --accel {name} --rays {place}/ray.rays"
-        command = f"`beambench --plugin PLUGIN verify {files}`"
-        text += (
-            f"| [{name}]({place}/case.json) | {case.triangles} | {case.reported} | {case.exact} | "
-            f"{'yes' if case.confirmed else 'no'} | {command} |\n"
+def family_cell(rows: Rows, family: str) -> str:
+    """Returns the shares of a library in a family: "99.1 / 98.0", in percent."""
+
+    def cell(row: dict[str, Any]) -> str:
+        if row["errors"] == row["cases"]:
+            return "fails"
+        if row["rays"] == 0:
+            return "-"
+        exact = 100 * (1 - wrong_rays(row) / row["rays"])
+        return "100" if exact == 100 else f"{min(exact, 99.9):.1f}"
+
+    return " / ".join(dict.fromkeys(cell(row) for row in rows if row["family"] == family))
+
+
+def family_table(libraries: list[Rows]) -> tuple[str, str]:
+    """Returns the shares by family, where any library is wrong, and the other families."""
+    names = list(dict.fromkeys(row["family"] for row in libraries[0]))
+    wrong = [
+        name
+        for name in names
+        if any(
+            wrong_rays(row) or row["errors"]
+            for rows in libraries
+            for row in rows
+            if row["family"] == name
         )
-    return text + REPEAT.format(**kit)
+    ]
+    right = [name for name in names if name not in wrong]
+    lines = [
+        table_row(["family", *(str(i + 1) for i in range(len(libraries)))]),
+        "|---|" + "---:|" * len(libraries),
+        *(table_row([name, *(family_cell(rows, name) for rows in libraries)]) for name in wrong),
+    ]
+    return "\n".join(lines), ", ".join(right) or "no family"
+
+
+def repeat_command(name: str, case: Counterexample) -> str:
+    """Returns the command that shows a counterexample, from the root of the repository."""
+    place = f"{PUBLISHED}/minimal/{case.folder}"
+    what = (
+        f"--kit {place} --accel {name}"
+        if case.leak
+        else f"{place}/scene.obj --accel {name} --rays {place}/ray.rays"
+    )
+    return f"beambench --plugin $({library(name).install}) verify {what}"
+
+
+def case_row(name: str, version: str, case: Counterexample | None) -> str:
+    """Returns the line of a counterexample."""
+    label = f"{name}, {version.partition(',')[0].removesuffix(' (times are self-reported)')}"
+    if case is None:
+        return table_row([label, *["-"] * 6])
+    return table_row(
+        [
+            f"[{label}](minimal/{case.folder}/case.json)",
+            "leak" if case.leak else "wrong hit",
+            str(case.triangles),
+            case.reported,
+            case.exact,
+            "yes" if case.confirmed else "no",
+            f"`{repeat_command(name, case)}`",
+        ]
+    )
+
+
+def speed_section(rows: list[dict[str, str]]) -> dict[str, str]:
+    """Returns what the page states about speeds, or nothing if they were not measured."""
+    if not rows:
+        return {}
+    kinds = list(dict.fromkeys(row["ray_kind"] for row in rows))
+    lines = []
+    for name in dict.fromkeys(row["contender"] for row in rows):
+        cells = []
+        for kind in kinds:
+            row = next(r for r in rows if r["contender"] == name and r["ray_kind"] == kind)
+            interval = f" ({row['mrays_low']} to {row['mrays_high']})" if row["mrays_low"] else ""
+            cells.append(f"{row['mrays']}{interval}" if row["mrays"] else row["verdict"])
+        lines.append(table_row([f"`{name}`", *cells, OWN.get(name) or traced(name)]))
+    first = rows[0]
+    beside = float(first["highest_load"]) > QUIET
+    return {
+        "scene": f"`{first['scene']}`",
+        "measured": "**Other work ran on the machine at the same time.** " if beside else "",
+        "commit": first["commit"],
+        "cpu": first["cpu"],
+        "load": first["highest_load"],
+        "utc": first["utc"],
+        "kinds": " | ".join(kinds),
+        "rules": "---:|" * len(kinds),
+        "table": "\n".join(lines),
+    }
+
+
+def known_faults(libraries: list[Rows]) -> dict[str, str]:
+    """Returns what shows the faults of public reports, or nothing without tinybvh."""
+    versions: dict[tuple[str, str], Rows] = {}
+    for rows in libraries:
+        if rows[0]["library"].startswith("tinybvh:layout="):
+            layout = rows[0]["library"].removeprefix("tinybvh:layout=").partition(",")[0]
+            versions[rows[0]["version"].removeprefix("tinybvh ").partition(" ")[0], layout] = rows
+    if not versions:
+        return {}
+
+    def wrong(version: str, layout: str, *names: str) -> int:
+        rows = versions.get((version, layout), [])
+        return sum(wrong_rays(row) for row in rows if row["family"] in names)
+
+    leaks = [
+        f"{version} {sum(row['leaks'] for row in rows):,}"
+        for (version, layout), rows in versions.items()
+        if layout == "bvh2"
+    ]
+    directions = ("edges and vertices", "rays in planes", "odd directions")
+    zeros = [
+        f"{version} {wrong(version, layout, *directions):,}"
+        for version, layout in versions
+        if layout == "bvh8"
+    ]
+    return {
+        "watertight": ", ".join(leaks),
+        "parallel": f"{wrong('1.6.7', 'double', *directions):,}",
+        "zeros": ", ".join(zeros),
+    }
+
+
+def page(folder: Path) -> str:
+    """Returns the page of a folder with referee.csv and, if it was measured, speed.csv."""
+    libraries = read_rows(folder / "referee.csv")
+    scenes = sum(row["cases"] for row in libraries[0] if row["query"] == "closest")
+    table = "\n".join(library_row(number, rows) for number, rows in enumerate(libraries, 1))
+    shares, right = family_table(libraries)
+    cases = []
+    for rows in libraries:
+        name, version = rows[0]["library"], rows[0]["version"]
+        place = folder / "minimal" / place_of(name, version)
+        case = counterexample(place) if (place / "case.json").exists() else None
+        cases.append(case_row(name, version, case))
+    environment = Environment(
+        undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True
+    )
+    return environment.from_string(TEMPLATE.read_text("utf-8")).render(
+        scenes=scenes,
+        table=table,
+        families=shares,
+        right=right,
+        cases="\n".join(cases),
+        speed=speed_section(read_speed(folder / "speed.csv")),
+        known=known_faults(libraries),
+    )

@@ -1,4 +1,7 @@
-"""trimesh's own ray tracing, in double, through an R-tree. Its rays are infinite."""
+"""trimesh's own ray tracing, in double, through an R-tree. Its rays are infinite.
+
+Its tolerances are absolute, so directions are normalized.
+"""
 
 from importlib.metadata import version
 
@@ -12,24 +15,28 @@ def build(mesh):
     return trimesh.ray.ray_triangle.RayMeshIntersector(made)
 
 
-def closest(built, rays):
+def lines(rays):
     program.without_interval(rays)
-    origins, directions = rays[:, :3].astype("f8"), rays[:, 4:7].astype("f8")
+    directions = rays[:, 4:7].astype("f8")
+    return rays[:, :3].astype("f8"), directions / np.linalg.norm(directions, axis=1)[:, None]
+
+
+def closest(built, rays):
+    origins, directions = lines(rays)
     triangles, numbers, places = built.intersects_id(
         origins, directions, multiple_hits=False, return_locations=True
     )
     t, found = np.full(len(rays), np.inf), np.zeros(len(rays), np.int64)
     if len(numbers):
-        way = directions[numbers]
+        way = rays[numbers, 4:7].astype("f8")
         t[numbers] = np.einsum("ij,ij->i", places - origins[numbers], way)
-        t[numbers] /= np.einsum("ij,ij->i", way, way)
+        t[numbers] = np.maximum(t[numbers] / np.einsum("ij,ij->i", way, way), 0)  # places are rounded
         found[numbers] = triangles
     return t, found
 
 
 def occluded(built, rays):
-    program.without_interval(rays)
-    return built.intersects_any(rays[:, :3].astype("f8"), rays[:, 4:7].astype("f8"))
+    return built.intersects_any(*lines(rays))
 
 
 program.serve(
