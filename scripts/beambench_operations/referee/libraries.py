@@ -16,15 +16,16 @@ class Library:
     """How a batch is traced, and what is inside the time."""
 
 
-_CALLS = "a call for each ray, whose conversion is inside"
-_BATCH = "one call for the batch; conversion in Python is inside, self-reported"
+_CALLS = "a call for each ray, conversion inside"
+_BATCH = "one call, conversion in Python inside, self-reported"
 
 LIBRARIES = {
     "obvhs": Library("scripts/outside obvhs", "float", f"CWBVH, {_CALLS}"),
     "parry3d": Library("scripts/outside parry3d", "float", f"TriMesh, {_CALLS}"),
     "bvh-rs": Library("scripts/outside bvh", "float", f"all leaves met, {_CALLS}"),
     "tinybvh": Library("TINYBVH=DIR scripts/outside tinybvh", "float", _CALLS),
-    "madmann91-bvh": Library("MADMANN91_BVH=DIR scripts/outside madmann91-bvh", "float", _CALLS),
+    "madmann91-bvh": Library("MADMANN91_BVH=DIR/src scripts/outside madmann91-bvh", "float",
+                             _CALLS),
     "cgal": Library("scripts/outside cgal", "double", f"AABB tree, {_CALLS}"),
     "embreex": Library("scripts/outside embreex", "float", f"Embree 4, {_BATCH}"),
     "open3d": Library("scripts/outside open3d", "float", f"Embree, {_BATCH}"),
@@ -37,13 +38,6 @@ LIBRARIES = {
                               "a call for each ray from JavaScript, self-reported"),
 }  # fmt: skip
 """By the name of the structure."""
-
-OWN = {
-    "sah-bvh:lists=single": "beambench's own, ray by ray",
-    "sah-bvh:lists=streams": "beambench's own; lists as AVX-512 streams, images ray by ray",
-    "embree:mode=single": "Embree of Debian, called by beambench ray by ray, robust",
-}
-"""How the contenders besides the libraries are traced."""
 
 PRECISIONS = {"tinybvh:layout=double": "double"}
 """Of a structure with parameters, where it differs."""

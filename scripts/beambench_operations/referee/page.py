@@ -15,7 +15,7 @@ from beambench_operations.referee.findings import (
     read_rows,
     wrong_rays,
 )
-from beambench_operations.referee.libraries import OWN, library, precision, traced
+from beambench_operations.referee.libraries import library, precision, traced
 from beambench_operations.referee.speed import read_speed
 
 Rows = list[dict[str, Any]]
@@ -64,6 +64,7 @@ def library_row(number: int, rows: Rows) -> str:
             f"{sum(row['leaks'] for row in rows):,}",
             families(rows, lambda row: row["errors"] > 0),
             families(rows, lambda row: row["unsupported"] > 0),
+            traced(name),
         ]
     )
 
@@ -145,7 +146,7 @@ def speed_section(rows: list[dict[str, str]]) -> dict[str, str]:
             row = next(r for r in rows if r["contender"] == name and r["ray_kind"] == kind)
             interval = f" ({row['mrays_low']} to {row['mrays_high']})" if row["mrays_low"] else ""
             cells.append(f"{row['mrays']}{interval}" if row["mrays"] else row["verdict"])
-        lines.append(table_row([f"`{name}`", *cells, OWN.get(name) or traced(name)]))
+        lines.append(table_row([f"`{name}`", *cells]))
     first = rows[0]
     beside = float(first["highest_load"]) > QUIET
     return {
