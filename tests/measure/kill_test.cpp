@@ -262,7 +262,7 @@ TEST_P(Interrupted, EndsImmediatelyAndPrintsHowToContinue) {
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 130);
   const std::string resume = std::string(BEAMBENCH_BINARY) + " run --resume 'my run'\n";
-  EXPECT_TRUE(err().ends_with("interrupted; every repetition is kept, resume with: " + resume))
+  EXPECT_TRUE(err().ends_with("interrupted; every repetition is kept; resume with: " + resume))
       << err();
   EXPECT_GE(events("my run", "repetition").size(), 1U);
 }

@@ -234,7 +234,7 @@ TEST(Ply, AWrongHeaderIsRefusedWithItsLine) {
       {"element face", "element vertex", {"line 8: ", "'vertex' is declared twice"}},
       {"uchar int", "float int", {"line 9: ", "integer type"}},
       {"uchar int", "uchar", {"line 9: ", "'vertex_indices' is not a property type"}},
-      {"element vertex 4\n", "", {"line 4: ", "before the first element"}},
+      {"element vertex 4\n", "", {"line 4: ", "precedes the first element"}},
       {"float z", "float w", {"element 'vertex' without 'z'"}},
       {"float z", "list uchar float z", {"'z' instead of a number"}},
       {"list uchar int vertex_indices",
