@@ -10,6 +10,8 @@ from statistics import geometric_mean, median
 
 import pytest
 
+from beambench_operations.publish.figures.default import figures
+from beambench_operations.publish.figures.formats import interval
 from beambench_report.base.cell_files import identity, read_cell_files
 from beambench_report.base.records import read_run
 
@@ -60,17 +62,10 @@ def test_the_logs_have_the_repetitions_of_their_rows(published: Path) -> None:
 
 
 def test_the_finding_of_the_root_readme(repository: Path, published: Path) -> None:
-    """The octree has `max_level=6`, and times include the build."""
-    with (published / "default/results.csv").open(encoding="utf-8") as table:
-        total = {
-            (row["structure"], row["width"]): float(row["total_ms_median"])
-            for row in csv.DictReader(table)
-            if row["scene"] == "tetra:n=6" and row["parameters"].startswith("max_level=6,")
-        }
-    small, large = (total["beam", width] / total["samet", width] for width in ("320", "1280"))
+    speedups = figures(published / "default")["beams"]["tetra:n=6"]
     text = " ".join((repository / "README.md").read_text("utf-8").split())
-    assert f"takes {small:.1f} times as long as single rays" in text
-    assert f"only {large:.2f} times as long at 1280x1024" in text
+    assert f"is {interval(speedups['320x200'])} times as fast as single rays" in text
+    assert f"and {interval(speedups['1280x1024'])} times as fast at 1280x1024" in text
 
 
 def test_the_table_of_programs_has_the_sums_of_its_rows(published: Path) -> None:

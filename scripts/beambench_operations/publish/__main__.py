@@ -9,6 +9,7 @@ from beambench_operations.publish.documents import PUBLISHED, differences, write
 from beambench_operations.publish.make import Place, make_folder
 from beambench_operations.publish.needs import Debian13, missing, plugins_for
 from beambench_operations.publish.plan import Folder, Plan, as_table, read_plan
+from beambench_operations.publish.plots import write_plots
 from beambench_operations.publish.progress import Progress, extent_of, is_published, progress_of
 from beambench_operations.publish.provenance import Provenance, git, preflight, require_clean
 from beambench_operations.publish.small import size
@@ -27,6 +28,7 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("--only", nargs="+", default=[], metavar="FOLDER")
     parser.add_argument("--plan", "--dry-run", action="store_true")
     parser.add_argument("--texts", action="store_true")
+    parser.add_argument("--plots", action="store_true")
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--verify-again", action="store_true")
     parser.add_argument("--commit", action="store_true")
@@ -48,8 +50,9 @@ def _run(options: Options) -> int:
         found = differences(options.published)
         print(*found, sep="\n", end="\n" if found else "")
         return 1 if found else 0
-    if options.texts:
-        for path in write_documents(options.published):
+    if options.texts or options.plots:
+        write = write_documents if options.texts else write_plots
+        for path in write(options.published):
             print(path)
         return 0
     if options.verify_again:

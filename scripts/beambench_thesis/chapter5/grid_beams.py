@@ -91,7 +91,8 @@ def _findings(rows: Sequence[GridBeamRow]) -> tuple[str, ...]:
     never = sum(ratio >= 1 for ratio in ratios)
     found = [
         f"Beams take no more time than single rays through the same grids in {never} of "
-        f"{len(rows)} rows ({number(ratios[0])} to {number(ratios[-1])} times as fast)."
+        f"{len(rows)} rows ({number(ratios[0])} to {number(ratios[-1])} times as fast, without "
+        "intervals)."
     ]
     octrees = [ratio for row in rows if (ratio := row.octree_ratio) is not None]
     if octrees:
@@ -99,7 +100,7 @@ def _findings(rows: Sequence[GridBeamRow]) -> tuple[str, ...]:
         found.append(
             f"Building included, beams through grids take less time than beams through the fastest "
             f"measured octree in {faster} of {len(octrees)} rows ({number(min(octrees))} to "
-            f"{number(max(octrees))} times as fast)."
+            f"{number(max(octrees))} times as fast, without intervals)."
         )
     return tuple(found)
 

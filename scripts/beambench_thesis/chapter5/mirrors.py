@@ -84,7 +84,7 @@ def _findings(runs: Sequence[MirrorRun]) -> tuple[str, ...]:
     wrong = sum(run.different for run in runs)
     return (
         f"Beams take less time than single rays in {faster} of {len(runs)} rows "
-        f"({number(ratios[0])} to {number(ratios[-1])} times as fast).",
+        f"({number(ratios[0])} to {number(ratios[-1])} times as fast; medians without intervals).",
         f"Hits that differ: {wrong:,} of {sum(run.samples for run in runs):,}.",
     )
 

@@ -6,6 +6,7 @@ from typing import Any
 from beambench.analysis import Ratio
 from beambench_operations.publish.figures.cells import Cells
 from beambench_operations.publish.figures.comparison import with_target
+from beambench_operations.publish.figures.origins import require_one_origin
 from beambench_operations.publish.figures.tuned_embree import (
     STREAMS,
     TILE_BEAM,
@@ -134,6 +135,7 @@ def _batches(cells: Cells) -> dict[str, dict[str, dict[int, Ratio]]]:
 
 def _threads(one: Cells, two: Cells) -> dict[str, dict[str, Ratio]]:
     """Returns how many times as fast two threads are, by scene and kind of rays."""
+    require_one_origin(one.folder, two.folder)
     return {
         scene: {
             kind: unpaired_ratio_of(

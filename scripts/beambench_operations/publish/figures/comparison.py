@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from beambench_operations.publish.figures.formats import brief, interval
+from beambench_operations.publish.figures.origins import require_one_origin
 from beambench_report.base.records import read_run
 from beambench_report.embree_comparison.pairings import Pairing, pairings
 from beambench_report.embree_comparison.results import Result, outcomes_in_words, results
@@ -12,8 +13,9 @@ from beambench_report.embree_comparison.results import Result, outcomes_in_words
 
 def read_pairings(folder: Path, names: Sequence[str]) -> list[Pairing]:
     """Returns the comparisons of those runs of a folder that exist."""
-    runs = [folder / name for name in names]
-    return pairings(read_run(run) for run in runs if (run / "results.csv").is_file())
+    runs = [run for name in names if (run := folder / name / "results.csv").is_file()]
+    require_one_origin(*(run.parent for run in runs))
+    return pairings(read_run(run.parent) for run in runs)
 
 
 def figures_of(found: Sequence[Pairing]) -> dict[str, Any]:

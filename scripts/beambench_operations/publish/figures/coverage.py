@@ -5,6 +5,9 @@ from typing import Any
 
 import pandas as pd
 
+from beambench.analysis import Ratio
+from beambench_operations.publish.figures.cells import Cells
+from beambench_operations.publish.figures.origins import require_one_origin
 from beambench_report.base.analysis import read_analysis
 from beambench_report.base.cell_files import IDENTITY
 from beambench_report.base.files import read_json
@@ -26,6 +29,7 @@ def figures(folder: Path) -> dict[str, Any]:
 
 
 def _coverage(*folders: Path) -> dict[str, Any]:
+    require_one_origin(*folders)
     wanted = float(read_json(folders[0] / "config.json")["precision"])
     runs = [(read_run(folder), read_analysis(folder)) for folder in folders]
     rows = coverage(*runs)
@@ -58,10 +62,11 @@ def _precise(run: Run, wanted: float) -> tuple[int, int]:
     return int((width <= 2 * wanted).sum()), len(timed)
 
 
-def _rasterizer(folder: Path) -> dict[str, float]:
+def _rasterizer(folder: Path) -> dict[str, Ratio]:
     """Returns the rasterizer's time over that of tile-beam, by scene."""
-    rows = read_run(folder).rows
-    tile = rows[rows["parameters"].str.contains("backface_culling=false")]
-    times = tile.set_index("scene")["trace_ms"]
-    other = rows[rows["structure"] == "z-buffer"].set_index("scene")["trace_ms"]
-    return (other / times).dropna().to_dict()
+    cells = Cells(folder)
+    other = cells.having("z-buffer")
+    return {
+        scene: cells.ratio("z-buffer", "tile-beam:backface_culling=false", scene=scene)
+        for scene in other.loc[other["timed"], "scene"]
+    }

@@ -40,6 +40,20 @@ def origins(folder: Path) -> list[Origin]:
     return found or _of_record(folder / RECORD)
 
 
+def require_one_origin(*folders: Path) -> None:
+    """Raises Problem where runs that are compared with one another differ in what made them."""
+    found = {
+        (one.commit, one.machine_id): str(folder) for folder in folders for one in origins(folder)
+    }
+    if len(found) > 1:
+        (commit, machine), (other_commit, other_machine) = list(found)[:2]
+        raise Problem(
+            f"{' and '.join(list(found.values())[:2])} are compared, but one is of commit "
+            f"{commit[:7]} on machine {machine}, the other of {other_commit[:7]} on "
+            f"{other_machine}; measure both on one machine by one commit"
+        )
+
+
 def _of_record(file: Path) -> list[Origin]:
     source = read_json(file)
     if not isinstance(source, dict):

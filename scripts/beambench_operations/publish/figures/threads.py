@@ -7,6 +7,7 @@ from typing import Any
 from beambench.analysis import Ratio
 from beambench_operations.publish.figures.cells import Cells
 from beambench_operations.publish.figures.formats import fixed, interval
+from beambench_operations.publish.figures.origins import require_one_origin
 from beambench_report.base.cell_files import unpaired_ratio_of
 
 _THREADS = 2
@@ -20,6 +21,7 @@ def is_implausible(speedup: Ratio, threads: int) -> bool:
 def figures(folder: Path) -> dict[str, Any]:
     """Returns the speedup of two threads over one, by scene and structure."""
     one, two = Cells(folder / "1"), Cells(folder / str(_THREADS))
+    require_one_origin(one.folder, two.folder)
     gain = {
         name: {
             scene: unpaired_ratio_of(
