@@ -55,7 +55,7 @@ def test_every_value_of_another_run_is_counted(
 def test_the_script_explains_itself_and_refuses_nonsense(repository: Path) -> None:
     script = repository / "scripts/coverage"
     done = subprocess.run([script, "--help"], capture_output=True, text=True, check=True)
-    assert "both directions" in done.stdout
+    assert "95% prediction intervals of the other run" in " ".join(done.stdout.split())
     for arguments in ([], ["quick", "default"], ["quick", "--pause", "soon"], ["nothing"]):
         done = subprocess.run([script, *arguments], capture_output=True, text=True, check=False)
         assert done.returncode == 2, arguments

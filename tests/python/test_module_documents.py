@@ -65,13 +65,13 @@ def test_every_function_has_types_and_a_docstring(name: str) -> None:
     text = inspect.getdoc(function)
     assert text
     given = [p for p in signature.parameters if p not in ("self", "cls")]
-    if given and "As `" not in text:
+    if given and "arguments are those of `" not in text:
         described = re.findall(r"^    (\w+): ", text.split("Args:")[1], re.MULTILINE)
         assert described[: len(given)] == given, "every argument, in their order"
     takes_arrays = any("ArrayLike" in str(p.annotation) for p in signature.parameters.values())
     if takes_arrays:
         assert "Raises:" in text
-        assert re.search(r"shape \(|as for `closest_hits`", text, re.IGNORECASE)
+        assert re.search(r"shape \(|see `closest_hits`", text, re.IGNORECASE)
 
 
 @pytest.mark.parametrize("name", [n for n in bb.__all__ if inspect.isclass(getattr(bb, n))])
