@@ -14,6 +14,7 @@
 
 #include "harness/analysis/results_csv.hpp"
 #include "harness/measure/plan.hpp"
+#include "harness/plugin/program_contender.hpp"
 
 namespace beambench::analysis {
 namespace {
@@ -180,13 +181,15 @@ Standings of_view(const Names& names, const ViewCells& all,
   if (base == order.end()) return result;
   for (const auto& [trace_ms, contender] : order) {
     const CellRecord& cell = *finest.at(contender);
-    Standing standing{contender,
-                      cell.id.structure,
-                      cell.parameter_sets > 1 ? measure::shown_structure(cell.id) : "",
-                      cell.statistics ? cell.statistics->instruction_set : "",
-                      build_ms_of(cell),
-                      1e6 * trace_ms / static_cast<double>(most),
-                      trace_ratio(cell, *finest.at(base->second), clock)};
+    Standing standing{
+        contender,
+        cell.id.structure,
+        cell.parameter_sets > 1 ? measure::shown_structure(cell.id) : "",
+        cell.statistics ? cell.statistics->instruction_set : "",
+        cell.statistics && cell.statistics->library_version.ends_with(plugin::kSelfReportedNote),
+        build_ms_of(cell),
+        1e6 * trace_ms / static_cast<double>(most),
+        trace_ratio(cell, *finest.at(base->second), clock)};
     auto& list = is_reference(standing.structure) ? result.references : result.ranked;
     list.push_back(std::move(standing));
   }

@@ -38,6 +38,7 @@ struct Standing {
   std::string structure;  ///< the bare name
   std::string variant;    ///< if tuned: `embree:mode=stream,robust=false`; otherwise empty
   std::string isa;        ///< the instruction set of its SIMD code; empty: no SIMD
+  bool self_reported;     ///< whether its times are those of a program's own clock
   double build_ms;        ///< fastest build (or update); the median in records without blocks
   double ns_per_ray;      ///< first trace after a build; the median in records without blocks
   TimeRatio ratio;        ///< its trace time divided by that of the fastest

@@ -158,18 +158,30 @@ std::string describe_contenders(std::span<const Standings> views) {
                        fmt::format("{:.4g}", 1e3 / one.ns_per_ray), in_words(one.ratio),
                        bar(one.ns_per_ray / longest)});
     };
+    bool any_self_reported = false;
+    const auto add_noted = [&](const Standing& one, std::string_view note) {
+      std::vector<std::string_view> notes;
+      if (!note.empty()) notes.push_back(note);
+      if (one.self_reported) notes.push_back("self-reported");
+      add(one, notes.empty() ? "" : fmt::format(" ({})", fmt::join(notes, ", ")));
+      any_self_reported |= one.self_reported;
+    };
     for (const Standing& one : view.ranked) {
       const bool is_first = &one == view.ranked.data();
       const bool is_plain = is_first || one.rank() == Rank::kBehind;
-      add(one, is_plain ? "" : fmt::format(" ({})", to_string(one.rank())));
+      add_noted(one, is_plain ? "" : to_string(one.rank()));
     }
-    for (const Standing& one : view.references) add(one, " (reference)");
+    for (const Standing& one : view.references) add_noted(one, "reference");
     for (const LeftOut& one : view.left_out) lines.push_back({one.contender, one.reason});
-    out += fmt::format("{} {}, {} {} rays{}\n{}\n", view.view, view.size, view.rays, view.ray_kind,
-                       view.clock == measure::TraceClock::kCpu
-                           ? ", compared by CPU time: other processes disturbed too many traces"
-                           : "",
-                       table(lines));
+    out +=
+        fmt::format("{} {}, {} {} rays{}\n{}{}\n", view.view, view.size, view.rays, view.ray_kind,
+                    view.clock == measure::TraceClock::kCpu
+                        ? ", compared by CPU time: other processes disturbed too many traces"
+                        : "",
+                    table(lines),
+                    any_self_reported ? "  self-reported: times of the program's own clock, which "
+                                        "leave out the exchange with it\n"
+                                      : "");
   }
   return out;
 }

@@ -110,6 +110,15 @@ void add_verbose_option(CLI::App& command, bool& verbose) {
                    "Print a line for each cell even on a terminal, instead of one progress line");
 }
 
+void add_timeout_option(CLI::App& command, double& seconds) {
+  command
+      .add_option("--timeout", seconds,
+                  "Seconds within which the shared object of a plug-in must build a structure "
+                  "over a scene and finish all queries; otherwise the case fails")
+      ->check(number_in(0.1, 86400.0))
+      ->capture_default_str();
+}
+
 CLI::Validator whole_number_in(std::int64_t lower, std::int64_t upper) {
   const std::string range = fmt::format("a whole number from {} to {}", lower, upper);
   return {[=](const std::string& text) {

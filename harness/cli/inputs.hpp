@@ -35,6 +35,11 @@ CLI::Option* add_frame_option(CLI::App& command, std::uint32_t& frame);
 /// Adds --verbose.
 void add_verbose_option(CLI::App& command, bool& verbose);
 
+/// The seconds within which a plug-in must build a structure over a scene and finish all queries.
+inline constexpr double kDefaultTimeout = 30.0;
+/// Adds --timeout.
+void add_timeout_option(CLI::App& command, double& seconds);
+
 /// Returns the check for an option whose value must be a whole number, or any number, in [lower,
 /// upper].
 CLI::Validator whole_number_in(std::int64_t lower, std::int64_t upper);

@@ -22,6 +22,8 @@
 #include "harness/cli/text.hpp"
 #include "harness/cli/verify_hits.hpp"
 #include "harness/measure/record/machine.hpp"
+#include "harness/plugin/isolated.hpp"
+#include "harness/plugin/load_plugin.hpp"
 #include "harness/verify/minimize.hpp"
 #include "harness/verify/selftest/hit_comparison.hpp"
 #include "harness/verify/selftest/kit.hpp"
@@ -29,6 +31,7 @@
 #include "scenes/base/files.hpp"
 #include "scenes/base/json_text.hpp"
 #include "scenes/base/printable.hpp"
+#include "scenes/base/shell_word.hpp"
 
 namespace beambench::cli {
 namespace {
@@ -40,6 +43,7 @@ struct SelftestRequest {
   std::string minimize;  ///< folder; empty: do not reduce
   std::string kit;       ///< folder; empty: do not write one
   std::string primitives = "polygons";
+  double timeout = kDefaultTimeout;
 };
 
 /// The result of one check of a structure.
@@ -48,7 +52,7 @@ struct CheckedProperty {
   const verify::Check* check;
   verify::CheckOutcome outcome;
   std::string case_folder{};  ///< the folder of its reduced wrong hit; empty: none
-  std::string minimal{};      ///< one line about the reduction
+  std::string minimal{};      ///< text about it
 };
 
 std::string_view verdict_of(const verify::CheckOutcome& outcome) {
@@ -57,47 +61,60 @@ std::string_view verdict_of(const verify::CheckOutcome& outcome) {
 
 std::string label_of(const verify::Subject& subject) { return subject.choice().short_label(); }
 
+/// Reduces the wrong hits of a failed check.
+void minimize_failure(const std::string& folder, CheckedProperty& property) {
+  const verify::FailedInput& failed = *property.outcome.failed;
+  const std::string name = fmt::format("{}-{}", property.structure, property.check->name);
+  const std::string label = failed.structure.short_label();
+  property.minimal = minimized_text(folder, name, failed.scene, failed.input, failed.wrong,
+                                    verify::wrong_by_comparison(failed.structure), label,
+                                    "--accel " + shell_quoted(label));
+  const auto place = std::filesystem::path(folder) / file_stem(name);
+  if (std::filesystem::exists(place)) property.case_folder = place.string();
+}
+
+/// Runs a check, in a child process for plug-ins.
+CheckedProperty run_check(const verify::Check& check, const verify::Subject& subject,
+                          const SelftestRequest& request) {
+  CheckedProperty property{label_of(subject), &check, {}};
+  const auto run = [&] {
+    property.outcome = verify::run_check(check, subject, request.effort);
+    if (property.outcome.failed && !request.minimize.empty()) {
+      minimize_failure(request.minimize, property);
+    }
+    return json_text(nlohmann::json{property.outcome.rays, property.outcome.failure,
+                                    property.case_folder, property.minimal},
+                     -1);
+  };
+  try {
+    const auto json = parse_json<nlohmann::json>(plugin::run_isolated(run, request.timeout), "");
+    property.outcome.rays = json.at(0).get<std::uint64_t>();
+    property.outcome.failure = json.at(1).get<std::string>();
+    property.case_folder = json.at(2).get<std::string>();
+    property.minimal = json.at(3).get<std::string>();
+  } catch (const PluginError& error) {
+    property.outcome.failure = error.what();
+  }
+  return property;
+}
+
 std::vector<CheckedProperty> check_all(const std::vector<verify::Subject>& subjects,
-                                       const verify::SelftestEffort& effort) {
+                                       const SelftestRequest& request) {
   base::Progress progress(subjects.size() * verify::selftest_checks().size());
   std::vector<CheckedProperty> checked;
   for (const verify::Subject& subject : subjects) {
-    const std::string label = label_of(subject);
     for (const verify::Check& check : verify::selftest_checks()) {
       if (!verify::applies(check, subject)) {
         progress.skip(1);
         continue;
       }
-      progress.start(fmt::format("{}: {}", label, check.name));
-      checked.push_back({label, &check, verify::run_check(check, subject, effort)});
+      progress.start(fmt::format("{}: {}", label_of(subject), check.name));
+      checked.push_back(run_check(check, subject, request));
       progress.finish(std::string(verdict_of(checked.back().outcome)));
     }
   }
   progress.clear();
   return checked;
-}
-
-/// Reduces the wrong hits of the failed checks.
-void minimize_failures(const std::string& folder, std::vector<CheckedProperty>& checked) {
-  base::Progress progress(std::ranges::count_if(checked, [](const CheckedProperty& property) {
-    return property.outcome.failed.has_value();
-  }));
-  for (CheckedProperty& property : checked) {
-    if (!property.outcome.failed) continue;
-    const verify::FailedInput& failed = *property.outcome.failed;
-    const auto minimal = verify::minimize(failed.scene, failed.input, failed.wrong,
-                                          verify::wrong_by_comparison(failed.structure), progress);
-    if (!minimal) {
-      property.minimal = "not reduced: the hits are correct when traced again";
-      continue;
-    }
-    const auto place = std::filesystem::path(folder) /
-                       file_stem(fmt::format("{}-{}", property.structure, property.check->name));
-    verify::write_case(place, *minimal, failed.scene.name, failed.structure.short_label());
-    property.case_folder = place.string();
-    property.minimal = case_text(place, *minimal);
-  }
-  progress.clear();
 }
 
 void print(const std::vector<CheckedProperty>& checked) {
@@ -144,6 +161,16 @@ void print_verdicts(const std::vector<CheckedProperty>& checked,
       fmt::print("{}: failed {} of {} checks{}\n", label, failed, made, limits);
     }
   }
+}
+
+/// Names the kit, which has more scenes than these checks.
+void print_next_step(const SelftestRequest& request) {
+  if (request.structures == "all") return;
+  const std::string program = plugin::program_call_here();
+  fmt::print(
+      "\nNext, the conformance kit, which has more scenes and allows no leaks in closed meshes:\n"
+      "  {} selftest --export kit\n  {} verify --kit kit --accel {}\n",
+      program, program, shell_quoted(request.structures));
 }
 
 void write_json(const SelftestRequest& request, const std::vector<CheckedProperty>& checked,
@@ -198,14 +225,17 @@ int selftest(const SelftestRequest& request) {
   if (!request.json.empty()) require_writable(request.json);
   std::vector<verify::Subject> subjects;
   for (accel::StructureChoice& choice : accel::registry().choose_list(request.structures)) {
-    subjects.emplace_back(std::move(choice));
+    const std::string kinds = plugin::run_isolated(
+        [&] { return fmt::format("{}", fmt::join(verify::kinds_taken(choice).names(), ",")); },
+        request.timeout);
+    subjects.emplace_back(std::move(choice), parse_kinds(kinds));
   }
-  std::vector<CheckedProperty> checked = check_all(subjects, request.effort);
-  if (!request.minimize.empty()) minimize_failures(request.minimize, checked);
+  const std::vector<CheckedProperty> checked = check_all(subjects, request);
   const bool passed = std::ranges::all_of(
       checked, [](const CheckedProperty& property) { return property.outcome.passed(); });
   print(checked);
   print_verdicts(checked, subjects);
+  print_next_step(request);
   if (!request.json.empty()) write_json(request, checked, subjects, passed);
   return passed ? base::kSuccess : base::kMismatch;
 }
@@ -238,6 +268,7 @@ void add_selftest_command(CLI::App& app, int& exit_code) {
                        "Reduce each wrong hit to the fewest primitives and one ray, and write them "
                        "to this folder")
           ->type_name("DIR");
+  add_timeout_option(*command, request->timeout);
   CLI::Option* json =
       command->add_option("--json", request->json, "Also write the results to this file");
   CLI::Option* kit = command

@@ -49,6 +49,7 @@ struct VerifyRequest {
   int threads = 1;
   std::string json;
   std::string pictures;
+  double timeout = kDefaultTimeout;
   bool verbose = false;
 };
 
@@ -126,7 +127,8 @@ VerifyHitsRequest hits_request(const VerifyRequest& request, bool structure_give
                         .resolution = request.resolution,
                         .json = request.json,
                         .pictures = request.pictures,
-                        .minimize = request.minimize};
+                        .minimize = request.minimize,
+                        .timeout = request.timeout};
   if (!request.kit.empty()) {
     if (!request.scenes.empty() || !request.hits.empty()) {
       throw InputError("--kit has its own scenes, rays and hits; leave out SCENE and --hits");
@@ -162,16 +164,16 @@ std::vector<scenes::Scene> open_scenes(const VerifyRequest& request) {
 
 /// Reduces the first error of each cell, and adds the result to the cell's disputes.
 void minimize_errors(const VerifyRequest& request, const verify::VerifiedView& view,
-                     const Contenders& contenders, std::vector<verify::VerifiedCell>& cells,
-                     base::Progress& progress) {
+                     const Contenders& contenders, std::vector<verify::VerifiedCell>& cells) {
   for (verify::VerifiedCell& cell : cells) {
-    if (!cell.report || cell.report->count(verify::DiffClass::kStructureError) == 0) continue;
+    if (!cell.report || cell.report->faults() == 0) continue;
     const auto choice =
         std::ranges::find(contenders.choices, cell.label, &accel::StructureChoice::short_label);
     cell.disputes.push_back(
         minimized_text(request.minimize, fmt::format("{}-{}-{}", cell.scene, cell.rays, cell.label),
-                       view.scene, view.input, *cell.report, verify::tracer_of(*choice), cell.label,
-                       progress) +
+                       view.scene, view.input, cell.report->examples.front(),
+                       verify::wrong_by_differ(verify::tracer_of(*choice)), cell.label,
+                       "--accel " + shell_quoted(cell.label), &view.image.camera) +
         '\n');
   }
 }
@@ -201,7 +203,7 @@ std::vector<verify::VerifiedCell> verify_kind(
       };
     std::vector<verify::VerifiedCell> cells =
         verify::verify_scene(view, contenders.choices, progress, draw);
-    if (!request.minimize.empty()) minimize_errors(request, view, contenders, cells, progress);
+    if (!request.minimize.empty()) minimize_errors(request, view, contenders, cells);
     return cells;
   } catch (const rays::NoRaysError& error) {  // the other kinds continue
     return verify::cells_without_rays(scene, kind.label, contenders.choices, progress,
@@ -316,6 +318,7 @@ void add_verify_command(CLI::App& app, int& exit_code) {
       ->add_option("--pictures", request->pictures,
                    "Write a picture of the differences to this folder if there are errors")
       ->type_name("DIR");
+  add_timeout_option(*command, request->timeout);
   add_verbose_option(*command, request->verbose);
   command->footer(
       "Compares each ray's hit with that of Embree with exact intersectors. agree: the same\n"

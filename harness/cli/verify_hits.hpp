@@ -25,6 +25,7 @@ struct VerifyHitsRequest {
   std::string json;                                   ///< empty: none
   std::string pictures;                               ///< folder; empty: none
   std::string minimize;                               ///< folder; empty: none
+  double timeout = kDefaultTimeout;                   ///< of a plug-in's action, in seconds
 };
 
 /// Verifies the hits of one scene, prints the findings and returns the exit code.
@@ -35,14 +36,17 @@ int verify_kit(const VerifyHitsRequest& request);
 /// Explains the column "oracle error" if `any` oracle error was found.
 void print_oracle_note(bool any);
 
-/// Returns one line about the reduced error in a folder.
-std::string case_text(const std::filesystem::path& folder, const verify::MinimalCase& minimal);
+/// Returns a line about the reduced error in that folder and, with the option that names the
+/// source of the hits ("--accel mine"), the command that verifies it again.
+std::string case_text(const std::filesystem::path& folder, const verify::MinimalCase& minimal,
+                      const std::string& option);
 
-/// Reduces a structure's first error, writes the case below `folder`, and returns the text to print
-/// about it.
+/// Reduces the fault `wrong`, writes the case below `folder`, and returns the text to print about
+/// it. `camera` is that of the rays if they are an image and it is not the scene's first.
 std::string minimized_text(const std::string& folder, const std::string& name,
                            const scenes::Scene& scene, const rays::TraceInput& input,
-                           const verify::DiffReport& report, const verify::Tracer& tracer,
-                           const std::string& subject, base::Progress& progress);
+                           const verify::Mismatch& wrong, const verify::FindWrong& find_wrong,
+                           const std::string& subject, const std::string& option,
+                           const scenes::Camera* camera = nullptr);
 
 }  // namespace beambench::cli

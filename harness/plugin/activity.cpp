@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstddef>
@@ -23,6 +24,7 @@
 #include <unistd.h>
 
 #include "harness/base/messages.hpp"
+#include "harness/base/process_end.hpp"
 
 namespace beambench::plugin {
 namespace {
@@ -31,7 +33,6 @@ using Line = Activity::Line;
 
 constexpr const char* kGuardVariable = "BEAMBENCH_GUARD";  // the descriptor of an Activity
 
-constexpr std::array kCrashes{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS, SIGALRM};
 constexpr std::array kPassedOn{SIGINT, SIGTERM, SIGHUP, SIGQUIT};
 
 /// Keeps the guard's signals from ending it, and forwards them to the child.
@@ -93,21 +94,18 @@ pid_t start(char** arguments, const Activity& activity, const HeldSignals& signa
   return child;
 }
 
-/// Returns `crashed (SIGSEGV: Segmentation fault)`; nothing if the process ended normally.
+/// Returns whether the alarm ended the process that loading a plug-in sets.
+bool hung(int status) { return WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM; }
+
+/// Returns how the process broke down; nothing if it ended normally.
 std::optional<std::string> breakdown(int status, const Activity& activity) {
   if (WIFEXITED(status)) {
     const bool interrupted = WEXITSTATUS(status) == base::kInterrupted;
     if (interrupted || activity.read(Line::kForeign).empty()) return std::nullopt;
-    return fmt::format("ended the process (exit code {})", WEXITSTATUS(status));
+  } else if (hung(status)) {
+    return "did not come to an end";
   }
-  const int signal = WTERMSIG(status);
-  if (signal == SIGALRM) return "did not come to an end";
-  return fmt::format("crashed (SIG{}: {})", ::sigabbrev_np(signal), ::strsignal(signal));
-}
-
-bool is_crash(int status) {
-  return WIFEXITED(status) ||
-         std::find(kCrashes.begin(), kCrashes.end(), WTERMSIG(status)) != kCrashes.end();
+  return base::describe_end(status);
 }
 
 /// Ends in the same way as the child, for shells and scripts that check this.
@@ -160,6 +158,7 @@ void copy(std::span<char> place, std::initializer_list<std::string_view> pieces)
 
 struct Activity::Board {
   std::array<std::array<char, 4096>, 2> lines;  // the maximum length of a path
+  std::atomic<std::uint64_t> writes;
 };
 
 Activity::Activity() : Activity(new_memory(sizeof(Board))) {}
@@ -177,7 +176,10 @@ Activity::~Activity() {
 
 void Activity::write(Line line, std::string_view text, std::string_view rest) {
   copy(board_->lines[static_cast<std::size_t>(line)], {text, rest});
+  board_->writes.fetch_add(1, std::memory_order_relaxed);
 }
+
+std::uint64_t Activity::count() const { return board_->writes.load(std::memory_order_relaxed); }
 
 std::string Activity::read(Line line) const {
   return board_->lines[static_cast<std::size_t>(line)].data();
@@ -191,7 +193,8 @@ int run_guarded(char** arguments) {
   const int status = watch(start(arguments, activity, signals), signals);
   const auto what = breakdown(status, activity);
   if (!what) return WEXITSTATUS(status);
-  if (!is_crash(status)) return end_by(WTERMSIG(status), signals);
+  const bool broke_down = WIFEXITED(status) || hung(status) || base::is_crash(status);
+  if (!broke_down) return end_by(WTERMSIG(status), signals);
   return report_breakdown(activity, *what);
 }
 
@@ -201,7 +204,7 @@ std::optional<std::string> describe_breakdown(int status, const Activity& activi
   if (what)
     return foreign.empty() ? "it " + *what : fmt::format("the plug-in {} {}", foreign, *what);
   if (WEXITSTATUS(status) == base::kSuccess) return std::nullopt;
-  return fmt::format("it ended with exit code {}", WEXITSTATUS(status));
+  return "it " + base::describe_end(status);
 }
 
 std::unique_ptr<Activity> guarded_activity() {

@@ -1,6 +1,7 @@
 #pragma once
 // Records what a process is doing where another process, the guard, can read it after a crash.
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,6 +29,8 @@ class Activity {
   void write(Line line, std::string_view text, std::string_view rest = "");
   void clear(Line line) { write(line, ""); }
   std::string read(Line line) const;
+  /// Returns how many texts were written, by any process.
+  std::uint64_t count() const;
 
   /// Returns the descriptor for the process that writes here, which inherits it.
   int descriptor() const { return descriptor_; }

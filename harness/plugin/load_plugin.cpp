@@ -38,6 +38,11 @@ std::vector<LoadedPlugin>& all_loaded() {
   return all;
 }
 
+Activity*& recording() {
+  static Activity* activity = nullptr;
+  return activity;
+}
+
 std::string& program_name() {
   static std::string name = "beambench";
   return name;
@@ -303,18 +308,21 @@ void load_plugin(const std::string& file, Activity& activity) {
   PluginContents& contents = plugin.contents;
   activity.clear(Activity::Line::kForeign);
 
-  all_loaded().push_back({file, plugin.description,
-                          rays::fingerprint(read_input(file, kLargestFile)), plugin.compiler,
-                          plugin.instructions, plugin.optimized,
-                          names_of(contents.structures, &accel::StructureInfo::name),
-                          names_of(contents.scenes, &scenes::SceneInfo::name),
-                          names_of(contents.readers, &scenes::SceneReader::ending)});
+  all_loaded().push_back(
+      {file, plugin.description, rays::fingerprint(read_input(file, kLargestFile)), plugin.compiler,
+       plugin.instructions, plugin.optimized,
+       names_of(contents.structures, &accel::StructureInfo::name),
+       names_of(contents.scenes, &scenes::SceneInfo::name),
+       names_of(contents.readers, &scenes::SceneReader::ending), !is_program(file)});
+  recording() = &activity;
   adopt(contents.structures, file, activity);
   adopt(contents.scenes, file, activity);
   adopt(contents.readers, file, activity);
   accel::register_plugin_structures(std::move(contents.structures));
   scenes::register_plugin_scenes(std::move(contents.scenes), std::move(contents.readers));
 }
+
+Activity& activity_of_plugins() { return *recording(); }
 
 std::span<const LoadedPlugin> loaded_plugins() { return all_loaded(); }
 

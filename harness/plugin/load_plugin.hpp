@@ -22,6 +22,7 @@ struct LoadedPlugin {
   std::vector<std::string> structures;  ///< their names
   std::vector<std::string> scenes;
   std::vector<std::string> readers;  ///< the endings of their files
+  bool is_shared_object;             ///< false for a program, which has a process of its own
 };
 
 /// Loads a plug-in and adds its contents to `registry()` and to the catalogue, each with `origin`
@@ -33,6 +34,9 @@ struct LoadedPlugin {
 /// provides nothing or contents that `check_contents` refuses. In that case, none of it is
 /// registered. `activity` must outlive the plug-in's use.
 void load_plugin(const std::string& file, Activity& activity);
+
+/// Returns where the loaded plug-ins record their actions; there must be one.
+Activity& activity_of_plugins();
 
 /// Returns the plug-ins in the order of loading.
 std::span<const LoadedPlugin> loaded_plugins();

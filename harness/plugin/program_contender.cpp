@@ -116,7 +116,7 @@ class ProgramTracer final : public BatchTracer {
   accel::Statistics statistics() const override {
     const std::lock_guard lock(asking_);
     accel::Statistics statistics;
-    statistics.library_version = version_ + " (times are self-reported)";
+    statistics.library_version = version_ + kSelfReportedNote;
     statistics.more = {{kSelfReportedBuild, 1e3 * build_seconds_},
                        {kSelfReportedTrace, 1e3 * trace_seconds_}};
     return statistics;

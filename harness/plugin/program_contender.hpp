@@ -11,6 +11,8 @@ namespace beambench::plugin {
 /// The figures by which statistics state times of the program's own clock.
 inline constexpr const char* kSelfReportedBuild = "self_reported_build_ms";
 inline constexpr const char* kSelfReportedTrace = "self_reported_trace_ms";
+/// The end of a `library_version` with such times.
+inline constexpr const char* kSelfReportedNote = " (times are self-reported)";
 
 /// Starts the program, and returns the structure that it describes. Throws PluginError if it does
 /// not describe one.

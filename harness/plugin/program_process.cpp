@@ -15,6 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "harness/base/process_end.hpp"
 #include "scenes/base/error.hpp"
 
 namespace beambench::plugin {
@@ -31,13 +32,6 @@ constexpr std::size_t kLongestAnswer = 65536;
   ::dup2(socket, STDOUT_FILENO);
   ::execl(file, file, "--beambench", "1", nullptr);
   ::_exit(127);
-}
-
-std::string end_of(int status) {
-  if (WIFSIGNALED(status)) {
-    return fmt::format("was ended by SIG{}", ::sigabbrev_np(WTERMSIG(status)));
-  }
-  return fmt::format("ended with exit code {}", WEXITSTATUS(status));
 }
 
 }  // namespace
@@ -109,7 +103,7 @@ std::string ProgramProcess::request(const std::string& line, double seconds) {
     fail(
         fmt::format("{} in place of answering '{}'; it must be executable, and serve requests "
                     "until its input ends",
-                    end_of(status), verb));
+                    base::describe_end(status), verb));
   }
   if (end + 1 != answer.size()) {
     refuse_more_lines();

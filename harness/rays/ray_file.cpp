@@ -185,11 +185,16 @@ class BinaryRays : public RayReader::Format {
     const Json seed = json.value("seed", Json(0U));
     if (!seed.is_number_unsigned()) fail(path_, "\"seed\" is not a whole number");
     header.seed = seed.get<std::uint64_t>();
-    const Json may_graze = json.value("may_graze", Json(false));
-    if (!may_graze.is_boolean()) fail(path_, "\"may_graze\" is neither true nor false");
-    header.may_graze = may_graze.get<bool>();
+    header.may_graze = read_flag(json, "may_graze");
+    header.must_hit = read_flag(json, "must_hit");
     header.scene_hash = read_hash(path_, json, "scene_hash");
     hash_ = read_hash(path_, json, "hash");
+  }
+
+  bool read_flag(const Json& json, const char* name) const {
+    const Json flag = json.value(name, Json(false));
+    if (!flag.is_boolean()) fail(path_, fmt::format("\"{}\" is neither true nor false", name));
+    return flag.get<bool>();
   }
 
   [[noreturn]] void refuse_length(std::uint64_t bytes) const {
@@ -290,6 +295,7 @@ void write_binary(std::ostream& out, const RaySet& set, const Json& note) {
   if (set.scene_hash) header["scene_hash"] = hex_digits(*set.scene_hash);
   for (const accel::Pencil& pencil : set.pencils) header["pencils"].push_back(json_of(pencil));
   if (set.may_graze) header["may_graze"] = true;
+  if (set.must_hit) header["must_hit"] = true;
   header["note"] = note;
   out << kFirstLine << '\n' << json_text(header, -1) << '\n';
   out.write(reinterpret_cast<const char*>(set.rays.data()),

@@ -18,10 +18,10 @@ namespace beambench::rays {
 /// each as eight 32-bit IEEE floats in little-endian order: origin, t_min, direction, t_max. The
 /// JSON must have `query` ("closest" or "any") and `rays` (how many). `seed`, `scene_hash` (a file
 /// for another scene is refused), `hash` (of the rays' bytes, XXH3; a damaged file is refused),
-/// `may_graze` (true: `RaySet::may_graze`) and `pencils` are optional; other members, such as
-/// `note`, are for human readers. `pencils` is a list of `{"first": 0, "count": 16, "apex": [x, y,
-/// z], "toward": true}`, in the order of `first`: see `accel::Pencil`. The image's samples, and the
-/// views and bundles of pencils, are not saved. In Python:
+/// `may_graze`, `must_hit` (true or false: as in `RaySet`) and `pencils` are optional; other
+/// members, such as `note`, are for human readers. `pencils` is a list of `{"first": 0, "count":
+/// 16, "apex": [x, y, z], "toward": true}`, in the order of `first`: see `accel::Pencil`. The
+/// image's samples, and the views and bundles of pencils, are not saved. In Python:
 ///
 ///     with open(path, "rb") as f:
 ///         f.readline(); header = json.loads(f.readline())

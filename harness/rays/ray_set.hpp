@@ -37,6 +37,7 @@ struct RaySet : RayList {
   std::uint64_t seed = 0;                     ///< 0 if nothing is random
   std::optional<std::uint64_t> scene_hash{};  ///< hash of the scene they were made for, if known
   bool may_graze = false;  ///< aimed at edges and corners: any number of grazes is allowed
+  bool must_hit = false;   ///< from inside a closed surface: a ray that misses it has leaked
 };
 
 /// The coherence of a list: the mean cosine of the angle between the directions of a ray and the

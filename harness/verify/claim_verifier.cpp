@@ -69,12 +69,23 @@ void require_valid_claim(const scenes::Scene& scene, const rays::ClaimedHits& hi
   const auto ids = ids_of(hits);
   if (ids.empty() || ids[i] == scenes::kNoPrimitive) return;
   const bool triangles = hits.primitives.empty();
-  const std::size_t known = triangles ? scene.triangles.size() : scene.primitives.size();
-  const std::string_view what = triangles ? "triangle" : "primitive";
+  std::size_t known = scene.primitives.size();
+  std::size_t others = scene.triangles.size();
+  std::string_view what = "primitive";
+  std::string_view other = "triangle";
+  if (triangles) {
+    std::swap(known, others);
+    std::swap(what, other);
+  }
   if (ids[i] >= known) {
-    refuse(known == 0 ? fmt::format("there is no {} {}: the scene has none", what, ids[i])
-                      : fmt::format("there is no {} {}: the scene's are 0 to {}", what, ids[i],
-                                    known - 1));
+    // Polygons of several triangles, or spheres and cones, make the two differ.
+    refuse(fmt::format("there is no {} {}: {}{}", what, ids[i],
+                       known == 0 ? std::string("the scene has none")
+                                  : fmt::format("the scene's are 0 to {}", known - 1),
+                       ids[i] < others ? fmt::format("; if the ids are those of {0}s, give them as "
+                                                     "'{0}' instead of '{1}'",
+                                                     other, what)
+                                       : ""));
   }
   if (nowhere) refuse(fmt::format("{} {} is named, but its place is infinite", what, ids[i]));
 }
@@ -142,6 +153,8 @@ struct ClaimVerifier::State {
     rays::RaySet set;
     set.rays.assign(block.begin(), block.end());
     set.query = hits.occluded.empty() ? rays::Query::kClosestHit : rays::Query::kAnyHit;
+    set.may_graze = may_graze;
+    set.must_hit = must_hit;
     const rays::TraceInput input(std::move(set));
     const ReferenceHits reference(scene, input, oracle_hits(oracle_for(input.reach()), input));
     rays::TraceResults results = rays::make_results(input);
@@ -209,6 +222,8 @@ struct ClaimVerifier::State {
   Differ differ;
   std::optional<accel::oracle::Oracle> oracle{};
   double oracle_reach = 0.0;
+  bool may_graze = false;
+  bool must_hit = false;
   std::size_t verified = 0;        ///< rays
   std::uint64_t faults_found = 0;  ///< by searching for a surface
   std::uint64_t searched = 0;      ///< primitives
@@ -218,6 +233,11 @@ ClaimVerifier::ClaimVerifier(const scenes::Scene& scene, OnMismatch on_mismatch)
     : state_(std::make_unique<State>(scene, std::move(on_mismatch))) {}
 ClaimVerifier::~ClaimVerifier() = default;
 ClaimVerifier::ClaimVerifier(ClaimVerifier&&) noexcept = default;
+
+void ClaimVerifier::judge_as(const rays::RaySet& rays) {
+  state_->may_graze = rays.may_graze;
+  state_->must_hit = rays.must_hit;
+}
 
 void ClaimVerifier::add(std::span<const accel::Ray> rays, const rays::ClaimedHits& hits,
                         std::span<DiffClass> classes) {

@@ -9,6 +9,7 @@
 
 #include "accel/core/ray.hpp"
 #include "harness/rays/claimed_hits.hpp"
+#include "harness/rays/ray_set.hpp"
 #include "harness/verify/diff_report.hpp"
 #include "scenes/base/error.hpp"
 #include "scenes/scene.hpp"
@@ -43,6 +44,9 @@ class ClaimVerifier {
   ~ClaimVerifier();
   ClaimVerifier(ClaimVerifier&&) noexcept;
   ClaimVerifier& operator=(ClaimVerifier&&) = delete;
+
+  /// Applies the `may_graze` and `must_hit` of a file of rays.
+  void judge_as(const rays::RaySet& rays);
 
   /// Verifies the next rays, all parts in the same form, on all cores. Writes the class of each ray
   /// to `classes` unless that is empty. Throws InvalidClaim for a ray that `require_valid` refuses,

@@ -1,6 +1,7 @@
 #include "harness/verify/describe.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -57,6 +58,11 @@ std::string answer_text(const scenes::Scene& scene, const Mismatch& mismatch) {
   return mismatch.any_hit_answer == 1 ? "some hit" : "no hit";
 }
 
+/// Returns the name of its class, or "leak".
+std::string_view name_among(std::span<const std::string_view> names, const Mismatch& mismatch) {
+  return mismatch.leaked ? "leak" : names[static_cast<std::size_t>(mismatch.diff_class)];
+}
+
 }  // namespace
 
 ReplayCommand::ReplayCommand(std::string_view program, const scenes::Scene& scene,
@@ -92,10 +98,9 @@ std::string describe(const scenes::Scene& scene, std::string_view place, const M
       "  {:<9} {}\n"
       "  oracle    {}\n"
       "  exact     {}\n",
-      place, kDiffClassNames[static_cast<std::size_t>(mismatch.diff_class)],
-      mismatch.reason.empty() ? "" : ", ", mismatch.reason, text(mismatch.ray.origin),
-      text(mismatch.ray.direction), mismatch.ray.t_min, mismatch.ray.t_max, subject,
-      answer_text(scene, mismatch), text(scene, mismatch.oracle),
+      place, name_among(kDiffClassNames, mismatch), mismatch.reason.empty() ? "" : ", ",
+      mismatch.reason, text(mismatch.ray.origin), text(mismatch.ray.direction), mismatch.ray.t_min,
+      mismatch.ray.t_max, subject, answer_text(scene, mismatch), text(scene, mismatch.oracle),
       mismatch.searched ? text(scene, mismatch.exact) : "not searched");
 }
 
@@ -115,11 +120,10 @@ std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,
 }
 
 nlohmann::ordered_json to_json(const Mismatch& mismatch) {
-  nlohmann::ordered_json out{
-      {"index", mismatch.index},
-      {"class", kRecordedClassNames[static_cast<std::size_t>(mismatch.diff_class)]},
-      {"reason", mismatch.reason},
-      {"ray", ray_json(mismatch.ray)}};
+  nlohmann::ordered_json out{{"index", mismatch.index},
+                             {"class", name_among(kRecordedClassNames, mismatch)},
+                             {"reason", mismatch.reason},
+                             {"ray", ray_json(mismatch.ray)}};
   if (mismatch.query == rays::Query::kAnyHit) {
     out["reported"] = mismatch.any_hit_answer;
   } else {

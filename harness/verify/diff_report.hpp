@@ -40,9 +40,9 @@ inline constexpr std::array<std::string_view, kDiffClassNames.size()> kRecordedC
 
 /// The result of a verification, as stated in records.
 enum class Verdict {
-  kOk,          ///< no structure error, grazes within the budget
-  kMismatch,    ///< at least one structure error
-  kGrazes,      ///< no structure error, but more grazes than max(2, 1e-4 x rays)
+  kOk,          ///< no structure error, no leak, grazes within the budget
+  kMismatch,    ///< at least one structure error or leak
+  kGrazes,      ///< neither, but more grazes than max(2, 1e-4 x rays), and no `RaySet::may_graze`
   kBaseline,    ///< a structure that returns no hits by design, and did not
   kError,       ///< the structure could not be built or failed: nothing was verified
   kNoRays,      ///< the scene has no rays of the kind: nothing was verified, but nothing is wrong
@@ -66,6 +66,13 @@ struct Mismatch {
   std::optional<accel::oracle::ExactHit> exact;   ///< the exact hit, if it was searched
   bool searched;                                  ///< whether exact arithmetic judged the answer
   std::string_view reason;  ///< the reason for its class: a clause for `describe`
+  bool must_hit = false;    ///< as `rays::RaySet`
+  bool leaked = false;      ///< a graze that is a miss, although the ray must hit
+
+  /// Returns whether the structure reports that the ray hits nothing.
+  bool is_miss() const { return query == rays::Query::kClosestHit ? !answer : any_hit_answer == 0; }
+  /// Returns whether the structure is wrong.
+  bool is_fault() const { return diff_class == DiffClass::kStructureError || leaked; }
 };
 
 /// The findings for one buffer.
@@ -73,6 +80,7 @@ struct DiffReport {
   std::uint64_t rays = 0;
   std::uint64_t hits = 0;  ///< of the oracle
   std::array<std::uint64_t, static_cast<std::size_t>(DiffClass::kCount)> counts{};
+  std::uint64_t leaks = 0;         ///< of the grazes, those of rays that must hit: faults
   std::vector<Mismatch> examples;  ///< errors first, at most kMaxExamples of each class but agree
   Verdict verdict = Verdict::kOk;
 
@@ -80,6 +88,8 @@ struct DiffReport {
   std::uint64_t count(DiffClass diff_class) const {
     return counts[static_cast<std::size_t>(diff_class)];
   }
+  /// Returns the number of rays for which the structure is wrong.
+  std::uint64_t faults() const { return count(DiffClass::kStructureError) + leaks; }
 };
 
 }  // namespace beambench::verify

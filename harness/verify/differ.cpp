@@ -57,16 +57,17 @@ void require_shape(const rays::TraceInput& input, const rays::TraceResults& resu
                                      expected[2]));
 }
 
-Verdict verdict_of(const DiffReport& report) {
-  if (report.count(DiffClass::kStructureError) > 0) return Verdict::kMismatch;
+Verdict verdict_of(const DiffReport& report, bool may_graze) {
+  if (report.faults() > 0) return Verdict::kMismatch;
+  if (may_graze) return Verdict::kOk;
   const auto grazes = static_cast<double>(report.count(DiffClass::kGraze));
   return grazes > graze_budget(report.rays) ? Verdict::kGrazes : Verdict::kOk;
 }
 
-/// Ranks errors of the structure first, then the oracle's, grazes and ties.
+/// Ranks errors of the structure first, then leaks, the oracle's errors, grazes and ties.
 int rank(const Mismatch& mismatch) {
-  return mismatch.diff_class == DiffClass::kStructureError ? -10
-                                                           : -static_cast<int>(mismatch.diff_class);
+  if (mismatch.diff_class == DiffClass::kStructureError) return -10;
+  return mismatch.leaked ? -9 : -static_cast<int>(mismatch.diff_class);
 }
 
 }  // namespace
@@ -86,6 +87,7 @@ class Differ::Part {
         first_(differ.report_.rays) {
     differ.report_.rays += input_.size();
     differ.report_.hits += reference.hit_count();
+    differ.may_graze_ = input_.list() != nullptr && input_.list()->may_graze;
     std::fill(classes_.begin(), classes_.end(), DiffClass::kAgree);
   }
 
@@ -190,12 +192,17 @@ class Differ::Part {
   }
 
   void record(const Mismatch& found) {
+    DiffReport& report = differ_.report_;
     std::uint64_t& count = count_of(found.diff_class);
     if (found.diff_class != DiffClass::kAgree) {
-      if (count < DiffReport::kMaxExamples) differ_.report_.examples.push_back(found);
+      const bool may_leak = found.diff_class == DiffClass::kGraze;
+      const std::uint64_t alike =
+          found.leaked ? report.leaks : count - (may_leak ? report.leaks : 0);
+      if (alike < DiffReport::kMaxExamples) report.examples.push_back(found);
       if (differ_.on_mismatch_) differ_.on_mismatch_(found);
     }
     ++count;
+    if (found.leaked) ++report.leaks;
     if (!classes_.empty()) classes_[found.index - first_] = found.diff_class;
   }
 
@@ -232,7 +239,7 @@ void Differ::compare(const ReferenceHits& reference, const rays::TraceResults& r
 
 DiffReport Differ::finish() {
   std::ranges::stable_sort(report_.examples, {}, rank);  // within a class, in order of discovery
-  report_.verdict = verdict_of(report_);
+  report_.verdict = verdict_of(report_, may_graze_);
   if (conformance_ == accel::Conformance::kBaseline && report_.verdict == Verdict::kOk) {
     report_.verdict = Verdict::kBaseline;
   }

@@ -83,6 +83,7 @@ class Differ {
   OnMismatch on_mismatch_;
   DiffReport report_;
   std::uint64_t search_tests_ = 0;
+  bool may_graze_ = false;
 };
 
 /// Runs a `Differ` on one part.

@@ -23,10 +23,6 @@ constexpr std::size_t kRaysAtOnce = std::size_t{1} << 18U;  // rays in memory at
                   hits.string(), hit_count, ray_count, rays.string()));
 }
 
-void pardon_grazes(const rays::RaySet& rays, DiffReport& report) {
-  if (rays.may_graze && report.verdict == Verdict::kGrazes) report.verdict = Verdict::kOk;
-}
-
 }  // namespace
 
 ClaimsReport verify_hit_files(const scenes::Scene& scene, const std::filesystem::path& rays,
@@ -41,8 +37,8 @@ ClaimsReport verify_hit_files(const scenes::Scene& scene, const std::filesystem:
     refuse_counts(rays, *known_rays, hits, fmt::format("{}", *known_hits));
   }
 
-  progress.start(fmt::format("{} over {}", hits.string(), scene.name));
   ClaimVerifier verifier(scene, std::move(on_mismatch));
+  verifier.judge_as(ray_reader.header());
   std::vector<accel::Ray> block(kRaysAtOnce);
   rays::HitTable table;
   std::uint64_t verified = 0;
@@ -74,23 +70,20 @@ ClaimsReport verify_hit_files(const scenes::Scene& scene, const std::filesystem:
   }
 
   ClaimsReport found{hit_reader.query(), verifier.finish(), {}};
-  pardon_grazes(ray_reader.header(), found.report);
   for (const Mismatch& example : found.report.examples) {
     found.places.push_back(
         fmt::format("ray {} ({})", example.index, hit_reader.place_of(example.index)));
   }
-  progress.finish(std::string(to_string(found.report.verdict)));
   return found;
 }
 
 ClaimsReport verify_traced_file(const scenes::Scene& scene, const std::filesystem::path& rays,
-                                const Tracer& tracer, ClaimVerifier::OnMismatch on_mismatch,
-                                base::Progress& progress) {
+                                const Tracer& tracer, ClaimVerifier::OnMismatch on_mismatch) {
   const rays::RaySet set = rays::read_ray_file(rays);
   rays::require_made_for(scene, set);
-  progress.start(rays.string());
   const rays::HitTable hits = tracer(scene, rays::TraceInput(set));
   ClaimVerifier verifier(scene, std::move(on_mismatch));
+  verifier.judge_as(set);
   try {
     verifier.add(set.rays, hits.view());
   } catch (const InvalidClaim& error) {
@@ -99,11 +92,9 @@ ClaimsReport verify_traced_file(const scenes::Scene& scene, const std::filesyste
   }
   const bool any = !hits.occluded.empty();
   ClaimsReport found{any ? rays::Query::kAnyHit : rays::Query::kClosestHit, verifier.finish(), {}};
-  pardon_grazes(set, found.report);
   for (const Mismatch& example : found.report.examples) {
     found.places.push_back(fmt::format("ray {}", example.index));
   }
-  progress.finish(std::string(to_string(found.report.verdict)));
   return found;
 }
 

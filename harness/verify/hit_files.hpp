@@ -19,8 +19,8 @@ struct ClaimsReport {
   std::vector<std::string> places;  ///< of the report's examples: "ray 17 (hits.csv:18)"
 };
 
-/// Reads both files in parts and verifies the hits: any number of them in constant memory. Grazes
-/// of rays that may graze do not count in the verdict. `progress` gets one cell. Throws InputError
+/// Reads both files in parts and verifies the hits: any number of them in constant memory. They are
+/// judged by the rays' `may_graze` and `must_hit`. `progress` is advanced. Throws InputError
 /// with file and line or byte for invalid contents, for rays of another scene, and if the numbers
 /// of hits and rays differ.
 ClaimsReport verify_hit_files(const scenes::Scene& scene, const std::filesystem::path& rays,
@@ -30,7 +30,6 @@ ClaimsReport verify_hit_files(const scenes::Scene& scene, const std::filesystem:
 /// Verifies hits that a tracer finds for the rays of a file, which it receives all at once. Also
 /// throws as the tracer.
 ClaimsReport verify_traced_file(const scenes::Scene& scene, const std::filesystem::path& rays,
-                                const Tracer& tracer, ClaimVerifier::OnMismatch on_mismatch,
-                                base::Progress& progress);
+                                const Tracer& tracer, ClaimVerifier::OnMismatch on_mismatch);
 
 }  // namespace beambench::verify

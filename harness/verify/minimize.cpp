@@ -1,18 +1,23 @@
 #include "harness/verify/minimize.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 #include <ostream>
 #include <utility>
 #include <variant>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include "harness/rays/ray_file.hpp"
 #include "harness/rays/trace_results.hpp"
 #include "harness/verify/claim_verifier.hpp"
+#include "harness/verify/contact.hpp"
 #include "harness/verify/describe.hpp"
+#include "harness/verify/exact_search.hpp"
 #include "scenes/base/error.hpp"
 #include "scenes/base/files.hpp"
 #include "scenes/base/json_text.hpp"
@@ -30,6 +35,10 @@ rays::TraceInput list_of(std::vector<accel::Ray> rays, const rays::TraceInput& l
   set.rays = std::move(rays);
   set.label = like.label();
   set.query = like.query();
+  if (const rays::RaySet* list = like.list()) {
+    set.may_graze = list->may_graze;
+    set.must_hit = list->must_hit;
+  }
   return rays::TraceInput(std::move(set));
 }
 
@@ -43,22 +52,24 @@ std::vector<accel::Ray> rays_of(const rays::TraceInput& input) {
 /// Looks for wrong results over parts of a scene and of an input.
 class Trial {
  public:
-  Trial(const scenes::Scene& scene, const FindWrong& find_wrong, base::Progress& progress)
-      : scene_(scene), find_wrong_(find_wrong), progress_(progress) {}
+  Trial(const scenes::Scene& scene, const Mismatch& like, const FindWrong& find_wrong,
+        base::Progress& progress)
+      : scene_(scene), like_(like), find_wrong_(find_wrong), progress_(progress) {}
 
-  /// Returns a wrong result over these primitives; nothing if all are correct, or after too many
-  /// runs.
+  /// Returns a result over these primitives with the fault; nothing if there is none, or after too
+  /// many runs.
   std::optional<Mismatch> wrong(std::span<const scenes::PrimitiveId> ids,
                                 const rays::TraceInput& input) {
     if (runs_ == kMaxRuns) return std::nullopt;
     ++runs_;
     progress_.advance(static_cast<double>(runs_) / kMaxRuns);
-    return find_wrong_(scenes::subset(scene_, ids), input);
+    return find_wrong_(scenes::subset(scene_, ids), input, &like_);
   }
   std::size_t runs() const { return runs_; }
 
  private:
   const scenes::Scene& scene_;
+  const Mismatch& like_;
   const FindWrong& find_wrong_;
   base::Progress& progress_;
   std::size_t runs_ = 0;
@@ -88,8 +99,9 @@ std::vector<T> reduced(std::vector<T> items, Fails fails) {
   return items;
 }
 
-/// Returns the primitives of the results, ascending.
+/// Returns the primitives of the results, ascending; for a leak, all that may meet where it passes.
 std::vector<scenes::PrimitiveId> named(const scenes::Scene& scene, const Mismatch& wrong) {
+  if (wrong.leaked) return primitives_near(scene, wrong.ray);
   std::vector<scenes::PrimitiveId> ids;
   const auto add = [&](const auto& hit) {
     if (hit && hit->primitive < scene.primitives.size()) ids.push_back(hit->primitive);
@@ -100,6 +112,25 @@ std::vector<scenes::PrimitiveId> named(const scenes::Scene& scene, const Mismatc
   std::ranges::sort(ids);
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   return ids;
+}
+
+/// Returns whether rays just beside a leak, on all sides, hit the scene. Otherwise it passes the
+/// rim of what is left of the closed surface, where a miss is right.
+bool is_surrounded(const scenes::Scene& scene, const Mismatch& leak) {
+  if (!leak.exact) return false;
+  constexpr int kSides = 8;
+  const glm::dvec3 along = glm::normalize(glm::dvec3(leak.ray.direction));
+  const glm::dvec3 other = std::abs(along.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+  const glm::dvec3 right = glm::normalize(glm::cross(along, other));
+  const glm::dvec3 up = glm::cross(right, along);
+  const double apart = 2.0 * tolerance(scene, leak.ray, *leak.exact);
+  for (int side = 0; side < kSides; ++side) {
+    const double angle = 2.0 * std::numbers::pi * side / kSides;
+    accel::Ray beside = leak.ray;
+    beside.origin += glm::vec3(apart * (std::cos(angle) * right + std::sin(angle) * up));
+    if (crossings(scene, beside, primitives_near(scene, beside)).empty()) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -126,17 +157,27 @@ DiffReport verify_tracer(const scenes::Scene& scene, const rays::TraceInput& inp
                          const Tracer& tracer) {
   const rays::HitTable table = tracer(scene, input);
   ClaimVerifier verifier(scene);
+  if (input.list() != nullptr) verifier.judge_as(*input.list());
   verifier.add(rays_of(input), table.view());
   return verifier.finish();
 }
 
+std::optional<Mismatch> first_fault(const scenes::Scene& scene, const DiffReport& report,
+                                    const Mismatch* like) {
+  for (const Mismatch& found : report.examples) {
+    if (!found.is_fault()) continue;
+    if (like == nullptr) return found;
+    if (found.leaked != like->leaked || found.reason != like->reason) continue;
+    if (!found.leaked || is_surrounded(scene, found)) return found;
+  }
+  return std::nullopt;
+}
+
 FindWrong wrong_by_differ(Tracer tracer) {
-  return [tracer = std::move(tracer)](const scenes::Scene& scene,
-                                      const rays::TraceInput& input) -> std::optional<Mismatch> {
+  return [tracer = std::move(tracer)](const scenes::Scene& scene, const rays::TraceInput& input,
+                                      const Mismatch* like) -> std::optional<Mismatch> {
     try {
-      const DiffReport report = verify_tracer(scene, input, tracer);
-      if (report.count(DiffClass::kStructureError) == 0) return std::nullopt;
-      return report.examples.front();
+      return first_fault(scene, verify_tracer(scene, input, tracer), like);
     } catch (const InvalidClaim& error) {
       Mismatch found{};
       found.index = error.index;
@@ -144,6 +185,7 @@ FindWrong wrong_by_differ(Tracer tracer) {
       found.query = input.query();
       found.diff_class = DiffClass::kStructureError;
       found.reason = "invalid hit: it has a number that no hit has";
+      if (like != nullptr && like->reason != found.reason) return std::nullopt;
       return found;
     } catch (const InputError&) {  // over this part it fails differently
       return std::nullopt;
@@ -157,7 +199,7 @@ std::optional<MinimalCase> minimize(const scenes::Scene& scene, const rays::Trac
                                     const Mismatch& wrong, const FindWrong& find_wrong,
                                     base::Progress& progress) {
   progress.start(fmt::format("reducing ray {} over {}", wrong.index, scene.name));
-  Trial trial(scene, find_wrong, progress);
+  Trial trial(scene, wrong, find_wrong, progress);
   std::vector<scenes::PrimitiveId> all(scene.primitives.size());
   std::iota(all.begin(), all.end(), 0U);
 
@@ -182,7 +224,7 @@ std::optional<MinimalCase> minimize(const scenes::Scene& scene, const rays::Trac
     found = trial.wrong(ids, kept);
   }
   if (!found) {
-    progress.finish("right when it is traced again");
+    progress.finish("without this fault when it is traced again");
     return std::nullopt;
   }
   ids = reduced(std::move(ids), [&](const std::vector<scenes::PrimitiveId>& rest) {
@@ -199,6 +241,7 @@ MinimalCase named_case(const scenes::Scene& scene, const Mismatch& wrong) {
   rays::RaySet set;
   set.rays = {wrong.ray};
   set.query = wrong.query;
+  set.must_hit = wrong.must_hit;
   std::vector<scenes::PrimitiveId> ids = named(scene, wrong);
   scenes::Scene part = scenes::subset(scene, ids);
   return {std::move(part), std::move(ids), rays::TraceInput(std::move(set)), wrong, 0, false};
@@ -221,14 +264,15 @@ void write_case(const std::filesystem::path& folder, const MinimalCase& minimal,
                              {"rays", minimal.input.size()},
                              {"repeated", minimal.repeated},
                              {"runs", minimal.runs}};
-  if (const rays::RaySet* list = minimal.input.list()) {
-    rays::write_ray_file(folder / "ray.rays", *list, {{"scene", "scene.nff"}});
-    rays::write_ray_file(folder / "ray.csv", *list, {});
-  } else {
-    const accel::PrimaryRays& image = *minimal.input.image();
+  if (const accel::PrimaryRays* image = minimal.input.image()) {
     out["image"] = {
-        {"width", image.width()}, {"height", image.height()}, {"samples", image.samples()}};
+        {"width", image->width()}, {"height", image->height()}, {"samples", image->samples()}};
   }
+  const rays::TraceInput list = minimal.input.list() != nullptr
+                                    ? minimal.input
+                                    : list_of({minimal.mismatch.ray}, minimal.input);
+  rays::write_ray_file(folder / "ray.rays", *list.list(), {{"scene", "scene.nff"}});
+  rays::write_ray_file(folder / "ray.csv", *list.list(), {});
   out["wrong"] = to_json(minimal.mismatch);
   write_file(folder / "case.json", json_text(out) + '\n');
 }

@@ -29,11 +29,18 @@ DiffReport verify_tracer(const scenes::Scene& scene, const rays::TraceInput& inp
                          const Tracer& tracer);
 
 /// Returns the first wrong result of a subject for an input over a scene, which is a part of the
-/// scene where it failed. Nothing if all are correct, or if the subject fails differently.
-using FindWrong =
-    std::function<std::optional<Mismatch>(const scenes::Scene& scene, const rays::TraceInput&)>;
+/// scene where it failed. With `like`, only a result with the same fault (`first_fault`) counts.
+/// Nothing if all are correct, or if the subject fails differently.
+using FindWrong = std::function<std::optional<Mismatch>(
+    const scenes::Scene& scene, const rays::TraceInput&, const Mismatch* like)>;
 
-/// Finds the first structure error of the differ.
+/// Returns the first fault of a report over a scene, a part of the scene of `like`, that is the
+/// same as that of `like`: of the same class, with the same reason. A leak must still be one: rays
+/// just beside it, on all sides, hit the part. Without `like`, any fault.
+std::optional<Mismatch> first_fault(const scenes::Scene& scene, const DiffReport& report,
+                                    const Mismatch* like);
+
+/// Finds faults by the differ.
 FindWrong wrong_by_differ(Tracer tracer);
 
 /// A wrong result, over a part of a scene.
@@ -47,10 +54,10 @@ struct MinimalCase {
   bool repeated = true;  ///< false: not traced again; only the primitives of the results remain
 };
 
-/// Removes rays, then primitives, while some result stays wrong (Zeller and Hildebrandt,
+/// Removes rays, then primitives, while the fault of `wrong` stays (Zeller and Hildebrandt,
 /// "Simplifying and isolating failure-inducing input", IEEE TSE 28(2), 2002), with at most 2,000
-/// runs of `find_wrong`. Returns nothing if the subject is correct when run again. `progress` gets
-/// one cell.
+/// runs of `find_wrong`. Returns nothing if the subject does not have this fault when run again.
+/// `progress` gets one cell.
 std::optional<MinimalCase> minimize(const scenes::Scene& scene, const rays::TraceInput& input,
                                     const Mismatch& wrong, const FindWrong& find_wrong,
                                     base::Progress& progress);
@@ -59,8 +66,9 @@ std::optional<MinimalCase> minimize(const scenes::Scene& scene, const rays::Trac
 MinimalCase named_case(const scenes::Scene& scene, const Mismatch& wrong);
 
 /// Writes into a folder, which is created: scene.nff; scene.obj if there are only triangles;
-/// ray.rays and ray.csv, unless the rays are an image; case.json with the ray, the results, the
-/// remaining primitives of `whole`, and what `subject` traced. Throws InputError.
+/// ray.rays and ray.csv, which have the wrong ray alone if the rays are an image; case.json with
+/// the ray, the results, the remaining primitives of `whole`, and what `subject` traced. Throws
+/// InputError.
 void write_case(const std::filesystem::path& folder, const MinimalCase& minimal,
                 const std::string& whole, const std::string& subject);
 

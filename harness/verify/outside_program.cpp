@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "accel/core/support.hpp"
+#include "harness/base/process_end.hpp"
 #include "harness/rays/hit_file.hpp"
 #include "harness/rays/ray_file.hpp"
 #include "scenes/base/error.hpp"
@@ -44,15 +45,17 @@ class WorkFolder {
   }
   ~WorkFolder() {
     std::error_code ignored;
-    fs::remove_all(path_, ignored);
+    if (!is_kept_) fs::remove_all(path_, ignored);
   }
   WorkFolder(const WorkFolder&) = delete;
   WorkFolder& operator=(const WorkFolder&) = delete;
 
   fs::path file(const char* name) const { return fs::path(path_) / name; }
+  void keep() { is_kept_ = true; }
 
  private:
   std::string path_;
+  bool is_kept_ = false;
 };
 
 bool replace_word(std::string& text, std::string_view word, const fs::path& path) {
@@ -70,7 +73,7 @@ class OutsideProgram {
   explicit OutsideProgram(std::string command) : command_(std::move(command)) {}
 
   rays::HitTable trace(const scenes::Scene& scene, const rays::TraceInput& input) {
-    const WorkFolder folder;
+    WorkFolder folder;
     const fs::path hits = folder.file("answer.hits");
     std::string command = command_;
     if (const fs::path nff = folder.file("scene.nff"); replace_word(command, "{nff}", nff)) {
@@ -90,11 +93,20 @@ class OutsideProgram {
       }
     }
     replace_word(command, "{hits}", hits);
-    run(command);
-    return read(hits, input.size());
+    run(folder, command);
+    return read(folder, command, hits, input.size());
   }
 
  private:
+  /// Keeps the files of the first run that fails.
+  [[noreturn]] void fail(WorkFolder& folder, const std::string& command,
+                         const std::string& problem) {
+    const bool is_first = !std::exchange(has_failed_, true);
+    if (is_first) folder.keep();
+    throw InputError(fmt::format("the command {} {}{}", command, problem,
+                                 is_first ? "; its files are kept: try it in a shell" : ""));
+  }
+
   static rays::RaySet list_of(const scenes::Scene& scene, const rays::TraceInput& input) {
     rays::RaySet set;
     set.query = input.query();
@@ -103,7 +115,7 @@ class OutsideProgram {
     return set;
   }
 
-  void run(const std::string& command) {
+  void run(WorkFolder& folder, const std::string& command) {
     const char* where = std::exchange(quiet_, true) ? "( {} ) >/dev/null 2>&1" : "( {} ) >&2";
     const int status = std::system(fmt::format(fmt::runtime(where), command).c_str());
     if (status == 0) return;
@@ -114,29 +126,30 @@ class OutsideProgram {
     constexpr int kExitOfInterrupted = 128 + SIGINT;  // as shells report it
     if ((WIFSIGNALED(status) && WTERMSIG(status) == SIGINT) ||
         (WIFEXITED(status) && WEXITSTATUS(status) == kExitOfInterrupted)) {
-      throw Interrupted(fmt::format("interrupted while '{}' was running", command_));
+      throw Interrupted(fmt::format("interrupted while {} was running", command));
     }
-    const std::string how = WIFEXITED(status)
-                                ? fmt::format("ended with exit code {}", WEXITSTATUS(status))
-                                : fmt::format("was ended by signal {}", WTERMSIG(status));
-    throw InputError(fmt::format("the command '{}' {}; try it in a shell", command_, how));
+    constexpr int kLastSignal = 31;
+    const int signal = WIFEXITED(status) ? WEXITSTATUS(status) - 128 : 0;
+    const bool told_by_shell = signal > 0 && signal <= kLastSignal;
+    fail(folder, command, base::describe_end(told_by_shell ? signal : status));
   }
 
-  rays::HitTable read(const fs::path& file, std::size_t rays) const {
-    if (!fs::exists(file)) {
-      throw InputError(fmt::format("the command '{}' wrote no hits to {{hits}}", command_));
-    }
+  rays::HitTable read(WorkFolder& folder, const std::string& command, const fs::path& file,
+                      std::size_t rays) {
+    if (!fs::exists(file)) fail(folder, command, "wrote no hits");
     rays::HitReader reader(file);
     rays::HitTable hits;
     const std::size_t count = reader.read(rays + 1, hits);
     if (count == rays) return hits;
-    throw InputError(fmt::format(
-        "the command '{}' wrote {} hits for {} rays", command_,
-        count > rays ? fmt::format("more than {}", rays) : fmt::format("{}", count), rays));
+    fail(folder, command,
+         fmt::format("wrote {} hits for {} rays",
+                     count > rays ? fmt::format("more than {}", rays) : fmt::format("{}", count),
+                     rays));
   }
 
   std::string command_;
   bool quiet_ = false;
+  bool has_failed_ = false;
 };
 
 }  // namespace

@@ -22,9 +22,9 @@ class Interrupted : public std::runtime_error {
 ///     {hits}                    where the command must write the hits, in either format
 ///
 /// The command's output goes to stderr; that of later runs is suppressed. Throws InputError if the
-/// command has no {hits}; each run throws it if the command fails, or if the numbers of hits and
-/// rays differ, and UnsupportedError if it ends with exit code 77, or if {obj} cannot express the
-/// scene.
+/// command has no {hits}; each run throws it, with the command as it was run, if the command fails,
+/// or if the numbers of hits and rays differ (the files of the first such run are kept), and
+/// UnsupportedError if it ends with exit code 77, or if {obj} cannot express the scene.
 Tracer program_of(const std::string& command);
 
 }  // namespace beambench::verify

@@ -63,7 +63,8 @@ std::vector<std::string> describe_disputes(const VerifiedView& view, const DiffR
   std::vector<std::string> texts;
   for (const Mismatch& example : report.examples) {
     if (example.diff_class == DiffClass::kTie) continue;
-    if (example.diff_class == DiffClass::kGraze && report.verdict != Verdict::kGrazes) continue;
+    const bool grazes = example.diff_class == DiffClass::kGraze && !example.leaked;
+    if (grazes && report.verdict != Verdict::kGrazes) continue;
     texts.push_back(describe(view.scene, view.input, example, replay));
   }
   return texts;
@@ -177,6 +178,7 @@ nlohmann::ordered_json to_json(const VerifiedCell& cell) {
       out[std::string(kRecordedClassNames[i])] = cell.report->counts[i];
     }
   }
+  if (cell.report && cell.report->leaks > 0) out["leaks"] = cell.report->leaks;
   if (!cell.bits_reference.empty()) {
     out["bits"] = {{"compared_with", cell.bits_reference}, {"different", cell.different_bits}};
   }

@@ -118,7 +118,9 @@ std::string_view why_wrong(const Measure& measure, const Mismatch& found) {
   if (!found.answer) return "a hit was lost";
   const ExactHit claim{found.answer->t, found.answer->primitive};
   if (!measure.place_of(claim).contact.is_on_primitive()) {
-    return "the ray does not meet that primitive at that t";
+    return found.exact && measure.at_one_place(measure.place_of(*found.exact), claim.t)
+               ? "t is right, but another primitive is hit there"
+               : "the ray does not meet that primitive at that t";
   }
   if (!found.exact || claim.t < found.exact->t) return "a hit too many is reported";
   return "a nearer hit was lost";
@@ -190,6 +192,7 @@ Mismatch candidate_mismatch(const rays::TraceInput& input, const rays::TraceResu
   found.index = index;
   found.ray = input.ray(index);
   found.query = input.query();
+  found.must_hit = input.list() != nullptr && input.list()->must_hit;
   found.oracle = oracle;
   if (const auto* any = std::get_if<rays::AnyHits>(&results)) {
     found.any_hit_answer = (*any)[index];
@@ -238,6 +241,10 @@ void classify_by_search(const scenes::Scene& scene, Mismatch& found) {
     classify_any_hit(measure, near, crossed, found);
   } else {
     classify_closest_hit(measure, crossed, found);
+  }
+  if (found.must_hit && found.diff_class == DiffClass::kGraze && found.is_miss()) {
+    found.leaked = true;
+    found.reason = "it left a closed surface where primitives meet, and must hit one of them";
   }
 }
 

@@ -33,7 +33,7 @@ bool classify_by_oracle(const scenes::Scene& scene, Mismatch& found);
 /// grazed. A miss is correct if every crossing is grazed. Two places are one if they are within K u
 /// of each other across the surface, and within 1024 K u along the ray. A crossing is grazed if the
 /// primitive's boundary is within K u of the ray, or the crossing is at one place with an end of
-/// the ray's interval.
+/// the ray's interval. A grazed miss of a ray that must hit has leaked.
 void classify_by_search(const scenes::Scene& scene, Mismatch& found);
 
 /// Classifies a baseline's result: only a miss is correct.

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "harness/analysis/words.hpp"
+#include "harness/plugin/program_contender.hpp"
 #include "tests/analysis/some_run.hpp"
 
 namespace beambench::analysis {
@@ -112,6 +113,17 @@ TEST(Standings, NullAndExhaustiveAreReferencesAndNeverWin) {
   ASSERT_EQ(view.ranked.size(), 1U);
   EXPECT_EQ(view.ranked[0].contender, "samet");
   EXPECT_EQ(view.references.size(), 2U);
+}
+
+TEST(Standings, TimesOfAProgramsOwnClockAreMarked) {
+  std::vector<CellRecord> cells{cell_of({"samet", rounds(1.0)}), cell_of({"mine", rounds(2.0)})};
+  for (CellRecord& cell : cells) cell.statistics.emplace().library_version = "some 1.0";
+  EXPECT_EQ(describe_contenders(standings(run_of(cells))).find("self-reported"), std::string::npos);
+  cells[1].statistics->library_version += plugin::kSelfReportedNote;
+  const std::string text = describe_contenders(standings(run_of(cells)));
+  EXPECT_NE(text.find("mine (self-reported)  "), std::string::npos) << text;
+  EXPECT_NE(text.find("self-reported: times of the program's own clock"), std::string::npos);
+  EXPECT_EQ(text.find("samet ("), std::string::npos) << text;
 }
 
 TEST(Standings, ContendersWithoutTimesAreListedWithTheReason) {

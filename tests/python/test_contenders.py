@@ -200,6 +200,15 @@ def test_times_of_a_program_are_marked(tmp_path: Path) -> None:
     assert 0 < float(row["trace_ms_median"]) < 1000
 
 
+def test_the_table_of_times_marks_those_of_a_program() -> None:
+    done = call("--plugin", PYTHON, "time", "tetra:n=1", "--accel", "mine-in-python,sah-bvh",
+                "--resolution", "16x12", "--seconds", "1", **WITH_NUMPY)  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert "mine-in-python (self-reported)" in done.stdout
+    assert "self-reported: times of the program's own clock" in done.stdout
+    assert "sah-bvh (" not in done.stdout
+
+
 def test_times_of_a_program_are_its_own(tmp_path: Path) -> None:
     """Sleeps longer than it reports, and every ray misses, as in this picture."""
     file = program(
@@ -231,7 +240,7 @@ def test_times_of_a_program_are_its_own(tmp_path: Path) -> None:
         ("answer('error', 'no memory')", ["answered 'error no memory' to 'build'"]),
         ("answer('ok 0\\nok 0')", ["more than one line", "stderr"]),
         ("os._exit(3)", ["ended with exit code 3", "'build'"]),
-        ("os.abort()", ["was ended by SIGABRT", "'build'"]),
+        ("os.abort()", ["crashed (SIGABRT", "'build'"]),
     ],
 )
 def test_a_program_that_breaks_the_protocol_is_an_error(

@@ -483,3 +483,26 @@ def test_hits_go_alone_and_are_hits() -> None:
         bb.verify(SCENE, rays, hits.t)
     with pytest.raises(bb.InputError, match="rows, but there are"):
         bb.verify(SCENE, rays[:-1], hits)
+
+
+def test_ids_of_triangles_given_as_primitives_are_explained() -> None:
+    scene = bb.Scene("gears:n=2")
+    rays = scene.rays("primary", resolution=(64, 48))
+    hits = bb.Structure(scene, "exhaustive").closest_hits(rays)
+    triangle = np.searchsorted(scene.triangle_primitives, hits.primitive[hits.hit])
+    assert triangle.max() >= scene.primitives
+    ids = np.full(len(rays), -1)
+    ids[hits.hit] = triangle
+    with pytest.raises(bb.InputError, match="if the ids are those of triangles, give them as 't"):
+        bb.verify(scene, rays, t=hits.t, primitive=ids)
+
+    known = ids < scene.primitives
+    report = bb.verify(scene, rays[known], t=hits.t[known], primitive=ids[known])
+    assert not report.ok
+    assert "t is right, but another primitive is hit there" in str(report)
+    assert "primitive=scene.triangle_primitives[ids]" in str(report).splitlines()[-1]
+    assert bb.verify(scene, rays, t=hits.t, triangle=ids).ok
+    mapped = np.where(ids >= 0, scene.triangle_primitives[ids], bb.NO_PRIMITIVE)
+    right = bb.verify(scene, rays, t=hits.t, primitive=mapped)
+    assert right.ok
+    assert right.hint == ""

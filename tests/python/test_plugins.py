@@ -217,7 +217,8 @@ def test_a_sweep_measures_it_and_the_manifest_says_what_it_was(
 def test_the_self_test_ends_with_a_verdict(template: Path, faulty: Path, tmp_path: Path) -> None:
     done = call("--plugin", template, "selftest", "--accel", "mine", "--scenes", "10")
     assert done.returncode == 0, done.stdout
-    assert done.stdout.splitlines()[-1] == "mine: ok, passes all 15 checks"
+    assert "\nmine: ok, passes all 16 checks\n" in done.stdout
+    assert f"--plugin {template} verify --kit kit --accel mine" in done.stdout.splitlines()[-1]
 
     def faulty_test(fault: str) -> subprocess.CompletedProcess[str]:
         return call("--plugin", faulty, "selftest", "--accel", "faulty", "--scenes", "10",
@@ -225,17 +226,69 @@ def test_the_self_test_ends_with_a_verdict(template: Path, faulty: Path, tmp_pat
 
     wrong = faulty_test("any hit is the other way round")
     assert wrong.returncode == 1
-    assert "faulty: failed " in wrong.stdout.splitlines()[-1]
-    crashed = faulty_test("crash in trace")
-    assert crashed.returncode == 1
-    assert "querying 'faulty' over random 1 crashed" in crashed.stderr.splitlines()[-1]
+    assert re.search(r"^faulty: failed \d+ of 16 checks$", wrong.stdout, re.MULTILINE)
     some = faulty_test("refuses spheres")
     assert some.returncode == 0, some.stdout
-    assert some.stdout.splitlines()[-1].endswith(
-        ", over cones and polygons only: it does not support spheres"
-    )
+    assert ", over cones and polygons only: it does not support spheres\n" in some.stdout
     told = json.loads((tmp_path / "selftest.json").read_text())
     assert told["structures"] == [{"structure": "faulty", "primitives": ["cones", "polygons"]}]
+
+
+def test_a_crash_fails_its_check_and_the_self_test_goes_on(faulty: Path) -> None:
+    done = call("--plugin", faulty, "selftest", "--accel", "faulty", "--scenes", "3",
+                fault="crash in trace")  # fmt: skip
+    assert done.returncode == 1, done.stderr
+    assert f"the plug-in {faulty}: querying 'faulty' over random 1 crashed (SIGSEGV" in done.stdout
+    assert "querying 'faulty' over closed mesh crashed" in done.stdout
+    assert re.search(r"statistics +0 +ok", done.stdout), done.stdout
+
+
+def test_a_loop_without_end_over_one_scene_fails_by_its_name(faulty: Path) -> None:
+    done = call("--plugin", faulty, "selftest", "--accel", "faulty", "--scenes", "3",
+                "--timeout", "1", fault="hang over empty")  # fmt: skip
+    assert done.returncode == 1, done.stderr
+    assert f"the plug-in {faulty}: querying 'faulty' over empty did not end within 1 s" in (
+        done.stdout
+    )
+    assert "faulty: failed 1 of 16 checks" in done.stdout
+
+
+@pytest.fixture(scope="module")
+def small_kit(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("kit") / "kit"
+    assert call("selftest", "--export", folder, "--scenes", "2").returncode == 0
+    index = json.loads((folder / "kit.json").read_text())
+    index["cases"] = [case for case in index["cases"] if case["triangles"] < 60]
+    (folder / "kit.json").write_text(json.dumps(index))
+    return folder
+
+
+@pytest.mark.parametrize(
+    ("fault", "words"),
+    [
+        ("crash in trace of many", "querying 'faulty' over {} crashed (SIGSEGV"),
+        ("abort in trace of many", "querying 'faulty' over {} crashed (SIGABRT"),
+        ("exit in trace of many", "querying 'faulty' over {} ended with exit code 0"),
+        ("hang in trace of many", "querying 'faulty' over {} did not end within 1 s"),
+    ],
+)
+def test_a_case_of_a_kit_that_crashes_fails_and_the_others_are_verified(
+    faulty: Path, small_kit: Path, tmp_path: Path, fault: str, words: str
+) -> None:
+    done = call("--plugin", faulty, "verify", "--kit", small_kit, "--accel", "faulty",
+                "--timeout", "1", "--json", tmp_path / "v.json", fault=fault)  # fmt: skip
+    assert done.returncode == 1, done.stdout + done.stderr
+    cases = json.loads((tmp_path / "v.json").read_text())["cases"]
+    index = json.loads((small_kit / "kit.json").read_text())["cases"]
+    assert len(cases) == 2 * len(index)
+    failed = [case for case in cases if not case["passed"]]
+    assert 0 < len(failed) < len(cases)
+    for case in failed:
+        assert case["verdict"] == "error"
+        scene = small_kit / case["name"].split(",")[0] / "scene.nff"
+        assert words.format(scene) in case["message"]
+        assert f"replay: {case['replay']}" in done.stdout
+    assert {case["verdict"] for case in cases if case["passed"]} == {"ok"}
 
 
 def test_a_run_goes_on_with_the_same_plug_ins_only(template: Path, tmp_path: Path) -> None:
@@ -272,7 +325,7 @@ def test_a_scene_is_named_as_it_is_asked_for_and_a_file_by_its_path(
         ("throw in fill", ["threw", "while it was loaded", "not ready"]),
         ("throw at load", ["crashed", "SIGABRT", "not loaded"]),
         ("crash at load", ["crashed", "SIGSEGV", "not loaded"]),
-        ("exit at load", ["ended the process", "not loaded"]),
+        ("exit at load", ["ended with exit code 0", "not loaded"]),
         ("hang in fill", ["did not come to an end", "not loaded"]),
         ("brings nothing", ["provides nothing"]),
         ("taken name", ["'samet'", "rename it"]),
@@ -369,7 +422,7 @@ def test_another_interface_is_refused_by_its_stamp(
         ("crash in build", ["building 'faulty'", "crashed", "SIGSEGV"]),
         ("crash in trace", ["querying 'faulty'", "crashed", "SIGSEGV"]),
         ("abort in trace", ["querying 'faulty'", "crashed", "SIGABRT"]),
-        ("exit in trace", ["querying 'faulty'", "ended the process"]),
+        ("exit in trace", ["querying 'faulty'", "ended with exit code 0"]),
     ],
 )
 def test_a_sweep_says_in_the_row_what_went_wrong_and_goes_on(

@@ -16,7 +16,7 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
-from program import BINARY, beambench, output_of, refused
+from program import BINARY, beambench, output_of, refused, shell
 
 SCENE = "tetra:n=3"
 NONE = 0xFFFFFFFF
@@ -396,6 +396,8 @@ def test_a_program_is_run_over_a_kit_and_its_fault_reduced(kit: Path, tmp_path: 
     assert "tiny-scale" in done.stdout
     assert "a hit was lost" in done.stdout
     assert "reduced to 1 primitive and 1 ray" in done.stdout
+    for line in re.findall(r"^replay: (.*ray.rays.*)$", done.stdout, re.MULTILINE):
+        assert shell(line, tmp_path).returncode == 1, line
     wrong = [
         case
         for case in json.loads((tmp_path / "v.json").read_text())["cases"]
@@ -462,14 +464,82 @@ def test_a_closed_mesh_must_not_leak(kit: Path, tmp_path: Path) -> None:
         case for case in index["cases"] if case["family"] in ("closed mesh", "origins on surfaces")
     ]
     (small / "kit.json").write_text(json.dumps(index))
-    done = beambench("verify", "--kit", small, "--command", tracer(kit, "leak"),
-                     "--json", tmp_path / "v")  # fmt: skip
+    command = tracer(kit, "leak")
+    done = beambench("verify", "--kit", small, "--command", command, "--json", tmp_path / "v",
+                     "--minimize", tmp_path / "failures")  # fmt: skip
     assert done.returncode == 1
-    for case in json.loads((tmp_path / "v").read_text())["cases"]:
+    cases = json.loads((tmp_path / "v").read_text())["cases"]
+    for case in cases:
         assert case["structure_error"] == 0
         assert case["passed"] == (case["family"] == "origins on surfaces")
         assert (case["leaks"] > 0) == (case["family"] == "closed mesh")
         assert case["leaks"] <= case["graze"]
+    (closest, _) = [case for case in cases if case["leaks"] > 0]
+    assert closest["examples"][0]["class"] == "leak"
+    assert ": leak, it left a closed surface" in done.stdout
+    assert f"mismatch, {closest['leaks']} leaks\n" in done.stderr
+    row = next(line for line in done.stdout.splitlines() if line.startswith("closed mesh"))
+    assert re.split(" {2,}", row)[6:9] == ["0", "0", str(closest["leaks"])], "graze, wrong, leaks"
+
+    # Few triangles are left, over which the tracer still leaks, and a correct one does not.
+    for folder in sorted((tmp_path / "failures").iterdir()):
+        reduced = json.loads((folder / "case.json").read_text())
+        assert 2 <= len(reduced["primitives"]) <= 8
+        assert reduced["wrong"]["class"] == "leak"
+        files = ("verify", folder / "scene.nff", "--rays", folder / "ray.rays")
+        assert beambench(*files, "--command", command).returncode == 1
+        assert beambench(*files, "--accel", "exhaustive").returncode == 0
+
+
+def test_each_failing_case_is_printed_with_the_command_that_replays_it(
+    kit: Path, tmp_path: Path
+) -> None:
+    small = shutil.copytree(kit / "kit", tmp_path / "my kit")
+    index = json.loads((small / "kit.json").read_text())
+    index["cases"] = [case for case in index["cases"] if case["triangles"] < 20][:4]
+    (small / "kit.json").write_text(json.dumps(index))
+    command = tracer(kit, "none") + "; head -c 90 {hits} > {hits}.cut; mv {hits}.cut {hits}"
+    done = beambench("verify", "--kit", small, "--command", command)
+    assert done.returncode == 1, done.stderr
+    replays = re.findall(r"^replay: (.*)$", done.stdout, re.MULTILINE)
+    assert len(replays) == 2 * len(index["cases"])
+    for line in replays[:2]:
+        again = shell(line, tmp_path)
+        assert again.returncode == 2, again.stdout
+        assert "bytes of hits" in again.stderr
+    counts = re.findall(r"^\[(\d+)/(\d+)\]", done.stderr, re.MULTILINE)
+    assert all(int(one) <= int(of) for one, of in counts), counts
+
+
+@pytest.mark.parametrize("fault", ["exit 3", "false", "kill -SEGV $$"])
+def test_a_command_that_always_fails_fails_in_each_case(
+    kit: Path, tmp_path: Path, fault: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    command = f"test -s {{obj}} && sh -c '{fault}'; exit $?; {{hits}}"
+    done = beambench("verify", "--kit", kit / "kit", "--command", command)
+    assert done.returncode == 1, done.stderr
+    assert "0 of 94 cases right" in done.stdout
+    assert {verdict for _, verdict in family_rows(done.stdout)} == {"error"}
+    (run,) = re.findall(r"^the command test -s (\S+/scene.obj) && .* its files are kept",
+                        done.stdout, re.MULTILINE)  # fmt: skip
+    assert Path(run).exists()
+    how = {"exit 3": "exit code 3", "false": "exit code 1"}.get(fault, "crashed (SIGSEGV")
+    assert how in done.stdout
+
+
+def test_reduced_cases_do_not_exceed_the_number_of_cells(traced: Traced, tmp_path: Path) -> None:
+    at = clear_hit(traced)
+    t = traced.t.copy()
+    t[at] *= 0.9
+    write_hits(tmp_path / "mine.hits", {"t": t, "primitive": traced.primitive})
+    command = f"cp {tmp_path / 'mine.hits'} {{hits}}"
+    done = beambench("verify", SCENE, "--rays", traced.folder / "a.rays", "--command", command,
+                     "--minimize", tmp_path / "m", "--verbose")  # fmt: skip
+    assert done.returncode == 1, done.stderr
+    counts = re.findall(r"^\[(\d+)/(\d+)\]", done.stderr, re.MULTILINE)
+    assert counts
+    assert all(int(one) <= int(of) for one, of in counts), counts
 
 
 def test_spheres_are_unsupported_where_a_command_takes_obj(tmp_path: Path) -> None:

@@ -3,6 +3,8 @@
 #include "harness/verify/minimize.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 #include <numeric>
 #include <sstream>
 #include <vector>
@@ -11,7 +13,11 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/rays/ray_file.hpp"
+#include "harness/verify/contact.hpp"
+#include "harness/verify/describe.hpp"
 #include "harness/verify/outside_program.hpp"
+#include "harness/verify/selftest/closed_mesh.hpp"
+#include "harness/verify/tolerance.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/formats/nff/nff_writer.hpp"
 #include "scenes/subset.hpp"
@@ -50,7 +56,7 @@ Tracer losing(Loses loses) {
 MinimalCase reduced(const scenes::Scene& scene, const rays::TraceInput& input,
                     const Tracer& tracer) {
   const DiffReport report = verify_tracer(scene, input, tracer);
-  EXPECT_GT(report.count(DiffClass::kStructureError), 0U);
+  EXPECT_GT(report.faults(), 0U);
   base::Progress progress(1);
   auto found = minimize(scene, input, report.examples.front(), wrong_by_differ(tracer), progress);
   EXPECT_TRUE(found.has_value());
@@ -98,6 +104,93 @@ TEST_F(Minimize, AnImageStaysWholeIfTheFaultNeedsIt) {
   EXPECT_EQ(found.input.size(), 480U);
   EXPECT_NE(found.input.image(), nullptr);
   EXPECT_EQ(found.primitives.size(), 1U);
+  const TemporaryFolder folder;
+  write_case(folder.path(), found, "tetra:n=3", "mine");
+  const rays::RaySet set = rays::read_ray_file(folder.path() / "ray.rays");
+  ASSERT_EQ(set.rays.size(), 1U);
+  EXPECT_EQ(set.rays[0].direction, found.mismatch.ray.direction);
+}
+
+/// The tracer loses every hit over few primitives, which is not the fault to be reduced.
+TEST_F(Minimize, TheFaultStaysTheSame) {
+  const Tracer wrong = [](const scenes::Scene& scene, const rays::TraceInput& input) {
+    rays::HitTable hits = exhaustive()(scene, input);
+    for (std::size_t i = 0; i < hits.t.size(); ++i) {
+      if (hits.primitives[i] == scenes::kNoPrimitive) continue;
+      if (scene.primitives.size() >= 4) {
+        hits.t[i] *= 0.5F;
+      } else {
+        hits.t[i] = accel::kInfinity;
+        hits.primitives[i] = scenes::kNoPrimitive;
+      }
+    }
+    return hits;
+  };
+  const MinimalCase found = reduced(scene_, list_, wrong);
+  EXPECT_EQ(found.primitives.size(), 4U);
+  EXPECT_EQ(found.mismatch.reason, "the ray does not meet that primitive at that t");
+}
+
+/// A tracer that takes points near an edge to be outside of its triangle.
+Tracer leaking() {
+  return losing([](const scenes::Scene& scene, const rays::TraceInput& input,
+                   const rays::HitTable& hits, std::size_t i) {
+    const accel::Ray ray = input.ray(i);
+    return boundary_distance(scene, ray, hits.primitives[i]) <= tolerance(ray, hits.t[i]);
+  });
+}
+
+rays::TraceInput rays_at_edges_from_inside(const ClosedMesh& mesh) {
+  Random random(3);
+  rays::RaySet set;
+  set.rays = rays_from_inside(mesh, 40, random);
+  set.may_graze = true;
+  set.must_hit = true;
+  return rays::TraceInput(std::move(set));
+}
+
+TEST(Leaks, AreFaultsOfRaysThatMustHit) {
+  const ClosedMesh mesh = closed_mesh({10.0, -3.0, 7.0}, 2.0);
+  const rays::TraceInput input = rays_at_edges_from_inside(mesh);
+  EXPECT_EQ(verify_tracer(mesh.scene, input, exhaustive()).faults(), 0U);
+  const DiffReport report = verify_tracer(mesh.scene, input, leaking());
+  EXPECT_EQ(report.verdict, Verdict::kMismatch);
+  EXPECT_EQ(report.count(DiffClass::kStructureError), 0U);
+  EXPECT_GT(report.leaks, 10U);
+  EXPECT_TRUE(report.examples.front().leaked);
+  EXPECT_TRUE(scenes::says(describe(mesh.scene, report.examples.front()),
+                           {": leak, it left a closed surface"}));
+  EXPECT_EQ(to_json(report.examples.front())["class"], "leak");
+
+  rays::RaySet pardoned = *input.list();
+  pardoned.must_hit = false;
+  const DiffReport grazes =
+      verify_tracer(mesh.scene, rays::TraceInput(std::move(pardoned)), leaking());
+  EXPECT_EQ(grazes.verdict, Verdict::kOk);
+  EXPECT_EQ(grazes.leaks, 0U);
+}
+
+/// A miss at the rim of one triangle is right, so a leak takes all that meet where the ray passes.
+TEST(Leaks, AreReducedToThePrimitivesThatMeetThere) {
+  const ClosedMesh mesh = closed_mesh({10.0, -3.0, 7.0}, 2.0);
+  const rays::TraceInput input = rays_at_edges_from_inside(mesh);
+  for (std::size_t i = 1; i < 5; ++i) {
+    rays::RaySet one = *input.list();
+    one.rays = {input.ray(i)};
+    const rays::TraceInput ray(std::move(one));
+    if (verify_tracer(mesh.scene, ray, leaking()).leaks == 0) continue;
+    const MinimalCase found = reduced(mesh.scene, ray, leaking());
+    EXPECT_GE(found.primitives.size(), 2U);
+    EXPECT_LE(found.primitives.size(), 8U);
+    EXPECT_TRUE(found.mismatch.leaked);
+    const TemporaryFolder folder;
+    write_case(folder.path() / "case", found, "closed mesh", "mine");
+    const rays::RaySet written = rays::read_ray_file(folder.path() / "case" / "ray.rays");
+    EXPECT_TRUE(written.must_hit);
+    EXPECT_TRUE(written.may_graze);
+    EXPECT_EQ(verify_tracer(found.scene, rays::TraceInput(written), exhaustive()).faults(), 0U);
+    EXPECT_EQ(verify_tracer(found.scene, rays::TraceInput(written), leaking()).leaks, 1U);
+  }
 }
 
 TEST_F(Minimize, FaultsThatDisappearAreNotReduced) {
@@ -116,13 +209,10 @@ TEST_F(Minimize, ImpossibleNumbersAreAlsoFaults) {
     }
     return hits;
   };
-  Mismatch first{};
-  first.ray = list_.ray(0);
-  for (std::size_t i = 0; i < list_.size(); ++i) {
-    if (exhaustive()(scene_, list_).occluded.empty()) first.ray = list_.ray(list_.size() / 2);
-  }
+  const auto first = wrong_by_differ(wrong)(scene_, list_, nullptr);
+  ASSERT_TRUE(first);
   base::Progress progress(1);
-  const auto found = minimize(scene_, list_, first, wrong_by_differ(wrong), progress);
+  const auto found = minimize(scene_, list_, *first, wrong_by_differ(wrong), progress);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->primitives.size(), 1U);
 }
@@ -180,15 +270,27 @@ TEST_F(Minimize, ACommandIsRunWithItsFiles) {
 }
 
 TEST_F(Minimize, ACommandThatFailsIsNamed) {
+  const TemporaryFolder folder;  // files of commands that fail are kept
+  ::setenv("TMPDIR", folder.path().c_str(), 1);
   const auto refusal = [&](const char* command) {
     return scenes::thrown_message([&] { program_of(command)(scene_, list_); });
   };
   EXPECT_TRUE(scenes::says(refusal("true"), {"no {hits}"}));
   EXPECT_TRUE(scenes::says(refusal("exit 3; {hits}"), {"ended with exit code 3"}));
-  EXPECT_TRUE(scenes::says(refusal("kill -9 $$; {hits}"), {"signal 9"}));
+  EXPECT_TRUE(scenes::says(refusal("kill -9 $$; {hits}"), {"was ended by SIGKILL"}));
+  EXPECT_TRUE(
+      scenes::says(refusal("sh -c 'kill -SEGV $$'; exit $?; {hits}"), {"crashed (SIGSEGV"}));
   EXPECT_TRUE(scenes::says(refusal("test ! -e {hits}"), {"wrote no hits"}));
   EXPECT_TRUE(scenes::says(refusal("printf 't,primitive\\n1,2\\n' > {hits}"),
                            {"wrote 1 hits for 480 rays"}));
+
+  // The message has the command as it was run, and its files are there.
+  const std::string message = refusal("test -s {obj} && exit 3; {hits}");
+  const std::size_t begin = message.find("test -s ") + 8;
+  const std::string obj = message.substr(begin, message.find(' ', begin) - begin);
+  EXPECT_TRUE(std::filesystem::exists(obj)) << message;
+  EXPECT_TRUE(scenes::says(message, {"its files are kept"}));
+  ::unsetenv("TMPDIR");
 }
 
 }  // namespace

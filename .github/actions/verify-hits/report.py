@@ -53,7 +53,7 @@ def summary(found: dict[str, Any]) -> str:
         lines += ["", "### Failures", ""]
         for case in failed[:FAILED_SHOWN]:
             what = case["message"] or case.get("minimal") or case["verdict"]
-            lines.append(f"- `{case['name']}`: {what}")
+            lines.append(f"- `{case['name']}`: {what.splitlines()[0]}")
         if len(failed) > FAILED_SHOWN:
             lines.append(f"- and {len(failed) - FAILED_SHOWN} more in verdict.json")
     return "\n".join(lines) + "\n"

@@ -21,6 +21,10 @@ CLASSES: tuple[str, ...] = tuple(_beambench.class_names())
 """agree, tie, graze, structure_error (claim wrong) and oracle_error (oracle wrong)."""
 
 
+# A reason of the differ (verify_ray.cpp).
+_OTHER_PRIMITIVE = "t is right, but another primitive is hit there"
+
+
 def _number(value: float) -> str:
     """Returns the fewest digits that distinguish neighboring numbers of the type."""
     return str(value)
@@ -123,6 +127,22 @@ class Report:
         """Whether the verdict is ok."""
         return self.verdict == "ok"
 
+    @property
+    def hint(self) -> str:
+        """What is probably wrong with the ids, where t is right and they are not; else empty."""
+        wrong = [example for example in self.examples if example.reason == _OTHER_PRIMITIVE]
+        if not wrong:
+            return ""
+        if wrong[0].claimed_triangle is not None:
+            return "hint: t is right and triangle is not; expected rows of scene.triangles"
+        return (
+            "hint: t is right and primitive is not; expected ids of primitives: the rows given to "
+            "Scene.from_triangles or from_spheres (with degenerate='skip', scene.source_rows maps "
+            "ids to rows), or places in the scene's file, where a polygon of several triangles is "
+            "one primitive. For ids of triangles, give triangle=ids, or map them: "
+            "primitive=scene.triangle_primitives[ids]"
+        )
+
     def __str__(self) -> str:
         """Returns the verdict, the counts, and the first examples."""
         counts = ", ".join(f"{name} {n}" for name, n in self.counts.items() if n > 0)
@@ -132,6 +152,13 @@ class Report:
         left = self.rays - self.counts["agree"] - len(shown)
         if left > 0:
             lines.append(f"{left} more that do not agree: see classes and examples")
+        if self.hint:
+            lines.append(self.hint)
+        if self.counts["oracle_error"] > 0:
+            lines.append(
+                "oracle_error: the claim is right there, and the oracle is not, by exact "
+                "arithmetic; such rays count as right"
+            )
         return "\n".join(lines)
 
     def __repr__(self) -> str:
@@ -245,7 +272,9 @@ def verify(
     The claims are closest hits (`hits`, a whole result of `closest_hits` or `trace_image`; or `t`
     or `point`, optionally with `primitive` or `triangle`) or any hits (only `occluded`). A claim
     is compared with the hit of an oracle in double precision, with tolerances for rounding to
-    float32; disputes are decided by exact arithmetic.
+    float32; disputes are decided by exact arithmetic. A ray that misses at the edge between two
+    triangles only grazes: whether closed meshes leak there is verified by the conformance kit
+    (`beambench verify --kit`).
 
     Args:
         scene: the scene against which the rays were traced.
@@ -257,7 +286,8 @@ def verify(
             infinity for a miss.
         point: shape (N, 3), real numbers, rounded to float32: the point that is hit; three
             infinities: a miss.
-        primitive: shape (N,), integers: the id in the scene; -1 or NO_PRIMITIVE: a miss.
+        primitive: shape (N,), integers: the id in the scene, not that of a triangle where a polygon
+            has several (`Scene.triangle_primitives` maps them); -1 or NO_PRIMITIVE: a miss.
         triangle: shape (N,), integers: the row of `Scene.triangles`; -1 or NO_PRIMITIVE: a miss.
         occluded: shape (N,), bool, or integers 0 and 1: whether the ray hits anything.
 

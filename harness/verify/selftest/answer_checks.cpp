@@ -13,6 +13,7 @@
 #include "accel/core/registry.hpp"
 #include "harness/rays/trace_input.hpp"
 #include "harness/rays/trace_results.hpp"
+#include "harness/verify/selftest/closed_mesh.hpp"
 #include "harness/verify/selftest/hit_comparison.hpp"
 #include "harness/verify/selftest/selftest.hpp"
 #include "harness/verify/selftest/test_scenes.hpp"
@@ -195,7 +196,9 @@ CheckOutcome check_views(const Subject& subject, const SelftestEffort& effort) {
             comparison.whole(*structure, input, /*may_graze=*/true));
       } catch (const rays::NoRaysError&) {  // it sees nothing, or no mirror
       }
-      if (!outcome.passed()) return outcome;
+      if (outcome.passed()) continue;
+      if (outcome.failed) outcome.failed->scene.cameras = {image.camera};
+      return outcome;
     }
   }
   return outcome;
@@ -243,6 +246,22 @@ CheckOutcome check_faces_edges_corners(const Subject& subject, const SelftestEff
   CheckOutcome block = check_rays(subject, block_of_squares());
   block.rays += cubes.rays;
   return block;
+}
+
+CheckOutcome check_closed_meshes(const Subject& subject, const SelftestEffort& effort) {
+  CheckOutcome outcome;
+  Random random(effort.seed);
+  for (const MeshPlace& place : kMeshPlaces) {
+    const ClosedMesh mesh = closed_mesh(place.center, place.radius);
+    const std::vector<accel::Ray> rays = rays_from_inside(mesh, effort.rays, random);
+    const auto structure = subject.build(mesh.scene);
+    add(outcome, rays.size(), mesh.scene, subject.choice(),
+        fmt::format("{} of radius {}", mesh.scene.name, place.radius),
+        HitComparison(mesh.scene, subject.conformance())
+            .single_rays(*structure, rays, /*must_hit=*/true));
+    if (!outcome.passed()) break;
+  }
+  return outcome;
 }
 
 CheckOutcome check_heap(const Subject& subject, const SelftestEffort&) {

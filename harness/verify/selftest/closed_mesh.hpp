@@ -1,6 +1,7 @@
 #pragma once
 // A closed mesh of triangles, and rays that are hard to trace over it.
 
+#include <array>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -19,6 +20,17 @@ struct ClosedMesh {
   double radius;  ///< vertices are 0.8 to 1.2 times as far from the center
 };
 ClosedMesh closed_mesh(const glm::dvec3& center, double radius);
+
+/// A place and a size of the mesh.
+struct MeshPlace {
+  const char* family;  ///< of the kit
+  glm::dvec3 center;
+  double radius;
+};
+inline constexpr std::array<MeshPlace, 4> kMeshPlaces{{{"closed mesh", {10.0, -3.0, 7.0}, 2.0},
+                                                       {"huge scale", {2e5, -1e6, 3e5}, 1e6},
+                                                       {"huge scale", {3e8, 0.0, -2e8}, 5e7},
+                                                       {"tiny scale", {1e-7, 0.0, -2e-7}, 1e-6}}};
 
 /// Returns a vertex, or the middle of an edge, of a random triangle.
 glm::dvec3 vertex_or_edge(const scenes::Scene& scene, Random& random);

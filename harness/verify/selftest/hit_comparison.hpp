@@ -31,9 +31,11 @@ class HitComparison {
       : scene_(&scene), exhaustive_(scene), conformance_(conformance) {}
 
   /// Compares closest and any hits of single rays. If every bit must be equal, each ray is also
-  /// traced with its end, and with its beginning, exactly at its hit.
+  /// traced with its end, and with its beginning, exactly at its hit. `must_hit`: the rays are
+  /// inside a closed surface, and at most 1% may leak; the kit allows none.
   std::optional<WrongHits> single_rays(const accel::Accelerator& structure,
-                                       std::span<const accel::Ray> rays) const;
+                                       std::span<const accel::Ray> rays,
+                                       bool must_hit = false) const;
 
   /// Compares the hits of an image or of a list with its pencils, traced as a whole. `may_graze`:
   /// more grazes than the differ's budget are allowed, as if the camera lies on a surface.
@@ -55,7 +57,7 @@ class HitComparison {
   accel::Conformance conformance_;
 };
 
-/// Runs a structure again over parts of a scene, with `HitComparison::whole`: for `minimize`.
+/// Runs a structure again over parts of a scene, and compares its hits likewise: for `minimize`.
 FindWrong wrong_by_comparison(const accel::StructureChoice& structure);
 
 }  // namespace beambench::verify

@@ -47,7 +47,7 @@ std::string folder_name(std::size_t number, std::string name) {
   return fmt::format("{:03}-{}", number, name);
 }
 
-void write_scene(const fs::path& folder, SceneWithRays made, const std::string& family) {
+void write_scene(const fs::path& folder, SceneWithRays made, const KitScene& of) {
   fs::create_directory(folder);
   const scenes::Scene& scene = made.scene;
   write_file(folder / "scene.nff",
@@ -60,11 +60,12 @@ void write_scene(const fs::path& folder, SceneWithRays made, const std::string& 
   set.rays = std::move(made.rays);
   set.scene_hash = scenes::scene_hash(scene);
   set.may_graze = true;
+  set.must_hit = of.closed;
   rays::write_ray_file(folder / "rays.csv", set, {});
   for (const rays::Query query : {rays::Query::kClosestHit, rays::Query::kAnyHit}) {
     set.query = query;
     rays::write_ray_file(folder / fmt::format("{}.rays", rays::to_string(query)), set,
-                         {{"scene", scene.name}, {"family", family}});
+                         {{"scene", scene.name}, {"family", of.family}});
   }
 }
 
@@ -103,7 +104,7 @@ std::size_t write_kit(const fs::path& folder, const SelftestEffort& effort, Prim
                      {"cones", made.scene.cones.size()},
                      {"polygons", made.scene.polygons.size()},
                      {"triangles", made.scene.triangles.size()}});
-    write_scene(folder / name, std::move(made), each.family);
+    write_scene(folder / name, std::move(made), each);
     progress.finish("written");
   });
   write_file(folder / "README.md", kReadme);
@@ -137,8 +138,7 @@ std::vector<KitCase> read_kit(const fs::path& folder) {
                     .rays = folder / name / fmt::format("{}.rays", query),
                     .hits = folder / name / fmt::format("{}.hits", query),
                     .family = each.value("family", name),
-                    .query = query == "any" ? rays::Query::kAnyHit : rays::Query::kClosestHit,
-                    .closed = each.value("closed", false)};
+                    .query = query == "any" ? rays::Query::kAnyHit : rays::Query::kClosestHit};
       const fs::path csv = folder / name / fmt::format("{}-hits.csv", query);
       if (!fs::exists(found.hits) && fs::exists(csv)) found.hits = csv;
       cases.push_back(std::move(found));

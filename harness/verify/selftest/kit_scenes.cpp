@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -149,17 +150,10 @@ class Kit {
 };
 
 void add_meshes(Kit& kit, std::uint64_t count) {
-  struct Place {
-    const char* family;
-    glm::dvec3 center;
-    double radius;
-  };
   Random random(23);
-  const ClosedMesh mesh = closed_mesh({10.0, -3.0, 7.0}, 2.0);
-  kit.add_closed("closed mesh", mesh, rays_from_inside(mesh, count, random));
-  for (const Place& place :
-       {Place{"huge scale", {2e5, -1e6, 3e5}, 1e6}, Place{"huge scale", {3e8, 0.0, -2e8}, 5e7},
-        Place{"tiny scale", {1e-7, 0.0, -2e-7}, 1e-6}}) {
+  const ClosedMesh mesh = closed_mesh(kMeshPlaces[0].center, kMeshPlaces[0].radius);
+  kit.add_closed(kMeshPlaces[0].family, mesh, rays_from_inside(mesh, count, random));
+  for (const MeshPlace& place : std::span(kMeshPlaces).subspan(1)) {
     const ClosedMesh scaled = closed_mesh(place.center, place.radius);
     kit.add_closed(place.family, scaled, rays_from_inside(scaled, count, random));
     kit.add_all(place.family, {scaled.scene, rays_at_edges(scaled, count, random)}, kUsual);

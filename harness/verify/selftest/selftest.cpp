@@ -24,7 +24,7 @@ bool supports(const accel::Support& support, NeededRays rays) {
 }  // namespace
 
 std::span<const Check> selftest_checks() {
-  static constexpr std::array<Check, 15> kChecks{{
+  static constexpr std::array<Check, 16> kChecks{{
       {"random scenes", "spheres, cones and polygons anywhere, at any of its parameters", false,
        false, NeededRays::kSingle, check_random_scenes},
       {"scene families",
@@ -41,6 +41,8 @@ std::span<const Check> selftest_checks() {
        NeededRays::kImages, check_images},
       {"faces, edges, corners", "rays in the planes, lines and points where cells and boxes meet",
        true, true, NeededRays::kSingle, check_faces_edges_corners},
+      {"closed meshes", "rays from inside a closed mesh, at edges and vertices: at most 1% leak",
+       false, true, NeededRays::kSingle, check_closed_meshes},
       {"degenerate rays", "directions of all lengths, nearly along axes; no interval", true, false,
        NeededRays::kSingle, check_degenerate_rays},
       {"heap", "ten thousand equal primitives in one place: the lowest id is hit", false, false,

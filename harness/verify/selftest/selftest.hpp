@@ -75,7 +75,8 @@ rays::TraceResults traced(const accel::Accelerator& structure, const rays::Trace
 
 /// The checks of hits.
 RunCheck check_random_scenes, check_scene_families, check_views, check_images,
-    check_smallest_scenes, check_faces_edges_corners, check_heap, check_degenerate_rays;
+    check_smallest_scenes, check_faces_edges_corners, check_closed_meshes, check_heap,
+    check_degenerate_rays;
 /// All other checks.
 RunCheck check_lists, check_counting, check_two_builds, check_threads, check_counters,
     check_statistics, check_explanation;

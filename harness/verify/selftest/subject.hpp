@@ -43,6 +43,8 @@ class Subject {
   /// Builds it over three tiny scenes, to determine which primitives it supports.
   explicit Subject(accel::StructureChoice choice)
       : choice_(std::move(choice)), kinds_(kinds_taken(choice_)) {}
+  Subject(accel::StructureChoice choice, PrimitiveKinds kinds)
+      : choice_(std::move(choice)), kinds_(kinds) {}
 
   const accel::StructureInfo& info() const { return choice_.info(); }
   accel::Conformance conformance() const { return info().conformance; }

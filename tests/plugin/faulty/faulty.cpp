@@ -30,6 +30,8 @@ void hang() {
   }
 }
 
+constexpr std::size_t kMany = 1;  // primitives
+
 /// Faults before any of its functions are called.
 struct AtLoad {
   AtLoad() {
@@ -55,6 +57,13 @@ class Faulty : public TraversalAccelerator<Faulty> {
     if (fault_is("abort in trace")) std::abort();
     if (fault_is("exit in trace")) std::exit(0);
     if (fault_is("hang in trace")) hang();
+    if (fault_is("hang over empty") && scene_->primitives.empty()) hang();
+    if (scene_->primitives.size() > kMany) {
+      if (fault_is("crash in trace of many")) crash();
+      if (fault_is("abort in trace of many")) std::abort();
+      if (fault_is("exit in trace of many")) std::exit(0);
+      if (fault_is("hang in trace of many")) hang();
+    }
     if (fault_is("primitive out of range")) return Hit{1.0F, 4'000'000'000U};
     if (fault_is("t is not a number")) return Hit{std::numeric_limits<float>::quiet_NaN(), 0};
     if (fault_is("answers nothing")) return std::nullopt;

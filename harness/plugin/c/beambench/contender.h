@@ -77,7 +77,11 @@ typedef struct beambench_cone {
 } beambench_cone;
 
 /* The arrays of a scene. They stay where they are until `destroy` returns, so they need no copy. All
- * numbers are finite; every primitive from 0 to primitive_count - 1 occurs. */
+ * numbers are finite; every primitive from 0 to primitive_count - 1 occurs.
+ *
+ * Every count may be 0, and the pointer beside it is then null or must not be read: `beambench
+ * selftest` traces a scene without any primitives, in which every ray misses. Kinds of primitives
+ * that `supports` leaves out do not occur. */
 typedef struct beambench_scene {
   size_t size; /* sizeof(beambench_scene) in the program */
   size_t primitive_count;
@@ -91,7 +95,8 @@ typedef struct beambench_scene {
   const beambench_cone* cones;
 } beambench_scene;
 
-/* The rays of one query: a list, or neighboring rays of an image, row by row from the top left. */
+/* The rays of one query: a list, or neighboring rays of an image, row by row from the top left. The
+ * count may be 0. */
 typedef struct beambench_batch {
   size_t size; /* sizeof(beambench_batch) in the program */
   size_t count;
@@ -99,7 +104,8 @@ typedef struct beambench_batch {
   size_t row; /* rays in a row of the image, samples of a pixel being neighbors; 0: a list */
 } beambench_batch;
 
-/* One structure. All functions are called with the tables's own structures only. */
+/* One structure. All functions are called with the table's own structures only. `beambench selftest`
+ * and `verify --kit` end a scene's build and queries after --timeout seconds. */
 typedef struct beambench_contender {
   size_t size;             /* sizeof(beambench_contender) in the shared object */
   const char* name;        /* letters, digits, '-' and '_', a letter first */
