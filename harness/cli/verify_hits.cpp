@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -272,8 +273,9 @@ void verify_case(const VerifyHitsRequest& request, const scenes::Scene& scene,
   render::DisputedPlaces places;
   const auto collect = [&](const verify::Mismatch& mismatch) { places.add(mismatch); };
   const verify::ClaimsReport found =
-      tracer ? verify::verify_traced_file(scene, files.rays, *tracer, collect)
-             : verify::verify_hit_files(scene, files.rays, files.hits, collect, progress);
+      tracer ? verify::verify_traced_file(scene, files.rays, *tracer, collect, files.closed)
+             : verify::verify_hit_files(scene, files.rays, files.hits, collect, progress,
+                                        files.closed);
   const verify::DiffReport& report = found.report;
   claims.query = found.query;
   claims.verdict = report.verdict;
@@ -295,8 +297,10 @@ void verify_case(const VerifyHitsRequest& request, const scenes::Scene& scene,
   if (request.minimize.empty() || report.faults() == 0) return;
   const std::string subject = subject_of(request, files.hits.string());
   if (tracer) {
+    rays::RaySet set = rays::read_ray_file(files.rays);
+    set.must_hit |= files.closed;
     claims.minimal = minimized_text(
-        request.minimize, files.name, scene, rays::TraceInput(rays::read_ray_file(files.rays)),
+        request.minimize, files.name, scene, rays::TraceInput(std::move(set)),
         report.examples.front(), verify::wrong_by_differ(*tracer), subject, option_of(request, ""));
   } else {
     const auto folder = std::filesystem::path(request.minimize) / file_stem(files.name);

@@ -27,7 +27,8 @@ constexpr std::size_t kRaysAtOnce = std::size_t{1} << 18U;  // rays in memory at
 
 ClaimsReport verify_hit_files(const scenes::Scene& scene, const std::filesystem::path& rays,
                               const std::filesystem::path& hits,
-                              ClaimVerifier::OnMismatch on_mismatch, base::Progress& progress) {
+                              ClaimVerifier::OnMismatch on_mismatch, base::Progress& progress,
+                              bool must_hit) {
   rays::RayReader ray_reader(rays);
   rays::require_made_for(scene, ray_reader.header());
   rays::HitReader hit_reader(hits);
@@ -38,7 +39,9 @@ ClaimsReport verify_hit_files(const scenes::Scene& scene, const std::filesystem:
   }
 
   ClaimVerifier verifier(scene, std::move(on_mismatch));
-  verifier.judge_as(ray_reader.header());
+  rays::RaySet header = ray_reader.header();
+  header.must_hit |= must_hit;
+  verifier.judge_as(header);
   std::vector<accel::Ray> block(kRaysAtOnce);
   rays::HitTable table;
   std::uint64_t verified = 0;
@@ -78,8 +81,10 @@ ClaimsReport verify_hit_files(const scenes::Scene& scene, const std::filesystem:
 }
 
 ClaimsReport verify_traced_file(const scenes::Scene& scene, const std::filesystem::path& rays,
-                                const Tracer& tracer, ClaimVerifier::OnMismatch on_mismatch) {
-  const rays::RaySet set = rays::read_ray_file(rays);
+                                const Tracer& tracer, ClaimVerifier::OnMismatch on_mismatch,
+                                bool must_hit) {
+  rays::RaySet set = rays::read_ray_file(rays);
+  set.must_hit |= must_hit;
   rays::require_made_for(scene, set);
   const rays::HitTable hits = tracer(scene, rays::TraceInput(set));
   ClaimVerifier verifier(scene, std::move(on_mismatch));

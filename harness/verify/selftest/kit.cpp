@@ -138,7 +138,8 @@ std::vector<KitCase> read_kit(const fs::path& folder) {
                     .rays = folder / name / fmt::format("{}.rays", query),
                     .hits = folder / name / fmt::format("{}.hits", query),
                     .family = each.value("family", name),
-                    .query = query == "any" ? rays::Query::kAnyHit : rays::Query::kClosestHit};
+                    .query = query == "any" ? rays::Query::kAnyHit : rays::Query::kClosestHit,
+                    .closed = each.value("closed", false)};
       const fs::path csv = folder / name / fmt::format("{}-hits.csv", query);
       if (!fs::exists(found.hits) && fs::exists(csv)) found.hits = csv;
       cases.push_back(std::move(found));

@@ -20,6 +20,7 @@ struct KitCase {
   std::filesystem::path hits;   ///< expected file of the program's hits: .hits or .csv, or missing
   std::string family{};         ///< "needles"; a kit without families: the folder
   rays::Query query = rays::Query::kClosestHit;
+  bool closed = false;  ///< each ray must hit (`RaySet::must_hit`), whatever its file states
 };
 
 /// Writes a kit into a folder, which is created and must be empty: for each scene a folder with

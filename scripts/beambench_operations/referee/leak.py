@@ -40,7 +40,7 @@ def leaked_rays(kit: Path, cases: list[dict[str, Any]]) -> Iterator[tuple[str, d
         if case["query"] != "closest" or not case["leaks"] or folder not in closed:
             continue
         for example in case["examples"]:
-            if example["class"] == "graze" and example["reported"] is None:
+            if example["class"] == "leak" and example["reported"] is None:
                 yield folder, example["ray"]
 
 
