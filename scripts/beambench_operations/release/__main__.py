@@ -3,6 +3,7 @@
 import json
 import os
 import shutil
+import signal
 import sys
 import tempfile
 import time
@@ -79,6 +80,7 @@ def _run(options: Options) -> int:
         return 0
     if why := why_impossible():
         raise Problem(why)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     commit = git("rev-parse", "HEAD")
     folder = ROOT / f"build/releases/{options.version}-{commit[:12]}"
     release = Release(options.version, commit, folder)

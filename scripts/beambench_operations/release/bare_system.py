@@ -12,7 +12,7 @@ from beambench_report.base.files import ROOT, Problem
 _BASES = ROOT / "build/bare"
 _CACHE = _BASES / "cache"
 """Root's caches, shared by all systems, among them that of the compiler."""
-_OWN_MOUNTS = ("unshare", "--mount", "--pid", "--fork")
+_OWN_MOUNTS = ("unshare", "--mount", "--pid", "--kill-child")
 _ENTER = """
 mkdir --parents "$1/root/.cache" "$2" &&
   mount --types proc proc "$1/proc" &&
