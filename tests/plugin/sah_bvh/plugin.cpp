@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "accel/bvh/sah_bvh.hpp"
+#include "accel/core/instruction_set.hpp"
 
 const beambench::plugin::Plugin beambench_plugin{
     .description = "sah-bvh, built as a plug-in",
@@ -15,6 +16,7 @@ const beambench::plugin::Plugin beambench_plugin{
            [](const beambench::scenes::Scene& scene, const beambench::Parameters& parameters,
               const beambench::accel::Workload&) {
              return std::make_unique<beambench::accel::bvh::SahBvh>(
-                 scene, beambench::accel::bvh::SahBvh::options_from(parameters));
+                 scene, beambench::accel::bvh::SahBvh::options_from(parameters),
+                 beambench::accel::targets_of(parameters.choice("isa")));
            }});
     }};
