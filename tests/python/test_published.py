@@ -93,7 +93,7 @@ def test_the_table_of_programs_has_the_sums_of_its_rows(published: Path) -> None
 
 
 def test_the_findings_are_one_page(published: Path) -> None:
-    assert len((published / "README.md").read_text("utf-8").splitlines()) <= 200
+    assert len((published / "README.md").read_text("utf-8").splitlines()) <= 150
 
 
 MOST_BYTES = 24_000_000
