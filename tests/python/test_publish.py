@@ -397,8 +397,9 @@ def test_a_program_of_another_commit_is_refused(tree: Path) -> None:
 
 def test_texts_and_tests_change_no_measurement(tree: Path) -> None:
     setting = of_head(tree)
-    (tree / "README.md").write_text("2")
-    git(tree, "add", "README.md")
+    for name in ("README.md", "accel/README.md"):
+        (tree / name).write_text("2")
+        git(tree, "add", name)
     git(tree, "commit", "--quiet", "--all", "-m", "text")
     require_clean(setting, tree)
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from beambench_report.base.files import ROOT, Problem, output_of, read_json
 
 _KEPT_APART = "results/published"
-_MEASURES = ("accel", "harness", "scenes", "CMakeLists.txt", "scripts/beambench_thesis")
+_MEASURES = ("accel", "harness", "scenes", "CMakeLists.txt", "scripts/beambench_thesis", ":!*.md")
 """Sources that affect times. Texts, plots and tests may change between two folders."""
 _LOOKS_BUSY = 0.05
 _SWEEP = {
