@@ -101,3 +101,14 @@ def test_the_action_passes_each_input_on() -> None:
     used = set(re.findall(r"\$\{\{ inputs\.(\w+) \}\}", text))
     declared = set(re.findall(r"^  (\w+):\n    description", text, re.MULTILINE))
     assert used == declared == {"command", "plugin", "accel", "scenes", "output"}
+
+
+def test_a_leak_is_not_counted_among_the_grazes(tmp_path: Path) -> None:
+    case = {"name": "closed mesh", "family": "closed mesh", "query": "closest", "rays": 600,
+            "graze": 40, "structure_error": 0, "leaks": 23, "verdict": "mismatch",
+            "passed": False, "message": ""}  # fmt: skip
+    verdict, table = tmp_path / "verdict.json", tmp_path / "summary.md"
+    verdict.write_text(json.dumps({"beambench": "0.3.0", "passed": False, "cases": [case]}))
+    words = [verdict, "--summary", table, "--badge", tmp_path / "badge.json"]
+    subprocess.run([sys.executable, ACTION / "report.py", *words], check=True)
+    assert "| closed mesh | closest | 1 | 0 | 600 | 17 | 0 | 23 | mismatch |" in table.read_text()
