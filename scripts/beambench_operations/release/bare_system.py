@@ -12,6 +12,9 @@ from beambench_report.base.files import ROOT, Problem
 _BASES = ROOT / "build/bare"
 _CACHE = _BASES / "cache"
 """Root's caches, shared by all systems, among them that of the compiler."""
+_CERTIFICATES = "/etc/ssl/certs/ca-certificates.crt"
+_OWN_CERTIFICATES = "/etc/ssl/outside.crt"
+"""Those of this machine: behind a proxy, the registries have others than Debian's."""
 _OWN_MOUNTS = ("unshare", "--mount", "--pid", "--kill-child")
 _ENTER = """
 mkdir --parents "$1/root/.cache" "$2" &&
@@ -51,6 +54,8 @@ class BareSystem:
             pending.rename(base)
         _run("cp", "--archive", f"{base}/.", str(folder))
         shutil.copy("/etc/resolv.conf", folder / "etc/resolv.conf")
+        (folder / "etc/ssl").mkdir(exist_ok=True)
+        shutil.copy(_CERTIFICATES, f"{folder}{_OWN_CERTIFICATES}")
         self.folder = folder
 
     def path(self, inside: str) -> Path:
@@ -85,8 +90,12 @@ class BareSystem:
         return _run(
             *(*_OWN_MOUNTS, *alone, "sh", "-c", _ENTER, "sh", *paths, user, *command),
             shown=shlex.join(command),
-            environment={"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "LC_ALL": "C.UTF-8"}
-            | dict(environment or {}),
+            environment={
+                "PATH": "/usr/sbin:/usr/bin:/sbin:/bin",
+                "LC_ALL": "C.UTF-8",
+                "SSL_CERT_FILE": _OWN_CERTIFICATES,
+                **(environment or {}),
+            },
         )
 
 
