@@ -52,15 +52,15 @@ HWY_INLINE Triple<D> difference(const Triple<D>& a, const Triple<D>& b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
 
-/// Returns 1 / values with an error of at most 5 e; NaN for 0.
+/// Returns 1 / values with an error of at most 5 e; NaN or infinity for 0.
 template <class D>
 HWY_INLINE hn::Vec<D> inverse_of(D d, hn::Vec<D> values) {
-#if HWY_TARGET == HWY_SCALAR
-  return hn::Div(hn::Set(d, 1.0F), values);
-#else
+#if HWY_ARCH_X86
   // An estimate of twelve bits or more, and a step of Newton's method.
   const auto about = hn::ApproximateReciprocal(values);
   return hn::MulAdd(hn::NegMulAdd(about, values, hn::Set(d, 1.0F)), about, about);
+#else
+  return hn::Div(hn::Set(d, 1.0F), values);  // NEON estimates eight bits
 #endif
 }
 

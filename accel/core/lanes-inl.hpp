@@ -63,7 +63,7 @@ HWY_INLINE std::size_t compress_store(D d, hn::Vec<D> values, hn::Mask<D> mask, 
 /// Returns 1 / values, accurate to two roundings; infinity for 0 and 0 for infinity.
 template <class D>
 HWY_INLINE hn::Vec<D> reciprocal(D d, hn::Vec<D> values) {
-#if HWY_MAX_BYTES == 64  // a Newton step is faster than a division
+#if HWY_ARCH_X86 && HWY_MAX_BYTES == 64  // a Newton step is faster than a division
   const auto about = hn::ApproximateReciprocal(values);
   const auto rest = hn::NegMulAdd(about, values, hn::Set(d, 1.0F));
   // The first guess is exact if it or the value is 0 or infinite. The rest is then NaN or -inf and
