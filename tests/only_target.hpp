@@ -2,8 +2,13 @@
 // Runs tests on every instruction set of this machine.
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include <hwy/targets.h>
+
+#include "accel/core/instruction_set.hpp"
+#include "scenes/base/error.hpp"
 
 namespace beambench::tests {
 
@@ -21,5 +26,19 @@ class OnlyTarget {
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
   }
 };
+
+/// Returns the values of the parameter `isa` that this machine supports.
+inline std::vector<std::string> available_isas() {
+  std::vector<std::string> available = accel::isa_parameter().choices;
+  std::erase_if(available, [](const std::string& isa) {
+    try {
+      accel::targets_of(isa);
+      return false;
+    } catch (const InputError&) {
+      return true;
+    }
+  });
+  return available;
+}
 
 }  // namespace beambench::tests

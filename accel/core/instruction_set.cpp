@@ -1,5 +1,7 @@
 #include "accel/core/instruction_set.hpp"
 
+#include <vector>
+
 #include <fmt/format.h>
 #include <hwy/targets.h>
 
@@ -21,7 +23,11 @@ std::int64_t all_of(const std::string& isa) {
 }  // namespace
 
 ParameterInfo isa_parameter() {
-  return choice_parameter("isa", "best", {"best", "avx512", "avx2", "sse4"},
+  std::vector<std::string> sets{"best"};
+#if HWY_ARCH_X86
+  sets.insert(sets.end(), {"avx512", "avx2", "sse4"});
+#endif
+  return choice_parameter("isa", "best", sets,
                           "the instruction set to use: the machine's best, or an older one to "
                           "compare on equal terms");
 }

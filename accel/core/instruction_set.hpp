@@ -10,7 +10,7 @@
 namespace beambench::accel {
 
 /// Returns the parameter `isa`: "best" (the default) selects the machine's best instruction set;
-/// "avx512", "avx2" and "sse4" restrict the structure.
+/// on x86, "avx512", "avx2" and "sse4" restrict the structure.
 ParameterInfo isa_parameter();
 
 /// Returns the Highway targets that a value of `isa_parameter` allows. Throws InputError if this

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -121,8 +122,8 @@ TEST(EmbreeOracle, LosesNoRayFromAnywhereAtTheVerticesOfAClosedMesh) {
     Random random(1);
     int count = 0;
     for (int i = 0; i < 100'000; ++i) {
-      const glm::vec3 eye(glm::dvec3(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1),
-                                     random.uniform(-0.1, 0.1)));
+      const glm::vec3 eye(glm::dvec3{random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1),
+                                     random.uniform(-0.1, 0.1)});
       const auto vertex = random.below(static_cast<std::uint32_t>(scene.vertices.size()));
       if (!oracle.closest_hit(ray_from(eye, scene.vertices[vertex] - eye))) ++count;
     }
@@ -202,8 +203,8 @@ scenes::Camera random_camera(Random& random) {
 scenes::Scene user_primitives(Random& random) {
   scenes::SceneBuilder builder("user primitives");
   const auto place = [&] {
-    return glm::dvec3(random.uniform(-12.0, 12.0), random.uniform(-12.0, 12.0),
-                      random.uniform(-12.0, 12.0));
+    return glm::dvec3{random.uniform(-12.0, 12.0), random.uniform(-12.0, 12.0),
+                      random.uniform(-12.0, 12.0)};
   };
   for (int i = 0; i < 25; ++i) {
     builder.add_sphere(place(), -random.uniform(1.0, 4.0));
@@ -303,8 +304,9 @@ TEST_P(EmbreeModes, ConesAsCurvesAreHitCorrectlyByDirectionsOfAnyLength) {
   Random random(3);
   std::vector<Ray> rays;  // from where no end of a cylinder can be seen
   for (int i = 0; i < 1000; ++i) {
-    Ray& one = rays.emplace_back(
-        image.ray(static_cast<int>(random.below(61)), static_cast<int>(random.below(47)), 0));
+    const auto x = static_cast<int>(random.below(61));
+    const auto y = static_cast<int>(random.below(47));
+    Ray& one = rays.emplace_back(image.ray(x, y, 0));
     const auto longer = static_cast<float>(random.uniform(0.2, 5.0));
     one.direction *= longer;
     if (i % 3 == 0) one.t_max = static_cast<float>(random.uniform(2.0, 6.0)) / longer;
@@ -392,9 +394,12 @@ TEST(Embree, IsRestrictedToAnInstructionSet) {
   const PrimaryRays rays(scene.cameras.front(), 40, 30, 1);
   HitBuffer best(40, 30, 1);
   embree("mode=packet8", scene)->closest_hits(rays, best, {});
-  for (const auto& [isa, name] : {std::pair("avx2", "AVX2"), std::pair("sse4", "SSE4.2")}) {
-    const auto structure = embree(std::string("mode=packet8,isa=") + isa, scene);
-    EXPECT_EQ(structure->statistics().instruction_set, name);
+  const std::map<std::string, std::string> names{
+      {"avx512", "AVX512"}, {"avx2", "AVX2"}, {"sse4", "SSE4.2"}};
+  for (const std::string& isa : tests::available_isas()) {
+    if (isa == "best") continue;
+    const auto structure = embree("mode=packet8,isa=" + isa, scene);
+    EXPECT_EQ(structure->statistics().instruction_set, names.at(isa));
     HitBuffer held(40, 30, 1);
     structure->closest_hits(rays, held, {});
     for (std::size_t i = 0; i < held.size(); ++i) {
@@ -409,7 +414,7 @@ TEST(Embree, IsRestrictedToAnInstructionSet) {
 TEST(Embree, EveryModeMatchesSingleRaysOnEveryInstructionSet) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=3");
   const PrimaryRays rays(scene.cameras.front(), 45, 35, 5);  // with partial tiles and blocks
-  for (const char* isa : {"best", "avx2", "sse4"}) {
+  for (const std::string& isa : tests::available_isas()) {
     HitBuffer single(45, 35, 5);
     embree(fmt::format("mode=single,isa={}", isa), scene)->closest_hits(rays, single, {});
     for (const std::string& mode : tests::embree_modes()) {
@@ -496,6 +501,7 @@ TEST(Embree, CoherenceFlagsChangeNoHit) {
   EXPECT_THROW(embree("coherent=perhaps", scene), InputError);
 }
 
+#if HWY_ARCH_X86
 TEST(Embree, RefusesAnInstructionSetThatTheMachineLacks) {
   const scenes::Scene scene = row_of_primitives();
   const tests::OnlyTarget only(HWY_SSE4);
@@ -503,6 +509,7 @@ TEST(Embree, RefusesAnInstructionSetThatTheMachineLacks) {
                            {"avx2", "does not have", "isa=best"}));
   EXPECT_NO_THROW(embree("isa=best", scene)) << "Embree runs on more than was requested";
 }
+#endif
 
 TEST(Embree, ReportsItsVersionAndInstructionSet) {
   EXPECT_TRUE(embree::embree_version().starts_with("3.") ||

@@ -8,6 +8,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <hwy/detect_targets.h>
 
 #include "accel/core/registry.hpp"
 #include "harness/rays/trace_input.hpp"
@@ -134,7 +135,7 @@ INSTANTIATE_TEST_SUITE_P(Structures, PinnedWork, ::testing::Values(
 // clang-format on
 
 /// The work of tile-beam's pencils for the rays that follow from 128x128 primary rays. Uses SSE4,
-/// which every machine has: other instruction sets multiply and add with one rounding, which
+/// which every x86 machine has: other instruction sets multiply and add with one rounding, which
 /// changes some comparisons.
 struct PencilRow {
   const char* kind;
@@ -145,6 +146,7 @@ struct PencilRow {
 class PinnedPencilWork : public ::testing::TestWithParam<PencilRow> {};
 
 TEST_P(PinnedPencilWork, IsUnchanged) {
+  if (!HWY_ARCH_X86) GTEST_SKIP() << "not with SSE4";
   const PencilRow& row = GetParam();
   const scenes::Scene scene = scenes::load_scene(row.scene);
   const auto structure = registry().choose(parse_spec("tile-beam:isa=sse4")).build(scene);

@@ -431,7 +431,7 @@ TEST(TileBeam, ParallelBuildsAreTheSame) {
 
 TEST(TileBeam, EveryInstructionSetIsCorrect) {
   const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
-  ASSERT_GE(targets.size(), 2U) << "no choice at run time was compiled in";
+  ASSERT_GE(targets.size(), HWY_ARCH_X86 ? 2U : 1U) << "no choice at run time was compiled in";
   for (const std::int64_t target : targets) {
     SCOPED_TRACE(hwy::TargetName(target));
     const tests::OnlyTarget only(target);
