@@ -62,16 +62,13 @@ struct Measure {
            claim.contact.leaving == reference.contact.leaving;
   }
 
-  /// Returns whether the ray passes the primitive's boundary within K u, or crosses it just beyond
-  /// an end.
+  /// Returns whether the ray passes the primitive's boundary within K u or crosses it, in both
+  /// cases also just beyond an end.
   bool nearly_hits(scenes::PrimitiveId id) const {
-    const double length = glm::length(glm::dvec3(ray.direction));
     for (const Approach& approach : approaches(scene, ray, id)) {
-      const double near = tolerance(scene, ray, {approach.t, id});
-      if (approach.distance <= near && approach.t >= ray.t_min - near / length &&
-          approach.t <= ray.t_max + near / length) {
-        return true;
-      }
+      const Place place = place_of({approach.t, id});
+      const bool inside = approach.t >= ray.t_min && approach.t <= ray.t_max;
+      if (approach.distance <= place.contact.tolerance && (inside || touches(place))) return true;
     }
     return std::ranges::any_of(line_crossings(scene, ray, id), [&](const Crossing& crossing) {
       return touches(place_of(crossing.hit()));

@@ -299,6 +299,28 @@ TEST(ShortAndLongDirections, DenormalComponentsCount) {
       .join();
 }
 
+// The ray passes an edge within K u and reaches it just beyond its end, at a grazing incidence of
+// 0.0064 that stretches distances along it. Embree's fast kernels report a hit.
+TEST(ShadowRays, MayEndAtTheEdgeOfAGrazedTriangle) {
+  scenes::SceneBuilder builder("light on a triangle");
+  const std::vector<glm::vec3> corners{{0.74624324F, -0.4514901F, -0.55538934F},
+                                       {0.6549004F, -0.49453083F, -0.34204808F},
+                                       {0.6363369F, -0.22555444F, -0.68356264F}};
+  builder.add_polygon(std::vector<glm::dvec3>(corners.begin(), corners.end()));
+  const scenes::Scene scene = std::move(builder).build();
+  const auto verdict = [&](float t_max) {
+    rays::RaySet set;
+    set.query = rays::Query::kAnyHit;
+    set.rays = {{{-0.14777419F, 0.7133988F, -0.642779F},
+                 0.0F,
+                 {0.848346F, -1.1864092F, 0.19406027F},
+                 t_max}};
+    return report_of(scene, rays::TraceInput(std::move(set)), rays::AnyHits{1}).verdict;
+  };
+  EXPECT_EQ(verdict(0.99999565F), Verdict::kOk);
+  EXPECT_EQ(verdict(0.999F), Verdict::kMismatch);
+}
+
 // A t that is too large for float is not a hit, whatever t_max is.
 TEST(ShortAndLongDirections, HitsBeyondTheLargestFloatAreMisses) {
   scenes::SceneBuilder builder("far");
