@@ -18,8 +18,8 @@ inline std::vector<scenes::Bounds> random_boxes(std::size_t count, std::uint64_t
   Random random(seed);
   std::vector<scenes::Bounds> boxes;
   for (std::size_t i = 0; i < count; ++i) {
-    const glm::vec3 lower(random.unit(), random.unit(), random.unit());
-    const glm::vec3 size(random.unit(), random.unit(), random.unit());
+    const glm::vec3 lower{random.unit(), random.unit(), random.unit()};
+    const glm::vec3 size{random.unit(), random.unit(), random.unit()};
     boxes.push_back({lower, lower + size * 0.02F});
   }
   return boxes;

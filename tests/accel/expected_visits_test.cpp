@@ -66,7 +66,7 @@ scenes::Scene small_triangles() {
   scenes::SceneBuilder builder("small triangles");
   Random random(9);
   for (int i = 0; i < 1500; ++i) {
-    const glm::dvec3 a(random.unit(), 2.0 * random.unit(), random.unit());
+    const glm::dvec3 a{random.unit(), 2.0 * random.unit(), random.unit()};
     builder.add_polygon(
         std::array<glm::dvec3, 3>{a, a + glm::dvec3(0.01, 0, 0), a + glm::dvec3(0, 0.01, 0.01)});
   }

@@ -103,8 +103,8 @@ TEST(IntersectTriangle, ClosedMeshIsWatertight) {
   for (int i = 0; i < 4'000; ++i) {
     // From the inside, aimed exactly at a vertex or the middle of an edge: some triangle must stop
     // the ray.
-    const glm::vec3 eye(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3),
-                        random.uniform(-0.3, 0.3));
+    const glm::vec3 eye{random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3),
+                        random.uniform(-0.3, 0.3)};
     const scenes::Triangle& triangle = scene.triangles[random.below(scene.triangles.size())];
     const glm::vec3 v0 = scene.vertices[triangle.vertex[0]];
     const glm::vec3 v1 = scene.vertices[triangle.vertex[1]];

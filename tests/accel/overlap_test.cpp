@@ -120,7 +120,7 @@ bool clipped_triangle_remains(const std::array<glm::dvec3, 3>& corners, const Bo
 RC_GTEST_PROP(OverlapTriangle, AgreesWithClipping, (std::uint32_t seed)) {
   Random random(seed);
   const auto point = [&] {
-    return glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    return glm::dvec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
   };
   for (int i = 0; i < 200; ++i) {
     const std::array<glm::dvec3, 3> corners{point(), point(), point()};

@@ -76,9 +76,9 @@ std::vector<Ray> rays_through(const scenes::Scene& scene, std::size_t count) {
   Random random(7);
   const glm::vec3 extent = scene.bounds.extent();
   const auto place = [&](double wider) {
-    return scene.bounds.lower + extent * glm::vec3(random.uniform(-wider, 1.0 + wider),
+    return scene.bounds.lower + extent * glm::vec3{random.uniform(-wider, 1.0 + wider),
                                                    random.uniform(-wider, 1.0 + wider),
-                                                   random.uniform(-wider, 1.0 + wider));
+                                                   random.uniform(-wider, 1.0 + wider)};
   };
   std::vector<Ray> rays(count);
   for (Ray& ray : rays) {

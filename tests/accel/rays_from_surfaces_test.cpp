@@ -25,7 +25,7 @@ scenes::Scene triangles_of_size(double size, std::uint64_t seed) {
   scenes::SceneBuilder builder("triangles");
   Random random(seed);
   const auto point = [&] {
-    return glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    return glm::dvec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
   };
   for (int i = 0; i < 150; ++i) {
     const glm::dvec3 a = point() * size;
@@ -50,8 +50,8 @@ std::vector<Ray> rays_from(const scenes::Scene& scene, double lift, Random& rand
     for (const double moved : {0.0, lift, -lift, 0.01 * lift, 1e-42}) {
       Ray ray;
       ray.origin = glm::vec3(a + u * e + v * f + moved * normal);
-      ray.direction = glm::vec3(random.uniform(-1, 1), random.uniform(-1, 1),
-                                random.unit() < 0.2 ? 0.0 : random.uniform(-1, 1));
+      ray.direction = glm::vec3{random.uniform(-1, 1), random.uniform(-1, 1),
+                                random.unit() < 0.2 ? 0.0 : random.uniform(-1, 1)};
       if (random.unit() < 0.3) ray.direction *= 1e-6F;
       rays.push_back(ray);
     }
@@ -99,7 +99,7 @@ TEST(SecondaryRays, DoNotConfirmTheirOwnTriangle) {
       Ray ray;
       ray.origin = glm::vec3(middle + surface_lift(middle, middle) * normal);
       ray.direction =
-          glm::vec3(normal + 0.7 * glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), 0.0));
+          glm::vec3(normal + 0.7 * glm::dvec3{random.uniform(-1, 1), random.uniform(-1, 1), 0.0});
       ++rays;
       hits += structure->any_hit(ray, &work) ? 1 : 0;
     }

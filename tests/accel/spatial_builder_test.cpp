@@ -54,7 +54,7 @@ scenes::Scene long_triangles(std::uint64_t seed) {
   scenes::SceneBuilder builder("long triangles");
   Random random(seed);
   const auto point = [&] {
-    return glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    return glm::dvec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
   };
   for (int i = 0; i < 2000; ++i) {
     const glm::dvec3 a = point();

@@ -102,9 +102,9 @@ class Onlooker {
     if (!inside) return;
     // Eyes in a closed room: points that its camera sees.
     const glm::dvec3 camera(scene.cameras[0].from);
-    while (eyes_.size() < 64) {
+    while (eyes_.size() < 256) {
       const glm::dvec3 eye =
-          lower + extent * glm::dvec3(random_.unit(), random_.unit(), random_.unit());
+          lower + extent * glm::dvec3{random_.unit(), random_.unit(), random_.unit()};
       if (!blocked(camera, eye - camera, 1.0)) eyes_.push_back(eye);
     }
   }
@@ -115,7 +115,7 @@ class Onlooker {
       const glm::dvec3 point = point_on(polygon);
       if (eyes_.empty()) {
         const glm::dvec3 path =
-            2.0 * glm::dvec3(random_.unit(), random_.unit(), random_.unit()) - glm::dvec3(1.0);
+            2.0 * glm::dvec3{random_.unit(), random_.unit(), random_.unit()} - glm::dvec3(1.0);
         if (!blocked(point, glm::normalize(path) * size_, 1.0)) return true;
       } else {
         const glm::dvec3 path = eyes_[random_.below(eyes_.size())] - point;
@@ -201,8 +201,9 @@ TEST_P(StandIns, MatchExhaustiveForASampleOfRays) {
   Random random(1999);
   int hits = 0;
   for (int i = 0; i < 300; ++i) {
-    const Ray ray =
-        rays.ray(static_cast<int>(random.below(1280)), static_cast<int>(random.below(1024)), 0);
+    const auto x = static_cast<int>(random.below(1280));
+    const auto y = static_cast<int>(random.below(1024));
+    const Ray ray = rays.ray(x, y, 0);
     const auto expected = exhaustive->closest_hit(ray, nullptr);
     ASSERT_EQ(sah->closest_hit(ray, nullptr), expected) << i;
     ASSERT_EQ(samet->closest_hit(ray, nullptr), expected) << i;
@@ -219,7 +220,7 @@ TEST(Habitacion, IsClosed) {
     Ray ray;
     ray.origin = scene.cameras[0].from;
     ray.direction =
-        glm::vec3(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
+        glm::vec3{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
     ASSERT_TRUE(structure->any_hit(ray, nullptr)) << "ray " << i;
   }
 }

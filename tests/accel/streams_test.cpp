@@ -110,8 +110,8 @@ struct NeedlesAndRays {
     Random random(seed);
     const auto power = [&](double least) { return std::exp2(random.uniform(least, 0.0)); };
     const auto vector = [&](double size) {
-      return size * glm::dvec3(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0),
-                               random.uniform(-1.0, 1.0));
+      return size * glm::dvec3{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0),
+                               random.uniform(-1.0, 1.0)};
     };
     const glm::dvec3 center = vector(std::exp2(random.uniform(0.0, 18.0)));
     scenes::SceneBuilder builder("needles");

@@ -88,8 +88,8 @@ void expect_both_agree(const Corners& corners, const Box& cube, double tolerance
 TEST(ThesisOverlapOfTriangles, AgreesWithOursOnRandomTriangles) {
   Random random(1999);
   const auto point = [&](double size) {
-    return dvec3(random.uniform(-size, size), random.uniform(-size, size),
-                 random.uniform(-size, size));
+    return dvec3{random.uniform(-size, size), random.uniform(-size, size),
+                 random.uniform(-size, size)};
   };
   int overlaps = 0;
   for (int i = 0; i < 200'000; ++i) {

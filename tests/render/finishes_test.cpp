@@ -19,7 +19,7 @@ TEST(Noise, IsZeroAtTheLatticeAndStaysInItsRange) {
   double least = 0.0;
   double most = 0.0;
   for (int i = 0; i < 20'000; ++i) {
-    const dvec3 point(random.uniform(-50, 50), random.uniform(-50, 50), random.uniform(-50, 50));
+    const dvec3 point{random.uniform(-50, 50), random.uniform(-50, 50), random.uniform(-50, 50)};
     const double noise = gradient_noise(point);
     least = std::min(least, noise);
     most = std::max(most, noise);
@@ -48,7 +48,7 @@ TEST(Texture, VariesAboutTheColorOfItsSurface) {
     double spread = 0.0;
     constexpr int kPoints = 4000;
     for (int i = 0; i < kPoints; ++i) {
-      const dvec3 point(random.uniform(-9, 9), random.uniform(-9, 9), random.uniform(-9, 9));
+      const dvec3 point{random.uniform(-9, 9), random.uniform(-9, 9), random.uniform(-9, 9)};
       const dvec3 color = textures.color_at(surface, point);
       sum += color;
       spread += glm::length(color - dvec3(surface.color));

@@ -226,7 +226,7 @@ TEST(Triangulate, TheSearchForEarsDoesNotChangeTheTriangles) {
       const double extent = static_cast<double>(lattice);
       const glm::dvec2 place =
           crosses_itself
-              ? glm::dvec2(random.below(lattice), random.below(lattice))
+              ? glm::dvec2{random.below(lattice), random.below(lattice)}
               : glm::round(extent * radius * glm::dvec2(std::cos(angle), std::sin(angle)));
       corners.emplace_back(place.x, place.y, 0.0);
     }

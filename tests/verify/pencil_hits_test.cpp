@@ -251,8 +251,8 @@ scenes::Scene grass(std::uint64_t seed) {
                                          ground(-2e3, 2e3)});
   Random random(seed);
   for (int i = 0; i < 6000; ++i) {
-    const dvec3 root(random.uniform(-4.0, 4.0), 0.0, random.uniform(2.0, 12.0));
-    const dvec3 tip = root + dvec3(random.uniform(-0.1, 0.1), random.uniform(0.2, 0.6), 0.0);
+    const dvec3 root{random.uniform(-4.0, 4.0), 0.0, random.uniform(2.0, 12.0)};
+    const dvec3 tip = root + dvec3{random.uniform(-0.1, 0.1), random.uniform(0.2, 0.6), 0.0};
     builder.add_polygon(std::vector<dvec3>{root, root + dvec3(0.02, 0.0, 0.01), tip});
   }
   builder.add_light({-700.0, 3600.0, 3300.0});

@@ -41,11 +41,13 @@ SceneWithRays coplanar_squares() {
   SceneWithRays made{std::move(builder).build(), {}};
   Random random(7);
   for (int i = 0; i < 600; ++i) {
-    const glm::vec3 target(0.5F * static_cast<float>(random.below(2 * kSide)),
-                           0.5F * static_cast<float>(random.below(2 * kSide)), 1.0F);
-    const glm::vec3 origin(target.x + static_cast<float>(random.below(9)) - 4.0F,
-                           target.y + static_cast<float>(random.below(9)) - 4.0F,
-                           random.below(2) == 0 ? -3.0F : 5.0F);
+    // One number a statement: compilers may evaluate arguments in any order.
+    glm::vec3 target(1.0F);
+    for (const int axis : {1, 0}) target[axis] = 0.5F * static_cast<float>(random.below(2 * kSide));
+    glm::vec3 origin(random.below(2) == 0 ? -3.0F : 5.0F);
+    for (const int axis : {1, 0}) {
+      origin[axis] = target[axis] + static_cast<float>(random.below(9)) - 4.0F;
+    }
     made.rays.push_back({.origin = origin, .direction = target - origin});
   }
   return made;

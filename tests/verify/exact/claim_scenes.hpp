@@ -81,7 +81,7 @@ class Modeller {
   }
   void add_objects_at_height(double height, int count, Random& random) {
     for (int i = 0; i < count; ++i) {
-      glm::dvec3 place(random.uniform(-2.0, 2.0), height, random.uniform(-2.0, 2.0));
+      glm::dvec3 place{random.uniform(-2.0, 2.0), height, random.uniform(-2.0, 2.0)};
       if (random.below(2) == 0) place.x = snapped(place.x);
       add_object_on(place, random);
     }
