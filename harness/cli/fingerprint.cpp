@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include <CLI/Validators.hpp>
+#include <CLI/App.hpp>
 #include <fmt/format.h>
 
 #include "accel/core/instruction_set.hpp"
