@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 from beambench_operations.referee.findings import crashed_case
-from beambench_operations.referee.leak import FOLDER, Face, reduced, write_kit
 
 CRASH = re.compile(r"over \S*?([^/\s]+)/scene\.nff (crashed|ended the process) ?(\([^)]*\))?")
 
@@ -26,18 +25,6 @@ def part_of_kit(kit: Path, folder: Path, chosen: Callable[[str], bool]) -> Path:
         (folder / case["folder"]).symlink_to((kit / case["folder"]).resolve())
     (folder / "kit.json").write_text(json.dumps(index), "utf-8")
     return folder
-
-
-def write_case(out: Path, scene: str, subject: str, wrong: dict[str, Any]) -> None:
-    """Writes the case.json of a leak, like that of `verify --minimize`."""
-    case = {
-        "scene": f"{scene} of the kit",
-        "subject": subject,
-        "query": "closest",
-        "rays": 1,
-        "wrong": wrong,
-    }
-    (out / "case.json").write_text(json.dumps(case, indent=2) + "\n", "utf-8")
 
 
 class Contender:
@@ -102,16 +89,16 @@ class Contender:
         Returns whether there is one.
         """
         shutil.rmtree(out, ignore_errors=True)
-        wrong = [
-            case for case in cases if case["structure_error"] > 0 and case["query"] == "closest"
+        faulty = [
+            case
+            for case in cases
+            if case["query"] == "closest" and case["structure_error"] + case["leaks"] > 0
         ]
-        for case in sorted(wrong, key=lambda case: int(case["primitives"])):
-            if self._write_wrong(kit, case["name"].split(",")[0], out):
-                return True
-        return self._write_leak(kit, cases, out)
+        faulty.sort(key=lambda case: (case["structure_error"] == 0, int(case["primitives"])))
+        return any(self._reduce(kit, case["name"].split(",")[0], out) for case in faulty)
 
-    def _write_wrong(self, kit: Path, name: str, out: Path) -> bool:
-        """Reduces a wrong hit; returns false if the library crashes over the smaller scenes."""
+    def _reduce(self, kit: Path, name: str, out: Path) -> bool:
+        """Reduces a fault; returns false if the library crashes over the smaller scenes."""
         with tempfile.TemporaryDirectory() as folder:
             small = part_of_kit(kit, Path(folder) / "kit", lambda each: each == name)
             failures = Path(folder) / "failures"
@@ -123,38 +110,4 @@ class Contender:
         case = json.loads((out / "case.json").read_text("utf-8"))
         case["scene"] = f"{name} of the kit"  # in place of a temporary path
         (out / "case.json").write_text(json.dumps(case, indent=2) + "\n", "utf-8")
-        return True
-
-    def _write_leak(self, kit: Path, cases: list[dict[str, Any]], out: Path) -> bool:
-        judged: list[dict[str, Any]] = []
-
-        def leaks(
-            case: dict[str, Any], vertices: list[str], faces: list[Face], ray: dict[str, Any]
-        ) -> bool:
-            shutil.rmtree(out, ignore_errors=True)
-            write_kit(out, case, vertices, faces, ray)
-            scene = out / FOLDER / "scene"
-            subprocess.run(
-                [self._program, "export", f"{scene}.obj", "-o", f"{scene}.nff"],
-                check=True, capture_output=True,
-            )  # fmt: skip
-            with tempfile.TemporaryDirectory() as folder:
-                verdict = Path(folder) / "verdict.json"
-                self._run("verify", "--kit", out, "--accel", self.name, "--json", verdict)
-                found = json.loads(verdict.read_text("utf-8"))["cases"]
-            judged[:] = [
-                example
-                for each in found
-                if each["query"] == "closest" and each["leaks"]
-                for example in each["examples"]
-            ]
-            return bool(judged)
-
-        found = reduced(kit, cases, leaks)
-        if found is None:
-            shutil.rmtree(out, ignore_errors=True)
-            return False
-        folder, ray = found
-        wrong = {"class": "leak", "ray": ray, "reported": None, "exact": judged[0]["oracle"]}
-        write_case(out, folder, self.name, wrong)
         return True

@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any
 
 from beambench_operations.referee.exact_ray import Triangle, closest, vector
-from beambench_operations.referee.leak import FOLDER as LEAK
 
 COUNTS = ("rays", "agree", "tie", "graze", "structure_error", "embree_error", "leaks")
 COLUMNS = ("library", "version", "family", "query", "cases", "unsupported", "errors",
@@ -69,7 +68,7 @@ class Counterexample:
 
     folder: str
     leak: bool
-    """Whether it is a leak, whose folder is a kit, and not a wrong hit."""
+    """Whether it is a leak out of a closed mesh, and not a wrong hit."""
     triangles: int
     reported: str
     exact: str
@@ -90,15 +89,14 @@ def _text(t: float | None) -> str:
 
 
 def counterexample(folder: Path) -> Counterexample:
-    """Reads a case of `verify --minimize`, or the kit of a leak, and confirms it exactly."""
+    """Reads a case of `verify --minimize`, and confirms it exactly."""
     case = json.loads((folder / "case.json").read_text("utf-8"))["wrong"]
-    leak = (folder / "kit.json").exists()
-    triangles = read_obj(folder / (f"{LEAK}/scene.obj" if leak else "scene.obj"))
+    triangles = read_obj(folder / "scene.obj")
     ray = case["ray"]
     exact = closest(triangles, ray["origin"], ray["direction"], ray["t_min"], ray["t_max"])
     reported = case["reported"]
     claimed = reported["t"] if isinstance(reported, dict) else None
-    judged = (case["exact"] or {}).get("t")  # of a leak: the oracle's
+    judged = (case["exact"] or {}).get("t")
     same = (exact is None) == (judged is None) and (
         exact is None or abs(float(exact) - judged) <= 1e-6 * abs(judged)
     )
@@ -107,7 +105,7 @@ def counterexample(folder: Path) -> Counterexample:
     )
     return Counterexample(
         folder=folder.name,
-        leak=leak,
+        leak=case["class"] == "leak",
         triangles=len(triangles),
         reported=_text(claimed),
         exact=_text(None if exact is None else float(exact)),

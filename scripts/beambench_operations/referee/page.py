@@ -108,11 +108,7 @@ def family_table(libraries: list[Rows]) -> tuple[str, str]:
 def repeat_command(name: str, case: Counterexample) -> str:
     """Returns the command that shows a counterexample, from the root of the repository."""
     place = f"{PUBLISHED}/minimal/{case.folder}"
-    what = (
-        f"--kit {place} --accel {name}"
-        if case.leak
-        else f"{place}/scene.obj --accel {name} --rays {place}/ray.rays"
-    )
+    what = f"{place}/scene.obj --accel {name} --rays {place}/ray.rays"
     return f"beambench --plugin $({library(name).install}) verify {what}"
 
 
