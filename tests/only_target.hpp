@@ -8,7 +8,6 @@
 #include <hwy/targets.h>
 
 #include "accel/core/instruction_set.hpp"
-#include "scenes/base/error.hpp"
 
 namespace beambench::tests {
 
@@ -30,14 +29,7 @@ class OnlyTarget {
 /// Returns the values of the parameter `isa` that this machine supports.
 inline std::vector<std::string> available_isas() {
   std::vector<std::string> available = accel::isa_parameter().choices;
-  std::erase_if(available, [](const std::string& isa) {
-    try {
-      accel::targets_of(isa);
-      return false;
-    } catch (const InputError&) {
-      return true;
-    }
-  });
+  std::erase_if(available, [](const std::string& isa) { return !accel::is_available(isa); });
   return available;
 }
 

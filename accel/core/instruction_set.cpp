@@ -32,15 +32,18 @@ ParameterInfo isa_parameter() {
                           "compare on equal terms");
 }
 
+bool is_available(const std::string& isa) {
+  return (all_of(isa) & hwy::SupportedTargets() & HWY_TARGETS) != 0;
+}
+
 std::int64_t targets_of(const std::string& isa) {
-  const std::int64_t targets = all_of(isa);
-  if ((targets & hwy::SupportedTargets() & HWY_TARGETS) == 0) {
+  if (!is_available(isa)) {
     throw InputError(
         fmt::format("isa is {}, which this machine does not have; choose isa=best or "
                     "an older instruction set",
                     isa));
   }
-  return targets;
+  return all_of(isa);
 }
 
 void restrict_to(const std::string& isa) { hwy::DisableTargets(~targets_of(isa)); }

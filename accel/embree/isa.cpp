@@ -60,15 +60,8 @@ std::vector<std::string> words_before(const std::string& text, std::string_view 
 
 /// Returns the best of our instruction sets that the machine supports; nullptr if none.
 const Isa* best_of_machine() {
-  const auto has = [](const Isa& isa) {
-    try {
-      targets_of(isa.parameter);
-      return true;
-    } catch (const InputError&) {
-      return false;
-    }
-  };
-  const auto found = std::ranges::find_if(kIsas, has);
+  const auto found =
+      std::ranges::find_if(kIsas, [](const Isa& isa) { return is_available(isa.parameter); });
   return found == kIsas.end() ? nullptr : &*found;
 }
 

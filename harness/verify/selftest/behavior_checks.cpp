@@ -107,7 +107,7 @@ CheckOutcome check_lists(const Subject& subject, const SelftestEffort& effort) {
   const std::vector<rays::TraceInput> all = trial.inputs();
   if (subject.conformance() == accel::Conformance::kTolerance) {  // lists may round differently
     const HitComparison comparison(trial.scene, subject.conformance());
-    for (const rays::TraceInput& list : {all[0], all[1]}) {
+    for (const rays::TraceInput& list : std::span(all).first(2)) {
       const auto wrong = comparison.whole(*trial.structure, list, false);
       if (wrong) return {trial.rays.size(), wrong->what};
     }

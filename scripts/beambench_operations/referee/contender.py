@@ -33,7 +33,6 @@ class Contender:
     def __init__(self, program: str, name: str, plugin: str) -> None:
         """Initializes it; nothing runs yet."""
         self.name = name
-        self._program = program
         self._words = [program, "--plugin", plugin]
 
     def _call(self, *arguments: str | Path) -> subprocess.CompletedProcess[str]:
