@@ -1,5 +1,5 @@
-// A race between two TBB tasks, which the thread sanitizer must find; and sums ordered by TBB, in
-// which it must find none.
+// A race between two TBB tasks, which the thread sanitizer must find, and a sum whose tasks TBB
+// orders, in which it must not find a race.
 
 #include <cstddef>
 #include <cstdio>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kCount = 1U << 20U;
 
-/// Each element has one writer, and is read when all tasks have ended.
+/// Each element is written by one task, and is read after all tasks have ended.
 long sum_in_order() {
   std::vector<long> squares(kCount);
   tbb::parallel_for(std::size_t{0}, kCount,

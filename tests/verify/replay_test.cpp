@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 
 #include "harness/verify/describe.hpp"
+#include "harness/verify/differ.hpp"
 #include "harness/verify/verify_ray.hpp"
 #include "scenes/base/shell_word.hpp"
 #include "scenes/catalogue.hpp"
