@@ -18,11 +18,12 @@ _OWN = {TILE_BEAM: "`tile-beam`", STREAMS: "`sah-bvh`, streams", SINGLE: "`sah-b
 
 @dataclass(frozen=True)
 class Row:
-    """The speeds relative to Embree for one kind of rays, by contender."""
+    """The speeds relative to Embree for one ray kind, by contender."""
 
-    best: dict[str, Ratio]  # over Embree's fastest correct way
-    watertight: dict[str, Ratio]  # over its fastest watertight way
-    by_scene: dict[str, dict[str, Ratio]]  # by scene: over Embree's fastest correct way
+    best: dict[str, Ratio]  # over Embree's fastest correct mode
+    watertight: dict[str, Ratio]  # over its fastest watertight mode
+    by_scene: dict[str, dict[str, Ratio]]  # by scene: over Embree's fastest correct mode
+    tied: list[str]  # contenders that are not clearly slower than the one shown
 
     @property
     def winner(self) -> str:
@@ -36,7 +37,7 @@ class Row:
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """Returns the ratios to Embree by kind of rays and contender."""
+    """Returns the ratios to Embree by ray kind and contender."""
     cells = Cells(folder)
     kinds = list(dict.fromkeys(cells.rows["kind"]))
     return {
@@ -60,24 +61,40 @@ def _row(cells: Cells, kind: str) -> Row:
     over_best, over_watertight = (
         {name: _over(cells, name, kind, rows) for name in _OWN} for rows in (embree, watertight)
     )
+    best = {name: geometric_mean(list(own.values())) for name, own in over_best.items()}
+    shown = max(best, key=lambda name: best[name].value)
+    others = [name for name in _OWN if name != shown]
     return Row(
-        {name: geometric_mean(list(own.values())) for name, own in over_best.items()},
+        best,
         {name: geometric_mean(list(own.values())) for name, own in over_watertight.items()},
         {scene: {name: over_best[name][scene] for name in _OWN} for scene in cells.scenes},
+        [name for name in others if _rank(cells, name, shown, kind) != "behind"],
     )
 
 
-def _over(cells: Cells, name: str, kind: str, embree: pd.DataFrame) -> dict[str, Ratio]:
-    """Returns the time of the fastest of these rows of Embree over a contender's, by scene."""
-    fastest = embree.loc[embree.groupby("scene")["trace_ms"].idxmin()].set_index(
-        "scene", drop=False
-    )
+def _over(cells: Cells, name: str, kind: str, rows: pd.DataFrame) -> dict[str, Ratio]:
+    """Returns the time of the fastest of these rows over a contender's, by scene."""
+    fastest = rows.loc[rows.groupby("scene")["trace_ms"].idxmin()].set_index("scene", drop=False)
     return {
         scene: ratio_of(
             "trace", fastest.loc[scene], cells.row(name, scene=scene, kind=kind), cells.files
         )
         for scene in cells.scenes
     }
+
+
+def _rank(cells: Cells, name: str, fastest: str, kind: str) -> str:
+    """Returns the rank of a contender by its times relative to the fastest's, over all scenes."""
+    ratios = [
+        ratio_of(
+            "trace",
+            cells.row(name, scene=scene, kind=kind),
+            cells.row(fastest, scene=scene, kind=kind),
+            cells.files,
+        )
+        for scene in cells.scenes
+    ]
+    return geometric_mean(ratios).rank
 
 
 def _is_watertight(parameters: str) -> bool:

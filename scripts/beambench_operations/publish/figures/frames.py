@@ -1,4 +1,4 @@
-"""results/published/frames: scenes that move, updated or built anew."""
+"""results/published/frames: scenes that move, with structures updated or rebuilt."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -9,7 +9,7 @@ from beambench.analysis import Ratio, geometric_mean
 from beambench_operations.publish.figures.cells import Cells
 from beambench_report.base.analysis import FrameComparison, FrameSeries, read_analysis
 from beambench_report.base.cell_files import ratio_of
-from beambench_report.base.names import brief_name
+from beambench_report.base.names import brief_name, parameter_items
 
 _BUILT_ONLY = ("samet", "voxel-grid")
 """Structures without an update: a grid and an octree."""
@@ -25,7 +25,7 @@ class Series:
     series: FrameSeries
 
     def is_of(self, scene: str, structure: str) -> bool:
-        """Does it belong to this structure over this scene?"""
+        """Returns whether the series is of this structure over this scene."""
         return (self.scene, self.structure) == (scene, structure)
 
     @property
@@ -35,13 +35,13 @@ class Series:
 
     @property
     def is_won(self) -> bool:
-        """Is the updated structure clearly ahead in the last frame, trace included?"""
+        """Whether the updated structure is clearly ahead in the last frame, trace included."""
         high = self.last.total_ratio.high
         return high is not None and high < 1
 
     @property
     def is_lost(self) -> bool:
-        """Is it clearly behind in the last frame?"""
+        """Whether the updated structure is clearly behind in the last frame."""
         low = self.last.total_ratio.low
         return low is not None and low > 1
 
@@ -55,7 +55,7 @@ class Series:
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """Returns the series by kind of rays and scene, their means by structure, and who is ahead."""
+    """Returns the series by ray kind and scene, their means by structure, and who is ahead."""
     cells = Cells(folder)
     analysis = read_analysis(folder)
     found = [_series(one) for one in analysis.frame_series]
@@ -81,6 +81,8 @@ def figures(folder: Path) -> dict[str, Any]:
             structure: {kind: _means(found, structure, kind) for kind in kinds}
             for structure in structures
         },
+        "embree_modes": _embree_modes(cells),
+        "embree_low": cells.rows["parameters"].str.contains("quality=low", regex=False).any(),
         "over_embree": {kind: _over_embree(cells, structures, last, kind) for kind in kinds},
         "total": _mean(found, "total_ratio"),
         "won": sum(one.is_won for one in found),
@@ -94,7 +96,9 @@ def figures(folder: Path) -> dict[str, Any]:
 
 def _series(series: FrameSeries) -> Series:
     scene, *_, kind = series.subject.rsplit("/", 4)
-    return Series(scene, series.contender.partition(":")[0], kind, series)
+    structure, _, parameters = series.contender.partition(":")
+    mode = parameter_items(parameters).get("mode", "")
+    return Series(scene, f"{structure} {mode}".strip(), kind, series)
 
 
 def _mean(found: Sequence[Series], which: str) -> Ratio:
@@ -106,12 +110,21 @@ def _means(found: Sequence[Series], structure: str, kind: str) -> dict[str, Rati
     return {which: _mean(own, f"{which}_ratio") for which in ("total", "trace")}
 
 
+def _embree_modes(cells: Cells) -> str:
+    """Returns how Embree traces images: `in packets of 16 or in streams`."""
+    texts = {"single": "ray by ray", "packet16": "in packets of 16", "stream": "in streams"}
+    modes = cells.having("embree")["parameters"].map(
+        lambda text: parameter_items(text).get("mode", "single")
+    )
+    return " or ".join(texts[mode] for mode in dict.fromkeys(modes))
+
+
 def _over_embree(
     cells: Cells, structures: Sequence[str], frame: int, kind: str
 ) -> dict[str, Ratio]:
     """Returns Embree's time of a frame over that of each updated structure, the fastest first.
 
-    Embree is updated or built anew, whichever is faster in the scene.
+    Embree is updated or rebuilt, whichever is faster in the scene.
     """
     scenes = cells.rows.loc[cells.rows["frame"] == frame, "scene"].unique()
     found: dict[str, list[Ratio]] = {}
@@ -120,7 +133,7 @@ def _over_embree(
         embree = embree[embree["timed"]]
         fastest = embree.loc[embree["total_ms"].idxmin()]
         for structure in structures:
-            if structure != "embree":
+            if not structure.startswith("embree"):
                 own = cells.row(f"{structure}:update=true", scene=scene, ray_kind=kind)
                 found.setdefault(structure, []).append(ratio_of("total", fastest, own, cells.files))
     means = {structure: geometric_mean(ratios) for structure, ratios in found.items()}
@@ -133,9 +146,9 @@ def _name(contender: str) -> str:
 
 
 def _fastest(cells: Cells, frame: int) -> list[dict[str, Any]]:
-    """Returns the least times of the last frames: updated, built anew, and of grid or octree.
+    """Returns the least times of the last frames: updated, rebuilt, and of a grid or octree.
 
-    Each row has a scene and a kind of rays, with milliseconds and contender.
+    Each row has a scene and a ray kind, with milliseconds and contender.
     """
     rows = cells.rows[cells.rows["timed"] & (cells.rows["frame"] == frame)]
     updated = rows["parameters"].str.contains("update=true", regex=False)
