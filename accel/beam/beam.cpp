@@ -4,8 +4,8 @@ namespace beambench::accel::beam {
 namespace {
 
 /// The distance by which a clipped outline extends beyond the line, so that a sample on the line
-/// itself, which rounding may put on either side of the outline's edge, stays covered. Far less
-/// than a sliver.
+/// itself, which rounding may put on either side of the outline's edge, stays covered. It is far
+/// less than the width of a sliver.
 constexpr double kOverlap = 0x1p-43;
 
 void keep_near(std::span<const BeamCut> cuts, Beam& beam) {

@@ -25,13 +25,13 @@ struct BeamCut {
 ///
 /// The cuts alone decide which samples belong to the beam, by comparing numbers that every beam
 /// computes in the same way for a ray (`crosses_before`). `outline` covers all of these samples.
-/// Cuts that are not near the outline hold for all its samples and are dropped. There are thus
-/// about as many cuts as the outline has edges and, as in the thesis, the cost of a beam does not
-/// depend on the resolution.
+/// Cuts that are not near the outline hold for all its samples and are dropped. So there are about
+/// as many cuts as the outline has edges and, as in the thesis, the cost of a beam does not depend
+/// on the resolution.
 struct Beam {
-  std::uint32_t node;  ///< the leaf, its index in the octree
-  std::int32_t size;   ///< finest cells along the leaf's edges
-  glm::ivec3 corner;   ///< its lowest finest cell
+  std::uint32_t node;  ///< the leaf's index in the octree
+  std::int32_t size;   ///< length of the leaf's edges, in finest cells
+  glm::ivec3 corner;   ///< the leaf's lowest finest cell
   ImagePolygon outline;
   FixedVector<BeamCut, 56> cuts;
 

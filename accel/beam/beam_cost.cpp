@@ -36,7 +36,7 @@ ImagePolygon window(int column, int row, double size) {
 }
 
 /// Returns whether the window's left or lower edge cuts a beam. Such a beam is not counted; all
-/// others that overlap the window are. So each beam, whatever its size, is counted with a
+/// other beams that overlap the window are. So each beam, whatever its size, is counted with a
 /// probability equal to the window's share of the image (Gundersen's unbiased counting frame:
 /// "Notes on the estimation of the numerical density of arbitrary profiles: the edge effect",
 /// Journal of Microscopy 111(2), 1977).

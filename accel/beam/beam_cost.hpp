@@ -12,7 +12,7 @@ void count_beams(const octree::Octree& octree, const Workload& workload,
                  const octree::OctreeWork& expected, octree::OctreeWork& work);
 
 /// Returns the expected nanoseconds of tracing by beams (thesis, section 5.3.3); see
-/// `samet_trace_cost`. `handover` is the tracer's.
+/// `samet_trace_cost`. `handover` is the tracer's parameter.
 double beam_trace_cost(const octree::OctreeWork& work, double handover);
 
 }  // namespace beambench::accel::beam

@@ -102,8 +102,8 @@ class Exits {
 
  private:
   /// Adds a face unless another face leaves it at most a sliver of the beam, and removes the faces
-  /// to which it leaves at most a sliver. One of two compared faces always remains, so the
-  /// remaining faces divide all samples among them.
+  /// to which it leaves at most a sliver. Each comparison drops at most one of the two faces, so
+  /// the remaining faces divide all samples among them.
   void add(const EyeView& view, const Beam& beam, const Crossing& face) {
     std::array<ImageLine, 6> lines{};
     for (std::size_t i = 0; i < faces_.size();) {

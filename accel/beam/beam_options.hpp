@@ -18,7 +18,7 @@ enum class LeafTest : std::uint8_t {
   kExact    ///< by the canonical test only, as in structures that trace single rays; no images
 };
 
-/// Returns the kernels that test images; null if the test uses none.
+/// Returns the kernels that test images; null if the test uses no images.
 const ProbeKernels* kernels_of(LeafTest leaf);
 /// Returns Highway's name of the instruction set that leaves are tested with; empty without SIMD
 /// (`Statistics::instruction_set`).

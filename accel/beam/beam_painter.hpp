@@ -17,8 +17,8 @@
 
 namespace beambench::accel::beam {
 
-/// Returns 1 for each sample of a buffer that needs no tracing, if some samples are not wanted or
-/// beams continue behind occupied leaves. Otherwise empty.
+/// Returns a flag for each sample of a buffer, initially 1 if the sample needs no tracing. Empty
+/// unless some samples are not wanted or beams continue behind occupied leaves.
 template <class Sight>
 std::vector<std::uint8_t> finished_samples(const BeamRules& rules, const Sight& sight,
                                            const HitSpan& buffer) {
@@ -29,8 +29,8 @@ std::vector<std::uint8_t> finished_samples(const BeamRules& rules, const Sight& 
 
 /// Finds the samples of beams and traces them (thesis, section 3.6), for one image. Beams are
 /// independent, so several painters, in threads or processes, can fill one image. They can share
-/// its buffer: two beams have no samples in common unless one descends from the other. `Cells` are
-/// the cells that beams pass through.
+/// its buffer: two beams have no samples in common unless one descends from the other. `Cells` is
+/// the interface to the cells that beams pass through.
 template <class Watch, class Sight, class Cells = OctreeCells>
 class BeamPainter {
  public:

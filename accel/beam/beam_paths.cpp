@@ -107,8 +107,8 @@ Crossing nearest_plane(const octree::Octree& octree, const EyeView& view, int ax
           static_cast<std::int16_t>(axis), static_cast<std::int16_t>(side)};
 }
 
-/// Begins a beam, divided by the planes next to the eye, from this axis on. Rays along such a plane
-/// may be on the side opposite the eye; they are in none of the parts.
+/// Begins a beam, divided by the planes next to the eye, across this axis and those after it. Rays
+/// along such a plane may be on the side opposite the eye; no part contains them.
 void begin_beside_planes(const octree::Octree& octree, const EyeView& view, int axis,
                          const Beam& screen, BeamQueue& queue) {
   if (screen.outline.empty()) return;

@@ -118,7 +118,7 @@ class PassedNodes {
 ///
 /// The thesis counts a beam when one is created: at the beginning, and for each part of a beam that
 /// is cut. A beam that continues undivided is the same beam in another leaf (section 4.4.2:
-/// `PasaPor` against the constructor; graphic 3.4: "the standard beam is not modified").
+/// `PasaPor` as opposed to the constructor; graphic 3.4: "the standard beam is not modified").
 struct BeamQueue {
   BeamStack waiting;
   std::uint64_t clips = 0;
@@ -127,24 +127,25 @@ struct BeamQueue {
   std::uint64_t made = 0;               ///< initial beams, and the parts of divided beams
   std::uint64_t divided = 0;            ///< beams that continued in several parts
   std::uint64_t passed_whole = 0;       ///< continued undivided into a leaf or out of the root
-  BeamBorder* border = nullptr;         ///< if there is one
-  const PassedNodes* passed = nullptr;  ///< if there are any
+  BeamBorder* border = nullptr;         ///< null if the octree is not part of a larger one
+  const PassedNodes* passed = nullptr;  ///< null if no nodes are passed
 };
 
 /// Appends the beams at which tracing begins (thesis, section 3.4), through a convex `part` of the
-/// image; `view.screen()` is the whole image. From outside the root: for each face of the root that
-/// faces the camera, the part clipped to the face, divided among the leaves behind it. From inside:
-/// the part itself in the leaf that contains the camera. Samples that belong to no beam miss the
-/// root, or run along a plane of the grid that nearby rays may cross on the other side of the eye.
+/// image; `view.screen()` is the whole image. From outside the root, there is a beam for each face
+/// of the root that faces the camera: the part clipped to the face, divided among the leaves behind
+/// it. From inside, the part itself begins in the leaf that contains the camera. Samples that
+/// belong to no beam miss the root, or run along a plane of the grid that nearby rays may cross on
+/// the other side of the eye.
 void begin_beams(const octree::Octree& octree, const EyeView& view, const ImagePolygon& part,
                  BeamQueue& queue);
 
-/// Appends the beams that leave a leaf (thesis, section 3.5): divided among the faces through which
-/// its rays leave, then among the leaves behind each face.
+/// Appends the parts of a beam that leaves a leaf (thesis, section 3.5): it is divided among the
+/// faces through which its rays leave, then among the leaves behind each face.
 void continue_beam(const octree::Octree& octree, const EyeView& view, const Beam& beam,
                    BeamQueue& queue);
 
-/// Appends a beam that enters a node through a face, divided among the node's leaves there.
+/// Appends a beam that enters a node through a face, divided among the node's leaves at that face.
 void enter_node(const EyeView& view, const Crossing& face, const octree::OctreeCursor& node,
                 const Beam& beam, BeamQueue& queue);
 

@@ -48,7 +48,8 @@ class BeamRun {
 
   BeamStack& waiting() { return queue_.waiting; }
 
-  /// Traces beams until none is pending. Before each beam, `share(waiting)` may remove some.
+  /// Traces beams until none is pending. Before each beam, `share(waiting)` may remove some pending
+  /// beams.
   template <class Share>
   void work(Share share) {
     BeamStep step;

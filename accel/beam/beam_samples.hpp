@@ -24,8 +24,8 @@ class SampleScan {
   /// Calls `visit(y, first_x, last_x)` for runs of samples that together contain each sample of the
   /// beam exactly once and no others. This is scanline filling (thesis, section 3.6.1) with the
   /// beam's cuts as edges. If a sample's ray, `ray_at(x, y)`, may lie on either side of a cut,
-  /// `crosses_before` decides, as in every other beam. The thesis processes some pixels twice; here
-  /// each sample belongs to one beam.
+  /// `crosses_before` decides, as in every other beam. The thesis processes some pixels twice;
+  /// here, each sample belongs to one beam.
   template <class RayAt, class Visit>
   void for_each_run(const Beam& beam, const SampleLattice& lattice, RayAt ray_at,
                     Visit visit) const {
@@ -49,7 +49,7 @@ class SampleScan {
     for (int y = first_y; y <= last_y; ++y) {
       const Row row = edges.row(y, lattice.begin.x, lattice.width);
       if (row.first > row.last) continue;
-      // From both ends inward, until no cut is near.
+      // Go inward from both ends until no cut is near.
       int first = row.first;
       int last = row.last;
       const int sure_first = std::max(first, row.sure_first);
@@ -104,7 +104,7 @@ class SampleScan {
       double sure_last = last;
       for (const Edge& edge : edges_) {
         const double value = edge.y * y + edge.constant;  // at x = 0
-        if (std::abs(edge.x) * width < margin_) {         // parallel to the row: same for all
+        if (std::abs(edge.x) * width < margin_) {  // parallel to the row: the same for all samples
           if (value > 2.0 * margin_) last = -1.0;
           if (value > -2.0 * margin_ - edge.band) sure_last = -1.0;
           continue;
@@ -147,7 +147,7 @@ class SampleScan {
 
   const EyeView* view_;
   const PrimaryRays* rays_;
-  /// Allows, in rows, for the rounding of directions. An extra row is harmless.
+  /// The allowance for the rounding of directions, in rows. An extra row is harmless.
   double row_slack_;
 };
 

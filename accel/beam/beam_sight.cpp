@@ -13,11 +13,11 @@ namespace {
 using glm::dvec3;
 
 /// A beam with fewer samples becomes single rays. By the thesis's rule, beams of the image itself
-/// never do, but part of a mirror is covered by few samples: 8,000 beams had only 500. This was the
+/// never do, but the beams of a mirror can have few samples: 8,000 beams had only 500. This was the
 /// fastest value of 0, 4, 8, 16, 32 and 64 on ajedrez, closed-room and habitacion.
 constexpr std::int64_t kSmallBeam = 8;
-/// The maximum number of pixels per ray of the pencil; for sparser parts, the buffers cost too
-/// much.
+/// The maximum number of pixels per ray of the pencil; for sparser parts, the buffers would cost
+/// too much.
 constexpr std::size_t kSparsest = 64;
 
 /// Returns a convex cover of pixels, given by their corners: the image, cut along lines of 16
@@ -124,8 +124,8 @@ void BehindPlane::take_rays(const DriftingView& view, double limit) {
   part_ = cover(corners);
 }
 
-/// Takes a plane through three origins that are far apart, with all others above it; if not all
-/// rays rise from that plane, takes the plane across the view.
+/// Takes the plane through three origins that are far apart, moved below all origins. If not all
+/// rays rise from it, takes a plane across the view instead.
 void BehindPlane::find_plane() {
   const auto farthest = [&](auto distance) {
     dvec3 best(0.0);
@@ -151,8 +151,8 @@ void BehindPlane::find_plane() {
   limit_ = std::numeric_limits<double>::infinity();
   for_each_taken(
       [&](const Ray& ray) { limit_ = std::min(limit_, glm::dot(normal_, dvec3(ray.origin))); });
-  // Larger than the distance of a computed hit from its primitive, far smaller than the distance
-  // from surfaces at which rays begin.
+  // The margin is larger than the distance of a computed hit from its primitive and far smaller
+  // than the distance from surfaces at which rays begin.
   limit_ -= 16.0 * overlap_tolerance(*scene_);
 }
 

@@ -20,7 +20,7 @@
 
 namespace beambench::accel::beam {
 
-/// The policy of an image: all samples, starting at the eye.
+/// The policy of an image: all samples, with rays from the eye.
 struct WholeImage {
   /// Whether samples of leaving beams must be recorded as finished.
   static constexpr bool kRecordsLeaving = false;
@@ -48,16 +48,17 @@ struct WholeImage {
 /// thesis, section 7.3).
 ///
 /// Beams are divided as seen from one eye, but the rays are those of a list, whose lines pass near
-/// the eye (`NearbyRays`). So the parts of a beam overlap by as much as that requires, and each ray
-/// decides which part it belongs to. Objects behind the plane of the rays' origins do not divide
-/// beams: nodes that hold nothing in front of it, such as those of a mirror, are passed.
+/// the eye (`NearbyRays`). So the parts of a beam overlap accordingly, and each ray determines
+/// which part it belongs to. Objects behind the plane of the rays' origins do not divide beams:
+/// nodes that hold nothing in front of the plane, such as those that hold only a mirror, are
+/// passed.
 class BehindPlane : public PassedNodes {
  public:
   static constexpr bool kRecordsLeaving = true;
 
-  /// The minimum number of rays; fewer are traced singly. In parts of 64x64 pixels at 640x480,
-  /// tracing 128 to 255 rays singly takes 0.92 (ajedrez) to 1.5 times as long as in beams, and 64
-  /// to 127 rays 0.58 to 1.4 times.
+  /// The minimum number of rays; fewer rays are traced singly. In parts of 64x64 pixels at 640x480,
+  /// tracing rays singly takes 0.92 (ajedrez) to 1.5 times as long as in beams for 128 to 255 rays,
+  /// and 0.58 to 1.4 times as long for 64 to 127 rays.
   static constexpr std::size_t kFewest = 128;
 
   /// Takes rays, the samples they came from, and the view of them from an eye that may drift. Rays
@@ -81,9 +82,10 @@ class BehindPlane : public PassedNodes {
   std::vector<SampleLattice> lattices(const PrimaryRays& rays, bool share_corners) const;
   /// Returns 1 for each place of the buffer without a ray.
   std::vector<std::uint8_t> finished() const;
-  /// Returns a positive minimum even if the option is 0.
+  /// Returns the number of samples below which a beam becomes individual rays; positive even if the
+  /// option is 0.
   static std::int64_t handover(const BeamRules& rules);
-  /// Returns the ray of a sample; the image's own if the list has none.
+  /// Returns the ray of a sample; the image's own ray if the list has none for it.
   Ray ray_of(const SampleScan& scan, const SampleLattice& lattice, int x, int y) const {
     const std::uint32_t ray = ray_at_[index_of(x, y, lattice)];
     return ray == kNone ? scan.ray(lattice, x, y) : rays_[ray];

@@ -19,9 +19,10 @@ namespace beambench::accel::beam {
 
 /// Beams of primary rays through an octree (González López, thesis 1999, chapters 3 and 4): in
 /// empty leaves the beams continue, divided by the faces and the leaves behind them; at an occupied
-/// leaf the samples of a beam become rays; samples that leave the root are background without a
-/// ray. Samet's traversal of the same octree traces individual rays: those that pass an occupied
-/// leaf, and all rays that do not come from an image via planes only.
+/// leaf the samples of a beam become rays; samples that leave the root are background, and no ray
+/// is traced for them. Samet's traversal of the same octree traces individual rays: those that
+/// continue behind an occupied leaf, and all rays other than primary rays and rays that planes
+/// reflect or refract.
 class BeamTracer : public octree::Samet {
  public:
   BeamTracer(const scenes::Scene& scene, const BeamOptions& options)
@@ -33,13 +34,14 @@ class BeamTracer : public octree::Samet {
   const scenes::Scene& scene() const { return *scene_; }
   const BeamOptions& options() const { return options_; }
 
-  /// Traces an image in beams, which are shared among the context's threads: two have no samples in
-  /// common unless one descends from the other. In a batch, traces rays that planes reflect or
-  /// refract in beams (`BehindPlane`) and all other rays one by one.
+  /// Traces an image in beams, which are shared among the context's threads: two beams have no
+  /// samples in common unless one descends from the other. In a batch, traces rays that planes
+  /// reflect or refract in beams (`BehindPlane`) and all other rays one by one.
   void closest_hits(const RaySource& rays, const HitSpan& hits,
                     const QueryContext& context) const override;
 
-  /// Samples become rays only at occupied leaves, so not all of an image's rays are generated.
+  /// Returns the octree's statistics. Samples become rays only at occupied leaves, so the tracer
+  /// generates its own rays.
   Statistics statistics() const override {
     Statistics statistics = octree::Samet::statistics();
     statistics.image_rays = ImageRays::kOwn;

@@ -1,5 +1,5 @@
 #pragma once
-// Reports a beam tracer's actions to a compile-time policy, in addition to that of the rays.
+// Reports a beam tracer's actions to a compile-time policy, in addition to the rays' policy.
 
 #include <algorithm>
 #include <array>
@@ -20,8 +20,7 @@ namespace beambench::accel::beam {
 
 /// The reason why a sample became an individual ray.
 enum class RayReason {
-  kOccupied,  ///< found nothing nearer than the exit of the occupied leaf where its beam ended
-              ///< ended
+  kOccupied,  ///< no hit nearer than the exit of the occupied leaf where its beam ended
   kHandover,  ///< its beam had fewer samples than `handover`
   kCrowded    ///< its beam had too many cuts to be divided (never observed)
 };
@@ -34,11 +33,11 @@ enum class RayReason {
 /// - how many samples left the root (`left`) or were tested in a leaf (`tested`) with a beam, and
 ///   each that continues as a ray (`handed_over`),
 /// - that no beam is being processed until the next is met (`resting`),
-/// - each leaf that a single ray enters, at t; if it belongs to another process (`leaves_part`),
-///   the ray ends there, and `painted` follows with the best hit so far,
-/// - at the end, the work of dividing beams (`divided`) and the end itself (`finished`), and takes
-///   from it the policy of individual rays (`rays`) and the samples that the last beam met should
-///   have (`chosen`).
+/// - each leaf that a single ray enters, at t (`leaves_part`); if the leaf belongs to another
+///   process, the ray ends there, and `painted` follows with the best hit so far,
+/// - at the end, the work of dividing beams (`divided`) and the end itself (`finished`). The policy
+///   supplies the policy of individual rays (`rays`) and the samples to trace in the current beam
+///   (`chosen`).
 struct NoBeamWatch {
   static constexpr bool kPaintsLeaving = false;
   static std::span<const SampleLattice> chosen(std::span<const SampleLattice> all) { return all; }

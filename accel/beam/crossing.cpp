@@ -40,15 +40,15 @@ EyeView::EyeView(const CellGrid& grid, const PrimaryRays& rays, const NearbyRays
 /// Returns the line moved by the drift, and by the deviation. Proof: let the planes lie at
 /// distances A and B in front of the eye, and let e(p) be the drift at a place p, D(p) the
 /// direction there at view depth 1, and d the deviation. A ray that crosses `a` first, and `b` at a
-/// view depth z behind its origin, is then at z D + e, which is beyond A and at B, each up to z d.
-/// If e_a <= A and e_b <= B, it follows that (A - e_a) D_b - (B - e_b) D_a <= (A - e_a + B - e_b)
-/// d. The left side is a conic on the image. The line omits its quadratic part, which is at most
-/// the drift times the radius of the places.
+/// view depth z behind its origin, is then at z D + e; this point is beyond A and at B, each up to
+/// z d. If e_a <= A and e_b <= B, it follows that (A - e_a) D_b - (B - e_b) D_a <= (A - e_a + B -
+/// e_b) d. The left side is a conic on the image. The line omits its quadratic part, which is at
+/// most the drift times the radius of the places.
 ///
-/// If the eye is next to a plane, the drift may exceed its distance from the plane. In that case
-/// `begin_beams` keeps only rays that cross the plane before their origins, if at all, and divides
-/// them by direction. For a ray that moves away from the plane, only the line without drift is
-/// right, so the band covers both.
+/// If the eye is next to a plane, the drift may exceed its distance from the plane. Then
+/// `begin_beams` keeps only rays that either cross the plane before their origins or not at all,
+/// and divides them by direction. For a ray that moves away from the plane, only the line without
+/// drift is right, so the band covers both.
 ImageLine EyeView::moved_outward(ImageLine line, const Crossing& a, const Crossing& b,
                                  double size) const {
   const auto at_center = [&](const Crossing& crossing) {

@@ -1,6 +1,6 @@
 #pragma once
-// Determines which plane of the cell grid a ray from the eye crosses first; only this divides
-// beams.
+// Determines which plane of the cell grid a ray from the eye crosses first. Beams are divided by
+// nothing else.
 
 #include <algorithm>
 #include <array>
@@ -50,7 +50,7 @@ inline constexpr double kSliver = 0x1p-39;
 double direction_rounding(const PrimaryRays& rays);
 
 /// Rays that are nearly those of an image. The lines of rays reflected by a planar mirror pass
-/// through its virtual eye, up to rounding. Those of rays refracted by a plane have no common
+/// through its virtual eye, up to rounding. The lines of rays refracted by a plane have no common
 /// point, but they change smoothly across the image (Shinya, Takahashi and Naito, "Principles and
 /// applications of pencil tracing", SIGGRAPH 1987), so the line of a sample passes near eye + drift
 /// * (its place - center).
@@ -62,8 +62,8 @@ struct NearbyRays {
   glm::dvec2 center{0.0};  ///< a place on the image
   /// The change of the eye for a step across the image and down, perpendicular to the view.
   std::array<glm::dvec3, 2> drift{};
-  double deviation = 0.0;           ///< its maximum, seen from the drifting eye
-  double deviation_from_eye = 0.0;  ///< its maximum, seen from `eye`
+  double deviation = 0.0;           ///< the maximum, seen from the drifting eye
+  double deviation_from_eye = 0.0;  ///< the maximum, seen from `eye`
   double beside_eye = 0.0;  ///< the maximum distance of the lines from `eye`; at least `drifted`
   double drifted = 0.0;     ///< the maximum distance of the drifting eye from `eye`
   double radius = 0.0;      ///< the maximum distance of a place from `center`, at view depth 1
@@ -101,7 +101,7 @@ class EyeView {
   double distance(const Crossing& crossing) const {
     return crossing.side * (grid_->plane(crossing.axis, crossing.index) - eye(crossing.axis));
   }
-  /// Returns the crossing of a plane, for the rays that do cross it.
+  /// Returns the crossing of a plane, in the direction in which rays from the eye cross it.
   Crossing crossing_of(int axis, std::int32_t index) const {
     const bool beyond = grid_->plane(axis, index) >= eye(axis);
     return {index, static_cast<std::int16_t>(axis), static_cast<std::int16_t>(beyond ? 1 : -1)};
@@ -136,10 +136,10 @@ class EyeView {
   static bool all_before(const ImageLine& line, const LineRange& range) {
     return range.high <= kSliver - line.band;
   }
-  /// Returns whether all rays cross `b` first.
+  /// Returns whether all rays of the polygon cross `b` first, up to a sliver.
   static bool all_behind(const LineRange& range) { return range.low >= -kSliver; }
-  /// Returns a line that is negative for the nearby rays in the direction of the crossing that, if
-  /// the eye is beside its plane, cross it before their origins.
+  /// Returns a line that is negative for nearby rays in the direction of the crossing. If the eye
+  /// is beside the plane, these rays cross it before their origins.
   ImageLine line_toward(const Crossing& crossing) const {
     ImageLine line = along(crossing, -1.0);
     line.constant += nearby_->deviation + 2.5 * nearby_->beside_eye / nearby_->nearest;
@@ -162,7 +162,7 @@ class EyeView {
   /// The components of the direction through a point of the image, at view depth 1.
   std::array<ImageLine, 3> direction_;
   double rounding_ = 0.0;
-  std::optional<NearbyRays> nearby_;  ///< nothing for the rays of the image themselves
+  std::optional<NearbyRays> nearby_;  ///< nothing for the image's own rays
   glm::dvec2 border_{0.0};
 };
 

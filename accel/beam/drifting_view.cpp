@@ -95,7 +95,7 @@ dvec3 nearest_to_lines(std::span<const Ray> rays, const dvec3& ahead) {
 
 /// Returns the directions of an image that best fit those of rays: a projective function of the
 /// place, up to a factor. Each direction s satisfies s (1 + tilt . p) = constant + ... , so the
-/// tilt is the solution of two equations, and the rest is linear.
+/// tilt is the solution of two equations, and the other coefficients depend on it linearly.
 Linear<dvec3> projective_directions(std::span<const Ray> rays, std::span<const dvec2> places,
                                     const Regression& regression, const dvec3& ahead) {
   std::vector<dvec3> flat(rays.size());  // at view depth 1 as seen along `ahead`
@@ -130,7 +130,7 @@ Linear<dvec3> projective_directions(std::span<const Ray> rays, std::span<const d
 
 }  // namespace
 
-/// The direction is scaled to view depth 1, like that of the sample.
+/// Scales the ray's direction to view depth 1, like that of the sample.
 Course DriftingView::course_of(const Ray& ray, const SamplePlace& place) const {
   const dvec3 from = dvec3(ray.origin) - eye;
   const dvec3 direction(ray.direction);

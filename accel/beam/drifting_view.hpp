@@ -29,22 +29,23 @@ inline SamplePlace place_in(const PrimaryRays& image, std::uint32_t sample) {
   return {{pixel % width, pixel / width}, sample % samples};
 }
 
-/// How a ray deviates from the line of its sample. Angles and the distance from the center are
+/// The deviation of a ray from the line of its sample. Angles and the distance from the center are
 /// lengths at view depth 1; other lengths are in scene units.
 struct Course {
   double start;               ///< view depth of its origin
   double deviation;           ///< angle at the drifting eye, from the ray's origin on
   double deviation_from_eye;  ///< angle at the eye
   double beside_eye;          ///< distance of its line from the eye
-  double drifted;             ///< the part of it that the drift explains
+  double drifted;             ///< the part of `beside_eye` that the drift explains
   double from_center;         ///< distance of its sample's place from the center
 };
 
-/// The line of a sample at a place p, in [0, 1] x [0, 1], passes through the point eye + drift[0] *
-/// (p - center).x + drift[1] * (p - center).y in the direction of the image there. A planar mirror
-/// shows such an image without drift. Rays refracted by a plane have no common point, but in a
-/// small part of the image such lines approximate them: the linear approximation of pencil tracing
-/// (Shinya, Takahashi and Naito, "Principles and applications of pencil tracing", SIGGRAPH 1987).
+/// An image whose eye drifts: the line of a sample at a place p, in [0, 1] x [0, 1], passes through
+/// the point eye + drift[0] * (p - center).x + drift[1] * (p - center).y in the direction of the
+/// image there. A planar mirror shows such an image without drift. Rays refracted by a plane have
+/// no common point, but in a small part of the image such lines approximate them: the linear
+/// approximation of pencil tracing (Shinya, Takahashi and Naito, "Principles and applications of
+/// pencil tracing", SIGGRAPH 1987).
 struct DriftingView {
   PrimaryRays image;
   glm::dvec3 eye;

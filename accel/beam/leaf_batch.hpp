@@ -97,7 +97,7 @@ class LeafBatch {
     }
   }
 
-  /// Returns the bound on 1 / view depth that hits must exceed to be nearer.
+  /// Returns a bound on 1 / view depth that a hit must exceed to be nearer than the closest so far.
   static float limit(const Sample& sample) {
     constexpr float kLess = 1.0F - 0x1p-20F;
     return kLess / (sample.start + sample.speed * sample.closest.ray.t_max);

@@ -10,8 +10,8 @@ namespace beambench::accel::beam {
 namespace {
 
 constexpr std::array<int, 1> kOne{12};
-/// No two in one row or column: an edge along a row or column meets five different positions, not
-/// three.
+/// Five samples, no two in one row or column, so that an edge along a row or column meets five
+/// different positions, not three.
 constexpr std::array<int, 5> kFive{1, 9, 12, 15, 23};
 constexpr std::array<int, 25> kAll = [] {
   std::array<int, 25> all{};

@@ -13,10 +13,11 @@
 
 namespace beambench::accel::beam {
 
-/// The interface between beams and cells; cells of other structures have the same functions.
+/// The interface between beams and the leaves of an octree; the cells of other structures have the
+/// same functions.
 class OctreeCells {
  public:
-  /// `tracer` must outlive it.
+  /// `tracer` must outlive this object.
   OctreeCells(const octree::Samet& tracer) : tracer_(&tracer) {}  // NOLINT: stands for the tracer
 
   /// Returns the grid whose planes contain the faces of all cells.
@@ -34,8 +35,8 @@ class OctreeCells {
     return octree().references(octree().nodes()[beam.node]);
   }
 
-  /// Traces a ray behind the beam's cell, which it leaves at t. `watch` may end it if another
-  /// process takes over.
+  /// Traces a ray behind the beam's cell, which it leaves at t. `watch` may end the trace if
+  /// another process takes over.
   template <class Counting, class Watch>
   [[gnu::always_inline]] void follow(const scenes::Scene& scene, const Beam& beam, const Ray& ray,
                                      const CellRay& cell_ray, double t, ClosestHit& best,

@@ -11,8 +11,8 @@
 namespace beambench::accel::beam {
 namespace {
 
-/// The error of a sum of three products in float, relative to the sum of their magnitudes:
-/// coefficients and places rounded once each, and three more roundings.
+/// The error of a sum of three products in float, relative to the sum of their magnitudes: one
+/// rounding each of coefficients and places, and three more.
 constexpr double kFloatLoss = 0x1p-21;
 
 constexpr std::size_t kPage = 1024;
@@ -110,7 +110,8 @@ SphereImage PrimitiveImages::image_of_sphere(const scenes::Sphere& sphere) const
   const double depth = glm::dot(center, forward_);
   const double distance = glm::length(center);
   const double radius = std::abs(static_cast<double>(sphere.radius));
-  // Around, next to or behind the eye: its outline is not an ellipse, or a very long one.
+  // A sphere around, next to or behind the eye has an outline that is not an ellipse, or a very
+  // long one.
   if (!(depth > 0.1 * distance) || !(radius < 0.9 * distance)) return kAnywhereRound;
 
   const glm::dvec3 middle = center / depth;  // at view depth 1, like all directions

@@ -23,17 +23,17 @@ struct PixelLine {
   float constant;
 };
 
-/// A triangle's edges, nonnegative for samples that may hit it, and 1 / view depth of its plane, at
-/// least that of any hit. All are widened by the error of float arithmetic and the deviation of
-/// rays, so that they reject no hit of the canonical test.
+/// A triangle's edges, nonnegative for samples that may hit it, and 1 / view depth of its plane,
+/// which is at least that of any hit. All are widened by the error of float arithmetic and the
+/// deviation of rays, so that they reject no hit of the canonical test.
 struct TriangleImage {
   std::array<PixelLine, 3> edges;
   PixelLine inverse_t;
 };
 
 /// A sphere's outline: xx u^2 + xy u v + yy v^2 + x u + y v + constant, nonnegative for samples
-/// that may hit it; (u, v) is a sample's place relative to the center's, in pixels. Widened as
-/// above.
+/// that may hit it; (u, v) is a sample's place relative to the center's, in pixels. Widened like a
+/// TriangleImage.
 struct SphereImage {
   float center_x;
   float center_y;
@@ -56,8 +56,8 @@ struct SampleBatch {
   std::size_t size = 0;
 };
 
-/// Bit i is set if sample i of the batch may hit the primitive at most as far away as its closest
-/// hit.
+/// A set of samples: bit i is set if sample i of the batch may hit the primitive no farther away
+/// than its closest hit so far.
 using SampleMask = std::uint64_t;
 
 /// Returns the mask of all samples of a batch.
@@ -71,7 +71,7 @@ struct ProbeKernels {
   /// Returns which samples may hit one of a polygon's triangles.
   SampleMask (*triangles)(std::span<const TriangleImage>, const SampleBatch&);
   SampleMask (*sphere)(const SphereImage&, const SampleBatch&);
-  std::int64_t target;  ///< Highway's, for which they are compiled
+  std::int64_t target;  ///< the Highway target for which they are compiled
 };
 
 /// Returns the kernels for this machine's best instruction set that Highway supports.
@@ -101,8 +101,8 @@ class PrimitiveImages {
   glm::dvec3 down_;
   glm::dvec2 size_;   ///< of the image, in pixels
   double deviation_;  ///< of a ray's points from its sample's place, as seen from the eye
-  /// Returns the place of a primitive's first image in the array of its kind; kNotMade until it is
-  /// made.
+  /// Returns the place of a primitive's first image in the array of its kind; kNotMade until the
+  /// image is made.
   std::uint32_t& place_of(scenes::PrimitiveId id);
 
   /// The places, in pages of many primitives. A page is empty until one of its primitives is met,

@@ -15,7 +15,7 @@ namespace beambench::accel::beam::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The number of samples that a register holds.
+/// Lanes for as many samples as a register holds.
 using AllLanes = hn::CappedTag<float, 16>;
 /// One sample at a time: scalar code with the arithmetic of `AllLanes`, including fused operations,
 /// so that the same samples pass.

@@ -36,10 +36,11 @@ std::unique_ptr<BeamTracer> build_beam_tracer(const StructureChoice& choice,
                                               const scenes::Scene& scene,
                                               const Workload& workload) {
   if (choice.info().name != kName) {
-    throw InputError(fmt::format(
-        "'{}' traces no beams; give --accel beam, with or without parameters", choice.info().name));
+    throw InputError(
+        fmt::format("'{}' does not trace beams; give --accel beam, with or without parameters",
+                    choice.info().name));
   }
-  // The type registered below under this name, which plug-ins cannot use.
+  // This name is registered below with this type, and plug-ins cannot use it.
   return std::unique_ptr<BeamTracer>(
       static_cast<BeamTracer*>(choice.build(scene, workload).release()));
 }

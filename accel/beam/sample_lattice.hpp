@@ -14,8 +14,9 @@
 
 namespace beambench::accel::beam {
 
-/// One sample of every pixel: those at (x, y) + `offset`, x < width, y < height, from `begin` on. A
-/// sample's hit belongs to one place of a hit buffer, or to several when pixels share it.
+/// One sample of each pixel: the samples at (x, y) + `offset`, from `begin` on, with x < width and
+/// y < height. A sample's hit belongs to one place of a hit buffer, or to several when pixels share
+/// it.
 struct SampleLattice {
   /// The place of pixel (x - left, y - up).
   struct Place {
@@ -42,7 +43,7 @@ struct SampleLattice {
   }
 };
 
-/// Pixels from (left, top).
+/// A rectangle of pixels from (left, top) on.
 struct PixelRect {
   int left;
   int top;
@@ -55,8 +56,8 @@ struct PixelRect {
 std::vector<SampleLattice> part_of(std::span<const SampleLattice> lattices, const HitSpan& buffer,
                                    const PixelRect& part);
 
-/// Returns a lattice for each sample of a pixel. `share_corners`: samples in the corners of pixels
-/// that are the same point are one sample.
+/// Returns a lattice for each sample of a pixel. `share_corners`: samples of different pixels at
+/// the same corner are one sample.
 std::vector<SampleLattice> sample_lattices(const PrimaryRays& rays, bool share_corners);
 
 }  // namespace beambench::accel::beam

@@ -99,8 +99,8 @@ class SampleWatch : public NoBeamWatch {
     return {crossing.axis, octree_->grid().plane(crossing.axis, crossing.index)};
   }
 
-  /// Returns the face of the root through which the ray enters: the last crossed of the faces
-  /// visible to the eye.
+  /// Returns the face of the root through which the ray enters: of the faces visible to the eye,
+  /// the one it crosses last.
   std::optional<CrossedPlane> face_of_root() const {
     std::optional<Crossing> last;
     for (int axis = 0; axis < 3; ++axis) {
@@ -115,8 +115,8 @@ class SampleWatch : public NoBeamWatch {
     return plane_of(*last);
   }
 
-  /// Returns the face through which beams enter the next leaf. If the ray crosses several at the
-  /// same t, returns the one with the lowest axis, as in `crosses_before`.
+  /// Returns the face through which beams enter the next leaf. If the ray crosses several faces at
+  /// the same t, returns the one with the lowest axis, as in `crosses_before`.
   CrossedPlane face_of(const octree::OctreeCursor& leaf, const octree::LeafExit& exit) const {
     int axis = 0;
     while (axis < 2 && exit.step[axis] == 0) ++axis;

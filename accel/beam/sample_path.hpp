@@ -13,7 +13,7 @@ namespace beambench::accel::beam {
 struct SamplePath {
   std::vector<BeamPassage> beams;   ///< first to last; empty if the ray misses the root
   std::vector<TraceStep> steps;     ///< leaves whose references were tested, with each test
-  std::optional<RayReason> reason;  ///< why it became an individual ray; nothing if it did not
+  std::optional<RayReason> reason;  ///< why the sample became a ray; nothing if it did not
   std::optional<Hit> hit;
 };
 

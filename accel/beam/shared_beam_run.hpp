@@ -17,8 +17,8 @@
 
 namespace beambench::accel::beam {
 
-/// Each thread traces beams from its own stack, and turns half of it into a task whenever many are
-/// pending.
+/// Traces an image on several threads. Each thread traces beams from its own stack; whenever many
+/// are pending, it hands half of them over as a new task.
 template <class Watch, class Cells = OctreeCells>
 class SharedBeamRun {
  public:

@@ -1,4 +1,4 @@
-// Images in beams, on one thread or several.
+// Traces images in beams, on one thread or several.
 
 #include "accel/beam/beam_tracer.hpp"
 #include "accel/beam/shared_beam_run.hpp"

@@ -1,4 +1,4 @@
-// Lists of rays: rays that planes reflect and refract are traced in beams, all others one by one.
+// Traces lists of rays: rays that planes reflect or refract in beams, all other rays one by one.
 
 #include <algorithm>
 #include <cmath>
@@ -17,13 +17,15 @@
 namespace beambench::accel::beam {
 namespace {
 
-/// Reflected rays deviate from those of a virtual eye only by rounding. In pixels.
+/// The maximum deviation, in pixels, of a reflected ray from the virtual eye's ray; it is caused
+/// only by rounding.
 constexpr double kMostOfMirrors = 0.25;
 /// Refracted rays are divided into parts of the image until they deviate from a view of their part
-/// by less than this angle, half a pixel, or there are too few rays. On aquarium and prism, values
+/// by less than this angle (half a pixel) or too few rays remain. On aquarium and prism, values
 /// from 0.25 to 1 take equally long.
 constexpr double kDivided = 0.5;
-/// Refracted rays that deviate by more pixels from the view of their part are left out.
+/// Refracted rays that deviate from the view of their part by more than this many pixels are left
+/// out.
 constexpr double kMostOfGlass = 2.0;
 /// The maximum number of rays to which a view is fitted.
 constexpr std::size_t kFitted = 128;
@@ -136,17 +138,17 @@ class BatchRun {
     return fitted_view(rays, samples, *batch_->image);
   }
 
-  /// Returns an odd step through a part, so that it does not stay in one column of the image.
+  /// Returns an odd step through a part, so that steps do not stay in one column of the image.
   static std::size_t step_of(Indices part) { return (part.size() / kFitted) | 1U; }
 
-  /// Returns whether the rays of the part deviate little, judging by some of them.
+  /// Returns whether the rays of the part deviate little from the view, judging by some of them.
   bool fits(const DriftingView& view, Indices part) const {
     const double most = kDivided * view.pixel();
     const std::size_t step = step_of(part);
     for (std::size_t i = step / 2; i < part.size(); i += step) {
       const Course course =
           view.course_of(batch_->rays[part[i]], place_in(view.image, batch_->samples[part[i]]));
-      // The second term is the part of the conic that its line omits.
+      // The second term is the part of the conic that its tangent omits.
       const double deviation =
           course.deviation + course.drifted * course.from_center / course.start;
       if (!(deviation < most)) return false;

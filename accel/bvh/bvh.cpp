@@ -33,7 +33,7 @@ std::vector<CounterInfo> stream_counters() {
        "primitives that the SIMD float test did not decide (for single rays: did not reject) "
        "and that the canonical test in double tested again"},
       {"stream_lists", "visits of a node by a list of rays"},
-      {"stream_rays", "rays in these lists; divided by stream_lists, the mean length of a list"},
+      {"stream_rays", "rays in these lists; divided by stream_lists, it is the mean list length"},
       {"stream_chunks", "groups of up to 16 rays tested against a node or a leaf together"},
       {"stream_packets", "lists of up to 16 rays that continued in registers"},
       {"stream_singles", "rays of lists that continued singly below a node"},

@@ -42,7 +42,7 @@ class Builder {
 
  private:
   struct Pending : PendingNode {
-    BuildExtent extent;  ///< of the items
+    BuildExtent extent;  ///< the extent of the items
   };
 
   /// The beginning of the right child's items, and the extents of both children.
@@ -72,8 +72,8 @@ class Builder {
     return sum_up(begin, end, [] { return BuildExtent(); });
   }
 
-  /// Accumulates items, starting from `nothing()`, in parallel if requested: minima, maxima and
-  /// counts do not depend on the order.
+  /// Accumulates items, starting from `nothing()`, in parallel if requested. The result does not
+  /// depend on the order, because it consists of minima, maxima and counts.
   template <class Nothing>
   std::invoke_result_t<Nothing> sum_up(std::size_t begin, std::size_t end,
                                        const Nothing& nothing) const {
@@ -98,7 +98,7 @@ class Builder {
         });
   }
 
-  /// Moves the items of the left child to the front; nothing for a leaf.
+  /// Moves the items of the left child to the front; returns nothing for a leaf.
   std::optional<Halves> halve(const Pending& pending) {
     if (pending.count() == 1) return std::nullopt;
     if (pending.depth < kDeepestSahSplit) {
@@ -133,7 +133,7 @@ class Builder {
     }
   }
 
-  /// Returns the cheapest split; none if a leaf is allowed and costs no more.
+  /// Returns the cheapest split, or an empty one if a leaf is allowed and costs no more.
   ObjectSplit best_split(const Pending& pending, const Binning& binning) const {
     const Bins bins = sum_up(pending.begin, pending.end, [&] { return Bins(binning); });
     ObjectSplit best = best_object_split(bins, binning, options_);

@@ -1,5 +1,5 @@
 #pragma once
-// Builds a binary hierarchy of boxes by the surface area heuristic, without scene or primitives.
+// Builds a binary hierarchy by the surface area heuristic, from boxes alone.
 
 #include <cstdint>
 #include <span>
@@ -13,7 +13,7 @@ namespace beambench::accel::bvh {
 struct BvhOptions {
   std::uint32_t max_leaf = 8;    ///< maximum number of items in a leaf
   std::uint32_t block_size = 8;  ///< items tested at once: a leaf of n costs ceil(n / block_size)
-  float node_cost = 1.0F;        ///< of a node, relative to the test of a block of items
+  float node_cost = 1.0F;        ///< cost of visiting a node, relative to testing a block
   bool parallel = false;         ///< use all cores; the result is the same
 };
 
@@ -29,7 +29,7 @@ struct BvhNode {
 
 struct BinaryBvh {
   std::vector<BvhNode> nodes;        ///< the root first, children after their parent; may be empty
-  std::vector<std::uint32_t> items;  ///< indices, leaf by leaf; each once unless a split divides it
+  std::vector<std::uint32_t> items;  ///< indices, leaf by leaf; repeated only for divided items
   std::uint32_t depth = 0;           ///< nodes on the longest path to a leaf, including the leaf
 };
 
@@ -41,8 +41,8 @@ inline constexpr std::uint32_t kMaxBvhDepth = 96;
 /// coincide, and those below a depth that only contrived input reaches, are split in half.
 BinaryBvh build_bvh(std::span<const scenes::Bounds> boxes, const BvhOptions& options);
 
-/// Builds a hierarchy from the items of each leaf, so that leaves may become smaller; the nodes
-/// above are unchanged. A leaf stays undivided if its descendants would be deeper than
+/// Replaces each leaf by a hierarchy over its items, so that leaves may become smaller; the nodes
+/// above the leaves are unchanged. A leaf stays undivided if its descendants would be deeper than
 /// kMaxBvhDepth.
 void divide_leaves(BinaryBvh& bvh, std::span<const scenes::Bounds> boxes,
                    const BvhOptions& options);
@@ -52,9 +52,9 @@ void divide_leaves(BinaryBvh& bvh, std::span<const scenes::Bounds> boxes,
 double sah_cost(const BinaryBvh& bvh, const BvhOptions& options);
 
 /// Collects the nodes that become the children of `node` in a hierarchy of `width` children per
-/// node: starting from its own two, replaces the interior node with the largest area by its
-/// children while there is room. Writes to `children` (of size `width`) and returns their number.
-/// `node` must be interior.
+/// node: starting from its own two children, repeatedly replaces the interior node with the largest
+/// area by its children while there is room. Writes to `children` (of size `width`) and returns
+/// their number. `node` must be interior.
 std::size_t gather_children(const BinaryBvh& bvh, std::uint32_t node,
                             std::span<std::uint32_t> children);
 

@@ -8,7 +8,7 @@
 namespace beambench::accel::bvh {
 namespace {
 
-/// Returns the intersection of two boxes; nothing if it is empty.
+/// Returns the intersection of two boxes, or nothing if it is empty.
 std::optional<Box> common(const Box& a, const Box& b) {
   const Box part{glm::max(a.lower, b.lower), glm::min(a.upper, b.upper)};
   for (int axis = 0; axis < 3; ++axis) {
@@ -21,12 +21,12 @@ std::optional<Box> clipped_triangle_bounds(const scenes::Scene& scene,
                                            const scenes::Triangle& triangle, const Box& box) {
   const ClippedPolygon polygon = clipped_triangle(scene, triangle, box);
   if (polygon.count == 0) return std::nullopt;
-  // A crossing with one plane may be rounded to lie beyond another.
+  // A crossing with one plane may be rounded to lie beyond another plane.
   return common(polygon.bounds(), box);
 }
 
-/// Returns the bounds of the ball's part: along an axis, its extent at the points of the box's
-/// other two sides that are nearest to the center.
+/// Returns the bounds of the ball's part in the box. Along each axis, this is the ball's extent at
+/// the point nearest to the center on the box's other two sides.
 std::optional<Box> clipped_sphere(const scenes::Sphere& sphere, const Box& box) {
   if (!sphere_overlaps(sphere, box, 0.0)) return std::nullopt;
   const glm::dvec3 center(sphere.center);

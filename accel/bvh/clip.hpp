@@ -8,8 +8,8 @@
 
 namespace beambench::accel::bvh {
 
-/// Returns the bounds, within `box`, of the part of a piece's surface that lies in a closed box;
-/// nothing if there is none. Exact up to double rounding for triangles, which are clipped by the
+/// Returns the bounds of the part of a piece's surface that lies in the closed box `box`, or
+/// nothing if no part does. Exact up to double rounding for triangles, which are clipped by the
 /// box's planes (Sutherland and Hodgman, "Reentrant Polygon Clipping", 1974). Conservative for
 /// spheres, treated as balls, and for cones, treated as their boxes.
 std::optional<Box> clipped_bounds(const scenes::Scene& scene, const PrimitivePart& piece,

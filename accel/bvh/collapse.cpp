@@ -57,8 +57,7 @@ void Collapse::plan(std::uint32_t node, const CollapseCosts& costs) {
 
 std::size_t Collapse::children_of(std::uint32_t node,
                                   std::array<std::uint32_t, kBvhLanes>& children) const {
-  // Not `plan.roots`, which may state that one root costs no more. With two children without area,
-  // or at the root, more roots can be equally cheap.
+  // Does not use `plan.roots`, which is 0 where one root costs no more, as for a node without area.
   std::size_t count = 0;
   const std::uint32_t left = bvh_.nodes[node].first;
   std::size_t in_left = 1;

@@ -24,7 +24,8 @@ struct CollapseCosts {
 /// Boulos, "Getting rid of packets", 2008, section 3.2; Ylitie, Karras and Laine, "Efficient
 /// incoherent ray traversal on GPUs through compressed wide BVHs", 2017, section 3.1): the lowest
 /// cost of a subtree as a forest of at most k roots is that of its two children with the k roots
-/// divided between them. Items of a subtree must be contiguous, as they are from our builders.
+/// divided between them. Items of a subtree must be contiguous, as in the hierarchies of our
+/// builders.
 class Collapse {
  public:
   Collapse(const BinaryBvh& bvh, const CollapseCosts& costs);
@@ -39,7 +40,7 @@ class Collapse {
  private:
   struct Plan {
     std::array<float, kBvhLanes> cost;          ///< lowest cost with at most i + 1 roots
-    std::array<std::uint8_t, kBvhLanes> roots;  ///< of these, in the left child; 0: one root
+    std::array<std::uint8_t, kBvhLanes> roots;  ///< how many are in the left child; 0: one root
     std::uint32_t first;                        ///< first item of the subtree
     std::uint32_t count;
     bool is_leaf;

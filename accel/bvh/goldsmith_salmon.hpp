@@ -22,7 +22,7 @@ struct GoldsmithSalmonOptions {
   enum class Queue { kHeap, kStack };
 
   Order order = Order::kGiven;  ///< sorted: by center along the scene's longest axis
-  std::uint64_t seed = 1;       ///< of the shuffle
+  std::uint64_t seed = 1;       ///< seed of the shuffle
   Queue queue = Queue::kHeap;
   Insertion insertion = Insertion::kEverywhere;
 
@@ -63,7 +63,7 @@ class NearestFirstQueue {
   }
   void end_of_siblings() {}
 
-  /// More entries than most rays ever have pending at a time.
+  /// The initial capacity: most rays never have as many entries pending at a time.
   static constexpr std::size_t kUsual = 128;
 
  private:
@@ -99,8 +99,8 @@ class OrderedStack {
 
 /// A hierarchy built by Goldsmith and Salmon's insertion, traversed with Kay and Kajiya's queue for
 /// the closest hit and by plain depth-first search for any hit. Volumes and objects each have a
-/// box, which is tested before they are entered. With `Insertion::kTerminal`, this is the hierarchy
-/// of the thesis (sections 4.3 and 5.4.2).
+/// box, which is tested before the volume or object is entered. With `Insertion::kTerminal`, this
+/// is the hierarchy of the thesis (sections 4.3 and 5.4.2).
 class GoldsmithSalmon : public TraversalAccelerator<GoldsmithSalmon>, public BoxHierarchy {
  public:
   GoldsmithSalmon(const scenes::Scene& scene, const GoldsmithSalmonOptions& options);

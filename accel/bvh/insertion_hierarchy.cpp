@@ -22,11 +22,11 @@ struct Volume {
   scenes::Bounds box;
   double area = 0.0;
   std::uint32_t children = 0;          ///< volumes and objects
-  std::uint32_t first_volume = kNone;  ///< of the list of its children, linked by `next`
+  std::uint32_t first_volume = kNone;  ///< its first child volume; `next` links the others
   std::uint32_t next = kNone;
-  /// Objects with less than half the volume's area on insertion, and the others. Pairing an object
-  /// with a child of at least half the area in a new volume costs more than adding a child, so
-  /// thousands of large objects in one place are skipped.
+  /// Objects with less than half the volume's area on insertion, and larger objects. Pairing an
+  /// object with a child of at least half the area in a new volume costs more than adding a child,
+  /// so the search skips thousands of large objects in one place.
   std::array<ObjectList, 2> objects{};
 };
 
@@ -36,9 +36,9 @@ struct Choice {
 
   double cost = kNever;
   Kind kind = Kind::kChild;
-  std::uint32_t volume = 0;      ///< that gets the child, or where the new volume goes
-  std::uint32_t list = 0;        ///< for kBesideObject: the partner's list,
-  std::uint32_t before = kNone;  ///< and the object before it in that list
+  std::uint32_t volume = 0;      ///< gets the child, or is where the new volume goes
+  std::uint32_t list = 0;        ///< for kBesideObject: the partner's list
+  std::uint32_t before = kNone;  ///< for kBesideObject: the object before the partner
   std::size_t depth = 0;         ///< number of volumes on the path that grow
 };
 
@@ -58,7 +58,8 @@ class Inserter {
     place(insertion_ == Insertion::kTerminal ? find_terminal() : find_cheapest());
   }
 
-  /// Returns the finished hierarchy. Not recursive, because the depth of volumes is unlimited.
+  /// Returns the finished hierarchy. It is not recursive, because the depth of volumes is
+  /// unlimited.
   InsertionHierarchy finish() const {
     InsertionHierarchy hierarchy;
     hierarchy.volumes = volumes_.size();
@@ -100,7 +101,7 @@ class Inserter {
     path_.clear();
     Choice best;
     std::uint32_t index = 0;
-    double area = area_with_object(volumes_[0].box);  // of the volume with the object
+    double area = area_with_object(volumes_[0].box);  // the volume's area with the object
     double inherited = 0.0;                           // cost of enlarging the volumes above
     while (true) {
       const Volume& volume = volumes_[index];
@@ -119,7 +120,7 @@ class Inserter {
     }
   }
 
-  /// Evaluates the pairs of the object with each object of the volume.
+  /// Evaluates pairing the object with each object of the volume.
   void offer_objects(std::uint32_t index, double inherited, Choice& best) {
     const Volume& volume = volumes_[index];
     for (std::uint32_t list = 0; list < volume.objects.size(); ++list) {
@@ -139,7 +140,7 @@ class Inserter {
   Choice find_terminal() {
     path_.clear();
     std::uint32_t index = 0;
-    double area = area_with_object(volumes_[0].box);  // of the volume with the object
+    double area = area_with_object(volumes_[0].box);  // the volume's area with the object
     while (true) {
       path_.push_back(index);
       const Volume& volume = volumes_[index];
@@ -158,8 +159,8 @@ class Inserter {
     }
   }
 
-  /// Finds the object of a volume whose box grows least when paired with the new object, if it
-  /// grows by less than `growth`, or by as much but to an area below `area`; otherwise the cost is
+  /// Finds the object of a volume whose box grows least when paired with the new object. It must
+  /// grow by less than `growth`, or by as much but to an area below `area`; otherwise the cost is
   /// kNever.
   Choice least_growing_object(std::uint32_t index, double growth, double area) {
     Choice best;
@@ -273,7 +274,7 @@ class Inserter {
   std::vector<std::uint32_t> next_object_;
   std::vector<Volume> volumes_;                        ///< the root is the first
   std::vector<std::uint32_t> path_;                    ///< volumes entered by the search
-  scenes::PrimitiveId object_ = scenes::kNoPrimitive;  ///< the one being inserted
+  scenes::PrimitiveId object_ = scenes::kNoPrimitive;  ///< the object being inserted
   double object_area_ = 0.0;
   std::uint64_t boxes_weighed_ = 0;
 };

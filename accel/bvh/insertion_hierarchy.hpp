@@ -21,7 +21,7 @@ struct HierarchyEntry {
 };
 
 /// A hierarchy in preorder: the children of an entry follow it, and the next sibling of a child is
-/// at its `end`. The root is a volume and the first entry; an empty hierarchy has none.
+/// at the child's `end`. The first entry is the root, a volume; an empty hierarchy has no entries.
 struct InsertionHierarchy {
   std::vector<HierarchyEntry> entries;
   std::uint64_t volumes = 0;
@@ -33,7 +33,7 @@ struct InsertionHierarchy {
 
 /// Returns the expected number of tests for a ray that meets the root: the sum over volumes of k A
 /// / A_root, where k is the number of direct children and A the surface area (Goldsmith and Salmon
-/// 1987; thesis, 4.3).
+/// 1987; thesis, section 4.3).
 double hierarchy_cost(std::span<const HierarchyEntry> entries);
 
 /// Where an object may be placed on its path down; the path always enters the child that grows
@@ -43,19 +43,19 @@ enum class Insertion {
   /// Object Hierarchies for Ray Tracing", 1987). With k children, area A, and area A' including the
   /// object, three choices are compared at every volume:
   /// - the object becomes one more child of the volume: (k + 1) A' - k A;
-  /// - object and a child of the volume become the two children of a new volume in that child's
+  /// - the object and a child of the volume become the two children of a new volume in the child's
   ///   place: k (A' - A) for the volume and 2 A'' for the new one;
   /// - the object goes further down: k (A' - A) plus the cost there.
   kEverywhere,
   /// Only at the end of the path, as described in the thesis (section 4.3). A terminal node is an
-  /// object with its box: there, either the object becomes another child of the terminal node's
-  /// volume, or both become the children of a new volume, whichever of the first two choices is
-  /// cheaper.
+  /// object with its box. The new object either becomes another child of the terminal node's
+  /// volume, or both become the children of a new volume, whichever of the first two choices above
+  /// is cheaper.
   kTerminal
 };
 
-/// Inserts the objects one by one in the given order, without moving any afterward. `boxes[i]` is
-/// the box of primitive i.
+/// Inserts the objects one by one in the given order, without moving any object afterward.
+/// `boxes[i]` is the box of primitive i.
 InsertionHierarchy build_by_insertion(std::span<const scenes::Bounds> boxes,
                                       std::span<const scenes::PrimitiveId> order,
                                       Insertion insertion);

@@ -19,7 +19,7 @@ inline tbb::task_group_context calling_mode() {
       tbb::task_group_context::default_traits | tbb::task_group_context::fp_settings);
 }
 
-/// Ranges that together are [0, items): one, or in parallel several.
+/// Ranges that together are [0, items): one range, or several for a parallel build.
 class ItemRanges {
  public:
   ItemRanges(std::size_t items, bool parallel)

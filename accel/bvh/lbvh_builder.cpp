@@ -36,7 +36,7 @@ class LbvhBuilder {
   }
 
  private:
-  /// Sorted items.
+  /// A range of the sorted items.
   struct Range {
     std::size_t begin;
     std::size_t end;
@@ -46,8 +46,8 @@ class LbvhBuilder {
 
   struct Subtree {
     std::vector<BvhNode> nodes;  ///< the root first
-    std::uint32_t depth = 0;     ///< of the deepest leaf
-    float cost = 0.0F;           ///< of the root, as `add` returns it
+    std::uint32_t depth = 0;     ///< depth of the deepest leaf
+    float cost = 0.0F;           ///< cost of the root, as `add` returns it
   };
 
   /// Ranges of equal codes are at most 30 levels deep and are halved from there on, so
@@ -106,7 +106,7 @@ class LbvhBuilder {
       tree.depth = std::max(tree.depth, depth);
       return static_cast<float>(half_area(box)) * leaf_cost(count, options_);
     };
-    // If a leaf costs no more than the node alone, its subtree need not be considered.
+    // If a leaf costs no more than the node alone, the node's subtree need not be considered.
     const bool may_be_leaf = count <= options_.max_leaf;
     if (count == 1 || (may_be_leaf && leaf_cost(count, options_) <= options_.node_cost)) {
       scenes::Bounds box;
@@ -145,7 +145,7 @@ class LbvhBuilder {
   std::span<const scenes::Bounds> boxes_;
   BvhOptions options_;
   UnsetLargePageVector<MortonKey> keys_;
-  std::vector<Subtree> parts_;  ///< in the order in which `add` takes them
+  std::vector<Subtree> parts_;  ///< ordered as `add` takes them
   std::size_t taken_ = 0;
 };
 

@@ -9,7 +9,7 @@ namespace beambench::accel::bvh {
 
 /// Sorts boxes by the Morton codes of their centers and divides ranges at the highest bit that
 /// differs (Lauterbach, Garland, Sengupta, Luebke and Manocha, "Fast BVH construction on GPUs",
-/// 2009). A range of equal codes is divided in half. A subtree becomes a leaf if that costs no
+/// 2009). A range of equal codes is divided in half. A subtree becomes a leaf if a leaf costs no
 /// more.
 BinaryBvh build_lbvh(std::span<const scenes::Bounds> boxes, const BvhOptions& options);
 

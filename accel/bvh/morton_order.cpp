@@ -23,8 +23,8 @@ class MortonGrid {
  public:
   explicit MortonGrid(const scenes::Bounds& centers) : lower_(quad_of(centers.lower)), scale_{} {
     glm::vec3 side = centers.extent();
-    std::array<std::uint32_t, 3> bits{};                          // of each axis
-    std::array<std::array<std::uint32_t, kCodeBits>, 3> place{};  // of its bits, the highest first
+    std::array<std::uint32_t, 3> bits{};                          // number of bits of each axis
+    std::array<std::array<std::uint32_t, kCodeBits>, 3> place{};  // bit places, the highest first
     for (std::uint32_t bit = kCodeBits; bit-- > 0;) {
       int axis = side.y > side.x ? 1 : 0;
       if (side.z > side[axis]) axis = 2;
@@ -38,7 +38,7 @@ class MortonGrid {
       const float scale = cells / extent;
       // An extent so small that its inverse overflows cannot be divided.
       if (extent > 0.0F && scale < kFar) scale_[axis] = scale;
-      // The largest float below: 2^30 - 1 itself is rounded up.
+      // The largest float below 2^30, because 2^30 - 1 itself would be rounded up.
       last_[axis] = std::min(cells - 1.0F, 0x1.fffffep29F);
       for (std::uint32_t i = 0; i < bits[axis]; ++i) {
         const std::uint32_t from = bits[axis] - 1 - i;
@@ -56,7 +56,7 @@ class MortonGrid {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto at = static_cast<std::uint32_t>(cell[axis]);
       code |= spread_[axis][0][at & 255U] | spread_[axis][1][at >> 8U & 255U];
-      if (at >> 16U == 0) continue;  // as in all scenes that are not flat
+      if (at >> 16U == 0) continue;  // always the case in scenes that are not flat
       code |= spread_[axis][2][at >> 16U & 255U] | spread_[axis][3][at >> 24U];
     }
     return code;

@@ -122,7 +122,7 @@ inline ObjectSplit best_object_split(const Bins& bins, const Binning& binning,
     return static_cast<float>(half_area(part.box.bounds())) * leaf_cost(part.count, options);
   };
   ObjectSplit best;
-  std::array<float, Binning::kMaxBins> right_cost{};  // of the bins from i on
+  std::array<float, Binning::kMaxBins> right_cost{};  // cost of the bins from i on
   std::array<std::uint32_t, Binning::kMaxBins> right_count{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!binning.divides(axis)) continue;

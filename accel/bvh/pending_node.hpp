@@ -22,7 +22,7 @@ struct PendingNode {
   /// Returns the child with the items before `middle`.
   PendingNode left(std::size_t middle) const { return {free, free + 2, begin, middle, depth + 1}; }
   PendingNode right(std::size_t middle) const {
-    const std::size_t left_nodes = 2 * (middle - begin) - 2;  // below the left, at most
+    const std::size_t left_nodes = 2 * (middle - begin) - 2;  // at most, below the left child
     return {free + 1, free + 2 + left_nodes, middle, end, depth + 1};
   }
 

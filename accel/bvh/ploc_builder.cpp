@@ -22,18 +22,19 @@ namespace {
 
 static_assert(kPlocRadius % 4 == 0, "neighbors are weighed four at a time");
 
-/// If fewer than one cluster in this many would merge in a round, neighbors are merged instead.
+/// Neighbors are merged instead in a round in which fewer than one cluster in `kFewMerge` would
+/// merge.
 constexpr std::size_t kFewMerge = 32;
 
-/// A cluster's choice: the area of the common box in the upper half, the exclusive or of both
-/// positions in the lower. This orders pairs of equal area so that many equal boxes all merge, and
-/// the pair with the lowest key always does.
+/// A cluster's choice: the upper half holds the area of the common box, the lower half the
+/// exclusive or of both positions. This orders pairs of equal area so that many equal boxes all
+/// merge, and the pair with the lowest key always merges.
 using Choice = std::uint64_t;
 
 /// The clusters of a round. Coordinates are in separate arrays for SIMD, padded by a register.
 struct Clusters {
   std::array<LargePageVector<float>, 6> planes;  ///< lower x, y, z; upper x, y, z
-  UnsetLargePageVector<std::uint32_t> first;     ///< as in a BvhNode
+  UnsetLargePageVector<std::uint32_t> first;     ///< like BvhNode::first
   UnsetLargePageVector<std::uint32_t> count;
   std::size_t size = 0;
 
@@ -145,7 +146,7 @@ class PlocBuilder {
     return side[0] * (side[1] + side[2]) + side[1] * side[2];
   }
 
-  /// Returns the cluster with which a cluster merges; itself if it stays alone.
+  /// Returns the cluster with which cluster i merges, or i if it stays alone.
   std::size_t partner_of(std::size_t i) const {
     const std::size_t other = i ^ (choices_[i] & 0xFFFFFFFFU);
     return choices_[other] == choices_[i] ? other : i;
@@ -217,11 +218,11 @@ class PlocBuilder {
     return leaf_pays(a.count + b.count, united(a.box, b.box), cost(a) + cost(b), options_);
   }
 
-  /// Stores the children at `at.nodes`, or merges them into one leaf.
+  /// Returns the merged cluster. Stores the children at `at.nodes`, or merges them into one leaf.
   BvhNode merged(const BvhNode& a, const BvhNode& b, Left& at) {
     const scenes::Bounds box = united(a.box, b.box);
     if (becomes_leaf(a, b)) {
-      // Each ring of items is cut after its last one; the items of b follow those of a.
+      // Each ring of items is cut after its last item; the items of b follow those of a.
       std::swap(next_item_[a.first], next_item_[b.first]);
       return {box, b.first, a.count + b.count};
     }
@@ -234,8 +235,8 @@ class PlocBuilder {
 
   std::span<const scenes::Bounds> boxes_;
   BvhOptions options_;
-  std::vector<std::uint32_t> items_;      ///< in Morton order
-  std::vector<std::uint32_t> next_item_;  ///< of the same leaf
+  std::vector<std::uint32_t> items_;      ///< sorted in Morton order
+  std::vector<std::uint32_t> next_item_;  ///< the next item of the same leaf
   UnsetLargePageVector<Choice> choices_;
   UnsetLargePageVector<BvhNode> nodes_;  ///< the root, and pairs
 };

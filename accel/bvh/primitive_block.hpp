@@ -20,8 +20,8 @@ struct alignas(64) PrimitiveBlock {
   /// Triangles (kind kPolygon): the coordinates of three corners, corner by corner. Spheres: the
   /// center's coordinates and the radius. Cones: nothing.
   std::array<std::array<float, kBvhLanes>, 9> coordinates;
-  std::array<scenes::PrimitiveId, kBvhLanes> primitives;  ///< the polygons of triangles
-  std::array<std::uint32_t, kBvhLanes> parts;             ///< as `PrimitivePart::index`
+  std::array<scenes::PrimitiveId, kBvhLanes> primitives;  ///< for a triangle, its polygon
+  std::array<std::uint32_t, kBvhLanes> parts;             ///< the same as `PrimitivePart::index`
   scenes::PrimitiveKind kind;
   std::uint32_t count;
   std::uint32_t first;  ///< number of primitives in the blocks before it
@@ -51,8 +51,8 @@ inline void copy_coordinates(const scenes::Scene& scene, std::size_t lane, Primi
   }
 }
 
-/// Appends the blocks of one leaf. Each block has one kind, kind after kind; pieces keep their
-/// order.
+/// Appends the blocks of one leaf. Each block holds primitives of one kind; blocks are ordered by
+/// kind, and pieces of one kind keep their order.
 void append_blocks(const scenes::Scene& scene, std::span<const PrimitivePart> pieces,
                    LargePageVector<PrimitiveBlock>& blocks);
 

@@ -13,13 +13,13 @@ namespace beambench::accel::bvh {
 /// the polygon's hit.
 struct PrimitivePart {
   scenes::PrimitiveId primitive;
-  std::uint32_t index;  ///< into the scene's triangles, spheres or cones
+  std::uint32_t index;  ///< index into the scene's triangles, spheres or cones
 };
 
 /// Returns the parts of all primitives, in order of id.
 std::vector<PrimitivePart> collect_parts(const scenes::Scene& scene);
 
-/// Returns the box of a part, not widened.
+/// Returns the box of a part without widening it.
 scenes::Bounds part_bounds(const scenes::Scene& scene, const PrimitivePart& part);
 
 /// Returns the boxes of parts, widened by `overlap_tolerance`.

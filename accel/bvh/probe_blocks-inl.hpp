@@ -1,5 +1,5 @@
-// The float tests of a ray and a block of primitives, which only reject, for the instruction set
-// being compiled.
+// The float tests of a ray against a block of primitives, compiled for each instruction set. They
+// can reject primitives but cannot confirm hits.
 
 #if defined(ACCEL_BVH_PROBE_BLOCKS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_BVH_PROBE_BLOCKS_INL
@@ -148,7 +148,7 @@ inline LaneBits probe_spheres(const PrimitiveBlock& block, const ProbeRay& ray, 
     const Floats z = hn::Sub(row(2), hn::Set(tag, ray.origin[2]));
     const Floats along =
         hn::MulAdd(x, direction(0), hn::MulAdd(y, direction(1), hn::Mul(z, direction(2))));
-    const Floats t = hn::Mul(along, hn::Set(tag, per_square));  // of the point nearest the center
+    const Floats t = hn::Mul(along, hn::Set(tag, per_square));  // at the point nearest the center
     const Floats beside_x = hn::NegMulAdd(t, direction(0), x);
     const Floats beside_y = hn::NegMulAdd(t, direction(1), y);
     const Floats beside_z = hn::NegMulAdd(t, direction(2), z);
@@ -178,7 +178,7 @@ inline LaneBits probe(const PrimitiveBlock& block, const ProbeRay& ray, float t_
   return present;
 }
 
-/// The canonical test of one lane.
+/// Runs the canonical test of the primitive in one lane.
 inline float confirm(const CanonicalRay& ray, const scenes::Scene& scene,
                      const PrimitiveBlock& block, std::size_t lane) {
   if (block.kind == scenes::PrimitiveKind::kPolygon) {
@@ -188,7 +188,7 @@ inline float confirm(const CanonicalRay& ray, const scenes::Scene& scene,
   return intersect(ray, scene, block.primitives[lane]);
 }
 
-/// Records the primitives rejected by the probe as tested and missed.
+/// Counts the primitives that the probe rejected as tested and missed.
 template <class Counting>
 void count_probes(Counting& counting, const PrimitiveBlock& block, LaneBits passed) {
   counting.add_tests(block.kind, block.count);
@@ -215,7 +215,7 @@ HWY_INLINE bool test_blocks(std::span<const PrimitiveBlock> blocks, const ProbeR
   return false;
 }
 
-// Many rays need no canonical test, so the canonical ray is created for the first test.
+// Many rays need no canonical test, so the canonical ray is created only before the first one.
 
 /// Keeps the closest confirmed hit; `t_max` is its t.
 class ConfirmClosest {

@@ -1,5 +1,5 @@
 #pragma once
-// A ray in single precision, for tests that may only reject.
+// A ray in single precision, for tests that can reject but not confirm hits.
 
 #include <algorithm>
 #include <array>
@@ -32,11 +32,11 @@ namespace beambench::accel::bvh {
 ///
 /// **Triangles.** Corners are moved by the origin and sheared so that the ray becomes an axis (as
 /// CanonicalRay::beside does). A sheared coordinate is off by at most 7 e R. Let s be at least the
-/// longest side of the box of any triangle of the leaf. If a ray hits one of them, its corners are
-/// within s of the hit along each axis: sheared, they are at most P = 2 s + 20 e R. The areas a.x
-/// b.y - a.y b.x are then wrong by at most 4 P 7eR + 2 (7eR)^2 + 4 e P^2, which 40 e R (P + 12 e R)
-/// exceeds (P <= 2 R). Depths along the main axis are off by 3 e R, and the canonical hit is
-/// within 2^-10 e R x 20 of its triangle: 5 e R over |direction| covers both.
+/// longest side of the box of any triangle of the leaf. If a ray hits one of these triangles, its
+/// corners are within s of the hit along each axis: sheared, they are at most P = 2 s + 20 e R. The
+/// areas a.x b.y - a.y b.x are then wrong by at most 4 P 7eR + 2 (7eR)^2 + 4 e P^2, which 40 e R (P
+/// + 12 e R) exceeds (P <= 2 R). Depths along the main axis are off by 3 e R, and the canonical hit
+/// is within 2^-10 e R x 20 of its triangle: 5 e R / |direction| covers both.
 ///
 /// **Triangles behind the origin.** Let o be the origin, a a corner, e1 and e2 the edges from it,
 /// and |x| the sum of the sizes of x's components. The canonical test has t = V / N, with the
@@ -48,11 +48,11 @@ namespace beambench::accel::bvh {
 /// - D is off by 3 m and the rounding of its sums, m being the bound of the areas' error. Beyond
 ///   4 m its sign is right, and it is nearly m or more.
 ///
-/// They are then also the canonical test's signs: in double V is off by 2^-50 |a - o| |e1| |e2|,
-/// and N by 2^-50 |direction| |e1| |e2| <= 2^-44 |d| R s, while |d| m > 2^-18 |d| R s. The hit's
-/// computed point does not matter, because that test only rejects more. One case remains: a
-/// negative t that underflows is -0, which t_min = 0 accepts. Another 2^-33 R |e1| |e2| is
-/// therefore allowed: t is then beyond -2^-33 R / |direction|.
+/// The canonical test then has the same signs: in double V is off by 2^-50 |a - o| |e1| |e2|, and N
+/// by 2^-50 |direction| |e1| |e2| <= 2^-44 |d| R s, while |d| m > 2^-18 |d| R s. The hit's computed
+/// point does not matter, because that test only rejects more. One case remains: a negative t that
+/// underflows is -0, which t_min = 0 accepts. Another 2^-33 R |e1| |e2| is therefore allowed: t is
+/// then beyond -2^-33 R / |direction|.
 ///
 /// **Spheres.** The vector from the center to the nearest point of the line is off by at most
 /// 21 e R: 32 e R is added to the radius, and as much to the depth of the sphere.
@@ -104,14 +104,14 @@ class ProbeRay {
   float t_min;
   std::array<float, 3> inverse;
   std::array<float, 3> far_inverse;     ///< enlarged by kWider, but finite
-  std::array<std::size_t, 3> near_row;  ///< of WideNode::planes, for each axis
+  std::array<std::size_t, 3> near_row;  ///< row of WideNode::planes for each axis
   std::array<std::size_t, 3> far_row;
-  std::size_t octant = 0;  ///< of WideNode::orders
+  std::size_t octant = 0;  ///< index into WideNode::orders
   std::size_t main_axis;
   std::array<std::size_t, 2> side_axis;
   std::array<float, 2> shear;
   float rounding;      ///< e R
-  float depth_margin;  ///< of the t of triangles
+  float depth_margin;  ///< error bound of a triangle's t
 };
 
 }  // namespace beambench::accel::bvh

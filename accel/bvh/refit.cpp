@@ -14,8 +14,8 @@
 namespace beambench::accel::bvh {
 namespace {
 
-/// Copies the coordinates of a block's primitives from the scene and returns their box, not
-/// widened. `extent` grows to the longest side of a triangle's box.
+/// Copies the coordinates of a block's primitives from the scene and returns their box without
+/// widening it. Raises `extent` to the longest side of a triangle's box if that is larger.
 QuadBox refill(PrimitiveBlock& block, const scenes::Scene& scene, float& extent) {
   QuadBox box = QuadBox::empty();
   for (std::size_t lane = 0; lane < block.count; ++lane) {

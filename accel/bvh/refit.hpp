@@ -10,7 +10,7 @@
 
 namespace beambench::accel::bvh {
 
-/// Computes the boxes of all volumes and objects from the scene's coordinates, and the cost.
+/// Computes the boxes of all volumes and objects from the scene's coordinates, and then the cost.
 void refit(InsertionHierarchy& hierarchy, const scenes::Scene& scene);
 
 /// Computes the boxes of all nodes, and copies the primitives' coordinates to the blocks. If

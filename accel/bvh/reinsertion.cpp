@@ -19,17 +19,17 @@ namespace {
 constexpr int kMaxRounds = 30;
 /// The share of all nodes for which a round searches places.
 constexpr double kShare = 0.3;
-/// A round that reduces the areas of interior nodes by less than this share is the last.
+/// The last round is the first that reduces the areas of interior nodes by less than this share.
 constexpr double kLeastGain = 0.0005;
 
 /// A planned move: the node becomes the sibling of `to`.
 struct Move {
   std::uint32_t from = 0;
   std::uint32_t to = 0;
-  double gain = 0.0;  ///< of area
+  double gain = 0.0;  ///< area gained
 };
 
-/// The tree. Siblings stay together: a pair of slots always holds a node and its sibling.
+/// The tree being improved. A pair of slots always holds two siblings.
 class Reinsertion {
  public:
   Reinsertion(std::vector<BvhNode>& nodes, bool parallel)
@@ -84,7 +84,8 @@ class Reinsertion {
     return gain;
   }
 
-  /// Leaves out the root and its children, which have no better place.
+  /// Returns the nodes with the largest boxes, except the root and its children, which have no
+  /// better place.
   std::vector<std::uint32_t> largest_nodes() const {
     struct Sized {
       float area;
@@ -120,7 +121,7 @@ class Reinsertion {
     const double own = half_area(box);
     std::uint32_t pivot = parents_[from];
     scenes::Bounds rest = nodes_[sibling_of(from)].box;  // the rest of the pivot
-    double removed = area(pivot);                        // of area, by taking the node out
+    double removed = area(pivot);                        // area gained by taking the node out
     waiting.push_back({removed, sibling_of(from)});
     for (;;) {
       while (!waiting.empty()) {
@@ -150,7 +151,7 @@ class Reinsertion {
     return false;
   }
 
-  /// Returns the gain; 0 if the node stays where it is.
+  /// Makes a planned move if it still gains. Returns the gain, or 0 if the node stays where it is.
   double try_move(const Move& move) {
     const std::uint32_t parent = parents_[move.from];
     const std::uint32_t sibling = sibling_of(move.from);
@@ -167,8 +168,8 @@ class Reinsertion {
     const std::uint32_t parent = parents_[from];
     const std::uint32_t sibling = sibling_of(from);
     double gain = area(parent);
-    // The parent's place is taken by the sibling, the sibling's by the node that was at `to`, and
-    // that one's by the parent.
+    // The sibling takes the parent's place, the node at `to` takes the sibling's, and the parent
+    // takes the place at `to`.
     const BvhNode old_sibling = nodes_[sibling];
     nodes_[sibling] = nodes_[to];
     nodes_[to].first = std::min(from, sibling);

@@ -34,13 +34,13 @@ std::vector<ParameterInfo> SahBvh::parameters() {
                            "from the fastest to the slowest build: lbvh: splits where Morton codes "
                            "differ (Lauterbach and others 2009); ploc: neighbors merge (Meister "
                            "and Bittner 2018); binned: splits by SAH between bins (Wald 2007); "
-                           "sweep: of all splits the best by SAH; spatial: splits may divide "
+                           "sweep: best of all splits by SAH; spatial: splits may divide "
                            "primitives (Stich and others 2009)"),
           flag_parameter("reinsertion", false,
-                         "then reinsert nodes where they enlarge the hierarchy least (Bittner "
-                         "and others 2013; Meister and Bittner 2018)"),
+                         "after the build, reinsert nodes where they enlarge the hierarchy least "
+                         "(Bittner and others 2013; Meister and Bittner 2018)"),
           choice_parameter("collapse", "area", {"area", "cost"},
-                           "of two-way splits into eight-way nodes: by area, which suits single "
+                           "how two-way splits become eight-way nodes: by area, which suits single "
                            "rays, or at the least cost for streams"),
           integer_parameter("max_leaf", defaults.max_leaf, 1, 32,
                             "maximum number of primitives "

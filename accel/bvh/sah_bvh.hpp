@@ -19,9 +19,9 @@ struct SahBvhOptions : WideBvhOptions {
 };
 
 /// A SAH hierarchy with eight children per node, traversed by SIMD in single precision (Wald,
-/// Benthin and Boulos, "Getting rid of packets", 2008). The float tests only reject; candidates
-/// that pass are confirmed by the canonical test, so the hits equal those of every other classic
-/// structure on every instruction set.
+/// Benthin and Boulos, "Getting rid of packets", 2008). The float tests only reject; the canonical
+/// test decides the candidates that pass, so the hits equal those of every other classic structure
+/// on every instruction set.
 class SahBvh : public TraversalAccelerator<SahBvh>, public BoxHierarchy {
  public:
   static std::vector<ParameterInfo> parameters();

@@ -68,8 +68,8 @@ class WaitingStack {
     return false;
   }
 
-  /// Pushes all children except one, and returns that one: the nearer of two; of more, the nearest
-  /// along the octant's diagonal.
+  /// Pushes all children except the nearest, which it returns. Two children are compared by entry
+  /// distance, more than two along the octant's diagonal.
   HWY_INLINE ChildReference push_but_nearest(const WideNode& node, LaneBits met, std::size_t octant,
                                              const float* enter_t) {
     const LaneBits rest = met & (met - 1);
@@ -94,7 +94,7 @@ class WaitingStack {
     return true;
   }
 
-  /// Pushes all children except the last, and returns that one. Must not be used with `pop`.
+  /// Pushes all children except the last, which it returns. Must not be used with `pop`.
   HWY_INLINE ChildReference push_but_last(const WideNode& node, LaneBits met) {
     const auto last = static_cast<std::size_t>(std::bit_width(met) - 1);
     const LaneBits rest = met ^ LaneBits { 1 } << last;
@@ -214,8 +214,8 @@ void count_step(Counting& counting, const WideBvh& bvh, const scenes::Scene& sce
 }
 
 /// Traverses the hierarchy, nearest child first for a closest hit, and returns the result of
-/// `Confirm`. Everything is inlined: otherwise GCC calls a function for each node, with the ray in
-/// memory, which takes 10% longer.
+/// `Confirm`. Everything is inlined: otherwise GCC calls a function for each node and keeps the ray
+/// in memory, which takes 10% longer.
 template <bool kAny, class Confirm, class Counting>
 HWY_FLATTEN auto traverse(const WideBvh& bvh, const scenes::Scene& scene, const Ray& ray,
                           Counting& counting) {

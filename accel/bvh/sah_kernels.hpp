@@ -11,7 +11,7 @@
 
 namespace beambench::accel::bvh {
 
-/// Both queries under one counting policy. Must not be used for empty hierarchies.
+/// Both queries with one counting policy. Must not be used for empty hierarchies.
 template <class Counting>
 struct SahQueries {
   std::optional<Hit> (*closest)(const WideBvh&, const scenes::Scene&, const Ray&, Counting&);

@@ -23,20 +23,19 @@
 namespace beambench::accel::bvh {
 namespace {
 
-/// The minimum overlap of children, relative to the root's surface, for which a plane is
-/// worthwhile.
+/// The minimum overlap of children, relative to the root's surface, for which planes are tried.
 constexpr double kMinOverlap = 1e-5;
 
-/// References to pieces, each with the box of a part of its piece.
+/// References to pieces, each with the box of the part of the piece that it refers to.
 using References = std::vector<BuildItem>;
 
 struct TreeNode {
   QuadBox box;
-  std::vector<std::uint32_t> items;                   ///< of a leaf
-  std::unique_ptr<std::array<TreeNode, 2>> children;  ///< of an interior node
+  std::vector<std::uint32_t> items;                   ///< a leaf's items
+  std::unique_ptr<std::array<TreeNode, 2>> children;  ///< null in a leaf
 };
 
-/// The bins of a box along one axis, of equal width.
+/// Divides a box along one axis into bins of equal width.
 class AxisBins {
  public:
   static constexpr std::size_t kMaxBins = 32;
@@ -76,7 +75,7 @@ struct SpatialSplit {
   float cost = std::numeric_limits<float>::infinity();
   int axis = -1;  ///< -1: no split is possible
   float plane = 0.0F;
-  QuadBox left_box;  ///< of the parts on either side
+  QuadBox left_box;  ///< the box of the parts on this side
   QuadBox right_box;
   std::uint32_t left_count = 0;
   std::uint32_t right_count = 0;
@@ -158,7 +157,7 @@ class SpatialBuilder {
     }
   }
 
-  /// Returns nothing for a leaf.
+  /// Returns the division of a node, or nothing for a leaf.
   std::optional<Division> divide(const References& references, const BuildExtent& extent,
                                  std::uint32_t depth, std::size_t spare) const {
     if (references.size() == 1) return std::nullopt;
@@ -200,7 +199,7 @@ class SpatialBuilder {
     return area(common) > kMinOverlap * root_area_;
   }
 
-  /// Returns the part of a reference between two planes; nothing if the piece has no part there.
+  /// Returns the part of a reference between two planes, or nothing if the piece has no part there.
   std::optional<QuadBox> part(const BuildItem& reference, int axis, float from, float to) const {
     const scenes::Bounds box = reference.box().bounds();
     Box between{glm::dvec3(box.lower), glm::dvec3(box.upper)};
@@ -294,7 +293,7 @@ class SpatialBuilder {
       cut(reference, axis, bins, first, last,
           [&](std::size_t bin, const QuadBox& inside) { sums[bin].box.include(inside); });
     }
-    std::array<QuadBox, AxisBins::kMaxBins> right_box;  // of the bins from i on
+    std::array<QuadBox, AxisBins::kMaxBins> right_box;  // box of the bins from i on
     std::array<std::uint32_t, AxisBins::kMaxBins> right_count{};
     QuadBox right = QuadBox::empty();
     std::uint32_t right_items = 0;
@@ -318,8 +317,8 @@ class SpatialBuilder {
     }
   }
 
-  /// Returns nothing if rounding leaves one side empty, or if more references would be added than
-  /// allowed.
+  /// Divides the references at a plane. Returns nothing if rounding leaves one side empty, or if
+  /// more references would be added than allowed.
   std::optional<Division> split_space(const References& references, SpatialSplit split,
                                       std::size_t spare) const {
     constexpr float kFar = std::numeric_limits<float>::infinity();
@@ -337,14 +336,14 @@ class SpatialBuilder {
     const std::size_t both = division.left.size() + division.right.size();
     if (division.left.empty() || division.right.empty()) return std::nullopt;
     if (both > references.size() + spare) return std::nullopt;
-    // No nearer to an end and no smaller.
+    // The division would make no progress: both sides would hold all references.
     if (both == 2 * references.size()) return std::nullopt;
     return division;
   }
 
-  /// Chooses both parts, or the whole on one side if that costs less (section 4.4, which weighs by
-  /// references, not by blocks). `split` has the current boxes and counts of both sides, including
-  /// earlier decisions.
+  /// Puts a part on each side, or the whole reference on one side if that costs less (section 4.4,
+  /// which weighs by references, not by blocks). `split` holds the current boxes and counts of both
+  /// sides, updated after each earlier decision.
   static void divide_reference(const BuildItem& reference, const std::optional<QuadBox>& left,
                                const std::optional<QuadBox>& right, SpatialSplit& split,
                                Division& division) {

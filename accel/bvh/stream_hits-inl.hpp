@@ -35,9 +35,9 @@ HWY_INLINE void prefetch_lines(const Object& object) {
 }
 
 /// A hit of a triangle that is certain in float (`TriangleLanes`) ends its ray, or shortens it. At
-/// the end, t is computed as in the canonical test, once per ray, for several rays at a time. Hits
-/// that are possible but not certain, and certain ones that may tie with the nearest, are doubts,
-/// which the canonical test decides.
+/// the end, t is computed as in the canonical test, once per ray, for several rays at a time.
+/// Possible hits that are not certain, and certain hits that may tie with the nearest, become
+/// doubts, which the canonical test decides.
 ///
 /// Rays are identified by the offsets of their rows, which hold the remaining t_max.
 template <bool kAny, class Counting>
@@ -68,7 +68,7 @@ class StreamHits {
     row(place).t_max = kEnded;
   }
 
-  /// Keeps a certain hit before `t_high`. Of two that may tie, one becomes a doubt.
+  /// Keeps a certain hit before `t_high`. Of two hits that may tie, one becomes a doubt.
   HWY_INLINE void keep(std::uint32_t place, const StreamHit& hit, float t_high) requires(!kAny) {
     Ray& ray = row(place);
     StreamHit& nearest = hits_[ray_at(place)];
@@ -98,7 +98,7 @@ class StreamHits {
   HWY_NOINLINE void finish() {
     decide_doubts();
     if constexpr (!kAny) {
-      // The last ones may be written twice: there are at least as many rays as lanes.
+      // The last rays may be written twice: there are at least as many rays as lanes.
       const std::size_t last = stream_.rays.size() - kDoubleLanes;
       for (std::size_t i = 0; i < last; i += kDoubleLanes) write_certain(i);
       write_certain(last);
@@ -149,7 +149,7 @@ class StreamHits {
     const RayTrianglePairs pairs =
         paired([&](std::size_t lane) { return first + lane; },
                [&](std::size_t lane) { return numbers[lane]; }, polygons);
-    // Rounded as in `accept`.
+    // The rounding is the same as in `accept`.
     const auto t = hn::Add(hn::DemoteTo(floats, distances_along_rays(pairs)), hn::Zero(floats));
     const auto polygon = hn::BitCast(words, polygons);
     const auto old_t = hn::LoadU(floats, stream_.t + first);

@@ -22,14 +22,14 @@ struct Stream {
   const StreamTree& tree;
   const scenes::Scene& scene;
   std::span<const Ray> rays;
-  // Closest hits have t and primitive, any hits 1 or 0.
+  // Closest-hit queries write `t` and `primitive`, any-hit queries write 1 or 0 to `any`.
   float* t = nullptr;
   scenes::PrimitiveId* primitive = nullptr;
   std::uint8_t* any = nullptr;
 };
 
-/// Both queries under one counting policy. They append to `left` the rays that they cannot trace,
-/// which must be traced singly. Must not be used for empty hierarchies.
+/// Both queries with one counting policy. They append to `left` the rays that they cannot trace and
+/// that must be traced singly. Must not be used for empty hierarchies.
 template <class Counting>
 struct StreamQueries {
   using Query = void (*)(const Stream&, std::vector<std::uint32_t>& left, Counting&);

@@ -1,5 +1,5 @@
 #pragma once
-// The memory of a stream: its rays, its lists and their hits.
+// The memory of a stream: its rays, their lists and their hits.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace beambench::accel::bvh {
 
-/// The number for "no triangle"; others are indices into `StreamTree::triangles`.
+/// The number for "no triangle"; other numbers are indices into `StreamTree::triangles`.
 inline constexpr std::uint32_t kNoTriangle = ~std::uint32_t{0};
 
 /// The nearest triangle that a ray certainly hits.
@@ -25,22 +25,22 @@ struct StreamPair {
   std::uint32_t triangle;
 };
 
-/// Each thread keeps this from one stream to the next, because new memory costs as much as the
-/// traversal.
+/// The memory of a stream. Each thread reuses it from one stream to the next, because allocating
+/// new memory takes as long as the traversal.
 struct StreamMemory {
   /// The maximum number of rays in a packet, and the entries that may be written past a list's end.
   static constexpr std::size_t kPacket = 16;
-  /// A node's lists take eight entries for each of its rays; all entries of the nodes above it
-  /// usually need less than half of these. Lists that do not fit continue as packets.
+  /// A node's lists take eight entries for each of its rays; the lists of all nodes above it
+  /// usually need less than half of `kEntriesPerRay`. Lists that do not fit continue as packets.
   static constexpr std::size_t kEntriesPerRay = 32;
 
   LargePageVector<Ray> rows;             ///< t_max: only nearer hits count
   LargePageVector<std::uint32_t> lists;  ///< offsets of rows, in bytes
-  LargePageVector<StreamHit> hits;       ///< of each ray
-  std::vector<StreamPair> doubts;        ///< to be tested
+  LargePageVector<StreamHit> hits;       ///< the nearest hit of each ray
+  std::vector<StreamPair> doubts;        ///< pairs left to the canonical test
 
-  /// Returns how many entries of `lists` a stream may use; not all that an earlier stream needed,
-  /// so that counters do not depend on it.
+  /// Returns how many entries of `lists` a stream may use. The number does not depend on the memory
+  /// left by earlier streams, so neither do the counters.
   static constexpr std::size_t entries_for(std::size_t rays) {
     return kEntriesPerRay * (rays + 4 * kPacket);
   }

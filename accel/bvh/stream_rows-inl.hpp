@@ -28,12 +28,12 @@ namespace beambench::accel::bvh::HWY_NAMESPACE {
 
 /// The places of a stream's rays, relative to the tree's center.
 struct RowsExtent {
-  glm::vec3 middle;  ///< the mean of origins
+  glm::vec3 middle;  ///< the mean origin
   glm::vec3 lower;   ///< the box of the rays from origin to end, if requested
   glm::vec3 upper;
 };
 
-/// Copies rays for a stream, without zeros in directions and with finite ends. Rays that no stream
+/// Copies rays for a stream, replacing zeros in directions and infinite ends. Rays that no stream
 /// can trace (stream_tests-inl.hpp) get an empty interval and are appended to `left`.
 template <bool kWithBox>
 RowsExtent fill_rows(std::span<const Ray> rays, const StreamTree& tree, Ray* rows,

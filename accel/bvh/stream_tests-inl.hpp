@@ -1,5 +1,5 @@
-// The float tests of streams, which only reject: rays in lanes against one box or primitive, or one
-// ray against several in lanes, for the instruction set being compiled.
+// The float tests of streams, compiled for each instruction set: rays in lanes against one box or
+// primitive, or one ray against several boxes or primitives in lanes.
 
 #if defined(ACCEL_BVH_STREAM_TESTS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_BVH_STREAM_TESTS_INL
@@ -25,10 +25,10 @@ using namespace accel::HWY_NAMESPACE;
 // the direction of a ray, and R = |o - center| + S, which is at least the distance along any axis
 // from the origin to any place in the scene. Norms of o and R are maximum norms; |d| is the sum of
 // the components' absolute values. Rays in streams satisfy `can_stream`: |o - center| <= 4 S, and
-// the largest component of d is in [2^-20, 2^20]; components below 1e-18 were replaced by that,
-// which moves no point in the scene by more than 2^-36 R.
+// the largest component of d is in [2^-20, 2^20]; components smaller than 1e-18 were replaced by
+// 1e-18, which moves no point in the scene by more than 2^-36 R.
 
-/// Three coordinates in lanes.
+/// The three coordinates of points or vectors, one in each lane.
 template <class D>
 struct Triple {
   hn::Vec<D> x;
@@ -161,7 +161,7 @@ class TriangleLanes {
  public:
   struct Found {
     hn::Mask<D> possible;  ///< the ray may hit the triangle in [t_min, t_max]
-    hn::Mask<D> certain;   ///< it does, not before `t_low` and not after `t_high`
+    hn::Mask<D> certain;   ///< the ray hits it, at t in [t_low, t_high]
     hn::Vec<D> t_low;
     hn::Vec<D> t_high;
   };
@@ -219,16 +219,16 @@ class TriangleLanes {
 
  private:
   const LaneRays<D>* rays_;
-  hn::Vec<D> least_area_;  ///< of u, v and w
+  hn::Vec<D> least_area_;  ///< lower bound of u, v and w
   hn::Vec<D> certain_area_;
-  hn::Vec<D> largest_ratio_;  ///< of M and |d . n|
+  hn::Vec<D> largest_ratio_;  ///< upper bound of M / |d . n|
   hn::Vec<D> certain_t_;      ///< the least t at which a hit is certain
-  hn::Vec<D> t_error_;        ///< of t, relative to |t| M / |d . n|
-  hn::Vec<D> start_error_;    ///< of t, relative to M / |d . n|
+  hn::Vec<D> t_error_;        ///< error of t, relative to |t| M / |d . n|
+  hn::Vec<D> start_error_;    ///< error of t, relative to M / |d . n|
 };
 
-/// **Spheres.** As ProbeRay's test: the vector from the center to the nearest point of the line is
-/// wrong by at most 21 e R; 32 e R is added to the radius, and as much to the depth.
+/// **Spheres.** As in ProbeRay's test, the vector from the center to the nearest point of the line
+/// is wrong by at most 21 e R; 32 e R is added to the radius, and as much to the depth.
 template <class D>
 class SphereLanes {
  public:

@@ -86,7 +86,7 @@ void put_triangles(const PrimitiveBlock& block, LargePageVector<WholeTriangle>& 
 StreamTree build_stream_tree(const WideBvh& bvh, bool parallel, StreamTree memory) {
   StreamTree tree = std::move(memory);
   if (bvh.empty()) return {};
-  // The root's box, since the scene's bounds lack the padding.
+  // The root's box is included, because the scene's bounds lack the padding.
   scenes::Bounds bounds = bvh.scene_bounds;
   if (!bvh.root.is_leaf()) bounds.include(bvh.nodes[bvh.root.node_index()].bounds());
   tree.center = glm::vec3(0.5 * (glm::dvec3(bounds.lower) + glm::dvec3(bounds.upper)));

@@ -24,8 +24,9 @@ struct alignas(64) StreamNode {
 };
 static_assert(sizeof(StreamNode) == 256);
 
-/// A PrimitiveBlock as streams test it (stream_tests-inl.hpp). The numbers for triangles are those
-/// of the canonical test in double, rounded once. Solids have only the data that is not in lanes.
+/// A PrimitiveBlock in the form that streams test (stream_tests-inl.hpp). The numbers for triangles
+/// are those of the canonical test in double, rounded once. Blocks of spheres and cones have only
+/// the data that is not in lanes.
 struct alignas(64) StreamBlock {
   std::array<std::array<float, kBvhLanes>, 3> a;       ///< x, y, z
   std::array<std::array<float, kBvhLanes>, 3> from_c;  ///< a - c
@@ -34,12 +35,12 @@ struct alignas(64) StreamBlock {
   std::array<float, kBvhLanes> size;                   ///< M
   scenes::PrimitiveKind kind;
   std::uint32_t count;
-  std::uint32_t first;  ///< number of its first triangle
+  std::uint32_t first;  ///< number of the block's first triangle
   float leaf_extent;
 };
 static_assert(sizeof(StreamBlock) == 448);
 
-/// A triangle for the canonical test, in one or two cache lines. For other primitives, zeros.
+/// A triangle for the canonical test, in one or two cache lines. All zero for other primitives.
 struct alignas(16) WholeTriangle {
   glm::vec3 a;
   scenes::PrimitiveId polygon;
@@ -52,12 +53,12 @@ static_assert(sizeof(WholeTriangle) == 48);
 
 /// The nodes and the triangles of a WideBvh, with its numbers.
 struct StreamTree {
-  glm::vec3 center{0.0F};    ///< of the scene
+  glm::vec3 center{0.0F};    ///< the scene's center
   float center_size = 0.0F;  ///< the largest component of the center
-  float half_size = 0.0F;  ///< at least the distance of any place in a box from it, along each axis
+  float half_size = 0.0F;    ///< along each axis, no place in a box is farther from the center
   LargePageVector<StreamNode> nodes;
   LargePageVector<StreamBlock> blocks;
-  LargePageVector<WholeTriangle> triangles;  ///< of all blocks
+  LargePageVector<WholeTriangle> triangles;  ///< the triangles of all blocks
 
   std::size_t bytes() const {
     return nodes.capacity() * sizeof(StreamNode) + blocks.capacity() * sizeof(StreamBlock) +

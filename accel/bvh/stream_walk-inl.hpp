@@ -55,18 +55,18 @@ HWY_INLINE void for_each_bit(LaneBits bits, Visit visit) {
   for (; bits != 0; bits &= bits - 1) visit(static_cast<std::size_t>(std::countr_zero(bits)));
 }
 
-/// Traverses the hierarchy with all rays of a stream together: a list of rays for each child of a
-/// node.
+/// Traverses the hierarchy with all rays of a stream together, with a list of rays for each child
+/// of a node.
 ///
 /// Rays in a list have only one thing in common: they meet the same box. They are tested against a
 /// box with one ray per lane, without idle lanes, and no branch depends on the outcome (Tsakok,
 /// "Faster incoherent rays: Multi-BVH ray stream tracing", 2009). Children are visited in one order
-/// for all rays, by their distances from the mean origin. (Barringer and Akenine-Moeller, "Dynamic
-/// ray stream traversal", 2014, keep an order for each ray; Fuetterling and others, "Efficient ray
-/// tracing kernels for modern CPU architectures", 2015, for each octant.)
+/// for all rays, by the children's distances from the mean origin. (Barringer and Akenine-Moeller,
+/// "Dynamic ray stream traversal", 2014, keep an order for each ray; Fuetterling and others,
+/// "Efficient ray tracing kernels for modern CPU architectures", 2015, keep one for each octant.)
 ///
-/// A list of `kPacket` rays or fewer stays in registers, with masks instead of lists; one of `kFew`
-/// or fewer continues ray by ray, with boxes and triangles in lanes.
+/// A list of `kPacket` rays or fewer stays in registers, with masks instead of lists; a list of
+/// `kFew` rays or fewer continues ray by ray, with boxes and triangles in lanes.
 template <bool kAny, class Counting>
 class StreamWalk {
  public:
@@ -98,8 +98,8 @@ class StreamWalk {
   }
   Ray& row(std::uint32_t place) const { return row_at(rows_, place); }
 
-  /// Visits a child with the rays that meet its box, of which there is at least one. `free`: where
-  /// new lists may be stored.
+  /// Visits a child with the rays that meet its box; there must be at least one. `free`: where new
+  /// lists may be stored.
   void visit(ChildReference at, std::uint32_t* list, std::size_t count, std::uint32_t* free) {
     // Lanes beyond the end read a valid ray.
     std::fill_n(list + count, kPacket, list[0]);
@@ -159,8 +159,8 @@ class StreamWalk {
     }
   }
 
-  /// Returns the children that overlap the box of all rays. Used only for any hits, whose rays
-  /// mostly end near their origins.
+  /// Returns the children that overlap the box of all rays. Used only for any-hit queries, whose
+  /// rays mostly end near their origins.
   HWY_INLINE LaneBits children_near(const StreamNode& node) const {
     if constexpr (!kAny) return ~LaneBits{0};
     const LaneTag tag;
@@ -186,7 +186,8 @@ class StreamWalk {
     return slabs.meet(box(node.center), box(node.half), rays.t_min, rays.t_max, enter);
   }
 
-  /// Returns the children in order of distance from the mean origin; for any hits, in stored order.
+  /// Returns the children in order of distance from the mean origin; for any-hit queries, in stored
+  /// order.
   HWY_INLINE std::array<std::uint8_t, kBvhLanes> order_of(const StreamNode& node) const {
     std::array<std::uint8_t, kBvhLanes> order{0, 1, 2, 3, 4, 5, 6, 7};
     if constexpr (kAny) return order;
@@ -299,7 +300,8 @@ class StreamWalk {
     }
   }
 
-  /// Tests spheres and cones and decides possible hits at once; for a cone, every ray is one.
+  /// Tests spheres and cones and decides possible hits at once; for a cone, every ray is a possible
+  /// hit.
   HWY_INLINE void test_solids(const PrimitiveBlock& block, LaneRays<Tag>& rays, Mask active,
                               const std::uint32_t* places) {
     const bool are_spheres = block.kind == scenes::PrimitiveKind::kSphere;
@@ -325,14 +327,14 @@ class StreamWalk {
     return load(t_max.data());
   }
 
-  /// A list of rays that stays in registers.
+  /// A short list of rays, which stays in registers.
   struct Packet {
     alignas(64) std::array<std::uint32_t, 2 * kPacket> places;
     std::array<LaneRays<Tag>, kPacket / kLanes> rays;
     LaneBits live;
   };
 
-  /// Calls `visit(part, lanes)` for each register of a packet with lanes of `active`.
+  /// Calls `visit(part, lanes)` for each register of a packet that has lanes in `active`.
   template <class Visit>
   HWY_INLINE static void for_each_part(LaneBits active, Visit visit) {
     for (std::size_t part = 0; part < kPacket / kLanes; ++part) {
@@ -405,7 +407,7 @@ class StreamWalk {
     }
   }
 
-  /// Traces one ray on singly, nearest child first.
+  /// Continues one ray singly, nearest child first.
   HWY_NOINLINE void visit_alone(ChildReference at, std::uint32_t place) {
     Ray& ray = row(place);
     if (!(ray.t_min <= ray.t_max)) return;

@@ -21,12 +21,12 @@ struct Streams {
   /// The minimum number of rays for a list to be traced as streams.
   static constexpr std::size_t kLeast = 320;
 
-  /// Returns the number of streams that a list is divided into. They have equal sizes, whatever the
-  /// number of threads, so that neither hits nor counters depend on it.
+  /// Returns the number of streams that a list is divided into. Their equal sizes do not depend on
+  /// the number of threads, so neither do hits and counters.
   static constexpr std::size_t parts(std::size_t rays) {
     return (rays + Stream::kMostRays - 1) / Stream::kMostRays;
   }
-  /// Returns the first ray of a part; the end of the list for the part after the last one.
+  /// Returns the first ray of a part, or the end of the list if `part` is `parts(rays)`.
   static constexpr std::size_t begin_of(std::size_t part, std::size_t rays) {
     return rays * part / parts(rays);
   }
@@ -47,8 +47,8 @@ struct Streams {
     trace(kernels.queries<Counting>().closest, stream, counting, trace_alone);
   }
 
-  /// Writes 1 for each ray of a part that hits anything and 0 for the others; uses `trace_alone`
-  /// likewise.
+  /// Writes 1 for each ray of a part that hits anything and 0 for the others. Uses `trace_alone` as
+  /// `closest_hits` does.
   template <class Counting, class TraceAlone>
   void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> hits, Counting& counting,
                 const TraceAlone& trace_alone) const {

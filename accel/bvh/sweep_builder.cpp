@@ -47,7 +47,7 @@ class SweepBuilder {
   struct Split {
     float cost = std::numeric_limits<float>::infinity();
     std::size_t axis = 0;
-    std::size_t middle = 0;   ///< where the right child's items begin
+    std::size_t middle = 0;   ///< the beginning of the right child's items
     std::size_t balance = 0;  ///< number of items of the smaller child
   };
 
@@ -91,7 +91,7 @@ class SweepBuilder {
   }
 
   /// Moves the left child's items to the front in all orders. Returns where the right child's items
-  /// begin; the end for a leaf.
+  /// begin, or the end of all items for a leaf.
   std::size_t divide(const PendingNode& pending, const scenes::Bounds& box) {
     if (pending.count() == 1) return pending.end;
     Split split;
@@ -148,7 +148,7 @@ class SweepBuilder {
 
   BvhOptions options_;
   LargePageVector<QuadBox> boxes_;
-  std::array<std::vector<std::uint32_t>, 3> order_;  ///< of items, by center along each axis
+  std::array<std::vector<std::uint32_t>, 3> order_;  ///< items by center along each axis
   std::vector<std::uint8_t> is_left_;                ///< whether an item goes left
   std::vector<std::uint32_t> spare_;
   std::vector<float> costs_;  ///< costs of a child with the items from i on

@@ -1,5 +1,5 @@
 #pragma once
-// The reference for the quality of splits: tries every split.
+// The reference builder for the quality of splits: it tries every split.
 
 #include <span>
 
@@ -11,7 +11,7 @@ namespace beambench::accel::bvh {
 /// position with the lowest SAH cost of all positions (MacDonald and Booth, "Heuristics for ray
 /// tracing using space subdivision", 1990; Wald, Boulos and Shirley, "Ray tracing deformable scenes
 /// using dynamic bounding volume hierarchies", 2007). Items are sorted once; splits keep their
-/// order. Of positions with equal costs, the one nearest to the middle is taken.
+/// order. If several positions have equal costs, the one nearest to the middle is chosen.
 BinaryBvh build_sweep_bvh(std::span<const scenes::Bounds> boxes, const BvhOptions& options);
 
 }  // namespace beambench::accel::bvh

@@ -26,7 +26,7 @@ namespace {
 /// of a wide node's cost, since three levels become one (CollapseCosts).
 constexpr float kNodeInPrimitives = 3.0F;
 
-/// Returns the options of a builder whose leaves are small, because they will be merged.
+/// Returns options for a builder that makes small leaves, because they will be merged.
 BvhOptions before_collapse(BvhOptions options) {
   options.block_size = 1;
   options.node_cost = kNodeInPrimitives;
@@ -71,7 +71,7 @@ class WideBvhBuilder {
     wide_.nodes.reserve(leaves / 3);
   }
 
-  /// The recursion is bounded by kMaxBvhDepth.
+  /// Converts a node and its descendants. The depth of the recursion is at most kMaxBvhDepth.
   ChildReference convert(std::uint32_t binary_node, std::uint32_t depth) {
     const BvhNode& node = binary_.nodes[binary_node];
     wide_.depth = std::max(wide_.depth, depth);
@@ -118,7 +118,7 @@ class WideBvhBuilder {
       }
     }
     for (std::uint32_t lane = 0; lane < kBvhLanes; ++lane) lanes[lane] = lane;
-    // Insertion: std::stable_sort would allocate memory, eight times for each node.
+    // Insertion sort: std::stable_sort would allocate memory eight times for each node.
     for (std::size_t i = 1; i < count; ++i) {
       const std::uint32_t moved = lanes[i];
       std::size_t k = i;
@@ -156,7 +156,7 @@ class WideBvhBuilder {
 
   const scenes::Scene& scene_;
   std::vector<PrimitivePart> parts_;
-  std::vector<PrimitivePart> leaf_parts_;  ///< of the leaf being made
+  std::vector<PrimitivePart> leaf_parts_;  ///< parts of the leaf being made
   BinaryBvh binary_;
   std::optional<Collapse> collapse_;
   WideBvh wide_;
@@ -184,7 +184,7 @@ BinaryBvh build_binary_bvh(const scenes::Scene& scene, std::span<const Primitive
 
 WideBvh build_wide_bvh(const scenes::Scene& scene, const WideBvhOptions& options) {
   const bool collapses = options.collapse == BvhCollapse::kCost;
-  // Reinsertion can move more if leaves are small, and they can be merged afterward.
+  // Reinsertion can move more if leaves are small. They are merged afterward.
   const bool has_small_leaves = collapses || options.reinsertion;
   const BvhOptions splits = has_small_leaves ? before_collapse(options.splits) : options.splits;
   std::vector<PrimitivePart> parts = collect_parts(scene);

@@ -19,7 +19,7 @@ namespace beambench::accel::bvh {
 /// A reference to a child: a node, or a leaf, which is a run of blocks.
 class ChildReference {
  public:
-  static constexpr std::uint32_t kMaxBlocks = 15;            ///< in a leaf
+  static constexpr std::uint32_t kMaxBlocks = 15;            ///< per leaf
   static constexpr std::uint32_t kBlockIndices = 1U << 27U;  ///< one more than the largest
 
   ChildReference() = default;
@@ -84,9 +84,9 @@ struct WideBvh {
   scenes::Bounds scene_bounds;
   std::uint32_t depth = 0;  ///< nodes on the longest path to a leaf, including the leaf
   std::uint64_t leaves = 0;
-  std::uint64_t references = 0;  ///< to triangles, spheres and cones
+  std::uint64_t references = 0;  ///< references to triangles, spheres and cones
   ExpectedVisits visits;
-  double cost = 0.0;      ///< of the binary hierarchy it was made from: see sah_cost
+  double cost = 0.0;      ///< `sah_cost` of the binary hierarchy it was made from
   bool is_refit = false;  ///< `visits` and `cost` are those of the original boxes
 
   bool empty() const { return blocks.empty(); }
@@ -101,7 +101,7 @@ enum class BvhBuilder : std::uint8_t {
 };
 
 enum class BvhCollapse : std::uint8_t {
-  kArea,  ///< `gather_children`: replaces the children with the largest areas by theirs
+  kArea,  ///< `gather_children`: replaces the child with the largest area by its children
   kCost   ///< `Collapse`: the lowest cost for streams
 };
 
@@ -115,9 +115,9 @@ struct WideBvhOptions {
 /// Throws InputError if the scene needs more than ChildReference::kBlockIndices blocks.
 WideBvh build_wide_bvh(const scenes::Scene& scene, const WideBvhOptions& options);
 
-/// Makes a wide hierarchy for streams from a binary one over a scene's parts (`collect_parts`) and
-/// their boxes, built by another structure with its own leaves: these are divided, and `Collapse`
-/// chooses nodes and leaves. Throws like build_wide_bvh.
+/// Makes a wide hierarchy for streams from a binary one that another structure built over a scene's
+/// parts (`collect_parts`) and their boxes. The binary hierarchy's leaves are divided, and
+/// `Collapse` chooses nodes and leaves. Throws like build_wide_bvh.
 WideBvh widen_for_streams(const scenes::Scene& scene, std::vector<PrimitivePart> parts,
                           std::span<const scenes::Bounds> boxes, BinaryBvh binary, bool parallel);
 

@@ -16,8 +16,8 @@ namespace beambench::accel {
 
 /// The arguments of a query besides its rays.
 struct QueryContext {
-  /// Counters that the query adds its work to. Null in timed code, which counts nothing: a
-  /// structure instantiates its traversal twice.
+  /// Counters that the query adds its work to. Null in timed code, which counts nothing; a
+  /// structure instantiates its traversal with and without counting.
   WorkCounters* counters = nullptr;
   /// The maximum number of threads that share the rays of an image or of a batch (`thread_count`;
   /// 0: the default number). A structure may use fewer. Hits and counters do not depend on the
@@ -26,8 +26,8 @@ struct QueryContext {
 };
 
 /// A structure built over a scene. Queries are const and safe from several threads. The scene must
-/// outlive it. Rays must pass `require_valid`. The rays and primitives that it supports are
-/// registered with it (`StructureInfo::support`).
+/// outlive the structure. Rays must pass `require_valid`. The rays and primitives that a structure
+/// supports are registered with it (`StructureInfo::support`).
 ///
 /// By deriving from `TraversalAccelerator` (traversal_accelerator.hpp) a structure gets the queries
 /// and the paths of an inspector from one traversal of single rays; a wrapper derives from
@@ -46,8 +46,8 @@ class [[gnu::visibility("default")]] Accelerator {
   /// trace the rays now; for example, InputError if building on demand exceeds a limit.
   virtual void closest_hits(const RaySource& rays, const HitSpan& hits, const QueryContext& context)
       const = 0;
-  /// Finds whether each ray has a hit in [t_min, t_max]: 1 or 0. `hits` has the size of the source.
-  /// Throws like `closest_hits`.
+  /// Writes for each ray whether it has a hit in [t_min, t_max]: 1 or 0. `hits` has the size of the
+  /// source. Throws like `closest_hits`.
   virtual void any_hits(const RaySource& rays, std::span<std::uint8_t> hits,
                         const QueryContext& context) const = 0;
   /// Returns the current sizes of the structure, which queries may divide further.
@@ -57,8 +57,8 @@ class [[gnu::visibility("default")]] Accelerator {
   /// object lives as long as the structure.
   virtual const Inspector* inspector() const { return nullptr; }
 
-  /// Adapts the structure to its scene after coordinates have changed in place: `scene` is the one
-  /// it was built over, with the same primitives. No query may run meanwhile. Returns false,
+  /// Adapts the structure to its scene after coordinates have changed in place: `scene` is the
+  /// scene it was built over, with the same primitives. No query may run meanwhile. Returns false,
   /// without any change, if the structure must be rebuilt.
   virtual bool update(const scenes::Scene& /*scene*/) { return false; }
 

@@ -8,11 +8,11 @@
 
 namespace beambench::accel {
 
-/// What a beam meets (thesis, section 3.2).
+/// The kind of a beam, by what it meets (thesis, section 3.2).
 enum class BeamKind {
-  kNonTerminal,  ///< an empty leaf: it continues
-  kOccupied,     ///< a leaf with references: its samples become rays
-  kLeaving       ///< the boundary of the scene: its samples are background
+  kNonTerminal,  ///< an empty leaf: the beam continues
+  kOccupied,     ///< a leaf with references: the beam's samples become rays
+  kLeaving       ///< the boundary of the scene: the beam's samples are background
 };
 
 /// A beam's cross-section on the image, and its samples.
@@ -20,11 +20,11 @@ struct BeamOutline {
   BeamKind kind;
   /// The corners of a convex polygon, in pixels; (0, 0) is the image's top left corner.
   std::vector<glm::dvec2> corners;
-  /// The leaf that the beam enters, as `TraceStep::index`; for a leaving beam, the leaf it comes
-  /// from.
+  /// The leaf that the beam enters, as `TraceStep::index`; for a leaving beam, the leaf from which
+  /// it comes.
   std::size_t node = 0;
   /// The samples that the beam decided or turned into rays, numbered as in a HitBuffer, in
-  /// increasing order. A leaving beam has none.
+  /// increasing order. Empty for a leaving beam.
   std::vector<std::size_t> samples{};
 };
 

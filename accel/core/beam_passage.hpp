@@ -12,13 +12,13 @@
 
 namespace beambench::accel {
 
-/// A plane that rays cross: `axis` 0, 1 or 2, and its coordinate on that axis, in scene units.
+/// A plane that rays cross: its `axis` (0, 1 or 2) and its coordinate on this axis, in scene units.
 struct CrossedPlane {
   int axis;
   double at;
 };
 
-/// A cut between two beams: the rays of this one cross `first` before `second`.
+/// A cut between two beams: the rays of this beam cross `first` before `second`.
 struct PlaneOrder {
   CrossedPlane first;
   CrossedPlane second;
@@ -32,7 +32,7 @@ struct BeamPassage {
   Box cell{};                           ///< that leaf, in scene units
   std::optional<CrossedPlane> entered;  ///< the leaf's face; nothing if the camera is in the leaf
   std::vector<glm::dvec2> corners;      ///< of its outline, in pixels from the top left
-  std::vector<PlaneOrder> cuts;  ///< new since the last passage; none: it continued undivided
+  std::vector<PlaneOrder> cuts;  ///< new since the last passage; empty if it continued undivided
   std::uint64_t samples = 0;     ///< number of the image's samples in the beam
 };
 

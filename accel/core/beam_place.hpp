@@ -1,6 +1,6 @@
 #pragma once
-// Which rays a ray is traced with, in a structure that divides its beams into blocks of rays; for
-// pictures.
+// The rays with which a ray is traced, in a structure that divides its beams into blocks of rays;
+// for pictures.
 
 #include <cstdint>
 

@@ -13,15 +13,15 @@
 namespace beambench::accel {
 namespace {
 
-/// The largest number of bytes per primitive that any build is known to take when no list exceeds
-/// its cap.
+/// The largest number of bytes per primitive that any known build takes if no list exceeds its cap.
 constexpr std::uint64_t kMaxBytesPerPrimitive = 2048;
 
-/// Below this, the allocator's reserve exceeds the memory being measured.
+/// The minimum number of primitives for a prediction: with fewer, the allocator's reserve exceeds
+/// the measured memory.
 constexpr std::size_t kMinPrimitives = std::size_t{1} << 17U;
 
-/// Returns every `stride`-th run of primitives: neighbors in a mesh stay together, so that they
-/// share vertices and leaves as they do in the whole scene.
+/// Returns every `stride`-th run of primitives. Neighbors in a mesh stay together, so that they
+/// share vertices and leaves as in the whole scene.
 scenes::Scene part_of(const scenes::Scene& scene, std::size_t stride) {
   constexpr std::size_t kRun = 4096;
   std::vector<scenes::PrimitiveId> ids;

@@ -1,5 +1,5 @@
 #pragma once
-// The memory that building a structure will take, predicted before it is taken.
+// Predicts the memory that building a structure will take.
 
 #include <cstdint>
 #include <optional>
@@ -11,15 +11,15 @@ namespace beambench::accel {
 
 /// Predicts by how many bytes a build raises this process's memory at its peak. Measures a build
 /// over an eighth of the primitives, taken in evenly spaced runs, and scales the result. Meshes of
-/// 2 to 8 million triangles took 0.7 to 1.1 times the prediction. Returns nothing if that build is
-/// refused or the system does not report its memory.
+/// 2 to 8 million triangles took 0.7 to 1.1 times the prediction. Returns nothing if the measured
+/// build is refused or the system does not report memory.
 std::optional<std::uint64_t> predicted_build_bytes(const StructureChoice& choice,
                                                    const scenes::Scene& scene,
                                                    const Workload& workload);
 
 /// Throws InputError, with the figures, when a build is expected to take more memory than is
-/// available (`available_memory`). Predicts only for scenes large enough for this to be possible;
-/// for others the check is free.
+/// available (`available_memory`). Makes the prediction only for scenes that are large enough for
+/// this to be possible; for smaller scenes the check is free.
 void require_build_memory(const StructureChoice& choice, const scenes::Scene& scene,
                           const Workload& workload);
 

@@ -1,5 +1,5 @@
 #pragma once
-// A ray as the canonical ray-primitive tests use it.
+// A ray in the form that the canonical ray-primitive tests use.
 
 #include <algorithm>
 #include <array>
@@ -19,12 +19,12 @@
 namespace beambench::accel {
 
 /// The result of a ray-primitive test that misses: a NaN, which neither precedes nor equals any t.
-/// (An optional<float> would be passed through memory in two halves, which cost more than the test
-/// itself.)
+/// (An optional<float> would be passed through memory in two halves, which took longer than the
+/// test itself.)
 inline constexpr float kMiss = std::numeric_limits<float>::quiet_NaN();
 inline bool is_hit(float t) { return t == t; }
 
-/// Returns the axis along which a direction is longest; the last one of equals.
+/// Returns the axis along which a direction is longest; of equally long ones, the last.
 inline std::size_t longest_axis(const glm::vec3& direction) {
   // A table, because the directions of secondary rays defeat branch prediction.
   static constexpr std::array<std::uint8_t, 8> kAxes{2, 2, 2, 0, 1, 2, 1, 0};
@@ -72,7 +72,7 @@ struct CanonicalRay {
   /// main axis so that the ray becomes that axis (Woop, Benthin and Wald, "Watertight Ray/Triangle
   /// Intersection", 2013).
   glm::dvec2 beside(const glm::vec3& point) const {
-    // Through a pointer: glm's operator[] is a chain of branches, which cost 5% of a trace of
+    // Use a pointer: glm's operator[] is a chain of branches, which took 5% of a trace of
     // triangles.
     const float* place = glm::value_ptr(point);
     const double* from = glm::value_ptr(origin);
@@ -85,14 +85,14 @@ struct CanonicalRay {
   glm::dvec3 direction;
   float t_min;
   float t_max;
-  int main_axis;                 ///< the one along which the direction is longest
-  std::array<int, 2> side_axis;  ///< the other two
+  int main_axis;                 ///< the axis along which the direction is longest
+  std::array<int, 2> side_axis;  ///< the other two axes
   std::array<double, 2> shear;   ///< direction on the side axes over that on the main axis
 };
 
-/// Returns a root t of a surface's equation f(t) = 0 on a ray. Close to the origin, relative to
-/// `scale`, the root has lost its digits to cancellation, but a ray that begins on the surface must
-/// find t = 0: the root is then -f(0) / f'(0). `at_origin` returns f(0) and f'(0) / 2.
+/// Returns a root t of a surface's equation f(t) = 0 on a ray. If t is close to 0, relative to
+/// `scale`, it has lost its digits to cancellation. Because a ray that begins on the surface must
+/// find t = 0, -f(0) / f'(0) is returned instead. `at_origin` returns f(0) and f'(0) / 2.
 template <class AtOrigin>
 double root_near_origin(double t, double scale, AtOrigin at_origin) {
   if (std::abs(t) > 0x1p-40 * scale) return t;

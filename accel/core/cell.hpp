@@ -8,7 +8,7 @@ namespace beambench::accel {
 /// A cell or node of a structure.
 struct Cell {
   Box box;        ///< in scene units
-  int level = 1;  ///< the root being level 1
+  int level = 1;  ///< the root has level 1
 };
 
 }  // namespace beambench::accel

@@ -12,7 +12,7 @@
 namespace beambench::accel {
 
 /// A box divided into `cells` equal cells along each axis. All code that needs a cell's boundary
-/// calls `plane`, so that neighbors agree on the number.
+/// calls `plane`, so that neighboring cells get the same number.
 struct CellGrid {
   glm::dvec3 lower{0.0};
   glm::dvec3 cell{1.0};  ///< size of a cell
@@ -35,8 +35,8 @@ struct CellGrid {
   }
 };
 
-/// Makes a grid over a box of `size` around the middle of `bounds`, `margin` wider on every side;
-/// the grid of the unit cube if `bounds` is empty.
+/// Makes a grid over a box of `size` around the middle of `bounds`, widened by `margin` on every
+/// side. Makes a grid over the unit cube if `bounds` is empty.
 CellGrid make_cell_grid(const scenes::Bounds& bounds, const glm::dvec3& size,
                         const glm::dvec3& margin, const glm::ivec3& cells);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Where a ray crosses the planes of a grid of cells.
+// The places where a ray crosses the planes of a cell grid.
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@ namespace beambench::accel {
 
 /// A ray in a grid. Everything is derived from one function, `plane_t`, so that a cell's exit t and
 /// its neighbor's entry t are the same number and no cell is skipped or visited twice. A ray
-/// parallel to an axis always stays on one side of that axis' planes.
+/// parallel to an axis always stays on one side of that axis's planes.
 class CellRay {
  public:
   CellRay(const CellGrid& grid, const Ray& ray) : grid_(&grid) {
@@ -36,8 +36,8 @@ class CellRay {
     return (grid_->plane(axis, index) - origin_[slot]) * inverse_[slot];
   }
 
-  /// Returns whether the ray at t is on the upper side of a plane. On the plane itself it counts as
-  /// on the side that it moves toward.
+  /// Returns whether the ray at t is on the upper side of a plane. On the plane itself, it counts
+  /// as being on the side toward which it moves.
   [[gnu::always_inline]] bool above(int axis, std::int32_t index, double t) const {
     switch (step(axis)) {
       case 1:
@@ -49,8 +49,8 @@ class CellRay {
     }
   }
 
-  /// Returns the t at which the ray leaves the cube of `size` cells at `corner` through an axis'
-  /// planes; infinite when it is parallel to them.
+  /// Returns the t at which the ray leaves the cube of `size` cells at `corner` through the planes
+  /// of an axis; infinite if it is parallel to them.
   [[gnu::always_inline]] double exit_t(int axis, const glm::ivec3& corner,
                                        std::int32_t size) const {
     switch (step(axis)) {
@@ -63,7 +63,7 @@ class CellRay {
     }
   }
 
-  /// Returns the same for a box of `size` cells along each axis.
+  /// Returns the same for a box whose number of cells along each axis is `size`.
   [[gnu::always_inline]] double exit_t(int axis, const glm::ivec3& corner,
                                        const glm::ivec3& size) const {
     return exit_t(axis, corner, size[axis]);
@@ -82,7 +82,7 @@ class CellRay {
     return index;
   }
 
-  /// Returns the difference in t between consecutive planes of an axis; infinite when the ray is
+  /// Returns the difference in t between consecutive planes of an axis; infinite if the ray is
   /// parallel to them.
   double delta_t(int axis) const {
     return grid_->cell[axis] * std::abs(inverse_[static_cast<std::size_t>(axis)]);

@@ -18,9 +18,9 @@ struct NoMailboxes {
 
 /// Tests the references of a cell (the primitives that overlap it when widened by
 /// `overlap_tolerance`) for hits nearer than the closest so far. Returns whether the closest hit
-/// lies strictly before the ray's exit from the cell: another hit whose t rounds to the exit's t
-/// may lie beyond the exit and have a lower id. `mailboxes.is_first(id)` is called once for every
-/// reference; it may be false only if the primitive was already tested against this ray.
+/// lies strictly before the ray's exit from the cell. (If its t equals the exit's, a hit beyond the
+/// exit may round to the same t and have a lower id.) `mailboxes.is_first(id)` is called once for
+/// every reference; it may be false only if the primitive was already tested against this ray.
 template <class Counting, class Mailboxes = const NoMailboxes&>
 bool test_references(const scenes::Scene& scene, std::span<const scenes::PrimitiveId> references,
                      double exit_t, Counting& counting, ClosestHit& closest,
@@ -33,7 +33,7 @@ bool test_references(const scenes::Scene& scene, std::span<const scenes::Primiti
   return closest.ray.t_max < static_cast<float>(exit_t);
 }
 
-/// Returns whether the ray hits one of the references of a cell. `canonical` is the ray.
+/// Returns whether the ray hits one of the references of a cell. `canonical` is that ray.
 template <class Counting, class Mailboxes = const NoMailboxes&>
 bool any_reference_hit(const scenes::Scene& scene, std::span<const scenes::PrimitiveId> references,
                        const CanonicalRay& canonical, Counting& counting,

@@ -16,14 +16,15 @@
 namespace beambench::accel {
 
 /// A convex polygon during clipping. Each of the six planes adds at most one corner to a triangle's
-/// three; if rounding makes it cross a plane several times, at most half of its corners.
+/// three; if rounding makes the polygon cross a plane several times, a plane adds at most half as
+/// many corners as there are.
 struct ClippedPolygon {
   std::array<glm::dvec3, 28> corners;
   std::size_t count = 0;
 
   void add(const glm::dvec3& corner) { corners[count++] = corner; }
 
-  /// Returns the box of the corners; there must be one.
+  /// Returns the box of the corners; there must be at least one corner.
   Box bounds() const {
     Box bounds{corners[0], corners[0]};
     for (std::size_t i = 1; i < count; ++i) {
@@ -66,7 +67,7 @@ inline void clip(const ClippedPolygon& polygon, int axis, double plane, double s
 }
 
 /// Returns the part of a triangle that lies in a closed box, exact up to double rounding
-/// (Sutherland and Hodgman, "Reentrant Polygon Clipping", 1974); no corners if there is none.
+/// (Sutherland and Hodgman, "Reentrant Polygon Clipping", 1974); without corners if no part does.
 inline ClippedPolygon clipped_triangle(const scenes::Scene& scene, const scenes::Triangle& triangle,
                                        const Box& box) {
   std::array<ClippedPolygon, 2> polygons;

@@ -18,7 +18,7 @@ namespace beambench::accel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The lane indices of each eight-bit mask, four bits each, the first lowest.
+/// For each eight-bit mask, the indices of its lanes, four bits each, the first in the lowest bits.
 inline constexpr std::array<std::uint32_t, 256> kLanesOfMask = [] {
   std::array<std::uint32_t, 256> lanes{};
   for (std::uint32_t mask = 0; mask < 256; ++mask) {
@@ -34,8 +34,8 @@ inline constexpr std::array<std::uint32_t, 256> kLanesOfMask = [] {
 
 /// Returns the values in the lanes of a mask consecutively, followed by unspecified values; for
 /// four-byte lanes. Highway's Compress is one instruction on AVX-512. Elsewhere, Highway 1.0.3
-/// compiled by GCC copies its 1 KiB table to the stack each time, which took a third of the total
-/// time.
+/// compiled by GCC copies Compress's 1 KiB table to the stack on every call, which took a third of
+/// the total time.
 template <class D>
 HWY_INLINE hn::Vec<D> compress([[maybe_unused]] D d, hn::Vec<D> values, hn::Mask<D> mask) {
   static_assert(sizeof(hn::TFromD<D>) == 4);

@@ -20,13 +20,13 @@ struct ExpectedReferences {
 
 /// Estimates the references of a tree from a random sample of its nodes, level by level. If a level
 /// has more than 128 nodes, about 128 are sampled with a probability proportional to their
-/// references and weighted accordingly. Fewer, but at least 4, are sampled if these have more than
-/// 16384 references, so that nodes that do not divide well do not take longer. The estimate is
-/// unbiased (Knuth, "Estimating the efficiency of backtrack programs", Mathematics of Computation
-/// 29(129), 1975, samples one node per level; more nodes reduce the variance). The levels above the
-/// first sampled one are the same in all estimates and are divided once. `Node::size()` is its
-/// number of references; `divide(node)` returns a node's children that have references, or nullopt
-/// for a leaf.
+/// references and weighted accordingly. If the sample would have more than 16384 references, fewer
+/// nodes are sampled, but at least 4, so that nodes that do not divide well do not take longer. The
+/// estimate is unbiased (Knuth, "Estimating the efficiency of backtrack programs", Mathematics of
+/// Computation 29(129), 1975, samples one node per level; sampling more nodes reduces the
+/// variance). The levels above the first sampled level are the same in all estimates and are
+/// divided only once. `Node::size()` is a node's number of references; `divide(node)` returns a
+/// node's children that have references, or nullopt for a leaf.
 template <class Node, class Divide>
 class ReferenceEstimate {
  public:
@@ -49,7 +49,7 @@ class ReferenceEstimate {
  private:
   struct Kept {
     Node node;
-    double weight;  ///< the number of references that each one represents
+    double weight;  ///< how many references each of its references represents
     double references() const { return weight * static_cast<double>(node.size()); }
   };
   struct Level {
@@ -86,7 +86,8 @@ class ReferenceEstimate {
     return next;
   }
 
-  /// Keeps the nodes of references at equal steps from a random first one (systematic sampling).
+  /// Keeps the nodes of references chosen at equal steps from a random first reference (systematic
+  /// sampling).
   static Level sample(const Level& level, Random& random) {
     Level sampled;
     const double distance = level.references / static_cast<double>(level.sampled_nodes());
@@ -104,7 +105,7 @@ class ReferenceEstimate {
 
   Divide divide_;
   ExpectedReferences above_;  ///< of the levels above `first_`
-  Level first_;               ///< the first that is sampled; empty if none needs sampling
+  Level first_;               ///< the first sampled level; empty if no level needs sampling
 };
 
 /// Returns whether the expected value of a nonnegative estimate exceeds `most`. A false positive
@@ -112,8 +113,8 @@ class ReferenceEstimate {
 /// most `most`, the running product of estimate / most has an expected value of at most 1, and the
 /// probability that it ever exceeds 2^20 is below 2^-20 (Ville's inequality; Shafer, "Testing by
 /// betting", Journal of the Royal Statistical Society A 184(2), 2021). If the estimates are twice
-/// the limit, 20 of them decide; less than 1.42 times the limit is not detected. The random numbers
-/// are the same each time. Within the limit, one or a few estimates are made.
+/// the limit, 20 of them suffice; estimates below 1.42 times the limit are not detected. The random
+/// numbers are the same in each call. For values within the limit, one or a few estimates are made.
 template <class Estimate>
 bool surely_more_than(std::uint64_t most, Estimate estimate) {
   constexpr int kMaxEstimates = 40;
@@ -127,8 +128,8 @@ bool surely_more_than(std::uint64_t most, Estimate estimate) {
   return false;
 }
 
-/// Returns a random subset of a list, one of each `stride` neighbors, so that it contains each
-/// member with a probability of at most 1 / stride.
+/// A random subset of a list: one of each `stride` neighbors, so that it contains each member with
+/// a probability of at most 1 / stride.
 template <class T>
 struct RandomPart {
   static constexpr std::size_t kMembers = 16;
@@ -149,9 +150,9 @@ struct RandomPart {
 /// not take longer: `references(members, random)` estimates the references of a tree over a random
 /// subset of the list. That tree is the full one, except that some branches end earlier. So each
 /// member has at least as many references in the full tree (or nearly: a leaf may refer to a member
-/// that is in none of its smaller cells), and the references of the subset times `stride` are not
-/// expected to exceed the total. Returns false for short lists, which are quickly divided, and
-/// possibly where a few members have most of the references.
+/// that is in none of its smaller cells), and the expected number of the subset's references, times
+/// `stride`, does not exceed the total. Returns false for short lists, which are quickly divided,
+/// and possibly where a few members have most of the references.
 template <class T, class References>
 bool part_surely_exceeds(std::uint64_t most, const std::vector<T>& list, References references) {
   constexpr std::size_t kShort = 4096;

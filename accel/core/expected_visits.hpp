@@ -13,12 +13,12 @@ namespace beambench::accel {
 
 /// The surface area heuristic's estimate (Goldsmith and Salmon 1987; MacDonald and Booth 1990): a
 /// random line that meets the scene's box meets a convex cell in it with a probability equal to the
-/// ratio of their surface areas. Summed over the cells of a structure, this is the expected number
-/// of interior nodes and leaves that such a line meets and of references that it tests, if it never
+/// ratio of their surface areas. The sums over the cells of a structure are the expected numbers of
+/// interior nodes and leaves that such a line meets, and of references that it tests, if it never
 /// ends at a hit.
 class ExpectedVisits {
  public:
-  ExpectedVisits() = default;  ///< of an empty scene
+  ExpectedVisits() = default;  ///< for an empty scene
   explicit ExpectedVisits(const scenes::Bounds& scene)
       : scene_{glm::dvec3(scene.lower), glm::dvec3(scene.upper)} {}
 
@@ -32,8 +32,8 @@ class ExpectedVisits {
   void add_node(const scenes::Bounds& cell) { add_node(boxed(cell)); }
   void add_leaf(const scenes::Bounds& cell, std::size_t tests) { add_leaf(boxed(cell), tests); }
 
-  /// Adds `sah_nodes`, `sah_leaves` and `sah_tests`; nothing if the scene is empty or its box has
-  /// no area.
+  /// Adds `sah_nodes`, `sah_leaves` and `sah_tests`, unless the scene is empty or its box has no
+  /// area.
   void append_to(Statistics& statistics) const {
     const double whole = area(scene_);
     if (!(whole > 0.0)) return;
@@ -46,7 +46,8 @@ class ExpectedVisits {
   static Box boxed(const scenes::Bounds& cell) {
     return {glm::dvec3(cell.lower), glm::dvec3(cell.upper)};
   }
-  /// Returns half the surface area of the part inside the scene's box; 0 if it is empty.
+  /// Returns half the surface area of the cell's part inside the scene's box; 0 if there is no such
+  /// part.
   double area(const Box& cell) const {
     const glm::dvec3 size = glm::min(cell.upper, scene_.upper) - glm::max(cell.lower, scene_.lower);
     if (!(size.x >= 0.0 && size.y >= 0.0 && size.z >= 0.0)) return 0.0;

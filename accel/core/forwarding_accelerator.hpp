@@ -8,11 +8,10 @@
 
 namespace beambench::accel {
 
-/// Forwards everything to another structure. A wrapper overrides what it changes and inherits the
-/// rest.
+/// Forwards everything to another structure. A wrapper overrides the functions that it changes.
 class ForwardingAccelerator : public Accelerator {
  public:
-  /// The structure must outlive this.
+  /// The structure must outlive this object.
   explicit ForwardingAccelerator(const Accelerator& structure) : structure_(&structure) {}
 
   void closest_hits(const RaySource& rays, const HitSpan& hits,

@@ -9,7 +9,7 @@
 
 namespace beambench::accel {
 
-/// Stores for each sample of each pixel the t of its hit and the primitive hit; a miss is t =
+/// Stores for each sample of each pixel the t of its hit and the primitive hit; a miss has t =
 /// infinity and kNoPrimitive. Samples of one pixel are adjacent; pixels go row by row from the top
 /// left. The hits of a list of rays are an image of one row.
 class HitBuffer {
@@ -72,11 +72,11 @@ class HitSpan {
         width_(buffer.width()),
         height_(buffer.height()),
         samples_(buffer.samples()) {}
-  /// One hit; a miss is t = infinity and kNoPrimitive.
+  /// Views one hit; a miss has t = infinity and kNoPrimitive.
   explicit HitSpan(Hit& hit)
       : t_(&hit.t), primitive_(&hit.primitive), width_(1), height_(1), samples_(1) {}
 
-  /// The hits of a list in two arrays.
+  /// Views the hits of a list in two arrays.
   HitSpan(float* t, scenes::PrimitiveId* primitive, std::size_t count)
       : t_(t), primitive_(primitive), width_(static_cast<int>(count)), height_(1), samples_(1) {}
 

@@ -11,7 +11,8 @@
 
 namespace beambench::accel {
 
-/// A structure registered without single rays and batches. Any hits are derived from closest hits.
+/// A structure registered without single rays and batches. The results of any-hit queries are
+/// derived from closest hits.
 class ImageAccelerator : public Accelerator {
  public:
   void any_hits(const RaySource& rays, std::span<std::uint8_t> hits,
@@ -26,7 +27,7 @@ class ImageAccelerator : public Accelerator {
   /// `name` is the structure's name in errors; it must outlive the structure.
   explicit ImageAccelerator(const char* name) : name_(name) {}
 
-  /// Returns the image of a query. Throws UnsupportedError if it is not one of an image.
+  /// Returns the image of a query. Throws UnsupportedError if the query is not of an image.
   const PrimaryRays& image_of(const RaySource& rays) const {
     if (const PrimaryRays* image = rays.image()) return *image;
     throw UnsupportedError("'" + std::string(name_) +

@@ -17,15 +17,15 @@
 
 namespace beambench::accel {
 
-/// The traversal path of a sample of an image.
+/// The traversal path of one sample of an image.
 struct SampleSteps {
-  std::vector<BeamPassage> beams;  ///< that contain the sample, from the first to the last
+  std::vector<BeamPassage> beams;  ///< the beams that contain the sample, first to last
   std::vector<TraceStep> steps;    ///< cells whose references were tested, with each test
 };
 
 /// A node of a hierarchy, numbered as `TraceStep::index`.
 struct NodeFacts {
-  std::size_t parent;        ///< listed before the node; the root's is itself
+  std::size_t parent;        ///< listed before the node; the root is its own parent
   bool is_leaf;              ///< otherwise an interior node
   std::uint64_t references;  ///< of a leaf
 };
@@ -41,8 +41,8 @@ class [[gnu::visibility("default")]] Inspector {
   /// Returns the traversal path of a single ray, step by step; empty if none is recorded.
   virtual std::vector<TraceStep> path(const Ray&) const { return {}; }
   /// Returns the path of a sample of an image as a query of the whole image traces it: with the
-  /// beams that contain it if the structure has beams; otherwise as a single ray. (x, y) is the
-  /// pixel, (0, 0) at the top left; `sample` is its number in the pixel.
+  /// beams that contain the sample if the structure has beams; otherwise as a single ray. (x, y) is
+  /// the pixel, (0, 0) at the top left; `sample` is the sample's number in the pixel.
   virtual SampleSteps path(const PrimaryRays& image, int x, int y, int sample) const {
     return {{}, path(image.ray(x, y, sample))};
   }
@@ -53,7 +53,7 @@ class [[gnu::visibility("default")]] Inspector {
   virtual std::vector<NodeFacts> nodes() const { return {}; }
 
   /// Returns the beams of an image in the order in which they are traced; nothing if the structure
-  /// has none.
+  /// has no beams.
   virtual std::optional<std::vector<BeamOutline>> beams(const PrimaryRays&) const {
     return std::nullopt;
   }

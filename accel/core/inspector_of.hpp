@@ -5,7 +5,8 @@
 
 namespace beambench::accel {
 
-/// Returns the inspector of a structure, or one that shows nothing if it has none.
+/// Returns the inspector of a structure, or an inspector that shows nothing if the structure has
+/// none.
 inline const Inspector& inspector_of(const Accelerator& structure) {
   static const struct Nothing final : Inspector {
   } nothing;

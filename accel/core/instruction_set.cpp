@@ -12,7 +12,7 @@ namespace {
 
 std::int64_t all_of(const std::string& isa) {
 #if HWY_ARCH_X86
-  // The better a target, the lower its bit: several bits below AVX2's are variants of AVX-512.
+  // The better a target, the lower its bit; several bits below AVX2's are variants of AVX-512.
   if (isa == "avx512") return HWY_AVX2 - 1;
   if (isa == "avx2") return HWY_AVX2;
   if (isa == "sse4") return HWY_SSE4;
@@ -39,7 +39,7 @@ bool is_available(const std::string& isa) {
 std::int64_t targets_of(const std::string& isa) {
   if (!is_available(isa)) {
     throw InputError(
-        fmt::format("isa is {}, which this machine does not have; choose isa=best or "
+        fmt::format("isa is {}, which this machine does not support; choose isa=best or "
                     "an older instruction set",
                     isa));
   }

@@ -13,11 +13,11 @@ namespace beambench::accel {
 /// on x86, "avx512", "avx2" and "sse4" restrict the structure.
 ParameterInfo isa_parameter();
 
-/// Returns whether this machine and the compiled code have a value of `isa_parameter`.
+/// Returns whether this machine and the compiled code support a value of `isa_parameter`.
 bool is_available(const std::string& isa);
 
 /// Returns the Highway targets that a value of `isa_parameter` allows. Throws InputError if this
-/// machine or the compiled code has none of them.
+/// machine or the compiled code supports none of them.
 std::int64_t targets_of(const std::string& isa);
 
 /// Restricts all of this program's kernels, except Embree's, to a value of `isa_parameter`. Call it

@@ -46,8 +46,7 @@ inline float intersect(const CanonicalRay& ray, const scenes::Scene& scene,
 struct ClosestHit {
   explicit ClosestHit(const Ray& query) : ray(query) {}
 
-  /// Tests one primitive and keeps its hit when it precedes the best. Returns the test's t or
-  /// kMiss.
+  /// Tests one primitive and keeps its hit if it precedes the best. Returns the test's t or kMiss.
   float test(const scenes::Scene& scene, scenes::PrimitiveId id) {
     const float t = intersect(ray, scene, id);
     keep(t, id);

@@ -26,13 +26,13 @@ struct Linear {
 /// Returns the smallest t in the ray's interval at which it meets the lateral surface of the cone
 /// frustum or cylinder (no caps); for a cone seen only from the inside, the smallest t at which the
 /// ray leaves it. With m = o + t d - middle and the axis parameter s(t) = m . axis / |axis|^2, the
-/// surface is
-/// |m - s axis| = r_middle + s (r_apex - r_base) for s in [-1/2, 1/2]: squared, a quadratic in t.
-/// The origin is first moved to the point of the ray closest to the middle of the axis, which
-/// avoids cancellation for distant cones. For flat cones too: "closest" is measured with heights
-/// stretched until the surface is nowhere flatter than 45 degrees. Near the tip the quadratic is
-/// ill-conditioned: a step of Newton's method on the unsquared equation improves its roots, and a
-/// root whose point is still farther than kHitSlack from the surface is not a hit.
+/// surface is |m - s axis| = r_middle + s (r_apex - r_base) for s in [-1/2, 1/2]: squared, a
+/// quadratic in t. The origin is first moved to the point of the ray closest to the middle of the
+/// axis, which avoids cancellation for distant cones. So that this also holds for flat cones,
+/// "closest" is measured with heights stretched until the surface is nowhere flatter than 45
+/// degrees. Near the tip the quadratic is ill-conditioned: a step of Newton's method on the
+/// unsquared equation improves its roots, and a root whose point is still farther than kHitSlack
+/// from the surface is not a hit.
 inline float intersect_cone(const CanonicalRay& ray, const scenes::Cone& cone) {
   const glm::dvec3 base(cone.base);
   const glm::dvec3 axis = glm::dvec3(cone.apex) - base;

@@ -12,10 +12,10 @@ namespace beambench::accel {
 
 /// Returns the smallest t in the ray's interval at which it meets the (hollow) sphere; for a sphere
 /// seen only from the inside, the t at which the ray leaves it. The discriminant is taken from the
-/// vector between the center and the ray's closest point, which does not cancel for small or
+/// vector between the center and the ray's closest point, which avoids cancellation for small or
 /// distant spheres (Haines et al., "Precision Improvements for Ray/Sphere Intersection", Ray
-/// Tracing Gems, 2019); the point at t then lies within a few ulps (of its distance) of the
-/// surface.
+/// Tracing Gems, 2019); the point at t is then off the surface by at most a few ulps of its
+/// distance.
 inline float intersect_sphere(const CanonicalRay& ray, const scenes::Sphere& sphere) {
   const glm::dvec3 from_center = ray.origin - glm::dvec3(sphere.center);
   const double inverse = 1.0 / glm::dot(ray.direction, ray.direction);

@@ -15,8 +15,9 @@ namespace beambench::accel {
 
 /// Returns whether the point, computed on the triangle's plane, is within kHitSlack x `reach` of
 /// the triangle. A ray almost parallel to the plane can pass the edge tests and still meet the
-/// plane far outside, because their rounding error is divided by the cosine of incidence. The box
-/// excludes points beyond an acute corner, which the three edges alone do not.
+/// plane far outside, because the rounding error of the tests is divided by the cosine of the angle
+/// of incidence. The box excludes points beyond an acute corner, which the three edges alone do
+/// not.
 inline bool near_triangle(const glm::dvec3& point, const std::array<glm::dvec3, 3>& corners,
                           const glm::dvec3& normal, double reach) {
   const double slack = kHitSlack * reach;

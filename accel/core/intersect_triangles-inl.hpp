@@ -77,7 +77,7 @@ HWY_INLINE hn::Mask<DoubleTag> near_triangles(const DoublePoint& point,
   return hn::Not(far);
 }
 
-/// The pairs' numbers in double.
+/// The values of the pairs in double.
 struct DoublePairs {
   explicit HWY_INLINE DoublePairs(const RayTrianglePairs& pairs)
       : origin(widened(pairs.origin)),
@@ -105,7 +105,7 @@ HWY_INLINE Doubles distances_along_rays(const RayTrianglePairs& pairs) {
   return DoublePairs(pairs).t;
 }
 
-/// Sets `t` likewise, or to NaN for a miss; `accept` then checks the interval.
+/// Sets `t` to the same values, or to NaN for a miss; `accept` then checks the interval.
 HWY_INLINE void intersect_triangles(const RayTrianglePairs& pairs, double* t) {
   const DoubleTag d;
   const DoublePairs in_double(pairs);

@@ -22,7 +22,8 @@ namespace beambench::accel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Sixteen lanes if a register has that many; otherwise several registers with fewer.
+/// Sixteen lanes if a register has that many; otherwise fewer, and sixteen values take several
+/// registers.
 using Tag = hn::CappedTag<float, 16>;
 using Floats = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
@@ -52,8 +53,8 @@ HWY_INLINE Mask mask_of(LaneBits bits) {
 }
 
 /// Stores the values in the lanes of `mask` consecutively, followed by arbitrary values: there must
-/// be room for a whole register. Returns their number. Compressing directly to memory, as Highway's
-/// CompressStore does on AVX-512, is slow on some processors (AMD Zen 4).
+/// be room for a whole register. Returns the number of values. Compressing directly to memory, as
+/// Highway's CompressStore does on AVX-512, is slow on some processors (AMD Zen 4).
 template <class D>
 HWY_INLINE std::size_t compress_store(D d, hn::Vec<D> values, hn::Mask<D> mask, hn::TFromD<D>* to) {
   hn::StoreU(compress(d, values, mask), d, to);
@@ -66,8 +67,8 @@ HWY_INLINE hn::Vec<D> reciprocal(D d, hn::Vec<D> values) {
 #if HWY_ARCH_X86 && HWY_MAX_BYTES == 64  // a Newton step is faster than a division
   const auto about = hn::ApproximateReciprocal(values);
   const auto rest = hn::NegMulAdd(about, values, hn::Set(d, 1.0F));
-  // The first guess is exact if it or the value is 0 or infinite. The rest is then NaN or -inf and
-  // fails the comparison with -1; otherwise it is nearly 0.
+  // If the estimate or the value is 0 or infinite, the estimate is exact. The rest is then NaN or
+  // -inf and fails the comparison with -1; otherwise the rest is nearly 0.
   return hn::IfThenElse(hn::Gt(rest, hn::Set(d, -1.0F)), hn::MulAdd(about, rest, about), about);
 #else
   return hn::Div(hn::Set(d, 1.0F), values);

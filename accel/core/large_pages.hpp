@@ -11,7 +11,7 @@ namespace beambench::accel {
 
 /// Allocates arrays of many megabytes with scattered accesses: with 4 KiB pages most accesses miss
 /// the TLB, and the first touch of a page costs more than writing its contents. Linux provides 2
-/// MiB pages on request ("madvise"); otherwise these are ordinary pages. The memory always begins
+/// MiB pages on request ("madvise"); otherwise, ordinary pages are used. The memory always begins
 /// at a cache line.
 template <class T>
 struct LargePages {
@@ -27,7 +27,7 @@ struct LargePages {
     const std::size_t bytes = count * sizeof(T);
     void* const memory = ::operator new(bytes, alignment(bytes));
 #if defined(MADV_HUGEPAGE)
-    // Only a request: if it is refused, results are the same.
+    // This is only a request; if it is refused, results are the same.
     if (bytes >= kPage) static_cast<void>(::madvise(memory, bytes, MADV_HUGEPAGE));
 #endif
     return static_cast<T*>(memory);

@@ -30,9 +30,9 @@ glm::dvec3 projected_areas(const scenes::Scene& scene, const scenes::Polygon& po
   return most;
 }
 
-/// Returns a lower bound of the projected areas of a cone's lateral surface. Along an axis, one
-/// sees either the section through the cone's own axis, minus what shows through both open ends, or
-/// the ring between the ends.
+/// Returns a lower bound of the projected areas of a cone's lateral surface. Seen along an axis,
+/// the surface covers at least the section through the cone's own axis, minus what is visible
+/// through both open ends, or the ring between the ends.
 glm::dvec3 projected_areas(const scenes::Cone& cone) {
   const glm::dvec3 along = glm::dvec3(cone.apex) - glm::dvec3(cone.base);
   const double length = glm::length(along);
@@ -50,7 +50,7 @@ glm::dvec3 projected_areas(const scenes::Cone& cone) {
 }
 
 /// Returns lower bounds of the projected areas of a primitive's surface along each axis; `faces`
-/// are the areas of a cell's faces, across each axis.
+/// are the areas of a cell's faces across each axis.
 glm::dvec3 projected_areas(const scenes::Scene& scene, scenes::PrimitiveId id,
                            const glm::dvec3& faces) {
   const scenes::Primitive& primitive = scene.primitives[id];
@@ -68,9 +68,9 @@ glm::dvec3 projected_areas(const scenes::Scene& scene, scenes::PrimitiveId id,
 }
 
 /// Returns a lower bound of the number of cell edges that a sphere crosses: two for each grid line
-/// that, seen along its axis, lies at least half a cell's diagonal inside the sphere's outline.
-/// Such a line is longer in the sphere than a cell, so the sphere crosses two of its edges, each
-/// once.
+/// that, seen along its axis, lies at least half a cell's diagonal inside the sphere's outline. The
+/// part of such a line inside the sphere is longer than a cell, so the sphere crosses two of the
+/// cell edges on the line, each once.
 double crossed_edges(const scenes::Sphere& sphere, const glm::dvec3& cell,
                      const glm::dvec3& faces) {
   double edges = 0.0;
@@ -92,7 +92,7 @@ constexpr double kCellsPerCrossedEdge = 4.0 / 6.0;
 }  // namespace
 
 double least_cells(const scenes::Scene& scene, scenes::PrimitiveId id, const glm::dvec3& cell) {
-  constexpr double kRounding = 1.0 - 1e-6;  // of floats and of the box, with ample margin
+  constexpr double kRounding = 1.0 - 1e-6;  // of floats and of the box, with an ample margin
   const glm::dvec3 faces{cell.y * cell.z, cell.z * cell.x, cell.x * cell.y};
   const glm::dvec3 extent(scenes::primitive_bounds(scene, id).extent());
   double most =
@@ -113,8 +113,8 @@ double least_references(const scenes::Scene& scene, const CellGrid& grid) {
   return references;
 }
 
-// With this many references per primitive, computing the lower bound takes negligible time; small
-// scenes make that many in a few milliseconds.
+// The first check is made at 64 references per primitive, where computing the lower bound takes
+// negligible time, plus 65,536, which small scenes reach in a few milliseconds.
 ReferenceLimit::ReferenceLimit(std::uint64_t most, const scenes::Scene& scene,
                                std::function<bool()> will_exceed)
     : most_(most),

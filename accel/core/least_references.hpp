@@ -1,5 +1,6 @@
 #pragma once
-// Predicts the references of a structure during its build, so that too many are refused early.
+// Predicts the number of references of a structure during its build, so that excessive builds are
+// refused early.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,15 +13,15 @@
 
 namespace beambench::accel {
 
-/// Returns a lower bound of the number of cells of that size, in a grid that contains the
-/// primitive, that its surface overlaps. It is the largest of: one; the number that covers its
-/// projected area along an axis; the length of its box in cells; and, for a sphere, the number of
-/// cells around the cell edges that it crosses.
+/// Returns a lower bound of how many cells of this size a primitive's surface overlaps, in a grid
+/// that contains the primitive. It is the largest of: one; the number that covers its projected
+/// area along an axis; the length of its box in cells; and, for a sphere, the number of cells
+/// around the cell edges that it crosses.
 double least_cells(const scenes::Scene& scene, scenes::PrimitiveId id, const glm::dvec3& cell);
 
 /// Returns a lower bound of the references of all cells of a grid over the whole scene: the sum of
-/// `least_cells`. For a large sphere it is two thirds of them, for a large triangle a third or
-/// more.
+/// `least_cells`. The bound is two thirds of the references for a large sphere, and a third or more
+/// for a large triangle.
 double least_references(const scenes::Scene& scene, const CellGrid& grid);
 
 /// Limits the references of a structure during its build.
@@ -34,7 +35,7 @@ class ReferenceLimit {
   /// the limit.
   ReferenceLimit(std::uint64_t most, const scenes::Scene& scene, std::function<bool()> will_exceed);
   /// Allows at most `most` in the finest cells of a grid over the whole scene, which will have at
-  /// least `least_references`. Scene and grid must outlive it.
+  /// least `least_references`. The scene and the grid must outlive this object.
   ReferenceLimit(std::uint64_t most, const scenes::Scene& scene, const CellGrid& grid);
 
   /// Returns whether the limit will be exceeded, given that `made` references exist.

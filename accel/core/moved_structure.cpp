@@ -35,9 +35,9 @@ void MovedStructure::describe(TreeQuality& tree) const {
 
 void MovedStructure::update() {
   if (built->update(below(*this))) return;
-  throw UnsupportedError(fmt::format(
-      "the structure cannot be updated from the first frame of {}; it must be built anew",
-      target->name));
+  throw UnsupportedError(
+      fmt::format("the structure cannot be updated from the first frame of {}; it must be rebuilt",
+                  target->name));
 }
 
 }  // namespace beambench::accel

@@ -11,10 +11,10 @@
 
 namespace beambench::accel {
 
-/// A structure and the moving scene that it is built over.
+/// A structure and the scene that it is built over.
 struct MovingStructure {
   const scenes::Scene* target;            ///< the scene in its present frame
-  std::unique_ptr<scenes::Scene> moving;  ///< null where the scene does not move
+  std::unique_ptr<scenes::Scene> moving;  ///< null if the scene does not move
   std::unique_ptr<Accelerator> built;
 };
 
@@ -32,9 +32,10 @@ class MovedStructure : private MovingStructure, public ForwardingAccelerator, pu
 
   /// Moves the structure's scene to the coordinates of the current frame.
   void place();
-  /// Describes the structure, if it is a hierarchy.
+  /// Describes the nodes of the structure if it is a hierarchy.
   void describe(TreeQuality& tree) const override;
-  /// Updates the structure to them. Throws UnsupportedError if it must be rebuilt.
+  /// Updates the structure to the coordinates of its scene. Throws UnsupportedError if it must be
+  /// rebuilt.
   void update();
 };
 

@@ -66,7 +66,7 @@ bool same_surface(const scenes::Scene& scene, scenes::PrimitiveId a, scenes::Pri
 
 bool sphere_overlaps(const scenes::Sphere& sphere, const Box& box, double tolerance) {
   double nearest = 0.0;   // squared distance from the center to the box
-  double farthest = 0.0;  // and to its farthest corner
+  double farthest = 0.0;  // squared distance to the box's farthest corner
   for (int axis = 0; axis < 3; ++axis) {
     const double below = box.lower[axis] - sphere.center[axis];
     const double above = sphere.center[axis] - box.upper[axis];
@@ -110,7 +110,7 @@ bool cone_overlaps(const scenes::Cone& cone, const Box& box, double tolerance) {
                   glm::max(base + base_extent, apex + apex_extent)};
   if (!boxes_meet(discs, box, tolerance)) return false;
 
-  // Far from the axis?
+  // No overlap if the box is far from the axis.
   const glm::dvec3 center = (box.lower + box.upper) * 0.5;
   const double half_diagonal = 0.5 * glm::length(box.upper - box.lower);
   const double along = std::clamp(glm::dot(center - base, unit_axis), 0.0, length);
@@ -118,7 +118,7 @@ bool cone_overlaps(const scenes::Cone& cone, const Box& box, double tolerance) {
   const double largest_radius = std::max(cone.base_radius, cone.apex_radius);
   if (from_axis > half_diagonal + largest_radius + tolerance) return false;
 
-  // Beyond one end, or wholly inside the solid (which is convex)?
+  // No overlap if the box is beyond one end or wholly inside the solid, which is convex.
   bool all_below = true;
   bool all_above = true;
   bool all_inside = true;
@@ -130,8 +130,8 @@ bool cone_overlaps(const scenes::Cone& cone, const Box& box, double tolerance) {
     const double distance = glm::length(point - (base + unit_axis * height));
     const double taper = (static_cast<double>(cone.apex_radius) - cone.base_radius) / length;
     const double radius = cone.base_radius + height * taper;
-    // The distance to a slanted surface is less than the distance within the disc; widen by the
-    // slope.
+    // The distance to a slanted surface is less than the distance within the disc, so widen the
+    // tolerance by the slope.
     const double margin = tolerance * (1.0 + std::abs(taper));
     all_below = all_below && height < -tolerance;
     all_above = all_above && height > length + tolerance;
@@ -142,7 +142,7 @@ bool cone_overlaps(const scenes::Cone& cone, const Box& box, double tolerance) {
 
 namespace {
 
-/// Rounding error of the axis tests relative to their products, with ample margin.
+/// The rounding error of the axis tests relative to their products, with an ample margin.
 constexpr double kRounding = 0x1p-48;
 
 /// Returns one bit for each of the box's 6 face, 12 edge and 8 corner planes that the point is

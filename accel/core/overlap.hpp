@@ -15,9 +15,10 @@ struct Box {
   glm::dvec3 upper;
 };
 
-/// Returns whether the surface comes within `tolerance` of the box. Conservative where noted: true
-/// for some surfaces slightly farther away, but never false for one within. The box is solid, the
-/// primitive hollow: a box entirely inside a sphere does not overlap it.
+/// Returns whether the surface comes within `tolerance` of the box. Where noted, the test is
+/// conservative: it may return true for surfaces slightly farther away, but never returns false for
+/// a surface within the tolerance. The box is solid and the primitive hollow: a box entirely inside
+/// a sphere does not overlap it.
 bool surface_overlaps(const scenes::Scene& scene, scenes::PrimitiveId id, const Box& box,
                       double tolerance);
 
@@ -31,8 +32,8 @@ bool sphere_overlaps(const scenes::Sphere& sphere, const Box& box, double tolera
 
 /// Tests a polygon; exact except for the widening at corners. The polygon's corners are first
 /// tested against the 6 face, 12 edge and 8 corner planes of the box (Voorhies, Graphics Gems III,
-/// 1992; as outcodes: Green and Hatch, Graphics Gems V, 1995); the rest is decided triangle by
-/// triangle of its surface, so that concave polygons need no special case.
+/// 1992; as outcodes: Green and Hatch, Graphics Gems V, 1995); if this does not decide, the
+/// triangles of the polygon's surface are tested, so that concave polygons need no special case.
 bool polygon_overlaps(const scenes::Scene& scene, const scenes::Polygon& polygon, const Box& box,
                       double tolerance);
 

@@ -44,7 +44,7 @@ inline std::vector<scenes::Bounds> padded_primitive_bounds(const scenes::Scene& 
 }
 
 /// Returns half the surface area of a box, which is proportional to the probability that a ray that
-/// meets an enclosing box also meets this one. 0 for an empty box.
+/// meets an enclosing box also meets this one. Returns 0 for an empty box.
 inline double half_area(const scenes::Bounds& bounds) {
   const glm::dvec3 size(bounds.extent());
   return size.x * (size.y + size.z) + size.y * size.z;

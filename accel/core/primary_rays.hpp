@@ -1,5 +1,6 @@
 #pragma once
-// The primary rays of a camera at a resolution: the one place where pixels become directions.
+// The primary rays of a camera at a resolution: the only place where pixels are converted to
+// directions.
 
 #include <cstddef>
 #include <vector>
@@ -13,15 +14,16 @@
 
 namespace beambench::accel {
 
-/// Returns the reflection of `incoming` in a mirror with this unit normal; its length is kept.
+/// Returns the reflection of `incoming` in a mirror with this unit normal, without changing its
+/// length.
 inline glm::dvec3 mirrored(const glm::dvec3& incoming, const glm::dvec3& normal) {
   return incoming - 2.0 * glm::dot(incoming, normal) * normal;
 }
 
 /// Returns the positions of the samples of a pixel, as offsets in [0, 1]^2 from its top left
-/// corner: 1 is the center; 5 the four corners and the center (thesis, section 5.3.2; corners are
-/// not shared between pixels); any other square number n x n is a regular grid of cell centers, row
-/// by row. Throws InputError for other counts.
+/// corner: 1 is the center; 5 are the four corners and the center (thesis, section 5.3.2; corners
+/// are not shared between pixels); any other square number n x n is a regular grid of cell centers,
+/// row by row. Throws InputError for other counts.
 std::vector<glm::dvec2> sample_offsets(int samples);
 
 /// The rays of an image, computed on demand. Directions satisfy forward . d = 1 before rounding, so
@@ -44,13 +46,13 @@ class PrimaryRays {
                               const glm::dvec3& all_down) const;
 
   /// Returns the rays through the corners of these pixels, one for each, as an image that is one
-  /// pixel wider and higher.
+  /// pixel wider and one higher.
   PrimaryRays at_corners() const;
 
   int width() const { return width_; }
   int height() const { return height_; }
   int samples() const { return static_cast<int>(offsets_.size()); }
-  /// width * height * samples.
+  /// Returns width * height * samples.
   std::size_t count() const;
 
   /// Returns the ray of a sample; (0, 0) is the top left pixel.
@@ -81,9 +83,10 @@ class PrimaryRays {
   }
 
   const glm::vec3& eye() const { return eye_; }
-  /// Unit view direction.
+  /// Returns the view direction, with unit length.
   const glm::dvec3& forward() const { return forward_; }
-  /// direction(px, py) = top_left + right * px + down * py, before rounding.
+  /// Returns the direction of the top left corner. Before rounding,
+  /// direction(px, py) = top_left + right * px + down * py.
   const glm::dvec3& top_left() const { return top_left_; }
   const glm::dvec3& right() const { return right_; }
   const glm::dvec3& down() const { return down_; }

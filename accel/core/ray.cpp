@@ -17,8 +17,9 @@ constexpr float kLargestCoordinate = 1e9F;
 
 void require_component(const char* what, char axis, float value, float limit) {
   if (!std::isfinite(value) || std::abs(value) > limit) {
-    throw InputError(fmt::format("ray {}.{} is {}; expected a finite number of size at most {:g}",
-                                 what, axis, value, limit));
+    throw InputError(
+        fmt::format("ray {}.{} is {}; expected a finite number of magnitude at most {:g}", what,
+                    axis, value, limit));
   }
 }
 
@@ -36,9 +37,10 @@ void require_valid(const Ray& ray) {
         ray.direction == glm::vec3(0.0F)
             ? "zero"
             : fmt::format("({}, {}, {})", ray.direction.x, ray.direction.y, ray.direction.z);
-    throw InputError(fmt::format(
-        "ray direction is {}; expected a component of size {:g} or more: give a longer direction",
-        found, kShortestDirection));
+    throw InputError(
+        fmt::format("ray direction is {}; expected a component of magnitude {:g} or more: give a "
+                    "longer direction",
+                    found, kShortestDirection));
   }
   if (!(ray.t_min >= 0.0F) || std::isnan(ray.t_max)) {
     throw InputError(fmt::format("ray interval is [{}, {}]; expected t_min >= 0 and a number t_max",

@@ -16,8 +16,8 @@ inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// components soon become subnormal and lose digits, or count as 0 where subnormals are flushed.
 inline constexpr float kShortestDirection = 1e-30F;
 
-/// The points origin + t * direction with t in the interval of `in_interval`. The direction need
-/// not have unit length; t is in units of its length (view depth for primary rays).
+/// The points origin + t * direction with t in the ray's interval (`in_interval`). The direction
+/// need not have unit length; t is in units of its length (view depth for primary rays).
 struct Ray {
   glm::vec3 origin{0.0F};
   float t_min = 0.0F;
@@ -25,10 +25,10 @@ struct Ray {
   float t_max = kInfinity;
 };
 
-/// Returns whether t is in the ray's interval; the same rule for structures, oracle, exact search
-/// and hits files. A hit counts if its t, rounded once to float, is finite and lies in the closed
-/// interval [t_min, t_max]. So a ray whose t_max is the t of its own hit still has that hit; a t
-/// beyond the largest float is never a hit.
+/// Returns whether t is in the ray's interval; the rule is the same for structures, the oracle,
+/// exact search and hit files. A hit counts if its t, rounded once to float, is finite and lies in
+/// the closed interval [t_min, t_max]. So a ray whose t_max is the t of its own hit still has that
+/// hit; a t beyond the largest float is never a hit.
 inline bool in_interval(const Ray& ray, float t) {
   return t >= ray.t_min && t <= ray.t_max && t <= std::numeric_limits<float>::max();
 }
@@ -51,7 +51,7 @@ constexpr bool precedes(const Hit& a, const Hit& b) {
   return a.t < b.t || (a.t == b.t && a.primitive < b.primitive);
 }
 
-/// Throws InputError when a number is NaN, an origin or direction is not finite, a coordinate is
+/// Throws InputError if a number is NaN, an origin or direction is not finite, a coordinate is
 /// beyond 1e9, all components of the direction are smaller than kShortestDirection, or t_min < 0.
 /// Called wherever rays come from outside; kernels rely on it.
 void require_valid(const Ray& ray);

@@ -13,16 +13,16 @@
 
 namespace beambench::accel {
 
-/// The rays [first, first + count) of a batch, whose lines pass through one common point, up to
-/// rounding. Neighbors in the list are usually neighbors in the image.
+/// The rays [first, first + count) of a batch. Up to rounding, their lines pass through one common
+/// point. Neighbors in the list are usually neighbors in the image.
 struct Pencil {
   std::size_t first;
   std::size_t count;
   /// A point light, or the virtual eye of a planar mirror.
   glm::dvec3 apex;
   /// Whether the rays run toward the apex, which is at t = 1, and end there or slightly before it,
-  /// as shadow rays do: t in [0, t_max]. Otherwise they run away from it, t in [0, infinity], and
-  /// begin at some distance from it, as reflected rays begin at the mirror. A ray may have a
+  /// as shadow rays do: t in [0, t_max]. Otherwise they run away from the apex, t in [0, infinity],
+  /// and begin at some distance from it, as reflected rays begin at the mirror. A ray may have a
   /// shorter interval, such as a shadow ray that continues behind glass; structures must not return
   /// hits beyond it.
   bool toward;
@@ -35,7 +35,7 @@ struct Pencil {
 /// The pencils of one extended light, such as the samples of an area light: the pencils [first,
 /// first + count) of a batch, consecutive in its list. All are `toward`, and their apexes lie close
 /// together. Their rays begin at the same origins in the same order, at t = 0, and end at the apex
-/// or at most `surface_lift` before it. So whatever all rays from an origin to the apexes meet, or
+/// or at most `surface_lift` before it. So whatever all rays from an origin to the apexes hit, or
 /// all miss, needs to be found only once.
 struct PencilBundle {
   std::size_t first;
@@ -62,8 +62,8 @@ struct BatchMarks {
 };
 
 /// Rays and the pencils among them, which are ordered by `first` and do not overlap. Pencils are
-/// hints: a structure may ignore them, they change hits only within what `Conformance` allows, and
-/// the rays have the same bits with and without them.
+/// hints: a structure may ignore them. They change hits only within what `Conformance` allows, and
+/// the rays are the same, bit for bit, with and without them.
 struct RayBatch {
   std::span<const Ray> rays;
   std::span<const Pencil> pencils{};

@@ -9,11 +9,11 @@
 
 namespace beambench::accel {
 
-/// A view of one ray, an image or a batch, which must outlive it, as an argument outlives a call.
-/// Results are numbered from 0; those of an image as `HitBuffer` numbers its samples.
+/// A view of one ray, an image or a batch, which must outlive the view, as an argument outlives a
+/// call. Results are numbered from 0; the results of an image as `HitBuffer` numbers its samples.
 class RaySource {
  public:
-  // Implicit, so that a query accepts each of them directly.
+  // Implicit, so that a query accepts a ray, an image or a batch directly.
   RaySource(const Ray& ray) : ray_(&ray) {}
   RaySource(const PrimaryRays& image) : image_(&image) {}
   RaySource(const RayBatch& batch) : batch_(&batch) {}

@@ -22,7 +22,7 @@ void register_families(Registry& registry);
 std::unique_ptr<Accelerator> StructureChoice::build(const scenes::Scene& scene,
                                                     const Workload& workload) const {
   if (!info_->support.includes(scene)) {
-    throw UnsupportedError(fmt::format("'{}' does not take all kinds of primitives that {} has",
+    throw UnsupportedError(fmt::format("'{}' does not support all kinds of primitives in {}",
                                        info_->name, scene.name));
   }
   require_build_memory(*this, scene, workload);
@@ -63,7 +63,7 @@ std::span<const CounterInfo> common_counters() {
       {"empty_leaves", "leaves entered that hold no reference"},
       {"box_tests", "ray-box tests"},
       {"primitive_tests", "ray-primitive tests"},
-      {"sphere_tests", "of these: tests of spheres, where a structure counts by kind"},
+      {"sphere_tests", "tests of spheres, if the structure counts tests by kind of primitive"},
       {"cone_tests", "tests of cones and cylinders"},
       {"polygon_tests", "tests of polygons, or of their triangles where these are tested singly"},
   });
@@ -114,7 +114,7 @@ void Registry::require_own_parameter(const StructureInfo& structure,
   std::vector<std::string> valid;
   for (const ParameterInfo& info : structure.parameters) valid.push_back(info.name);
   throw InputError(
-      fmt::format("{}: there is no parameter '{}', which is one of {}; the valid ones are {}",
+      fmt::format("{}: there is no parameter '{}', which belongs to {}; the valid ones are {}",
                   structure.name, excerpt(name), fmt::join(owners, ", "), fmt::join(valid, ", ")));
 }
 

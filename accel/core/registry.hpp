@@ -24,10 +24,10 @@ enum class Conformance {
   kBaseline    ///< returns only misses by design (`null`)
 };
 
-/// The expected use of a structure, as far as it is known; determines `auto` parameters, but never
-/// hits.
+/// The expected use of a structure, as far as it is known; it determines `auto` parameters, but
+/// never hits.
 struct Workload {
-  scenes::Camera camera;  ///< of the primary rays, or of those that spawn the secondary rays
+  scenes::Camera camera;  ///< of the primary rays, or of those that spawn the traced rays
   std::size_t rays;       ///< approximate number of rays
   int threads = 1;        ///< for tracing an image; 0: see `thread_count`
   bool has_lists = true;  ///< false if only images are traced
@@ -46,8 +46,8 @@ struct StructureInfo {
   Conformance conformance;
   std::vector<ParameterInfo> parameters;
   /// Builds the structure over a scene, which must outlive it, for a workload. Throws InputError if
-  /// the parameters do not suit the scene (a cap is exceeded); the message names the parameter to
-  /// change.
+  /// the parameters do not suit the scene (for example, a cap is exceeded); the message names the
+  /// parameter to change.
   std::function<std::unique_ptr<Accelerator>(const scenes::Scene&, const Parameters&,
                                              const Workload&)>
       build;
@@ -68,13 +68,14 @@ class StructureChoice {
   /// Returns the name with the parameters that are not at their defaults.
   std::string short_label() const { return parameters_.short_label(); }
 
-  /// Returns whether it is built over a scene's first frame and then updated (`update_parameter`).
+  /// Returns whether the structure is built over a scene's first frame and then updated
+  /// (`update_parameter`).
   bool updates() const;
 
-  /// Builds the structure; a MovedStructure if `updates()`. Throws UnsupportedError if it does not
-  /// support the scene's primitives; InputError also if it is expected to take more memory than is
-  /// available (`require_build_memory`); std::logic_error if it does not read a parameter that was
-  /// set.
+  /// Builds the structure; a MovedStructure if `updates()`. Throws UnsupportedError if the
+  /// structure does not support the scene's primitives; InputError also if it is expected to take
+  /// more memory than is available (`require_build_memory`); std::logic_error if its build does not
+  /// read a parameter that was set.
   std::unique_ptr<Accelerator> build(const scenes::Scene& scene, const Workload& workload) const;
   /// Builds the structure for the usual workload.
   std::unique_ptr<Accelerator> build(const scenes::Scene& scene) const;
@@ -84,9 +85,9 @@ class StructureChoice {
   Parameters parameters_;
 };
 
-/// Returns the flag `update` of structures that can be updated (`Accelerator::update`). With it, a
-/// structure over a scene that has moved is built over the first frame and updated to the current
-/// one instead of being rebuilt.
+/// Returns the flag `update` of structures that can be updated (`Accelerator::update`). With the
+/// flag, a structure over a scene that has moved is built over the first frame and updated to the
+/// current frame instead of being rebuilt.
 ParameterInfo update_parameter();
 
 /// The meaning of a counter; printed by `beambench list --counters`.
@@ -117,8 +118,8 @@ class Registry {
   std::vector<StructureChoice> choose_list(std::string_view text) const;
 
  private:
-  /// Refuses a parameter that only other structures have, and names them. Other unknown parameters
-  /// are left to `Parameters`.
+  /// Throws InputError for a parameter that only other structures have, and names these structures.
+  /// Other unknown parameters are left to `Parameters`.
   void require_own_parameter(const StructureInfo& structure, const std::string& name) const;
 
   std::vector<StructureInfo> structures_;
@@ -129,7 +130,7 @@ class Registry {
 const Registry& registry();
 
 /// Adds the structures of a plug-in, already validated (harness/plugin/validation.hpp), to
-/// `registry()`. Must be called before the first choice: choices point into the registry.
+/// `registry()`. Must be called before the first choice, because choices point into the registry.
 void register_plugin_structures(std::vector<StructureInfo> structures);
 
 }  // namespace beambench::accel

@@ -11,7 +11,7 @@ namespace beambench::accel {
 
 /// The part of a ray inside a box, with its ends rounded to float like the t of a hit: rounding is
 /// monotonic, so the rounded t of every hit in the box is in this interval. Empty (enter > exit) if
-/// the ray misses the box within its own interval.
+/// the ray misses the box within the ray's interval.
 struct BoxInterval {
   float enter;
   float exit;
@@ -32,7 +32,7 @@ class SlabRay {
     }
   }
 
-  // Always inlined: as a call, it made traces with goldsmith-salmon 10% to 40% slower.
+  // Always inlined: as a call, it slowed traces with goldsmith-salmon by 10% to 40%.
   [[gnu::always_inline]] BoxInterval interval(const scenes::Bounds& box, float t_min,
                                               float t_max) const {
     double enter = t_min;

@@ -6,8 +6,8 @@
 
 namespace beambench::accel {
 
-/// The ray sources and the kinds of primitives that a structure supports. If it lacks one that is
-/// requested, records have the verdict `unsupported`: neither a time nor an error.
+/// The ray sources and the kinds of primitives that a structure supports. If a requested one is not
+/// supported, records have the verdict `unsupported`, without a time or an error.
 struct Support {
   bool single_rays = true;
   bool images = true;
@@ -16,7 +16,7 @@ struct Support {
   bool cones = true;
   bool polygons = true;
 
-  /// Returns whether it supports every kind of primitive in the scene.
+  /// Returns whether the structure supports every kind of primitive in the scene.
   bool includes(const scenes::Scene& scene) const {
     return (spheres || scene.spheres.empty()) && (cones || scene.cones.empty()) &&
            (polygons || scene.polygons.empty());

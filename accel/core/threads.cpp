@@ -32,7 +32,8 @@ void on_threads(int threads, const std::function<void()>& work) {
 void on_default_threads(const std::function<void()>& work) {
   const int count = thread_count(0);
   if (count >= tbb::info::default_concurrency()) return work();
-  // Not a global_control: the lowest of several applies, so work could not request more threads.
+  // Not a global_control: of several, the lowest limit applies, so `work` could not request more
+  // threads.
   tbb::task_arena arena(count);
   arena.execute(work);
 }

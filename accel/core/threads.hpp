@@ -8,18 +8,18 @@
 
 namespace beambench::accel {
 
-/// Returns the number of threads for `requested`. 0 is the default: one for each core that the
-/// process may use, but no more than its CPU quota keeps busy (`threads_within`).
+/// Returns the number of threads for `requested`. 0 requests the default: one thread for each core
+/// that the process may use, but no more than its CPU quota keeps busy (`threads_within`).
 int thread_count(int requested);
 
 /// Runs `work` in a TBB arena of that many threads (`thread_count`), which may exceed the number of
 /// cores. While an Embree device exists, however, TBB allows no more threads than that device has
-/// (`Workload::threads`) and no more than there are cores. The threads compute in the calling
-/// thread's floating-point mode.
+/// (`Workload::threads`) and no more threads than there are cores. The threads compute in the
+/// calling thread's floating-point mode.
 void on_threads(int threads, const std::function<void()>& work);
 
 /// Runs `work`, sharing its TBB tasks among the default number of threads unless it requests
-/// another. Without a CPU quota, TBB does this anyway.
+/// another number. Without a CPU quota, TBB does this anyway.
 void on_default_threads(const std::function<void()>& work);
 
 /// Calls `work(begin, end)` for ranges that together are [0, rows), on the threads of the calling

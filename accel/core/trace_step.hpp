@@ -13,20 +13,20 @@
 
 namespace beambench::accel {
 
-/// A ray-primitive test and its result. The test accepts only hits up to the best one so far; a
-/// primitive beyond it counts as missed.
+/// A ray-primitive test and its result. The test accepts only hits up to the best hit so far; a
+/// primitive beyond that hit counts as missed.
 struct TestedPrimitive {
   scenes::PrimitiveId primitive;
-  float t;  ///< kMiss (canonical_ray.hpp) where the test found nothing
+  float t;  ///< kMiss (canonical_ray.hpp) if the test found nothing
 };
 
 /// A cell, node or leaf that the ray entered.
 struct TraceStep {
   std::string_view place = "scene";  ///< the family's word for it, such as "leaf"
   std::uint64_t index = 0;           ///< its number in the structure
-  int level = 0;                     ///< the root being level 1; 0 if there are no levels
+  int level = 0;                     ///< the root has level 1; 0 if there are no levels
   std::optional<Box> box{};
-  double t_enter = 0.0;  ///< the ray's interval in it, as the traversal computed it
+  double t_enter = 0.0;  ///< the ray's interval in the cell, as computed by the traversal
   double t_exit = 0.0;
   std::vector<TestedPrimitive> tests{};  ///< in the order they were made
 };
@@ -39,7 +39,7 @@ class StepRecorder : public NoCounting {
     steps_.push_back(make());
   }
   void tested(scenes::PrimitiveId primitive, float t) {
-    if (steps_.empty()) steps_.emplace_back();  // of a structure that reports no places
+    if (steps_.empty()) steps_.emplace_back();  // for a structure that reports no places
     steps_.back().tests.push_back({primitive, t});
   }
 

@@ -20,10 +20,11 @@ namespace beambench::accel {
 ///     template <class Counting> std::optional<Hit> find_closest(const Ray&, Counting&) const;
 ///     template <class Counting> bool find_any(const Ray&, Counting&) const;
 ///
-/// A loop over rays calls these directly, without virtual calls in a traversal or between rays.
+/// A loop over rays calls these functions directly, without virtual calls in a traversal or between
+/// rays.
 ///
-/// The structure is its own inspector and shows the paths of rays; it may override more of
-/// `Inspector`.
+/// The structure is its own inspector and shows the paths of rays; it may override more functions
+/// of `Inspector`.
 template <class Structure>
 class TraversalAccelerator : public Accelerator, public Inspector {
  public:

@@ -57,8 +57,8 @@ double area_of(const scenes::Scene& scene, scenes::PrimitiveId id) {
   return area;
 }
 
-/// Calls `put(share, angle)` for evenly distributed points of a surface of revolution: the share of
-/// the surface up to the point, and an angle that advances by the golden angle.
+/// Calls `put(share, angle)` for evenly distributed points of a surface of revolution: with the
+/// share of the surface up to the point, and an angle that advances by the golden angle.
 template <class Put>
 void for_each_point(const Put& put) {
   const double golden = std::numbers::pi * (3.0 - std::sqrt(5.0));
@@ -79,7 +79,7 @@ std::vector<glm::dvec3> points_of(const scenes::Sphere& sphere) {
   return points;
 }
 
-/// The area per unit of height is proportional to the radius.
+/// Returns points of a cone's surface. Its area per unit of height is proportional to the radius.
 std::vector<glm::dvec3> points_of(const scenes::Cone& cone) {
   const glm::dvec3 base(cone.base);
   const glm::dvec3 axis = glm::dvec3(cone.apex) - base;
@@ -98,7 +98,7 @@ std::vector<glm::dvec3> points_of(const scenes::Cone& cone) {
   return points;
 }
 
-/// Measures the part of a primitive's surface in boxes.
+/// Measures how much of a primitive's surface lies in a box.
 class Surface {
  public:
   Surface(const scenes::Scene& scene, scenes::PrimitiveId id)
@@ -153,7 +153,8 @@ class Overlap {
           const Surface& surface, const scenes::Bounds& bounds)
       : entries_(entries), places_(places), surface_(surface), bounds_(bounds) {}
 
-  /// Returns the sum of cost x area inside over all nodes that the primitive is not below.
+  /// Returns the sum, over all nodes without the primitive below them, of the node's cost times the
+  /// primitive's area in its box.
   double weighted_area() const {
     double sum = 0.0;
     for (std::uint32_t node = 0; node < entries_.size();) {
@@ -171,7 +172,7 @@ class Overlap {
     return found != places_.end() && *found < entry.last;
   }
 
-  /// Returns 0 for a node that the primitive is below.
+  /// Returns the primitive's area in the box of a node; 0 if the primitive is below the node.
   double area_in(const TreeQuality::Entry& entry) const {
     if (!meets(entry.box, bounds_) || is_below(entry)) return 0.0;
     return surface_.area_in({glm::dvec3(entry.box.lower), glm::dvec3(entry.box.upper)});
@@ -183,7 +184,7 @@ class Overlap {
   scenes::Bounds bounds_;
 };
 
-/// A primitive that represents `weight` of its size.
+/// A primitive that represents `weight` primitives of its area.
 struct Sample {
   scenes::PrimitiveId id;
   double weight;

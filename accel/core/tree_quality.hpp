@@ -14,7 +14,7 @@ namespace beambench::accel {
 
 /// Computes two figures of a hierarchy, by the cost model of Aila, Karras and Laine ("On quality
 /// metrics of bounding volume hierarchies", 2013): 0.6 for testing the box of each child of an
-/// interior node (hence their 1.2 for a binary node) and 1 for each primitive of a leaf.
+/// interior node (hence their 1.2 for a binary node) and 1 for testing each primitive of a leaf.
 /// - `sah_cost`: the costs of all nodes, weighted by their areas over that of the root;
 /// - `epo` (end-point overlap): the costs of all nodes, weighted by the share of the scene's
 ///   surface that lies in their boxes but does not belong to the primitives below them.
@@ -30,8 +30,8 @@ class TreeQuality {
   bool empty() const { return entries_.empty(); }
   double sah_cost() const;
   /// Returns the end-point overlap, exact for polygons in scenes of at most `kMostSamples`
-  /// primitives. In larger scenes, that many are sampled at equal steps of their cumulative area.
-  /// The surfaces of spheres and cones are represented by `kSolidPoints` points.
+  /// primitives. In larger scenes, that many primitives are sampled at equal steps of their
+  /// cumulative area. The surfaces of spheres and cones are represented by `kSolidPoints` points.
   double epo(const scenes::Scene& scene) const;
 
   static constexpr std::size_t kMostSamples = 4096;
@@ -43,7 +43,7 @@ class TreeQuality {
     std::uint32_t end = 0;       ///< index just past its subtree
     std::uint32_t children = 0;  ///< 0 for a leaf
     std::size_t first = 0;       ///< the subtree's first position in the list of primitives
-    std::size_t last = 0;        ///< just past its last
+    std::size_t last = 0;        ///< just past the subtree's last position
 
     double cost() const;
   };
@@ -52,7 +52,7 @@ class TreeQuality {
 
  private:
   std::vector<Entry> entries_;
-  std::vector<std::uint32_t> open_;  ///< entries from the root to the one being described
+  std::vector<std::uint32_t> open_;  ///< entries from the root to the node being described
   std::vector<scenes::PrimitiveId> primitives_;
 };
 

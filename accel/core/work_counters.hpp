@@ -30,8 +30,9 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::
 inline constexpr std::array<std::string_view, 3> kTestNames{"sphere_tests", "cone_tests",
                                                             "polygon_tests"};
 
-/// The policy of timed code: nothing is counted, no step recorded. A traversal calls its policy
-/// - for each piece of work it does (`add`; for ray-primitive tests `add_tests`),
+/// The policy of timed code: no work is counted and no step is recorded. A traversal calls its
+/// policy
+/// - for each piece of work that it does (`add`; for ray-primitive tests, `add_tests`),
 /// - for each place it enters (`enter`): `make()` returns the `TraceStep` and is called only by
 ///   `StepRecorder`,
 /// - for each ray-primitive test in that place, with its t or kMiss (`tested`).

@@ -21,8 +21,8 @@ Coherence parse_coherence(const std::string& name) {
 }
 
 /// Deviates from the contract where Embree does: of several hits at one point it may return any,
-/// not the one with the lowest id, and without `robust` a triangle is hit only at t > t_min, not at
-/// t_min itself. No work is counted, because Embree reports none.
+/// not necessarily the one with the lowest id, and without `robust` it misses triangles at t =
+/// t_min. No work is counted, because Embree reports none.
 class EmbreeStructure : public Accelerator {
  public:
   EmbreeStructure(const scenes::Scene& scene, RTCBuildQuality quality, bool robust,
@@ -61,7 +61,7 @@ class EmbreeStructure : public Accelerator {
     });
   }
 
-  /// Works only if the structure was built for a moving scene.
+  /// Updates the structure, if it was built for a moving scene.
   bool update(const scenes::Scene& scene) override {
     if (moves_) scene_.update(scene);
     return moves_;
@@ -82,8 +82,8 @@ class EmbreeStructure : public Accelerator {
   }
 
  private:
-  /// Calls `trace(first, count)` for a list of rays: once on one thread, or for parts that consist
-  /// of whole packets and streams.
+  /// Calls `trace(first, count)` for the parts of a list of rays. On one thread, the list is one
+  /// part; otherwise parts consist of whole packets and streams.
   template <class Trace>
   static void for_parts(std::size_t rays, int threads, const Trace& trace) {
     constexpr std::size_t kPart = 4096;
@@ -151,7 +151,7 @@ void register_embree(Registry& registry) {
                          "robust=false only"),
         flag_parameter("robust", true,
                        "watertight traversal; without it, Embree loses rays at vertices and "
-                       "edges and fails verification where they matter"),
+                       "edges and fails verification where these rays matter"),
         choice_parameter("coherent", "auto", {"auto", "true", "false"},
                          "flag neighboring rays as coherent, so that Embree keeps packets "
                          "together; auto: for images and any-hit queries, but not for closest "

@@ -37,7 +37,7 @@ class Block {
     std::fill_n(query.ray.mask, N, std::numeric_limits<unsigned>::max());
   }
 
-  /// The blocks whose top row of pixels is `y`.
+  /// Prepares the blocks whose top row of pixels is `y`.
   Block(const PrimaryRays& rays, int y, int sample) : rays_(rays), y_(y), sample_(sample) {
     const Doubles doubles;
     for (std::size_t lane = 0; lane < N; lane += hn::Lanes(doubles)) {
@@ -51,8 +51,8 @@ class Block {
   }
 
   /// Sets the remaining values for the block whose left column of pixels is `x`. As Embree
-  /// requires, `valid` is -1 for each lane on the image and 0 for the others, which get an empty
-  /// interval.
+  /// requires, `valid` is -1 for each lane on the image and 0 for all other lanes, which get an
+  /// empty interval.
   void aim(int x, Query& query, int* valid) const {
     const Floats floats;
     const hn::RebindToSigned<Floats> numbers;
@@ -73,7 +73,7 @@ class Block {
     }
   }
 
-  /// Always inline, because otherwise GCC 12 warns of an infinite loop.
+  /// Writes the hits of a block. Always inline, because otherwise GCC 12 warns of an infinite loop.
   HWY_INLINE void write(const OwnerTable& table, const Query& query, int x,
                         const HitSpan& buffer) const {
     alignas(64) std::array<scenes::PrimitiveId, N> owners;
@@ -131,8 +131,8 @@ class Block {
       const auto down = hn::Load(doubles, &down_[static_cast<std::size_t>(axis)][first]);
       return hn::DemoteTo(rounded, hn::Add(across, down));
     };
-    // Stored in one piece, as Embree loads it, so that the load does not wait for two stores.
-    // `Combine` is found by its arguments' namespace, since the scalar target has none.
+    // The register is stored as a whole, as Embree loads it, so that the load does not wait for two
+    // stores. `Combine` is found by its arguments' namespace, since the scalar target lacks it.
     if constexpr (hn::MaxLanes(Doubles()) == hn::MaxLanes(Floats())) {
       return some(lane);
     } else {
@@ -222,9 +222,8 @@ void trace_single(const NativeScene& scene, Context& context, const PrimaryRays&
 #if BEAMBENCH_EMBREE_MAJOR == 3
 void trace_stream(const NativeScene& scene, Context& context, const PrimaryRays& rays,
                   const Band& band, const HitSpan& buffer) {
-  // Embree copies rays of other packet widths one by one
-  // (kernels/bvh/bvh_intersector_stream_filters, filterSOA); its own width is that of its
-  // registers: 4, 8 or 16.
+  // Embree's own packet width is that of its registers: 4, 8 or 16. It copies the rays of other
+  // packets one by one (kernels/bvh/bvh_intersector_stream_filters, filterSOA).
   constexpr int kLanes = std::max(4, static_cast<int>(hn::MaxLanes(hn::CappedTag<float, 16>())));
   using Block = Block<kLanes>;
   constexpr std::size_t kBlocks = kTile * kTile / kLanes;

@@ -1,6 +1,6 @@
 #pragma once
 // Traces whole images with Embree. Rays are generated and hits are written by SIMD, compiled for
-// several instruction sets, so that measurements show Embree and not the generation of its rays.
+// several instruction sets, so that measurements show Embree and not the generation of rays.
 
 #include <cstdint>
 
@@ -10,7 +10,7 @@
 
 namespace beambench::accel::embree {
 
-/// Rows of an image, from `top` up to, not including, `bottom`.
+/// Rows of an image, from `top` up to but not including `bottom`.
 struct Band {
   int top;
   int bottom;
@@ -22,11 +22,12 @@ inline constexpr int kTile = 16;
 
 /// Returns the number of rows of tiles in an image.
 int tile_rows(const PrimaryRays& rays);
-/// Returns the rows of pixels in tile rows `begin` up to, not including, `end`.
+/// Returns the rows of pixels in tile rows `begin` up to but not including `end`.
 Band band_of(const PrimaryRays& rays, int begin, int end);
 
-/// The tracers of images for one instruction set. The rays are those of `PrimaryRays::ray`, bit for
-/// bit: computed in double by the same operations, each component rounded once to float.
+/// The image tracers for one instruction set. The rays equal those of `PrimaryRays::ray` bit for
+/// bit: they are computed in double by the same operations, and each component is rounded once to
+/// float.
 struct ImageTracers {
   /// `band` begins at a multiple of `kTile`.
   using Trace = void (*)(const NativeScene& scene, Context& context, const PrimaryRays& rays,
@@ -35,8 +36,8 @@ struct ImageTracers {
   Trace packet4;
   Trace packet8;
   Trace packet16;
-  /// All rays of a tile at once, in packets as wide as the instruction set's registers: Embree has
-  /// to copy all others first. nullptr in Embree 4.
+  /// All rays of a tile at once, in packets as wide as the instruction set's registers, because
+  /// Embree would first copy packets of any other width. nullptr in Embree 4.
   Trace stream;
   /// Generates the rays in packets of 16 and stores a miss for each, without a query.
   void (*untraced)(const OwnerTable& owners, const PrimaryRays& rays, const Band& band,

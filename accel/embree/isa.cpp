@@ -19,9 +19,9 @@ namespace {
 
 /// One instruction set by its three names.
 struct Isa {
-  const char* parameter;  ///< of isa_parameter
-  const char* config;     ///< in a device's configuration
-  const char* printed;    ///< by a verbose device
+  const char* parameter;  ///< value of isa_parameter
+  const char* config;     ///< name in a device's configuration
+  const char* printed;    ///< name that a verbose device prints
 };
 constexpr std::array<Isa, 3> kIsas{
     {{"avx512", "avx512", "AVX512"}, {"avx2", "avx2", "AVX2"}, {"sse4", "sse4.2", "SSE4.2"}}};
@@ -41,7 +41,7 @@ class CaptureStandardOutput {
   std::streambuf* before_;
 };
 
-/// Returns the words before `mark` on its line, without those up to a ": ".
+/// Returns the words before `mark` on its line, without those up to a word ":".
 std::vector<std::string> words_before(const std::string& text, std::string_view mark) {
   const std::size_t end = text.find(mark);
   if (end == std::string::npos) return {};
@@ -58,7 +58,8 @@ std::vector<std::string> words_before(const std::string& text, std::string_view 
   return words;
 }
 
-/// Returns the best of our instruction sets that the machine supports; nullptr if none.
+/// Returns the best of our instruction sets that the machine supports, or nullptr if it supports
+/// none.
 const Isa* best_of_machine() {
   const auto found =
       std::ranges::find_if(kIsas, [](const Isa& isa) { return is_available(isa.parameter); });
@@ -74,8 +75,8 @@ std::string device_config(const std::string& isa, int threads) {
 }
 
 std::string widest_target(const std::string& printed) {
-  // "Targets : SSE ... AVX512 (supported)" and below "SSE2 ... AVX512 (compile time enabled)",
-  // both from the narrowest to the widest.
+  // "Targets : SSE ... AVX512 (supported)" and below "SSE2 ... AVX512 (compile time enabled)", both
+  // ordered from the narrowest to the widest.
   const std::vector<std::string> supported = words_before(printed, "(supported)");
   std::string widest = "unknown";
   for (const std::string& target : words_before(printed, "(compile time enabled)")) {
@@ -104,7 +105,7 @@ void require_isa(const std::string& isa) {
     const auto requested = std::ranges::find(kIsas, isa, &Isa::parameter);
     if (requested == kIsas.end() || used == requested->printed) return;
     throw InputError(fmt::format(
-        "embree cannot be restricted to isa={}: it then runs on {}; choose isa=best or another",
+        "embree cannot be restricted to isa={}: it runs on {} instead; choose isa=best or another",
         isa, used));
   }
   const Isa* const best = best_of_machine();
@@ -112,8 +113,8 @@ void require_isa(const std::string& isa) {
   const auto found = std::ranges::find(kIsas, used, &Isa::printed);
   if (found <= best) return;
   throw InputError(fmt::format(
-      "Embree runs on {} although the machine has {}, so that ratios to it would mislead; install "
-      "an Embree with {}, or give isa=... to restrict embree and what it is compared with",
+      "Embree runs on {} although the machine has {}, so ratios to it would be misleading; install "
+      "an Embree with {}, or give isa=... to restrict embree and the structures compared with it",
       used, best->printed, best->printed));
 }
 

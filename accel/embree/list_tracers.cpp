@@ -24,7 +24,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <int N>
 using Valid = std::array<int, N>;
 
-/// Sets the values that Embree does not change and that rays do not have.
+/// Sets the values that Embree does not change and that do not come from the rays.
 template <class Rays>
 void prepare(Rays& out) {
   std::ranges::fill(out.time, 0.0F);
@@ -48,8 +48,8 @@ void fill_lanes(const Ray* rays, Rays& out) {
       out.tfar[i] = rays[i].t_max;
     }
   } else {
-    // A ray is origin, t_min, direction, t_max: eight floats. In groups of four floats: origins in
-    // the even lanes and directions in the odd ones, for half as many rays as lanes.
+    // A ray is eight floats: origin, t_min, direction, t_max. As groups of four floats, the even
+    // lanes hold origins and the odd lanes directions, for half as many rays as lanes.
     static_assert(sizeof(Ray) == 8 * sizeof(float));
     for (std::size_t lane = 0; lane < N; lane += hn::Lanes(floats)) {
       const float* const first = &rays[lane].origin.x;
@@ -68,8 +68,8 @@ void fill_lanes(const Ray* rays, Rays& out) {
   }
 }
 
-/// Calls `trace(first, count, rays)` for packets of N, of which the first `count` rays are from the
-/// list; the others have an empty interval.
+/// Calls `trace(first, count, rays)` for packets of N rays. The first `count` rays of a packet are
+/// from the list; the others have an empty interval.
 template <int N, class Trace>
 void for_each_packet(std::span<const Ray> rays, Trace trace) {
   const std::size_t whole = rays.size() / N * N;
@@ -94,7 +94,7 @@ void aim(const Ray* rays, Query& query) {
   std::ranges::fill(query.hit.geomID, RTC_INVALID_GEOMETRY_ID);
 }
 
-/// Writes the hits of a packet to a buffer; misses are at infinity, wherever their rays end.
+/// Writes the hits of a packet to a buffer; the t of a miss is infinity, wherever its ray ends.
 template <int N, class Query>
 HWY_INLINE void write(const OwnerTable& table, const Query& query, std::size_t first,
                       std::size_t count, const HitSpan& buffer) {
@@ -178,15 +178,14 @@ void any_hits_in_packets(const NativeScene& scene, Context& context, std::span<c
 }
 
 #if BEAMBENCH_EMBREE_MAJOR == 3
-/// Embree copies rays of other packet widths one by one
-/// (kernels/bvh/bvh_intersector_stream_filters, filterSOA); its own width is that of its registers:
-/// 4, 8 or 16.
+/// Embree's own packet width, that of its registers: 4, 8 or 16. It copies the rays of other
+/// packets one by one (kernels/bvh/bvh_intersector_stream_filters, filterSOA).
 constexpr int kStreamLanes =
     std::max(4, static_cast<int>(hn::MaxLanes(hn::CappedTag<float, 16>())));
 constexpr std::size_t kStream = 256;
 
-/// Traces a list stream by stream: `trace(queries)` for a whole stream, then `store(query, first,
-/// count)`.
+/// Traces a list stream by stream: calls `trace(packets)` for the packets of a stream, then
+/// `store(query, first, count)` for each packet.
 template <class Query, class Aim, class Trace, class Store>
 void trace_streams(std::span<const Ray> rays, std::vector<Query>& queries, Aim aim, Trace trace,
                    Store store) {

@@ -1,6 +1,6 @@
 #pragma once
 // Traces lists of rays with Embree. Packets are filled and results are stored by SIMD, compiled for
-// several instruction sets, so that measurements show Embree and not the packing of its rays.
+// several instruction sets, so that measurements show Embree and not the packing of rays.
 
 #include <cstdint>
 #include <span>
@@ -20,14 +20,14 @@ struct ListMode {
                    std::span<std::uint8_t> answers);
 };
 
-/// The tracers of lists for one instruction set.
+/// The list tracers for one instruction set.
 struct ListTracers {
   ListMode single;  ///< ray by ray
   ListMode packet4;
   ListMode packet8;
   ListMode packet16;
-  /// 256 rays at a time, in packets as wide as the instruction set's registers: Embree has to copy
-  /// all others first. nullptr in Embree 4.
+  /// 256 rays at a time, in packets as wide as the instruction set's registers, because Embree
+  /// would first copy packets of any other width. nullptr in Embree 4.
   ListMode stream;
   /// Fill packets of 16 and store a miss for each ray, without a query.
   void (*untraced_closest)(const OwnerTable& owners, std::span<const Ray> rays,

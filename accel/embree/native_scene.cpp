@@ -30,7 +30,8 @@ bool is_count(const std::vector<scenes::PrimitiveId>& ids) {
   return std::ranges::all_of(ids, [&](scenes::PrimitiveId id) { return id == expected++; });
 }
 
-/// Normalizes a ray's direction. Its t are multiplied by the former length, which is returned.
+/// Normalizes a ray's direction, multiplies the ray's t by the former length, and returns that
+/// length.
 float make_unit(RTCRay& ray) {
   const float length = glm::length(glm::vec3(ray.dir_x, ray.dir_y, ray.dir_z));
   ray.dir_x /= length;
@@ -55,7 +56,7 @@ NativeScene::NativeScene(const scenes::Scene& scene, RTCBuildQuality quality, bo
   int flags = robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE;
   if (moves) flags |= RTC_SCENE_FLAG_DYNAMIC;
   rtcSetSceneFlags(scene_.get(), static_cast<RTCSceneFlags>(flags));
-  if (moves) quality = RTC_BUILD_QUALITY_REFIT;  // of the geometries
+  if (moves) quality = RTC_BUILD_QUALITY_REFIT;  // from here on, quality of the geometries
 
   owners_.ids.reserve(scene.triangles.size() + scene.spheres.size() + scene.cones.size());
   for (const scenes::Triangle& triangle : scene.triangles)

@@ -20,9 +20,9 @@ namespace beambench::accel::embree {
 /// The ids of the geometries in Embree.
 enum GeometryId : unsigned { kTriangles, kSpheres, kCurves, kUser, kGeometryCount };
 
-/// The owners of Embree's primitives, which are the scene's primitives.
+/// The owners of Embree's primitives: primitives of the scene.
 struct OwnerTable {
-  /// The scene's ids of the geometries' primitives, one geometry after the other.
+  /// The scene's ids for the geometries' primitives, one geometry after the other.
   std::vector<scenes::PrimitiveId> ids;
   /// The beginning of each geometry in `ids`.
   std::array<std::uint32_t, kGeometryCount> first{};
@@ -30,9 +30,10 @@ struct OwnerTable {
 };
 
 /// A scene in Embree: polygons are triangles (the scene's own triangulation), hollow spheres are
-/// sphere points, cones are optionally linear curves, and the rest is user geometry. It has its own
-/// device with one build thread, so that build times are comparable with those of single-threaded
-/// builds and memory is counted exactly. Creating the device, 0.05 ms, is part of the build.
+/// sphere points, cones are optionally linear curves, and all other primitives are user geometry.
+/// It has its own device with one build thread, so that build times are comparable with those of
+/// single-threaded builds and memory is counted exactly. Creating the device, 0.05 ms, is part of
+/// the build.
 class NativeScene {
  public:
   /// `isa` is a value of `isa_parameter`; `cones` selects the cones that Embree's curves test.
@@ -41,16 +42,16 @@ class NativeScene {
   NativeScene(const scenes::Scene& scene, RTCBuildQuality quality, bool robust,
               const std::string& isa, ConeGeometry cones, int threads = 1, bool moves = false);
 
-  /// Copies the coordinates of the scene, which has the same primitives, and has Embree refit its
-  /// hierarchies.
+  /// Copies the coordinates of the scene, which must have the same primitives, and has Embree refit
+  /// its hierarchies.
   void update(const scenes::Scene& scene);
 
   RTCScene get() const { return scene_.get(); }
-  /// Returns the hit of one ray, which must pass `require_valid`; the same hit as in Embree's
-  /// packets.
+  /// Returns the hit of one ray, which must pass `require_valid`. Embree's packets give the same
+  /// hit.
   std::optional<Hit> closest_hit(Context& context, const Ray& ray) const;
   bool any_hit(Context& context, const Ray& ray) const;
-  /// Returns the primitive that was hit; kNoPrimitive for RTC_INVALID_GEOMETRY_ID.
+  /// Returns the primitive that was hit, or kNoPrimitive for RTC_INVALID_GEOMETRY_ID.
   scenes::PrimitiveId owner(unsigned geometry, unsigned primitive) const {
     return geometry == RTC_INVALID_GEOMETRY_ID ? scenes::kNoPrimitive
                                                : owners_.ids[owners_.first[geometry] + primitive];
@@ -61,13 +62,14 @@ class NativeScene {
   std::size_t triangle_count() const { return owners_.first[kSpheres]; }
   std::size_t sphere_count() const { return owners_.first[kCurves] - owners_.first[kSpheres]; }
   /// Returns the number of curves. If there are any, rays must have directions of unit length:
-  /// Embree 3 assumes it for the rays that meet them (kernels/geometry/coneline_intersector.h,
-  /// where the square of the length is missing in the coefficient A).
+  /// Embree 3 assumes unit length for rays that meet curves
+  /// (kernels/geometry/coneline_intersector.h, where the square of the length is missing in the
+  /// coefficient A).
   std::size_t curve_count() const { return owners_.first[kUser] - owners_.first[kCurves]; }
   std::size_t user_count() const { return user_.ids().size(); }
   /// Returns the geometry types of the scene, joined by '+': "triangles"; "points", which are
-  /// spheres; "curves", which are cones; "callbacks" of user geometry, for cones and for spheres
-  /// seen from the inside only.
+  /// spheres; "curves", which are cones; and "callbacks" of user geometry, for other cones and for
+  /// spheres seen only from the inside.
   std::string geometry_types() const;
   std::uint64_t bytes() const;
 

@@ -15,7 +15,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::embree::HWY_NAMESPACE {
 
-/// `NativeScene::owner` for all lanes of a packet of N; `owners` is aligned to a cache line.
+/// Applies `NativeScene::owner` to all lanes of a packet of N; `owners` must be aligned to a cache
+/// line.
 template <int N, class Hits>
 HWY_INLINE void find_owners(const OwnerTable& table, const Hits& hits,
                             scenes::PrimitiveId* owners) {

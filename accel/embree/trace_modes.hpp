@@ -15,7 +15,7 @@ struct TraceMode {
   ListMode ListTracers::*list;
 };
 
-/// Returns the modes that the build's Embree version has, the simplest first.
+/// Returns the modes that the build's Embree version has, simplest first.
 std::span<const TraceMode> trace_modes();
 
 }  // namespace beambench::accel::embree

@@ -72,7 +72,8 @@ HWY_INLINE void trace_packet(const NativeScene& scene, Rays& rays, Trace trace) 
   unit.restore_t(rays);
 }
 
-/// Does the same for the first `count` packets, whose rays are `rays_of(packet)`.
+/// Calls `trace()` in the same way for the first `count` packets together, whose rays are
+/// `rays_of(packet)`.
 template <int N, class Packets, class RaysOf, class Trace>
 void trace_packets_at_once(const NativeScene& scene, Packets& packets, unsigned count,
                            RaysOf rays_of, Trace trace) {

@@ -76,7 +76,7 @@ void UserGeometry::on_bounds(const RTCBoundsFunctionArguments* arguments) {
   *arguments->bounds_o = {lower.x, lower.y, lower.z, 0.0F, upper.x, upper.y, upper.z, 0.0F};
 }
 
-// For Embree 4 `valid` must state which rays were hit; Embree 3 passes a copy and ignores it.
+// For Embree 4, `valid` must state which rays hit something; Embree 3 passes a copy and ignores it.
 
 void UserGeometry::on_intersect(const RTCIntersectFunctionNArguments* arguments) {
   const auto& self = *static_cast<const UserGeometry*>(arguments->geometryUserPtr);

@@ -1,6 +1,6 @@
 #pragma once
-// Primitives for which Embree has no type, as user geometry: spheres seen only from the inside, and
-// cones, which are open at both ends, unless they are represented as curves.
+// User geometry for primitives that no geometry type of Embree represents: spheres seen only from
+// the inside, and cones, which are open at both ends, unless they are represented as curves.
 
 #include <vector>
 
@@ -22,11 +22,11 @@ class UserGeometry {
   UserGeometry& operator=(const UserGeometry&) = delete;
   ~UserGeometry() = default;
 
-  /// Returns the ids by the primitive number that Embree reports.
+  /// Returns the ids, indexed by the primitive number that Embree reports.
   const std::vector<scenes::PrimitiveId>& ids() const { return ids_; }
   /// Creates a geometry over the primitives, which must outlive it; it is not yet committed.
   GeometryHandle make(RTCDevice device);
-  /// Computes the padding of boxes from the scene's current bounds.
+  /// Computes the boxes' padding from the scene's current bounds.
   void measure(const scenes::Scene& scene);
 
  private:
@@ -39,7 +39,7 @@ class UserGeometry {
   float pad_;
 };
 
-/// Returns whether `primitive` belongs in the user geometry of a scene.
+/// Returns whether `primitive` becomes part of a scene's user geometry.
 bool is_user_primitive(const scenes::Scene& scene, const scenes::Primitive& primitive,
                        ConeGeometry cones);
 

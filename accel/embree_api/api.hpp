@@ -43,7 +43,7 @@ inline bool occluded(RTCScene scene, Context& context, RTCRay& ray) {
   return ray.tfar == -kInfinity;
 }
 
-/// The packet of N rays and the block of pixels it covers.
+/// The Embree types for a packet of N rays, and the block of pixels that it covers.
 template <int N>
 struct Packet;
 

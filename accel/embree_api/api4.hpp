@@ -8,7 +8,7 @@ namespace beambench::accel::embree {
 using RawContext = RTCRayQueryContext;
 
 /// The context passed by Embree to user geometry; derive from it to carry the state of a query. It
-/// also holds the arguments of a query, which are set up once instead of for every ray.
+/// also holds a query's arguments, which are set up once rather than for every ray.
 struct Context : RawContext {
   explicit Context(bool coherent) {
     rtcInitRayQueryContext(this);

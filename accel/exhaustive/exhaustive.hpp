@@ -6,7 +6,8 @@
 
 namespace beambench::accel::exhaustive {
 
-/// Tests every primitive against every ray. Every classic structure must return the same bits.
+/// Tests every primitive against every ray. Every classic structure must return the same hits, bit
+/// for bit.
 class Exhaustive : public TraversalAccelerator<Exhaustive> {
  public:
   explicit Exhaustive(const scenes::Scene& scene) : scene_(&scene) {}

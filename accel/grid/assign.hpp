@@ -13,8 +13,8 @@ enum class Assign { kSurface, kBounds };
 /// Returns the parameter `assign`.
 inline ParameterInfo assign_parameter() {
   return choice_parameter("assign", "surface", {"surface", "bbox"},
-                          "what must overlap a voxel for a reference: the primitive's surface, "
-                          "or only its bounding box");
+                          "the part of a primitive that must overlap a voxel that refers to it: "
+                          "its surface, or only its bounding box");
 }
 /// Returns the parameter's value.
 inline Assign assign_of(const Parameters& parameters) {

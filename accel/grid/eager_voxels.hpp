@@ -12,11 +12,11 @@
 
 namespace beambench::accel::grid {
 
-/// The primitives whose surface (or box, depending on `Assign`) overlaps each closed voxel, widened
-/// by `overlap_tolerance`, in order of id: one list after another.
+/// A list for each voxel, one after another: the primitives whose surface (or box, depending on
+/// `Assign`) overlaps the closed voxel, widened by `overlap_tolerance`, in order of id.
 class EagerVoxels {
  public:
-  /// Throws InputError naming `max_references` if the lists exceed it.
+  /// Throws an InputError that names `max_references` if the lists have more references.
   EagerVoxels(const scenes::Scene& scene, const CellGrid& grid, std::uint64_t max_references,
               Assign assign = Assign::kSurface);
 
@@ -28,7 +28,7 @@ class EagerVoxels {
   void describe(Statistics& statistics) const;
 
  private:
-  std::vector<std::uint32_t> first_;  ///< by voxel, then the end of the last one
+  std::vector<std::uint32_t> first_;  ///< start of each voxel's list, then the end of the last list
   std::vector<scenes::PrimitiveId> references_;
 };
 

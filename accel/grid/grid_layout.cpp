@@ -46,8 +46,8 @@ glm::ivec3 cubic_cells(const glm::dvec3& size, double wanted, int most) {
   return cells;
 }
 
-/// Returns an upper estimate of the references in a grid of `cells`: a surface overlaps the voxels
-/// of its bounds or, if those are many, about twice as many as on the sides of its bounds.
+/// Returns an upper estimate of the references in a grid of `cells`. A surface overlaps all voxels
+/// of its bounds or, if those are many, about twice as many as lie on the sides of its bounds.
 double estimated_references(const scenes::Scene& scene, const glm::dvec3& size,
                             const glm::ivec3& cells, Assign assign) {
   const glm::dvec3 voxels_per_unit = glm::dvec3(cells) / glm::max(size, glm::dvec3(1e-300));
@@ -100,7 +100,7 @@ CellGrid make_voxel_grid(const scenes::Scene& scene, const GridLayout& layout) {
   if (voxels > layout.max_voxels) {
     throw InputError(fmt::format(
         "resolution {}x{}x{} makes {} voxels, more than max_voxels {}; lower resolution, or raise "
-        "max_voxels (4 bytes each, 8 where fill is lazy)",
+        "max_voxels (4 bytes each, 8 if fill is lazy)",
         cells.x, cells.y, cells.z, voxels, layout.max_voxels));
   }
   // Hits lie within the tolerance of the bounds, so the grid must contain that margin.

@@ -1,5 +1,5 @@
 #pragma once
-// The voxels' lists, each built when the first ray enters.
+// The voxels' lists, each built when the first ray enters the voxel.
 
 #include <atomic>
 #include <cstdint>
@@ -15,12 +15,12 @@
 namespace beambench::accel::grid {
 
 /// The grid of the thesis: nothing is built in advance. When the first ray enters a voxel, every
-/// primitive of the scene is tested for overlap with it, beginning with the primitive's range of
-/// voxels. The lists are those of `EagerVoxels`, except that more cones may be listed: their
+/// primitive of the scene is tested for overlap with it; the first test uses the primitive's range
+/// of voxels. The lists are those of `EagerVoxels`, except that more cones may be listed: their
 /// overlap test is conservative.
 ///
 /// Several threads may query at once. A thread that finds no list builds one and publishes it by
-/// compare-exchange; a second thread to do so discards its own, identical list.
+/// compare-exchange; a thread that comes second discards its own, identical list.
 class LazyVoxels {
  public:
   LazyVoxels(const scenes::Scene& scene, const CellGrid& grid, std::uint64_t max_references,
@@ -29,13 +29,14 @@ class LazyVoxels {
   LazyVoxels& operator=(const LazyVoxels&) = delete;
   ~LazyVoxels();
 
-  /// Throws an InputError that names `max_references` if the lists made so far exceed it.
+  /// Returns a voxel's references. Throws an InputError that names `max_references` if the lists
+  /// made so far have more references.
   std::span<const scenes::PrimitiveId> references(std::size_t voxel) const {
     const List* list = lists_[voxel].load(std::memory_order_acquire);
     if (list == nullptr) list = &publish(voxel, evaluate(voxel));
     return *list;
   }
-  /// Returns whether the voxel has been evaluated and has references. Evaluates nothing.
+  /// Returns whether the voxel has been evaluated and has references. Does not evaluate it.
   bool holds_references(std::size_t voxel) const {
     const List* list = lists_[voxel].load(std::memory_order_acquire);
     return list != nullptr && list != &empty_;
@@ -46,7 +47,7 @@ class LazyVoxels {
  private:
   using List = std::vector<scenes::PrimitiveId>;
 
-  /// Returns nothing for a voxel without references.
+  /// Returns a voxel's list, or nullptr for a voxel without references.
   std::unique_ptr<const List> evaluate(std::size_t voxel) const;
   /// Publishes a list. Returns the list that all threads see from now on: this one or an earlier
   /// one.
@@ -57,10 +58,10 @@ class LazyVoxels {
   double tolerance_;
   std::uint64_t max_references_;
   Assign assign_;
-  std::vector<CellRange> ranges_;  ///< by primitive
+  std::vector<CellRange> ranges_;  ///< voxels of each primitive's box
   /// Shared by all empty voxels, which are the majority.
   const List empty_;
-  // Mutable: every query would add the same. The lists are owned.
+  // Mutable because queries add lists, the same ones whatever their order. This object owns them.
   mutable std::vector<std::atomic<const List*>> lists_;
   mutable std::atomic<std::uint64_t> references_made_{0};
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Remembers which primitives a ray has been tested against.
+// Records which primitives a ray has been tested against.
 
 #include <algorithm>
 #include <cstddef>
@@ -11,11 +11,11 @@
 namespace beambench::accel::grid {
 
 /// One ray's view of the mailboxes (Arnaldi, Priol and Bouatouch, "A new space subdivision method
-/// for ray tracing CSG modelled scenes", 1987; Amanatides and Woo, 1987): each primitive remembers
-/// the last ray it was tested against.
+/// for ray tracing CSG modelled scenes", 1987; Amanatides and Woo, 1987): each primitive's mailbox
+/// holds the last ray it was tested against.
 ///
 /// The boxes belong to the thread, because queries are const and may run in several threads at
-/// once. Each ray of a thread has a number that is unique across structures, so entries of other
+/// once. The number of each ray of a thread is unique across structures, so entries of other
 /// structures are harmless.
 class Mailboxes {
  public:
@@ -37,7 +37,7 @@ class Mailboxes {
 
  private:
   struct Scratch {
-    std::vector<std::uint32_t> last_ray;  ///< by primitive
+    std::vector<std::uint32_t> last_ray;  ///< one for each primitive
     std::uint32_t ray = 0;
   };
   static Scratch& of_this_thread() {

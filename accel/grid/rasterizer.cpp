@@ -4,8 +4,8 @@
 
 namespace beambench::accel::grid {
 
-/// A stable counting sort. During the sort, first[v + 1] is the position of the next reference of
-/// voxel v; at the end, it is the start of voxel v + 1.
+/// Sorts by counting, which is stable. During the sort, first[v + 1] is the position of the next
+/// reference of voxel v; at the end, it is the start of voxel v + 1.
 void sort_by_voxel(const std::vector<VoxelReference>& found, std::size_t voxels,
                    std::vector<std::uint32_t>& first,
                    std::vector<scenes::PrimitiveId>& references) {

@@ -16,16 +16,16 @@
 
 namespace beambench::accel::grid {
 
-/// Finds the closed voxels, widened by `overlap_tolerance`, that a primitive overlaps; called for
-/// one primitive after another. `grid` may cover only part of the scene.
+/// Finds the closed voxels, widened by `overlap_tolerance`, that a primitive overlaps. `grid` may
+/// cover only part of the scene.
 class Rasterizer {
  public:
   /// Scene and grid must outlive this object.
   Rasterizer(const scenes::Scene& scene, const CellGrid& grid, Assign assign)
       : scene_(&scene), grid_(&grid), assign_(assign), tolerance_(overlap_tolerance(scene)) {}
 
-  /// Calls `emit(voxel)` with the index of each voxel until it returns false; returns whether it
-  /// never did. If the grid covers only part of the scene, the primitive must overlap it.
+  /// Calls `emit(voxel)` with the index of each voxel until `emit` returns false; returns whether
+  /// it never did. If the grid covers only part of the scene, the primitive must overlap it.
   template <class Emit>
   bool for_each_voxel(scenes::PrimitiveId id, Emit emit) const {
     const scenes::Bounds bounds = scenes::primitive_bounds(*scene_, id);
@@ -52,10 +52,11 @@ class Rasterizer {
     return true;
   }
 
-  /// Halves a block of voxels that the primitive is known to overlap, down to a few that are tested
-  /// one by one: the cost of a large primitive depends on its surface, not on the surrounding
-  /// volume. `all`: the primitive is known to overlap each voxel. This is true for a row of voxels
-  /// that contains the whole primitive, because its surface is connected.
+  /// Repeatedly halves a block of voxels that the primitive is known to overlap, until the few
+  /// remaining voxels are tested one by one. The cost of a large primitive thus depends on its
+  /// surface, not on the surrounding volume. `all`: the primitive is known to overlap each voxel.
+  /// This is true for a row of voxels that contains the whole primitive, because the primitive's
+  /// surface is connected.
   template <class Emit>
   bool split(scenes::PrimitiveId id, const glm::ivec3& corner, const glm::ivec3& size, bool all,
              Emit& emit) const {
@@ -106,8 +107,8 @@ struct VoxelReference {
   scenes::PrimitiveId primitive;
 };
 
-/// Sorts references by voxel: those of voxel v become `references[first[v]]` up to, not including,
-/// `references[first[v + 1]]`, in the order in which they were found.
+/// Sorts references by voxel: those of voxel v become `references[first[v]]` up to but not
+/// including `references[first[v + 1]]`, in the order in which they were found.
 void sort_by_voxel(const std::vector<VoxelReference>& found, std::size_t voxels,
                    std::vector<std::uint32_t>& first, std::vector<scenes::PrimitiveId>& references);
 

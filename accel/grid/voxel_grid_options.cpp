@@ -8,8 +8,8 @@ std::vector<ParameterInfo> VoxelGridOptions::parameters() {
           density_parameter(defaults.density),
           assign_parameter(),
           choice_parameter("fill", "eager", {"lazy", "eager"},
-                           "when a voxel's list is made: by the first ray that visits it, testing "
-                           "every primitive (thesis), or all before the first ray"),
+                           "when a voxel's list is made: when the first ray visits the voxel, by "
+                           "testing every primitive (thesis), or before the first ray"),
           flag_parameter("mailboxes", defaults.mailboxes,
                          "never test a primitive twice against a ray; 4 bytes per primitive "
                          "and thread"),

@@ -17,7 +17,7 @@
 
 namespace beambench::accel::grid {
 
-/// The maximum number of cells along an axis. The bound below depends on it.
+/// The maximum number of cells along an axis. The error bound of `walk_part` depends on it.
 inline constexpr std::int32_t kMaxCellsPerAxis = 4096;
 
 inline std::size_t voxel_count(const CellGrid& grid) {
@@ -43,7 +43,7 @@ struct WalkGrid {
   explicit WalkGrid(const CellGrid& grid) : cells(grid), per_unit(1.0 / grid.cell) {}
 
   CellGrid cells;
-  glm::dvec3 per_unit{1.0};  ///< cells in a unit of length
+  glm::dvec3 per_unit{1.0};  ///< cells per unit of length
 };
 
 /// A ray in the form needed by walks.
@@ -61,8 +61,7 @@ struct WalkRay {
   std::array<double, 3> origin;
   std::array<double, 3> direction;
   std::array<double, 3> inverse;
-  std::array<int, 3>
-      step;  ///< +1, -1 or 0: the direction in which it crosses the planes of an axis
+  std::array<int, 3> step;  ///< +1, -1 or 0: the direction in which the ray crosses planes
   float t_min;
   float t_max;
 };
@@ -75,8 +74,8 @@ struct WalkInterval {
   bool empty() const { return !(enter <= exit); }
 };
 
-/// Returns the part of a ray in the box of a grid, from just below t_min, because a hit's t may
-/// round up to it, to just above t_max.
+/// Returns the part of a ray in the box of a grid, from just below t_min to just above t_max,
+/// because a hit's t may round to either.
 inline WalkInterval interval_inside(const CellGrid& grid, const WalkRay& ray) {
   WalkInterval inside{std::nextafter(ray.t_min, -kInfinity), std::nextafter(ray.t_max, kInfinity)};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -96,7 +95,7 @@ inline WalkInterval interval_inside(const CellGrid& grid, const WalkRay& ray) {
 }
 
 /// Calls `visit(index, enter_t, exit_t)` for the voxels along a part of the ray inside the grid,
-/// until it returns true; returns whether it did (Amanatides and Woo, "A fast voxel traversal
+/// until `visit` returns true; returns whether it did (Amanatides and Woo, "A fast voxel traversal
 /// algorithm for ray tracing", Eurographics 1987). Voxels are stepped by integers, and for each
 /// axis the t of the next plane (their tMax) grows by a constant (their tDelta). The axis is chosen
 /// by branches: while they are predicted correctly, the comparisons of the next step need not wait
@@ -106,8 +105,8 @@ inline WalkInterval interval_inside(const CellGrid& grid, const WalkRay& ray) {
 /// and cover the whole part, so a hit's t lies in the interval of one voxel. After n additions tMax
 /// is off by less than 2 n 2^-53 of the largest t in the grid; times the direction, and with an eye
 /// within 8 scene sizes (accel/core/tolerance.hpp: 10 diagonals), the point lies at most 2 x 2^12 x
-/// 2^-53 x 10 < 2^-36 diagonals outside its voxel. Overlaps are widened by 2^-30 diagonals, of
-/// which the canonical tests use less than 0.63.
+/// 2^-53 x 10 < 2^-36 diagonals outside its voxel. Overlaps are widened by 2^-30 diagonals; the
+/// canonical tests use less than 0.63 of this margin.
 template <class Visit>
 bool walk_part(const WalkGrid& grid, const WalkRay& ray, const WalkInterval& part, Visit visit) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -141,7 +140,7 @@ bool walk_part(const WalkGrid& grid, const WalkRay& ray, const WalkInterval& par
   double next_x = next_t[0];
   double next_y = next_t[1];
   double next_z = next_t[2];
-  /// Visit the voxel and cross the plane at `next`; true if the walk continues.
+  // Visits the voxel and crosses the plane at `next`; returns whether the walk continues.
   bool stopped = false;
   const auto pass = [&](double& next, std::size_t axis) __attribute__((always_inline)) {
     const double exit_t = std::min(next, part.exit);
@@ -159,8 +158,8 @@ bool walk_part(const WalkGrid& grid, const WalkRay& ray, const WalkInterval& par
   return stopped;
 }
 
-/// Calls `visit(index, exit_t)` for the voxels that the ray passes through, from t_min on, until it
-/// returns true or the ray leaves the grid.
+/// Calls `visit(index, exit_t)` for the voxels that the ray passes through, from t_min on, until
+/// `visit` returns true or the ray leaves the grid.
 template <class Counting, class Visit>
 void walk_voxels(const WalkGrid& grid, const Ray& ray, Counting& counting, Visit visit) {
   const WalkRay line(ray);

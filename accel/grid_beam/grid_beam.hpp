@@ -11,11 +11,11 @@
 
 namespace beambench::accel::grid_beam {
 
-/// Beams of primary rays through the voxels of a hierarchy of grids, which the thesis (González
-/// López 1999, section 7.3) proposes as future work: in empty voxels the beams continue, divided by
-/// the faces and the voxels behind them; at an occupied voxel the samples of a beam become rays;
-/// samples that leave the top grid are background without a ray. All other rays are traced one by
-/// one through the same grids.
+/// Traces primary rays as beams through the voxels of a hierarchy of grids, which the thesis
+/// (González López 1999, section 7.3) proposes as future work. In empty voxels the beams continue,
+/// divided by the faces and the voxels behind them. At an occupied voxel, the samples of a beam are
+/// traced as rays. Samples that leave the top grid become background, and no ray is traced for
+/// them. All other rays are traced one by one through the same grids.
 class GridBeam : public GridCells::Tracer {
  public:
   GridBeam(const scenes::Scene& scene, const GridBeamOptions& options)
@@ -28,7 +28,7 @@ class GridBeam : public GridCells::Tracer {
   void closest_hits(const RaySource& rays, const HitSpan& hits,
                     const QueryContext& context) const override;
   std::optional<std::vector<BeamOutline>> beams(const PrimaryRays& rays) const override;
-  /// Samples become rays only at occupied voxels, so not all of an image's rays are generated.
+  /// Samples become rays only at occupied voxels, so some of an image's rays are never generated.
   Statistics statistics() const override;
 
   const GridLattice& lattice() const { return lattice_; }

@@ -7,10 +7,10 @@ namespace beambench::accel::grid_beam {
 
 namespace {
 
-/// Beams are divided at every voxel, so small ones cost more than their rays. Of 16, 48, 128 and
-/// 1000, 128 was the smallest value at which none of four scenes (escena2, gato-bill, torre-eiffel,
-/// habitacion; 640x480) took longer than with single rays through the same grids. This is twice
-/// that, as a margin for other scenes.
+/// The default of `handover`. Beams are divided at every voxel, so small beams cost more than their
+/// rays. Of 16, 48, 128 and 1000, 128 was the smallest value at which none of four scenes (escena2,
+/// gato-bill, torre-eiffel, habitacion; 640x480) took longer than with single rays through the same
+/// grids. The default is twice that, as a margin for other scenes.
 constexpr std::int64_t kHandover = 256;
 
 }  // namespace

@@ -44,8 +44,8 @@ class Entry {
         const Crossing& face, BeamQueue& queue)
       : hierarchy_(&hierarchy), lattice_(&lattice), view_(&view), face_(face), queue_(&queue) {}
 
-  /// Halves the layer across its longer side until single voxels are left; a divided voxel has its
-  /// own layer.
+  /// Halves the layer across its longer side until single voxels are left; a divided voxel is
+  /// replaced by its own layer.
   void divide(const Layer& layer, const Beam& beam) const {
     if (beam.outline.empty()) return;
     const int u = (face_.axis + 1) % 3;
@@ -66,7 +66,7 @@ class Entry {
           [&](const Beam& part, bool above) { divide(above ? upper : lower, part); });
   }
 
-  /// Returns the layer of a grid's voxels behind the face, if that is a face of the grid.
+  /// Returns the layer of a grid's voxels behind the face, which must be a face of the grid.
   Layer outer_layer(std::uint32_t grid) const {
     Layer layer{grid, glm::ivec3(0), hierarchy_->grids()[grid].place().cells};
     layer.first[face_.axis] = face_.side > 0 ? 0 : layer.count[face_.axis] - 1;
@@ -74,8 +74,8 @@ class Entry {
     return layer;
   }
 
-  /// Returns the voxels behind the face of a cell, or the single larger voxel there, searching down
-  /// from the top grid.
+  /// Returns the voxels behind the face of a cell, or the single larger voxel behind it, searching
+  /// down from the top grid.
   Layer behind(const glm::ivec3& corner, std::int32_t size) const {
     glm::ivec3 at = corner;  // a finest cell behind the face
     at[face_.axis] = face_.side > 0 ? face_.index : face_.index - 1;

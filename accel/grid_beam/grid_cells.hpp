@@ -27,13 +27,13 @@ class GridCells {
 
   /// Returns the grid whose planes contain the faces of all voxels.
   const CellGrid& grid() const { return lattice_->cells(); }
-  /// Pushes the first beams (thesis, section 3.4). From outside: one for each visible face of the
-  /// top grid, divided among the voxels behind it. From inside: one in the voxel that contains the
-  /// eye.
+  /// Pushes the first beams (thesis, section 3.4). An eye outside the top grid gets one beam for
+  /// each visible face, divided among the voxels behind the face. An eye inside gets one beam, in
+  /// the voxel that contains it.
   void begin(const beam::EyeView& view, const beam::ImagePolygon& part,
              beam::BeamQueue& queue) const;
   /// Pushes the parts of a beam behind its voxel: divided among the faces through which its rays
-  /// leave, then among the voxels behind each.
+  /// leave, then among the voxels behind each face.
   void advance(const beam::EyeView& view, const beam::Beam& beam, beam::BeamQueue& queue) const;
   /// Returns the references of the beam's voxel.
   std::span<const scenes::PrimitiveId> references(const beam::Beam& beam) const {

@@ -11,7 +11,8 @@ GridLattice::GridLattice(const hierarchical_grid::GridHierarchy& hierarchy) {
   using hierarchical_grid::NestedGrid;
   using hierarchical_grid::Voxel;
 
-  // First the voxels of each grid as shares of a top voxel, then in finest cells.
+  // The size of each grid's voxels is computed first as a share of a top voxel, then in finest
+  // cells.
   const auto grids = hierarchy.grids();
   places_.resize(grids.size(), {glm::ivec3(0), 1});
   std::int32_t most = 1;

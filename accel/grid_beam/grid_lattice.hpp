@@ -14,7 +14,7 @@ namespace beambench::accel::grid_beam {
 /// A grid of the hierarchy in the lattice.
 struct GridPlace {
   glm::ivec3 corner;  ///< its lowest finest cell
-  std::int32_t size;  ///< of a voxel: finest cells along each of its edges
+  std::int32_t size;  ///< finest cells along each edge of a voxel
 };
 
 /// If each divided voxel is divided into a power of two along each axis, the planes of all grids

@@ -27,7 +27,7 @@ class Voxel {
 
   bool is_empty() const { return word_ == 0; }
   bool is_divided() const { return (word_ & kGrid) != 0; }
-  std::uint32_t grid() const { return word_ & ~kGrid; }  ///< of a divided voxel
+  std::uint32_t grid() const { return word_ & ~kGrid; }  ///< only for a divided voxel
   /// For a voxel with references: the position of their count, which precedes them. Never 0.
   std::uint32_t first() const { return word_; }
 
@@ -38,7 +38,7 @@ class Voxel {
   std::uint32_t word_ = 0;
 };
 
-/// One of the grids: that of the scene, or one in a voxel of another.
+/// One of the grids: the scene's grid, or a grid in a voxel of another one.
 struct NestedGrid {
   grid::WalkGrid walk;
   std::uint32_t first_voxel;  ///< its voxels are consecutive, x fastest
@@ -53,10 +53,10 @@ struct NestedGrid {
 /// overlaps it, closed and widened by `overlap_tolerance`, in order of id.
 class GridHierarchy {
  public:
-  /// Throws an InputError that names `max_voxels` if the top grid has more, or `max_references` if
-  /// its voxels have more references. If the grids in the voxels of a grid would bring the total
-  /// above `max_voxels`, none of them is made. A voxel whose grid would bring the total above
-  /// `max_references` is not divided; with `divide=always`, this is an InputError.
+  /// Throws an InputError that names `max_voxels` if the top grid has more voxels, or
+  /// `max_references` if its voxels have more references. If the grids in the voxels of a grid
+  /// would bring the total above `max_voxels`, none of them is made. A voxel whose grid would bring
+  /// the total above `max_references` is not divided; with `divide=always`, this is an InputError.
   GridHierarchy(const scenes::Scene& scene, const HierarchicalGridOptions& options);
 
   std::span<const NestedGrid> grids() const { return grids_; }
@@ -77,7 +77,7 @@ class GridHierarchy {
   friend class GridHierarchyBuilder;
 
   scenes::Bounds scene_bounds_;
-  std::vector<NestedGrid> grids_;  ///< the scene's first
+  std::vector<NestedGrid> grids_;  ///< the scene's grid first
   std::vector<Voxel> voxels_;
   /// Lists preceded by their lengths; all empty voxels use the first list.
   std::vector<scenes::PrimitiveId> references_{0};

@@ -24,12 +24,12 @@ namespace {
 
 /// A grid to be made in a voxel.
 struct Division {
-  std::uint32_t voxel;  ///< of the surrounding grid, counted from 0
+  std::uint32_t voxel;  ///< index in the surrounding grid
   glm::ivec3 cells;
 };
 
 /// Memory used while the voxels of one grid are made. The grids of a level are made one after
-/// another, so each level needs only one.
+/// another, so each level needs only one `Scratch`.
 struct Scratch {
   std::vector<grid::VoxelReference> found;
   std::vector<std::uint32_t> first;
@@ -44,7 +44,7 @@ constexpr double kNarrowest = 0x1p-26;
 /// The costs of entering a grid in a voxel, and of each step in it, in ray-primitive tests.
 constexpr double kEntryCost = 3.0;
 constexpr double kStepCost = 1.0;
-/// A grid is made if a ray is expected to take at most this share of the time.
+/// A grid is made if it is expected to reduce a ray's time to at most this share.
 constexpr double kWorthwhile = 0.8;
 
 CellGrid grid_in(const Box& box, const glm::ivec3& cells) {
@@ -80,7 +80,7 @@ class GridHierarchyBuilder {
  private:
   Scratch& scratch(int level) { return scratch_[static_cast<std::size_t>(level) - 1]; }
 
-  /// Finds the references of a grid's voxels; false if there are more than the limit.
+  /// Finds the references of a grid's voxels; returns false if there are more than the limit.
   bool rasterize(const CellGrid& place, int level, std::span<const scenes::PrimitiveId> primitives,
                  ReferenceLimit limit) {
     Scratch& into = scratch(level);
@@ -147,8 +147,8 @@ class GridHierarchyBuilder {
     return Voxel::with_grid(inner);
   }
 
-  /// Returns whether a sample of many primitives shows that they will have more references than
-  /// this, so that no time is lost on clusters that no grid separates.
+  /// If there are many primitives, returns whether a sample of them shows that they will have more
+  /// references than `most`, so that no time is lost on clusters that no grid separates.
   bool sample_exceeds(const CellGrid& place, std::span<const scenes::PrimitiveId> primitives,
                       std::uint64_t most) const {
     constexpr std::size_t kSample = 64;
@@ -222,8 +222,8 @@ class GridHierarchyBuilder {
     return cells;
   }
 
-  /// Returns the power of two nearest to the cube root, by ratio; small, so that finest cells can
-  /// be numbered.
+  /// Returns the power of two nearest by ratio to the cube root of `number`. It is limited, so that
+  /// finest cells can be numbered.
   glm::ivec3 power_cells(const glm::dvec3& size, double number) const {
     constexpr int kMaxPower = 4;
     int power = std::clamp(static_cast<int>(std::lround(std::log2(number) / 3.0)), 0, kMaxPower);
@@ -253,8 +253,8 @@ class GridHierarchyBuilder {
   const HierarchicalGridOptions& options_;
   GridHierarchy& hierarchy_;
   double narrowest_ = 1.0;
-  std::uint64_t voxels_ = 0;      ///< made so far, including chosen grids
-  std::uint64_t references_ = 0;  ///< of the voxels made so far, if no other is divided
+  std::uint64_t voxels_ = 0;      ///< voxels made so far, including those of chosen grids
+  std::uint64_t references_ = 0;  ///< total if no further voxel is divided
   std::array<Scratch, kMaxLevels> scratch_;
 };
 

@@ -12,9 +12,9 @@
 
 namespace beambench::accel::hierarchical_grid {
 
-/// The traversal of Amanatides and Woo (1987; `grid::walk_part`) in each grid. A divided voxel is
-/// traversed from the t at which the ray enters it to the t at which the ray leaves it (Jevans and
-/// Wyvill 1989).
+/// Traverses each grid as Amanatides and Woo do (1987; `grid::walk_part`). A divided voxel's grid
+/// is traversed from the t at which the ray enters the voxel to the t at which the ray leaves it
+/// (Jevans and Wyvill 1989).
 ///
 /// Rounding loses no hit, as `walk_part` shows for one grid. If a point of a voxel's interval is
 /// outside the voxel, it is equally far outside the adjacent voxel of the inner grid, so the
@@ -22,8 +22,9 @@ namespace beambench::accel::hierarchical_grid {
 template <class Counting, class Visit>
 class GridWalk {
  public:
-  /// Calls `visit(references, exit_t)` for undivided voxels with references until it returns true.
-  /// Empty voxels need no call: an earlier hit lies in a voxel that refers to its primitive.
+  /// Calls `visit(references, exit_t)` for undivided voxels with references until `visit` returns
+  /// true. Empty voxels need no call: an earlier hit lies in a voxel that refers to the hit
+  /// primitive.
   GridWalk(const GridHierarchy& hierarchy, const Ray& ray, Counting& counting, Visit visit)
       : hierarchy_(&hierarchy), counting_(&counting), visit_(visit), ray_(ray) {}
 
@@ -38,7 +39,7 @@ class GridWalk {
   }
 
  private:
-  /// Returns whether `visit` returned true.
+  /// Walks through part of a grid. Returns whether `visit` returned true.
   bool walk(const NestedGrid& grid, const grid::WalkInterval& part) {
     const Voxel* const voxels = hierarchy_->voxels() + grid.first_voxel;
     return grid::walk_part(
@@ -55,7 +56,7 @@ class GridWalk {
         });
   }
 
-  /// Kept out of the loop to keep it short.
+  /// Not inlined, to keep the loop short.
   [[gnu::noinline]] bool test(Voxel voxel, double exit_t) {
     return visit_(hierarchy_->references(voxel), exit_t);
   }

@@ -9,8 +9,8 @@ std::vector<ParameterInfo> HierarchicalGridOptions::parameters() {
           real_parameter("inner_density", defaults.inner_density, 0.001, 1000.0,
                          "voxels of an inner grid for each reference of its voxel"),
           choice_parameter("shape", "cubic", {"cubic", "equal"},
-                           "the voxels of a grid by density: as cubic as possible, or the same "
-                           "number along each axis"),
+                           "the voxels of a grid laid out by density: as cubic as possible, or "
+                           "the same number along each axis"),
           choice_parameter("inner", "any", {"any", "powers"},
                            "the voxels of an inner grid: any number, or the nearest power of two "
                            "along each axis, the same for all axes, as in grid-beam"),
@@ -20,8 +20,8 @@ std::vector<ParameterInfo> HierarchicalGridOptions::parameters() {
                             "levels of grids, the grid of the scene being level 1"),
           choice_parameter(
               "divide", "gain", {"gain", "always"},
-              "which of these voxels: where a grid is expected to save a fifth of the time by the "
-              "surface area heuristic, or all"),
+              "which of these voxels get a grid: those in which the surface area heuristic expects "
+              "a grid to save a fifth of the time, or all"),
           grid::assign_parameter(),
           flag_parameter("mailboxes", defaults.mailboxes,
                          "never test a primitive twice against a ray; 4 bytes per primitive and "

@@ -22,15 +22,15 @@ struct HierarchicalGridOptions : grid::GridLayout {
   /// references.
   enum class Divide { kGain, kAlways };
   Divide divide = Divide::kGain;
-  /// The number of voxels of an inner grid: any, or along each axis the nearest power of two, the
-  /// same for all grids (so that the planes of all grids lie on one lattice).
+  /// The number of voxels of an inner grid: any, or the nearest power of two, the same along each
+  /// axis (so that the planes of all grids lie on one lattice).
   enum class Inner { kAny, kPowers };
   Inner inner = Inner::kAny;
   bool mailboxes = true;
 
   static std::vector<ParameterInfo> parameters();
   static HierarchicalGridOptions from(const Parameters& parameters);
-  /// Reads the options without `inner` and `mailboxes`, for structures that do not offer them.
+  /// Reads all options except `inner` and `mailboxes`, for structures that do not have these two.
   static HierarchicalGridOptions hierarchy_from(const Parameters& parameters);
 };
 

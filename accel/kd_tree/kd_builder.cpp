@@ -1,5 +1,5 @@
 // Builds a kd-tree from the root down: events are sorted once, then passed to the children in
-// order.
+// sorted order.
 
 #include <algorithm>
 #include <array>
@@ -33,20 +33,21 @@ float float_below(double value) {
 }
 float float_above(double value) { return -float_below(-value); }
 
-/// A plane, and its expected cost.
+/// A splitting plane and its expected cost.
 struct Split {
   int axis = -1;  ///< no axis
   float plane = 0.0F;
   double cost = std::numeric_limits<double>::infinity();
 };
 
-/// The build in O(n log n) of Wald and Havran (2006, section 4.3). For each axis, one array holds
-/// the events of the current node and of the pending upper children, so no memory is allocated per
-/// node: its lower child replaces it, and its upper child goes to the end.
+/// Wald and Havran's build in O(n log n) (2006, section 4.3). For each axis, one array holds the
+/// events of the current node and of the pending upper children, so no memory is allocated per
+/// node: the events of a node's lower child replace the node's own, and those of its upper child go
+/// to the end.
 ///
-/// An item begins at the largest float below its box widened by the tolerance, and ends at the
-/// smallest float above that. It extends below a plane if it begins below the plane, and above it
-/// if it ends above.
+/// An item begins at the largest float below its box, widened by the tolerance, and ends at the
+/// smallest float above the widened box. It extends below a plane if it begins below the plane, and
+/// above it if it ends above.
 class Builder {
  public:
   Builder(const scenes::Scene& scene, const KdTreeOptions& options)
@@ -91,7 +92,7 @@ class Builder {
     std::uint32_t node;
     std::size_t first_event;
     std::uint32_t count;
-    int splits;  ///< above it
+    int splits;  ///< number of splits above it
     scenes::Bounds cell;
 
     std::size_t events() const { return std::size_t{2} * count; }
@@ -155,8 +156,8 @@ class Builder {
     end_ = above.first_event;
   }
 
-  /// Creates a builder for estimates over some of another builder's items, with the same root and
-  /// depth.
+  /// Creates a builder that makes estimates for some of another builder's items, with the same root
+  /// and depth.
   Builder(const Builder& whole, std::vector<bvh::PrimitivePart> pieces)
       : scene_(whole.scene_),
         options_(whole.options_),
@@ -169,7 +170,7 @@ class Builder {
     tree_.root = whole.tree_.root;
   }
 
-  /// Returns an estimate of the references made with this builder by dividing pending nodes.
+  /// Returns an estimate of the references, which divides pending nodes with this builder.
   auto estimate() {
     struct Node {
       Pending place;
@@ -205,8 +206,8 @@ class Builder {
     return ReferenceEstimate(taken(root()), divide);
   }
 
-  /// Throws if a small part of the items shows that there will be too many references (for spatial
-  /// median planes).
+  /// With spatial median planes, throws if a small part of the items shows that there will be too
+  /// many references.
   void require_few_references() const {
     if (options_.builder != KdTreeOptions::Builder::kMedian) return;
     const bool exceeds = part_surely_exceeds(
@@ -229,13 +230,13 @@ class Builder {
     if (pending.count <= options_.max_objects || pending.splits >= most_splits_) return {};
     if (options_.builder == KdTreeOptions::Builder::kMedian) return median(pending);
     Split best;
-    best.cost = PlaneCost::leaf(pending.count, options_);  // of a leaf
+    best.cost = PlaneCost::leaf(pending.count, options_);  // a split must cost less
     for (int axis = 0; axis < 3; ++axis) sweep(pending, axis, best);
     return best;
   }
 
   /// Returns the middle of each axis in turn (Kaplan, "Space-tracing: a constant time ray-tracer",
-  /// 1985); none if floats are too coarse.
+  /// 1985), or no split if floats are too coarse.
   static Split median(const Pending& pending) {
     const int axis = pending.splits % 3;
     const double lower = pending.cell.lower[axis];
@@ -246,8 +247,8 @@ class Builder {
   }
 
   /// Compares the costs of all planes across an axis at which an item begins or ends. At one plane,
-  /// all ends come before all beginnings: between them the counts are correct; before and after,
-  /// they are too high, which is harmless.
+  /// all ends come before all beginnings. Between the ends and the beginnings, the counts are
+  /// correct; before and after, they are too high, which is harmless.
   void sweep(const Pending& pending, int axis, Split& best) {
     const PlaneCost cost_of(pending.cell, axis, options_);
     std::uint32_t below = 0;
@@ -304,14 +305,15 @@ class Builder {
     }
   }
 
-  /// Moves the events of items on one side only, in order: those below to the front of the node's
-  /// list, those above to the end of the array. Returns their numbers.
+  /// Moves the events of items that are on only one side, in order: events of items below to the
+  /// front of the node's list, those of items above to the end of the array. Returns how many it
+  /// moved to each.
   std::array<std::size_t, 2> splice(const Pending& pending, int axis) {
     SplitEvent* const first = list(axis, pending.first_event);
     SplitEvent* to_below = first;
     SplitEvent* const first_above = list(axis, end_);
     SplitEvent* to_above = first_above;
-    // Each event is written to both, which is cheaper than a branch on its destination.
+    // Each event is written to both places, which is cheaper than branching on its destination.
     for (const SplitEvent event : list(axis, pending)) {
       const std::uint8_t side = sides_[event.item()];
       *to_below = event;
@@ -323,15 +325,15 @@ class Builder {
             static_cast<std::size_t>(to_above - first_above)};
   }
 
-  /// Adds the events of an item's part in a cell; none if the item does not overlap the cell.
+  /// Adds the events of an item's part in a cell, or none if the item does not overlap the cell.
   void clip_into(std::uint32_t item, const scenes::Bounds& cell, EventLists& lists) const {
     const Box wider{glm::dvec3(cell.lower) - tolerance_, glm::dvec3(cell.upper) + tolerance_};
     const auto part = options_.clip ? bvh::clipped_bounds(scene_, pieces_[item], wider)
                                     : bvh::whole_bounds(scene_, pieces_[item], wider);
     if (!part) return;
     for (int axis = 0; axis < 3; ++axis) {
-      // Within the cell, so that its planes are swept in order; and not empty, even if the part is
-      // only in the margin.
+      // The interval is within the cell, so that its planes are swept in order, and it is not
+      // empty, even if the part lies entirely in the margin.
       const float lower = std::clamp(float_below(part->lower[axis] - tolerance_), cell.lower[axis],
                                      float_below(cell.upper[axis]));
       const float upper = std::clamp(float_above(part->upper[axis] + tolerance_),
@@ -342,7 +344,7 @@ class Builder {
     }
   }
 
-  /// Sorts `added` and merges it into the sorted list of `count` events, from the back, in place.
+  /// Sorts `added` and merges it in place, from the back, into the sorted list of `count` events.
   static void merge(SplitEvent* events, std::size_t count, std::vector<SplitEvent>& added) {
     std::sort(added.begin(), added.end());
     std::size_t left = added.size();
@@ -387,13 +389,13 @@ class Builder {
   const KdTreeOptions& options_;
   double tolerance_;
   std::vector<bvh::PrimitivePart> pieces_;
-  std::array<LargePageVector<SplitEvent>, 3> events_;  ///< of each axis
-  std::size_t end_ = 0;                                ///< of the events in use
-  std::vector<std::uint8_t> sides_;                    ///< of items, for the current split
+  std::array<LargePageVector<SplitEvent>, 3> events_;  ///< events along each axis
+  std::size_t end_ = 0;                                ///< end of the events in use
+  std::vector<std::uint8_t> sides_;                    ///< each item's sides of the current split
   std::vector<std::uint32_t> straddling_;              ///< items on both sides of it
-  EventLists events_below_;                            ///< of their parts
+  EventLists events_below_;                            ///< events of the straddling items' parts
   EventLists events_above_;
-  std::vector<std::uint32_t> leaf_items_;  ///< of the leaf being made
+  std::vector<std::uint32_t> leaf_items_;  ///< items of the leaf being made
   std::vector<bvh::PrimitivePart> leaf_pieces_;
   int most_splits_;
   std::uint64_t most_references_;

@@ -22,11 +22,11 @@ namespace beambench::accel::kd_tree::HWY_NAMESPACE {
 
 namespace probes = bvh::HWY_NAMESPACE;
 
-/// Havran's recursive traversal with a stack, TA-B-rec ("Heuristic Ray Shooting Algorithms",
-/// dissertation, 2000, appendix C), which stores only the exit from a far child: its entry is the
-/// exit from the previous cell. Returns the result of `Confirm`.
+/// Traverses the tree by Havran's recursive algorithm with a stack, TA-B-rec ("Heuristic Ray
+/// Shooting Algorithms", dissertation, 2000, appendix C). Of a far child, it stores only the exit:
+/// the entry is the exit from the previous cell. Returns the result of `Confirm`.
 ///
-/// A child that the ray meets at a single t, in the plane, is skipped, because any hit there is
+/// A child that the ray meets at only one t, in the plane, is skipped, because any hit at that t is
 /// also within the tolerance of the other child.
 template <class Confirm, class Counting>
 HWY_FLATTEN auto traverse(const KdTree& tree, const scenes::Scene& scene, const Ray& ray,

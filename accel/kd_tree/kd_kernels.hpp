@@ -11,7 +11,7 @@
 
 namespace beambench::accel::kd_tree {
 
-/// Both queries under one counting policy. Must not be used for empty trees.
+/// Both queries with one counting policy. Must not be used for empty trees.
 template <class Counting>
 struct KdQueries {
   std::optional<Hit> (*closest)(const KdTree&, const scenes::Scene&, const Ray&, Counting&);

@@ -16,9 +16,9 @@ namespace beambench::accel::kd_tree {
 /// double, so that a cell's exit and its neighbor's entry are the same number and no cell is
 /// skipped.
 ///
-/// plane / direction - origin / direction has the rounding error of origin / direction: the ray at
-/// that t is off the plane by 2^-53 of the origin's coordinate, which is within the tolerance of
-/// cells. In return, each traversal step waits for one instruction instead of two.
+/// The formula plane / direction - origin / direction has the rounding error of origin / direction:
+/// the ray at the computed t is off the plane by 2^-53 of the origin's coordinate, which is within
+/// the tolerance of cells. In return, each traversal step waits for one instruction instead of two.
 class KdRay {
  public:
   /// The ray's part inside a box, including its ends.
@@ -30,9 +30,9 @@ class KdRay {
   };
 
   explicit KdRay(const Ray& ray) {
-    // Replaces infinity, which would cause a NaN, for a ray parallel to the plane: the t of planes
-    // beside the ray are then beyond all others. A plane that contains the ray counts as beside it
-    // or is crossed at 0; either is correct, because cells overlap by the tolerance.
+    // Replaces infinity, which would cause a NaN, for a ray parallel to the plane. The t of a plane
+    // beside the ray is then beyond all others. A plane that contains the ray counts as beside it
+    // or as crossed at 0; either is correct, because cells overlap by the tolerance.
     constexpr double kParallel = 1e250;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto at = static_cast<int>(axis);
@@ -53,7 +53,7 @@ class KdRay {
     return backward_ >> axis & 1U;
   }
 
-  /// Returns the part in a box whose t round to values in [t_min, t_max].
+  /// Returns the ray's part in a box whose t round to values in [t_min, t_max].
   Interval clip(const scenes::Bounds& box, float t_min, float t_max) const {
     Interval part{std::nextafter(t_min, -kInfinity), std::nextafter(t_max, kInfinity)};
     for (std::size_t axis = 0; axis < 3; ++axis) {

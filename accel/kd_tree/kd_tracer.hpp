@@ -12,10 +12,9 @@
 
 namespace beambench::accel::kd_tree {
 
-/// A kd-tree, traversed in double; the primitives of a leaf are tested in blocks by SIMD in single
-/// precision, as in `sah-bvh`; these tests only reject. Candidates that pass are confirmed by the
-/// canonical test, so the hits equal those of every other classic structure on every instruction
-/// set.
+/// A kd-tree, traversed in double. The primitives of a leaf are tested in blocks by SIMD in single
+/// precision, as in `sah-bvh`. These tests only reject; the canonical test decides the candidates
+/// that pass, so the hits equal those of every other classic structure on every instruction set.
 class KdTracer : public TraversalAccelerator<KdTracer> {
  public:
   KdTracer(const scenes::Scene& scene, const KdTreeOptions& options)

@@ -17,7 +17,7 @@
 namespace beambench::accel::kd_tree {
 
 /// A node in eight bytes (Wald, "Realtime Ray Tracing and Interactive Global Illumination",
-/// dissertation, 2004): interior (its children are a pair of nodes, first the one below the plane)
+/// dissertation, 2004): interior (its children are a pair of nodes, the one below the plane first)
 /// or a leaf (a run of blocks). A plane is a float, so that building and traversal use the same
 /// number.
 class KdNode {
@@ -37,7 +37,9 @@ class KdNode {
   // For an interior node.
   std::size_t axis() const { return word_ & 3U; }
   float plane() const { return std::bit_cast<float>(other_); }
-  std::uint32_t children() const { return (word_ & ~3U) >> 1U; }  ///< the first of a pair; even
+  std::uint32_t children() const {
+    return (word_ & ~3U) >> 1U;
+  }  ///< an even index, first of a pair
 
   // For a leaf.
   std::uint32_t first_block() const { return other_; }
@@ -47,15 +49,16 @@ class KdNode {
   KdNode(std::uint32_t word, std::uint32_t other) : word_(word), other_(other) {}
 
   static constexpr std::uint32_t kLeaf = 3;
-  std::uint32_t word_;   ///< axis, or kLeaf; above it half the children's index, or the block count
+  std::uint32_t word_;   ///< axis or kLeaf; above it, half the children's index or the block count
   std::uint32_t other_;  ///< the plane, or the first block
 };
 
-/// Built over triangles of polygons, spheres and cones. A leaf refers to each one whose surface
-/// overlaps its closed cell, widened by `overlap_tolerance`, in order of id (kind by kind).
+/// A kd-tree over the triangles of polygons, spheres and cones. A leaf refers to each of these
+/// whose surface overlaps the leaf's closed cell, widened by `overlap_tolerance`, in order of id
+/// (kind by kind).
 ///
-/// Nodes are in one array: the root, a gap, then pairs of siblings, all pairs below the lower of
-/// two siblings before those below the upper one.
+/// Nodes are in one array: the root, a gap, then pairs of siblings. All pairs below the lower of
+/// two siblings come before those below the upper one.
 struct KdTree {
   scenes::Bounds root;  ///< the root's cell, which contains all points where hits are possible
   scenes::Bounds scene_bounds;
@@ -73,8 +76,8 @@ struct KdTree {
   bool empty() const { return blocks.empty(); }
 };
 
-/// Throws an InputError that names `max_references` if the leaves have more references; also if
-/// there are more than KdNode::kNodes nodes or more pieces than an event can number.
+/// Throws an InputError that names `max_references` if the leaves have more references. Also throws
+/// if there are more than KdNode::kNodes nodes or more pieces than an event can number.
 KdTree build_kd_tree(const scenes::Scene& scene, const KdTreeOptions& options);
 
 /// Return the children's cells: parts of `cell`, divided by the plane of an interior node.

@@ -9,13 +9,13 @@ std::vector<ParameterInfo> KdTreeOptions::parameters() {
   const KdTreeOptions defaults;
   ParameterInfo depth = integer_or_auto_parameter(
       "max_depth", 0, 0, kMaxSplits,
-      "maximum number of splits from the root to a leaf; auto: 8 + 1.3 log2 of the primitives, "
-      "or 15 with builder=median (the cells of an octree of level 6)");
+      "maximum number of splits from the root to a leaf; auto: 8 + 1.3 log2 of the number of "
+      "primitives, or 15 with builder=median (the cells of an octree of level 6)");
   depth.default_value = "auto";
   ParameterInfo references = integer_or_auto_parameter(
       "max_references", 1, 1, 2'000'000'000,
       "stop with an error beyond this many references (up to 384 bytes each); auto: 10 million, or "
-      "8 for each primitive where that is more");
+      "8 per primitive if that is more");
   references.default_value = "auto";
   return {
       choice_parameter("builder", "sah", {"sah", "median"},

@@ -43,8 +43,8 @@ class PlaneCost {
   }
 
  private:
-  /// Items are tested in blocks. If costs ignored this, a tree would have twice the nodes, and rays
-  /// would take longer.
+  /// Returns the number of blocks in which items are tested. If costs ignored blocks, a tree would
+  /// have twice the nodes, and rays would take longer.
   static std::uint32_t blocks(std::uint32_t items) {
     constexpr std::uint32_t kLanes = bvh::kBvhLanes;
     return (items + kLanes - 1) / kLanes;
@@ -55,7 +55,7 @@ class PlaneCost {
   double traversal_;
   double discount_;
   double ends_;   ///< probability of meeting a face across the axis, times the cost of a block
-  double along_;  ///< increase for each unit of length
+  double along_;  ///< increase of this product for each unit of length
 };
 
 }  // namespace beambench::accel::kd_tree

@@ -8,7 +8,7 @@ namespace beambench::accel::kd_tree {
 
 void sort_events(std::span<SplitEvent> events, std::span<SplitEvent> scratch) {
   // A radix sort by the 33 bits of plane and kind, eleven at a time from the lowest. It is stable,
-  // which leaves items in order, and takes a quarter of the time of a sort by comparisons.
+  // so items stay in order, and takes a quarter of the time of a comparison sort.
   constexpr unsigned kBits = 11;
   constexpr std::size_t kBuckets = std::size_t{1} << kBits;
   constexpr std::array<unsigned, 3> kShifts{31, 31 + kBits, 31 + 2 * kBits};

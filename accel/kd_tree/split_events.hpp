@@ -28,9 +28,10 @@ class PlaneKey {
 };
 
 /// An event of the sweep (Wald and Havran, "On building fast kd-trees for ray tracing, and on doing
-/// that in O(N log N)", 2006, section 4.2): an item begins or ends at a plane. Stored as one
-/// integer in the order of the sweep: by plane, ends before beginnings, then by item. Planar events
-/// do not occur: boxes are widened, so each item ends strictly above its beginning.
+/// that in O(N log N)", 2006, section 4.2): an item begins or ends at a plane. An event is stored
+/// as one integer, so that events are ordered as in the sweep: by plane, ends before beginnings,
+/// then by item. Planar events do not occur: boxes are widened, so each item ends strictly above
+/// its beginning.
 class SplitEvent {
  public:
   static constexpr std::uint32_t kItems = 1U << 31U;  ///< one more than the largest index
@@ -57,8 +58,8 @@ class SplitEvent {
   std::uint64_t bits_;
 };
 
-/// Sorts events; `scratch` has their size. Events with the same plane and kind must be in the order
-/// of their items.
+/// Sorts events; `scratch` must have the same size. Events with the same plane and kind must be in
+/// the order of their items.
 void sort_events(std::span<SplitEvent> events, std::span<SplitEvent> scratch);
 
 }  // namespace beambench::accel::kd_tree

@@ -10,8 +10,8 @@
 
 namespace beambench::accel::octree {
 
-/// A node of an octree with its box. The cursor only moves down, because adjacent nodes of equal
-/// size need not exist.
+/// A node of an octree with its box. The cursor can only move down, because an adjacent node of
+/// equal size may not exist.
 class BoxCursor {
  public:
   using Tree = Octree;

@@ -16,13 +16,13 @@ namespace {
 constexpr int kFirstLevel = 3;
 constexpr int kLastLevel = 12;
 
-/// An octree with its work.
+/// An octree and the work of using it.
 struct Trial {
   Octree octree;
   OctreeWork work;
 };
 
-/// Returns the typical work of the level before the first, which was not counted.
+/// Returns the typical work of the level before the first, whose work was not counted.
 OctreeWork usual_work_before(const OctreeWork& first) {
   OctreeWork before = first;
   before.nodes /= 8.0;
@@ -51,7 +51,7 @@ class LevelSearch {
     while (promises(next, best)) {
       ++options_.max_level;
       Trial deeper = tried(Octree(*scene_, options_, best.octree), next);
-      // Both are built already.
+      // Both octrees are already built, so only their tracing costs are compared.
       if ((*trace_cost_)(deeper.work) >= (*trace_cost_)(best.work)) break;
       next = extrapolate(best.work, deeper.work);
       best = std::move(deeper);
@@ -67,10 +67,10 @@ class LevelSearch {
   }
 
   bool promises(const OctreeWork& next, const Trial& best) const {
-    constexpr double kMargin = 0.5;        // the extrapolated number may be wrong
-    constexpr double kWorthTrying = 0.95;  // trying costs something
+    constexpr double kMargin = 0.5;        // allows for errors of the extrapolation
+    constexpr double kWorthTrying = 0.95;  // allows for the cost of a trial
     return options_.max_level < kLastLevel &&
-           best.octree.deepest_level() == options_.max_level &&  // or nothing remains to be split
+           best.octree.deepest_level() == options_.max_level &&  // some nodes can still be split
            next.references < kMargin * static_cast<double>(options_.max_references) &&
            cost(next) < kWorthTrying * cost(best.work);
   }
@@ -102,7 +102,7 @@ Octree choose_octree(const scenes::Scene& scene, const OctreeOptions& options,
 namespace {
 
 /// Returns the factor by which a number grew from one level to the next, clamped to [lowest,
-/// highest]; `lowest` if it was 0.
+/// highest], or `lowest` if the number was 0.
 double growth(double before, double now, double lowest, double highest) {
   return before > 0.0 ? std::clamp(now / before, lowest, highest) : lowest;
 }
@@ -164,8 +164,9 @@ OctreeWork extrapolate(const OctreeWork& before, const OctreeWork& now) {
   next.steps += std::max(0.0, now.steps - before.steps);
   // A cell of half the size has at least half the tests, for surfaces larger than the cell.
   next.tests *= growth(before.tests, now.tests, 0.25, 1.0);
-  // With twice the cells along an axis, the edges of cells cross on the image at least four times
-  // as often, or eight times if all cells are divided; growth is mostly smaller at the next level.
+  // If the number of cells along each axis doubles, the edges of cells cross on the image at least
+  // four times as often, or eight times if all cells are divided. Growth is usually smaller at the
+  // next level.
   next.nonterminal *= 0.65 * growth(before.nonterminal, now.nonterminal, 7.0, 10.0);
   next.occupied *= 0.7 * growth(before.occupied, now.occupied, 4.5, 6.0);
   return next;

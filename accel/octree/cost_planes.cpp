@@ -18,7 +18,7 @@ struct Extent {
   std::int32_t last;
 };
 
-/// Returns the plane with equally many centers below and above it.
+/// Returns the plane that has as many centers below it as above it.
 std::int32_t object_median(std::span<const Extent> extents, std::vector<std::int32_t>& centers) {
   centers.clear();
   for (const Extent& extent : extents) centers.push_back((extent.first + extent.last + 1) / 2);
@@ -27,12 +27,12 @@ std::int32_t object_median(std::span<const Extent> extents, std::vector<std::int
   return *middle;
 }
 
-/// Returns half the area of a box, because costs are only compared.
+/// Returns half the area of a box, which suffices because costs are only compared.
 double half_area(const glm::dvec3& size) {
   return size.x * size.y + size.y * size.z + size.z * size.x;
 }
 
-/// The best plane of one axis of a node.
+/// Finds the best plane across one axis of a node.
 class PlaneSearch {
  public:
   PlaneSearch(const CellGrid& grid, const glm::ivec3& corner, const glm::ivec3& size)

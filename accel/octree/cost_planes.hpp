@@ -16,11 +16,11 @@ namespace beambench::accel::octree {
 /// of objects there, and the best plane lies between the spatial median and the object median.
 /// Whang and others ("Octree-R: an adaptive octree for efficient ray tracing", IEEE TVCG 1(4),
 /// 1995) choose the plane of each axis this way. As in Havran's measurements (1999), 10 evenly
-/// spaced positions between the medians are tried; of equal costs, the one nearest to the spatial
-/// median is taken. The object median is the median of the centers of the objects' boxes, clipped
-/// by the node.
+/// spaced positions between the medians are tried; if several have the lowest cost, the one nearest
+/// to the spatial median is chosen. The object median is the median of the centers of the objects'
+/// boxes, clipped by the node.
 ///
-/// `ranges` has the cells of every primitive of the scene; `primitives` are those of the node.
+/// `ranges` has the cells of every primitive of the scene; `primitives` are the node's primitives.
 glm::ivec3 cost_planes(const CellGrid& grid, const glm::ivec3& corner, const glm::ivec3& size,
                        std::span<const CellRange> ranges,
                        std::span<const scenes::PrimitiveId> primitives);

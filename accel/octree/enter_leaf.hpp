@@ -1,5 +1,5 @@
 #pragma once
-// A ray in a leaf of an octree: its exit, and counting its visit.
+// A ray in a leaf of an octree: finds its exit and counts its visit.
 
 #include <algorithm>
 #include <array>
@@ -14,8 +14,8 @@
 
 namespace beambench::accel::octree {
 
-/// The exit of a ray from a leaf: at t, over the face, edge or vertex that `step` (-1, 0 or 1 for
-/// each axis) points at.
+/// The exit of a ray from a leaf: at t, through the face, edge or vertex that `step` (-1, 0 or 1
+/// for each axis) points at.
 struct LeafExit {
   double t;
   glm::ivec3 step;

@@ -1,5 +1,5 @@
 #pragma once
-// All nodes below a node of an octree.
+// Visits a node of an octree and all its descendants.
 
 #include <cstdint>
 #include <utility>
@@ -7,7 +7,7 @@
 
 namespace beambench::accel::octree {
 
-/// Calls `visit(cursor)` at each node below a place in an octree, and at that place itself.
+/// Calls `visit(cursor)` for the node of `from` and for each of its descendants.
 template <class Cursor, class Visit>
 void for_each_node(Cursor from, Visit visit) {
   std::vector<Cursor> open{std::move(from)};

@@ -1,6 +1,6 @@
 #pragma once
-// The octree traversed from the root: Glassner's search for each leaf, and Gargantini and
-// Atkinson's descent into the children in order.
+// Octrees traversed from the root: Glassner's search for each leaf, and Gargantini and Atkinson's
+// descent into the children in order.
 
 #include "accel/octree/box_cursor.hpp"
 #include "accel/octree/hashed_octree.hpp"
@@ -13,8 +13,8 @@
 
 namespace beambench::accel::octree {
 
-/// Each traversal exists for octrees with central planes, with arbitrary planes and, with either
-/// kind of planes, for octrees divided on demand and for hashed ones.
+/// Each traversal has four versions: for octrees with central planes, for those with arbitrary
+/// planes, and, with either kind of planes, for octrees divided on demand and for hashed octrees.
 ///
 /// Glassner's traversal (IEEE CG&A 4(10), 1984).
 using Glassner = OctreeTracer<RootSearch<OctreeCursor>>;

@@ -1,5 +1,5 @@
 #pragma once
-// An octree whose nodes are found by their names, in a hash table.
+// An octree whose nodes are found by name in a hash table.
 
 #include <bit>
 #include <cstddef>
@@ -22,8 +22,8 @@ namespace beambench::accel::octree {
 /// of child numbers on the path from the root, as octal digits after a 1 (Gargantini, "An effective
 /// way to represent quadtrees", CACM 25(12), 1982), and a hash table maps names to nodes, as in
 /// Glassner ("Space subdivision for fast ray tracing", IEEE CG&A 4(10), 1984). Here the table also
-/// contains interior nodes, so that a search ends at a leaf. The nodes are those of `Octree`: their
-/// links remain, unused, and count in the bytes.
+/// contains interior nodes, so that a search ends at a leaf. The nodes are those of `Octree`; their
+/// unused links remain and are included in the bytes.
 class HashedOctree {
  public:
   static constexpr std::uint64_t kRootName = 1;
@@ -36,7 +36,7 @@ class HashedOctree {
   std::span<const scenes::PrimitiveId> references(const OctreeNode& leaf) const {
     return octree_.references(leaf);
   }
-  /// Returns the index in `Octree::nodes` of a node, which must exist.
+  /// Returns the index in `Octree::nodes` of the node with this name, which must exist.
   std::uint32_t number_of(std::uint64_t name) const {
     std::size_t slot = slot_of(name);
     while (names_[slot] != name) slot = (slot + 1) & mask_;

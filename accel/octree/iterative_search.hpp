@@ -29,9 +29,9 @@ inline constexpr std::string_view kPlaneStepsMeaning =
 /// larger cells where it can). The leaf of the cell is then found by a search from the root. A
 /// large leaf costs as many steps as it has cells along the ray.
 ///
-/// They accumulate the differences between planes. Here each plane's t is computed, so that leaves
-/// and exits equal those of the other searches unless two planes round to the same position, in
-/// which case there may be more leaves of length 0.
+/// The original methods add up the differences in t between planes. Here each plane's t is
+/// computed, so that leaves and exits equal those of the other searches. If two planes round to the
+/// same position, there may be more leaves of length 0.
 template <class CursorType>
 class IterativeSearch {
  public:
@@ -41,7 +41,7 @@ class IterativeSearch {
   static void describe(Statistics&) {}
 };
 
-/// The finest cell in which a ray is.
+/// The finest cell that a ray is in.
 class CellSteps {
  public:
   CellSteps(const CellRay& ray, double t) : ray_(&ray) {
@@ -72,9 +72,9 @@ class CellSteps {
   glm::ivec3 cell_{0};
 };
 
-/// Calls `visit(leaf, exit_t)` for the leaves that the ray passes through, from t_min on, until it
-/// returns true or the ray leaves the root. The leaves, their order and their exits are the same as
-/// in every other search.
+/// Calls `visit(leaf, exit_t)` for the leaves that the ray passes through, from t_min on, until
+/// `visit` returns true or the ray leaves the root. The leaves, their order and their exits are the
+/// same as in every other search.
 template <class Cursor, class Counting, class Visit>
 void walk_leaves(const typename Cursor::Tree& octree, const IterativeSearch<Cursor>&,
                  const Ray& ray, Counting& counting, Visit visit) {

@@ -12,7 +12,7 @@
 namespace beambench::accel::octree {
 
 /// A counter of structures over an octree: nodes passed from a leaf to its neighbor of equal or
-/// larger size. The descent to a smaller leaf is not counted; it is the same for all structures.
+/// larger size. The descent to a smaller leaf is the same for all structures and is not counted.
 inline constexpr std::string_view kNeighborSteps = "neighbor_steps";
 inline constexpr std::string_view kNeighborStepsMeaning =
     "nodes of the octree passed from a leaf to its neighbor of equal or larger size; the descent "
@@ -25,11 +25,11 @@ inline constexpr std::string_view kNeighborStepsMeaning =
 ///
 /// `search.move(cursor, step)` moves the cursor from a leaf to a node behind the face, edge or
 /// vertex that `step` (-1, 0 or 1 for each axis) points at; the search for the next leaf descends
-/// from this node. It returns the number of nodes passed, including the last one, and 0 if the root
-/// ends there. `Search::Cursor` is a place in the octree; `Search::kNeighborSteps` states
-/// whether that node is the neighbor of equal or larger size, in which case the passed nodes are
-/// neighbor steps. `Search::count_last_climb(level, counting)` counts the search's extra work when
-/// a ray leaves the root from a leaf of that level.
+/// from this node. It returns the number of nodes passed, including the last one, or 0 if the ray
+/// leaves the root. `Search::Cursor` is a place in the octree; `Search::kNeighborSteps` states
+/// whether the node reached is the neighbor of equal or larger size, in which case the passed nodes
+/// are neighbor steps. `Search::count_last_climb(level, counting)` counts the search's extra work
+/// when a ray leaves the root from a leaf of that level.
 template <class Search>
 struct LeafWalk {
   using Cursor = typename Search::Cursor;
@@ -37,12 +37,12 @@ struct LeafWalk {
   const typename Cursor::Tree& octree;
   const Search& search;
   const Ray& ray;
-  const CellRay& planes;  ///< of `ray` and the octree's grid
+  const CellRay& planes;  ///< `ray` in the octree's grid
 
-  /// Calls `visit(leaf, exit_t)` for the leaves along the ray, starting from a node that it enters
-  /// at t, until it returns true or the ray leaves the root. `passed` is the number of nodes passed
-  /// to find that node, including itself. Returns the level of the leaf in which the ray left the
-  /// root; 0 if it did not.
+  /// Calls `visit(leaf, exit_t)` for the leaves along the ray, starting from a node that the ray
+  /// enters at t, until `visit` returns true or the ray leaves the root. `passed` is the number of
+  /// nodes passed to find that node, including the node itself. Returns the level of the leaf in
+  /// which the ray left the root, or 0 if it did not leave.
   template <class Counting, class Visit>
   [[gnu::always_inline]] int from(Cursor cursor, double t, int passed, Counting& counting,
                                   Visit visit) const {
@@ -79,8 +79,8 @@ template <class Search>
 LeafWalk(const typename Search::Cursor::Tree&, const Search&, const Ray&, const CellRay&)
     -> LeafWalk<Search>;
 
-/// Calls `visit(leaf, exit_t)` for the leaves that the ray passes through, from t_min on, until it
-/// returns true or the ray leaves the root.
+/// Calls `visit(leaf, exit_t)` for the leaves that the ray passes through, from t_min on, until
+/// `visit` returns true or the ray leaves the root.
 template <class Search, class Counting, class Visit>
 void walk_leaves(const typename Search::Cursor::Tree& octree, const Search& search, const Ray& ray,
                  Counting& counting, Visit visit) {

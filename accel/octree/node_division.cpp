@@ -17,8 +17,8 @@
 namespace beambench::accel::octree {
 namespace {
 
-/// Arbitrary planes are rounded to this many cells along each axis, the maximum that a `CellRange`
-/// can number.
+/// The number of cells along each axis for arbitrary planes, which are rounded to cells: the
+/// maximum that a `CellRange` can number.
 constexpr int kCostCells = 1 << 16;
 
 }  // namespace
@@ -60,7 +60,7 @@ glm::ivec3 NodeDivision::split(const OctreeCell& cell,
   return cell.corner + cell.size / 2;
 }
 
-// A stable counting sort, which keeps ids in increasing order.
+// Sorts by counting, which is stable and so keeps ids in increasing order.
 std::array<std::size_t, 8> NodeDivision::distribute(const OctreeCell& cell, const glm::ivec3& split,
                                                     std::span<const scenes::PrimitiveId> primitives,
                                                     std::vector<std::uint8_t>& octants,
@@ -150,7 +150,7 @@ bool NodeDivision::will_exceed(int level, bool of_lists) const {
                           [&](Random& random) { return chosen(estimate(random), of_lists); });
 }
 
-/// Returns the children to which a primitive of the node belongs, as a bit mask.
+/// Returns the children that refer to a primitive of the node, as a bit mask.
 std::uint8_t NodeDivision::overlapped_octants(const OctreeCell& cell, const glm::ivec3& split,
                                               scenes::PrimitiveId id) const {
   constexpr std::array<std::uint8_t, 3> kLowHalf{0x55, 0x33, 0x0F};  // octants with the axis' bit 0
@@ -171,8 +171,8 @@ std::uint8_t NodeDivision::overlapped_octants(const OctreeCell& cell, const glm:
       octants &= low ? kLowHalf[slot] : static_cast<std::uint8_t>(~kLowHalf[slot]);
     }
   }
-  // If one octant remains, or a connected surface inside the node crosses one plane, no test is
-  // needed.
+  // If only one octant remains, or if a connected surface inside the node crosses only one plane,
+  // no test is needed.
   if (axes_crossed == 0 || (axes_crossed == 1 && contained)) return octants;
   if (options_->assign == OctreeOptions::Assign::kBounds) return octants;
   for (std::uint32_t octant = 0; octant < 8; ++octant) {

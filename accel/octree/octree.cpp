@@ -27,8 +27,8 @@ std::vector<ParameterInfo> OctreeOptions::parameters() {
       choice_parameter("root", "cube", {"cube", "box"},
                        "the root cell: the cube around the scene (thesis) or the scene's own box"),
       choice_parameter("assign", "surface", {"surface", "bbox"},
-                       "what must overlap a cell for a reference: the primitive's surface, or "
-                       "only its bounding box"),
+                       "the part of a primitive that must overlap a cell that refers to it: its "
+                       "surface, or only its bounding box"),
       real_parameter("pad", defaults.pad, 0.0, 1.0,
                      "margin added to each side of the root cell, as a fraction of its size"),
       integer_parameter("max_references", static_cast<std::int64_t>(defaults.max_references), 1,

@@ -24,27 +24,28 @@ struct OctreeOptions {
   enum class Assign { kSurface, kBounds };  ///< criterion for a reference: surface, or box
 
   enum class Planes { kMedian, kCost };  ///< halved nodes, or planes with the lowest cost
-  /// Nodes are divided before the first ray or on demand; kHashed: before, and found by name.
+  /// Whether nodes are divided before the first ray or on demand. kHashed: before the first ray,
+  /// and nodes are found by name.
   enum class Build { kComplete, kOnDemand, kHashed };
-  enum class Exits { kExplicit, kIterative };  ///< of leaves: how they are found
+  enum class Exits { kExplicit, kIterative };  ///< how a leaf's exit is found
 
   /// The value of `max_level` that makes `choose_octree` find the level.
   static constexpr int kAutomatic = 0;
 
   int max_level = 6;              ///< the root is level 1 (the thesis's counting)
-  std::uint32_t max_objects = 0;  ///< leaves with more are split if the level allows
+  std::uint32_t max_objects = 0;  ///< a node with more is split if the level allows
   Root root = Root::kCube;
   Assign assign = Assign::kSurface;
-  /// The minimum widening of overlaps, in scene units: for a part of a larger scene.
+  /// The minimum widening of overlaps in scene units, for a scene that is part of a larger one.
   double least_tolerance = 0.0;
   double pad = 1e-6;  ///< root's margin on each side, relative to its size
   std::uint64_t max_references = 50'000'000;
 
-  /// Only traversals from the root support arbitrary planes; all others refuse `kCost`.
+  /// Only traversals from the root support `kCost`; all others throw for it.
   Planes planes = Planes::kMedian;
   Exits exits = Exits::kExplicit;
   Build build = Build::kComplete;  ///< `OnDemandOctree` divides on demand, `Octree` never
-  int built_level = 4;             ///< the level divided before the first ray, with `kOnDemand`
+  int built_level = 4;             ///< the level built before the first ray, with `kOnDemand`
 
   /// Returns the parameters `max_level`, `max_objects`, `root`, `assign`, `pad` and
   /// `max_references` of every structure over an octree.
@@ -66,22 +67,22 @@ struct OctreeOptions {
 /// planes are rounded, if planes are arbitrary.
 CellGrid octree_grid(const scenes::Scene& scene, const OctreeOptions& options);
 
-/// A part of an octree, for a scene divided among several processes: cells of `level` that are not
-/// `own` are empty leaves, whatever they contain.
+/// A part of an octree, for a scene divided among several processes: cells of `level` for which
+/// `own` is false are empty leaves, whatever they contain.
 struct OctreePart {
   int level;  ///< not deeper than the octree's `max_level`
   std::function<bool(const glm::ivec3& cell)> own;
-  /// Returns whether a node of `size` cells along each axis, starting at `first`, must be divided.
-  /// If so, all such nodes of `level` in it exist, whether or not this part has primitives there.
+  /// Returns whether a node above `level`, of `size` cells along each axis from `first` on, must be
+  /// divided, whether or not this part has primitives in it.
   std::function<bool(const glm::ivec3& first, std::int32_t size)> divided;
 };
 
-/// A node: interior (its eight children are consecutive, child i at first + i, i = x + 2 y + 4 z)
-/// or a leaf (its references).
+/// A node: interior (with eight consecutive children, child i = x + 2 y + 4 z at first + i) or a
+/// leaf (with its references).
 struct OctreeNode {
   static constexpr std::uint32_t kInterior = 0xFFFFFFFFU;
 
-  std::uint32_t parent;  ///< index of the parent; for the root, that of the root itself
+  std::uint32_t parent;  ///< index of the parent; for the root, its own index
   std::uint32_t first;   ///< first child, or first reference
   std::uint32_t count;   ///< kInterior, or the number of references
 
@@ -95,10 +96,10 @@ class Octree {
  public:
   /// Divides statically (thesis, section 3.3): nodes are split until they have at most
   /// `max_objects` primitives or are at `max_level`. Throws an InputError that names
-  /// `max_references` if the references exceed it.
+  /// `max_references` if there are more references.
   Octree(const scenes::Scene& scene, const OctreeOptions& options);
 
-  /// Builds the same octree as `Octree(scene, options)`, but faster, from one with a lower
+  /// Builds the same octree as `Octree(scene, options)`, but faster, from an octree with a lower
   /// `max_level` and otherwise equal options.
   Octree(const scenes::Scene& scene, const OctreeOptions& options, const Octree& coarser);
 

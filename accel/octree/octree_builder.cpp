@@ -28,11 +28,11 @@ struct Pending {
 
 }  // namespace
 
-/// Depth-first subdivision. Each level keeps the current lists of the eight children in one array,
+/// Subdivides depth-first. Each level keeps the current lists of the eight children in one array,
 /// so nothing is allocated for a node.
 class OctreeBuilder {
  public:
-  /// `part`, if given, outlives the builder.
+  /// `part`, if given, must outlive the builder.
   OctreeBuilder(const scenes::Scene& scene, const OctreeOptions& options, Octree& octree,
                 const OctreePart* part = nullptr)
       : scene_(scene),
@@ -63,8 +63,8 @@ class OctreeBuilder {
   }
 
  private:
-  /// If every occupied node is divided down to the finest cells, these predict the references;
-  /// otherwise they are estimated.
+  /// Returns the limit of references. If every occupied node is divided down to the finest cells,
+  /// these predict the references; otherwise the references are estimated.
   ReferenceLimit limit() const {
     const std::uint64_t most = options_.max_references;
     if (part_ != nullptr) return ReferenceLimit(most);
@@ -86,7 +86,8 @@ class OctreeBuilder {
     octree_.references_.shrink_to_fit();
   }
 
-  /// If the coarser octree has a leaf, `subdivide` continues with its references.
+  /// Copies the division of the coarser octree. At its leaves, `subdivide` continues with their
+  /// references.
   void subdivide_below(const Pending& pending, const Octree& coarser, std::uint32_t node) {
     const OctreeNode& there = coarser.nodes()[node];
     if (there.is_leaf()) {
@@ -101,7 +102,7 @@ class OctreeBuilder {
     }
   }
 
-  /// Returns the first child of the node.
+  /// Makes a node interior and returns its first child.
   std::uint32_t make_interior(std::uint32_t node, const glm::ivec3& split) {
     const auto first_child = static_cast<std::uint32_t>(octree_.nodes_.size());
     octree_.nodes_.insert(octree_.nodes_.end(), 8, OctreeNode{node, 0, 0});
@@ -161,8 +162,8 @@ class OctreeBuilder {
   Octree& octree_;
   const OctreePart* part_;
   ReferenceLimit limit_;
-  std::vector<std::vector<scenes::PrimitiveId>> lists_;  ///< by level
-  std::vector<std::vector<std::uint8_t>> octants_;       ///< by level
+  std::vector<std::vector<scenes::PrimitiveId>> lists_;  ///< one for each level
+  std::vector<std::vector<std::uint8_t>> octants_;       ///< one for each level
 };
 
 Octree::Octree(const scenes::Scene& scene, const OctreeOptions& options) {

@@ -51,12 +51,12 @@ class OctreeCursor {
     corner_ = corner;
   }
 
-  /// Samet's search for the neighbor of equal or larger size across the faces of one or more axes
-  /// (a face, edge or vertex neighbor): climbs to the nearest common ancestor and descends along
-  /// the mirrored path as far as there are nodes (Samet, "Implementing ray tracing with octrees and
-  /// neighbor finding", Computers & Graphics 13(4), 1989; thesis, section 3.5.2.2). `step` holds
-  /// -1, 0 or 1 for each axis. Returns the number of levels climbed and descended; 0 when the
-  /// neighbor would lie outside the root.
+  /// Moves to the neighbor of equal or larger size across the faces of one or more axes (a face,
+  /// edge or vertex neighbor) by Samet's search: climbs to the nearest common ancestor and descends
+  /// along the mirrored path as far as there are nodes (Samet, "Implementing ray tracing with
+  /// octrees and neighbor finding", Computers & Graphics 13(4), 1989; thesis, section 3.5.2.2).
+  /// `step` holds -1, 0 or 1 for each axis. Returns the number of levels climbed and descended, or
+  /// 0 if the neighbor would lie outside the root.
   [[gnu::always_inline]] int move_to_neighbor(const glm::ivec3& step) {
     const glm::ivec3 target = corner_ + step * size_;
     std::uint32_t differing = 0;
@@ -72,8 +72,8 @@ class OctreeCursor {
       index_ = node().parent;
       size_ *= 2;
     }
-    // Descend mirrored: the bits of the target's coordinates are the path with the crossed axes
-    // reflected.
+    // Descend along the mirrored path: the bits of the target's coordinates describe the path with
+    // the crossed axes reflected.
     for (; size_ > equal_size && !node().is_leaf(); ++levels) {
       size_ /= 2;
       std::uint32_t octant = 0;

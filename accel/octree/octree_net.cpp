@@ -21,8 +21,8 @@ OctreeNet::OctreeNet(const Octree& octree) {
         const bool upper = (octant & bit) != 0;
         const std::uint32_t mirrored = octant ^ bit;
         child.corner[axis] = static_cast<std::uint16_t>(parent.corner[axis] + (upper ? half : 0));
-        // Behind the inner face lies a sibling; behind the outer one a child of the parent's
-        // neighbor, or that neighbor itself when it is a leaf.
+        // Behind the inner face lies a sibling. Behind the outer face lies a child of the parent's
+        // neighbor, or that neighbor itself if it is a leaf.
         child.neighbors[2 * axis + (upper ? 0 : 1)] = node.first + mirrored;
         const std::size_t outer = 2 * axis + (upper ? 1 : 0);
         const std::uint32_t beyond = parent.neighbors[outer];

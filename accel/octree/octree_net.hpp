@@ -1,5 +1,5 @@
 #pragma once
-// The net over an octree: links from each face to the node behind it.
+// The net over an octree: links from each face of a node to the node behind it.
 
 #include <array>
 #include <cstdint>
@@ -10,9 +10,9 @@
 
 namespace beambench::accel::octree {
 
-/// Links from each node, through each of its six faces, to the neighbor of equal or larger size:
-/// one step to the node that Samet's search via the common ancestor finds. If the neighbors are
-/// smaller, the link leads to their parent, from which the ray descends.
+/// Links each node, through each of its six faces, to the neighbor of equal or larger size. A link
+/// replaces Samet's search via the common ancestor by one step to the same node. If the neighbors
+/// are smaller, the link leads to their ancestor of equal size, from which the ray descends.
 ///
 /// Only faces are linked. Neighbors across an edge or a vertex, which few rays meet exactly, are
 /// found by Samet's search.
@@ -35,8 +35,8 @@ class OctreeNet {
     return 1;
   }
 
-  /// Returns the node behind a face, `2 * axis` (below) or `2 * axis + 1` (above); kOutside behind
-  /// the root's.
+  /// Returns the node behind a face, `2 * axis` (below) or `2 * axis + 1` (above), or kOutside
+  /// behind a face of the root.
   std::uint32_t neighbor(std::uint32_t node, int face) const {
     return places_[node].neighbors[static_cast<std::size_t>(face)];
   }
@@ -44,19 +44,19 @@ class OctreeNet {
 
   template <class Counting>
   static void count_last_climb(int, Counting&) {}
-  /// Adds the memory of the links.
+  /// Adds the memory of the links to the statistics.
   void describe(Statistics& statistics) const;
 
  private:
-  /// The data of a node needed for a step: half a cache line.
+  /// The data of a node needed for a step, in half a cache line.
   struct Place {
     std::array<std::uint32_t, 6> neighbors;
-    std::array<std::uint16_t, 3> corner;  ///< in finest cells
+    std::array<std::uint16_t, 3> corner;  ///< coordinates in finest cells
     std::uint16_t size;
   };
 
   static constexpr int kNoFace = -1;
-  /// Returns the face that a step along one axis crosses; kNoFace for more than one axis.
+  /// Returns the face that a step along one axis crosses, or kNoFace for a step along several axes.
   static int face_of(const glm::ivec3& step) {
     switch (step.x + 3 * step.y + 9 * step.z) {
       case -1:
@@ -76,7 +76,7 @@ class OctreeNet {
     }
   }
 
-  std::vector<Place> places_;  ///< by node
+  std::vector<Place> places_;  ///< one for each node
 };
 
 }  // namespace beambench::accel::octree

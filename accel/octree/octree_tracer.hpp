@@ -80,7 +80,7 @@ class OctreeTracer : public TraversalAccelerator<OctreeTracer<Search>> {
   }
 
  private:
-  /// Throws if planes are arbitrary but the search requires halved nodes.
+  /// Throws an InputError if planes are arbitrary but the search requires halved nodes.
   void require_fitting_planes() const {
     if constexpr (std::is_same_v<typename Search::Cursor, OctreeCursor>) {
       if (octree_.has_central_planes()) return;

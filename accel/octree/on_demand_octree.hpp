@@ -26,7 +26,7 @@ namespace beambench::accel::octree {
 
 struct Children;
 
-/// A node: interior once it has children.
+/// A node, which is interior once it has children.
 struct OnDemandNode {
   std::vector<scenes::PrimitiveId> references;
   mutable std::atomic<const Children*> children{nullptr};
@@ -34,7 +34,7 @@ struct OnDemandNode {
 
 /// The result of dividing a node.
 struct Children {
-  glm::ivec3 split;  ///< the planes between them, as finest cells
+  glm::ivec3 split;  ///< the planes between the children, as finest cells
   std::array<OnDemandNode, 8> nodes;
 };
 
@@ -45,12 +45,12 @@ struct Children {
 /// `Octree`.
 ///
 /// Several threads may query at once. A thread that finds a node undivided divides it and then
-/// publishes the children under a lock; a second thread discards its own, identical children. A
-/// divided node keeps its list, because another thread may still be dividing it.
+/// publishes the children under a lock; a thread that comes second discards its own, identical
+/// children. A divided node keeps its list, because another thread may still be dividing it.
 class OnDemandOctree {
  public:
   /// Divides down to `built_level`. The scene must outlive this object. Throws an InputError that
-  /// names `max_references` if the lists exceed it.
+  /// names `max_references` if the lists have more references.
   OnDemandOctree(const scenes::Scene& scene, const OctreeOptions& options);
   OnDemandOctree(const OnDemandOctree&) = delete;
   OnDemandOctree& operator=(const OnDemandOctree&) = delete;
@@ -62,17 +62,17 @@ class OnDemandOctree {
     return leaf.references;
   }
 
-  /// Returns the children of a node at a place, dividing it if no ray has entered it before;
-  /// nullptr for a leaf. Throws an InputError that names `max_references` if the lists made so far
-  /// exceed it.
+  /// Returns the children of a node at a place, dividing the node if no ray has entered it before,
+  /// or nullptr for a leaf. Throws an InputError that names `max_references` if the lists made so
+  /// far have more references.
   const Children* children(const OnDemandNode& node, const OctreeCell& cell) const {
     const Children* children = node.children.load(std::memory_order_acquire);
     if (children != nullptr || !division_.divides(cell, node.references.size())) return children;
     return &divide(node, cell);
   }
 
-  /// Returns statistics of the octree as divided so far: nodes that may still be divided count as
-  /// leaves and are also reported.
+  /// Returns statistics of the octree as divided so far. Nodes that may still be divided count as
+  /// leaves and are also reported separately.
   Statistics statistics() const;
   /// Returns the current leaves that hold references.
   std::vector<Cell> occupied_cells() const;
@@ -87,7 +87,7 @@ class OnDemandOctree {
   OctreeOptions options_;
   NodeDivision division_;
   OnDemandNode root_;
-  // Mutable: every query would add the same.
+  // Mutable because queries add children, the same ones whatever their order.
   mutable std::mutex publishing_;
   mutable std::vector<std::unique_ptr<const Children>> divided_;
   mutable std::uint64_t references_made_ = 0;

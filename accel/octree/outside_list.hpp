@@ -42,7 +42,8 @@ struct InsideAndOutside {
   std::vector<scenes::PrimitiveId> outside;
 };
 
-/// Forwards the counted work of a structure, with primitives renumbered as in another scene.
+/// Forwards the counted work of a structure over part of a scene, with primitives numbered as in
+/// the whole scene.
 template <class Counting>
 class Renumbered {
  public:
@@ -67,8 +68,8 @@ class Renumbered {
 
 /// A structure over an octree whose largest objects stay in a list (thesis, section 4.4: the world
 /// keeps objects outside all cubes, such as infinite planes, in a separate list). Each ray is
-/// tested against all of them first. A large floor then no longer enlarges the root, so that the
-/// same levels divide the rest more finely.
+/// tested against all of them first. A large floor then no longer enlarges the root, so the same
+/// levels divide the other objects more finely.
 template <class Inner>
 class WithOutsideList : public TraversalAccelerator<WithOutsideList<Inner>> {
  public:
@@ -118,8 +119,8 @@ class WithOutsideList : public TraversalAccelerator<WithOutsideList<Inner>> {
   const Inner& inner() const { return inner_; }
 
  private:
-  /// Adapts the options: the eye may be as far away as the whole scene's size allows
-  /// (`overlap_tolerance`).
+  /// Adapts the options to a part of the scene: the eye may be as far away as the whole scene's
+  /// size allows (`overlap_tolerance`).
   static OctreeOptions for_a_part_of(const scenes::Scene& scene, OctreeOptions options) {
     options.least_tolerance = overlap_tolerance(scene);
     return options;
@@ -127,7 +128,7 @@ class WithOutsideList : public TraversalAccelerator<WithOutsideList<Inner>> {
 
   const scenes::Scene* scene_;
   InsideAndOutside ids_;
-  std::unique_ptr<const scenes::Scene> rest_;  ///< without the objects outside
+  std::unique_ptr<const scenes::Scene> rest_;  ///< the scene without the outside objects
   Inner inner_;
 };
 

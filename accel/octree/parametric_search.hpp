@@ -1,6 +1,6 @@
 #pragma once
-// Finds the leaves of an octree along a ray from the root down, with children in the order of the
-// ray.
+// Finds the leaves that a ray crosses by descending from the octree's root, visiting children in
+// the order in which the ray enters them.
 
 #include <algorithm>
 #include <array>
@@ -23,8 +23,8 @@ namespace beambench::accel::octree {
 /// four), and the interval in each. A node is visited once per ray; neighbors of leaves are not
 /// searched for.
 ///
-/// They use a linear octree, which stores the codes of occupied leaves; `HashedOctree` comes
-/// closest.
+/// Gargantini and Atkinson use a linear octree, which stores the codes of occupied leaves; among
+/// our octrees, `HashedOctree` comes closest.
 template <class CursorType>
 class ParametricSearch {
  public:
@@ -43,8 +43,8 @@ class ParametricWalk {
                  Counting& counting, Visit& visit)
       : octree_(octree), ray_(ray), planes_(planes), counting_(counting), visit_(visit) {}
 
-  /// Visits the leaves below a node that contain the ray from t to `exit_t`. Returns whether
-  /// `visit` returned true.
+  /// Visits the leaves below a node that the ray passes through between t and `exit_t`. Returns
+  /// whether `visit` returned true.
   bool through(const Cursor& node, double t, double exit_t) const {
     counting_.add(Counter::kTraversalSteps);
     if (node.is_leaf()) {
@@ -61,7 +61,7 @@ class ParametricWalk {
       if (planes_.above(axis, split[axis], t)) octant |= bit(axis);
     }
     while (true) {
-      // The planes crossed so far are at or before t.
+      // The planes already crossed are at or before t.
       double next = exit_t;
       for (const double crossing : crossings) {
         if (crossing > t) next = std::min(next, crossing);
@@ -89,9 +89,9 @@ class ParametricWalk {
   Visit& visit_;
 };
 
-/// Calls `visit(leaf, exit_t)` for the leaves that the ray passes through, from t_min on, until it
-/// returns true or the ray leaves the root. The leaves, their order and their exits are the same as
-/// in every other search.
+/// Calls `visit(leaf, exit_t)` for the leaves that the ray passes through, from t_min on, until
+/// `visit` returns true or the ray leaves the root. The leaves, their order and their exits are the
+/// same as in every other search.
 template <class Cursor, class Counting, class Visit>
 void walk_leaves(const typename Cursor::Tree& octree, const ParametricSearch<Cursor>&,
                  const Ray& ray, Counting& counting, Visit visit) {

@@ -15,7 +15,7 @@
 namespace beambench::accel::octree {
 namespace {
 
-/// Registers a structure of the thesis's own octree.
+/// Registers a structure over the thesis's own octree.
 template <class Structure>
 void add(Registry& registry, std::string name, std::string summary) {
   std::vector<ParameterInfo> parameters = OctreeOptions::parameters();
@@ -44,8 +44,8 @@ std::unique_ptr<Accelerator> build_top_down(const scenes::Scene& scene,
   if (options.build == OctreeOptions::Build::kOnDemand) {
     if (options.max_level == OctreeOptions::kAutomatic) {
       throw InputError(
-          "build=on-demand: max_level is auto, for which complete octrees would have to be built; "
-          "give it a number from 1 to 16");
+          "build=on-demand: max_level is auto, which would require building complete octrees; "
+          "give max_level a number from 1 to 16");
     }
     return std::make_unique<OnDemand>(scene, options);
   }
@@ -65,7 +65,7 @@ std::unique_ptr<Accelerator> build_glassner(const scenes::Scene& scene,
     return build_top_down<Glassner, GlassnerAnyPlanes, GlassnerOnDemand, GlassnerHashed>(
         scene, options, workload);
   }
-  // Arbitrary planes were refused.
+  // Arbitrary planes have already been rejected.
   return build_top_down<GlassnerIterative, GlassnerIterative, GlassnerIterativeOnDemand,
                         GlassnerIterativeHashed>(scene, options, workload);
 }

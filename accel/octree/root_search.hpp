@@ -1,5 +1,5 @@
 #pragma once
-// Finding the next leaf along a ray from the root.
+// Finds the next leaf along a ray by a search from the root.
 
 #include <glm/vec3.hpp>
 
@@ -14,8 +14,8 @@ namespace beambench::accel::octree {
 ///
 /// Glassner moves a point slightly beyond the leaf and locates it. Here no point is moved: the
 /// search uses the planes that the ray has crossed at the leaf's exit, so that no thin leaf is
-/// skipped. Glassner finds nodes by a hash of their names, as `HashedOctree` does; the nodes on the
-/// path are the same.
+/// skipped. Glassner finds nodes by a hash of their names, as `HashedOctree` does, but the nodes on
+/// the path are the same.
 template <class CursorType>
 class RootSearch {
  public:

@@ -18,11 +18,11 @@ namespace beambench::accel::octree {
 /// A counter of structures with Samet's search (`kLastClimbMeaning`).
 inline constexpr std::string_view kLastClimb = "last_climb";
 inline constexpr std::string_view kLastClimbMeaning =
-    "levels between the root and the leaf from which a ray leaves it: Samet's search climbs "
-    "them before it finds that the leaf has no neighbor; here they are not climbed and are not "
-    "traversal steps";
+    "levels between the root and the leaf from which a ray leaves the octree: Samet's search "
+    "climbs them before it finds that the leaf has no neighbor; here they are not climbed and are "
+    "not traversal steps";
 
-/// Samet's search over the nearest common ancestor: nothing is stored; each move climbs and
+/// Samet's search via the nearest common ancestor: no links are stored; each move climbs and
 /// descends.
 class AncestorNeighbors {
  public:
@@ -36,8 +36,8 @@ class AncestorNeighbors {
   }
   static void describe(Statistics&) {}
 
-  /// Counts a ray that left the root from a leaf of that level. A search that climbs by pointers
-  /// alone reaches the root first; the cursor's coordinates save these steps.
+  /// Counts a ray that left the root from a leaf of this level. A search that only follows pointers
+  /// would first climb to the root; the cursor's coordinates save these steps.
   template <class Counting>
   static void count_last_climb(int level, Counting& counting) {
     counting.add(kLastClimb, static_cast<std::uint64_t>(level - 1));

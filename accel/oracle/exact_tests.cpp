@@ -14,11 +14,11 @@ namespace {
 #ifdef __SIZEOF_FLOAT128__
 __extension__ using Wide = __float128;
 #else
-using Wide = long double;  // has 113 bits on some 64-bit processors
+using Wide = long double;  // 113 bits on some 64-bit processors
 #endif
 
-/// Returns `side` with all digits: differences of floats have about 26 bits, their products 52,
-/// those with the direction 77.
+/// Returns `side` with all digits: differences of floats have about 26 bits, their products 52, and
+/// products of these with the direction 77.
 double wide_side(const ExactRay& ray, const dvec3& from, const dvec3& to) {
   const auto minor = [&](int i, int j) {
     const auto edge = [&](int k) { return Wide(to[k]) - Wide(from[k]); };
@@ -33,13 +33,13 @@ double wide_side(const ExactRay& ray, const dvec3& from, const dvec3& to) {
 /// Returns the side of the ray on which an edge passes, as the product of their Plücker
 /// coordinates. Reversing the edge changes the sign of the edge vector but not of the sum, so the
 /// two triangles of a shared edge get exactly opposite numbers, and no ray passes between them. The
-/// sign is exact, so that a ray through a vertex never has all edges there on one side, which would
-/// be between all triangles.
+/// sign is exact, so a ray through a vertex never has all edges at the vertex on one side, where it
+/// would pass between all triangles.
 double side(const ExactRay& ray, const dvec3& from, const dvec3& to) {
   const dvec3 edge = to - from;
   const dvec3 sum = from + to;
   const double value = glm::dot(glm::cross(edge, sum), ray.direction);
-  // The error of each of the three terms, with its rounded parts, is below 6 x 2^-53 of this.
+  // The error of each of the three terms, with its rounded parts, is below 6 x 2^-53 of `size`.
   const dvec3 e = glm::abs(edge);
   const dvec3 s = glm::abs(sum);
   const double size =
@@ -72,9 +72,9 @@ std::optional<double> first_hit(const ExactRay& ray, const scenes::Scene& scene,
 
 namespace {
 
-/// The t at which a ray passes through a quadric a t^2 + 2 b t + c that is negative inside: it
-/// enters where the derivative is negative and leaves where it is positive. Infinite if there is
-/// none.
+/// The t at which a ray passes through a quadric a t^2 + 2 b t + c that is negative inside. The ray
+/// enters where the derivative is negative and leaves where it is positive. A t is infinite if the
+/// ray does not enter or does not leave.
 struct Crossings {
   double enter = kInfinity;
   double leave = kInfinity;
@@ -96,8 +96,8 @@ std::optional<Crossings> crossings(double a, double b, double c) {
   return Crossings{-(b + root) / a, -c / (b + root)};
 }
 
-/// Returns the t of the ray's point closest to `point`. Equations are set up from there, because
-/// digits would cancel for a distant eye.
+/// Returns the t of the ray's point closest to `point`. Equations are set up relative to that point
+/// of the ray, because digits would cancel for a distant eye.
 double closest_approach(const ExactRay& ray, const dvec3& point) {
   return glm::dot(point - ray.origin, ray.direction) / glm::dot(ray.direction, ray.direction);
 }
@@ -150,9 +150,9 @@ struct ConeFrame {
   }
 
   dvec3 middle, x, y, z;
-  double radius;       ///< halfway up
-  double half_height;  ///< stretched
-  double slope;        ///< of the radius over the stretched height: from -1 to 1
+  double radius;       ///< radius halfway up
+  double half_height;  ///< half the stretched height
+  double slope;        ///< change of the radius per unit of stretched height, from -1 to 1
 };
 
 }  // namespace
@@ -161,13 +161,13 @@ std::optional<double> first_hit(const ExactRay& ray, const scenes::Cone& cone) {
   const ConeFrame frame(cone);
   const dvec3 origin = frame.to_local(ray.origin - frame.middle);
   const dvec3 d = frame.to_local(ray.direction);
-  // t counts from the ray's point closest to the middle in this frame, which is
-  // d x (origin x d) / |d|^2: written so, its height does not cancel.
+  // t counts from the ray's point closest to the middle in this frame, which is d x (origin x d) /
+  // |d|^2: in this form, its height does not cancel.
   const double square = glm::dot(d, d);
   const double shift = -glm::dot(origin, d) / square;
   const dvec3 o = glm::cross(d, glm::cross(origin, d)) / square;
 
-  // x^2 + y^2 - r(z)^2 with the radius r(z) = r + slope z along the ray.
+  // The quadric is x^2 + y^2 - r(z)^2, with the radius r(z) = r + slope z along the ray.
   const double r = frame.radius + frame.slope * o.z;
   const double r_grows = frame.slope * d.z;
   const double b = o.x * d.x + o.y * d.y - r * r_grows;
@@ -177,7 +177,7 @@ std::optional<double> first_hit(const ExactRay& ray, const scenes::Cone& cone) {
   if (cone.inside_only && found->enter == found->leave) return std::nullopt;  // tangent
 
   // Between base and apex the radius is not negative. This excludes the mirrored half of the double
-  // cone, and infinite and undefined roots, for which the comparisons are false.
+  // cone. It also excludes infinite and undefined roots, for which the comparisons are false.
   std::optional<double> nearest;
   const auto consider = [&](double t) {
     const double height = o.z + t * d.z;

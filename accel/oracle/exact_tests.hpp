@@ -11,7 +11,7 @@
 
 namespace beambench::accel::oracle {
 
-/// A ray's floats as doubles.
+/// A ray with its floats converted to double.
 struct ExactRay {
   explicit ExactRay(const Ray& ray) : origin(ray.origin), direction(ray.direction), floats(ray) {}
 
@@ -22,8 +22,8 @@ struct ExactRay {
   Ray floats;
 };
 
-/// Returns the smallest t in the ray's interval at which it hits, if any. Triangles are two-sided
-/// and closed; rays through a shared edge hit one of its triangles.
+/// Returns the smallest t in the ray's interval at which the ray hits the primitive, if any.
+/// Triangles are two-sided and closed; rays through a shared edge hit one of its triangles.
 std::optional<double> first_hit(const ExactRay& ray, const scenes::Scene& scene,
                                 const scenes::Triangle& triangle);
 std::optional<double> first_hit(const ExactRay& ray, const scenes::Sphere& sphere);

@@ -17,7 +17,7 @@ namespace {
 using embree::to_embree;
 using embree::to_embree_query;
 
-/// A query inside Embree. It keeps the double t of the best hit so far, because Embree's own ray
+/// The state of a query in Embree. It keeps the best hit's t as a double, because Embree's own ray
 /// has only a float.
 struct OracleQuery : embree::Context {
   explicit OracleQuery(const Ray& r)
@@ -26,14 +26,15 @@ struct OracleQuery : embree::Context {
         exponent(std::ilogb(r.direction[static_cast<int>(longest_axis(r.direction))])) {}
 
   ExactRay ray;
-  int exponent;             ///< of the direction's longest component
+  int exponent;             ///< exponent of the direction's longest component
   double best = kInfinity;  ///< t of the best hit
   scenes::PrimitiveId primitive = scenes::kNoPrimitive;
 };
 
 OracleQuery& query_of(embree::RawContext* context) { return *static_cast<OracleQuery*>(context); }
 
-/// Returns a float that is not below t: Embree prunes by it, so errors must be on the far side.
+/// Returns a float that is not below t. Embree prunes by this value, so errors must be on the far
+/// side.
 float at_least(double t) {
   constexpr float kSmallest = std::numeric_limits<float>::min();
   return std::nextafter(std::max(static_cast<float>(t), kSmallest), kInfinity);
@@ -88,7 +89,7 @@ struct Shapes {
   }
 };
 
-/// A kind with the padding of its bounds; Embree's user data.
+/// A kind of primitives and the padding of their bounds, passed to Embree as user data.
 template <class Kind>
 struct Padded {
   Kind kind;

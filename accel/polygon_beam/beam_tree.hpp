@@ -40,19 +40,19 @@ struct BeamSums {
 ///
 /// Beam polygons in floating point never decide a hit. In a leaf, every sample of a beam is tested
 /// by the canonical test against every polygon that it may hit before any beam ends; the nearest
-/// hit is kept, or the lowest id of equal ones. A beam ends only where its samples certainly hit a
-/// polygon within the leaf's cell (`SeenFragment::surely`). No other hit can be as near:
+/// hit is kept, with the lowest id among equal hits. A beam ends only where its samples certainly
+/// hit a polygon within the leaf's cell (`SeenFragment::surely`). No other hit can be as near:
 ///
 /// - Take any plane above the leaf in the tree, and let d be the distance from it, positive on the
 ///   side of the eye, which is visited first. Along a ray, d is linear, and not negative at the
 ///   eye. If the leaf is on this side, the hit has d >= -5/8 of the slab. Hits on primitives that
-///   this side does not refer to have d < -7/8: they come later, by more than the rounding of t
-///   (`Sight::may_end`).
+///   this side does not refer to have d < -7/8 of the slab: they come later, by more than the
+///   rounding of t (`Sight::may_end`).
 /// - If the leaf is on the other side, the beam has already passed the first side, where the sample
 ///   was tested against everything that it may hit there.
 ///
 /// A sample on an edge is in no part that ends: it stays in the adjacent beams and is tested until
-/// these end or leave. Beams without samples are dropped.
+/// these beams end or leave. Beams without samples are dropped.
 template <class Counting>
 class BeamTree {
  public:
@@ -88,13 +88,13 @@ class BeamTree {
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
   static constexpr bool kCounts = !std::is_same_v<Counting, NoCounting>;
-  /// Below 1 by more than the rounding errors of t in float and of `SeenFragment::inverse_t` in
-  /// double.
+  /// A factor that is below 1 by more than the rounding errors of t in float and of
+  /// `SeenFragment::inverse_t` in double.
   static constexpr double kNearly = 1.0 - 0x1p-20;
   /// Beams with more corners are halved, so that there is space for the sides of a fragment.
   static constexpr std::size_t kMostOfBeam = ImagePolygon::capacity() - kMostSides - 1;
 
-  /// Indices into the pool.
+  /// Beams, as indices into the pool.
   using Beams = std::vector<std::uint32_t>;
 
   std::uint32_t keep(const ImagePolygon& polygon) {
@@ -108,8 +108,8 @@ class BeamTree {
     return place;
   }
 
-  /// Passes the beams that a node may hide through it, near side first, and puts back the remaining
-  /// ones.
+  /// Passes the beams that a node may hide through it, near side first, and puts back those that
+  /// remain.
   void visit(std::size_t index, Beams& beams) {
     const TreeNode& node = tree_->nodes()[index];
     if (beams.empty() || node.box.lower.x > node.box.upper.x) return;
@@ -133,8 +133,8 @@ class BeamTree {
     beams.insert(beams.end(), inside.begin(), inside.end());
   }
 
-  /// Tests the samples of beams against the polygons of a leaf; then ends the parts they certainly
-  /// hide.
+  /// Tests the samples of beams against the polygons of a leaf; then ends the parts that the
+  /// polygons certainly hide.
   void meet(std::size_t leaf, Beams& beams) {
     counting_->add(Counter::kLeaves);
     seen_.clear();
@@ -165,12 +165,13 @@ class BeamTree {
     return !polygon.empty();
   }
 
-  /// Tests the samples of a beam that may hit a fragment. Returns whether there are any.
+  /// Tests the samples of a beam that may hit a fragment. Returns whether there are any such
+  /// samples.
   bool test(std::uint32_t triangle, const SeenFragment& seen, const ImageBeam& beam) {
     if (!beam.overlaps(seen.box)) return false;
     ImagePolygon part = beam.outline;
     for (ImageLine line : seen.may) {
-      // Samples of the beam may lie outside of its polygon by the border; so may those here.
+      // Samples of the beam may lie outside its polygon by up to `kBorder`; allow the same here.
       line.constant -= kBorder * (std::abs(line.x) + std::abs(line.y));
       if (!narrow(part, line)) return false;
     }
@@ -216,14 +217,14 @@ class BeamTree {
       if (beam::range_over(whole, line).high <= 0.0) continue;
       outside.push_back(beam::clip(whole, {-line.x, -line.y, -line.constant, 0.0}, 0.0));
     }
-    // Without samples, nothing ends here: cutting the beam would only create more beams.
+    // If the hidden part has no samples, do not cut the beam: that would only create more beams.
     if (!rows_.any_in(hidden)) return next.push_back(beam);
     free_.push_back(beam);
     for (const ImagePolygon& part : outside) go_on(part, next);
     end(leaf, hidden);
   }
 
-  /// Keeps a part of a beam if it has samples, as two halves if it has too many corners.
+  /// Keeps a part of a beam if it has samples; halves it if it has too many corners.
   void go_on(const ImagePolygon& part, Beams& next) {
     if (part.empty() || !rows_.any_in(part)) {
       ++sums_.dropped;

@@ -20,8 +20,8 @@ using beam::ImageLine;
 using beam::ImagePolygon;
 
 /// A sample outside a polygon counts as inside within this distance, in pixels: far more than
-/// rounding moves the corners of polygons. So each sample is in some part of a polygon that is cut,
-/// and samples close to the cut are in both.
+/// rounding moves the corners of polygons. So when a polygon is cut, each of its samples is in some
+/// part, and samples close to the cut are in both parts.
 inline constexpr double kBorder = 1e-6;
 
 /// A beam from the eye: the pyramid through a convex polygon of the image, in pixels.
@@ -47,15 +47,15 @@ struct ImageBeam {
 /// Finds the samples of an image in polygons, row by row.
 class SampleRows {
  public:
-  /// The rays must outlive it.
+  /// The rays must outlive this object.
   explicit SampleRows(const PrimaryRays& rays)
       : rays_(&rays), all_{{0, 0}, {rays.width() - 1, rays.height() - 1}, 0.0} {}
 
   /// Returns the pixels of the image.
   const z_buffer::PixelBox& all() const { return all_; }
 
-  /// Calls `visit(y, sample, first_x, last_x)` for the runs of samples in a polygon and in a box,
-  /// until it returns true. Returns whether it did.
+  /// Calls `visit(y, sample, first_x, last_x)` for the runs of samples in both a polygon and a box,
+  /// until it returns true. Returns whether it returned true.
   template <class Visit>
   bool find_run(const ImagePolygon& polygon, const z_buffer::PixelBox& box, Visit visit) const {
     double top = std::numeric_limits<double>::infinity();
@@ -88,7 +88,7 @@ class SampleRows {
     double right = -left;
   };
 
-  /// Returns the part of a row that the polygon covers, the row extending by the border on both
+  /// Returns the part of a row that the polygon covers; the row is widened by `kBorder` on both
   /// sides.
   static Span span_at(const ImagePolygon& polygon, double y) {
     Span span;
@@ -109,7 +109,7 @@ class SampleRows {
     }
     return span;
   }
-  // In double while numbers may be outside the image.
+  // Computed in double, because `place` may be far outside the image.
   static int first_from(double place, int least) {
     return static_cast<int>(
         std::clamp(std::ceil(place - kBorder), static_cast<double>(least), kBeyond));

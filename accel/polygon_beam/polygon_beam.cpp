@@ -21,7 +21,7 @@ class PolygonBeam : public ImageAccelerator, public Inspector {
   PolygonBeam(const scenes::Scene& scene, const TreeOptions& options)
       : ImageAccelerator(kName), scene_(&scene), tree_(scene, options) {}
 
-  /// Beams hide each other, so one thread traces all of them.
+  /// Traces an image. Each beam depends on those before it, so one thread traces all of them.
   void closest_hits(const RaySource& rays, const HitSpan& hits,
                     const QueryContext& context) const override {
     const PrimaryRays& image = image_of(rays);
@@ -46,8 +46,8 @@ class PolygonBeam : public ImageAccelerator, public Inspector {
   }
 
   const Inspector* inspector() const override { return this; }
-  /// Returns the beams that polygons ended, in this order, with the samples that the polygons hide;
-  /// then those that nothing ended. Samples on edges are in several beams.
+  /// Returns the beams that polygons ended, in the order in which they ended, with the samples that
+  /// the polygons hide; then the beams that nothing ended. Samples on edges are in several beams.
   std::optional<std::vector<BeamOutline>> beams(const PrimaryRays& image) const override {
     std::vector<BeamOutline> outlines;
     HitBuffer hits(image.width(), image.height(), image.samples());

@@ -18,8 +18,8 @@ using Corners = std::vector<glm::dvec3>;
 /// A triangle in a cell while the tree is built.
 struct Part {
   std::uint32_t triangle;
-  bool in_face = false;  ///< lies in a plane that bounds the cell: no longer counted
-  bool is_whole = true;  ///< otherwise it was cut: `outer` and `inner` remain
+  bool in_face = false;  ///< lies in a plane that bounds the cell, so it is no longer counted
+  bool is_whole = true;  ///< otherwise it was cut, and `outer` and `inner` remain
   Corners outer{};
   Corners inner{};
 };
@@ -86,7 +86,8 @@ class TreeBuilder {
   static constexpr std::size_t kLargest = 4;
   static constexpr std::size_t kOthers = 4;
 
-  /// Returns the corners of a part: its own, or those of the triangle, which are stored in `whole`.
+  /// Returns the corners of a part: its own, or, if it was not cut, those of its triangle, which
+  /// are stored in `whole`.
   std::span<const glm::dvec3> outer_of(const Part& part, PolygonTree::Triangle& whole) const {
     if (!part.is_whole) return part.outer;
     whole = tree_->triangle(part.triangle);
@@ -120,7 +121,7 @@ class TreeBuilder {
       if (back) sides[1].push_back(std::move(*back));
     }
     parts = {};
-    // A lower bound of the references below, since parts are only divided further.
+    // The number of parts is a lower bound of the references below this node.
     require_room(sides[0].size() + sides[1].size());
     const auto first = static_cast<std::uint32_t>(tree_->nodes_.size());
     tree_->nodes_.resize(first + 2UL);
@@ -177,7 +178,7 @@ class TreeBuilder {
       kept.inner = clipped(part.is_whole ? corners : std::span<const glm::dvec3>(part.inner), plane,
                            sign, 0.5 * slab);
     }
-    // Only its edge is on this side, or all of it lies in the plane.
+    // The part lies in the plane, or only its edge is on this side.
     kept.in_face = part.in_face || high <= slab;
     return kept;
   }
@@ -190,7 +191,7 @@ class TreeBuilder {
     }
     if (counted.size() <= options_.max_polygons) return std::nullopt;
     std::optional<Plane> best;
-    // The initial score: all parts on one side and nothing gained.
+    // The score of a plane with all parts on one side, which gains nothing.
     double best_score = 2.0 * static_cast<double>(counted.size());
     for (const Plane& plane : candidates(counted)) {
       const double score = score_of(plane, counted);
@@ -204,7 +205,7 @@ class TreeBuilder {
 
   std::vector<Plane> candidates(std::span<const Part* const> parts) const {
     std::vector<Plane> planes;
-    // Across each axis, the planes below which half of the polygons begin or end.
+    // Add the planes across each axis below which half of the polygons begin or end.
     std::vector<Range> extents(parts.size());
     const auto middle = extents.begin() + static_cast<std::ptrdiff_t>(extents.size() / 2);
     for (int axis = 0; axis < 3; ++axis) {
@@ -242,7 +243,7 @@ class TreeBuilder {
     planes.push_back({normal / length, glm::dot(normal / length, corners[0])});
   }
 
-  /// Returns the number of parts that remain in both children, counting those of the larger one
+  /// Returns the number of parts that the two children would count; those of the larger child count
   /// twice.
   double score_of(const Plane& plane, std::span<const Part* const> parts) const {
     std::size_t front = 0;

@@ -16,9 +16,9 @@
 namespace beambench::accel::polygon_beam {
 
 struct TreeOptions {
-  std::size_t max_polygons = 8;               ///< in a leaf that is not divided
-  std::size_t max_depth = 32;                 ///< maximum number of divisions of a cell
-  std::uint64_t max_references = 10'000'000;  ///< fragments of all leaves
+  std::size_t max_polygons = 8;  ///< cells with more, not counting those in faces, are divided
+  std::size_t max_depth = 32;    ///< maximum number of divisions of a cell
+  std::uint64_t max_references = 10'000'000;  ///< maximum number of fragments of all leaves
 };
 
 /// The points where dot(normal, point) = offset. The normal has unit length.
@@ -33,14 +33,14 @@ struct Plane {
 /// cell widened by the tree's slab, `inner` in the cell widened by half of it.
 struct Fragment {
   std::uint32_t triangle;
-  std::uint32_t first = 0;  ///< of the outer corners, which the inner ones follow
-  std::uint16_t outer = 0;  ///< number of corners; 0: both polygons are the whole triangle
+  std::uint32_t first = 0;  ///< index of the outer corners, which the inner ones follow
+  std::uint16_t outer = 0;  ///< number of outer corners; 0: both polygons are the whole triangle
   std::uint16_t inner = 0;
 };
 
 struct TreeNode {
   Plane plane{};            ///< of an interior node; its front is where distances are > 0
-  Box box{};                ///< of the fragments below; empty (lower > upper) without any
+  Box box{};                ///< of the fragments below; empty (lower > upper) if there are none
   std::uint32_t first = 0;  ///< the front child, which the back child follows; or a leaf's
                             ///< first fragment
   std::uint32_t count = 0;  ///< of a leaf: its fragments
@@ -49,7 +49,7 @@ struct TreeNode {
 
 /// Divides space by planes of polygons and planes across the axes, until few polygons remain in a
 /// cell apart from those in its faces ("On visible surface generation by a priori tree structures",
-/// SIGGRAPH 1980). A leaf's polygons have no order among themselves.
+/// SIGGRAPH 1980). The polygons of a leaf are not ordered.
 ///
 /// Cells overlap: a fragment belongs to both sides of a plane if it comes within `slab()` of it. So
 /// a polygon in a dividing plane belongs to the cells on both sides, and everything that touches it
@@ -66,7 +66,7 @@ class PolygonTree {
   }
   using Triangle = std::array<glm::dvec3, 3>;
   Triangle triangle(std::uint32_t index) const;
-  /// Returns corners of a fragment; `whole` is its triangle and must outlive them.
+  /// Returns the outer corners of a fragment; `whole` is its triangle and must outlive them.
   std::span<const glm::dvec3> outer(const Fragment& fragment, const Triangle& whole) const {
     if (fragment.outer == 0) return whole;
     return std::span(corners_).subspan(fragment.first, fragment.outer);

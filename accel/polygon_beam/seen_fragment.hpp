@@ -1,5 +1,6 @@
 #pragma once
-// Fragments of polygons as seen by an eye: where samples may hit them, and where they certainly do.
+// Fragments of polygons as seen from an eye: where samples may hit them, and where samples
+// certainly do.
 
 #include <algorithm>
 #include <array>
@@ -29,11 +30,12 @@ inline constexpr std::size_t kMostSides = 11;
 /// A fragment on the image. Its lines are planes through the eye and an edge, so they are correct
 /// wherever its corners lie, even behind the eye.
 struct SeenFragment {
-  PixelBox box;  ///< of all samples that may hit it
+  PixelBox box;  ///< of all samples that may hit the fragment
   /// Lines on the image in pixels, negative on their inner side. A sample that may hit the fragment
   /// is inside all of them.
   beam::FixedVector<beam::ImageLine, kMostCorners> may;
-  /// A sample inside all of these certainly hits the fragment. Empty: no sample certainly does.
+  /// A sample inside all of these lines certainly hits the fragment. Empty if no sample certainly
+  /// does.
   beam::FixedVector<beam::ImageLine, kMostSides> surely;
   beam::ImageLine inverse_t;  ///< at least 1 / view depth of its plane
 };
@@ -44,12 +46,13 @@ struct SeenFragment {
 ///
 /// (1) A sample's canonical hit lies within s = kHitSlack * reach of the triangle
 /// (accel/core/tolerance.hpp), so within s of one of its outer fragments, since these cover it.
-/// Seen from the eye, at a distance of at least `height`, that is an angle of s / height; the
+/// Seen from the eye, at a distance of at least `height`, this is an angle of s / height; the
 /// sample's direction, rounded to float, deviates by Screen::rounding(). `may` is widened by both.
 ///
 /// (2) A sample inside `surely` has a canonical hit of the triangle, and the hit lies within the
-/// leaf's cell widened by 5/8 of the slab: the inner fragment is in the cell widened by half of it,
-/// and the conditions below make the error of the computed t less than an eighth.
+/// leaf's cell widened by 5/8 of the slab: the inner fragment is in the cell widened by half of the
+/// slab, and the conditions in `may_end` keep the error of the computed hit below an eighth of the
+/// slab.
 class Sight {
  public:
   Sight(const PolygonTree& tree, const z_buffer::Screen& screen, const glm::dvec3& eye)
@@ -57,7 +60,7 @@ class Sight {
     const Box& box = tree.nodes().front().box;
     const glm::dvec3 largest =
         glm::max(glm::abs(eye), glm::max(glm::abs(box.lower), glm::abs(box.upper)));
-    // The error of corners cut by a plane, with a margin for products of two.
+    // The error of corners made by cutting with a plane, with a margin for products of two corners.
     corner_loss_ = 0x1p-48 * std::max({largest.x, largest.y, largest.z});
     const glm::dvec3 farthest = glm::max(glm::abs(box.lower - eye), glm::abs(box.upper - eye));
     scene_reach_ = glm::length(farthest);
@@ -78,7 +81,7 @@ class Sight {
     return screen_->box_of(hull);
   }
 
-  /// Returns a fragment as seen; if its box is empty, only the box is set.
+  /// Returns a fragment as seen from the eye; if its box is empty, only the box is set.
   SeenFragment see(const Fragment& fragment) const {
     SeenFragment seen;
     const PolygonTree::Triangle whole = tree_->triangle(fragment.triangle);
@@ -93,8 +96,7 @@ class Sight {
 
     const double longest = screen_->longest();
     if (!(facing.height > 0x1p-20 * facing.reach) || !(facing.length > 0x1p-20 * facing.size)) {
-      // Seen edge-on, or a needle triangle whose plane is uncertain: only its box limits the
-      // samples.
+      // Seen edge-on, or a needle whose plane is uncertain: only the box limits the samples.
       seen.inverse_t = {0.0, 0.0, std::numeric_limits<double>::infinity(), 0.0};
       return seen;
     }
@@ -126,7 +128,7 @@ class Sight {
     glm::dvec3 normal;
     double reach = 0.0;  ///< distance of the farthest corner
     double length;       ///< of the normal
-    double size;         ///< the length for perpendicular sides
+    double size;         ///< the length that `normal` would have if the sides were perpendicular
     double volume;
     double height;  ///< distance of the plane
   };
@@ -140,8 +142,8 @@ class Sight {
     return {line.x, line.y, line.constant, 0.0};
   }
 
-  /// The plane through the eye and two corners. `loss` bounds the error of its product with a
-  /// sample's direction.
+  /// The plane through the eye and two corners. `loss` bounds the error of the product of `normal`
+  /// and a sample's direction.
   struct EdgePlane {
     glm::dvec3 normal;
     double loss;
@@ -167,8 +169,8 @@ class Sight {
     }
   }
 
-  /// Adds the lines of the inner fragment, moved inward; none if they are not certain. Corners may
-  /// be dropped, which only shrinks the polygon.
+  /// Adds the lines of the inner fragment, moved inward, or no lines if they are not certain.
+  /// Corners may be dropped, which only shrinks the polygon.
   void add_inner(std::span<const glm::dvec3> corners, const Facing& facing,
                  decltype(SeenFragment::surely)& lines) const {
     beam::FixedVector<glm::dvec3, kMostSides> kept;
@@ -198,12 +200,13 @@ class Sight {
     // slab of their primitive.
     if (!(kHitSlack * scene_reach_ <= 0.125 * tree_->slab())) return false;
     // An eighth of the slab exceeds the rounding error of t in float, so anything farther behind
-    // the cell has a larger t, not an equal one. It also exceeds the error in double where the ray
-    // meets the plane at a flat angle; the error of the plane's normal is 2^-50 * size / length.
+    // the cell has a larger t, not an equal one. It also exceeds the error in double of a hit at a
+    // grazing angle; the error of the plane's normal is 2^-50 * size / length.
     if (!(0x1p-20 * facing.reach * longest <= tree_->slab())) return false;
     if (!(facing.length > 0x1p-10 * facing.size)) return false;
     if (!(facing.height > 0x1p-14 * facing.reach)) return false;
-    // The canonical areas lose 2^-48 of these products, negligible compared to a line's margin.
+    // The error of the canonical areas is 2^-48 of these products, which is negligible compared to
+    // a line's margin.
     for (std::size_t i = 0; i < 3; ++i) {
       const glm::dvec3& from = facing.corners[i];
       const glm::dvec3& to = facing.corners[(i + 1) % 3];
@@ -214,7 +217,7 @@ class Sight {
     return true;
   }
 
-  /// The largest error of a line that is used, as an angle.
+  /// The largest error, as an angle, of a line that is used.
   static constexpr double kLoosest = 0x1p-10;
 
   const PolygonTree* tree_;

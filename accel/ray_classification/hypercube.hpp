@@ -56,7 +56,7 @@ struct SeenBox {
   std::array<Interval, 2> aside;
 };
 
-/// Keeps the part of an interval of s in which offset + slope * s <= 0.
+/// Reduces an interval of s to the part in which offset + slope * s <= 0.
 inline void keep_below(double offset, double slope, Interval& s) {
   if (slope > 0.0) {
     s.high = std::min(s.high, -offset / slope);
@@ -67,10 +67,11 @@ inline void keep_below(double offset, double slope, Interval& s) {
   }
 }
 
-/// Returns whether a ray of the set may meet the box: whether at some distance s along, the
-/// positions of the set's rays overlap it (Arvo and Kirk 1987, section 4, use a linear program or
-/// bounding cones). Conservative: never false if a ray meets the box, but it may combine the origin
-/// of one ray along with that of another aside.
+/// Returns whether a ray of the set may meet the box, that is, whether the positions of the set's
+/// rays overlap the box at some distance s along the axis (Arvo and Kirk 1987, section 4, use a
+/// linear program or bounding cones). Conservative: never false if a ray meets the box. It may be
+/// true for no single ray, because it may combine one ray's origin along the axis with another's
+/// origin aside.
 inline bool may_meet(const Hypercube& rays, const SeenBox& box) {
   Interval s{std::max(0.0, box.along.low - rays[0].high), box.along.high - rays[0].low};
   for (std::size_t i = 0; i < 2; ++i) {
@@ -82,7 +83,8 @@ inline bool may_meet(const Hypercube& rays, const SeenBox& box) {
   return s.low <= s.high;
 }
 
-/// Returns the dimension in which the set is largest, relative to `whole`; the slopes first.
+/// Returns the dimension in which the set is largest relative to `whole`. Of equal dimensions, a
+/// slope comes first.
 inline std::size_t widest_dimension(const Hypercube& rays, const Hypercube& whole) {
   constexpr std::array<std::size_t, kDimensions> kOrder{3, 4, 1, 2, 0};
   return *std::max_element(kOrder.begin(), kOrder.end(), [&](std::size_t a, std::size_t b) {

@@ -10,7 +10,7 @@
 namespace beambench::accel::ray_classification {
 namespace {
 
-/// Returns the box of a set's origins in the scene.
+/// Returns the box of a set's origins in scene coordinates.
 Box origins_of(const Face& face, const Hypercube& rays) {
   Box box{};
   const auto along = static_cast<int>(face.along);
@@ -54,7 +54,7 @@ RayClassification::RayClassification(const scenes::Scene& scene, const RayTreeOp
     : scene_(&scene),
       boxes_(padded_primitive_bounds(scene)),
       references_(std::make_unique<std::atomic<std::uint64_t>>(0)) {
-  // Widened again, for the rounding of a ray's origin and slopes and of `may_meet`.
+  // Boxes are widened again, for the rounding of a ray's origin and slopes and of `may_meet`.
   const double tolerance = overlap_tolerance(scene);
   std::vector<Box> classified;
   classified.reserve(boxes_.size());
@@ -70,8 +70,8 @@ RayClassification::RayClassification(const scenes::Scene& scene, const RayTreeOp
 }
 
 Point RayClassification::point_of(const CanonicalRay& ray, const Face& face) const {
-  // The point where the ray enters the box, in double: a float t may lie behind a hit there. A hit
-  // before t_min may round to it.
+  // Finds the point where the ray enters the box in double, because a float t may lie behind a hit
+  // at that point. A hit slightly before t_min may round to t_min.
   double t = ray.t_min * (1.0 - 0x1p-23);
   for (int axis = 0; axis < 3; ++axis) {
     if (ray.direction[axis] == 0.0) continue;

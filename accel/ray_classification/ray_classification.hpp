@@ -19,11 +19,11 @@
 namespace beambench::accel::ray_classification {
 
 /// Subdivides the set of rays instead of space ("Fast Ray Tracing by Ray Classification", Computer
-/// Graphics 21(4), 1987): a ray is a point in five dimensions: its origin and two slopes on a face
-/// of the direction cube. Sets of rays are boxes of such points; each has a list of the primitives
-/// that its rays may meet, in order along the face's axis. A ray finds its set by comparing its
-/// coordinates with planes, without stepping through space, and is tested against the list from the
-/// near end until the closest hit lies before all remaining primitives.
+/// Graphics 21(4), 1987): a ray is a point in five dimensions, which are its origin and two slopes
+/// on a face of the direction cube. Sets of rays are boxes of such points; each has a list of the
+/// primitives that its rays may meet, in order along the face's axis. A ray finds its set by
+/// comparing its coordinates with planes, without stepping through space, and is tested against the
+/// list from the near end until the closest hit lies before all remaining primitives.
 ///
 /// Rays that begin outside the scene's box are moved to where they enter it.
 class RayClassification : public TraversalAccelerator<RayClassification> {
@@ -58,8 +58,8 @@ class RayClassification : public TraversalAccelerator<RayClassification> {
   std::vector<Cell> occupied_cells() const override;
 
  private:
-  /// Calls `test(id)` for the primitives that the ray may meet before `canonical.t_max`, until it
-  /// returns true. `canonical` is the ray; its t_max may shrink.
+  /// Calls `test(id)` for the primitives that the ray may meet before `canonical.t_max`, until
+  /// `test` returns true. `canonical` is the ray; its t_max may shrink.
   template <class Counting, class Test>
   void for_each_candidate(const Ray& ray, const CanonicalRay& canonical, Counting& counting,
                           const Test& test) const {
@@ -81,7 +81,7 @@ class RayClassification : public TraversalAccelerator<RayClassification> {
     const double origin = canonical.origin[axis];
     const double inverse = 1.0 / canonical.direction[axis];
     for (const scenes::PrimitiveId id : place.set->candidates) {
-      // In order: all later primitives begin at this t or beyond, rounded like the t of a hit.
+      // Candidates are sorted: all later ones begin at this t or beyond, rounded like a hit's t.
       const float near = forward ? boxes_[id].lower[axis] : boxes_[id].upper[axis];
       if (static_cast<float>((near - origin) * inverse) > canonical.t_max) break;
       counting.add(Counter::kBoxTests);
@@ -100,9 +100,9 @@ class RayClassification : public TraversalAccelerator<RayClassification> {
                            const BoxInterval& inside);
 
   const scenes::Scene* scene_;
-  std::vector<scenes::Bounds> boxes_;                       ///< of the primitives, widened
-  scenes::Bounds bounds_;                                   ///< of all of them
-  std::unique_ptr<std::atomic<std::uint64_t>> references_;  ///< in the lists of all trees
+  std::vector<scenes::Bounds> boxes_;                       ///< widened boxes of the primitives
+  scenes::Bounds bounds_;                                   ///< box of all these boxes
+  std::unique_ptr<std::atomic<std::uint64_t>> references_;  ///< total in the lists of all trees
   std::array<std::unique_ptr<RayTree>, kFaces> trees_;
 };
 

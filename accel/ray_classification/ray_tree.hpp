@@ -18,7 +18,7 @@ namespace beambench::accel::ray_classification {
 
 struct RayTreeOptions {
   std::size_t max_candidates = 16;  ///< a set whose rays may meet more primitives is divided
-  int max_depth = 25;               ///< unless it was already divided this many times
+  int max_depth = 25;               ///< maximum number of divisions of a set
   std::uint64_t max_references = 50'000'000;
 };
 
@@ -40,8 +40,8 @@ struct Halves {
 /// The sets of one face, a binary tree over its five dimensions. When the first ray in a set
 /// arrives, the set is divided in the middle of its largest dimension, and its candidates are
 /// reclassified. The division does not depend on the order of rays, so neither do hits and
-/// counters, unless the lists reach `max_references`: from then on nothing is divided, and rays are
-/// tested against longer lists.
+/// counters, unless the lists reach `max_references`: from then on no sets are divided, and rays
+/// are tested against longer lists.
 ///
 /// Several threads may query at once, as in `OnDemandOctree`.
 class RayTree {
@@ -55,7 +55,7 @@ class RayTree {
   };
 
   /// `boxes` are those of all primitives, widened for rounding; `whole` is the box of their union.
-  /// `references` counts the list entries of all trees and must outlive this one.
+  /// `references` counts the list entries of all trees and must outlive this tree.
   RayTree(std::size_t face, const Box& whole, std::span<const Box> boxes,
           const RayTreeOptions& options, std::atomic<std::uint64_t>& references);
   RayTree(const RayTree&) = delete;
@@ -76,7 +76,7 @@ class RayTree {
     }
   }
 
-  /// Adds the sets made so far; those that may still be divided count as leaves.
+  /// Adds the sets made so far to the statistics; those that may still be divided count as leaves.
   void describe(Statistics& statistics) const;
   /// Calls `visit(place)` for each leaf.
   template <class Visit>
@@ -122,7 +122,7 @@ class RayTree {
   Hypercube whole_;
   std::vector<SeenBox> boxes_;
   RaySet root_;
-  // Mutable: every query would add the same.
+  // Mutable because queries add divisions, the same ones whatever their order.
   mutable std::mutex publishing_;
   mutable std::deque<Halves> divided_;
   std::atomic<std::uint64_t>& references_;

@@ -26,7 +26,7 @@ class BoxProbe {
         width_(static_cast<float>(view.width - 1)),
         height_(static_cast<float>(view.height - 1)) {}
 
-  /// For each box that the beam meets, its samples and its largest 1/t.
+  /// The boxes that the beam meets, with the samples and the largest 1/t of each.
   struct Met {
     alignas(64) std::array<std::int32_t, kTileLanes> rectangle;  ///< bytes of SampleRectangle
     alignas(64) std::array<float, kTileLanes> nearest;
@@ -50,8 +50,8 @@ class BoxProbe {
     met.lanes &= (LaneBits{1} << count) - 1;
   }
 
-  /// Returns the children of a node whose normal cones face entirely away from the eye from
-  /// everywhere in the box (Shirmun and Abi-Ezzi 1993). May include children without a cone.
+  /// Returns the children of a node whose normal cones face entirely away from the eye at every
+  /// point of their boxes (Shirmun and Abi-Ezzi 1993). May include children without a cone.
   HWY_INLINE LaneBits turned_away(const TileNode& node) const {
     return for_each_register([&](std::size_t lane) {
       Floats along = hn::Zero(Tag());  // lower bound along the axis, over the box
@@ -115,7 +115,7 @@ class BoxProbe {
                                     float eye) {
     return hn::Sub(load(&boxes.planes[plane][lane]), all(eye));
   }
-  /// Returns the largest value along a row over the boxes, moved by `slacks` slacks.
+  /// Returns the largest value along a row over the boxes, plus `slacks` times the row's slack.
   HWY_INLINE Floats largest(std::size_t row, const Points& lower, const Points& upper,
                             float slacks = 1.0F) const {
     const glm::vec3& along = rows_[row];

@@ -52,7 +52,7 @@ class BundleTests {
   }
 
  private:
-  /// Calls `test(place, shape)`, which returns the origins that end, for each pair.
+  /// Calls `test(place, shape)` for each pair; it returns the origins that end.
   template <class Test>
   HWY_INLINE std::uint32_t test_each(std::span<const std::uint32_t> pairs, Test test) {
     std::uint32_t changed = 0;
@@ -99,7 +99,7 @@ class BundleTests {
       const Floats missed = hn::Or(
           either(hn::Add(edges[0], by[0]), hn::Add(edges[1], by[1]), hn::Add(edges[2], by[2])),
           beyond);
-      // Zeros neither exclude nor decide anything.
+      // Edges and planes that are zero neither exclude nor decide anything.
       const auto inside = [&](std::size_t k) { return hn::Gt(edges[k], hn::Add(by[k], by[k])); };
       covered |= bits_of(hn::And(hn::And(inside(0), inside(1)), inside(2))) << lane;
       behind |= bits_of(hn::Gt(beyond, slack_of(of, w))) << lane;
@@ -114,8 +114,8 @@ class BundleTests {
     return covered | (others == 0 ? 0 : hide_apexes(place, others, shape, meshlet));
   }
 
-  /// The maximum number of triangles tested for all apexes of an origin. Beyond it, streams are
-  /// faster.
+  /// The maximum number of triangles tested for all apexes of an origin. With more triangles,
+  /// streams are faster.
   static constexpr std::uint8_t kMostTests = 64;
 
   /// Finds the apexes that a triangle hides from some origins of a block. Returns the origins that
@@ -135,7 +135,7 @@ class BundleTests {
   HWY_NOINLINE LaneBits hide_apexes(std::size_t place, LaneBits origins, std::size_t shape,
                                     const Meshlet& meshlet) {
     constexpr float kRounding = 0x1p-24F;
-    constexpr float kTiny = 1e-30F;    // numbers that underflow are less than a rounding of it
+    constexpr float kTiny = 1e-30F;    // numbers that underflow are smaller than its rounding error
     constexpr float kLift = 0x1p-17F;  // twice that of `surface_lift`
     const BundleRays& bundle = *part_->bundle;
     const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
@@ -168,7 +168,7 @@ class BundleTests {
       }
     }
     LaneBits above = 0;
-    LaneBits beside = 0;  // in the plane, perhaps
+    LaneBits beside = 0;  // may lie in the plane
     for (std::size_t lane = 0; lane < PencilUnit::kBlock; lane += kLanes) {
       const Points origin{load(&rows[kOrigin].at[lane]), load(&rows[kOrigin + 1].at[lane]),
                           load(&rows[kOrigin + 2].at[lane])};
@@ -264,9 +264,10 @@ class BundleTests {
     return ended;
   }
 
-  /// At a fraction s of the way, the line from an origin to an apex is at most s times the ball's
-  /// radius away from the line to the center. A ray that begins outside the sphere and moves away
-  /// from it misses it.
+  /// Returns the origins from which a sphere may hide an apex, after hiding all apexes from those
+  /// from which it certainly covers the whole light. At a fraction s of the way, the line from an
+  /// origin to an apex is at most s times the ball's radius away from the line to the center. A ray
+  /// misses the sphere if it begins outside and moves away from it.
   HWY_INLINE LaneBits test_sphere(std::size_t place, std::size_t shape) {
     const OneShape of{*shapes_, shape};
     const Points center{of(SeenShapes::kCenter), of(SeenShapes::kCenter + 1),

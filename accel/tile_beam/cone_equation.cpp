@@ -10,7 +10,8 @@ namespace {
 
 /// Surfaces count as flat beyond this cosine of the inclination to the axis.
 constexpr double kFlat = 0x1p-5;
-/// Shorter cones are left to double precision: a rim has a doubtful margin of 2^-18 on either side.
+/// Shorter cones are left to double precision, because a rim has a doubtful margin of 2^-18 on
+/// either side.
 constexpr double kShort = 0x1p-12;
 /// Below this distance, the eye counts as touching the surface.
 constexpr double kTouching = 0x1p-18;

@@ -20,7 +20,7 @@ namespace beambench::accel::tile_beam {
 ///   along x       X w + d.x
 ///   along y       d.y
 ///   height        H w + d.axis
-///   C x radius    R w + S d.axis         with R that at the height of the eye
+///   C x radius    R w + S d.axis         where R is C x radius at the height of the eye
 ///
 /// and is on the surface where C^2 (square of the distance from the axis) equals the square of the
 /// last line, so c w^2 + 2 b w + a = 0 with a constant c and with b linear in the direction. If the

@@ -1,4 +1,4 @@
-// Drawing cones into a tile: a box on the screen, then the equation for its samples.
+// Draws cones into a tile: a box on the screen, then the equation for its samples.
 
 #if defined(ACCEL_TILE_BEAM_CONE_RASTER_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_CONE_RASTER_INL
@@ -30,7 +30,7 @@ inline constexpr float kOnSurface = 0x1p-22F;
 /// A height closer than this to that of a rim is doubtful.
 inline constexpr float kAtRim = 0x1p-18F;
 
-/// Boxes with at most this many samples are faster ray by ray.
+/// Cones whose boxes have at most this many samples are drawn faster ray by ray.
 inline constexpr int kFewSamples = 2;
 
 /// Returns a linear function at the first samples of a row, in the lanes of a register of a block.
@@ -59,7 +59,8 @@ class ConePainter {
               float nearest)
       : cone_(cone), primitive_(primitive), nearest_(nearest), inside_only_(inside_only) {}
 
-  /// `exact(column, row, samples)` receives, as bits, the samples of a block that rounding decides.
+  /// Paints the samples of a box. `exact(column, row, samples)` receives, as bits, the samples of a
+  /// block that depend on rounding.
   template <class Exact>
   HWY_INLINE void paint(const SampleRectangle& box, TileImage& image, Exact exact) const {
     const int first_column = box.left >> 2;
@@ -81,7 +82,7 @@ class ConePainter {
   }
 
  private:
-  static constexpr int kFewBlocks = 8;  ///< below it, finding row ends costs more than it saves
+  static constexpr int kFewBlocks = 8;  ///< with fewer, finding row ends costs more than it saves
 
   template <class Exact>
   HWY_INLINE void paint_row(int row, int first_column, int last_column, TileImage& image,
@@ -137,7 +138,7 @@ class ConePainter {
     const ConeRoot first = classify(w);
     Mask hit = hn::And(first.hit, hn::Or(hn::Not(approaches), enters));
     doubtful = hn::Or(hn::Or(doubtful, first.doubtful), hn::Le(hn::Abs(q), all(cone_.least_root)));
-    // The ray meets both only if it approaches, and then the first is nearer.
+    // The ray meets the cone at both roots only if it approaches, and then the first is nearer.
     const Mask decided = hn::Or(doubtful, hit);
     if (!hn::AllFalse(Tag(), hn::AndNot(decided, met))) {
       const Floats a =

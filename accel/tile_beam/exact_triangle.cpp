@@ -32,8 +32,9 @@ struct Range {
   }
 };
 
-/// Returns the range of the part of a triangle in front of the eye. `axis` of the corners is place
-/// x depth. An edge that continues behind the eye leaves the screen at one of its ends.
+/// Returns the range of the part of a triangle in front of the eye. Coordinate `axis` of each
+/// corner is its place on the screen times its depth. An edge that continues behind the eye leaves
+/// the screen at one of its ends.
 Range range_of(const std::array<glm::dvec3, 3>& projected, int axis) {
   Range range;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -34,7 +34,7 @@ std::optional<ExactTriangle> exact_triangle(const TileView& view,
 
 /// A triangle seen through a side of the cube around a pencil's apex. It is visible at a place (u,
 /// v) within the bounds if no edge is negative, where an edge is x * u + y * v + z; its w there is
-/// the plane divided by `distance`, which is positive. The bounds cut off acute corners.
+/// the plane's value divided by `distance`, which is positive. The bounds cut off acute corners.
 struct ExactApexTriangle {
   glm::dvec2 low;
   glm::dvec2 high;
@@ -51,7 +51,7 @@ struct ExactApexTriangle {
 std::optional<ExactApexTriangle> exact_apex_triangle(const glm::vec3& apex, const CubeSide& side,
                                                      const std::array<glm::vec3, 3>& corners);
 
-/// The plane of a triangle, in the numbers of the canonical test.
+/// The plane of a triangle, with the arithmetic of the canonical test.
 class TrianglePlane {
  public:
   explicit TrianglePlane(const std::array<glm::vec3, 3>& corners);

@@ -16,7 +16,7 @@ struct HandOverRecorder : NoCounting {
   std::vector<bool> is_handed_over;
 };
 
-/// Called by a walk for each ray that it hands over. Other policies count it.
+/// Counts a ray that a walk hands over, or records it if the policy is HandOverRecorder.
 template <class Counting>
 void note_handed_over(Counting& counting, std::size_t) {
   counting.add("handed_over_rays");

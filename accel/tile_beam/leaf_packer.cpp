@@ -92,7 +92,7 @@ class LeafPacker {
     made_.blocks.cones.reserve(blocks * scene.cones.size() / parts);
   }
 
-  /// `items` are ascending.
+  /// Packs a leaf. `items` must be ascending.
   void pack(std::span<const std::uint32_t> items) {
     const scenes::Scene& scene = parts_->scene;
     for (const auto kind : {scenes::PrimitiveKind::kPolygon, scenes::PrimitiveKind::kSphere,
@@ -109,14 +109,14 @@ class LeafPacker {
   PackedLeaves& made() { return made_; }
 
  private:
-  /// Packs items of one kind into one block. If they do not fit, they are halved along their
+  /// Packs items of one kind. If they do not fit into one block, they are halved along their
   /// longest axis: in scene order, the boxes of a leaf's blocks would overlap.
   void pack_blocks(scenes::PrimitiveKind kind, std::span<std::uint32_t> items) {
     if (pack_block(kind, items)) return;
     const auto half = static_cast<std::ptrdiff_t>(items.size() / 2);
     const auto center = [&](std::uint32_t item) {
       const scenes::Bounds& box = parts_->boxes[item];
-      return box.lower + box.upper;  // twice
+      return box.lower + box.upper;  // twice the center
     };
     scenes::Bounds centers;
     for (const std::uint32_t item : items) centers.include(center(item));
@@ -132,7 +132,8 @@ class LeafPacker {
     }
   }
 
-  /// Returns false, without adding anything, if they do not fit.
+  /// Packs items of one kind into one block. Returns false, without adding anything, if they do not
+  /// fit.
   bool pack_block(scenes::PrimitiveKind kind, std::span<const std::uint32_t> items) {
     scenes::Bounds box;
     for (const std::uint32_t item : items) box.include(parts_->boxes[item]);
@@ -219,7 +220,7 @@ class LeafPacker {
   }
 
   const TileParts* parts_;
-  std::vector<std::uint32_t> of_kind_;  ///< of the current leaf; reuses its memory
+  std::vector<std::uint32_t> of_kind_;  ///< items of one kind in the current leaf; reused
   PackedLeaves made_;
 };
 

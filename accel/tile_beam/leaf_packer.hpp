@@ -34,7 +34,7 @@ struct TileParts {
   const Solids& solids;
   std::span<const bvh::PrimitivePart> parts;
   std::span<const scenes::Bounds> boxes;
-  bool moves;  ///< corners that coincide now may separate: only those of one vertex are shared
+  bool moves;  ///< corners that coincide now may separate, so only those of one vertex are shared
 };
 
 /// Packs leaves, each given by its items. A leaf becomes a block for each kind of primitive in it,

@@ -1,4 +1,4 @@
-// Drawing a meshlet into a tile: each of its triangles by the method for its size.
+// Draws a meshlet into a tile, each of its triangles by the method for its size.
 
 #if defined(ACCEL_TILE_BEAM_MESHLET_RASTER_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_MESHLET_RASTER_INL
@@ -108,8 +108,8 @@ HWY_INLINE void draw_triangles(const TriangleImages& images, const scenes::Primi
   draw_large(stored, primitives, hn::AndNot(listed, rest), images.acute, image);
 }
 
-/// Draws a meshlet. Parts behind `farthest` (1/t) are not drawn, nor are backs of the triangles in
-/// `hidden`.
+/// Draws a meshlet. Parts behind `farthest` (1/t) are not drawn, nor are the backs of the triangles
+/// in `hidden`.
 inline void draw_meshlet(const Meshlet& meshlet, std::uint32_t hidden, const TileRays& rays,
                          float farthest, TileImage& image) {
   ProjectedVertices projected;

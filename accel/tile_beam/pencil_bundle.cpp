@@ -14,8 +14,8 @@ constexpr float kLargestRadius = 0x1p20F;
 /// The number of a part's origins tested to determine whether bundling is worthwhile.
 constexpr std::size_t kFirst = 512;
 
-/// Returns origins of a bundle with a ball that contains the apexes, allowing for the rounding of
-/// rays toward them.
+/// Returns the origins of a bundle with a ball that contains the apexes, allowing for the rounding
+/// of rays toward them.
 BundleRays bundle_rays(const BundlePart& part) {
   const std::span<const Pencil> pencils = part.pencils;
   glm::dvec3 lower = pencils.front().apex;

@@ -23,7 +23,7 @@ bool is_bundle(std::span<const Pencil> pencils);
 /// Some origins of a bundle of at most BundleRays::kApexes pencils: `count` of each pencil's rays,
 /// from its ray `first` on.
 struct BundlePart {
-  /// Origins that are traced at once.
+  /// The maximum number of origins traced at once.
   static constexpr std::size_t kOrigins = 16 * PencilUnit::kRays;
 
   const TileHierarchy& hierarchy;
@@ -38,9 +38,9 @@ struct BundlePart {
 
 /// Memory for one thread.
 struct BundleMemory {
-  std::vector<std::uint32_t> found;  ///< of each origin: the hidden apexes, or kOpen
+  std::vector<std::uint32_t> found;  ///< for each origin, the hidden apexes, or kOpen
   std::vector<std::uint32_t> open;   ///< the open origins
-  std::vector<Ray> rays;             ///< of open origins, those of each one after the other
+  std::vector<Ray> rays;             ///< the rays from open origins, origin by origin
   std::vector<std::uint8_t> hits;    ///< of these rays
 };
 

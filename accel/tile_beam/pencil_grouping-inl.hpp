@@ -280,7 +280,8 @@ class PencilGrouping {
     }
   }
 
-  /// The factor by which a block must exceed the usual extent to be split: depth discontinuities.
+  /// The factor by which a block must exceed the usual extent to be split, as at depth
+  /// discontinuities.
   static constexpr float kMuchLarger = 2.8F;
   /// The padding of a block's bounds: more than five roundings of places |u| <= 1, the maximum
   /// error of bounds and edges.

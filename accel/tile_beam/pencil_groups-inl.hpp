@@ -22,7 +22,7 @@ namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 using SideBounds = std::array<float, 6>;
 enum Bound : std::size_t { kLowU, kHighU, kLowV, kHighV, kLowW, kHighW };
 
-/// Returns the lanes whose bounds overlap `within` (sign bit clear).
+/// Returns values whose sign bit is clear in the lanes whose bounds overlap `within`.
 template <class Policy>
 HWY_INLINE Floats apart(const SeenBounds& seen, const PencilBounds& within, float spread) {
   const Floats behind = hn::Sub(seen.high_w, all(within.least_w));
@@ -107,7 +107,7 @@ class PencilGroups {
   }
 
   /// Returns by how much shapes are widened (HullPolicy) if their largest w exceeds that of the
-  /// rays by `nearer`; zero if all rays run to one point.
+  /// rays by `nearer`; 0 if all rays run to one point.
   HWY_INLINE Floats widening(Floats nearer) const { return hn::Mul(nearer, all(spread_)); }
   /// Adds the widening to a value.
   static HWY_INLINE Floats plus(Floats value, Floats more) {
@@ -116,7 +116,8 @@ class PencilGroups {
 
   float spread() const { return spread_; }
 
-  /// Records which rays of a block were hit. Returns the bit of its group if this affects bounds.
+  /// Records which rays of a block were hit. Returns the bit of the block's group if bounds are
+  /// affected.
   HWY_INLINE std::uint32_t note(std::size_t place, LaneBits hits) {
     const std::size_t group = place / 16;
     if constexpr (kClosest) {

@@ -16,9 +16,9 @@ HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
 /// Returns the largest distance from the apex at which a part is traced together. Beyond a few
-/// scene sizes, float rarely distinguishes the origins of rays from nearby surfaces. For any hits,
-/// it is still worthwhile to decide them one by one, but in a scene that is small relative to its
-/// coordinates, all places round to the same values.
+/// scene sizes, float rarely distinguishes the origins of rays from nearby surfaces. In any-hit
+/// queries, deciding such rays one by one is still worthwhile, except in a scene that is small
+/// relative to its coordinates, where all places round to the same values.
 template <class Policy>
 float farthest(const scenes::Bounds& scene) {
   const float size = scene.largest_coordinate();
@@ -128,8 +128,8 @@ AnsweredRays closest_hits(const PencilRays& pencil, PencilUnit& unit, const HitS
         walk_part<ClosestHitPolicy>(pencil, part, side, unit, counting);
         const auto z = static_cast<int>(side.z_axis());
         // The position of a hit is off by up to 8 roundings of its distance from the apex. If this
-        // exceeds the 16 allowed for origin and hit (`float_unit`), the canonical test determines
-        // t.
+        // exceeds the 16 roundings allowed for origin and hit (`float_unit`), the canonical test
+        // determines t.
         const auto is_far = [](const Ray& ray, float t, float depth) {
           const float more = depth - 2.0F * glm::length(ray.origin);
           if (more <= 0.0F) return false;

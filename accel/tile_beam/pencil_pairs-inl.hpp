@@ -21,7 +21,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// The numbers of one shape per lane (OneShape has those of a single shape); likewise for blocks.
+/// The numbers of several shapes, one per lane (OneShape has those of a single shape). The types
+/// for blocks are analogous.
 struct SomeShapes {
   const SeenShapes& shapes;
   std::size_t lane;
@@ -64,8 +65,8 @@ class PencilPairs {
     return compress_store(d, numbers, hn::RebindMask(d, which), to);
   }
 
-  /// Lists the shapes to be tested with blocks: for each group either all blocks with some shapes,
-  /// or all shapes with some blocks, whichever are fewer.
+  /// Lists what to test: for each group, either some shapes, each with all blocks, or some blocks,
+  /// each with all shapes, whichever takes fewer tests.
   HWY_INLINE void list_candidates(const SideBounds& bounds, std::uint32_t groups,
                                   std::size_t count) {
     const hn::RebindToUnsigned<Tag> d;
@@ -87,7 +88,7 @@ class PencilPairs {
                   << lane;
       }
       shapes &= shapes_->present;
-      // Both lists are appended to without a branch: the one not chosen grows by nothing.
+      // Both lists are appended to without a branch: the list not chosen does not grow.
       const std::size_t registers_of_group = 16 / kLanes;
       const bool by_block = static_cast<std::size_t>(std::popcount(blocks)) * shape_registers <
                             static_cast<std::size_t>(std::popcount(shapes)) * registers_of_group;

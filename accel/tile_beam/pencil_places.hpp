@@ -14,8 +14,8 @@ namespace beambench::accel::tile_beam {
 /// Each side of the cube has its own blocks.
 inline constexpr std::uint32_t kBlocksOfPart = CubeSide::kCount * PencilUnit::kBlocks;
 
-/// Records the places of the rays traced by a walk through one side of the cube, by their numbers
-/// in the unit. Blocks are numbered from 0 to `kBlocksOfPart`.
+/// Records the places of the rays traced by a walk through one side of the cube, indexed by the
+/// rays' numbers in the unit. Blocks are numbered from 0 to `kBlocksOfPart`.
 inline void note_places(const PencilUnit& unit, CubeSide side, const HandOverRecorder& recorder,
                         std::span<BeamPlace> places) {
   for (std::size_t place = 0; place < unit.places; ++place) {

@@ -36,16 +36,17 @@ struct ClosestHitPolicy {
   static constexpr bool kHull = false;
   static constexpr float kHandoverLeaves = 3.0F;
 };
-/// Rays toward all apexes of a bundle at once: toward any point of a ball around the apex. A shape
-/// that one of them may hit opens the ray's origin and ends the search for it.
+/// Rays toward all apexes of a bundle at once: toward any point of a ball around the apex. If some
+/// rays from an origin may hit a shape, `BundleTests` tests them or leaves the origin open.
 ///
 /// Let x, y, z be the coordinates of a side of the cube about the ball's center, r its radius, P an
 /// origin, with z > 2 r, and a a point of the ball. On the line from P to a, the point at depth z
 /// has
 ///     u = u_P + (a.x - u_P a.z) (w - w_P) / (1 - a.z w_P).
-/// As |u_P| <= 1, it differs from u_P by at most `spread` (w - w_P), where spread = sqrt(2) r / (1
-/// - r w_P). So a shape is tested as for any hits from the center, but widened by this amount at
-/// its largest w. All rays may meet a shape nearer than z = 2 r.
+/// As |u_P| <= 1, it differs from u_P by at most `spread` (w - w_P), where
+///     spread = sqrt(2) r / (1 - r w_P).
+/// So a shape is tested as in an any-hit query toward the center, but widened by this amount at its
+/// largest w. Any ray may meet a shape nearer than z = 2 r.
 struct HullPolicy {
   static constexpr bool kClosest = false;
   static constexpr bool kHull = true;
@@ -64,7 +65,7 @@ HWY_INLINE float most_of(Floats values) { return hn::GetLane(hn::MaxOfLanes(Tag(
 /// Returns the lanes from `first` on of sixteen bits.
 HWY_INLINE Mask lanes_of(LaneBits bits, std::size_t first) { return mask_of(bits >> first); }
 
-/// Component by component.
+/// Rays, one per lane, component by component.
 struct RayLanes {
   Points origin;
   Points direction;
@@ -112,13 +113,14 @@ inline void list_blocks(std::span<const Ray> rays, const PencilSamples& samples,
 struct PencilPart {
   std::span<const Ray> rays;
   glm::vec3 apex;
-  /// The maximum distance, along the side's axis, of a ray's origin from the apex for float.
+  /// The maximum distance of a ray's origin from the apex, along the side's axis, at which float is
+  /// accurate enough.
   float farthest;
   const BundleRays* bundle = nullptr;  ///< HullPolicy
 };
 
-/// Projects the rays of one side. For any hits, the apex is at the rays' ends and sees their
-/// origins; for closest hits, it is at some distance behind their origins and sees their
+/// Projects the rays of one side. In any-hit queries, the rays end at the apex, which sees their
+/// origins; for closest hits, the apex is at some distance behind the origins and sees the
 /// directions. Returns the sides of the other rays, one bit each.
 template <class Policy>
 class PencilProjection {
@@ -234,11 +236,11 @@ class PencilProjection {
     }
   }
 
-  /// The minimum depth and direction: reciprocals stay of ordinary size, and single rays can be
+  /// The minimum depth and direction, so that reciprocals are not too large and single rays can be
   /// probed (ProbeRay::can_probe).
   static constexpr float kNearest = 0x1p-59F;
-  /// The minimum end of rays traced together. Rays that end farther before the apex, such as those
-  /// from points close to a light, are traced one by one.
+  /// The minimum t_max of rays traced together; the apex is at t = 1. Rays that end earlier, such
+  /// as those from points close to a light, are traced one by one.
   static constexpr float kMinEnd = 0.5F;
 
   Floats end_depth_ = hn::Zero(Tag());

@@ -25,17 +25,17 @@ struct ApexView {
   /// Shapes closer to the apex are left to the canonical test, because some ray ends before them;
   /// all rays of a bundle may hit them.
   float end;
-  float radius;  ///< of the ball around the apex (HullPolicy); otherwise 0, like the next
+  float radius;  ///< of the ball around the apex (HullPolicy); otherwise 0, as is `spread`
   float spread;
   bool ends_at_apex;  ///< for a bundle: no ray ends before a shape
 
-  /// Returns the world's coordinates in the order of the side's.
+  /// Returns world coordinates in the order of the side's axes.
   HWY_INLINE Points turned(Floats x, Floats y, Floats z) const {
     const Points world{x, y, z};
     return {coordinate(world, side.x_axis()), coordinate(world, side.y_axis()),
             hn::Mul(coordinate(world, side.z_axis()), all(side.sign()))};
   }
-  /// Returns the side's coordinates for turned places.
+  /// Returns the coordinates of turned points relative to the apex, along the side's axes.
   HWY_INLINE Points from_apex(const Points& at) const {
     const auto component = [&](std::size_t axis) { return apex[static_cast<int>(axis)]; };
     return {hn::Sub(at.x, all(component(side.x_axis()))),
@@ -99,9 +99,9 @@ HWY_INLINE SeenBounds bounds_of(const TileBoxes& boxes, std::size_t lane, const 
   return anywhere_unless(hn::Gt(near_z, all(view.end)), bounds);
 }
 
-/// The roundings allowed for a ray's origin in float, in units of 2^-24 (see TriangleShapes): of
-/// places, multiplied by 1; of origins off their line, multiplied by the scene's size and w; and of
-/// the depths of origins.
+/// The errors allowed for a ray's origin in float, in units of 2^-24 (see TriangleShapes): of its
+/// place; of its distance from the line through the apex, to be multiplied by the scene's size and
+/// w; and of its depth.
 template <class Policy>
 inline constexpr float kSlackOfPlaces = Policy::kClosest ? 36.0F : 8.0F;
 template <class Policy>
@@ -109,7 +109,7 @@ inline constexpr float kSlackOfOrigins = Policy::kClosest ? 16.0F : 0.0F;
 template <class Policy>
 inline constexpr float kSlackOfDepths = Policy::kClosest ? 48.0F : 16.0F;
 
-/// Up to 32 shapes of a leaf, row by row of numbers.
+/// Up to 32 shapes of a leaf; each row holds one number of every shape.
 struct SeenShapes {
   enum Row : std::size_t {
     kLowU,
@@ -118,9 +118,10 @@ struct SeenShapes {
     kHighV,
     kLowW,
     kHighW,
-    /// Triangles: three edges a u + b v + c, nonnegative inside; the plane, and its distance: w of
-    /// the triangle is (x u + y v + z) / distance. Also the magnitudes of a, b, x and y. For any
-    /// hits, the plane and the distance are moved toward the rays by the slack.
+    /// Triangles: three edges a u + b v + c, nonnegative inside; the plane (x, y, z) and its
+    /// distance, so that the triangle's w is (x u + y v + z) / distance; the magnitudes of a, b, x
+    /// and y. In any-hit queries, the plane and the distance are moved toward the rays by the
+    /// slack.
     kEdge0,
     kPlane = kEdge0 + 9,
     kDistance = kPlane + 3,
@@ -167,14 +168,14 @@ struct SeenShapes {
 struct PencilBounds {
   float low_u, high_u, low_v, high_v;
   float least_w;        ///< nothing with a smaller w matters
-  float most_origin_w;  ///< nor with a larger one
+  float most_origin_w;  ///< nothing with a larger w matters
 };
 
 /// Triangles of a meshlet.
 ///
-/// How far a ray's origin o lies before a triangle's plane is n.(u, v, 1) - w n.p, of the normal n
-/// and a corner p, seen from the apex. In units of e = 2^-24, and with |x| for the sum of the sizes
-/// of x's components, its error in float is at most
+/// Seen from the apex, a ray's origin o lies before a triangle's plane by n.(u, v, 1) - w n.p,
+/// where n is the normal and p a corner. In units of e = 2^-24, and with |x| for the sum of the
+/// absolute values of x's components, the error of this value in float is at most
 /// - 4 (|n.x| + |n.y|) from the places u and v, with four roundings of e each, and 3 |n| from the
 ///   sums: 7 |n|;
 /// - 4 from the distance n.p, 2 from w and 3 from the sums: 9 w (|n.x p.x| + |n.y p.y| + |n.z
@@ -186,7 +187,8 @@ struct PencilBounds {
 ///
 /// For rays away from the apex, u and v are those of the direction. Their origins are off the line
 /// through the apex by up to 16 e (scene size + distance) (`RayBatch`), where distance * w is at
-/// most sqrt(3). The slack grows by this, times the sum of the absolute values of n's components.
+/// most sqrt(3). The slack grows by this distance, times the sum of the absolute values of n's
+/// components.
 template <class Policy>
 class TriangleShapes {
  public:
@@ -219,7 +221,7 @@ class TriangleShapes {
       const Floats w = hn::Div(all(1.0F), seen.z);
       store(hn::Mul(seen.x, w), &u_[i]);
       store(hn::Mul(seen.y, w), &v_[i]);
-      // A corner next to or behind the apex has no accurate place: NaN.
+      // A corner next to or behind the apex has no accurate place; its w is set to NaN.
       const Mask before =
           hn::Gt(hn::Mul(seen.z, all(kFarAside)), hn::Max(hn::Abs(seen.x), hn::Abs(seen.y)));
       store(hn::IfThenElse(before, w, all(kNaN)), &w_[i]);
@@ -305,8 +307,8 @@ class TriangleShapes {
     const Mask inexact = hn::Or(hn::Or(hn::Not(before), at_end), sliver);
     const Mask bounded = hn::AndNot(at_end, before);
     shapes_->set_bounds(lane, Policy::kHull ? anywhere_unless(bounded, bounds) : bounds);
-    // For a bundle, uncertain edges and planes exclude nothing: they are zeros. So is the plane of
-    // a triangle that may be seen from both sides.
+    // For a bundle, uncertain edges and planes are set to zero, so that they exclude nothing. So is
+    // the plane of a triangle that may be seen from both sides.
     const auto usable = [](Mask excluded, Floats value) {
       return Policy::kHull ? hn::IfThenZeroElse(excluded, value) : value;
     };
@@ -373,7 +375,7 @@ class TriangleShapes {
       return;
     }
     shapes.exact_triangle[triangle] = *exact;
-    // In float for the bounds of blocks, moved outward again.
+    // Round to float for the tests of blocks, and move outward again.
     const auto set_bound = [&](SeenShapes::Row row, double bound, double more) {
       shapes.rows[row][triangle] = static_cast<float>(std::clamp(
           bound + more * std::max(1.0, std::abs(bound)), double{-kAtApex}, double{kAtApex}));
@@ -400,11 +402,12 @@ class TriangleShapes {
   }
 
   static constexpr float kRounding = 0x1p-24F;
-  /// The distance by which edges are moved, on the side of the cube: a rounding of places |u| <= 1.
+  /// The distance by which edges are moved outward on the side of the cube: a rounding of places
+  /// |u| <= 1.
   static constexpr float kOutward = kRounding;
-  /// The distance from a moved edge within which any hits are uncertain: the errors of places and
-  /// edges are smaller, but far from the apex they exceed the tolerance of ray and hit
-  /// (`float_unit`).
+  /// The distance from a moved edge within which hits of any-hit queries are uncertain: the errors
+  /// of places and edges are smaller, but far from the apex they exceed the tolerance of ray and
+  /// hit (`float_unit`).
   static constexpr float kUncertain = 8.0F * kRounding;
   /// The tangent beyond which a corner's place is less accurate than the bounds of blocks allow.
   static constexpr float kFarAside = 4.0F;
@@ -452,8 +455,8 @@ HWY_INLINE void set_up_spheres(const SphereBlock& block, const ApexView& view, f
     const Floats squared = dot(center, center);
     const Floats radius_squared = hn::Mul(radius, radius);
     shapes.around |= bits_of(hn::Lt(squared, radius_squared)) << lane;
-    // Float cannot decide on which side of a very close surface the apex is, nor which ray ends
-    // before the surface.
+    // If the surface is very close, float cannot decide on which side of it the apex is, nor which
+    // rays end before it.
     const Floats near =
         hn::MulAdd(all(0x1p-19F), hn::Add(squared, radius_squared),
                    hn::Mul(all(view.end), hn::MulAdd(all(2.0F), radius, all(view.end))));

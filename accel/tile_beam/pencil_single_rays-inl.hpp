@@ -39,7 +39,7 @@ class PencilSingleRays {
         counting_(&counting) {}
 
   /// Traces the rays of some groups whose places are within bounds through a part of the hierarchy.
-  /// Returns the groups that changed. Origins of a bundle are opened instead.
+  /// Returns the groups that changed. For a bundle, marks the rays' origins as open instead.
   std::uint32_t hand_over(TileChild from, const SideBounds& bounds, std::uint32_t groups) {
     count_ = 0;
     for (; groups != 0; groups &= groups - 1) {
@@ -65,7 +65,7 @@ class PencilSingleRays {
     return changed;
   }
 
-  /// Returns whether the ray of a place in the unit hits anything in the hierarchy.
+  /// Returns whether the ray at a place in the unit hits anything in the hierarchy.
   bool is_hit(std::size_t at) const {
     note_handed_over(*counting_, at);
     return any_below(*hierarchy_, *scene_, hierarchy_->root, part_->rays[unit_->ray_at(at)],

@@ -109,7 +109,7 @@ class PencilTests {
 
   /// The rays of a block for which float cannot decide whether they hit a shape.
   struct Unsure {
-    LaneBits depth = 0;  ///< the ray begins too close to its surface or to one of its sides
+    LaneBits depth = 0;  ///< rays that begin too close to the shape's plane or surface
     LaneBits edge = 0;   ///< hits close to an edge, which was moved outward
   };
 
@@ -155,7 +155,8 @@ class PencilTests {
     });
   }
 
-  /// Divides uncertain hits into those uncertain in depth and, for any hits, those at an edge.
+  /// Divides uncertain hits into those uncertain in depth and, in any-hit queries, those at an
+  /// edge.
   Unsure told_apart(std::size_t place, std::size_t shape, LaneBits uncertain) const {
     if constexpr (kClosest) return {uncertain, 0};
     const OneShape of{*shapes_, shape};
@@ -174,9 +175,9 @@ class PencilTests {
     return {uncertain & in_depth, uncertain & at_edge};
   }
 
-  /// Returns any hits after single rays through the whole hierarchy have decided those at an edge:
-  /// if triangles share the edge, testing only one of them differently could lose the ray between
-  /// them.
+  /// Returns the hits of an any-hit query after single rays through the whole hierarchy have
+  /// decided those at an edge: if triangles share the edge, testing only one of them differently
+  /// could let the ray pass between them.
   LaneBits decided_by_rays(std::size_t place, LaneBits hits, LaneBits unsure) {
     const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
     for (LaneBits left = hits & unsure; left != 0; left &= left - 1) {
@@ -198,7 +199,7 @@ class PencilTests {
     Unsure unsure;
     LaneBits hits = test_exact_triangle(place, shapes_->exact_triangle[shape], primitive, unsure);
     if (unsure.depth != 0) hits = decided_by_plane(place, hits, unsure.depth, meshlet, shape);
-    // Seen edge-on, a sliver is no wider than the shift of its edges.
+    // Seen edge-on, a sliver is no wider than the distance by which its edges are moved.
     if (!kClosest) hits = decided_by_rays(place, hits, unsure.edge);
     return groups_->note(place, hits);
   }
@@ -314,11 +315,12 @@ class PencilTests {
     return hits;
   }
 
-  /// Computes in units of z: a ray's line is s (u, v, 1). The side of the surface on which a ray
-  /// begins determines which of the two roots are within the ray. Except for rays that begin too
-  /// close to the surface, this side is known more accurately than the roots. As in the canonical
-  /// test, the discriminant is computed from the point of the line nearest to the center (Haines et
-  /// al., Ray Tracing Gems, 2019).
+  /// Returns the rays of a block that hit a sphere; `unsure` receives those that float cannot
+  /// decide. In the side's coordinates, a ray's line is s (u, v, 1). The side of the surface on
+  /// which a ray begins determines which of the two roots are within the ray. Except for rays that
+  /// begin too close to the surface, this side is known more accurately than the roots. As in the
+  /// canonical test, the discriminant is computed from the point of the line nearest to the center
+  /// (Haines et al., Ray Tracing Gems, 2019).
   HWY_INLINE LaneBits test_sphere(std::size_t place, std::size_t shape, bool around,
                                   bool inside_only, scenes::PrimitiveId primitive, Unsure& unsure) {
     const OneShape of{*shapes_, shape};
@@ -366,7 +368,7 @@ class PencilTests {
         if (!hn::AllFalse(Tag(), hit)) keep(at, hit, found, w, primitive);
         return hit;
       } else {
-        // Toward the apex: surfaces crossed or left on the way.
+        // Toward the apex, a ray hits a sphere that it crosses or leaves on its way.
         const Mask passes =
             hn::And(meets, hn::And(hn::Lt(middle, origin), hn::Gt(middle, hn::Zero(Tag()))));
         if (around) return inside_only ? only(false) : hn::Not(inside);

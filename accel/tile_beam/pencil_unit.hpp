@@ -34,7 +34,7 @@ struct PencilUnit {
   /// One block more than `kListed` may be occupied, because the last regrouped block may not be
   /// full.
   static constexpr std::size_t kPlaces = kListed + kBlock;
-  static constexpr std::size_t kGroups = 32;  ///< 17, for registers
+  static constexpr std::size_t kGroups = 32;  ///< 17 are used; the others fill registers
 
   template <class T, std::size_t n>
   using Array = std::array<T, n>;
@@ -47,7 +47,7 @@ struct PencilUnit {
     return at < kRays ? first[at / kBlock] + at % kBlock : source[at - kRays];
   }
 
-  /// For each ray, by block. NaN in lanes without a ray of this side.
+  /// The places of the rays, block by block; NaN in lanes without a ray of this side.
   alignas(64) Array<float, kBlocks * kBlock> u;
   alignas(64) Array<float, kBlocks * kBlock> v;
   /// The w that hits of a ray must exceed: the w of its origin if the apex is at its end, or of the
@@ -65,8 +65,8 @@ struct PencilUnit {
   };
   Bounds block;
 
-  /// The blocks in an order in which neighbors are close together: `slot` is a block's number.
-  /// Lower ends are negated, so that a bounds test is a test of the sign.
+  /// The blocks, ordered so that neighbors are close together; `slot` is a block's number. Lower
+  /// ends are negated, so that a bounds test is a test of the sign.
   alignas(64) Array<std::uint32_t, kPlaces> slot;
   alignas(64) Array<std::uint16_t, kPlaces> alive;  ///< lanes that may still be hit
   alignas(64) Array<float, kPlaces> minus_low_u, high_u, minus_low_v, high_v, minus_w, origin_w_top;

@@ -1,5 +1,5 @@
-// Traces the rays of a part of a pencil that cross one side of the cube around its apex through the
-// hierarchy.
+// Traces through the hierarchy those rays of a part of a pencil that cross one side of the cube
+// around the apex.
 
 #if defined(ACCEL_TILE_BEAM_PENCIL_WALK_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_PENCIL_WALK_INL
@@ -27,7 +27,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// The maximum number of leaves in a part for which counting rays is not worthwhile.
+/// If a part has fewer leaves than this, estimating its number of rays is not worthwhile.
 inline constexpr std::uint32_t kFewLeaves = 2;
 
 template <class Policy, class Counting>
@@ -81,7 +81,7 @@ class PencilWalk {
   struct Entry {
     TileChild child;
     std::uint32_t groups;   ///< groups from which it may be visible, one bit each
-    std::uint32_t crowded;  ///< not 0: more leaves than single rays visit; a word: see TileWalk
+    std::uint32_t crowded;  ///< not 0: more leaves than single rays visit (see TileWalk)
     SideBounds bounds;
   };
 
@@ -162,9 +162,9 @@ class PencilWalk {
   }
 
   /// Returns whether a part of the hierarchy has more leaves than `kHandoverLeaves` for each ray
-  /// that may meet it. If so, it is traversed by single rays, which need a few leaves each. The
-  /// number of these rays is estimated from the density of the groups' rays over the part's whole
-  /// bounds, because most leaves of a large part may lie outside the groups.
+  /// that may meet it. If so, single rays traverse it, which visit a few leaves each. The number of
+  /// rays is estimated from the density of the groups' rays over the part's whole bounds, because
+  /// most leaves of a large part may lie outside the groups.
   HWY_INLINE bool is_crowded(std::uint32_t leaves, std::uint32_t groups,
                              const SideBounds& bounds) const {
     if (leaves < kFewLeaves) return false;

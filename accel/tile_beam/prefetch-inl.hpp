@@ -19,7 +19,7 @@ HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
 /// Prefetches cache lines. Must be inlined before GCC looks for functions without side effects: it
-/// considers a function that only prefetches one of them and removes its calls.
+/// takes a function that only prefetches for one of these and removes its calls.
 HWY_INLINE void prefetch_lines(const void* from, std::size_t bytes) {
   const auto* const first = static_cast<const std::uint8_t*>(from);
   for (std::size_t i = 0; i < bytes; i += 64) hwy::Prefetch(first + i);

@@ -16,7 +16,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// Returns how many of up to `most` consecutive rays come from one square of 4 x 4 pixels. At least
+/// Returns how many of up to `most` consecutive rays come from one square of 4 x 4 pixels; at least
 /// 1.
 HWY_INLINE std::size_t run_in_square(const PencilSamples& samples, std::size_t from,
                                      std::size_t most) {

@@ -36,7 +36,7 @@ HWY_INLINE void draw_by_ray(const TileRays& rays, int x, int y, float nearest,
   image.primitive[at] = primitive;
 }
 
-/// Draws the samples of `box` likewise.
+/// Draws all samples of `box` in the same way.
 template <class Intersect>
 HWY_INLINE void draw_by_rays(const TileRays& rays, const SampleRectangle& box, float nearest,
                              scenes::PrimitiveId primitive, TileImage& image, Intersect intersect) {

@@ -1,4 +1,5 @@
-// Single rays through the hierarchy: float tests that only reject, then the canonical ones.
+// Traces single rays through the hierarchy: by float tests, which only reject, then by canonical
+// tests.
 
 #if defined(ACCEL_TILE_BEAM_RAY_WALK_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_RAY_WALK_INL
@@ -169,13 +170,13 @@ HWY_INLINE bool visit_leaf(const TileHierarchy& hierarchy, const scenes::Scene& 
                                                   : test_each(hierarchy.cones[leaf.index()]);
 }
 
-/// The query for a ray, and its result.
+/// A query for the closest hit of a ray, and its result.
 struct ClosestQuery {
   explicit ClosestQuery(const Ray& query) : best(query) {}
 
   const CanonicalRay& ray() const { return best.ray; }
   float t_max() const { return best.ray.t_max; }
-  /// Takes the result of a canonical test; returns whether that ends the traversal.
+  /// Takes the result of a canonical test; returns whether the traversal ends.
   bool take(float t, scenes::PrimitiveId primitive) {
     best.keep(t, primitive);
     return false;

@@ -50,8 +50,8 @@ HWY_INLINE std::array<hn::Vec<D>, 4> rows_of(D d, const std::array<hn::Vec<D>, 4
 }
 #endif
 
-/// Writes `height` rows of values of four adjacent blocks. `of(d, place)` returns the values from a
-/// place in the image on. `place_of_row(y)` is the destination of a row.
+/// Writes `height` rows of values of four adjacent blocks. `of(d, place)` returns the values that
+/// begin at a place in the image. `place_of_row(y)` is the destination of a row.
 template <bool kStreamed, class T, class PlaceOfRow, class Values>
 HWY_INLINE void write_blocks(std::size_t from, int height, PlaceOfRow place_of_row, T* to,
                              Values of) {

@@ -29,7 +29,7 @@ class RowEnds {
       Floats low = all(static_cast<float>(4 * first_column));
       Floats high = all(static_cast<float>(4 * last_column + 3));
       for (const TileLine& edge : edges) {
-        // The largest value on a column of the first block, and a small margin for rounding.
+        // The largest value on a column of the first block, plus a small margin for rounding.
         const float largest = edge.constant + (edge.y > 0.0F ? 3.0F * edge.y : 0.0F) +
                               0x1p-21F * (std::abs(edge.constant) + std::abs(kTileHeight * edge.y));
         const Floats value = hn::MulAdd(all(4.0F * edge.y), top, all(largest));

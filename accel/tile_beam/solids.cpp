@@ -85,13 +85,13 @@ class JoinedTriangles {
 
   /// Returns the lowest-numbered triangle joined with a triangle, including itself.
   std::uint32_t component(std::uint32_t triangle) { return components_.of(triangle); }
-  /// Returns whether it has an edge without a partner in the opposite direction.
+  /// Returns whether a triangle has an edge without a partner in the opposite direction.
   bool is_open(std::uint32_t triangle) const { return is_open_[triangle] != 0; }
 
  private:
   static constexpr std::uint32_t kJoined = ~0U;
 
-  /// An edge to a higher vertex, kept at the lower one.
+  /// An edge to a higher-numbered vertex, listed at the lower one.
   struct Upward {
     std::uint32_t to;  ///< kJoined if it has a partner
     std::uint32_t triangle;
@@ -231,7 +231,7 @@ bool is_outside(const scenes::Scene& scene, const Solids& solids, const Solid& s
                 const glm::vec3& eye, std::size_t most_triangles) {
   const float largest =
       std::max({std::abs(eye.x), std::abs(eye.y), std::abs(eye.z), solid.box.largest_coordinate()});
-  const double margin = 0x1p-18 * static_cast<double>(largest);  // float tests err by less
+  const double margin = 0x1p-18 * static_cast<double>(largest);  // above the error of float tests
   const glm::dvec3 from(eye);
   const auto beyond = [&](int axis) {
     return from[axis] < solid.box.lower[axis] - margin ||

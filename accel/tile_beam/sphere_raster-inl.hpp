@@ -1,4 +1,4 @@
-// Drawing spheres into a tile: a box on the screen, then the equation for its samples.
+// Draws spheres into a tile: a box on the screen, then the equation for its samples.
 
 #if defined(ACCEL_TILE_BEAM_SPHERE_RASTER_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_SPHERE_RASTER_INL

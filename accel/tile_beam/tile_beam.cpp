@@ -55,7 +55,7 @@ class TiledImage {
   }
 
   int tiles() const { return columns_ * rows_; }
-  /// Calls `draw(raster, view)` for the tiles with a number.
+  /// Calls `draw(raster, view)` for all tiles with this number.
   template <class Draw>
   void for_each_of(int number, Draw draw) const {
     const int column = number % columns_;
@@ -80,7 +80,7 @@ struct ThreadState {
   Counting counting;
 };
 
-/// `parallel`: tiles are shared among all cores; hits and counts are the same.
+/// Traces an image in tiles. `parallel`: all cores share the tiles; hits and counts are the same.
 template <class Counting>
 void trace_tiles(const TileKernels& kernels, const TileHierarchy& hierarchy,
                  const scenes::Scene& scene, const PrimaryRays& rays, bool parallel,
@@ -121,7 +121,7 @@ struct RayRange {
   std::size_t pencils = 1;  ///< for a bundle: their number, from `pencil` on
 };
 
-/// Returns the number of pencils in the bundle that begins with a pencil, otherwise 1.
+/// Returns the number of pencils in the bundle that begins with this pencil; 1 if there is none.
 std::size_t bundled_from(const RayBatch& batch, std::size_t pencil) {
   if (batch.marks == nullptr) return 1;
   const std::vector<PencilBundle>& bundles = batch.marks->bundles;
@@ -131,8 +131,8 @@ std::size_t bundled_from(const RayBatch& batch, std::size_t pencil) {
   return is_bundle(batch.pencils.subspan(pencil, at->count)) ? at->count : 1;
 }
 
-/// Returns all rays of a batch in order: pencils whose direction matches `toward`, and all other
-/// rays in parts of one stream each.
+/// Returns all rays of a batch in order: as pencils whose direction matches `toward`, and all other
+/// rays as parts of one stream each.
 std::vector<RayRange> ranges_of(const RayBatch& batch, bool toward) {
   std::vector<RayRange> ranges;
   std::size_t next = 0;
@@ -169,7 +169,7 @@ struct SeenBatch {
             samples.from(range.first), glm::vec3(range.pencil->apex)};
   }
 
-  /// `first` counts among the origins.
+  /// Returns the part of a bundle that has `count` origins, from origin number `first` on.
   BundlePart bundle_part(std::span<const Pencil> pencils, std::size_t first,
                          std::size_t count) const {
     return {hierarchy, scene, kernels, batch.rays, samples, pencils, first, count};
@@ -296,7 +296,7 @@ struct AnyOfBatch {
   }
 };
 
-/// Traces a batch: its pencils by `query.pencil`, rays that this leaves undecided singly, and all
+/// Traces a batch: its pencils by `query.pencil`, then the rays left undecided singly, and all
 /// other rays by `trace_list`. `parallel`: parts are distributed among all cores; hits and counts
 /// are the same.
 template <class Query, class Counting>
@@ -315,7 +315,7 @@ void trace_parts(const SeenBatch& seen, const Query& query, bool parallel, Count
       left.count -= answered.count;
     }
   };
-  // Split up, because a part has a bit for each apex.
+  // Divided into parts, whose results have one bit per apex.
   const auto trace_bundle = [&](const RayRange& range, State& state) {
     PencilUnit& unit = state.made_unit();
     const std::size_t skipped = range.first - range.pencil->first;
@@ -557,8 +557,8 @@ void register_tile_beam(Registry& registry) {
                       "traced tiles of the image, and traced parts of pencils through a side "
                       "of the cube"});
   counters.push_back({"bundle_origins",
-                      "origins of rays toward several apexes (the points of one light) that "
-                      "were tested against all apexes at once"});
+                      "ray origins tested at once against several apexes (the points of one "
+                      "light)"});
   counters.push_back({"open_origins",
                       "of these: origins whose rays had to be traced apex by apex, because "
                       "their results differ"});

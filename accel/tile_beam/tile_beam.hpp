@@ -1,6 +1,6 @@
 #pragma once
-// Primary rays in beams the size of screen tiles, and pencils of other rays, through a hierarchy
-// over meshlets.
+// Traces primary rays in beams the size of screen tiles, and other rays in pencils, through a
+// hierarchy over meshlets.
 
 #include "accel/bvh/probe_ray.hpp"
 #include "accel/bvh/streams.hpp"
@@ -43,9 +43,9 @@ class TileBeam : public TraversalAccelerator<TileBeam>, public BoxHierarchy {
         parallel_(options.parallel),
         moves_(options.moves) {}
 
-  /// Returns the minimum number of rays of a pencil; smaller ones are traced singly, because the
-  /// fixed cost of a part exceeds the gain. Rays toward an apex come from everywhere in the
-  /// picture; those away from one see what their mirror shows, which may be in a few leaves.
+  /// Returns the minimum number of rays of a pencil. The rays of smaller pencils are traced singly,
+  /// because the fixed cost of a part exceeds the gain. Rays toward an apex come from everywhere in
+  /// the picture; those away from one see what their mirror shows, which may be in a few leaves.
   static constexpr std::size_t least_pencil(bool toward) { return toward ? 512 : 32; }
 
   const TileHierarchy& hierarchy() const { return hierarchy_; }

@@ -23,7 +23,7 @@ struct NormalCone {
   double half_angle;
 };
 
-/// Returns the cone if it is useful: wider ones cull little, and one with a right angle culls
+/// Returns the cone if it is useful: wide cones cull little, and a cone with a right angle culls
 /// nothing.
 std::optional<NormalCone> usable(const NormalCone& cone) {
   constexpr double kWidest = 1.5;
@@ -36,7 +36,7 @@ double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
 
 /// Returns the cone around the outward normals of a meshlet's triangles, if all belong to solids.
 std::optional<NormalCone> normal_cone(const Meshlet& meshlet) {
-  constexpr double kRounding = 1e-3;  // more than that of normals and of their cosines in float
+  constexpr double kRounding = 1e-3;  // exceeds the rounding of normals and cosines in float
   if (std::popcount(meshlet.solid) != static_cast<int>(meshlet.triangle_count)) return std::nullopt;
   std::array<glm::vec3, Meshlet::kMaxTriangles> normals;
   glm::vec3 sum(0.0F);
@@ -81,7 +81,7 @@ class Builder {
     if (options.streams) add_streams(scene, parts, boxes, options);
     if (options.backface_culling) wide_.solids = find_solids(scene);
     pack({scene, wide_.solids, parts, boxes, options.moves}, options.parallel);
-    wide_.solids.of_triangle = {};  // from now on, the meshlets hold this
+    wide_.solids.of_triangle = {};  // from now on, the meshlets hold this information
     wide_.nodes.reserve(binary_.nodes.size() / 8 + 1);
     const Made root = convert(0, 1);
     wide_.root = root.child;
@@ -132,7 +132,7 @@ class Builder {
     std::ranges::sort(wide_.solid_meshlets);
   }
 
-  /// The recursion is bounded by kMaxBvhDepth.
+  /// Converts a binary node and all nodes below it. The recursion is bounded by kMaxBvhDepth.
   Made convert(std::uint32_t binary_node, std::uint32_t depth) {
     const bvh::BvhNode& node = binary_.nodes[binary_node];
     if (node.is_leaf()) {
@@ -204,7 +204,7 @@ class Builder {
 }  // namespace
 
 void TileCones::set(std::size_t lane, const glm::dvec3& along, double half_angle) {
-  // More than the rounding error of the test, so that culled parts certainly face away.
+  // More than the rounding errors of the test, so that culled parts certainly face away.
   constexpr double kWider = 1.001;
   constexpr double kMin = 1e-6;
   for (int i = 0; i < 3; ++i)

@@ -62,7 +62,7 @@ struct alignas(64) TileBoxes {
 /// normals.
 struct alignas(64) TileCones {
   std::array<std::array<float, kTileLanes>, 3> axis;
-  std::array<float, kTileLanes> sine_squared;  ///< of half its angle, rounded up
+  std::array<float, kTileLanes> sine_squared;  ///< of half the cone's angle, rounded up
 
   void set(std::size_t lane, const glm::dvec3& along, double half_angle);
 };
@@ -87,7 +87,7 @@ struct alignas(64) Meshlet {
       primitives;  ///< the polygons that the triangles belong to
   std::uint32_t vertex_count;
   std::uint32_t triangle_count;
-  float extent;             ///< longest side of the box of all
+  float extent;             ///< longest side of the meshlet's box
   std::uint32_t solid;      ///< bit i: triangle i is part of a `Solid`
   std::uint32_t clockwise;  ///< bit i: its corners are clockwise, seen from outside
 
@@ -101,7 +101,7 @@ struct alignas(64) SphereBlock {
   std::array<std::array<float, kTileLanes>, 3> center;
   std::array<float, kTileLanes> radius;
   std::array<scenes::PrimitiveId, kTileLanes> primitives;
-  std::uint32_t inside_only;  ///< bit i: sphere i is
+  std::uint32_t inside_only;  ///< bit i: sphere i is seen only from inside
   std::uint32_t count;
 };
 
@@ -137,7 +137,7 @@ struct SolidMeshlet {
 struct TileHierarchy : TileBlocks {
   LargePageVector<TileNode> nodes;  ///< children after their parents
   TileChild root{};
-  Solids solids;                             ///< whose backs are culled; none: all are drawn
+  Solids solids;                             ///< solids whose backs are culled; may be empty
   std::vector<SolidMeshlet> solid_meshlets;  ///< ascending
   scenes::Bounds bounds;                     ///< of everything, widened
   bool interleaves_rays = false;             ///< large enough to interleave single rays
@@ -146,9 +146,9 @@ struct TileHierarchy : TileBlocks {
   ExpectedVisits visits;
   double cost = 0.0;      ///< the cost of the underlying binary hierarchy: see sah_cost
   bool is_refit = false;  ///< `visits` and `cost` are those of the original boxes
-  /// The same binary hierarchy in the form for streams, with leaves of a few parts. It has no nodes
-  /// of its own unless the scene moves: those of `stream_tree` are used. Empty if lists are traced
-  /// ray by ray.
+  /// The same binary hierarchy in the form for streams, with leaves of a few parts. It has nodes of
+  /// its own only if the scene moves; otherwise those of `stream_tree` are used. Empty if lists are
+  /// traced ray by ray.
   bvh::WideBvh stream_bvh;
   bvh::StreamTree stream_tree;
 
@@ -167,8 +167,8 @@ struct TileHierarchy : TileBlocks {
   }
 };
 
-/// The maximum number of nodes from the root to a leaf: that of the binary hierarchy, plus one for
-/// a leaf that needs several blocks.
+/// The maximum number of nodes from the root to a leaf: the maximum depth of the binary hierarchy,
+/// plus one for a leaf that needs several blocks.
 inline constexpr std::size_t kMaxTileDepth = 97;
 
 struct TileHierarchyOptions {
@@ -179,7 +179,7 @@ struct TileHierarchyOptions {
   bool moves = false;  ///< the scene's coordinates will change (tile_refit.hpp); no culling then
 };
 
-/// Returns the bounds of a node or leaf; a node's follow from the boxes of its children.
+/// Returns the bounds of a node or leaf; a node's bounds follow from the boxes of its children.
 scenes::Bounds bounds_of(const TileHierarchy& hierarchy, TileChild child);
 
 /// Throws InputError if the scene needs more than TileChild::kIndices leaves of a kind.

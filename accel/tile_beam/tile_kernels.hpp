@@ -27,7 +27,7 @@ struct TileRayQueries {
 };
 
 /// The queries of lists of rays, for nonempty hierarchies. Rays that ProbeRay cannot probe are
-/// skipped; the functions return whether there are any.
+/// skipped; the functions return whether there are any such rays.
 template <class Counting>
 struct TileListQueries {
   /// Writes the hits from `first` of the buffer on.

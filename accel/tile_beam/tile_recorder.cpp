@@ -1,7 +1,7 @@
 #include "accel/tile_beam/tile_recorder.hpp"
 
-// Uses only the baseline instruction set, which is fast enough for pictures. In the same file as
-// the timed kernels, it would affect the inlining of those kernels.
+// Uses only the baseline instruction set, which is fast enough for pictures. In the file of the
+// timed kernels, this code would affect their inlining.
 #include <hwy/highway.h>
 
 #include "accel/tile_beam/tile_walk-inl.hpp"

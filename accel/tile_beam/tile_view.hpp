@@ -13,8 +13,8 @@ inline constexpr int kTileWidth = 128;
 inline constexpr int kTileHeight = 128;
 
 /// The distance by which triangle edges computed in double are moved outward, in units of
-/// |direction|: more than the error of edges computed in float, so that no gap remains between the
-/// two.
+/// |direction|: more than the error of edges computed in float, so that no gap remains between
+/// edges of the two kinds.
 inline constexpr double kEdgeWidening = 0x1.8p-22;
 
 /// The linear function x * i + y * j + constant at sample (i, j) of a tile.
@@ -67,8 +67,8 @@ struct TileView {
   /// The distance from the tile's first sample beyond which corners make their triangles' float
   /// edge functions too inaccurate, in samples per unit of |direction|.
   float guard;
-  /// The distance by which boxes of triangles are widened, in samples: slightly more than the error
-  /// of edges evaluated in float, but no more, because the boxes cut off acute corners.
+  /// The distance by which boxes of triangles are widened, in samples: only slightly more than the
+  /// error of edges evaluated in float, because the boxes must cut off acute corners.
   float box_slack;
   /// If a triangle's float area is below sliver x (longer side of its box)^3, its plane is too
   /// coarse in float.

@@ -107,9 +107,9 @@ class TileWalk {
     }
   }
 
-  /// Returns how many of the boxes met are farther than a given one, which is its place on the
-  /// stack. Counting avoids a branch, which would be unpredictable. Of equally near boxes, the
-  /// first lane counts as the farthest.
+  /// Returns how many of the boxes met are farther than a given box; this number is the box's place
+  /// on the stack. Counting avoids a branch, which would be unpredictable. Of equally near boxes,
+  /// the first lane counts as the farthest.
   static HWY_INLINE int farther_lanes(const BoxProbe::Met& met, std::size_t lane) {
     const Floats own = all(met.nearest[lane]);
     const LaneBits farther = for_each_register(
@@ -179,7 +179,8 @@ class TileWalk {
     changed(where);
   }
 
-  /// Updates the whole tile's depth occasionally, when it may have changed considerably.
+  /// Records that samples in a rectangle changed. Occasionally, when the whole tile's depth may
+  /// have changed considerably, updates it.
   HWY_INLINE void changed(const SampleRectangle& where) {
     mark_stale(*image_, where);
     drawn_ += where.count();
@@ -198,7 +199,7 @@ class TileWalk {
   Counting* counting_;
   float farthest_ = 0.0F;   ///< the last known smallest 1/t of the tile
   unsigned open_cell_ = 0;  ///< where background was last found
-  int drawn_ = 0;           ///< samples covered by leaves since then
+  int drawn_ = 0;           ///< samples covered by leaves since `farthest_` was updated
   std::size_t size_ = 0;
   std::array<Entry, kMaxTileDepth*(kTileLanes - 1) + 1> stack_;
 };

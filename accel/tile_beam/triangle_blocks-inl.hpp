@@ -1,4 +1,5 @@
-// Draws triangles of a few blocks each: lanes find the blocks, which are then drawn one by one.
+// Draws triangles that cover a few blocks each: lanes find the blocks, which are then drawn one by
+// one.
 
 #if defined(ACCEL_TILE_BEAM_TRIANGLE_BLOCKS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_TRIANGLE_BLOCKS_INL
@@ -13,11 +14,11 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// Triangles with at most this many blocks in their box are drawn by lists.
+/// Triangles with at most this many blocks in their box are drawn from a list of blocks.
 inline constexpr int kMaxListedBlocks = 30;
 
-/// A block that a triangle may meet: the block's place in the tile, and the triangle's lane in four
-/// unused bits.
+/// A list of blocks that triangles may meet. An entry is a block's place in the tile, with the
+/// triangle's lane in four unused bits.
 struct BlockList {
   static constexpr std::size_t kMaxEntries =
       16 * kMaxListedBlocks + 16;  // room for a whole register at the end

@@ -13,7 +13,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// Triangles with at most this many samples in their box are drawn by lanes.
+/// Triangles with at most this many samples in their box are drawn one per lane.
 inline constexpr float kMaxLaneSamples = 9.0F;
 
 /// Hits found by lanes, before the depth test.
@@ -26,7 +26,7 @@ struct Fragments {
   std::size_t count;
 };
 
-/// Each lane walks through its triangle's box, row by row.
+/// Collects the hits of small triangles; each lane walks through its triangle's box, row by row.
 HWY_INLINE void collect_fragments(const TriangleImages& images, Mask small, Fragments& fragments) {
   const Floats one = all(1.0F);
   Floats i = images.left;

@@ -50,7 +50,7 @@ HWY_INLINE void project_vertices(const Meshlet& meshlet, const TileView& view,
   }
 }
 
-/// a * x + b * y + c, a lane for each triangle.
+/// The linear functions x * i + y * j + constant of a sample (i, j), one per lane.
 struct Lines {
   Floats x;
   Floats y;
@@ -115,7 +115,7 @@ struct TriangleCorners {
 };
 
 /// The triangles whose backs are invisible: one mask for those that show their back if their area
-/// on the screen is positive, and one if it is negative.
+/// on the screen is positive, and one for those that show it if the area is negative.
 struct HiddenBacks {
   std::uint32_t positive;
   std::uint32_t negative;
@@ -146,7 +146,7 @@ struct Survivors {
 };
 
 /// Finds the triangles that show no hidden back and whose box contains a sample. No vertex may need
-/// double. A triangle counts as showing its back only if its area proves so despite the rounding of
+/// double. A triangle counts as showing its back only if its area proves it despite the rounding of
 /// its corners, up to `box_slack` each.
 HWY_INLINE void find_survivors(const Meshlet& meshlet, const HiddenBacks& backs,
                                const ProjectedVertices& projected, const TileView& view,

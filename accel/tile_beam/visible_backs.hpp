@@ -24,7 +24,7 @@ class VisibleBacks {
     if (!meshlets_.empty() && meshlets_[meshlet] != 0) return 0;
     return hierarchy.meshlets[meshlet].solid;
   }
-  /// Returns the children of a node with only fronts visible: one bit for each.
+  /// Returns the children of a node whose backs are all invisible: one bit for each.
   std::uint32_t hidden_lanes(const TileHierarchy& hierarchy, std::uint32_t node) const {
     const std::uint32_t lanes = hierarchy.nodes[node].cone_lanes;
     return nodes_.empty() ? lanes : lanes & ~std::uint32_t{nodes_[node]};

@@ -13,8 +13,8 @@
 
 namespace beambench::accel::z_buffer {
 
-/// A ball relative to the eye. Primitives lie in the convex hull of a few balls; corners are small
-/// balls.
+/// A ball relative to the eye. Primitives lie in the convex hull of a few balls; a corner is a
+/// small ball.
 struct Ball {
   glm::dvec3 center;
   double radius;
@@ -71,7 +71,8 @@ class Screen {
   }
 
   /// Returns a box that contains every sample whose ray may meet the convex hull of the balls: the
-  /// whole image if the hull crosses the plane of the eye, and nothing if it lies behind.
+  /// whole image if the hull crosses the plane of the eye, and an empty box if the hull lies behind
+  /// the eye.
   PixelBox box_of(std::span<const Ball> hull) const {
     PixelBox box{{0, 0}, {axes_[0].last, axes_[1].last}, 0.0};
     bool all_behind = true;
@@ -80,7 +81,7 @@ class Screen {
     for (const Ball& ball : hull) {
       const double at = depth(ball.center);
       all_behind = all_behind && at < -ball.radius;
-      // Slightly in front, so that the tangents below are accurate.
+      // Require the ball to be slightly in front, so that the tangents below are accurate.
       all_in_front = all_in_front && at > 1.001 * ball.radius;
       nearest = std::min(nearest, at - ball.radius);
     }
@@ -110,8 +111,8 @@ class Screen {
             low[component], high[component],         size - 1};
   }
 
-  /// Narrows the pixels from `first` to `last` to those that the balls cover, each between its
-  /// tangents from the eye. All balls lie in front of the eye.
+  /// Narrows the pixels from `first` to `last` to those that the balls cover; each ball lies
+  /// between its tangents from the eye. All balls must lie in front of the eye.
   void set_range(const Axis& axis, std::span<const Ball> hull, int& first, int& last) const {
     double low = std::numeric_limits<double>::infinity();
     double high = -low;

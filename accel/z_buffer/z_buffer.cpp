@@ -21,8 +21,8 @@ namespace {
 
 constexpr const char* kName = "z-buffer";
 
-/// Below 1 by more than the rounding errors of t in float and of a `TriangleOnScreen`'s depth in
-/// double.
+/// A factor that is below 1 by more than the rounding errors of t in float and of a
+/// `TriangleOnScreen`'s depth in double.
 constexpr double kNearly = 1.0 - 0x1p-20;
 
 /// The edge functions and the depth of a triangle.
@@ -37,7 +37,7 @@ struct TriangleOnScreen {
   }
 };
 
-/// A box on the screen; samples at which it is near enough are all tested.
+/// A box on the screen; every sample is tested at which the box is near enough.
 struct AnythingOnScreen {
   PixelBox box;
 
@@ -118,7 +118,8 @@ class Rasterizer {
     const glm::dvec3 other = corners[2] - corners[0];
     const glm::dvec3 normal = glm::cross(side, other);
     const double volume = glm::dot(normal, corners[0]);
-    // Double loses at most 2^-49 of `size` in the normal, and of size * reach in the volume.
+    // The error in double is at most 2^-49 * size for the normal and 2^-49 * size * reach for the
+    // volume.
     const double size = std::sqrt(squared(side) * squared(other));
     // The eye is in the triangle's plane, or so close to it that rounding matters.
     if (!(std::abs(volume) > 0x1p-24 * size * reach * screen_.longest())) {
@@ -128,8 +129,8 @@ class Rasterizer {
 
     TriangleOnScreen image;
     const double length = glm::length(normal);
-    // No ray of the image meets the plane nearer than this view depth; halved as a margin for
-    // rounding.
+    // No ray of the image meets the plane nearer than this view depth, which is halved below as a
+    // margin for rounding.
     const double depth = std::abs(volume) / (length * screen_.longest());
     image.box = box_beyond(0.5 * depth, corners, beside(reach));
     if (image.box.empty()) return;
@@ -148,8 +149,8 @@ class Rasterizer {
   /// primitive's reach from the eye.
   static double beside(double reach) { return 4.0 * kHitSlack * reach; }
 
-  /// Returns the box of the part of a triangle at view depths of at least `near` (Sutherland and
-  /// Hodgman's clipping against one plane), for hits within `slack` of it.
+  /// Returns the box of the part of a triangle at view depths of at least `near` (by Sutherland and
+  /// Hodgman's clipping against one plane), including hits within `slack` of the triangle.
   PixelBox box_beyond(double near, const std::array<glm::dvec3, 3>& corners, double slack) const {
     std::array<Ball, 4> hull;
     std::size_t count = 0;
@@ -201,8 +202,8 @@ class Rasterizer {
 /// 1988), and a buffer keeps the nearest hit of each sample (Catmull, "A subdivision algorithm for
 /// computer display of curved surfaces", 1974). Nothing is built, and it traces only images.
 ///
-/// Edge functions and depths only reject. Samples that pass go to the canonical test of their ray,
-/// so that hits equal those of `exhaustive`.
+/// Edge functions and depths only reject. Samples that pass are confirmed by the canonical test of
+/// their ray, so hits equal those of `exhaustive`.
 class ZBuffer : public ImageAccelerator {
  public:
   explicit ZBuffer(const scenes::Scene& scene) : ImageAccelerator(kName), scene_(&scene) {}
@@ -217,13 +218,13 @@ class ZBuffer : public ImageAccelerator {
       Rasterizer(*scene_, image, hits, first_row(begin), first_row(end), counting)();
     });
   }
-  /// Uncovered samples do not become rays.
+  /// Returns the statistics. Samples that no primitive covers do not become rays.
   Statistics statistics() const override {
     Statistics statistics;
     statistics.image_rays = ImageRays::kOwn;
     return statistics;
   }
-  /// Nothing is built, so there is nothing to update.
+  /// Replaces the scene. Nothing is built, so nothing must be updated.
   bool update(const scenes::Scene& scene) override {
     scene_ = &scene;
     return true;
